@@ -1,0 +1,54 @@
+"""contoursolve: why is this contour block refused, and where does it go?
+
+It reads the contour blocks of CNC programs (YASNAC LX3 `G111`, NCT 99M circular-linear intersections),
+turns each into a small system of equations, and says what is missing, what is said twice, and what
+the path is. Lengths are in mm, X of a lathe is a radius, angles are in degrees.
+
+>>> import contoursolve
+>>> result = contoursolve.solve("G111 X100. A180. K-30. B120. P5. Q5.", start="X40. Z0.")
+>>> [element.name for element in result.answers[0].contour.elements]
+['line 1', 'corner 1', 'line 2', 'corner 2']
+"""
+
+from contoursolve.api import (
+    UnreadableProgramError,
+    check,
+    check_file,
+    parse,
+    read_program,
+    solve,
+    solve_file,
+    solve_program,
+)
+from contoursolve.contour import ArcSegment, Contour, LineSegment
+from contoursolve.diagnostic import Basis, Diagnostic, Severity
+from contoursolve.pipeline import Answer, Policy, Result, UnknownControlError
+from contoursolve.solving import Status
+from contoursolve.syntax import Block, Program, Word
+
+__version__ = "0.1.0"
+
+__all__ = [
+    "Answer",
+    "ArcSegment",
+    "Basis",
+    "Block",
+    "Contour",
+    "Diagnostic",
+    "LineSegment",
+    "Policy",
+    "Program",
+    "Result",
+    "Severity",
+    "Status",
+    "UnknownControlError",
+    "UnreadableProgramError",
+    "Word",
+    "check",
+    "check_file",
+    "parse",
+    "read_program",
+    "solve",
+    "solve_file",
+    "solve_program",
+]

@@ -1,0 +1,82 @@
+"""Sympy's verdict on a system for all values of its words: what determines what, under which condition."""
+
+import json
+import pkgutil
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+from contoursolve.constraints import System
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """The generic properties of a system, exact for all values but those on which `condition` is zero.
+
+    `basis` are the indices of the first facts that determine as much as all of them do; `tied` those
+    of facts that take part in a dependency; `free` the unknown scalars that nothing determines.
+    `condition` is the determinant of the basis, as text (empty unless all unknowns are determined).
+    """
+
+    rank: int
+    basis: tuple[int, ...]
+    tied: tuple[int, ...]
+    free: tuple[str, ...]
+    condition: str
+
+    @property
+    def is_determined(self) -> bool:
+        """Whether the facts determine every unknown, except on the condition."""
+        return not self.free
+
+
+SEEDS = (1, 2)
+"""The rank is the largest at these random points; a rational point misses it with probability of
+about degree / range, 1e-3 (Schwartz 1980), two of them with 1e-6, and the shipped table is checked."""
+
+
+@lru_cache(maxsize=8192)
+def judge(system: System) -> Verdict:
+    """The verdict on a system: from the table that ships with the package, else by sympy.
+
+    Importing sympy takes longer than solving a program, and its verdict on a combination of words
+    never changes, so those of all the controls' forms are kept in `verdicts.json`; a test compares
+    every one of them with `derive`.
+    """
+    known = _shipped().get(system.equations_key)
+    return _from_json(known) if known else derive(system)
+
+
+def derive(system: System) -> Verdict:
+    """The verdict on a system, by sympy: exact rank of the Jacobian at random rational points."""
+    from contoursolve.backends import symbolic  # noqa: PLC0415 - 200 ms, see judge
+
+    symbols = symbolic.Symbols()
+    residuals = [fact.residual(symbols) for fact in system.facts]
+    unknowns = [symbols.scalar(name) for name in system.unknowns]
+    if not residuals:
+        return Verdict(0, (), (), system.unknowns, "")
+    matrix = symbolic.jacobian(residuals, unknowns)
+    ranks = [symbolic.exact_rank(matrix, symbols.random_point(seed)) for seed in SEEDS]
+    best = max(ranks, key=lambda each: each.rank)
+    is_determined = not best.free_columns
+    return Verdict(
+        rank=best.rank,
+        basis=best.independent_rows,
+        tied=best.dependent_rows,
+        free=tuple(system.unknowns[column] for column in best.free_columns),
+        condition=symbolic.determinant(matrix.extract(list(best.independent_rows), list(range(matrix.cols))))
+        if is_determined
+        else "",
+    )
+
+
+@lru_cache(maxsize=1)
+def _shipped() -> dict[str, Any]:
+    data = pkgutil.get_data("contoursolve.analysis", "verdicts.json")
+    table: dict[str, Any] = json.loads(data) if data else {}
+    return table
+
+
+def _from_json(row: dict[str, Any]) -> Verdict:
+    return Verdict(row["rank"], tuple(row["basis"]), tuple(row["tied"]), tuple(row["free"]), row["condition"])

@@ -1,0 +1,93 @@
+"""Sympy: the exact, generic properties of a system's equations."""
+
+import random
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import sympy
+from sympy.polys.domains import QQ
+from sympy.polys.matrices import DomainMatrix
+
+
+@dataclass(frozen=True, slots=True)
+class ExactRank:
+    """Rank of a matrix of rationals with its two null spaces, as indices of their non-zero entries."""
+
+    rank: int
+    independent_rows: tuple[int, ...]
+    """The first rows, in order, that raise the rank."""
+    dependent_rows: tuple[int, ...]
+    """Rows that take part in some dependency."""
+    free_columns: tuple[int, ...]
+    """Columns whose unknown is not determined."""
+
+
+class Symbols:
+    """A lookup of sympy symbols for every scalar, amount and direction."""
+
+    def __init__(self) -> None:
+        self._symbols: dict[str, Any] = {}
+        self._angles: dict[str, Any] = {}
+
+    def scalar(self, name: str) -> Any:
+        """The symbol of a coordinate or a radius."""
+        return self._symbols.setdefault(name, sympy.Symbol(name, real=True))
+
+    def coordinate(self, point: str, axis: int) -> Any:
+        return self.scalar(f"{point}.{axis}")
+
+    def radius(self, name: str) -> Any:
+        return self.scalar(name)
+
+    def amount(self, given: str) -> Any:
+        return self.scalar(given)
+
+    def direction(self, given: str) -> tuple[Any, Any]:
+        angle = self._angles.setdefault(given, sympy.Symbol(given, real=True))
+        return sympy.cos(angle), sympy.sin(angle)
+
+    def random_point(self, seed: int) -> dict[Any, Any]:
+        """A rational value for every symbol; angles get rational cosines and sines."""
+        draw = random.Random(seed)
+        point: dict[Any, Any] = {}
+        for angle in self._angles.values():
+            t = sympy.Rational(draw.randint(1, 9_999), draw.randint(1, 9_999))
+            point[sympy.cos(angle)] = (1 - t**2) / (1 + t**2)
+            point[sympy.sin(angle)] = 2 * t / (1 + t**2)
+        for symbol in self._symbols.values():
+            point[symbol] = sympy.Rational(draw.randint(1, 99_999), draw.randint(1, 999))
+        return point
+
+
+def jacobian(residuals: Sequence[Any], unknowns: Sequence[Any]) -> Any:
+    """Matrix of derivatives, shape (residuals, unknowns)."""
+    return sympy.Matrix(len(residuals), len(unknowns), lambda row, column: sympy.diff(residuals[row], unknowns[column]))
+
+
+def exact_rank(matrix: Any, point: dict[Any, Any]) -> ExactRank:
+    """Rank and null spaces of a matrix at a rational point, without rounding."""
+    numbers = matrix.xreplace(point)
+    rows, columns = numbers.shape
+    domain = DomainMatrix(
+        [[QQ.from_sympy(numbers[row, column]) for column in range(columns)] for row in range(rows)],
+        (rows, columns),
+        QQ,
+    )
+    right = domain.nullspace().to_Matrix()
+    left = domain.transpose().nullspace().to_Matrix()
+    pivots = domain.transpose().rref()[1]
+    return ExactRank(
+        rank=len(pivots),
+        independent_rows=tuple(pivots),
+        dependent_rows=tuple(row for row in range(rows) if any(left[k, row] for k in range(left.rows))),
+        free_columns=tuple(col for col in range(columns) if any(right[k, col] for k in range(right.rows))),
+    )
+
+
+def determinant(matrix: Any) -> str:
+    """The distinct factors of a square matrix's determinant, whose zeros are its zeros, as text."""
+    numerator, _ = sympy.fraction(sympy.factor(sympy.trigsimp(matrix.det(method="berkowitz"))))
+    # Denominators are radii, which are no condition of their own.
+    factors = [sympy.trigsimp(base) for base, _ in sympy.factor_list(numerator)[1]]
+    return str(sympy.Mul(*factors))

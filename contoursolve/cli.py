@@ -1,0 +1,239 @@
+"""The command line: arguments in, text or JSON out, exit status 0 (no error found), 1 (errors found), 2."""
+
+import io
+import os
+import sys
+from collections import Counter
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import click
+
+from contoursolve import __version__, syntax
+from contoursolve.api import UnreadableProgramError, only_findings, read_program, solve_program
+from contoursolve.diagnostic import Diagnostic, Severity
+from contoursolve.dialects import DIALECTS
+from contoursolve.model import Length
+from contoursolve.output.catalogue import catalogue_lines, rule_lines
+from contoursolve.output.contours import contour_lines
+from contoursolve.output.document import findings_to_json, to_json
+from contoursolve.output.findings import Style, finding_lines, plain
+from contoursolve.output.layout import count
+from contoursolve.pipeline import Answer, Policy, Result, UnknownControlError
+from contoursolve.solving import Status
+from contoursolve.syntax import Program
+
+FOUND_ERRORS, COULD_NOT_RUN = 1, 2
+
+_COLORS: dict[str, dict[str, Any]] = {
+    "error": {"fg": "red", "bold": True},
+    "warning": {"fg": "yellow", "bold": True},
+    "info": {"fg": "cyan", "bold": True},
+    "frame": {"fg": "blue", "bold": True},
+    "bold": {"bold": True},
+}
+
+
+class CouldNotRunError(click.ClickException):
+    """Bad usage or an unreadable program: one line on standard error and exit status 2."""
+
+    exit_code = COULD_NOT_RUN
+
+
+def _common(command: Callable[..., None]) -> Callable[..., None]:
+    """The options that `solve` and `check` share."""
+    for option in reversed(
+        (
+            click.option(
+                "--block",
+                "blocks",
+                multiple=True,
+                metavar="TEXT",
+                help="A block to examine instead of a file; may be repeated, one block each.",
+            ),
+            click.option("--start", metavar="WORDS", help='Start point for --block, such as "X40. Z0.".'),
+            click.option(
+                "--control",
+                type=click.Choice(list(DIALECTS)),
+                help="The control. Without it, the control is found from the program where that is clear.",
+            ),
+            click.option(
+                "--units",
+                type=click.Choice([unit.value for unit in Length]),
+                default="mm",
+                show_default=True,
+                help="Unit of the program's numbers before any G20 or G21.",
+            ),
+            click.option(
+                "--rules",
+                type=click.Choice([policy.value for policy in Policy]),
+                default="enforce",
+                show_default=True,
+                help="Rules of the control's manual: refuse what they refuse; only warn; or let the geometry "
+                "alone decide.",
+            ),
+            click.option(
+                "--format",
+                "format_",
+                type=click.Choice(["text", "json"]),
+                default="text",
+                show_default=True,
+                help="What to print; json is in mm, with X as radius.",
+            ),
+        )
+    ):
+        command = option(command)
+    return command
+
+
+@click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+@click.version_option(__version__, prog_name="contoursolve")
+def main() -> None:
+    """Solve CNC contour blocks, or say why they cannot be solved.
+
+    Reads YASNAC LX3 G111 blocks and NCT 99M circular-linear intersections.
+
+    Exit status: 0 no error found, 1 at least one error found, 2 could not run.
+    """
+    for stream in (sys.stdout, sys.stderr):
+        # A console may lack a character that a program's comment has.
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")
+
+
+@main.command()
+@click.argument("program", required=False)
+@_common
+@click.pass_context
+def solve(
+    context: click.Context,
+    program: str | None,
+    blocks: tuple[str, ...],
+    start: str | None,
+    format_: str,
+    **options: Any,
+) -> None:
+    """Solve every contour block of PROGRAM (a file, or - for standard input).
+
+    Prints what was given, the virtual intersections, and every element of the path.
+
+    \b
+    contoursolve solve shaft.nc
+    contoursolve solve --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0."
+    """
+    result = _examine(_load([program] if program else [], blocks, start)[0], start, options)
+    if format_ == "json":
+        click.echo(to_json(result))
+    else:
+        _print_solved(result)
+    context.exit(FOUND_ERRORS if result.has_errors else 0)
+
+
+@main.command()
+@click.argument("programs", nargs=-1, metavar="PROGRAM...")
+@_common
+@click.pass_context
+def check(
+    context: click.Context,
+    programs: tuple[str, ...],
+    blocks: tuple[str, ...],
+    start: str | None,
+    format_: str,
+    **options: Any,
+) -> None:
+    """Report the findings about each PROGRAM (files, or - for standard input), and nothing else.
+
+    \b
+    contoursolve check shaft.nc flange.nc
+    contoursolve check --control yasnac-lx3 - < shaft.nc
+    """
+    results = [only_findings(_examine(each, start, options)) for each in _load(programs, blocks, start)]
+    if format_ == "json":
+        click.echo(findings_to_json(results))
+    else:
+        for result in results:
+            _print_findings(result, result.diagnostics)
+        _print_summary(results)
+    context.exit(FOUND_ERRORS if any(result.has_errors for result in results) else 0)
+
+
+@main.command()
+@click.option("--control", type=click.Choice(list(DIALECTS)), help="Only the rules of this control.")
+def rules(control: str | None) -> None:
+    """List the whole catalogue of rules and findings, with their evidence and the control's alarms."""
+    chosen = [dialect for name, dialect in DIALECTS.items() if control in (None, name)]
+    click.echo("\n".join(catalogue_lines(chosen)))
+
+
+@main.command()
+@click.argument("code")
+def explain(code: str) -> None:
+    """Explain one rule by its CODE: in words, blocks that raise it, blocks that do not, its source."""
+    wanted = code.strip().lower()
+    controls = [name for name, dialect in DIALECTS.items() if any(rule.code == wanted for rule in dialect.rules)]
+    if not controls:
+        raise CouldNotRunError(f"no rule has the code {code!r}; 'contoursolve rules' lists them")
+    rule = next(rule for rule in DIALECTS[controls[0]].rules if rule.code == wanted)
+    click.echo("\n".join(rule_lines(rule, controls)))
+
+
+def _load(paths: Sequence[str], blocks: tuple[str, ...], start: str | None) -> list[Program]:
+    if blocks and paths:
+        raise click.UsageError("give either a PROGRAM or --block, not both")
+    if start is not None and not blocks:
+        raise click.UsageError("--start goes with --block; a PROGRAM states its own positions")
+    if blocks:
+        return [syntax.parse("\n".join(blocks), "<block>")]
+    if not paths:
+        raise click.UsageError("missing PROGRAM: name a file, or - for standard input, or use --block")
+    try:
+        return [read_program(path) for path in paths]
+    except UnreadableProgramError as error:
+        raise CouldNotRunError(str(error)) from None
+
+
+def _examine(program: Program, start: str | None, options: dict[str, Any]) -> Result:
+    try:
+        return solve_program(program, start=start, **options)
+    except UnknownControlError as error:
+        raise CouldNotRunError(f"{program.name}: {error}; say which with --control {'|'.join(DIALECTS)}") from None
+
+
+def _style() -> Style:
+    if os.environ.get("NO_COLOR"):
+        return plain
+    return lambda text, role: click.style(text, **_COLORS[role]) if text else text
+
+
+def _print_findings(result: Result, findings: Sequence[Diagnostic]) -> None:
+    sources = {block.line: block.text for block in result.program.blocks}
+    style = _style()
+    for finding in findings:
+        click.echo("\n".join(finding_lines(finding, result.program.name, sources, style)))
+
+
+def _print_solved(result: Result) -> None:
+    """Contours in order, each followed by its findings, between the findings about other blocks."""
+    own = {id(finding) for answer in result.answers for finding in answer.diagnostics}
+    items: list[Diagnostic | Answer] = [finding for finding in result.diagnostics if id(finding) not in own]
+    items += result.answers
+    for item in sorted(items, key=lambda each: each.lines[0] if isinstance(each, Answer) else each.span.line):
+        if isinstance(item, Answer):
+            click.echo("\n".join(contour_lines(item, result)))
+            _print_findings(result, item.diagnostics)
+        else:
+            _print_findings(result, [item])
+    _print_summary([result])
+
+
+def _print_summary(results: Sequence[Result]) -> None:
+    """What was examined and what was found; nothing examined is not the same as nothing found."""
+    answers = [answer for result in results for answer in result.answers]
+    findings = [finding for result in results for finding in result.diagnostics]
+    statuses = Counter(answer.status for answer in answers)
+    solved = ", ".join(f"{statuses[status]} {status.value}" for status in reversed(Status) if statuses[status])
+    severities = Counter(finding.severity for finding in findings)
+    found = ", ".join(count(severities[each], each.value) for each in Severity if severities[each])
+    examined = f"{count(len(answers), 'contour')} ({solved})" if answers else "no contour examined"
+    programs = f"{count(len(results), 'program')}, " if len(results) > 1 else ""
+    click.echo(f"{programs}{examined}; {found or 'nothing found'}")

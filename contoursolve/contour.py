@@ -1,0 +1,101 @@
+"""The solved path: lines and arcs with all their numbers, checked once more as a path."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import atan2, degrees, hypot, tau
+
+from contoursolve.model import Line, Profile, Turn
+from contoursolve.solving import Point, Solution
+from contoursolve.tolerance import LENGTH
+
+
+@dataclass(frozen=True, slots=True)
+class LineSegment:
+    """A straight element; points in mm in the plane's axes, X as radius on a lathe."""
+
+    name: str
+    start: Point
+    end: Point
+
+    @property
+    def length(self) -> float:
+        """Length, mm."""
+        return hypot(self.end[0] - self.start[0], self.end[1] - self.start[1])
+
+    @property
+    def angle(self) -> float:
+        """Direction of travel, degrees, counter-clockwise from the plane's first axis."""
+        return degrees(atan2(self.end[1] - self.start[1], self.end[0] - self.start[0]))
+
+
+@dataclass(frozen=True, slots=True)
+class ArcSegment:
+    """A circular element; seen with the plane's first axis to the right and its second axis up."""
+
+    name: str
+    start: Point
+    end: Point
+    center: Point
+    radius: float
+    turn: Turn
+
+    @property
+    def sweep(self) -> float:
+        """Angle travelled, degrees, more than 0."""
+        begin = atan2(self.start[1] - self.center[1], self.start[0] - self.center[0])
+        end = atan2(self.end[1] - self.center[1], self.end[0] - self.center[0])
+        return degrees(((end - begin) * self.turn.sign) % tau)
+
+    @property
+    def length(self) -> float:
+        """Length along the arc, mm."""
+        return self.radius * self.sweep / degrees(1)
+
+
+Segment = LineSegment | ArcSegment
+
+
+@dataclass(frozen=True, slots=True)
+class Contour:
+    """The path of one contour from `start` to `end` without gaps, and its named points."""
+
+    start: Point
+    end: Point
+    points: Mapping[str, Point]
+    elements: tuple[Segment, ...]
+
+
+def trace(profile: Profile, solution: Solution) -> Contour:
+    """The path of a solved profile. Elements of no length are left out.
+
+    Raises ValueError if the solution has no values.
+    """
+    points, corners = solution.points, {corner.at: corner for corner in profile.figure.corners}
+    if not points:
+        raise ValueError(f"a contour that is {solution.status.value} has no path")
+    start = here = points[profile.figure.start]
+    elements: list[Segment] = []
+
+    def add(segment: Segment) -> Point:
+        if hypot(segment.end[0] - here[0], segment.end[1] - here[1]) <= LENGTH:
+            return here
+        elements.append(segment)
+        return segment.end
+
+    for element in profile.figure.path:
+        corner = corners.get(element.head)
+        built = solution.corners[corner.name] if corner else None
+        end = built.begin if built else points[element.head]
+        if isinstance(element, Line):
+            here = add(LineSegment(element.name, here, end))
+        else:
+            center, radius = points[element.center], solution.radii[element.radius]
+            here = add(ArcSegment(element.name, here, end, center, radius, element.turn))
+        if corner and built:
+            if built.center is None:
+                here = add(LineSegment(corner.name, here, built.end))
+            else:
+                turn = Turn.CCW if built.turn > 0 else Turn.CW
+                here = add(ArcSegment(corner.name, here, built.end, built.center, built.radius, turn))
+    shown = {name: points[name] for name in profile.figure.points if name in profile.intersections}
+    return Contour(start, here, shown, tuple(elements))

@@ -1,0 +1,26 @@
+"""The NCT 99M and 2000M milling controls, from chapter 16 of their Programmer's Manual."""
+
+from contoursolve.dialects.common import COMMON_RULES
+from contoursolve.dialects.dialect import Dialect
+from contoursolve.dialects.nct_99m.circle_line import CIRCLE_LINE, find
+from contoursolve.dialects.nct_99m.lexicon import MODES, XY
+from contoursolve.dialects.nct_99m.rules import COMBINATION_RULES, GEOMETRY_RULES
+from contoursolve.syntax import Block
+
+
+def _signs(block: Block) -> bool:
+    stated = {word.address for word in block.words}
+    is_over_defined_circle = {"R", "Q"} <= stated and len(stated & {"I", "J", "K"}) == 2  # noqa: PLR2004
+    return bool(stated & {",A", ",C", ",R"}) or is_over_defined_circle
+
+
+NCT_99M = Dialect(
+    name="nct-99m",
+    title="NCT 99M and 2000M milling controls",
+    modes=MODES,
+    plane=XY,
+    forms=(CIRCLE_LINE,),
+    rules=COMMON_RULES + COMBINATION_RULES + GEOMETRY_RULES,
+    find=find,
+    signs=_signs,
+)

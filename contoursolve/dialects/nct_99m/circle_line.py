@@ -1,0 +1,206 @@
+"""NCT 16.3.3, circular-linear intersection: its facts, its path, and how the pair of blocks is found.
+
+Names of givens begin with the number of the block that states them; `first` and `second` are the axes
+of the plane, so that one set of tables serves G17, G18 and G19.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from decimal import Decimal
+from itertools import islice
+
+from contoursolve.constraints import Coordinate, Heading, Offset, OnCircle, Radius
+from contoursolve.dialects.dialect import Unresolved
+from contoursolve.model import FIRST, SECOND, Arc, Choice, Given, Line, Side, Turn, Unit
+from contoursolve.reading import (
+    Claim,
+    Effect,
+    FactRow,
+    Form,
+    Modes,
+    State,
+    apply_modes,
+    codes_of,
+)
+from contoursolve.syntax import Block, Word
+
+START, CENTER, ON_CIRCLE, CROSSING, END, RADIUS = "S", "C", "N1", "P1", "N2", "r"
+POINT = "1:point"
+"""Stated as soon as the arc has a coordinate: then a point of the circle is known."""
+
+CIRCLE_LINE = Form(
+    name="circle-line",
+    title="circular-linear intersection",
+    length=2,
+    start=START,
+    points=(CENTER, ON_CIRCLE, CROSSING, END),
+    radii=(RADIUS,),
+    facts=(
+        FactRow(Offset("1:center-first", CENTER, START, FIRST), ("1:center-first",)),
+        FactRow(Offset("1:center-second", CENTER, START, SECOND), ("1:center-second",)),
+        FactRow(Radius("1:R", RADIUS), ("1:R",)),
+        FactRow(Coordinate("1:first", ON_CIRCLE, FIRST), ("1:first",)),
+        FactRow(Offset("1:first-step", ON_CIRCLE, START, FIRST), ("1:first-step",)),
+        FactRow(Coordinate("1:second", ON_CIRCLE, SECOND), ("1:second",)),
+        FactRow(Offset("1:second-step", ON_CIRCLE, START, SECOND), ("1:second-step",)),
+        FactRow(OnCircle(START, CENTER, RADIUS), ()),
+        FactRow(Coordinate("2:first", END, FIRST), ("2:first",)),
+        FactRow(Coordinate("2:second", END, SECOND), ("2:second",)),
+        FactRow(OnCircle(CROSSING, CENTER, RADIUS), ()),
+        FactRow(Heading("2:,A", CROSSING, END), ("2:,A",)),
+        FactRow(OnCircle(ON_CIRCLE, CENTER, RADIUS), (POINT,)),
+    ),
+    path=(
+        Arc("arc", START, CROSSING, CENTER, RADIUS, Turn.CCW),
+        Line("line", CROSSING, END, heading="2:,A"),
+    ),
+    corners=(),
+    intersections=(CROSSING,),
+    allowed=frozenset(
+        {"N", "G", "F", "S", "T", "M", "D", "H", "X", "Y", "Z", "I", "J", "K", "R", ",A", ",C", ",R", "Q"}
+    ),
+    combinations=(
+        ((), ("1:center-first", "1:center-second")),
+        ((), ("1:R",)),
+        (
+            (),
+            *((f"1:first{first}", f"1:second{second}", POINT) for first in ("", "-step") for second in ("", "-step")),
+        ),
+        (("2:first", "2:second", "2:,A"),),
+    ),
+)
+
+COMPENSATED, ALONE, OTHER_PLANE, RAPID = "@compensated", "@alone", "@other-plane", "@rapid"
+
+_TURNS = {2: Turn.CW, 3: Turn.CCW}
+_OWN_USE = (Effect.SINGLE, Effect.NO_MOTION, Effect.PRESET, Effect.CYCLE)
+
+
+def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> Claim | Unresolved | None:
+    """The contour that begins at a block: an arc whose next block is an over-defined line."""
+    block = blocks[index]
+    if not block.words or not _is_motion(block, state, modes):
+        return None
+    here = apply_modes(state, block, modes)
+    if here.motion in _TURNS:
+        rest = islice(blocks, index + 1, None)
+        following = next((other for other in rest if _has_words(other)), None)
+        if following and _is_over_defined(following, here, modes):
+            return _claim((block, following), state, here, modes)
+    if _is_over_defined(block, state, modes):
+        return _claim((block,), state, here, modes)
+    return _unresolved(block, here)
+
+
+def _has_words(block: Block) -> bool:
+    return bool(block.faults or block.macro) or any(word.address not in ("N", "O") for word in block.words)
+
+
+def _is_motion(block: Block, state: State, modes: Modes) -> bool:
+    """Whether the block's axis words are the end of a motion with G0 to G3."""
+    codes = codes_of(block, modes)
+    if any(isinstance(code, Word) or code.effect in _OWN_USE for code in codes):
+        return False
+    return apply_modes(state, block, modes).motion in (0, 1, 2, 3, None)
+
+
+def _is_over_defined(block: Block, before: State, modes: Modes) -> bool:
+    """A line with both coordinates of the plane and ,A (16.3)."""
+    if not _is_motion(block, before, modes):
+        return False
+    here = apply_modes(before, block, modes)
+    stated = {word.address for word in block.words}
+    return here.motion in (0, 1) and stated.issuperset({*here.plane.axes, ",A"})
+
+
+def _unresolved(block: Block, here: State) -> Unresolved | None:
+    words = {word.address: word for word in block.words}
+    if ",A" in words:
+        form = "an arc with ,A" if here.motion in _TURNS else "a line by ,A and at most one coordinate (16.2, 16.3.1)"
+        return Unresolved(block, words[",A"], form)
+    for address, form in ((",C", "a chamfer ,C (16.1)"), (",R", "a rounding ,R (16.1)")):
+        if address in words:
+            return Unresolved(block, words[address], form)
+    if here.motion in _TURNS and words.keys() >= {*here.plane.centers, "R", "Q"}:
+        return Unresolved(block, words["Q"], "an over-defined circle (16.3.2, 16.3.4)")
+    return None
+
+
+def _claim(blocks: tuple[Block, ...], state: State, here: State, modes: Modes) -> Claim:
+    after = apply_modes(here, blocks[-1], modes) if len(blocks) > 1 else here
+    names = dict(_names(blocks, here, after))
+    words: dict[str, Word] = {}
+    repeated = []
+    for number, block in enumerate(blocks, 3 - len(blocks)):
+        for word in block.words:
+            code = word.number if word.address == "G" else ""
+            name = names.get((number, word.address), f"{number}:{word.address}{code}")
+            if name in words and word.address != "M":
+                repeated.append(word)
+            words.setdefault(name, word)
+    givens = {
+        name: given
+        for name, word in words.items()
+        if word.address in modes.lexicon.addresses
+        for given in (modes.lexicon.given(name, word, after.unit if name[0] == "2" else here.unit),)
+        if given is not None
+    }
+    turn = _TURNS.get(here.motion or 0, Turn.CCW)
+    circumstances = {
+        COMPENSATED: after.compensation != 40,  # noqa: PLR2004 - G40
+        ALONE: len(blocks) == 1,
+        OTHER_PLANE: after.plane != here.plane,
+        RAPID: after.motion == 0,
+    }
+    return Claim(
+        form=CIRCLE_LINE,
+        blocks=blocks,
+        before=replace(state, plane=here.plane, unit=here.unit),
+        after=after,
+        words={name: word for name, word in words.items() if word.address in modes.lexicon.addresses},
+        givens=_complete(givens),
+        unknown=tuple(word for word in words.values() if word.address not in CIRCLE_LINE.allowed),
+        repeated=tuple(repeated),
+        circumstances=frozenset(name for name, holds in circumstances.items() if holds),
+        choices=tuple(_choices(givens, turn)),
+        turn=turn,
+    )
+
+
+def _names(blocks: tuple[Block, ...], here: State, after: State) -> Iterator[tuple[tuple[int, str], str]]:
+    """The name of the given that an address states, by block and address."""
+    step = "-step" if here.is_incremental else ""
+    for number, plane, suffix in ((1, here.plane, step), (2, after.plane, "")):
+        for axis, order in zip(plane.axes, ("first", "second"), strict=True):
+            yield (number, axis), f"{number}:{order}{suffix}"
+        for address, order in zip(plane.centers, ("first", "second"), strict=True):
+            yield (number, address), f"{number}:center-{order}"
+        for address in {"X", "Y", "Z"} - {*plane.axes}:
+            yield (number, address), f"{number}:off-plane"
+        for address in {"I", "J", "K"} - {*plane.centers}:
+            yield (number, address), f"{number}:wrong-center"
+
+
+def _complete(givens: dict[str, Given]) -> dict[str, Given]:
+    """The givens with those that the control supplies: of a pair, the missing one is no distance from the
+    start (assumed, as for every circle). R counts by its size here, its sign is a choice."""
+    completed = dict(givens)
+    if "1:R" in givens:
+        completed["1:R"] = replace(givens["1:R"], value=abs(givens["1:R"].value))
+    for first, second in (("1:center-first", "1:center-second"), ("1:first", "1:second")):
+        stated = {name.removesuffix("-step") for name in givens} & {first, second}
+        if len(stated) == 1:
+            missing = (second if first in stated else first) + ("" if "center" in first else "-step")
+            completed[missing] = Given(missing, Decimal(0), Unit.MM, None)
+        if stated and first == "1:first":
+            completed[POINT] = Given(POINT, Decimal(0), Unit.SIGN, None)
+    return completed
+
+
+def _choices(givens: dict[str, Given], turn: Turn) -> Iterator[Choice]:
+    """R's sign picks the centre: the shorter arc for a positive one. Q's sign picks the intersection."""
+    if "1:R" in givens:
+        left = (givens["1:R"].value > 0) == (turn is Turn.CCW)
+        yield Choice(CENTER, Side.LEFT if left else Side.RIGHT, "1:R")
+    if "2:Q" in givens and givens["2:Q"].value != 0:
+        yield Choice(CROSSING, Side.NEARER if givens["2:Q"].value < 0 else Side.FARTHER, "2:Q")

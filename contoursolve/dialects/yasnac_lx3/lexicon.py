@@ -1,0 +1,86 @@
+"""YASNAC LX3: addresses, numbers, G codes (Instruction Manual, section 2.8.30, Table 2.33, unless noted)."""
+
+from contoursolve.model import Length, Plane, Unit
+from contoursolve.reading import Address, Code, Effect, Lexicon, Modes, NumberFormat, WithoutPoint
+from contoursolve.source import Evidence, Source
+
+MANUAL = "YASNAC LX3 Instruction Manual"
+TABLE = Source(MANUAL, "2.8.30, Table 2.33", Evidence.PRINTED)
+DIAMETER = Source(MANUAL, "2.8.30, Table 2.33; diameter from G11 and the G112 example", Evidence.DERIVED)
+LATHE_CODES = Source(MANUAL, "list of G codes of the LX3 family", Evidence.ASSUMED)
+
+ADDRESSES = (
+    Address("X", "absolute X of the end point (diameter)", Unit.MM, DIAMETER, axis="X", is_diameter=True),
+    Address(
+        "U", "X increment from the start point (diameter)", Unit.MM, DIAMETER, "X", is_increment=True, is_diameter=True
+    ),
+    Address("Z", "absolute Z of the end point", Unit.MM, TABLE, axis="Z"),
+    Address("W", "Z increment from the start point", Unit.MM, TABLE, axis="Z", is_increment=True),
+    Address("A", "travel direction of line 1, from +Z, counter-clockwise", Unit.DEGREE, TABLE),
+    Address("B", "travel direction of line 2, from +Z, counter-clockwise", Unit.DEGREE, TABLE),
+    Address("I", "X distance from start to virtual intersection (radius value)", Unit.MM, TABLE),
+    Address("K", "Z distance from start to virtual intersection", Unit.MM, TABLE),
+    Address("P", "radius of the first rounding", Unit.MM, TABLE),
+    Address("Q", "radius of the second rounding", Unit.MM, TABLE),
+    Address("C", "amount of the first bevel", Unit.MM, TABLE),
+    Address("D", "amount of the second bevel", Unit.MM, TABLE),
+)
+
+NUMBERS = NumberFormat(WithoutPoint.LEAST_INCREMENTS, TABLE)
+
+LATHE = Plane("G18", ("Z", "X"), ("K", "I"), (False, True))
+
+
+def _codes(effect: Effect, meanings: dict[int, str], evidence: Source = LATHE_CODES) -> tuple[Code, ...]:
+    return tuple(Code(number, effect, meaning, evidence) for number, meaning in meanings.items())
+
+
+CODES = (
+    *_codes(Effect.MOTION, {0: "positioning", 1: "line", 2: "arc clockwise", 3: "arc counter-clockwise"}),
+    *_codes(Effect.MOTION, {32: "thread", 34: "thread of variable lead"}),
+    Code(20, Effect.UNITS, "inches", LATHE_CODES, unit=Length.INCH),
+    Code(21, Effect.UNITS, "millimetres", LATHE_CODES, unit=Length.MM),
+    *_codes(
+        Effect.COMPENSATION, {40: "no nose radius compensation", 41: "compensation left", 42: "compensation right"}
+    ),
+    *_codes(Effect.NO_MOTION, {4: "dwell", 10: "data setting", 22: "stored limit on", 23: "stored limit off"}),
+    *_codes(
+        Effect.SINGLE, {27: "reference point check", 28: "reference point return", 29: "return from reference point"}
+    ),
+    *_codes(Effect.SINGLE, {30: "second reference point return", 31: "skip", 36: "tool offset X", 37: "tool offset Z"}),
+    *_codes(Effect.SINGLE, {53: "machine coordinates", 65: "macro call", 66: "modal macro call"}),
+    *_codes(Effect.SINGLE, {67: "end of modal macro call"}),
+    *_codes(
+        Effect.SINGLE,
+        {
+            70: "finishing cycle",
+            71: "roughing cycle along Z",
+            72: "roughing cycle along X",
+            73: "pattern cycle",
+            74: "face drilling cycle",
+            75: "grooving cycle",
+            76: "threading cycle",
+        },
+    ),
+    *_codes(Effect.CYCLE, {90: "turning cycle", 92: "thread cycle", 94: "facing cycle"}),
+    *_codes(Effect.PRESET, {50: "coordinate setting or spindle limit"}),
+    *_codes(Effect.SHIFT, {number: "work coordinate system" for number in range(54, 60)}),
+    *_codes(
+        Effect.NONE, {96: "constant surface speed", 97: "spindle speed", 98: "feed a minute", 99: "feed a revolution"}
+    ),
+    *_codes(Effect.NONE, {18: "plane Z X"}),
+    *_codes(Effect.CONTOUR, {111: "taper multiple cornering"}, TABLE),
+    *_codes(
+        Effect.UNRESOLVED,
+        {112: "circular-arc multiple cornering"},
+        Source(MANUAL, "2.8.30, p. 144", Evidence.PRINTED),
+    ),
+    *_codes(Effect.CYCLE, {11: "bevelling", 12: "rounding"}, Source(MANUAL, "p. 31-32", Evidence.PRINTED)),
+)
+
+MODES = Modes(
+    lexicon=Lexicon({row.address: row for row in ADDRESSES}, NUMBERS),
+    codes={code.number: code for code in CODES},
+    axes=("Z", "X"),
+    calls=frozenset({98, 99}),
+)

@@ -1,0 +1,78 @@
+"""A drawing without its values: points, lines, arcs and corners."""
+
+from dataclasses import dataclass
+from enum import Enum
+
+FIRST, SECOND = 0, 1
+"""Indices of a plane's first and second axis."""
+
+
+class Turn(Enum):
+    """Sense of an arc, seen with the plane's first axis to the right and its second axis up."""
+
+    CW = "cw"
+    CCW = "ccw"
+
+    @property
+    def sign(self) -> int:
+        """+1 for counter-clockwise, -1 for clockwise."""
+        return 1 if self is Turn.CCW else -1
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A straight move; `heading` names the given angle in whose direction it must run, if any."""
+
+    name: str
+    tail: str
+    head: str
+    heading: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Arc:
+    """A circular move about an unknown centre; `radius` names the unknown radius."""
+
+    name: str
+    tail: str
+    head: str
+    center: str
+    radius: str
+    turn: Turn
+
+
+class CornerShape(Enum):
+    """What replaces a virtual intersection."""
+
+    FILLET = "fillet"
+    """An arc tangent to both lines; its size is the radius."""
+    CHAMFER_AXIS_45 = "chamfer axis-45"
+    """A segment at 45 degrees to the axes; its size is the extent along each axis."""
+
+
+@dataclass(frozen=True, slots=True)
+class Corner:
+    """A corner at the virtual intersection `at`, between the line `before` and what follows.
+
+    `after` names the next line; without it the corner lands on a line parallel to axis
+    `lands_parallel_to`, which the block itself does not cut.
+    """
+
+    name: str
+    at: str
+    shape: CornerShape
+    size: str
+    before: str
+    after: str | None = None
+    lands_parallel_to: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Figure:
+    """A drawing without its values: unknown points and radii, the path from `start`, its corners."""
+
+    start: str
+    points: tuple[str, ...]
+    radii: tuple[str, ...]
+    path: tuple[Line | Arc, ...]
+    corners: tuple[Corner, ...] = ()

@@ -1,0 +1,113 @@
+"""The drawing of one contour with the values that its blocks give: what reading makes of words."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from decimal import Decimal
+from enum import Enum
+
+from contoursolve.model.fact import Fact
+from contoursolve.model.figure import Figure
+from contoursolve.syntax import Block, Word
+
+
+class Unit(Enum):
+    """What a value measures."""
+
+    MM = "mm"
+    DEGREE = "deg"
+    SIGN = "sign"
+    """Only the sign counts."""
+
+
+class Length(Enum):
+    """The unit in which a program is written."""
+
+    MM = "mm"
+    INCH = "inch"
+
+    @property
+    def in_mm(self) -> Decimal:
+        """Millimetres in one unit."""
+        return Decimal("25.4") if self is Length.INCH else Decimal(1)
+
+
+@dataclass(frozen=True, slots=True)
+class Plane:
+    """A working plane: its G code, its two axes, its centre addresses, and which axes are diameters."""
+
+    code: str
+    axes: tuple[str, str]
+    centers: tuple[str, str]
+    diameters: tuple[bool, bool] = (False, False)
+
+
+@dataclass(frozen=True, slots=True)
+class Given:
+    """A value that the block states: `name` is its name in the equations, `value` is in mm (radius)
+    or degrees. `word` is None for a value that the control supplies by itself. `is_diameter` tells that
+    the word is written as twice the value."""
+
+    name: str
+    value: Decimal
+    unit: Unit
+    word: Word | None
+    is_diameter: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Start:
+    """The start point of a contour: a value in mm (X as radius) per axis, None where unknown."""
+
+    values: tuple[Decimal | None, Decimal | None]
+
+    @property
+    def is_known(self) -> bool:
+        """Whether both coordinates are known."""
+        return None not in self.values
+
+
+class Side(Enum):
+    """Which of two solutions of a step is meant, named by the geometry."""
+
+    NEARER = "nearer"
+    """First of the two points on the line, counted along its direction."""
+    FARTHER = "farther"
+    LEFT = "left"
+    """Left of the chord from the first point to the second."""
+    RIGHT = "right"
+
+    @property
+    def sign(self) -> int:
+        """-1 for nearer and right, +1 for farther and left: the sign of the root."""
+        return -1 if self in (Side.NEARER, Side.RIGHT) else 1
+
+
+@dataclass(frozen=True, slots=True)
+class Choice:
+    """The control's choice between two solutions for `point`, and the given that makes it."""
+
+    point: str
+    side: Side
+    given: str
+
+
+@dataclass(frozen=True, slots=True)
+class Profile:
+    """One contour, partly unknown.
+
+    `facts` are what the words state and the control uses; `ignored` are facts that the control drops
+    by a rule of its manual. `givens` holds every value by its name. `intersections` are the points
+    that a user wants to see.
+    """
+
+    form: str
+    blocks: tuple[Block, ...]
+    plane: Plane
+    unit: Length
+    figure: Figure
+    start: Start
+    givens: Mapping[str, Given]
+    facts: tuple[Fact, ...]
+    intersections: tuple[str, ...]
+    ignored: tuple[Fact, ...] = ()
+    choices: tuple[Choice, ...] = ()

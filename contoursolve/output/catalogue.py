@@ -1,0 +1,44 @@
+"""The catalogue of rules as text."""
+
+from collections.abc import Iterable
+
+from contoursolve.dialects import Dialect
+from contoursolve.output.layout import columns
+from contoursolve.rules import Rule
+
+
+def catalogue_lines(dialects: Iterable[Dialect]) -> list[str]:
+    """One line a rule: code, severity, evidence, the control's alarm, message."""
+    lines: list[str] = []
+    for dialect in dialects:
+        rows = [
+            (rule.code, rule.severity.value, rule.source.evidence.value, _alarm(rule), rule.title)
+            for rule in sorted(dialect.rules, key=lambda rule: rule.code)
+        ]
+        header = ("code", "severity", "evidence", "alarm", "message")
+        lines += [f"{dialect.name}: {dialect.title}", *columns([header, *rows], left=(0, 1, 2, 3, 4)), ""]
+    return lines
+
+
+def _alarm(rule: Rule) -> str:
+    return f"{rule.alarm.number.split()[0]} ({rule.alarm.evidence.value})" if rule.alarm else "-"
+
+
+def rule_lines(rule: Rule, controls: Iterable[str]) -> list[str]:
+    """Everything about one rule: in words, a wrong block, a right one, the place in the manual."""
+    lines = [f"{rule.code} ({rule.severity.value}): {rule.title}", ""]
+    facts = [
+        ("what to do", rule.help),
+        ("source", str(rule.source)),
+        ("control", f"alarm {rule.alarm.number} ({rule.alarm.evidence.value})" if rule.alarm else "no alarm known"),
+        ("applies to", ", ".join(controls)),
+    ]
+    lines += columns(facts, left=(0, 1))
+    for title, examples in (("raises it", rule.rejected), ("does not", rule.accepted)):
+        for example in examples:
+            lines += ["", f"  {title}:", *(f"    {_short(line)}" for line in example.split("\n"))]
+    return lines
+
+
+def _short(line: str) -> str:
+    return line if len(line) <= 100 else line[:96] + " ..."  # noqa: PLR2004 - a terminal's width

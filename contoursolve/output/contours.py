@@ -1,0 +1,101 @@
+"""A solved contour as text: what was given, the virtual intersections, every element of the path."""
+
+from collections.abc import Mapping, Sequence
+
+from contoursolve.contour import ArcSegment
+from contoursolve.dialects import DIALECTS, Dialect
+from contoursolve.model import Given, Length, Turn, Unit
+from contoursolve.output.layout import columns, printable
+from contoursolve.pipeline import Answer, Result
+from contoursolve.solving import Point
+
+DECIMALS = {Length.MM: 4, Length.INCH: 5}
+
+
+def contour_lines(answer: Answer, result: Result) -> list[str]:
+    """The listing of one contour, in the unit and the axes of its program."""
+    dialect = DIALECTS[result.control or ""]
+    form = next(form for form in dialect.forms if form.name == answer.form)
+    lines = [f"{result.program.name}:{answer.lines[0]}: {form.name} ({form.title}): {answer.status.value}"]
+    lines += [f"  {printable(block.text.strip())[:160]}" for block in answer.profile.blocks]
+    lines += ["", *columns(_given_rows(answer, dialect), left=(0, 3))]
+    if answer.contour:
+        lines += ["", *columns(_path_rows(answer), left=(0, 1))]
+    return [*lines, ""]
+
+
+def _given_rows(answer: Answer, dialect: Dialect) -> list[tuple[str, str, str, str]]:
+    """Word, value, unit and meaning of everything that was given."""
+    rows = []
+    for axis, value, is_diameter in zip(answer.plane.axes, answer.start.values, answer.plane.diameters, strict=True):
+        shown = "unknown" if value is None else _length(float(value) * (2 if is_diameter else 1), answer.unit)
+        rows.append(
+            ("start " + axis, shown, _unit(answer.unit) if value is not None else "", _axis_meaning(is_diameter))
+        )
+    ignored = {fact.given for fact in answer.profile.ignored}
+    addresses = dialect.modes.lexicon.addresses
+    givens: Mapping[str, Given] = answer.profile.givens
+    for given in sorted((each for each in givens.values() if each.word), key=lambda each: each.word.span):  # type: ignore[union-attr]
+        assert given.word is not None
+        meaning = addresses[given.word.address].meaning + (" - ignored" if given.name in ignored else "")
+        rows.append((given.word.text, *_value(given, answer.unit), meaning))
+    if answer.side:
+        rows.append(("choice", answer.side.value, "", "of two intersections, by the sign of Q"))
+    return rows
+
+
+def _value(given: Given, unit: Length) -> tuple[str, str]:
+    if given.unit is Unit.DEGREE:
+        return f"{given.value:.4f}", "deg"
+    if given.unit is Unit.SIGN:
+        return f"{given.value:+f}", ""
+    return _length(float(given.value) * (2 if given.is_diameter else 1), unit), _unit(unit)
+
+
+def _axis_meaning(is_diameter: bool) -> str:
+    return "where the contour begins" + (" (diameter)" if is_diameter else "")
+
+
+def _path_rows(answer: Answer) -> list[tuple[str, ...]]:
+    """A header, the named points, and the elements with their end points."""
+    contour = answer.contour
+    if contour is None:
+        return []
+    unit = _unit(answer.unit)
+    names = [
+        f"{axis} dia" if is_diameter else axis
+        for axis, is_diameter in zip(answer.plane.axes, answer.plane.diameters, strict=True)
+    ]
+    arcs = [element for element in contour.elements if isinstance(element, ArcSegment)]
+    heads = [f"{name} [{unit}]" for name in names]
+    if arcs:
+        heads += [f"center {name}" for name in names] + ["radius"]
+    header = ("", "", *heads)
+    blank = [""] * (len(heads) - 2)
+
+    def point(at: Point) -> list[str]:
+        return [
+            _length(value * (2 if is_diameter else 1), answer.unit)
+            for value, is_diameter in zip(at, answer.plane.diameters, strict=True)
+        ]
+
+    rows: list[Sequence[str]] = [header]
+    rows += [(name, "point", *point(at), *blank) for name, at in contour.points.items()]
+    rows.append(("start", "", *point(contour.start), *blank))
+    for element in contour.elements:
+        if isinstance(element, ArcSegment):
+            code = "G02" if element.turn is Turn.CW else "G03"
+            arc = [*point(element.center), _length(element.radius, answer.unit)]
+            rows.append((element.name, code, *point(element.end), *arc))
+        else:
+            rows.append((element.name, "G01", *point(element.end), *blank))
+    return [tuple(row) for row in rows]
+
+
+def _length(mm: float, unit: Length) -> str:
+    decimals = DECIMALS[unit]
+    return f"{round(mm / float(unit.in_mm), decimals) + 0.0:.{decimals}f}"
+
+
+def _unit(unit: Length) -> str:
+    return "in" if unit is Length.INCH else "mm"

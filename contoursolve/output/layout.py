@@ -1,0 +1,28 @@
+"""Plain text in columns, safe for any terminal."""
+
+from collections.abc import Sequence
+
+
+def columns(rows: Sequence[Sequence[str]], left: Sequence[int] = (0,), indent: str = "  ") -> list[str]:
+    """Lines with aligned cells, two blanks apart; the columns named in `left` are aligned left."""
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    return [
+        (
+            indent
+            + "  ".join(
+                cell.ljust(width) if number in left else cell.rjust(width)
+                for number, (cell, width) in enumerate(zip(row, widths, strict=True))
+            )
+        ).rstrip()
+        for row in rows
+    ]
+
+
+def printable(text: str) -> str:
+    """The text with tabs as blanks and other control characters as dots: one column a character."""
+    return text if text.isprintable() else "".join(c if c.isprintable() else (" " if c == "\t" else ".") for c in text)
+
+
+def count(number: int, noun: str) -> str:
+    """A number with its noun: `1 error`, `2 errors`."""
+    return f"{number} {noun}{'' if number == 1 else 's'}"

@@ -1,0 +1,32 @@
+"""Modal state, and the way from blocks to profiles."""
+
+from contoursolve.reading.advance import Modes, advance, apply_modes, codes_of, positions
+from contoursolve.reading.claim import Claim, Trouble, read
+from contoursolve.reading.codes import Code, Effect
+from contoursolve.reading.form import CornerRow, FactRow, Form, lay_out, stated_sets
+from contoursolve.reading.lexicon import Address, Lexicon, NumberFormat, WithoutPoint
+from contoursolve.reading.state import Position, State
+
+__all__ = [
+    "Address",
+    "Claim",
+    "Code",
+    "CornerRow",
+    "Effect",
+    "FactRow",
+    "Form",
+    "Lexicon",
+    "Modes",
+    "NumberFormat",
+    "Position",
+    "State",
+    "Trouble",
+    "WithoutPoint",
+    "advance",
+    "apply_modes",
+    "codes_of",
+    "lay_out",
+    "positions",
+    "read",
+    "stated_sets",
+]

@@ -1,0 +1,140 @@
+"""Follows the modal state through blocks that are not contours."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from contoursolve.reading.codes import Code, Effect
+from contoursolve.reading.lexicon import Lexicon
+from contoursolve.reading.state import Position, State
+from contoursolve.source import Span
+from contoursolve.syntax import Block, FaultKind, Macro, Word
+
+
+@dataclass(frozen=True, slots=True)
+class Modes:
+    """What following the state of a control needs to know of it."""
+
+    lexicon: Lexicon
+    codes: Mapping[int, Code]
+    axes: tuple[str, ...]
+    calls: frozenset[int]
+    """M codes that call or end a subprogram."""
+
+
+def codes_of(block: Block, modes: Modes) -> list[Code | Word]:
+    """The rows of a block's G codes; a code without a row is given as its word."""
+    found: list[Code | Word] = []
+    for word in block.words:
+        if word.address == "G":
+            is_whole = word.number is not None and word.number == word.number.to_integral_value()
+            row = modes.codes.get(int(word.number)) if is_whole and word.number is not None else None
+            found.append(row or word)
+    return found
+
+
+def apply_modes(state: State, block: Block, modes: Modes) -> State:
+    """The state with the block's G codes in force, before its motion."""
+    for code in codes_of(block, modes):
+        if isinstance(code, Word):
+            continue
+        match code.effect:
+            case Effect.MOTION | Effect.CYCLE:
+                state = replace(state, motion=code.number)
+            case Effect.CANCEL:
+                state = replace(state, motion=None)
+            case Effect.PLANE:
+                state = replace(state, plane=code.plane or state.plane)
+            case Effect.UNITS:
+                state = replace(state, unit=code.unit or state.unit)
+            case Effect.ABSOLUTE | Effect.INCREMENTAL:
+                state = replace(state, is_incremental=code.effect is Effect.INCREMENTAL)
+            case Effect.COMPENSATION:
+                state = replace(state, compensation=code.number)
+            case Effect.SHIFT:
+                reason = f"G{code.number} changes the coordinate system"
+                state = state.lose(modes.axes, reason, block.span)
+            case _:
+                pass
+    return state
+
+
+def advance(state: State, block: Block, modes: Modes) -> State:
+    """The state after a block that is not a contour."""
+    if not block.words and not block.faults and block.macro is None:
+        return state
+    if block.macro is Macro.FLOW:
+        return state.lose(modes.axes, "a macro statement may jump", block.span)
+    state = apply_modes(state, block, modes)
+    if block.find("O"):
+        state = state.lose(modes.axes, "a new program begins", block.span)
+    call = block.find("M")
+    if call and call.number is not None and int(call.number) in modes.calls:
+        return state.lose(modes.axes, f"{call.text} calls or ends a subprogram", call.span)
+    lost = _lost_by_faults(block, modes)
+    effect, reason = _effect(state, block, modes)
+    words = [word for word in block.words if _axis(word, modes)]
+    if effect is Effect.NO_MOTION:
+        return state
+    if effect is Effect.SINGLE or (effect is Effect.CYCLE and words):
+        axes = tuple(dict.fromkeys(_axis(word, modes) for word in words)) or modes.axes
+        return state.lose(axes, reason, block.span)
+    if words:
+        state = state.move(positions(state, words, modes, block.is_skippable))
+    return state.move({axis: Position(None, "the block has an error", span) for axis, span in lost.items()})
+
+
+def positions(state: State, words: list[Word], modes: Modes, is_skippable: bool) -> dict[str, Position]:
+    """Where the axis words of a motion lead."""
+    moved: dict[str, Position] = {}
+    for word in words:
+        axis = _axis(word, modes)
+        row, before = modes.lexicon.addresses[word.address], state.axes[axis]
+        value = modes.lexicon.value(word, state.unit)
+        if axis in moved:
+            moved[axis] = Position(None, f"{axis} is given twice", word.span)
+        elif value is None:
+            moved[axis] = Position(None, f"{word.text} depends on a variable", word.span)
+        elif not (row.is_increment or state.is_incremental):
+            moved[axis] = Position(value, word.text, word.span, is_skippable)
+        elif before.value is None:
+            moved[axis] = before
+        else:
+            moved[axis] = Position(before.value + value, word.text, word.span, is_skippable or before.is_skippable)
+    return moved
+
+
+def _axis(word: Word, modes: Modes) -> str:
+    row = modes.lexicon.addresses.get(word.address)
+    return row.axis if row else ""
+
+
+def _effect(state: State, block: Block, modes: Modes) -> tuple[Effect, str]:
+    """What the block does with its axis words, and the reason to give if the position is lost."""
+    for code in codes_of(block, modes):
+        if isinstance(code, Word):
+            return Effect.SINGLE, f"{code.text} is not known to contoursolve"
+        if code.effect in (Effect.SINGLE, Effect.UNRESOLVED):
+            return Effect.SINGLE, f"the end of G{code.number} ({code.meaning}) is not followed"
+        if code.effect is Effect.NO_MOTION:
+            return Effect.NO_MOTION, ""
+        if code.effect is Effect.PRESET:
+            return Effect.MOTION, ""
+    modal = modes.codes.get(state.motion) if state.motion is not None else None
+    if modal and modal.effect is Effect.CYCLE:
+        return Effect.CYCLE, f"the end of G{modal.number} ({modal.meaning}) is not followed"
+    return Effect.MOTION, ""
+
+
+def _lost_by_faults(block: Block, modes: Modes) -> dict[str, Span]:
+    """The axes whose words could not be read."""
+    lost: dict[str, Span] = {}
+    for fault in block.faults:
+        letters = [letter for letter in fault.text.upper() if letter.isalpha()][:1]
+        row = modes.lexicon.addresses.get(letters[0]) if letters else None
+        if fault.kind is FaultKind.BLOCK_TOO_LONG:
+            lost.update(dict.fromkeys(modes.axes, fault.span))
+        elif row and row.axis and fault.kind is not FaultKind.COMMENT_NOT_CLOSED:
+            lost[row.axis] = fault.span
+        elif fault.kind is FaultKind.COMMA_WITHOUT_ADDRESS:
+            lost.update(dict.fromkeys(modes.axes, fault.span))
+    return lost

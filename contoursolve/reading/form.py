@@ -1,0 +1,107 @@
+"""A contour form as tables: its points, the facts that its words state, its path and its corners."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import product
+
+from contoursolve.model import Arc, Corner, CornerShape, Fact, Figure, Line, Turn
+
+
+@dataclass(frozen=True, slots=True)
+class FactRow:
+    """A fact, and the givens that must be stated for it to hold."""
+
+    fact: Fact
+    needs: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class CornerRow:
+    """A corner, the shape that each word gives it, and for a corner onto an axis-parallel line the
+    givens that tell which axis that line is parallel to."""
+
+    name: str
+    at: str
+    before: str
+    after: str | None
+    shapes: Mapping[str, CornerShape]
+    landing: tuple[tuple[tuple[str, ...], int], ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Form:
+    """One way of describing a contour.
+
+    `points` and `radii` are unknown as soon as some fact mentions them. `headings` names the given
+    angle of a line; a line runs in its sense. `facts` are in order of precedence: where words say too
+    much, the first ones are solved for. `allowed` are the addresses that may stand in its blocks.
+    `length` is the number of its blocks. `combinations` are slots, each with the sets of givens that
+    may fill it: their product is every combination of words that the equations can tell apart.
+    """
+
+    name: str
+    title: str
+    length: int
+    start: str
+    points: tuple[str, ...]
+    radii: tuple[str, ...]
+    facts: tuple[FactRow, ...]
+    path: tuple[Line | Arc, ...]
+    corners: tuple[CornerRow, ...]
+    intersections: tuple[str, ...]
+    allowed: frozenset[str]
+    combinations: tuple[tuple[tuple[str, ...], ...], ...]
+
+    def __hash__(self) -> int:
+        return hash(self.name)
+
+    def __eq__(self, other: object) -> bool:
+        return self is other
+
+
+def stated_sets(form: Form) -> Iterator[frozenset[str]]:
+    """Every combination of givens that a form may be stated by."""
+    for choice in product(*form.combinations):
+        yield frozenset(name for names in choice for name in names)
+
+
+@lru_cache(maxsize=8192)
+def lay_out(
+    form: Form, stated: frozenset[str], sharp: frozenset[str], turn: Turn | None
+) -> tuple[Figure, tuple[Fact, ...]]:
+    """The figure and the facts that a form makes of the givens that are stated.
+
+    `sharp` are the corner words of value 0, which make no corner; `turn` is the sense of the arcs.
+    """
+    facts = tuple(row.fact for row in form.facts if stated.issuperset(row.needs))
+    mentioned = {name.partition(".")[0] for fact in facts for name in fact.reads()}
+    stating = {fact.given for fact in facts}
+    path: list[Line | Arc] = []
+    for element in form.path:
+        if isinstance(element, Line):
+            heading = element.heading if element.heading in stating else None
+            path.append(Line(element.name, element.tail, element.head, heading))
+        else:
+            sense = turn or element.turn
+            path.append(Arc(element.name, element.tail, element.head, element.center, element.radius, sense))
+    ends = {end for element in path for end in (element.tail, element.head)} - {form.start}
+    figure = Figure(
+        form.start,
+        tuple(point for point in form.points if point in mentioned | ends),
+        tuple(radius for radius in form.radii if radius in mentioned),
+        tuple(path),
+        tuple(corner for row in form.corners for corner in _corners(row, stated, sharp)),
+    )
+    return figure, facts
+
+
+def _corners(row: CornerRow, stated: frozenset[str], sharp: frozenset[str]) -> list[Corner]:
+    """The corner of a row: none without its word, several if several words are stated."""
+    landing = [axis for names, axis in row.landing if stated & set(names)]
+    axis = landing[0] if len(landing) == 1 else None
+    return [
+        Corner(row.name, row.at, shape, word, row.before, row.after, axis)
+        for word, shape in row.shapes.items()
+        if word in stated and word not in sharp
+    ]

@@ -1,0 +1,70 @@
+"""Addresses as rows of a table: what the value of a word means, and in which unit it is written."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from decimal import Decimal
+from enum import Enum
+
+from contoursolve.model import Given, Length, Unit
+from contoursolve.source import Source
+from contoursolve.syntax import Word
+
+
+@dataclass(frozen=True, slots=True)
+class Address:
+    """One row: the address, what its value means, and the axis that it programs, if any."""
+
+    address: str
+    meaning: str
+    unit: Unit
+    source: Source
+    axis: str = ""
+    is_increment: bool = False
+    """Always an increment, whatever G90 and G91 say."""
+    is_diameter: bool = False
+
+
+class WithoutPoint(Enum):
+    """What a number without a decimal point means."""
+
+    LEAST_INCREMENTS = "least increments"
+    AS_WRITTEN = "as written"
+
+
+@dataclass(frozen=True, slots=True)
+class NumberFormat:
+    """Least increments of a control, and whether numbers without a point count in them."""
+
+    without_point: WithoutPoint
+    source: Source
+    mm: Decimal = Decimal("0.001")
+    inch: Decimal = Decimal("0.0001")
+    degree: Decimal = Decimal("0.001")
+
+
+@dataclass(frozen=True, slots=True)
+class Lexicon:
+    """The addresses of a control by name, and how it reads numbers."""
+
+    addresses: Mapping[str, Address]
+    numbers: NumberFormat
+
+    def value(self, word: Word, unit: Length) -> Decimal | None:
+        """The value of a word in mm (diameters halved) or degrees; None for a variable."""
+        row = self.addresses[word.address]
+        return None if word.number is None else word.number * self._factor(row, word.has_point, unit)
+
+    def given(self, name: str, word: Word, unit: Length) -> Given | None:
+        """The value of a word as a given; None for a variable."""
+        row, value = self.addresses[word.address], self.value(word, unit)
+        return None if value is None else Given(name, value, row.unit, word, row.is_diameter)
+
+    def _factor(self, row: Address, has_point: bool, unit: Length) -> Decimal:
+        factor = Decimal("0.5") if row.is_diameter else Decimal(1)
+        if row.unit is Unit.MM:
+            factor *= unit.in_mm
+        if has_point or self.numbers.without_point is WithoutPoint.AS_WRITTEN or row.unit is Unit.SIGN:
+            return factor
+        if row.unit is Unit.DEGREE:
+            return factor * self.numbers.degree
+        return factor * (self.numbers.inch if unit is Length.INCH else self.numbers.mm)

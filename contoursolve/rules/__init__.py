@@ -1,0 +1,17 @@
+"""What the manuals allow, as rows."""
+
+from contoursolve.rules.conditions import Condition, Stated, Value, all_of, at_least, at_most, some
+from contoursolve.rules.rule import Offence, Rule, check
+
+__all__ = [
+    "Condition",
+    "Offence",
+    "Rule",
+    "Stated",
+    "Value",
+    "all_of",
+    "at_least",
+    "at_most",
+    "check",
+    "some",
+]

@@ -1,0 +1,32 @@
+"""From a system to values: plan, function, solution."""
+
+from contoursolve.solving.plan import NoClosedFormError, Plan, make_plan, points_with_two_solutions
+from contoursolve.solving.solution import (
+    CornerSolution,
+    Point,
+    Refusal,
+    RefusalKind,
+    Remark,
+    RemarkKind,
+    Solution,
+    Status,
+)
+from contoursolve.solving.solve import compare, lookup, solve
+
+__all__ = [
+    "CornerSolution",
+    "NoClosedFormError",
+    "Plan",
+    "Point",
+    "Refusal",
+    "RefusalKind",
+    "Remark",
+    "RemarkKind",
+    "Solution",
+    "Status",
+    "compare",
+    "lookup",
+    "make_plan",
+    "points_with_two_solutions",
+    "solve",
+]

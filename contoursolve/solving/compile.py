@@ -1,0 +1,211 @@
+"""One CasADi function for one combination of words: points, residuals, determinants and corner room."""
+
+from functools import lru_cache
+from typing import Any
+
+from contoursolve.backends.numeric import (
+    Compiled,
+    Tape,
+    affine_parts,
+    is_zero,
+    jacobian_parts,
+    magnitude,
+    sign,
+    sqrt,
+    symbol,
+    where,
+)
+from contoursolve.constraints import System, Values
+from contoursolve.model import FIRST, SECOND, Corner, Line, scalar
+from contoursolve.solving.corners import Pair, build_corner, unit
+from contoursolve.solving.plan import AffineStep, DistanceStep, LineCircleStep, Plan, Step, TwoPointsStep, make_plan
+from contoursolve.tolerance import TOUCHING
+
+COSINE, SINE = ":cos", ":sin"
+"""Suffixes of the two inputs of a given angle."""
+
+
+class _Inputs:
+    """Givens as inputs of a tape, created when a formula asks for them."""
+
+    def __init__(self, tape: Tape) -> None:
+        self._tape = tape
+
+    def __getitem__(self, given: str) -> Any:
+        return self._tape.input(given)
+
+
+class _Directions(_Inputs):
+    def __getitem__(self, given: str) -> Pair:
+        return self._tape.input(given + COSINE), self._tape.input(given + SINE)
+
+
+class _Builder:
+    def __init__(self, system: System) -> None:
+        self.system = system
+        self.tape = Tape()
+        self.scalars: dict[str, Any] = {}
+        for axis in (FIRST, SECOND):
+            name = scalar(system.figure.start, axis)
+            self.scalars[name] = self.tape.input(name)
+        self.amounts = _Inputs(self.tape)
+        self.directions = _Directions(self.tape)
+
+    def at(self, scalars: dict[str, Any]) -> Values:
+        return Values(scalars, self.amounts, self.directions)  # type: ignore[arg-type]
+
+    def point(self, name: str) -> Pair:
+        return self.scalars[scalar(name, FIRST)], self.scalars[scalar(name, SECOND)]
+
+    def set_point(self, name: str, value: Pair) -> None:
+        self.scalars[scalar(name, FIRST)], self.scalars[scalar(name, SECOND)] = value
+
+    def run(self, step: Step, number: int) -> None:
+        match step:
+            case AffineStep():
+                self._affine(step, number)
+            case DistanceStep(circle):
+                (x, y), (cx, cy) = self.point(circle.point), self.point(circle.center)
+                self.scalars[circle.radius] = sqrt((x - cx) ** 2 + (y - cy) ** 2)
+            case LineCircleStep():
+                self._line_circle(step, number)
+            case TwoPointsStep():
+                self._two_points(step, number)
+
+    def _affine(self, step: AffineStep, number: int) -> None:
+        symbols = {name: symbol(name) for name in step.unknowns}
+        lookup = self.at({**self.scalars, **symbols})
+        matrix, constants = affine_parts(
+            [fact.residual(lookup) for fact in step.facts], [symbols[name] for name in step.unknowns]
+        )
+        if len(step.unknowns) == 1:
+            determinant = matrix[0][0]
+            solution = [-constants[0] / determinant]
+        else:
+            (a, b), (c, d) = matrix
+            determinant = a * d - b * c
+            solution = [
+                (b * constants[1] - d * constants[0]) / determinant,
+                (c * constants[0] - a * constants[1]) / determinant,
+            ]
+        self.scalars.update(zip(step.unknowns, solution, strict=True))
+        self.tape.output(f"determinant:{number}", determinant)
+        for row, constant in enumerate(constants):
+            self.tape.output(f"constant:{number}:{row}", constant)
+            for column, entry in enumerate(matrix[row]):
+                self.tape.output(f"entry:{number}:{row}:{column}", entry)
+
+    def _line_circle(self, step: LineCircleStep, number: int) -> None:
+        """Foot of the perpendicular from the centre, then half the chord forward or back."""
+        cosine, sine = self.directions[step.heading.given]
+        center, radius = self.point(step.circle.center), self.scalars[step.circle.radius]
+        on_line = step.heading.head if step.heading.tail == step.circle.point else step.heading.tail
+        through = self.point(on_line)
+        offset = (through[0] - center[0]) * -sine + (through[1] - center[1]) * cosine
+        discriminant = (radius - offset) * (radius + offset)
+        side = self.tape.input(f"side:{step.circle.point}")
+        half = side * where(_touches(offset, radius), 0, sqrt(discriminant))
+        self.set_point(
+            step.circle.point,
+            (center[0] - sine * offset + cosine * half, center[1] + cosine * offset + sine * half),
+        )
+        self.tape.output(f"discriminant:{number}", discriminant)
+        self.tape.output(f"offset:{number}", offset)
+        self.tape.output(f"radius:{number}", radius)
+
+    def _two_points(self, step: TwoPointsStep, number: int) -> None:
+        """Middle of the chord, then along its perpendicular to the left or to the right."""
+        first, second = self.point(step.first.point), self.point(step.second.point)
+        radius = self.scalars[step.first.radius]
+        chord = second[0] - first[0], second[1] - first[1]
+        length = sqrt(chord[0] ** 2 + chord[1] ** 2)
+        discriminant = (radius - length / 2) * (radius + length / 2)
+        root = where(_touches(length / 2, radius), 0, sqrt(discriminant))
+        rise = self.tape.input(f"side:{step.first.center}") * root / length
+        self.set_point(
+            step.first.center,
+            ((first[0] + second[0]) / 2 - rise * chord[1], (first[1] + second[1]) / 2 + rise * chord[0]),
+        )
+        self.tape.output(f"discriminant:{number}", discriminant)
+        self.tape.output(f"offset:{number}", length / 2)
+        self.tape.output(f"radius:{number}", radius)
+
+    def outputs(self, plan: Plan) -> None:
+        for name in self.system.unknowns:
+            self.tape.output(name, self.scalars[name])
+        lookup = self.at(self.scalars)
+        for number, fact in enumerate((*plan.basis, *plan.checks)):
+            self.tape.output(f"residual:{number}", fact.residual(lookup))
+        symbols = {name: symbol(name) for name in self.system.unknowns}
+        entries = jacobian_parts(
+            [fact.residual(self.at({**self.scalars, **symbols})) for fact in plan.basis],
+            list(symbols.values()),
+            [self.scalars[name] for name in self.system.unknowns],
+        )
+        for (row, column), entry in entries.items():
+            self.tape.output(f"slope:{row}:{column}", entry)
+
+    def path(self) -> None:
+        """Direction and length of each line, and every corner."""
+        lines = [element for element in self.system.figure.path if isinstance(element, Line)]
+        directions = {line.name: self._direction(line) for line in lines}
+        for corner in self.system.figure.corners:
+            index = next(number for number, line in enumerate(lines) if line.name == corner.before)
+            if corner.after is None:
+                self._landing(corner, directions[corner.before], directions[lines[index - 1].name])
+            else:
+                start, end = self.point(lines[index].tail), self.point(lines[index + 1].head)
+                quadrant = sign(end[FIRST] - start[FIRST]), sign(end[SECOND] - start[SECOND])
+                self._corner(corner, directions[corner.before], directions[corner.after], quadrant)
+
+    def _direction(self, line: Line) -> Pair:
+        tail, head = self.point(line.tail), self.point(line.head)
+        step = head[0] - tail[0], head[1] - tail[1]
+        if line.heading is None:
+            self.tape.output(f"length:{line.name}", sqrt(step[0] ** 2 + step[1] ** 2))
+            return unit(step)
+        direction = self.directions[line.heading]
+        self.tape.output(f"length:{line.name}", step[0] * direction[0] + step[1] * direction[1])
+        return direction
+
+    def _landing(self, corner: Corner, arriving: Pair, earlier: Pair) -> None:
+        """A corner onto an axis-parallel line: it goes on the way its line advances on each axis, and
+        a component that is zero is taken from the line before (YASNAC LX3, Tables 2.35 and 2.36)."""
+        quadrant = tuple(
+            where(is_zero(arriving[axis]), sign(earlier[axis]), sign(arriving[axis])) for axis in (FIRST, SECOND)
+        )
+        along_first = corner.lands_parallel_to == FIRST
+        leaving = (quadrant[FIRST], 0) if along_first else (0, quadrant[SECOND])
+        self.tape.output(f"landing:{corner.name}", quadrant[FIRST if along_first else SECOND])
+        self._corner(corner, arriving, leaving, (quadrant[FIRST], quadrant[SECOND]))
+
+    def _corner(self, corner: Corner, arriving: Pair, leaving: Pair, quadrant: Pair) -> None:
+        size, name = self.tape.input(corner.size), corner.name
+        built = build_corner(corner.shape, self.point(corner.at), arriving, leaving, size, quadrant)
+        self.tape.output(f"setback-in:{name}", built.setback_in)
+        self.tape.output(f"setback-out:{name}", built.setback_out)
+        self.tape.output(f"turn:{name}", built.turn)
+        self.tape.output(f"cosine:{name}", built.cosine)
+        for axis in (FIRST, SECOND):
+            self.tape.output(f"begin:{name}.{axis}", built.begin[axis])
+            self.tape.output(f"end:{name}.{axis}", built.end[axis])
+            if built.center is not None:
+                self.tape.output(f"center:{name}.{axis}", built.center[axis])
+        for number, residual in enumerate(built.residuals):
+            self.tape.output(f"corner-residual:{name}:{number}", residual)
+
+
+def _touches(offset: Any, radius: Any) -> Any:
+    return magnitude(magnitude(offset) - radius) <= TOUCHING * radius
+
+
+@lru_cache(maxsize=4096)
+def compile_system(system: System) -> tuple[Plan, Compiled]:
+    """The plan of a determined system and its function; one for each combination of words."""
+    plan = make_plan(system)
+    builder = _Builder(system)
+    for number, step in enumerate(plan.steps):
+        builder.run(step, number)
+    builder.outputs(plan)
+    builder.path()
+    return plan, builder.tape.finish()

@@ -1,0 +1,132 @@
+"""Can the control make the path? Direction of travel, and the room for each corner."""
+
+from collections.abc import Mapping
+from math import hypot
+
+from contoursolve.model import FIRST, SECOND, Arc, Corner, CornerShape, Figure, Line, Profile
+from contoursolve.solving.solution import Point, Refusal, RefusalKind, Remark, RemarkKind
+from contoursolve.tolerance import LENGTH, REGULAR, RESIDUAL
+
+Outputs = Mapping[str, float]
+
+
+def check_path(
+    figure: Figure, points: Mapping[str, Point], out: Outputs, profile: Profile
+) -> tuple[list[Refusal], list[Remark]]:
+    """Everything that speaks against the path between points that satisfy the equations."""
+    refusals: list[Refusal] = []
+    remarks: list[Remark] = []
+    for element in figure.path:
+        if isinstance(element, Arc):
+            if hypot(*_difference(points[element.tail], points[element.head])) <= LENGTH:
+                refusals.append(Refusal(RefusalKind.ARC_EMPTY, element.name))
+        else:
+            refusals += _check_direction(element, out, profile)
+            if abs(out[f"length:{element.name}"]) <= LENGTH:
+                remarks.append(Remark(RemarkKind.LINE_VANISHES, element.name))
+    if not refusals:
+        for corner in figure.corners:
+            refusals += _check_corner(corner, figure, points, out, profile)
+    if not refusals:
+        refusals += _check_room(figure, out, profile)
+    return refusals, remarks
+
+
+def _check_direction(line: Line, out: Outputs, profile: Profile) -> list[Refusal]:
+    length = out[f"length:{line.name}"]
+    if line.heading is None or length >= -LENGTH:
+        return []
+    angle = float(profile.givens[line.heading].value)
+    values = {"actual": angle, "expected": angle - 180 if angle > 0 else angle + 180, "off_by_mm": -length}
+    return [Refusal(RefusalKind.LINE_REVERSED, line.name, (line.heading,), values)]
+
+
+def _check_corner(
+    corner: Corner, figure: Figure, points: Mapping[str, Point], out: Outputs, profile: Profile
+) -> list[Refusal]:
+    def refuse(kind: RefusalKind, **values: float) -> list[Refusal]:
+        return [Refusal(kind, corner.name, (corner.size,), values)]
+
+    size = float(profile.givens[corner.size].value)
+    for name in filter(None, (corner.before, corner.after)):
+        if out[f"length:{name}"] <= LENGTH:
+            return refuse(RefusalKind.CORNER_TOO_LARGE, limit=0.0, actual=size)
+    if out.get(f"landing:{corner.name}") == 0:
+        return refuse(RefusalKind.LANDING_UNKNOWN)
+    if abs(out[f"turn:{corner.name}"]) <= REGULAR:
+        straight = out[f"cosine:{corner.name}"] > 0
+        return refuse(RefusalKind.CORNER_STRAIGHT if straight else RefusalKind.CORNER_REVERSES)
+    if corner.shape is CornerShape.CHAMFER_AXIS_45:
+        outside = _outside_rectangle(corner, figure, points)
+        if outside > LENGTH:
+            return refuse(RefusalKind.BEVEL_OUTSIDE, off_by_mm=outside)
+        setback = min(out[f"setback-in:{corner.name}"], out[f"setback-out:{corner.name}"])
+        if not setback >= -LENGTH:  # true for NaN
+            return refuse(RefusalKind.BEVEL_IN_BAND, actual=setback)
+    return []
+
+
+def _outside_rectangle(corner: Corner, figure: Figure, points: Mapping[str, Point]) -> float:
+    """How far the corner lies outside the rectangle spanned by the ends of its two lines, mm."""
+    if corner.after is None:
+        return 0.0
+    lines = {element.name: element for element in figure.path}
+    ends = points[lines[corner.before].tail], points[lines[corner.after].head]
+    return max(
+        excess
+        for axis in (FIRST, SECOND)
+        for low, high in (sorted((ends[0][axis], ends[1][axis])),)
+        for excess in (low - points[corner.at][axis], points[corner.at][axis] - high)
+    )
+
+
+def _check_room(figure: Figure, out: Outputs, profile: Profile) -> list[Refusal]:
+    """Each line must be as long as the setbacks of the corners at its two ends."""
+    refusals: list[Refusal] = []
+    refused: set[str] = set()
+    for corner in figure.corners:
+        setbacks = _setbacks(corner, out)
+        if any(setback > out[f"length:{line}"] + LENGTH for line, setback in setbacks.items()):
+            refused.add(corner.name)
+            size = float(profile.givens[corner.size].value)
+            values = {"limit": _largest(corner, figure, out, size), "actual": size}
+            refusals.append(Refusal(RefusalKind.CORNER_TOO_LARGE, corner.name, (corner.size,), values))
+    for line in (element for element in figure.path if isinstance(element, Line)):
+        corners = [corner for corner in figure.corners if line.name in _setbacks(corner, out)]
+        total = sum(_setbacks(corner, out)[line.name] for corner in corners)
+        if total > out[f"length:{line.name}"] + LENGTH and not refused & {corner.name for corner in corners}:
+            values = {"limit": out[f"length:{line.name}"], "actual": total}
+            values["off_by_mm"] = values["actual"] - values["limit"]
+            givens = tuple(corner.size for corner in corners)
+            refusals.append(Refusal(RefusalKind.CORNERS_OVERLAP, line.name, givens, values))
+    if refusals:
+        return refusals
+    # The definitions of the corners; checked last, because a corner that does not fit may be huge.
+    residuals = {name: abs(value) for name, value in out.items() if name.startswith("corner-residual:")}
+    if not all(residual <= RESIDUAL for residual in residuals.values()):  # true for NaN
+        return [Refusal(RefusalKind.NOT_VERIFIED, "", (), {"limit": RESIDUAL, "actual": max(residuals.values())})]
+    return []
+
+
+def _largest(corner: Corner, figure: Figure, out: Outputs, size: float) -> float:
+    """The largest size of a corner that fits beside its neighbours; setbacks are proportional to it."""
+    limit = float("inf")
+    for line, setback in _setbacks(corner, out).items():
+        length = out[f"length:{line}"]
+        others = sum(_setbacks(other, out).get(line, 0.0) for other in figure.corners if other is not corner)
+        room = length - others if others < length else length
+        if setback > 0:
+            limit = min(limit, size * room / setback)
+    return limit
+
+
+def _setbacks(corner: Corner, out: Outputs) -> dict[str, float]:
+    """The length that a corner takes of each line of the block."""
+    setbacks = {corner.before: out[f"setback-in:{corner.name}"]}
+    if corner.after is not None:
+        setbacks[corner.after] = out[f"setback-out:{corner.name}"]
+    return setbacks
+
+
+def _difference(a: Point, b: Point) -> Point:
+    return a[0] - b[0], a[1] - b[1]

@@ -1,0 +1,122 @@
+"""What a solver answers: values with their status, or the reasons why there are none."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import Enum
+
+
+class Status(Enum):
+    """The verdict on one contour; the order is the order of precedence."""
+
+    REJECTED = "rejected"
+    """The control's rules refuse it, whatever the geometry: write what the rule asks for."""
+    CONFLICTING = "conflicting"
+    """More words than needed, and they disagree: drop or correct one."""
+    UNDERDETERMINED = "underdetermined"
+    """Words are missing: add one."""
+    OVERDETERMINED = "overdetermined"
+    """More words than needed that agree: drop one."""
+    NO_SOLUTION = "no-solution"
+    """Determined, but the geometry does not exist or the control cannot make it: change a value."""
+    SOLVED = "solved"
+
+
+class RefusalKind(Enum):
+    """Why a determined system gives no contour at the values of this block."""
+
+    LINES_PARALLEL = "lines-parallel"
+    NOT_FIXED = "not-fixed"
+    CIRCLE_MISSED = "circle-missed"
+    RADIUS_TOO_SMALL = "radius-too-small"
+    CIRCLE_UNDEFINED = "circle-undefined"
+    WORDS_DISAGREE = "words-disagree"
+    RADIUS_DIFFERENCE = "radius-difference"
+    LINE_REVERSED = "line-reversed"
+    CORNER_TOO_LARGE = "corner-too-large"
+    CORNERS_OVERLAP = "corners-overlap"
+    CORNER_STRAIGHT = "corner-straight"
+    CORNER_REVERSES = "corner-reverses"
+    BEVEL_OUTSIDE = "bevel-outside"
+    BEVEL_IN_BAND = "bevel-in-band"
+    LANDING_UNKNOWN = "landing-unknown"
+    ARC_EMPTY = "arc-empty"
+    NOT_VERIFIED = "not-verified"
+
+    @property
+    def status(self) -> Status:
+        """The status that this refusal gives a contour."""
+        if self is RefusalKind.NOT_FIXED:
+            return Status.UNDERDETERMINED
+        if self in (RefusalKind.WORDS_DISAGREE, RefusalKind.RADIUS_DIFFERENCE):
+            return Status.CONFLICTING
+        return Status.NO_SOLUTION
+
+
+class RemarkKind(Enum):
+    """What a user should know about a contour that was solved."""
+
+    TOUCHES = "touches"
+    """The line touches the circle: both solutions are one."""
+    SENSITIVE = "sensitive"
+    """Rounding alone may move a point by more than a thousandth of the least increment."""
+    LINE_VANISHES = "line-vanishes"
+    WORDS_AGREE = "words-agree"
+    """A word that was not needed agrees."""
+    RADIUS_DIFFERS = "radius-differs"
+    """Two points of a circle differ in radius, by less than the control allows."""
+
+
+@dataclass(frozen=True, slots=True)
+class Refusal:
+    """One reason against a contour: the element or corner, the givens involved, the values compared.
+
+    `values` may hold limit, expected, actual (mm or degrees) and off_by_mm.
+    """
+
+    kind: RefusalKind
+    subject: str
+    givens: tuple[str, ...] = ()
+    values: Mapping[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Remark:
+    """One remark about a solved contour, in the same terms as a refusal."""
+
+    kind: RemarkKind
+    subject: str
+    givens: tuple[str, ...] = ()
+    values: Mapping[str, float] = field(default_factory=dict)
+
+
+Point = tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class CornerSolution:
+    """A corner in numbers: it replaces the path from `begin` to `end`; no centre for a chamfer."""
+
+    begin: Point
+    end: Point
+    center: Point | None
+    radius: float
+    turn: float
+    """Sine of the turn; positive to the left."""
+
+
+@dataclass(frozen=True, slots=True)
+class Solution:
+    """Values of all unknowns (mm), or the refusals that leave none.
+
+    `points` and `radii` go by name, `corners` by the corner's name. `error_bound` (mm) bounds the
+    distance of every point from the exact one to first order: the residuals and the rounding of the
+    coordinates, times the norm of the inverse Jacobian.
+    """
+
+    status: Status
+    points: Mapping[str, Point] = field(default_factory=dict)
+    radii: Mapping[str, float] = field(default_factory=dict)
+    corners: Mapping[str, CornerSolution] = field(default_factory=dict)
+    refusals: tuple[Refusal, ...] = ()
+    remarks: tuple[Remark, ...] = ()
+    error_bound: float = 0.0

@@ -1,0 +1,286 @@
+"""Solves a determined profile and believes nothing: every answer is held against the original equations."""
+
+from collections.abc import Iterator
+from itertools import combinations
+from math import ceil, floor, isfinite, log10
+
+from contoursolve.analysis import judge
+from contoursolve.backends.angle import direction
+from contoursolve.backends.numeric import inverse_norms
+from contoursolve.constraints import OnCircle, System, Values, assemble
+from contoursolve.model import FIRST, SECOND, Corner, Fact, Profile, Unit, scalar
+from contoursolve.solving.compile import COSINE, SINE, compile_system
+from contoursolve.solving.path import check_path
+from contoursolve.solving.plan import AffineStep, DistanceStep, LineCircleStep, Plan, Step, TwoPointsStep
+from contoursolve.solving.solution import (
+    CornerSolution,
+    Point,
+    Refusal,
+    RefusalKind,
+    Remark,
+    RemarkKind,
+    Solution,
+    Status,
+)
+from contoursolve.tolerance import (
+    AGREEMENT,
+    ERROR_BOUND_WARNING,
+    LENGTH,
+    RADIUS_DIFFERENCE,
+    REGULAR,
+    RESIDUAL,
+    TOUCHING,
+)
+
+ROUNDING = 2.0**-50
+"""1 (share of the coordinates). Rounding of one formula of about four operations."""
+
+
+def solve(profile: Profile) -> Solution:
+    """The contour of a profile whose system is determined and whose start is known.
+
+    With more facts than unknowns, the first determined subset that is regular at these values is
+    solved, and the remaining facts must agree with it. Raises ValueError if nothing is determined.
+    """
+    system = assemble(profile)
+    answer: Solution | None = None
+    for candidate in _orders(system):
+        answer = _Attempt(profile, candidate).answer()
+        singular = (RefusalKind.LINES_PARALLEL, RefusalKind.NOT_FIXED)
+        if not any(refusal.kind in singular for refusal in answer.refusals):
+            return answer
+    if answer is None:
+        raise ValueError(f"not determined: {', '.join(judge(system).free)}")
+    return answer
+
+
+def _orders(system: System) -> Iterator[System]:
+    """The system, then the same with its facts reordered, so that another basis is solved."""
+    if not judge(system).is_determined:
+        return
+    yield system
+    if len(system.facts) > len(system.unknowns):
+        for first in combinations(system.facts, len(system.unknowns)):
+            if judge(system.keep(first)).is_determined:
+                yield system.keep(first + tuple(fact for fact in system.facts if fact not in first))
+
+
+def lookup(profile: Profile, scalars: dict[str, float]) -> Values:
+    """A lookup of floats for the facts of a profile: its givens, and these values of the unknowns."""
+    start = {
+        scalar(profile.figure.start, axis): float(value)
+        for axis, value in enumerate(profile.start.values)
+        if value is not None
+    }
+    givens = profile.givens.values()
+    return Values(
+        {**start, **scalars},
+        {given.name: float(given.value) for given in givens if given.unit is Unit.MM},
+        {given.name: direction(given.value) for given in givens if given.unit is Unit.DEGREE},
+    )
+
+
+def compare(fact: Fact, profile: Profile, at: Values) -> dict[str, float]:
+    """What a fact states beside what it would need to state at these points, and the gap in mm.
+
+    An expected angle is given by the turn number of the stated one, so that the two can be compared.
+    """
+    given = profile.givens[fact.given]
+    values = {"actual": float(given.value), "off_by_mm": abs(float(fact.residual(at)))}
+    expected = fact.implied(at)
+    if expected is not None:
+        if given.unit is Unit.DEGREE:
+            expected += 360 * round((float(given.value) - expected) / 360)
+        values["expected"] = expected
+    return values
+
+
+class _Attempt:
+    """One evaluation of one system; `answer` reads the outputs in the order in which they can fail."""
+
+    def __init__(self, profile: Profile, system: System) -> None:
+        self.profile = profile
+        self.system = system
+        self.plan: Plan
+        self.plan, function = compile_system(system)
+        self.out = function(self._inputs())
+        self.refusals: list[Refusal] = []
+        self.remarks: list[Remark] = []
+        self.touches = False
+
+    def _inputs(self) -> dict[str, float]:
+        inputs: dict[str, float] = {}
+        for axis, value in enumerate(self.profile.start.values):
+            if value is None:
+                raise ValueError("the start point is not known")
+            inputs[scalar(self.system.figure.start, axis)] = float(value)
+        for given in self.profile.givens.values():
+            if given.unit is Unit.DEGREE:
+                inputs[given.name + COSINE], inputs[given.name + SINE] = direction(given.value)
+            else:
+                inputs[given.name] = float(given.value)
+        for choice in self.profile.choices:
+            inputs[f"side:{choice.point}"] = float(choice.side.sign)
+        return inputs
+
+    def answer(self) -> Solution:
+        for number, step in enumerate(self.plan.steps):
+            refusal = self._examine_step(number, step)
+            if refusal:
+                return Solution(refusal.kind.status, refusals=(refusal,))
+        self._check_equations()
+        points = {name: self._point(name) for name in (self.system.figure.start, *self.system.figure.points)}
+        if not self.refusals:
+            refusals, remarks = check_path(self.system.figure, points, self.out, self.profile)
+            self.refusals += refusals
+            self.remarks += remarks
+        if self.refusals:
+            found = {refusal.kind.status for refusal in self.refusals}
+            status = next(status for status in Status if status in found)
+            return Solution(status, refusals=tuple(self.refusals))
+        bound = self._error_bound()
+        if not bound <= ERROR_BOUND_WARNING:
+            self.remarks.append(Remark(RemarkKind.SENSITIVE, "", (), {"limit": ERROR_BOUND_WARNING, "actual": bound}))
+        agrees = any(remark.kind is RemarkKind.WORDS_AGREE for remark in self.remarks)
+        return Solution(
+            Status.OVERDETERMINED if agrees else Status.SOLVED,
+            points=points,
+            radii={name: self.out[name] for name in self.system.figure.radii},
+            corners={corner.name: self._corner(corner) for corner in self.system.figure.corners},
+            remarks=tuple(self.remarks),
+            error_bound=bound,
+        )
+
+    def _point(self, name: str) -> Point:
+        if name == self.system.figure.start:
+            first, second = self.profile.start.values
+            return float(first or 0), float(second or 0)
+        return self.out[scalar(name, FIRST)], self.out[scalar(name, SECOND)]
+
+    def _corner(self, corner: Corner) -> CornerSolution:
+        def pair(kind: str) -> Point:
+            return self.out[f"{kind}:{corner.name}.{FIRST}"], self.out[f"{kind}:{corner.name}.{SECOND}"]
+
+        size = float(self.profile.givens[corner.size].value)
+        center = pair("center") if f"center:{corner.name}.{FIRST}" in self.out else None
+        return CornerSolution(pair("begin"), pair("end"), center, size, self.out[f"turn:{corner.name}"])
+
+    def _examine_step(self, number: int, step: Step) -> Refusal | None:
+        if isinstance(step, AffineStep):
+            return self._examine_determinant(number, step)
+        if isinstance(step, DistanceStep):
+            no_radius = not self.out[step.circle.radius] > LENGTH  # true for NaN
+            givens = self._givens_of(step.circle)
+            return Refusal(RefusalKind.CIRCLE_UNDEFINED, step.circle.center, givens) if no_radius else None
+        return self._examine_discriminant(number, step)
+
+    def _examine_determinant(self, number: int, step: AffineStep) -> Refusal | None:
+        if abs(self.out[f"determinant:{number}"]) > REGULAR:
+            return None
+        size = range(len(step.unknowns))
+        rows = [[self.out[f"entry:{number}:{row}:{column}"] for column in size] for row in size]
+        off = _contradiction(rows, [self.out[f"constant:{number}:{row}"] for row in size])
+        # The words that fixed what this step builds on belong to the reason, too.
+        used = {name for fact in step.facts for name in self.system.unknowns_of(fact)} - set(step.unknowns)
+        earlier = [
+            other.facts
+            for other in self.plan.steps[:number]
+            if isinstance(other, AffineStep) and used & set(other.unknowns)
+        ]
+        givens = tuple(fact.given for facts in (step.facts, *earlier) for fact in facts if fact.given)
+        if abs(off) <= RESIDUAL:
+            return Refusal(RefusalKind.NOT_FIXED, ",".join(step.unknowns), givens)
+        return _refuse(RefusalKind.LINES_PARALLEL, ",".join(step.unknowns), givens, off_by_mm=abs(off))
+
+    def _examine_discriminant(self, number: int, step: LineCircleStep | TwoPointsStep) -> Refusal | None:
+        offset, radius = abs(self.out[f"offset:{number}"]), self.out[f"radius:{number}"]
+        if isinstance(step, LineCircleStep):
+            kind, subject, givens = RefusalKind.CIRCLE_MISSED, step.circle.point, self._givens_of(step.heading)
+            values = {"limit": radius, "actual": offset}
+        else:
+            kind, subject, givens = RefusalKind.RADIUS_TOO_SMALL, step.first.center, self._givens_of(step.first)
+            values = {"limit": offset, "actual": radius}
+        if isinstance(step, TwoPointsStep) and offset <= LENGTH:
+            return Refusal(RefusalKind.CIRCLE_UNDEFINED, subject, givens)
+        if abs(offset - radius) <= TOUCHING * radius:
+            self.touches = True
+            # A circle about the middle of two points is an ordinary half circle.
+            if isinstance(step, LineCircleStep):
+                self.remarks.append(Remark(RemarkKind.TOUCHES, subject, givens, values))
+        elif not offset < radius:  # true for NaN
+            return _refuse(kind, subject, givens, **values, off_by_mm=abs(offset - radius))
+        return None
+
+    def _givens_of(self, fact: Fact) -> tuple[str, ...]:
+        """The given of a fact, or those that determine what it mentions directly."""
+        if fact.given:
+            return (fact.given,)
+        mentioned = set(self.system.unknowns_of(fact))
+        return tuple(
+            each.given for each in self.system.facts if each.given and set(self.system.unknowns_of(each)) <= mentioned
+        )
+
+    def _check_equations(self) -> None:
+        """All original equations: those solved must hold to rounding, the others as well as words can say."""
+        solved = len(self.plan.basis)
+        residuals = [self.out[f"residual:{number}"] for number in range(solved)]
+        if not all(abs(residual) <= RESIDUAL for residual in residuals):  # true for NaN
+            worst = max(residuals, key=lambda residual: abs(residual) if isfinite(residual) else float("inf"))
+            self.refusals.append(_refuse(RefusalKind.NOT_VERIFIED, "", (), limit=RESIDUAL, actual=abs(worst)))
+            return
+        for number, fact in enumerate(self.plan.checks, solved):
+            self._compare(fact, abs(self.out[f"residual:{number}"]))
+
+    def _compare(self, fact: Fact, off: float) -> None:
+        """A fact that was not needed, at the points that the others give."""
+        if isinstance(fact, OnCircle):
+            values = {"limit": RADIUS_DIFFERENCE, "actual": off, "off_by_mm": off}
+            if not off <= RADIUS_DIFFERENCE:
+                self.refusals.append(Refusal(RefusalKind.RADIUS_DIFFERENCE, fact.point, self._givens_of(fact), values))
+            elif off > AGREEMENT:
+                self.remarks.append(Remark(RemarkKind.RADIUS_DIFFERS, fact.point, self._givens_of(fact), values))
+            return
+        values = compare(fact, self.profile, lookup(self.profile, self.out))
+        if off <= AGREEMENT or abs(values.get("expected", float("inf")) - values["actual"]) <= AGREEMENT:
+            self.remarks.append(Remark(RemarkKind.WORDS_AGREE, fact.given, (fact.given,), values))
+        else:
+            self.refusals.append(Refusal(RefusalKind.WORDS_DISAGREE, fact.given, (fact.given,), values))
+
+    def _error_bound(self) -> float:
+        """First-order bound of the error of any unknown, mm, rounded up to one digit.
+
+        Where a double solution was recognised, it bounds the error across the double direction.
+        """
+        size = len(self.system.unknowns)
+        entries = {
+            (int(row), int(column)): value
+            for name, value in self.out.items()
+            if name.startswith("slope:")
+            for _, row, column in (name.split(":"),)
+        }
+        coordinates = (*self._point(self.system.figure.start), *(self.out[name] for name in self.system.unknowns))
+        largest = max(1.0, *map(abs, coordinates))
+        worst = max(abs(self.out[f"residual:{number}"]) for number in range(size))
+        norm = float(inverse_norms(entries, size, pseudo=self.touches).max())
+        bound = norm * (worst + ROUNDING * largest)
+        if not isfinite(bound):
+            return float("inf")
+        digit = 10.0 ** floor(log10(bound))
+        return ceil(bound / digit) * digit
+
+
+def _refuse(kind: RefusalKind, subject: str, givens: tuple[str, ...], **values: float) -> Refusal:
+    return Refusal(kind, subject, givens, values)
+
+
+def _contradiction(rows: list[list[float]], constants: list[float]) -> float:
+    """By how much a singular affine step of one or two rows contradicts itself, mm.
+
+    The row with the largest entry is solved for, and the other one's residual remains.
+    """
+    if len(rows) == 1:
+        return constants[0]
+    lead = max((0, 1), key=lambda row: max(map(abs, rows[row])))
+    other = 1 - lead
+    column = max((0, 1), key=lambda index: abs(rows[lead][index]))
+    return constants[other] - constants[lead] * rows[other][column] / rows[lead][column]

@@ -1,0 +1,39 @@
+"""Where a statement comes from: the place in the user's program, and the evidence in a manual."""
+
+from dataclasses import dataclass
+from enum import Enum
+
+
+class Evidence(Enum):
+    """How well a fact about a control is known."""
+
+    PRINTED = "printed"
+    """Read on a page of the control's manual."""
+    DERIVED = "derived"
+    """Follows from printed facts by geometry or symmetry."""
+    ASSUMED = "assumed"
+    """Our choice where the pages that we have are silent."""
+
+
+@dataclass(frozen=True, slots=True)
+class Source:
+    """The manual, the place in it, and the grade of the evidence."""
+
+    manual: str
+    place: str
+    evidence: Evidence
+
+    def __str__(self) -> str:
+        return f"{self.manual}, {self.place} ({self.evidence.value})"
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class Span:
+    """A stretch of one line; line and columns count from 1, `end_column` is the first one after it.
+
+    Line 0 is the start point that was given apart from the program.
+    """
+
+    line: int
+    column: int
+    end_column: int

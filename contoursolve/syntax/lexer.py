@@ -1,0 +1,92 @@
+"""Reads characters into words: one table of tokens, no knowledge of any control."""
+
+import re
+from decimal import Decimal
+
+from contoursolve.source import Span
+from contoursolve.syntax.word import Block, Fault, FaultKind, Macro, Program, Word
+
+LONGEST_BLOCK = 2_000
+"""Characters of a block outside comments; no control reads more, and a listing shows no more."""
+
+LONGEST_NUMBER = 32
+"""Characters of a number; controls read 8 digits."""
+
+_LINE_END = re.compile(r"\r\n|\n|\r")
+_BRACKETS = r"\[(?:[^\[\]]|\[(?:[^\[\]]|\[[^\[\]]*\])*\])*\]"
+_TOKEN = re.compile(
+    rf"""
+    (?P<blank>[ \t\f\v\x02\x03\x11-\x14\x1a\ufeff%]+)
+  | (?P<comment>\([^)]*\)|;.*)
+  | (?P<open>\([^)]*)
+  | (?P<word>(?P<comma>,?)[ \t]*(?P<letter>[A-Za-z])[ \t]*
+      (?:(?P<number>[+-]?(?:\d+\.?\d*|\.\d+))(?![\d.]|,\d|[eE][+-]?\d+(?![\d.]))
+        |(?P<expression>[+-]?(?:\#\d+|\#?{_BRACKETS}))))
+  | (?P<malformed>,?[ \t]*[A-Za-z][ \t]*(?:[\d.+-]|,(?=\d))+(?:[eE][+-]?\d+)?)
+  | (?P<bare>,?[ \t]*[A-Za-z](?:(?![A-Za-z][ \t]*[+-]?\.?\d)[A-Za-z])*)
+  | (?P<comma_only>,[^ \tA-Za-z(;]*)
+  | (?P<stray>[^ \tA-Za-z(;,%]+|.)
+    """,
+    re.VERBOSE,
+)
+_SKIP = re.compile(r"[ \t]*/[1-9]?(?!\d)")
+_MACRO = re.compile(
+    r"[ \t/]*(?:[Nn]\d+)?[ \t]*(?:(?P<assignment>\#)|(?P<flow>(?:IF|WHILE|GOTO|DO|END|THEN|ELSE)\b"
+    r"|(?:GOTO|DO|END)\d|(?:IF|WHILE)\[))",
+    re.IGNORECASE,
+)
+_COMMENTS = re.compile(r"\([^)]*\)?|;.*")
+
+
+def parse(text: str, name: str = "<program>", first_line: int = 1) -> Program:
+    """Read a program's text into blocks; nothing is ever refused here, faults are kept as records.
+
+    Line ends are LF, CRLF or CR. The text is not changed: each word keeps its characters and place.
+    """
+    lines = _LINE_END.split(text)
+    if len(lines) > 1 and lines[-1] == "":
+        lines.pop()
+    blocks = tuple(parse_block(line, number) for number, line in enumerate(lines, first_line))
+    return Program(name, text, blocks)
+
+
+def parse_block(text: str, line: int) -> Block:
+    """Read one line (without its end) into words and faults."""
+    if len(text) > LONGEST_BLOCK and len(_COMMENTS.sub("", text)) > LONGEST_BLOCK:
+        span = Span(line, 1, len(text) + 1)
+        return Block(line, text, (), (Fault(FaultKind.BLOCK_TOO_LONG, f"{len(text):,} characters", span),))
+    macro = _MACRO.match(text) if "#" in text or _may_be_flow(text) else None
+    if macro:
+        return Block(line, text, (), macro=Macro.ASSIGNMENT if macro["assignment"] else Macro.FLOW)
+    words: list[Word] = []
+    faults: list[Fault] = []
+    skip = _SKIP.match(text)
+    for token in _TOKEN.finditer(text, skip.end() if skip else 0):
+        kind = token.lastgroup
+        if kind == "blank" or kind == "comment":
+            continue
+        span = Span(line, token.start() + 1, token.end() + 1)
+        if kind == "word":
+            number = token["number"]
+            if number and len(number) > LONGEST_NUMBER:
+                faults.append(Fault(FaultKind.NUMBER_TOO_LONG, token[0], span))
+                continue
+            address = (token["comma"] + token["letter"]).upper()
+            value = Decimal(number) if number else None
+            words.append(Word(address, value, "." in (number or ""), token[0], span))
+        else:
+            faults.append(Fault(_FAULTS[kind or ""], token[0], span))
+    return Block(line, text, tuple(words), tuple(faults), is_skippable=skip is not None)
+
+
+_FAULTS = {
+    "open": FaultKind.COMMENT_NOT_CLOSED,
+    "malformed": FaultKind.NUMBER_MALFORMED,
+    "bare": FaultKind.NUMBER_MISSING,
+    "comma_only": FaultKind.COMMA_WITHOUT_ADDRESS,
+    "stray": FaultKind.STRAY_CHARACTER,
+}
+
+
+def _may_be_flow(text: str) -> bool:
+    return any(keyword in text.upper() for keyword in ("IF", "WHILE", "GOTO", "DO", "END", "THEN", "ELSE"))

@@ -1,0 +1,88 @@
+"""Words, blocks and programs exactly as they were typed."""
+
+from dataclasses import dataclass
+from decimal import Decimal
+from enum import Enum
+
+from contoursolve.source import Span
+
+
+@dataclass(frozen=True, slots=True)
+class Word:
+    """An address with its value, such as `X40.` or `,A150`.
+
+    `address` is upper case with its comma; `number` is None when the value is a variable or a macro
+    expression. `text` is what was typed.
+    """
+
+    address: str
+    number: Decimal | None
+    has_point: bool
+    text: str
+    span: Span
+
+
+class FaultKind(Enum):
+    """What can be wrong with the characters of a block."""
+
+    NUMBER_MISSING = "number-missing"
+    NUMBER_MALFORMED = "number-malformed"
+    NUMBER_TOO_LONG = "number-too-long"
+    COMMA_WITHOUT_ADDRESS = "comma-without-address"
+    STRAY_CHARACTER = "stray-character"
+    COMMENT_NOT_CLOSED = "comment-not-closed"
+    BLOCK_TOO_LONG = "block-too-long"
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """A stretch of a block that is not a word."""
+
+    kind: FaultKind
+    text: str
+    span: Span
+
+
+class Macro(Enum):
+    """Macro statements that a block may consist of."""
+
+    ASSIGNMENT = "assignment"
+    """`#100 = 5.`: moves nothing."""
+    FLOW = "flow"
+    """`IF`, `WHILE`, `GOTO`, ...: which block runs next is not known."""
+
+
+@dataclass(frozen=True, slots=True)
+class Block:
+    """One line of a program; `text` is the line without its end."""
+
+    line: int
+    text: str
+    words: tuple[Word, ...]
+    faults: tuple[Fault, ...] = ()
+    macro: Macro | None = None
+    is_skippable: bool = False
+    """The block begins with `/`: a switch at the machine decides whether it runs."""
+
+    def find(self, address: str) -> Word | None:
+        """The first word with this address, or None."""
+        for word in self.words:
+            if word.address == address:
+                return word
+        return None
+
+    @property
+    def span(self) -> Span:
+        """The whole line without surrounding blanks."""
+        stripped = self.text.strip()
+        column = self.text.find(stripped) + 1 if stripped else 1
+        return Span(self.line, column, column + max(len(stripped), 1))
+
+
+@dataclass(frozen=True, slots=True)
+class Program:
+    """A program as typed: its name, text and blocks (one for each line, empty ones included)."""
+
+    name: str
+    text: str
+    blocks: tuple[Block, ...]

@@ -1,0 +1,31 @@
+"""Every tolerance of the package, with its unit and its reason."""
+
+RESIDUAL = 1e-9
+"""mm. Largest residual of an original equation in a solved contour: a millionth of the controls'
+least increment, and ten times the rounding error of coordinates of `LARGEST` size."""
+
+LENGTH = 1e-9
+"""mm. Lengths up to this count as zero: an element this short is left out, a corner that lacks
+this little room still fits. It covers the rounding of a length that is zero or fits exactly."""
+
+REGULAR = 1e-12
+"""1 (sine of an angle). A determinant of unit directions below this is zero: 1e-12 is 5,000 times
+the rounding of a sine and 10 million times smaller than the sine of the least angle, 0.001 deg."""
+
+TOUCHING = 16 * 2.0**-52
+"""1 (share of the radius). A line whose distance to the centre differs from the radius by less
+than this touches the circle: the difference is then below the rounding of the distance itself."""
+
+ERROR_BOUND_WARNING = 1e-6
+"""mm. A contour whose coordinates may be off by more than this is reported: a thousandth of the
+controls' least increment."""
+
+RADIUS_DIFFERENCE = 0.01
+"""mm. Allowed difference of the radii at two points of one circle. NCT alarm 3011 compares it with
+a machine parameter whose factory value we have not seen; 0.01 mm is our assumption."""
+
+AGREEMENT = 0.001
+"""mm or degrees. Words that say the same thing agree within the least increment of either."""
+
+LARGEST = 1_000_000.0
+"""mm or degrees. The largest value read: one kilometre. Beyond it, doubles no longer hold 1e-9 mm."""
