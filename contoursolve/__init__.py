@@ -22,7 +22,8 @@ from contoursolve.api import (
 )
 from contoursolve.contour import ArcSegment, Contour, LineSegment
 from contoursolve.diagnostic import Basis, Diagnostic, Severity
-from contoursolve.pipeline import Answer, Policy, Result, UnknownControlError
+from contoursolve.examine import Answer, Policy
+from contoursolve.pipeline import Result, UnknownControlError
 from contoursolve.solving import Status
 from contoursolve.syntax import Block, Program, Word
 

@@ -7,8 +7,9 @@ from pathlib import Path
 from contoursolve import syntax
 from contoursolve.diagnostic import Diagnostic, Severity
 from contoursolve.dialects import DIALECTS, Dialect
+from contoursolve.examine import Policy
 from contoursolve.model import Length
-from contoursolve.pipeline import Policy, Result, UnknownControlError, recognise, run
+from contoursolve.pipeline import Result, UnknownControlError, recognise, run
 from contoursolve.syntax import Program
 
 STANDARD_INPUT = "-"

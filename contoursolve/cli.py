@@ -13,13 +13,14 @@ from contoursolve import __version__, syntax
 from contoursolve.api import UnreadableProgramError, only_findings, read_program, solve_program
 from contoursolve.diagnostic import Diagnostic, Severity
 from contoursolve.dialects import DIALECTS
+from contoursolve.examine import Answer, Policy
 from contoursolve.model import Length
 from contoursolve.output.catalogue import catalogue_lines, rule_lines
 from contoursolve.output.contours import contour_lines
 from contoursolve.output.document import findings_to_json, to_json
 from contoursolve.output.findings import Style, finding_lines, plain
 from contoursolve.output.layout import count
-from contoursolve.pipeline import Answer, Policy, Result, UnknownControlError
+from contoursolve.pipeline import Result, UnknownControlError
 from contoursolve.solving import Status
 from contoursolve.syntax import Program
 
@@ -107,6 +108,7 @@ def main() -> None:
 @click.pass_context
 def solve(
     context: click.Context,
+    /,
     program: str | None,
     blocks: tuple[str, ...],
     start: str | None,
@@ -135,6 +137,7 @@ def solve(
 @click.pass_context
 def check(
     context: click.Context,
+    /,
     programs: tuple[str, ...],
     blocks: tuple[str, ...],
     start: str | None,

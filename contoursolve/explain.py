@@ -14,6 +14,8 @@ from contoursolve.solving import Refusal, RefusalKind, Remark, RemarkKind, Solut
 from contoursolve.source import Span
 from contoursolve.syntax import Word
 
+_BEGINNING = Span(1, 1, 2)
+
 SHOWN = 60
 """Characters of a word or a list of words in a message; the listing shows the rest."""
 
@@ -58,7 +60,7 @@ class Context:
     rules: Sequence[Rule]
     unit: Length
     words: Mapping[str, Word] = field(default_factory=dict)
-    place: Span = Span(1, 1, 2)
+    place: Span = _BEGINNING
     """Where to point if no word is to blame."""
 
     def row(self, about: Enum) -> Rule:

@@ -4,7 +4,7 @@ from decimal import Decimal
 from functools import lru_cache
 from math import cos, radians, sin, sqrt
 
-_HALF_RIGHT = sqrt(0.5)
+_HALF = Decimal(45)
 
 
 @lru_cache(maxsize=65536)
@@ -19,9 +19,9 @@ def direction(degrees: Decimal) -> tuple[float, float]:
     if rest < 0:
         rest += 90
         quarter -= 1
-    if rest == 45:
-        cosine = sine = _HALF_RIGHT
-    elif rest < 45:
+    if rest == _HALF:
+        cosine = sine = sqrt(0.5)
+    elif rest < _HALF:
         cosine, sine = cos(radians(float(rest))), sin(radians(float(rest)))
     else:
         cosine, sine = sin(radians(float(90 - rest))), cos(radians(float(90 - rest)))

@@ -86,7 +86,7 @@ class OnCircle:
         radius = at.radius(self.radius)
         return (first**2 + second**2 - radius**2) / (2 * radius)
 
-    def implied(self, at: Lookup) -> float | None:
+    def implied(self, _at: Lookup) -> float | None:
         return None
 
 

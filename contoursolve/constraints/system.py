@@ -1,12 +1,12 @@
 """A figure and its facts as a system of equations, free of values."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import lru_cache
 
-from contoursolve.model import FIRST, SECOND, Fact, Figure, Profile, scalar
+from contoursolve.model import FIRST, SECOND, Fact, Figure, Layout, Profile, scalar
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class System:
     """Unknown scalars and the facts about them.
 
@@ -21,7 +21,13 @@ class System:
     choices: tuple[str, ...]
     unknowns: tuple[str, ...]
     equations_key: str
-    key: str = field(compare=False)
+    key: str
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, System) and self.key == other.key
+
+    def __hash__(self) -> int:
+        return hash(self.key)
 
     def unknowns_of(self, fact: Fact) -> tuple[str, ...]:
         """The unknown scalars that a fact mentions."""
@@ -44,4 +50,9 @@ def build_system(figure: Figure, facts: tuple[Fact, ...], choices: tuple[str, ..
 
 def assemble(profile: Profile) -> System:
     """The system of equations of a profile."""
-    return build_system(profile.figure, profile.facts, tuple(choice.point for choice in profile.choices))
+    return _of_layout(profile.layout, tuple(choice.point for choice in profile.choices))
+
+
+@lru_cache(maxsize=8192)
+def _of_layout(layout: Layout, choices: tuple[str, ...]) -> System:
+    return build_system(layout.figure, layout.facts, choices)

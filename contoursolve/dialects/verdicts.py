@@ -17,7 +17,8 @@ def table() -> str:
     for dialect in DIALECTS.values():
         for form in dialect.forms:
             for stated in stated_sets(form):
-                system = build_system(*lay_out(form, stated, frozenset(), None))
+                layout = lay_out(form, stated, frozenset(), None)
+                system = build_system(layout.figure, layout.facts)
                 rows[system.equations_key] = json.dumps(asdict(derive(system)))
     return "{\n" + ",\n".join(f"{json.dumps(key)}: {row}" for key, row in sorted(rows.items())) + "\n}\n"
 

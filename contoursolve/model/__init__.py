@@ -2,7 +2,7 @@
 
 from contoursolve.model.fact import Fact, Lookup, scalar
 from contoursolve.model.figure import FIRST, SECOND, Arc, Corner, CornerShape, Figure, Line, Turn
-from contoursolve.model.profile import Choice, Given, Length, Plane, Profile, Side, Start, Unit
+from contoursolve.model.profile import Choice, Given, Layout, Length, Plane, Profile, Side, Start, Unit
 
 __all__ = [
     "FIRST",
@@ -14,6 +14,7 @@ __all__ = [
     "Fact",
     "Figure",
     "Given",
+    "Layout",
     "Length",
     "Line",
     "Lookup",

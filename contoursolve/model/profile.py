@@ -91,12 +91,23 @@ class Choice:
     given: str
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Layout:
+    """A figure with the facts that some combination of words states about it.
+
+    Every block with these words shares one object, which is its own identity: caches go by it.
+    """
+
+    figure: Figure
+    facts: tuple[Fact, ...]
+
+
 @dataclass(frozen=True, slots=True)
 class Profile:
     """One contour, partly unknown.
 
-    `facts` are what the words state and the control uses; `ignored` are facts that the control drops
-    by a rule of its manual. `givens` holds every value by its name. `intersections` are the points
+    The layout's facts are what the words state and the control uses; `ignored` are facts that the
+    control drops by a rule of its manual. `givens` holds every value by its name. `intersections` are the points
     that a user wants to see.
     """
 
@@ -104,10 +115,19 @@ class Profile:
     blocks: tuple[Block, ...]
     plane: Plane
     unit: Length
-    figure: Figure
+    layout: Layout
     start: Start
     givens: Mapping[str, Given]
-    facts: tuple[Fact, ...]
     intersections: tuple[str, ...]
     ignored: tuple[Fact, ...] = ()
     choices: tuple[Choice, ...] = ()
+
+    @property
+    def figure(self) -> Figure:
+        """The drawing without its values."""
+        return self.layout.figure
+
+    @property
+    def facts(self) -> tuple[Fact, ...]:
+        """What the words state, as far as the control uses it."""
+        return self.layout.facts

@@ -4,9 +4,10 @@ from collections.abc import Mapping, Sequence
 
 from contoursolve.contour import ArcSegment
 from contoursolve.dialects import DIALECTS, Dialect
+from contoursolve.examine import Answer
 from contoursolve.model import Given, Length, Turn, Unit
 from contoursolve.output.layout import columns, printable
-from contoursolve.pipeline import Answer, Result
+from contoursolve.pipeline import Result
 from contoursolve.solving import Point
 
 DECIMALS = {Length.MM: 4, Length.INCH: 5}

@@ -6,7 +6,8 @@ from typing import Any
 
 from contoursolve.contour import ArcSegment, Segment
 from contoursolve.diagnostic import Diagnostic
-from contoursolve.pipeline import Answer, Result
+from contoursolve.examine import Answer
+from contoursolve.pipeline import Result
 from contoursolve.solving import Point
 
 DECIMALS = 12

@@ -61,17 +61,16 @@ def read(claim: Claim, ignored: frozenset[str]) -> Profile:
     sharp = frozenset(
         word for row in claim.form.corners for word in row.shapes if word in names and not claim.givens[word].value
     )
-    figure, facts = lay_out(claim.form, names - ignored, sharp, claim.turn)
+    layout = lay_out(claim.form, names - ignored, sharp, claim.turn)
     dropped = tuple(row.fact for row in claim.form.facts if row.fact.given in ignored & names)
     return Profile(
         form=claim.form.name,
         blocks=claim.blocks,
         plane=claim.after.plane,
         unit=claim.after.unit,
-        figure=figure,
+        layout=layout,
         start=claim.before.start(),
         givens=claim.givens,
-        facts=facts,
         intersections=claim.form.intersections,
         ignored=dropped,
         choices=claim.choices,

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from itertools import product
 
-from contoursolve.model import Arc, Corner, CornerShape, Fact, Figure, Line, Turn
+from contoursolve.model import Arc, Corner, CornerShape, Fact, Figure, Layout, Line, Turn
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,10 +67,8 @@ def stated_sets(form: Form) -> Iterator[frozenset[str]]:
 
 
 @lru_cache(maxsize=8192)
-def lay_out(
-    form: Form, stated: frozenset[str], sharp: frozenset[str], turn: Turn | None
-) -> tuple[Figure, tuple[Fact, ...]]:
-    """The figure and the facts that a form makes of the givens that are stated.
+def lay_out(form: Form, stated: frozenset[str], sharp: frozenset[str], turn: Turn | None) -> Layout:
+    """The layout that a form makes of the givens that are stated.
 
     `sharp` are the corner words of value 0, which make no corner; `turn` is the sense of the arcs.
     """
@@ -93,7 +91,7 @@ def lay_out(
         tuple(path),
         tuple(corner for row in form.corners for corner in _corners(row, stated, sharp)),
     )
-    return figure, facts
+    return Layout(figure, facts)
 
 
 def _corners(row: CornerRow, stated: frozenset[str], sharp: frozenset[str]) -> list[Corner]:

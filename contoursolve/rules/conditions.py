@@ -15,6 +15,9 @@ Slot = tuple[str, ...]
 class Condition:
     """Holds or does not hold for what a block states; `offenders` are the names that make it hold."""
 
+    reads_values = False
+    """Whether it depends on values and not on names alone."""
+
     def holds(self, stated: Stated) -> bool:
         """Whether the condition is true of these words; their order never matters."""
         raise NotImplementedError
@@ -53,7 +56,7 @@ class Unless(Condition):
     def holds(self, stated: Stated) -> bool:
         return not self.condition.holds(stated)
 
-    def offenders(self, stated: Stated) -> tuple[str, ...]:
+    def offenders(self, _stated: Stated) -> tuple[str, ...]:
         return ()
 
 
@@ -80,6 +83,10 @@ class Value(Condition):
     least: Decimal = Decimal("-Infinity")
     most: Decimal = Decimal("Infinity")
     excluding: Decimal | None = None
+
+    @property
+    def reads_values(self) -> bool:  # type: ignore[override]
+        return True
 
     def holds(self, stated: Stated) -> bool:
         return bool(self.offenders(stated))

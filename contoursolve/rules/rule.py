@@ -1,15 +1,15 @@
 """A rule is a row: what it finds, in words, with its source, the control's alarm, and examples."""
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import Enum
+from functools import lru_cache
 
 from contoursolve.diagnostic import Alarm, Severity
 from contoursolve.rules.conditions import Condition, Stated
 from contoursolve.source import Source
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Rule:
     """One row of the catalogue.
 
@@ -35,7 +35,7 @@ class Rule:
     @property
     def title(self) -> str:
         """The message with its fields shown as gaps."""
-        return self.message.translate(str.maketrans({"{": "<", "}": ">"}))
+        return self.message.replace("{", "<").replace("}", ">")
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,10 +46,30 @@ class Offence:
     names: tuple[str, ...]
 
 
-def check(rules: Iterable[Rule], form: str, stated: Stated) -> tuple[Offence, ...]:
+def check(rules: tuple[Rule, ...], form: str, stated: Stated) -> tuple[Offence, ...]:
     """All rules on combinations of words that refuse or ignore something in what a block states."""
+    by_names, by_values = _rules_of(rules, form)
+    offences = _offences_by_names(by_names, frozenset(stated))
+    for rule in by_values:
+        if rule.when is not None and rule.when.holds(stated):
+            offences += (Offence(rule, rule.when.offenders(stated)),)
+    return offences
+
+
+@lru_cache(maxsize=64)
+def _rules_of(rules: tuple[Rule, ...], form: str) -> tuple[tuple[Rule, ...], tuple[Rule, ...]]:
+    """The rules on combinations of a form: those on names alone, and those on values."""
+    own = [rule for rule in rules if rule.form == form and rule.when is not None]
+    by_values = tuple(rule for rule in own if rule.when is not None and rule.when.reads_values)
+    return tuple(rule for rule in own if rule not in by_values), by_values
+
+
+@lru_cache(maxsize=8192)
+def _offences_by_names(rules: tuple[Rule, ...], names: frozenset[str]) -> tuple[Offence, ...]:
+    """Programs repeat few combinations of words many times."""
+    stated = dict.fromkeys(names)
     return tuple(
         Offence(rule, rule.when.offenders(stated))
         for rule in rules
-        if rule.form == form and rule.when is not None and rule.when.holds(stated)
+        if rule.when is not None and rule.when.holds(stated)
     )

@@ -1,5 +1,6 @@
 """One CasADi function for one combination of words: points, residuals, determinants and corner room."""
 
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
@@ -130,7 +131,8 @@ class _Builder:
         self.tape.output(f"offset:{number}", length / 2)
         self.tape.output(f"radius:{number}", radius)
 
-    def outputs(self, plan: Plan) -> None:
+    def outputs(self, plan: Plan) -> tuple[tuple[int, int, str], ...]:
+        """The unknowns, the residuals of all facts, and the Jacobian of the basis."""
         for name in self.system.unknowns:
             self.tape.output(name, self.scalars[name])
         lookup = self.at(self.scalars)
@@ -142,21 +144,25 @@ class _Builder:
             list(symbols.values()),
             [self.scalars[name] for name in self.system.unknowns],
         )
-        for (row, column), entry in entries.items():
-            self.tape.output(f"slope:{row}:{column}", entry)
+        slopes = tuple((row, column, f"slope:{row}:{column}") for row, column in entries)
+        for row, column, name in slopes:
+            self.tape.output(name, entries[row, column])
+        return slopes
 
-    def path(self) -> None:
-        """Direction and length of each line, and every corner."""
+    def path(self) -> tuple[str, ...]:
+        """Direction and length of each line, and every corner; the names of the corners' residuals."""
+        residuals: list[str] = []
         lines = [element for element in self.system.figure.path if isinstance(element, Line)]
         directions = {line.name: self._direction(line) for line in lines}
         for corner in self.system.figure.corners:
             index = next(number for number, line in enumerate(lines) if line.name == corner.before)
             if corner.after is None:
-                self._landing(corner, directions[corner.before], directions[lines[index - 1].name])
+                residuals += self._landing(corner, directions[corner.before], directions[lines[index - 1].name])
             else:
                 start, end = self.point(lines[index].tail), self.point(lines[index + 1].head)
                 quadrant = sign(end[FIRST] - start[FIRST]), sign(end[SECOND] - start[SECOND])
-                self._corner(corner, directions[corner.before], directions[corner.after], quadrant)
+                residuals += self._corner(corner, directions[corner.before], directions[corner.after], quadrant)
+        return tuple(residuals)
 
     def _direction(self, line: Line) -> Pair:
         tail, head = self.point(line.tail), self.point(line.head)
@@ -168,7 +174,7 @@ class _Builder:
         self.tape.output(f"length:{line.name}", step[0] * direction[0] + step[1] * direction[1])
         return direction
 
-    def _landing(self, corner: Corner, arriving: Pair, earlier: Pair) -> None:
+    def _landing(self, corner: Corner, arriving: Pair, earlier: Pair) -> list[str]:
         """A corner onto an axis-parallel line: it goes on the way its line advances on each axis, and
         a component that is zero is taken from the line before (YASNAC LX3, Tables 2.35 and 2.36)."""
         quadrant = tuple(
@@ -177,9 +183,9 @@ class _Builder:
         along_first = corner.lands_parallel_to == FIRST
         leaving = (quadrant[FIRST], 0) if along_first else (0, quadrant[SECOND])
         self.tape.output(f"landing:{corner.name}", quadrant[FIRST if along_first else SECOND])
-        self._corner(corner, arriving, leaving, (quadrant[FIRST], quadrant[SECOND]))
+        return self._corner(corner, arriving, leaving, (quadrant[FIRST], quadrant[SECOND]))
 
-    def _corner(self, corner: Corner, arriving: Pair, leaving: Pair, quadrant: Pair) -> None:
+    def _corner(self, corner: Corner, arriving: Pair, leaving: Pair, quadrant: Pair) -> list[str]:
         size, name = self.tape.input(corner.size), corner.name
         built = build_corner(corner.shape, self.point(corner.at), arriving, leaving, size, quadrant)
         self.tape.output(f"setback-in:{name}", built.setback_in)
@@ -191,21 +197,34 @@ class _Builder:
             self.tape.output(f"end:{name}.{axis}", built.end[axis])
             if built.center is not None:
                 self.tape.output(f"center:{name}.{axis}", built.center[axis])
-        for number, residual in enumerate(built.residuals):
-            self.tape.output(f"corner-residual:{name}:{number}", residual)
+        residuals = {f"corner-residual:{name}:{number}": each for number, each in enumerate(built.residuals)}
+        for output, residual in residuals.items():
+            self.tape.output(output, residual)
+        return list(residuals)
 
 
 def _touches(offset: Any, radius: Any) -> Any:
     return magnitude(magnitude(offset) - radius) <= TOUCHING * radius
 
 
+@dataclass(frozen=True, slots=True)
+class Machine:
+    """The plan of a system with its function, and the names of those outputs that come in numbers."""
+
+    plan: Plan
+    function: Compiled
+    slopes: tuple[tuple[int, int, str], ...]
+    """(row, column, output) of the Jacobian of the basis by the unknowns."""
+    corner_residuals: tuple[str, ...]
+
+
 @lru_cache(maxsize=4096)
-def compile_system(system: System) -> tuple[Plan, Compiled]:
-    """The plan of a determined system and its function; one for each combination of words."""
+def compile_system(system: System) -> Machine:
+    """The function of a determined system; one for each combination of words."""
     plan = make_plan(system)
     builder = _Builder(system)
     for number, step in enumerate(plan.steps):
         builder.run(step, number)
-    builder.outputs(plan)
-    builder.path()
-    return plan, builder.tape.finish()
+    slopes = builder.outputs(plan)
+    residuals = builder.path()
+    return Machine(plan, builder.tape.finish(), slopes, residuals)

@@ -46,7 +46,7 @@ def build_corner(shape: CornerShape, at: Pair, arriving: Pair, leaving: Pair, si
     if shape is CornerShape.FILLET:
         center = _plus(begin, _times(size * sign(turn), (-arriving[1], arriving[0])))
         to_begin, to_end = _minus(begin, center), _minus(end, center)
-        residuals = (
+        residuals: tuple[Any, ...] = (
             *on_lines,
             _norm(to_begin) - size,
             _norm(to_end) - size,

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from math import hypot
 
 from contoursolve.model import FIRST, SECOND, Arc, Corner, CornerShape, Figure, Line, Profile
+from contoursolve.solving.compile import Machine
 from contoursolve.solving.solution import Point, Refusal, RefusalKind, Remark, RemarkKind
 from contoursolve.tolerance import LENGTH, REGULAR, RESIDUAL
 
@@ -11,9 +12,10 @@ Outputs = Mapping[str, float]
 
 
 def check_path(
-    figure: Figure, points: Mapping[str, Point], out: Outputs, profile: Profile
+    profile: Profile, machine: Machine, points: Mapping[str, Point], out: Outputs
 ) -> tuple[list[Refusal], list[Remark]]:
     """Everything that speaks against the path between points that satisfy the equations."""
+    figure = profile.figure
     refusals: list[Refusal] = []
     remarks: list[Remark] = []
     for element in figure.path:
@@ -29,6 +31,11 @@ def check_path(
             refusals += _check_corner(corner, figure, points, out, profile)
     if not refusals:
         refusals += _check_room(figure, out, profile)
+    if not refusals:
+        # The definitions of the corners; checked last, because a corner that does not fit may be huge.
+        residuals = [abs(out[name]) for name in machine.corner_residuals]
+        if not all(residual <= RESIDUAL for residual in residuals):  # true for NaN
+            refusals.append(Refusal(RefusalKind.NOT_VERIFIED, "", (), {"limit": RESIDUAL, "actual": max(residuals)}))
     return refusals, remarks
 
 
@@ -99,13 +106,7 @@ def _check_room(figure: Figure, out: Outputs, profile: Profile) -> list[Refusal]
             values["off_by_mm"] = values["actual"] - values["limit"]
             givens = tuple(corner.size for corner in corners)
             refusals.append(Refusal(RefusalKind.CORNERS_OVERLAP, line.name, givens, values))
-    if refusals:
-        return refusals
-    # The definitions of the corners; checked last, because a corner that does not fit may be huge.
-    residuals = {name: abs(value) for name, value in out.items() if name.startswith("corner-residual:")}
-    if not all(residual <= RESIDUAL for residual in residuals.values()):  # true for NaN
-        return [Refusal(RefusalKind.NOT_VERIFIED, "", (), {"limit": RESIDUAL, "actual": max(residuals.values())})]
-    return []
+    return refusals
 
 
 def _largest(corner: Corner, figure: Figure, out: Outputs, size: float) -> float:

@@ -11,7 +11,7 @@ from contoursolve.constraints import OnCircle, System, Values, assemble
 from contoursolve.model import FIRST, SECOND, Corner, Fact, Profile, Unit, scalar
 from contoursolve.solving.compile import COSINE, SINE, compile_system
 from contoursolve.solving.path import check_path
-from contoursolve.solving.plan import AffineStep, DistanceStep, LineCircleStep, Plan, Step, TwoPointsStep
+from contoursolve.solving.plan import AffineStep, DistanceStep, LineCircleStep, Step, TwoPointsStep
 from contoursolve.solving.solution import (
     CornerSolution,
     Point,
@@ -101,9 +101,9 @@ class _Attempt:
     def __init__(self, profile: Profile, system: System) -> None:
         self.profile = profile
         self.system = system
-        self.plan: Plan
-        self.plan, function = compile_system(system)
-        self.out = function(self._inputs())
+        self.machine = compile_system(system)
+        self.plan = self.machine.plan
+        self.out = self.machine.function(self._inputs())
         self.refusals: list[Refusal] = []
         self.remarks: list[Remark] = []
         self.touches = False
@@ -131,7 +131,7 @@ class _Attempt:
         self._check_equations()
         points = {name: self._point(name) for name in (self.system.figure.start, *self.system.figure.points)}
         if not self.refusals:
-            refusals, remarks = check_path(self.system.figure, points, self.out, self.profile)
+            refusals, remarks = check_path(self.profile, self.machine, points, self.out)
             self.refusals += refusals
             self.remarks += remarks
         if self.refusals:
@@ -252,12 +252,7 @@ class _Attempt:
         Where a double solution was recognised, it bounds the error across the double direction.
         """
         size = len(self.system.unknowns)
-        entries = {
-            (int(row), int(column)): value
-            for name, value in self.out.items()
-            if name.startswith("slope:")
-            for _, row, column in (name.split(":"),)
-        }
+        entries = {(row, column): self.out[name] for row, column, name in self.machine.slopes}
         coordinates = (*self._point(self.system.figure.start), *(self.out[name] for name in self.system.unknowns))
         largest = max(1.0, *map(abs, coordinates))
         worst = max(abs(self.out[f"residual:{number}"]) for number in range(size))

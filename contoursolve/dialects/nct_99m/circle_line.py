@@ -128,7 +128,7 @@ def _unresolved(block: Block, here: State) -> Unresolved | None:
 
 def _claim(blocks: tuple[Block, ...], state: State, here: State, modes: Modes) -> Claim:
     after = apply_modes(here, blocks[-1], modes) if len(blocks) > 1 else here
-    names = dict(_names(blocks, here, after))
+    names = dict(_names(here, after))
     words: dict[str, Word] = {}
     repeated = []
     for number, block in enumerate(blocks, 3 - len(blocks)):
@@ -167,7 +167,7 @@ def _claim(blocks: tuple[Block, ...], state: State, here: State, modes: Modes) -
     )
 
 
-def _names(blocks: tuple[Block, ...], here: State, after: State) -> Iterator[tuple[tuple[int, str], str]]:
+def _names(here: State, after: State) -> Iterator[tuple[tuple[int, str], str]]:
     """The name of the given that an address states, by block and address."""
     step = "-step" if here.is_incremental else ""
     for number, plane, suffix in ((1, here.plane, step), (2, after.plane, "")):

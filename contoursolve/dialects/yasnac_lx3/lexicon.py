@@ -64,7 +64,7 @@ CODES = (
     ),
     *_codes(Effect.CYCLE, {90: "turning cycle", 92: "thread cycle", 94: "facing cycle"}),
     *_codes(Effect.PRESET, {50: "coordinate setting or spindle limit"}),
-    *_codes(Effect.SHIFT, {number: "work coordinate system" for number in range(54, 60)}),
+    *_codes(Effect.SHIFT, dict.fromkeys(range(54, 60), "work coordinate system")),
     *_codes(
         Effect.NONE, {96: "constant surface speed", 97: "spindle speed", 98: "feed a minute", 99: "feed a revolution"}
     ),
