@@ -96,6 +96,7 @@ def report(
     words: Iterable[Word],
     values: Mapping[str, float] | None = None,
     labels: Iterable[str] = (),
+    notes: Iterable[str] = (),
     **fields: Any,
 ) -> Diagnostic:
     """One finding: the row's message with its fields filled in, its words marked."""
@@ -109,7 +110,7 @@ def report(
         "address": blamed[0].address if blamed else "",
         **fields,
     }
-    notes = list(labels) + [""] * len(spans)
+    texts = list(labels) + [""] * len(spans)
     return Diagnostic(
         code=rule.code,
         severity=rule.severity,
@@ -119,9 +120,10 @@ def report(
         help=rule.help.format_map(stated),
         source=rule.source,
         alarm=rule.alarm,
-        labels=tuple(Label(span, note) for span, note in zip(spans, notes, strict=False)),
+        labels=tuple(Label(span, note) for span, note in zip(spans, texts, strict=False)),
         addresses=tuple(dict.fromkeys(word.address for word in blamed)),
         values=values or {},
+        notes=tuple(notes),
     )
 
 
@@ -199,7 +201,24 @@ def explain_result(context: Context, event: Refusal | Remark, profile: Profile) 
             fields[name] = text
     if "off_by_mm" in values:
         fields["off"] = length_text(values["off_by_mm"], context.unit)
-    return report(context, context.row(event.kind), Basis.NUMERICAL, words, values, _labels(event, fields), **fields)
+    notes = _without_point(context, profile) if isinstance(event, Refusal) else []
+    labels = _labels(event, fields)
+    return report(context, context.row(event.kind), Basis.NUMERICAL, words, values, labels, notes, **fields)
+
+
+def _without_point(context: Context, profile: Profile) -> list[str]:
+    """Words that a control reads in least increments, because they have no decimal point."""
+    notes = []
+    for given in sorted(profile.givens.values(), key=lambda each: each.name):
+        word = given.word
+        if word is None or word.has_point or not word.number or given.unit is Unit.SIGN:
+            continue
+        typed = given.value * 2 if given.is_diameter else given.value
+        if abs(typed) < abs(word.number):
+            in_degrees = given.unit is Unit.DEGREE
+            value = angle_text(float(typed)) if in_degrees else length_text(float(typed), context.unit)
+            notes.append(f"{word.text} has no decimal point and is read in least increments, as {value}")
+    return notes
 
 
 def _labels(event: Refusal | Remark, fields: Mapping[str, Any]) -> list[str]:

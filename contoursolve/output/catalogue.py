@@ -28,7 +28,7 @@ def rule_lines(rule: Rule, controls: Iterable[str]) -> list[str]:
     """Everything about one rule: in words, a wrong block, a right one, the place in the manual."""
     lines = [f"{rule.code} ({rule.severity.value}): {rule.title}", ""]
     facts = [
-        ("what to do", rule.help),
+        ("what to do", rule.advice),
         ("source", str(rule.source)),
         ("control", f"alarm {rule.alarm.number} ({rule.alarm.evidence.value})" if rule.alarm else "no alarm known"),
         ("applies to", ", ".join(controls)),

@@ -1,5 +1,6 @@
 """A rule is a row: what it finds, in words, with its source, the control's alarm, and examples."""
 
+import re
 from dataclasses import dataclass
 from enum import Enum
 from functools import lru_cache
@@ -35,7 +36,26 @@ class Rule:
     @property
     def title(self) -> str:
         """The message with its fields shown as gaps."""
-        return self.message.replace("{", "<").replace("}", ">")
+        return _FIELD.sub(_gap, self.message)
+
+    @property
+    def advice(self) -> str:
+        """What to do, with its fields shown as gaps."""
+        return _FIELD.sub(_gap, self.help)
+
+
+_FIELD = re.compile(r"\{(\w+)(?::([^}]*))?\}")
+
+
+def _gap(field: re.Match[str]) -> str:
+    """A field of a template: `{words:D Q}` as <D or Q>, `{limit}` as <limit>."""
+    name, spec = field.groups()
+    if spec:
+        return f"<{spec if spec == 'other G' else ' or '.join(spec.replace('|', ' ').split())}>"
+    return "" if name == "comparison" else f"<{_GAPS.get(name, name)}>"
+
+
+_GAPS = {"words": "word", "off": "difference", "subject": "element", "free": "point"}
 
 
 @dataclass(frozen=True, slots=True)

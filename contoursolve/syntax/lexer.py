@@ -55,7 +55,7 @@ def parse_block(text: str, line: int) -> Block:
     if len(text) > LONGEST_BLOCK and len(_COMMENTS.sub("", text)) > LONGEST_BLOCK:
         span = Span(line, 1, len(text) + 1)
         return Block(line, text, (), (Fault(FaultKind.BLOCK_TOO_LONG, f"{len(text):,} characters", span),))
-    macro = _MACRO.match(text) if "#" in text or _may_be_flow(text) else None
+    macro = _MACRO.match(text)
     if macro:
         return Block(line, text, (), macro=Macro.ASSIGNMENT if macro["assignment"] else Macro.FLOW)
     words: list[Word] = []
@@ -86,7 +86,3 @@ _FAULTS = {
     "comma_only": FaultKind.COMMA_WITHOUT_ADDRESS,
     "stray": FaultKind.STRAY_CHARACTER,
 }
-
-
-def _may_be_flow(text: str) -> bool:
-    return any(keyword in text.upper() for keyword in ("IF", "WHILE", "GOTO", "DO", "END", "THEN", "ELSE"))

@@ -1,0 +1,98 @@
+"""How long a user waits, beside a peer in the same run: pytest tests/benchmarks."""
+
+import random
+import subprocess
+import sys
+from math import cos, radians, sin
+from pathlib import Path
+from time import perf_counter
+
+import numpy
+import pytest
+from pytest_benchmark.fixture import BenchmarkFixture
+from scipy.optimize import fsolve
+
+import contoursolve
+
+START = "X40. Z0."
+BLOCK = "G111 X100. A180. K-30. B120. P5. Q5."
+
+
+def best_of(rounds: int, command: list[str]) -> float:
+    """Shortest time of a whole process, seconds."""
+    times = []
+    for _ in range(rounds):
+        begin = perf_counter()
+        subprocess.run(command, check=True, capture_output=True)
+        times.append(perf_counter() - begin)
+    return min(times)
+
+
+def test_a_whole_run_on_one_block_takes_at_most_two_and_a_half_imports_of_numpy_and_casadi(
+    benchmark: BenchmarkFixture, tmp_path: Path
+) -> None:
+    program = tmp_path / "one.nc"
+    program.write_text(f"G00 {START}\n{BLOCK}\n", encoding="utf-8")
+    command = [sys.executable, "-m", "contoursolve", "solve", str(program)]
+    benchmark.pedantic(subprocess.run, args=(command,), kwargs={"check": True, "capture_output": True}, rounds=5)
+    imports = best_of(7, [sys.executable, "-c", "import numpy, casadi"])
+    whole = best_of(7, command)
+    benchmark.extra_info.update(imports_ms=imports * 1e3, whole_ms=whole * 1e3, ratio=whole / imports)
+    assert whole <= 2.5 * imports
+
+
+def test_one_block_warm_from_text_to_verified_contour(benchmark: BenchmarkFixture) -> None:
+    result = benchmark(contoursolve.solve, BLOCK, start=START)
+    assert result.answers[0].status is contoursolve.Status.SOLVED
+
+
+def test_peer_scipy_fsolve_on_the_bare_equations_of_the_same_block(benchmark: BenchmarkFixture) -> None:
+    """The virtual intersections only: no text, no rules, no corners, no check."""
+    a, b = radians(180), radians(120)
+
+    def residuals(v: numpy.ndarray) -> list[float]:
+        z1, x1, z2, x2 = v
+        return [
+            z1 * sin(a) - (x1 - 20) * cos(a),
+            z1 + 30,
+            (z2 - z1) * sin(b) - (x2 - x1) * cos(b),
+            x2 - 50,
+        ]
+
+    solution = benchmark(fsolve, residuals, numpy.array([-20.0, 25.0, -40.0, 40.0]))
+    assert solution == pytest.approx([-30, 20, -47.32050807568877, 50])
+
+
+LINE_1 = (("A", "I"), ("A", "K"), ("I", "K"))
+LINE_2 = (("B", "X"), ("B", "U"), ("B", "Z"), ("B", "W"), ("X", "Z"), ("X", "W"), ("U", "Z"), ("U", "W"))
+RANGES = {
+    "A": (140, 180),
+    "I": (1, 9),
+    "K": (-30, -20),
+    "B": (100, 130),
+    "X": (80, 100),
+    "U": (40, 60),
+    "Z": (-60, -50),
+    "W": (-60, -50),
+}
+
+
+def write_blocks(number: int) -> str:
+    """A program of G111 blocks of mixed combinations of words."""
+    draw = random.Random(1)
+    lines = []
+    for _ in range(number):
+        first, second = draw.choice(LINE_1), draw.choice(LINE_2)
+        words = [f"{name}{draw.uniform(*RANGES[name]):.3f}" for name in first + second]
+        words.append(draw.choice(["", "C1.", "P2."]))
+        words.append(draw.choice(["", "D1.", "Q2."]) if "B" in second else "")
+        lines += [f"G00 {START}", " ".join(["G111", *words])]
+    return "\n".join(lines)
+
+
+def test_ten_thousand_blocks_of_mixed_combinations(benchmark: BenchmarkFixture, tmp_path: Path) -> None:
+    program = tmp_path / "many.nc"
+    program.write_text(write_blocks(10_000), encoding="utf-8")
+    command = [sys.executable, "-m", "contoursolve", "solve", str(program)]
+    done = benchmark.pedantic(subprocess.run, args=(command,), kwargs={"capture_output": True, "text": True}, rounds=3)
+    assert done.stdout.splitlines()[-1].startswith("10000 contours")
