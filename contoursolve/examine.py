@@ -69,60 +69,108 @@ class Answer:
     diagnostics: tuple[Diagnostic, ...]
 
 
+class _Notebook:
+    """The findings about one contour, and the statuses that they give it."""
+
+    def __init__(self) -> None:
+        self.findings: list[Diagnostic] = []
+        self.statuses: set[Status] = set()
+
+    def add(self, finding: Diagnostic, status: Status | None = None) -> None:
+        self.findings.append(finding)
+        if status and finding.severity is Severity.ERROR:
+            self.statuses.add(status)
+
+    @property
+    def status(self) -> Status:
+        return next((status for status in Status if status in self.statuses), Status.SOLVED)
+
+
 def examine(claim: Claim, rules: tuple[Rule, ...], policy: Policy) -> Answer:
     """Everything there is to say about one contour, and its path if there is one."""
-    context = context_of(claim, rules)
-    findings = [explain_fault(context, fault) for block in claim.blocks for fault in block.faults]
-    findings += explain_words(context, claim.repeated, [word for block in claim.blocks for word in block.words])
-    findings += _explain_unknown(context, claim)
-    statuses = {Status.REJECTED} if any(each.severity is Severity.ERROR for each in findings) else set()
-    variables = [word for name, word in claim.words.items() if word.number is None]
-    if variables:
-        statuses.add(Status.UNDERDETERMINED)
-        findings.append(report(context, context.row(Trouble.VARIABLE), Basis.RULE, variables))
-    is_readable = not statuses
-
+    context, notebook = context_of(claim, rules), _Notebook()
+    _examine_words(context, claim, notebook)
+    is_readable = not notebook.statuses
     offences = check(rules, claim.form.name, claim.stated()) if policy is not Policy.OFF else ()
-    ignored = {offence.rule.ignores for offence in offences} - {""}
-    profile = read(claim, frozenset(ignored))
     for offence in offences:
         if not offence.rule.ignores:
             finding = explain_offence(context, offence)
-            if policy is Policy.ENFORCE:
-                statuses.add(Status.REJECTED)
-            findings.append(finding if policy is Policy.ENFORCE else replace(finding, severity=Severity.WARNING))
-
+            weaker = replace(finding, severity=Severity.WARNING)
+            notebook.add(finding if policy is Policy.ENFORCE else weaker, Status.REJECTED)
+    ignoring = [offence for offence in offences if offence.rule.ignores]
+    profile = read(claim, frozenset(offence.rule.ignores for offence in ignoring))
     if not profile.start.is_known:
-        statuses.add(Status.UNDERDETERMINED)
-        findings.append(_explain_start(context, claim))
-    findings += _explain_skippable(context, claim)
-    solution = Solution(Status.UNDERDETERMINED)
-    if is_readable and len(claim.blocks) == claim.form.length:
-        structure = list(_examine_system(context, claim, profile))
-        # A rule has refused the block already: what the equations say of it explains, and counts once.
-        severity = Severity.INFO if Status.REJECTED in statuses else Severity.ERROR
-        findings += [replace(finding, severity=severity) for _, finding in structure]
-        solution, events = _solve(profile, has_system=not structure, is_refused=bool(statuses))
-        findings += [explain_result(context, event, profile) for event in events]
-        statuses |= {status for status, _ in structure} | {solution.status}
-    findings += [explain_ignored(context, offence, profile, solution) for offence in offences if offence.rule.ignores]
-    status = next(status for status in Status if status in statuses)
-    is_shown = status in (Status.SOLVED, Status.OVERDETERMINED)
-    touches = any(remark.kind is RemarkKind.TOUCHES for remark in solution.remarks)
+        notebook.add(_explain_start(context, claim), Status.UNDERDETERMINED)
+    for finding in _explain_skippable(context, claim):
+        notebook.add(finding)
+    solution = _examine_geometry(context, claim, profile, notebook) if is_readable else Solution(Status.REJECTED)
+    for offence in ignoring:
+        notebook.add(explain_ignored(context, offence, profile, solution))
+
+    contour = trace(profile, solution) if notebook.status in (Status.SOLVED, Status.OVERDETERMINED) else None
+    is_double = any(remark.kind is RemarkKind.TOUCHES for remark in solution.remarks)
     side = next((choice.side for choice in profile.choices if choice.point in profile.intersections), None)
     return Answer(
         form=claim.form.name,
         lines=tuple(block.line for block in claim.blocks),
-        status=status,
+        status=notebook.status,
         plane=profile.plane,
         unit=profile.unit,
         start=profile.start,
         profile=profile,
-        contour=trace(profile, solution) if is_shown else None,
-        side=side if is_shown and not touches else None,
+        contour=contour,
+        side=side if contour and not is_double else None,
         error_bound=solution.error_bound,
-        diagnostics=tuple(sorted(findings, key=rank)),
+        diagnostics=tuple(sorted(notebook.findings, key=rank)),
     )
+
+
+def _examine_words(context: Context, claim: Claim, notebook: _Notebook) -> None:
+    """Characters, addresses and values, before any of them is given a meaning."""
+    words = [word for block in claim.blocks for word in block.words]
+    for block in claim.blocks:
+        for fault in block.faults:
+            notebook.add(explain_fault(context, fault), Status.REJECTED)
+    for finding in (*explain_words(context, claim.repeated, words), *_explain_unknown(context, claim)):
+        notebook.add(finding, Status.REJECTED)
+    variables = [word for word in claim.words.values() if word.number is None]
+    if variables:
+        notebook.add(report(context, context.row(Trouble.VARIABLE), Basis.RULE, variables), Status.UNDERDETERMINED)
+
+
+def _examine_geometry(context: Context, claim: Claim, profile: Profile, notebook: _Notebook) -> Solution:
+    """The system for all values, then its solution at the values of the block.
+
+    A block that is refused is not solved; but if it says too much, whether its words agree is told.
+    """
+    is_refused = Status.REJECTED in notebook.statuses
+    if len(claim.blocks) < claim.form.length:
+        rule, missing = context.row(Trouble.UNDERDETERMINED), "the arc, which is not there"
+        finding = report(context, rule, Basis.RULE, [], free=missing, completions="write it in the block before")
+        notebook.add(_secondary(finding, is_refused), Status.UNDERDETERMINED)
+        return Solution(Status.UNDERDETERMINED)
+    structure = list(_examine_system(context, claim, profile))
+    for status, finding in structure:
+        notebook.add(_secondary(finding, is_refused), status)
+    system = assemble(profile)
+    says_too_much = len(system.facts) > len(system.unknowns)
+    if structure or not profile.start.is_known or (is_refused and not says_too_much):
+        return Solution(Status.UNDERDETERMINED)
+    solution = solve(profile)
+    events: list[Refusal | Remark] = [*solution.refusals, *solution.remarks]
+    for event in events:
+        if not is_refused or event.kind in _ABOUT_WORDS:
+            notebook.add(explain_result(context, event, profile))
+            notebook.statuses.add(solution.status)
+    return Solution(solution.status) if is_refused else solution
+
+
+_ABOUT_WORDS = (RefusalKind.WORDS_DISAGREE, RemarkKind.WORDS_AGREE)
+
+
+def _secondary(finding: Diagnostic, is_refused: bool) -> Diagnostic:
+    """What the equations say of a block that a rule has refused already explains, and counts once."""
+    return replace(finding, severity=Severity.INFO) if is_refused else finding
 
 
 def _examine_system(context: Context, claim: Claim, profile: Profile) -> Iterator[tuple[Status, Diagnostic]]:
@@ -134,6 +182,9 @@ def _examine_system(context: Context, claim: Claim, profile: Profile) -> Iterato
     by_name: dict[str, list[str]] = {}
     for corner in profile.figure.corners:
         by_name.setdefault(corner.name, []).append(corner.size)
+        if profile.givens[corner.size].value < 0:
+            rule, word = context.row(Trouble.CORNER_NEGATIVE), [context.words[corner.size]]
+            yield Status.NO_SOLUTION, report(context, rule, Basis.NUMERICAL, word, subject=corner.name)
         if corner.after is None and corner.lands_parallel_to is None:
             rule = context.row(Trouble.CORNER_NOWHERE)
             word = [context.words[corner.size]]
@@ -149,27 +200,6 @@ def _examine_system(context: Context, claim: Claim, profile: Profile) -> Iterato
             if point not in chosen:
                 rule = context.row(Trouble.CHOICE_MISSING)
                 yield Status.UNDERDETERMINED, report(context, rule, Basis.STRUCTURAL, [], subject=point)
-
-
-def _solve(profile: Profile, has_system: bool, is_refused: bool) -> tuple[Solution, list[Refusal | Remark]]:
-    """The solution and what to say about it.
-
-    A block that is refused is not solved; but if it says too much, whether its words agree is told.
-    """
-    if not has_system or not profile.start.is_known:
-        return Solution(Status.UNDERDETERMINED if not profile.start.is_known else Status.SOLVED), []
-    system = assemble(profile)
-    if not is_refused:
-        solution = solve(profile)
-        return solution, [*solution.refusals, *solution.remarks]
-    if len(system.facts) <= len(system.unknowns):
-        return Solution(Status.SOLVED), []
-    solution = solve(profile)
-    about = (RefusalKind.WORDS_DISAGREE, RemarkKind.WORDS_AGREE)
-    found: list[Refusal | Remark] = [*solution.refusals, *solution.remarks]
-    events = [event for event in found if event.kind in about]
-    status = solution.status if events else Status.SOLVED
-    return Solution(status), events
 
 
 def explain_fault(context: Context, fault: Fault) -> Diagnostic:

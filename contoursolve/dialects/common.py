@@ -182,6 +182,15 @@ SYSTEM_RULES = (
         rejected=(_GOOD + " C2. P2.",),
     ),
     Rule(
+        code="corner-negative",
+        message="{words}: {subject} has a negative size, which no corner has",
+        help="delete the minus sign",
+        source=_GEOMETRY,
+        about=Trouble.CORNER_NEGATIVE,
+        accepted=(_GOOD + " P2.",),
+        rejected=(_GOOD + " P-2.",),
+    ),
+    Rule(
         code="corner-nowhere",
         message="{words}: nothing tells which line {subject} lands on",
         help="give the last line by its angle and one coordinate",

@@ -1,14 +1,16 @@
 """A solved contour as text: what was given, the virtual intersections, every element of the path."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 from contoursolve.contour import ArcSegment
 from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.examine import Answer
-from contoursolve.model import Given, Length, Turn, Unit
+from contoursolve.model import Length, Turn, Unit
 from contoursolve.output.layout import columns, printable
 from contoursolve.pipeline import Result
+from contoursolve.reading import Form, Lexicon
 from contoursolve.solving import Point
+from contoursolve.syntax import Word
 
 DECIMALS = {Length.MM: 4, Length.INCH: 5}
 
@@ -19,13 +21,13 @@ def contour_lines(answer: Answer, result: Result) -> list[str]:
     form = next(form for form in dialect.forms if form.name == answer.form)
     lines = [f"{result.program.name}:{answer.lines[0]}: {form.name} ({form.title}): {answer.status.value}"]
     lines += [f"  {printable(block.text.strip())[:160]}" for block in answer.profile.blocks]
-    lines += ["", *columns(_given_rows(answer, dialect), left=(0, 3))]
+    lines += ["", *columns(_given_rows(answer, form, dialect), left=(0, 3))]
     if answer.contour:
         lines += ["", *columns(_path_rows(answer), left=(0, 1))]
     return [*lines, ""]
 
 
-def _given_rows(answer: Answer, dialect: Dialect) -> list[tuple[str, str, str, str]]:
+def _given_rows(answer: Answer, form: Form, dialect: Dialect) -> list[tuple[str, str, str, str]]:
     """Word, value, unit and meaning of everything that was given."""
     rows = []
     for axis, value, is_diameter in zip(answer.plane.axes, answer.start.values, answer.plane.diameters, strict=True):
@@ -34,23 +36,24 @@ def _given_rows(answer: Answer, dialect: Dialect) -> list[tuple[str, str, str, s
             ("start " + axis, shown, _unit(answer.unit) if value is not None else "", _axis_meaning(is_diameter))
         )
     ignored = {fact.given for fact in answer.profile.ignored}
-    addresses = dialect.modes.lexicon.addresses
-    givens: Mapping[str, Given] = answer.profile.givens
-    for given in sorted((each for each in givens.values() if each.word), key=lambda each: each.word.span):  # type: ignore[union-attr]
-        assert given.word is not None
-        meaning = addresses[given.word.address].meaning + (" - ignored" if given.name in ignored else "")
-        rows.append((given.word.text, *_value(given, answer.unit), meaning))
+    words = {given.name: given.word for given in answer.profile.givens.values() if given.word}
+    for name, word in sorted(words.items(), key=lambda item: item[1].span):
+        meaning = form.meanings.get(name) or dialect.modes.lexicon.addresses[word.address].meaning
+        meaning += " - ignored" if name in ignored else ""
+        rows.append((word.text, *_value(word, dialect.modes.lexicon, answer.unit), meaning))
     if answer.side:
         rows.append(("choice", answer.side.value, "", "of two intersections, by the sign of Q"))
     return rows
 
 
-def _value(given: Given, unit: Length) -> tuple[str, str]:
-    if given.unit is Unit.DEGREE:
-        return f"{given.value:.4f}", "deg"
-    if given.unit is Unit.SIGN:
-        return f"{given.value:+f}", ""
-    return _length(float(given.value) * (2 if given.is_diameter else 1), unit), _unit(unit)
+def _value(word: Word, lexicon: Lexicon, unit: Length) -> tuple[str, str]:
+    """What a word states, in the terms in which it is written, and its unit."""
+    value, row = float(lexicon.value(word, unit) or 0), lexicon.addresses[word.address]
+    if row.unit is Unit.DEGREE:
+        return f"{value:.4f}", "deg"
+    if row.unit is Unit.SIGN:
+        return f"{value:+g}", ""
+    return _length(value * (2 if row.is_diameter else 1), unit), _unit(unit)
 
 
 def _axis_meaning(is_diameter: bool) -> str:

@@ -112,7 +112,8 @@ def _effect(state: State, block: Block, modes: Modes) -> tuple[Effect, str]:
     """What the block does with its axis words, and the reason to give if the position is lost."""
     for code in codes_of(block, modes):
         if isinstance(code, Word):
-            return Effect.SINGLE, f"{code.text} is not known to contoursolve"
+            has_axes = any(_axis(word, modes) for word in block.words)
+            return Effect.SINGLE if has_axes else Effect.NO_MOTION, f"{code.text} is not known to contoursolve"
         if code.effect in (Effect.SINGLE, Effect.UNRESOLVED):
             return Effect.SINGLE, f"the end of G{code.number} ({code.meaning}) is not followed"
         if code.effect is Effect.NO_MOTION:

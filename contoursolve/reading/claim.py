@@ -24,6 +24,7 @@ class Trouble(Enum):
     NO_CONTOUR = "no-contour"
     UNDERDETERMINED = "underdetermined"
     CORNER_TWICE = "corner-twice"
+    CORNER_NEGATIVE = "corner-negative"
     CORNER_NOWHERE = "corner-nowhere"
     CHOICE_MISSING = "choice-missing"
 

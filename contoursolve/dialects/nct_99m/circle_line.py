@@ -68,6 +68,11 @@ CIRCLE_LINE = Form(
         ),
         (("2:first", "2:second", "2:,A"),),
     ),
+    meanings={
+        **{f"1:{order}": "a point of the circle" for order in ("first", "second")},
+        **{f"1:{order}-step": "a point of the circle, from the start point" for order in ("first", "second")},
+        **{f"2:{order}": "end of the line, absolute" for order in ("first", "second")},
+    },
 )
 
 COMPENSATED, ALONE, OTHER_PLANE, RAPID = "@compensated", "@alone", "@other-plane", "@rapid"

@@ -48,6 +48,7 @@ G111 = Form(
     intersections=(V1, V2),
     allowed=frozenset(row.address for row in ADDRESSES) | _PASSING,
     combinations=tuple(((), (address,)) for address in "AIKBXUZW"),
+    meanings={},
 )
 
 OTHER_G = "other G"
