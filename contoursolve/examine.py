@@ -91,7 +91,9 @@ def examine(claim: Claim, rules: tuple[Rule, ...], policy: Policy) -> Answer:
     context, notebook = context_of(claim, rules), _Notebook()
     _examine_words(context, claim, notebook)
     is_readable = not notebook.statuses
-    offences = check(rules, claim.form.name, claim.stated()) if policy is not Policy.OFF else ()
+    # Where characters could not be read, which words the block has is not known.
+    is_whole = not any(block.faults for block in claim.blocks)
+    offences = check(rules, claim.form.name, claim.stated()) if is_whole and policy is not Policy.OFF else ()
     for offence in offences:
         if not offence.rule.ignores:
             finding = explain_offence(context, offence)
@@ -107,7 +109,8 @@ def examine(claim: Claim, rules: tuple[Rule, ...], policy: Policy) -> Answer:
     for offence in ignoring:
         notebook.add(explain_ignored(context, offence, profile, solution))
 
-    contour = trace(profile, solution) if notebook.status in (Status.SOLVED, Status.OVERDETERMINED) else None
+    is_path = solution.points and notebook.status in (Status.SOLVED, Status.OVERDETERMINED)
+    contour = trace(profile, solution) if is_path else None
     is_double = any(remark.kind is RemarkKind.TOUCHES for remark in solution.remarks)
     side = next((choice.side for choice in profile.choices if choice.point in profile.intersections), None)
     return Answer(
@@ -206,12 +209,7 @@ def explain_fault(context: Context, fault: Fault) -> Diagnostic:
     """Characters that are not a word."""
     shown = Word(fault.text[:1], None, False, fault.text.strip(), fault.span)
     rule = context.row(fault.kind)
-    return replace(report(context, rule, Basis.RULE, [shown]), addresses=_letters(fault.text))
-
-
-def _letters(text: str) -> tuple[str, ...]:
-    stripped = text.strip().upper()
-    return (stripped[0],) if stripped[:1].isalpha() else ()
+    return replace(report(context, rule, Basis.RULE, [shown]), addresses=(fault.address,) if fault.address else ())
 
 
 def explain_words(context: Context, repeated: Sequence[Word], words: Sequence[Word]) -> Iterator[Diagnostic]:

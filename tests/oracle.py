@@ -7,8 +7,12 @@ A point is a complex number: real is the plane's first axis (Z of the lathe), im
 import cmath
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from decimal import Decimal
 from math import acos, copysign, inf, radians, sqrt
 from typing import Any, NamedTuple
+
+Number = float | Decimal
+Words = Mapping[str, Number]
 
 ON = 1e-10
 """mm. A case this close to a boundary lies on it; rounding moves it no further."""
@@ -40,6 +44,9 @@ class Outcome:
         if slack < -on:
             raise _RefusedError("no-solution")
 
+    def need_length(self, length: float) -> None:
+        self.need(length if length > ON else -NEAR)
+
     def go(self, element: Element) -> None:
         if abs(element.end - element.start) > ON:
             self.elements.append(element)
@@ -50,14 +57,14 @@ class _RefusedError(Exception):
     """The status is its only argument."""
 
 
-def heading(degrees: float) -> complex:
-    """The direction of an angle; exact along the axes.
+def heading(degrees: Number) -> complex:
+    """The direction of an angle; exact along the axes, and folded as a decimal: 359.999 is as good as -0.001.
 
-    >>> heading(-270.0)
-    1j
+    >>> heading(-270) == 1j
+    True
     """
-    quarter, rest = divmod(degrees, 90)
-    return (1 + 0j, 1j, -1 + 0j, -1j)[int(quarter) % 4] if rest == 0 else cmath.rect(1, radians(degrees))
+    quarter, rest = divmod(Decimal(degrees), 90)
+    return (1, 1j, -1, -1j)[int(quarter) % 4] * cmath.rect(1, radians(rest))
 
 
 def cross(u: complex, v: complex) -> float:
@@ -87,7 +94,7 @@ def meet(one: Locus, other: Locus, outcome: Outcome) -> complex:
     return p + u * (cross(q - p, v) / sine)
 
 
-def g111(start: complex, words: Mapping[str, float]) -> Outcome:
+def g111(start: complex, words: Words) -> Outcome:
     """YASNAC LX3 G111 by section 2.8.30.
 
     >>> f"{g111(20j, {'X': 100, 'A': 180, 'K': -30, 'B': 120, 'P': 5, 'Q': 5}).end:.4f}"
@@ -105,7 +112,7 @@ def g111(start: complex, words: Mapping[str, float]) -> Outcome:
     return outcome
 
 
-def _is_legal(words: Mapping[str, float]) -> bool:
+def _is_legal(words: Words) -> bool:
     first = len(words.keys() & {"A", "I", "K"})
     second = [bool(words.keys() & slot) for slot in ({"B"}, {"X", "U"}, {"Z", "W"})]
     return (
@@ -117,22 +124,22 @@ def _is_legal(words: Mapping[str, float]) -> bool:
     )
 
 
-def _taper(start: complex, words: Mapping[str, float], outcome: Outcome) -> None:
+def _taper(start: complex, words: Words, outcome: Outcome) -> None:
     a = heading(words["A"]) if "A" in words and not words.keys() >= {"I", "K"} else None  # (v)
     ends: list[Locus] = []
     if "X" in words:
-        ends.append((complex(0, words["X"] / 2), 1))
+        ends.append((complex(0, words["X"]) / 2, 1))
     if "U" in words:
-        ends.append((complex(0, start.imag + words["U"] / 2), 1))
+        ends.append((complex(0, start.imag + float(words["U"]) / 2), 1))
     if "Z" in words:
         ends.append((complex(words["Z"]), 1j))
     if "W" in words:
-        ends.append((complex(start.real + words["W"]), 1j))
+        ends.append((complex(start.real + float(words["W"])), 1j))
     corner: list[Locus] = []
     if "I" in words:
-        corner.append((start + 1j * words["I"], 1))
+        corner.append((start + 1j * float(words["I"]), 1))
     if "K" in words:
-        corner.append((start + words["K"], 1j))
+        corner.append((start + float(words["K"]), 1j))
     if a is not None:
         corner.append((start, a))
     b = heading(words["B"]) if "B" in words and (len(ends) == 1 or len(corner) == 1) else None  # (vi)
@@ -155,8 +162,12 @@ def _taper(start: complex, words: Mapping[str, float], outcome: Outcome) -> None
 
     first = second = None
     if words.get("C") or words.get("P"):
+        outcome.need_length(abs(line1))  # a corner joins two lines, neither of which is a point
+    if any(words.get(name) for name in "CPDQ"):
+        outcome.need_length(abs(line2))
+    if words.get("C") or words.get("P"):
         quadrant = complex(sign((v2 - start).real), sign((v2 - start).imag))
-        first = _corner(v1, u1, u2, quadrant, words.get("C", 0.0), words.get("P", 0.0), outcome)
+        first = _corner(v1, u1, u2, quadrant, float(words.get("C", 0)), float(words.get("P", 0)), outcome)
         if words.get("C"):
             box = v2 - start
             for low, at, high in (
@@ -168,14 +179,12 @@ def _taper(start: complex, words: Mapping[str, float], outcome: Outcome) -> None
     if words.get("D") or words.get("Q"):
         onward = complex(sign(u2.real) or sign(u1.real), sign(u2.imag) or sign(u1.imag))
         third = complex(onward.real) if words.keys() & {"X", "U"} else 1j * onward.imag
-        second = _corner(v2, u2, third, onward, words.get("D", 0.0), words.get("Q", 0.0), outcome)
+        second = _corner(v2, u2, third, onward, float(words.get("D", 0)), float(words.get("Q", 0)), outcome)
 
     leave1 = first.start if first else v1
     join2, leave2 = first.end if first else v1, second.start if second else v2
     if first:
         outcome.need(dot(u1, leave1 - start))
-    if second:
-        outcome.need(abs(line2) - ON)
     if first or second:
         outcome.need(dot(u2, leave2 - join2))
     outcome.end = start
@@ -215,8 +224,8 @@ def circle_line(
     plane: int,
     start: complex,
     turn: str,
-    arc: Mapping[str, float],
-    line: Mapping[str, float],
+    arc: Words,
+    line: Words,
     *,
     is_incremental: bool = False,
     is_compensated: bool = True,
@@ -246,8 +255,8 @@ def _circle_line(
     plane: int,
     start: complex,
     turn: str,
-    arc: Mapping[str, float],
-    line: Mapping[str, float],
+    arc: Words,
+    line: Words,
     is_incremental: bool,
     outcome: Outcome,
 ) -> None:
@@ -257,18 +266,16 @@ def _circle_line(
     else:
         point = complex(arc.get(first, start.real), arc.get(second, start.imag))
     if "R" in arc:
-        radius, chord = abs(arc["R"]), point - start
-        if abs(chord) <= ON:
-            raise _RefusedError("no-solution")
+        radius, chord = abs(float(arc["R"])), point - start
+        outcome.need_length(abs(chord))
         outcome.need(radius - abs(chord) / 2)
         # Seen from the start, the centre lies beside the chord: left of it on a short ccw or a long cw arc.
-        aside = copysign(acos(min(1.0, abs(chord) / 2 / radius)), arc["R"] if turn == "ccw" else -arc["R"])
+        aside = copysign(acos(min(1.0, abs(chord) / 2 / radius)), arc["R"]) * (1 if turn == "ccw" else -1)
         center = start + chord / abs(chord) * cmath.rect(radius, aside)
     else:
         center = start + complex(arc.get(i, 0), arc.get(j, 0))
         radius = abs(center - start)
-        if radius <= ON:
-            raise _RefusedError("no-solution")
+        outcome.need_length(radius)
         if arc.keys() & {first, second}:
             difference = abs(abs(point - center) - radius)
             outcome.is_near |= abs(difference - 0.01) < NEAR
@@ -276,16 +283,17 @@ def _circle_line(
                 raise _RefusedError("conflicting")
     # The power of the line's end is the product of its two distances to the circle along the line.
     end, along = complex(line[first], line[second]), heading(line[",A"])
-    outcome.need(radius - abs(cross(along, end - center)), on=0.0)
+    room = radius - abs(cross(along, end - center))
+    outcome.need(room, on=0.0)
     half_sum = dot(along, end - center)
-    power = (abs(end - center) - radius) * (abs(end - center) + radius)
+    power = (abs(end - center) - radius) * (abs(end - center) + radius) if room else half_sum**2
     larger = half_sum + copysign(sqrt(max(0.0, half_sum**2 - power)), half_sum)
     distances = larger, power / larger if larger else 0.0
     distance = max(distances) if line["Q"] < 0 else min(distances)  # the nearer is met first: farther before the end
     crossing = end - distance * along
     outcome.points = {"P1": crossing}
     outcome.need(distance)
-    outcome.need(abs(crossing - start) - ON, on=0.0)
+    outcome.need_length(abs(crossing - start))
     outcome.end = start
     outcome.go(Element("arc", start, crossing, center, radius, turn))
     outcome.go(Element("line", crossing, end))

@@ -107,16 +107,22 @@ class Compiled:
         return dict(zip(self.outputs, local.results.tolist(), strict=True))
 
 
-def inverse_norms(entries: Mapping[tuple[int, int], float], size: int, pseudo: bool) -> Any:
-    """Row sums of the absolute inverse of a square matrix, shape (size,); infinite if it is singular.
+def inverse_norm(entries: Mapping[tuple[int, int], float], size: int, doubles: int) -> float:
+    """Largest row sum of the absolute inverse of a square matrix; infinite if it is singular.
 
-    The pseudo-inverse leaves directions out whose singular value is below 1e-5 of the largest.
+    `doubles` is the number of directions in which a double solution was recognised: so many of the
+    smallest singular values are left out.
     """
     matrix = numpy.zeros((size, size))
     for (row, column), value in entries.items():
         matrix[row, column] = value
     try:
-        inverse = numpy.linalg.pinv(matrix, rcond=1e-5) if pseudo else numpy.linalg.inv(matrix)
+        if doubles:
+            left, values, right = numpy.linalg.svd(matrix)
+            kept = slice(0, size - doubles)
+            inverse = right.T[:, kept] / values[kept] @ left.T[kept]
+        else:
+            inverse = numpy.linalg.inv(matrix)
     except numpy.linalg.LinAlgError:
-        return numpy.full(size, numpy.inf)
-    return numpy.abs(inverse).sum(axis=1)
+        return float("inf")
+    return float(numpy.abs(inverse).sum(axis=1).max())

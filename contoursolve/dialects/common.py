@@ -35,7 +35,7 @@ GRAMMAR_RULES = (
         help="write digits with at most one decimal point, without exponent or decimal comma",
         source=_GRAMMAR,
         about=FaultKind.NUMBER_MALFORMED,
-        accepted=(_GOOD, _START + "G111 A180. K-.5 B+120. X100"),
+        accepted=(_GOOD, _START + "G111 A180. K-.5 B+120. X100."),
         rejected=(_START + "G111 A180. K-1.2.3 B120. X100.", _START + "G111 A180. K-30,5 B120. X100."),
     ),
     Rule(
@@ -244,7 +244,7 @@ SYSTEM_RULES = (
         about=RemarkKind.SENSITIVE,
         severity=Severity.WARNING,
         accepted=(_GOOD,),
-        rejected=("G17 G41 G0 X5000 Y0\nG3 X-5000 Y0 R5000\nG1 X-6000 Y4999.9999999999 ,A180 Q-1",),
+        rejected=("G17 G41 G0 X5000 Y0\nG3 I-5000 J0\nG1 X-6000 Y4999.9999999999 ,A180 Q-1",),
     ),
     Rule(
         code="line-vanishes",

@@ -130,8 +130,7 @@ def _lost_by_faults(block: Block, modes: Modes) -> dict[str, Span]:
     """The axes whose words could not be read."""
     lost: dict[str, Span] = {}
     for fault in block.faults:
-        letters = [letter for letter in fault.text.upper() if letter.isalpha()][:1]
-        row = modes.lexicon.addresses.get(letters[0]) if letters else None
+        row = modes.lexicon.addresses.get(fault.address)
         if fault.kind is FaultKind.BLOCK_TOO_LONG:
             lost.update(dict.fromkeys(modes.axes, fault.span))
         elif row and row.axis and fault.kind is not FaultKind.COMMENT_NOT_CLOSED:

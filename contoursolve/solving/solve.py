@@ -6,7 +6,7 @@ from math import ceil, floor, isfinite, log10
 
 from contoursolve.analysis import judge
 from contoursolve.backends.angle import direction
-from contoursolve.backends.numeric import inverse_norms
+from contoursolve.backends.numeric import inverse_norm
 from contoursolve.constraints import OnCircle, System, Values, assemble
 from contoursolve.model import FIRST, SECOND, Corner, Fact, Profile, Unit, scalar
 from contoursolve.solving.compile import COSINE, SINE, compile_system
@@ -106,7 +106,7 @@ class _Attempt:
         self.out = self.machine.function(self._inputs())
         self.refusals: list[Refusal] = []
         self.remarks: list[Remark] = []
-        self.touches = False
+        self.doubles = 0
 
     def _inputs(self) -> dict[str, float]:
         inputs: dict[str, float] = {}
@@ -127,7 +127,9 @@ class _Attempt:
         for number, step in enumerate(self.plan.steps):
             refusal = self._examine_step(number, step)
             if refusal:
-                return Solution(refusal.kind.status, refusals=(refusal,))
+                self.refusals.append(refusal)
+                self._compare_all()
+                return self._refused()
         self._check_equations()
         points = {name: self._point(name) for name in (self.system.figure.start, *self.system.figure.points)}
         if not self.refusals:
@@ -135,9 +137,7 @@ class _Attempt:
             self.refusals += refusals
             self.remarks += remarks
         if self.refusals:
-            found = {refusal.kind.status for refusal in self.refusals}
-            status = next(status for status in Status if status in found)
-            return Solution(status, refusals=tuple(self.refusals))
+            return self._refused()
         bound = self._error_bound()
         if not bound <= ERROR_BOUND_WARNING:
             self.remarks.append(Remark(RemarkKind.SENSITIVE, "", (), {"limit": ERROR_BOUND_WARNING, "actual": bound}))
@@ -150,6 +150,12 @@ class _Attempt:
             remarks=tuple(self.remarks),
             error_bound=bound,
         )
+
+    def _refused(self) -> Solution:
+        agreeing = tuple(remark for remark in self.remarks if remark.kind is RemarkKind.WORDS_AGREE)
+        found = {refusal.kind.status for refusal in self.refusals} | ({Status.OVERDETERMINED} if agreeing else set())
+        status = next(status for status in Status if status in found)
+        return Solution(status, refusals=tuple(self.refusals), remarks=agreeing)
 
     def _point(self, name: str) -> Point:
         if name == self.system.figure.start:
@@ -203,7 +209,7 @@ class _Attempt:
         if isinstance(step, TwoPointsStep) and offset <= LENGTH:
             return Refusal(RefusalKind.CIRCLE_UNDEFINED, subject, givens)
         if abs(offset - radius) <= TOUCHING * radius:
-            self.touches = True
+            self.doubles += 1
             # A circle about the middle of two points is an ordinary half circle.
             if isinstance(step, LineCircleStep):
                 self.remarks.append(Remark(RemarkKind.TOUCHES, subject, givens, values))
@@ -228,8 +234,14 @@ class _Attempt:
             worst = max(residuals, key=lambda residual: abs(residual) if isfinite(residual) else float("inf"))
             self.refusals.append(_refuse(RefusalKind.NOT_VERIFIED, "", (), limit=RESIDUAL, actual=abs(worst)))
             return
-        for number, fact in enumerate(self.plan.checks, solved):
-            self._compare(fact, abs(self.out[f"residual:{number}"]))
+        self._compare_all()
+
+    def _compare_all(self) -> None:
+        """The facts that were not needed, as far as what they speak about has a value."""
+        for number, fact in enumerate(self.plan.checks, len(self.plan.basis)):
+            off = abs(self.out[f"residual:{number}"])
+            if isfinite(off):
+                self._compare(fact, off)
 
     def _compare(self, fact: Fact, off: float) -> None:
         """A fact that was not needed, at the points that the others give."""
@@ -256,8 +268,7 @@ class _Attempt:
         coordinates = (*self._point(self.system.figure.start), *(self.out[name] for name in self.system.unknowns))
         largest = max(1.0, *map(abs, coordinates))
         worst = max(abs(self.out[f"residual:{number}"]) for number in range(size))
-        norm = float(inverse_norms(entries, size, pseudo=self.touches).max())
-        bound = norm * (worst + ROUNDING * largest)
+        bound = inverse_norm(entries, size, self.doubles) * (worst + ROUNDING * largest)
         if not isfinite(bound):
             return float("inf")
         digit = 10.0 ** floor(log10(bound))

@@ -27,7 +27,7 @@ _TOKEN = re.compile(
   | (?P<comma_only>,[^ \tA-Za-z(;]*)
   | (?P<stray>[^ \tA-Za-z(;,%]+|.)
     """,
-    re.VERBOSE,
+    re.VERBOSE | re.ASCII,
 )
 _SKIP = re.compile(r"[ \t]*/[1-9]?(?!\d)")
 _MACRO = re.compile(

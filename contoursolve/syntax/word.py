@@ -1,5 +1,6 @@
 """Words, blocks and programs exactly as they were typed."""
 
+import re
 from dataclasses import dataclass
 from decimal import Decimal
 from enum import Enum
@@ -41,6 +42,15 @@ class Fault:
     kind: FaultKind
     text: str
     span: Span
+
+    @property
+    def address(self) -> str:
+        """The address that the word would have had, upper case with its comma; empty if there is none."""
+        match = _ADDRESS.match(self.text)
+        return "".join(match.groups()).upper() if match else ""
+
+
+_ADDRESS = re.compile(r"[ \t]*(,?)[ \t]*([A-Za-z])")
 
 
 class Macro(Enum):

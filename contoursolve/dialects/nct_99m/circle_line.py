@@ -114,7 +114,8 @@ def _is_over_defined(block: Block, before: State, modes: Modes) -> bool:
     if not _is_motion(block, before, modes):
         return False
     here = apply_modes(before, block, modes)
-    stated = {word.address for word in block.words}
+    # A word that cannot be read still shows what the block was meant to be.
+    stated = {word.address for word in block.words} | {fault.address for fault in block.faults}
     return here.motion in (0, 1) and stated.issuperset({*here.plane.axes, ",A"})
 
 

@@ -237,7 +237,7 @@ GEOMETRY_RULES = (
         alarm=Alarm("3011 RADIUS DIFFERENCE", Evidence.PRINTED),
         about=RefusalKind.RADIUS_DIFFERENCE,
         accepted=(_START + "G3 X-50 Y0 I-50 J0\n" + _LINE,),
-        rejected=(_START + "G3 X-50 Y1 I-50 J0\n" + _LINE, _START + "G3 X-49 Y0 I-50 J0\n" + _LINE),
+        rejected=(_START + "G3 X-50 Y2 I-50 J0\n" + _LINE, _START + "G3 X-49 Y0 I-50 J0\n" + _LINE),
     ),
     Rule(
         code="nct-radius-differs",

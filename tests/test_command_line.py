@@ -1,0 +1,557 @@
+"""The command line as the contract states it: exit status, text, JSON, and an answer to every bad input."""
+
+import json
+import os
+import subprocess
+import sys
+import time
+from math import atan2, hypot, tau
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+from jsonschema import Draft202012Validator
+
+from contoursolve.cli import main
+from contoursolve.dialects import DIALECTS
+
+PROGRAMS = Path(__file__).parent.parent / "notebooks" / "programs"
+SHAFT, BROKEN, PLATE = (str(PROGRAMS / name) for name in ("shaft.nc", "shaft_broken.nc", "plate.nc"))
+ONE = ("--block", "G111 X100. A180. K-30. B120. P5. Q5.", "--start", "X40. Z0.")
+
+START = "G00 X40. Z0.\n"
+GOOD = START + "G111 X100. A180. K-30. B120. P5. Q5."
+MILL = "G17 G90 G0 X90 Y0\nG42 G1 X50 D0\n"
+PAIR = MILL + "G3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q-1"
+
+
+def run(*arguments, stdin=None, **environment):
+    """(exit status, standard output, standard error); nothing may ever end in a traceback."""
+    done = CliRunner(env=environment).invoke(main, [str(each) for each in arguments], input=stdin)
+    assert done.exception is None or isinstance(done.exception, SystemExit), done.exception
+    assert "Traceback" not in done.output
+    return done.exit_code, done.stdout, done.stderr
+
+
+def run_process(*arguments, stdin=b"", **environment):
+    done = subprocess.run(
+        [sys.executable, "-m", "contoursolve", *map(str, arguments)],
+        input=stdin,
+        capture_output=True,
+        check=False,
+        env={**os.environ, **environment},
+    )
+    assert b"Traceback" not in done.stdout + done.stderr
+    return done.returncode, done.stdout, done.stderr
+
+
+def solve_json(*arguments, **options):
+    status, output, errors = run("solve", *arguments, "--format", "json", **options)
+    assert errors == ""
+    document = json.loads(output)
+    assert status == any(each["severity"] == "error" for each in document["diagnostics"])
+    return document
+
+
+@pytest.fixture
+def save(tmp_path):
+    def write(content: str | bytes) -> Path:
+        path = tmp_path / "program.nc"
+        path.write_bytes(content.encode() if isinstance(content, str) else content)
+        return path
+
+    return write
+
+
+# --- Exit status -----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("status", "arguments"),
+    [
+        (0, ("solve", SHAFT)),
+        (0, ("solve", PLATE)),
+        (0, ("check", SHAFT, PLATE)),
+        (0, ("solve", *ONE)),
+        (0, ("check", *ONE)),
+        (0, ("rules",)),
+        (0, ("rules", "--control", "nct-99m")),
+        (0, ("explain", "g111-line-1")),
+        (0, ("--help",)),
+        (0, ("--version",)),
+        (1, ("solve", BROKEN)),
+        (1, ("check", BROKEN)),
+        (1, ("check", SHAFT, BROKEN)),
+        (2, ()),
+        (2, ("solve",)),
+        (2, ("check",)),
+        (2, ("solve", SHAFT, *ONE)),
+        (2, ("solve", SHAFT, "--start", "X40. Z0.")),
+        (2, ("solve", SHAFT, "--control", "fanuc")),
+        (2, ("solve", SHAFT, "--units", "cubit")),
+        (2, ("solve", SHAFT, "--rules", "perhaps")),
+        (2, ("solve", SHAFT, "--format", "xml")),
+        (2, ("solve", "no such file.nc")),
+        (2, ("check", SHAFT, "no such file.nc")),
+        (2, ("explain", "no-such-rule")),
+        (2, ("weld", SHAFT)),
+    ],
+)
+def test_exit_status_is_0_without_errors_1_with_errors_and_2_if_it_could_not_run(status, arguments):
+    found, output, errors = run(*arguments)
+    assert found == status
+    assert bool(errors) == (status == 2)
+    assert bool(output) == (status != 2)
+
+
+@pytest.mark.parametrize(("status", "arguments"), [(0, (SHAFT,)), (1, (BROKEN,)), (2, ("nothing.nc",))])
+def test_exit_status_of_a_process_is_the_same(status, arguments):
+    assert run_process("solve", *arguments)[0] == status
+
+
+def test_unknown_control_lists_the_choices():
+    status, _, errors = run("solve", SHAFT, "--control", "fanuc")
+    assert status == 2
+    assert all(name in errors for name in DIALECTS)
+
+
+@pytest.mark.parametrize("command", ["solve", "check"])
+def test_program_that_looks_like_both_controls_is_not_guessed(command, save):
+    path = save(f"{GOOD}\n{PAIR}\n")
+    status, output, errors = run(command, path)
+    assert (status, output) == (2, "")
+    assert all(name in errors for name in DIALECTS)
+    assert run(command, path, "--control", "yasnac-lx3")[0] != 2
+
+
+# --- Text ------------------------------------------------------------------------------------------
+
+
+def test_text_of_a_solved_block_has_words_points_elements_and_a_summary():
+    _, output, _ = run("solve", *ONE)
+    for words in (
+        ("start X", "40.0000", "mm"),
+        ("A180.", "180.0000", "deg"),
+        ("V1", "point", "-30.0000", "40.0000"),
+        ("V2", "point", "-47.3205", "100.0000"),
+        ("line 1", "G01", "-27.1132", "40.0000"),
+        ("corner 1", "G02", "-31.4434", "45.0000"),
+        ("line 2", "G01", "-45.8771", "95.0000"),
+        ("corner 2", "G03", "-50.2073", "100.0000"),
+    ):
+        assert any(all(word in line for word in words) for line in output.splitlines()), words
+    assert output.splitlines()[-1] == "1 contour (1 solved); nothing found"
+
+
+def test_text_of_a_refused_block_marks_the_word_and_says_what_to_do():
+    _, output, _ = run("check", "--block", "G111 X100. A180. B120.", "--start", "X40. Z0.")
+    lines = output.splitlines()
+    assert lines[0].startswith("error[g111-line-1]: ")
+    listing = lines.index(next(line for line in lines if line.startswith("1 | ")))
+    column = lines[listing].index("A180.")
+    assert lines[listing + 1][column : column + 5] == "^^^^^"
+    assert any("help: add I or K" in line for line in lines)
+    assert any("Table 2.34 (printed)" in line for line in lines)
+
+
+def test_six_typical_mistakes_are_each_found_in_their_block():
+    found = solve_json(BROKEN)
+    lines = Path(BROKEN).read_text().splitlines()
+    worst = {}
+    for each in found["diagnostics"]:
+        if each["severity"] != "info":
+            worst.setdefault(lines[each["line"] - 1].split()[0], each["code"])
+    assert worst == {
+        "N120": "g111-line-1",
+        "N210": "g111-a-ignored",
+        "N310": "g111-corner-too-large",
+        "N410": "g111-reversed",
+        "N510": "g111-reversed",
+        "N610": "g111-x-and-u",
+    }
+    ignored = next(each for each in found["diagnostics"] if each["code"] == "g111-a-ignored")
+    assert ignored["values"]["expected"] == pytest.approx(140.1944, abs=1e-4)
+
+
+@pytest.mark.parametrize(("path", "control", "contours"), [(SHAFT, "yasnac-lx3", 7), (PLATE, "nct-99m", 6)])
+def test_realistic_program_is_solved_without_a_finding(path, control, contours):
+    found = solve_json(path)
+    assert (found["control"], found["diagnostics"]) == (control, [])
+    assert [each["status"] for each in found["contours"]] == ["solved"] * contours
+
+
+def test_every_rule_is_listed_and_explained():
+    _, listing, _ = run("rules")
+    for dialect in DIALECTS.values():
+        for rule in dialect.rules:
+            status, text, _ = run("explain", rule.code)
+            assert (status, rule.code in listing, text.startswith(rule.code)) == (0, True, True)
+
+
+def test_color_goes_only_to_who_wants_it(monkeypatch):
+    bad = ["check", "--block", "G111 X100. A180. B120.", "--start", "X40. Z0."]
+    monkeypatch.delenv("NO_COLOR", raising=False)
+    assert "\x1b[" in CliRunner().invoke(main, bad, color=True).output
+    assert "\x1b[" not in CliRunner().invoke(main, bad).output
+    assert "\x1b[" not in CliRunner(env={"NO_COLOR": "1"}).invoke(main, bad, color=True).output
+    assert b"\x1b[" not in run_process(*bad)[1]
+
+
+# --- JSON ------------------------------------------------------------------------------------------
+
+POINT = {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2}
+COUNT = {"type": "integer", "minimum": 1}
+
+
+def choice(*values):
+    return {"enum": list(values)}
+
+
+def record(optional=(), **properties):
+    return {
+        "type": "object",
+        "properties": properties,
+        "required": [name for name in properties if name not in optional],
+    }
+
+
+ELEMENT = {
+    "oneOf": [
+        record(kind={"const": "line"}, start=POINT, end=POINT),
+        record(
+            kind={"const": "arc"},
+            start=POINT,
+            end=POINT,
+            center=POINT,
+            radius={"type": "number", "exclusiveMinimum": 0},
+            turn=choice("cw", "ccw"),
+        ),
+    ]
+}
+CONTOUR = record(
+    line=COUNT,
+    lines={"type": "array", "items": COUNT, "minItems": 1, "uniqueItems": True},
+    status=choice("solved", "rejected", "underdetermined", "overdetermined", "conflicting", "no-solution"),
+    plane=choice(["Z", "X"], ["X", "Y"], ["Y", "Z"]),
+    start={"type": "array", "items": {"type": ["number", "null"]}, "minItems": 2, "maxItems": 2},
+    end={"anyOf": [POINT, {"type": "null"}]},
+    points={"type": "object", "patternProperties": {"^[VP][1-9]$": POINT}, "additionalProperties": False},
+    elements={"type": "array", "items": ELEMENT},
+    branch={"type": ["string", "null"]},
+    certificate=record(
+        kind=choice("exact", "unique", "verified", "unknown"), radius={"type": ["number", "null"], "minimum": 0}
+    ),
+)
+VALUES = {"type": "object", "additionalProperties": {"type": ["number", "null"]}}
+DIAGNOSTIC = record(
+    code={"type": "string", "pattern": "^[a-z0-9]+(-[a-z0-9]+)*$"},
+    severity=choice("error", "warning", "info"),
+    line={"type": "integer", "minimum": 0},
+    column=COUNT,
+    end_column=COUNT,
+    message={"type": "string", "pattern": "^[^\\n]+$"},
+    addresses={"type": "array", "items": {"type": "string", "pattern": "^,?[A-Z]$"}},
+    basis=choice("rule", "structural", "symbolic", "numerical"),
+    source=record(
+        manual={"type": "string"}, place={"type": "string"}, evidence=choice("printed", "derived", "assumed")
+    ),
+    values=VALUES,
+    fixes={
+        "type": "array",
+        "items": record(
+            description={"type": "string"},
+            replacement={"type": "string"},
+            applicability=choice("safe", "changes-contour", "placeholder"),
+        ),
+    },
+)
+SCHEMA = record(
+    schema={"const": "contoursolve/solve/1"},
+    control=choice("yasnac-lx3", "nct-99m", None),
+    contours={"type": "array", "items": CONTOUR},
+    diagnostics={"type": "array", "items": DIAGNOSTIC},
+)
+VALIDATOR = Draft202012Validator(SCHEMA)
+GAP = 1e-9
+"""mm."""
+
+
+def check_document(document, text):
+    """The contract beyond types: no gaps, arcs on their circles, findings inside the program."""
+    VALIDATOR.validate(document)
+    lines = text.split("\n")
+    for contour in document["contours"]:
+        elements, has_path = contour["elements"], contour["status"] in ("solved", "overdetermined")
+        assert contour["line"] == contour["lines"][0]
+        assert (contour["end"] is not None) == has_path == (contour["certificate"]["kind"] != "unknown")
+        assert has_path or not (elements or contour["points"] or contour["branch"])
+        here = contour["start"]
+        for element in elements:
+            assert gap(here, element["start"]) <= GAP < gap(element["start"], element["end"])
+            here = element["end"]
+            if element["kind"] == "arc":
+                assert gap(element["center"], element["start"]) == pytest.approx(element["radius"], abs=GAP)
+                assert gap(element["center"], element["end"]) == pytest.approx(element["radius"], abs=GAP)
+        assert not has_path or gap(here, contour["end"]) <= GAP
+    for each in document["diagnostics"]:
+        assert each["line"] <= len(lines)
+        assert each["column"] < each["end_column"] <= max(len(lines[each["line"] - 1]), 1) + 1
+
+
+def gap(a, b):
+    return hypot(a[0] - b[0], a[1] - b[1])
+
+
+@pytest.mark.parametrize("rules", ["enforce", "warn", "off"])
+@pytest.mark.parametrize("path", [SHAFT, BROKEN, PLATE], ids=["shaft", "broken", "plate"])
+def test_json_of_a_program_keeps_the_contract(path, rules):
+    check_document(solve_json(path, "--rules", rules), Path(path).read_text())
+
+
+def test_json_of_the_worked_example_is_what_the_contract_shows():
+    (contour,) = solve_json(*ONE)["contours"]
+    assert contour["plane"] == ["Z", "X"]
+    assert contour["start"] == [0, 20]
+    assert contour["end"] == pytest.approx([-50.2073, 50], abs=5e-5)
+    assert contour["points"]["V1"] == pytest.approx([-30, 20])
+    assert [each["kind"] for each in contour["elements"]] == ["line", "arc", "line", "arc"]
+    assert [each.get("turn") for each in contour["elements"]] == [None, "cw", None, "ccw"]
+    assert contour["branch"] is None
+
+
+def test_json_of_a_circle_and_a_line_names_its_branch_and_turns_the_right_way():
+    for sign, branch, crossing in (("-1", "nearer", (40, 30)), ("1", "farther", (-30, 40))):
+        (contour,) = solve_json("--block", MILL + PAIR.removeprefix(MILL).replace("Q-1", f"Q{sign}"))["contours"]
+        assert (contour["branch"], contour["plane"]) == (branch, ["X", "Y"])
+        assert contour["points"]["P1"] == pytest.approx(crossing, abs=2e-4)
+        arc = contour["elements"][0]
+        begin, end = (atan2(arc[at][1], arc[at][0]) for at in ("start", "end"))
+        assert arc["turn"] == "ccw"
+        assert 0 < (end - begin) % tau < tau / 2
+
+
+def test_json_of_check_names_each_finding_and_its_program():
+    status, output, _ = run("check", SHAFT, BROKEN, "--format", "json")
+    document = json.loads(output)
+    assert status == 1
+    assert [each["program"] for each in document["programs"]] == [SHAFT, BROKEN]
+    findings = document["diagnostics"]
+    assert {each["program"] for each in findings} == {BROKEN}
+    Draft202012Validator({"type": "array", "items": DIAGNOSTIC}).validate(findings)
+
+
+def test_two_processes_write_the_same_bytes():
+    for path in (BROKEN, PLATE):
+        for form in ("text", "json"):
+            first = run_process("solve", path, "--format", form, PYTHONHASHSEED="1")
+            assert first == run_process("solve", path, "--format", form, PYTHONHASHSEED="2")
+
+
+# --- Bad inputs ------------------------------------------------------------------------------------
+
+BAD = {
+    # What a word that cannot be read would have said is not known: it is no finding that it is missing.
+    "nothing at all": ("", "no-contour"),
+    "blank lines": ("\n\n  \n", "no-contour"),
+    "no contour block": ("%\nO1\nG00 X40. Z0.\nG01 Z-30. F0.2\nM30\n%", "no-contour"),
+    "an address twice": (START + "G111 A10. A20. K-30. B120. X100.", "address-repeated"),
+    "an address twice with the same value": (START + "G111 A180. A180. K-30. B120. X100.", "address-repeated"),
+    "a word without a number": (START + "G111 X100. A180. K B120.", "number-missing"),
+    "two decimal points": (START + "G111 X100. A180. K-1.2.3 B120.", "number-malformed"),
+    "a decimal comma": (START + "G111 X100. A180. K-30,5 B120.", "number-malformed"),
+    "two signs": (START + "G111 X100. A180. K--30. B120.", "number-malformed"),
+    "NaN": (START + "G111 X100. A180. KNaN B120.", "number-missing"),
+    "infinity": (START + "G111 X100. A180. K-inf B120.", "number-malformed number-missing"),
+    "1e400": (START + "G111 X100. A180. K1e400 B120.", "number-malformed"),
+    "400 digits": (START + f"G111 X100. A180. K{'9' * 400} B120.", "number-too-long"),
+    "400 decimals": (START + f"G111 X100. A180. K-0.{'0' * 400}1 B120.", "number-too-long"),
+    "a light year": (START + "G111 X100. A180. K-30. B120. Q9460730472580800.", "value-too-large"),
+    "an address that G111 does not know": (START + "G111 X100. A180. K-30. B120. R5.", "address-unknown"),
+    "a comma": (START + "G111 X100. A180. K-30. B120. ,", "comma-without-address"),
+    "a dollar": (START + "G111 X100. A180. $ K-30. B120.", "stray-character"),
+    "a Greek letter": (START + "G111 X100. A180. \N{GREEK CAPITAL LETTER BETA}120. K-30. B120.", "stray-character"),
+    "Arabic digits": (START + "G111 X100. A180. K-30. B120. Q\u0661\u0662.", "number-missing stray-character"),
+    "a variable": (START + "G111 X100. A180. K#101 B120.", "value-variable"),
+    "an expression": (START + "G111 X100. A180. K[#1+2] B120.", "value-variable"),
+    "G01 in the block": (START + "G01 G111 X100. A180. K-30. B120.", "g111-other-g"),
+    "G04 in the block": (START + "G111 G04 X100. A180. K-30. B120.", "g111-other-g"),
+    "G28 in the block": (START + "G111 G28 X100. A180. K-30. B120.", "g111-other-g"),
+    "M in the block": (GOOD + " M08", "g111-m-s-t"),
+    "S in the block": (GOOD + " S500", "g111-m-s-t"),
+    "T in the block": (GOOD + " T0101", "g111-m-s-t"),
+    "no start point": ("G111 X100. A180. K-30. B120.", "position-unknown"),
+    "line over-defined without G41 or G42": (PAIR.replace("G42 ", ""), "nct-compensation-off"),
+    "line over-defined after G40": (PAIR.replace("G3", "G40 G3"), "nct-compensation-off"),
+    "line over-defined after a line": (MILL + "G1 X60 Y10\nG1 X-50 Y42.857 ,A171.87 Q-1", "nct-line-without-arc"),
+    "line over-defined at the beginning": (
+        "G17 G41\nG1 X-50 Y42.857 ,A171.87 Q-1",
+        "nct-line-without-arc position-unknown",
+    ),
+    "centre of another plane": (PAIR.replace("R50", "I-50 K0"), "nct-center-outside-plane"),
+    "centre of another plane only": (
+        PAIR.replace("X-50 Y0 R50", "K-50"),
+        "nct-center-outside-plane nct-circle-undefined",
+    ),
+    "radius below half the chord": (PAIR.replace("R50", "R49.999"), "nct-radius-too-small"),
+    "radius and no point": (PAIR.replace("X-50 Y0 R50", "R50"), "nct-radius-without-point"),
+    "radius zero": (PAIR.replace("R50", "R0"), "nct-radius-zero"),
+    "Q0": (PAIR.replace("Q-1", "Q0"), "nct-q-zero"),
+    "Q-0": (PAIR.replace("Q-1", "Q-0"), "nct-q-zero"),
+    "no Q": (PAIR.replace(" Q-1", ""), "nct-q-missing"),
+    "a line that misses the circle by 1 nm": (
+        PAIR.replace("X-50 Y42.857 ,A171.87", "X-60 Y50.000001 ,A180"),
+        "nct-circle-missed",
+    ),
+    "NCT: two decimal points": (PAIR.replace("42.857", "42.8.57"), "number-malformed"),
+    "NCT: an address twice": (PAIR.replace("R50", "R50 R50"), "address-repeated"),
+    "NCT: an unknown address": (PAIR.replace("R50", "R50 W1"), "address-unknown"),
+    "UTF-8 byte order mark and a bad word": ("\ufeff" + START + "G111 X100. A180. K B120.", "number-missing"),
+    "1 MB of words": (START + "G111 " + "A10. " * 200_000, "block-too-long"),
+    "1 MB of one letter": ("X" * 1_000_000, "block-too-long"),
+    "1 MB of digits": (START + "G111 A" + "9" * 1_000_000, "block-too-long"),
+    "1 MB of brackets": (START + "G111 A" + "[" * 1_000_000, "block-too-long"),
+    "1 MB of commas": (START + "G111 " + "," * 1_000_000, "block-too-long"),
+    "1 MB of an open comment": (GOOD + " (" + "(" * 1_000_000, "comment-not-closed"),
+    "5,000 bad lines": ("G111 A\n" * 5_000, "number-missing position-unknown"),
+}
+WARNINGS = {"comment-not-closed"}
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_bad_input_gives_one_clear_finding(name, save):
+    text, expected = BAD[name]
+    path, began = save(text), time.perf_counter()
+    document = solve_json(path)
+    assert time.perf_counter() - began < 5
+    check_document(document, text)
+    is_harmless = expected in WARNINGS
+    wanted = "warning" if is_harmless else "error"
+    findings = [each for each in document["diagnostics"] if each["severity"] == wanted]
+    assert {each["code"] for each in findings} == set(expected.split())
+    assert max(len(each["message"]) for each in findings) < 400
+    assert is_harmless or not any(each["end"] for each in document["contours"])
+
+
+@pytest.mark.parametrize("name", [name for name, (text, _) in BAD.items() if len(text) > 30_000])
+def test_listing_of_a_huge_program_is_quick_and_its_lines_are_short(name, save):
+    text, _ = BAD[name]
+    path, began = save(text), time.perf_counter()
+    for command in ("solve", "check"):
+        status, output, _ = run(command, path)
+        assert status in (0, 1)
+        assert max(map(len, output.splitlines())) < 500
+    assert time.perf_counter() - began < 20
+
+
+def test_program_without_a_contour_is_an_error_to_solve_and_a_warning_to_check(save):
+    path = save("G00 X40. Z0.\n")
+    assert run("solve", path)[0] == 1
+    status, output, _ = run("check", path)
+    assert (status, output.startswith("warning[no-contour]")) == (0, True)
+
+
+@pytest.mark.parametrize("command", ["solve", "check"])
+@pytest.mark.parametrize("output", ["text", "json"])
+def test_unreadable_file_is_one_line_on_standard_error(command, output, save, tmp_path):
+    binaries = {
+        "an executable": b"\x7fELF\x02\x01\x01\x00" + bytes(range(256)),
+        "an archive": b"PK\x03\x04\x14\x00\x00\x00",
+        "UTF-16": GOOD.encode("utf-16"),
+    }
+    for name, content in binaries.items():
+        status, found, errors = run(command, save(content), "--format", output)
+        assert (status, found, errors.count("\n")) == (2, "", 1), name
+        assert "not a text file" in errors
+    for path, reason in ((tmp_path / "missing.nc", "no such file"), (tmp_path, "is a directory")):
+        status, found, errors = run(command, path, "--format", output)
+        assert (status, found, errors.count("\n")) == (2, "", 1)
+        assert reason in errors
+        assert str(path) in errors
+
+
+# --- Ways to give a program ------------------------------------------------------------------------
+
+SMALL = "(SHAFT \N{LATIN CAPITAL LETTER O WITH DIAERESIS} 40)\nG00 X40. Z0.\nG111 X100. A180. K-30. B120. P5. Q5.\nM30"
+ENCODINGS = {
+    "UTF-8": (SMALL + "\n").encode(),
+    "UTF-8 with a byte order mark": (SMALL + "\n").encode("utf-8-sig"),
+    "Latin-1": (SMALL + "\n").encode("latin-1"),
+    "CRLF": (SMALL + "\n").replace("\n", "\r\n").encode(),
+    "CR": (SMALL + "\n").replace("\n", "\r").encode(),
+    "no end of the last line": SMALL.encode(),
+    "lower case": SMALL.lower().encode(),
+    "no blanks": SMALL.replace(" ", "").encode(),
+    "blanks inside words": SMALL.replace("X100.", "X 100.").encode(),
+    "tabs": SMALL.replace(" ", "\t").encode(),
+    "a DOS end of file": (SMALL + "\r\n\x1a").encode(),
+    "tape codes": b"\x12%\n".replace(b"\n", b" ") + SMALL.encode() + b"\x14",
+}
+
+
+@pytest.mark.parametrize("name", ENCODINGS)
+def test_same_program_in_any_encoding_gives_the_same_contours(name, save):
+    expected, found = solve_json(save(SMALL)), solve_json(save(ENCODINGS[name]))
+    assert (found["contours"], found["diagnostics"]) == (expected["contours"], [])
+
+
+def test_standard_input_is_read_like_a_file(save):
+    for name in ("UTF-8", "Latin-1", "CRLF"):
+        from_file = solve_json(save(ENCODINGS[name]))
+        assert solve_json("-", stdin=ENCODINGS[name]) == {**from_file, "program": "<standard input>"}
+        assert run_process("solve", "-", "--format", "json", stdin=ENCODINGS[name])[0] == 0
+    assert run("check", "-", stdin=b"\x00\x01")[0] == 2
+    assert run("check", "-", stdin=b"")[0] == 0
+
+
+def test_block_with_start_is_the_same_as_a_program(save):
+    path = save("G00 X40. Z0.\nG111 X100. A180. K-30. B120. P5. Q5.")
+    (expected,), (found,) = solve_json(path)["contours"], solve_json(*ONE)["contours"]
+    assert found == {**expected, "line": 1, "lines": [1]}
+
+
+def test_blocks_follow_each_other():
+    blocks = (START.strip(), "G111 X100. A180. K-30. B120.", "G111 X120. B90. I0 K-5.")
+    first, second = solve_json(*(part for block in blocks for part in ("--block", block)))["contours"]
+    assert (first["line"], second["line"]) == (2, 3)
+    assert second["start"] == first["end"]
+    assert second["end"] == pytest.approx([first["end"][0] - 5, 60])
+
+
+@pytest.mark.parametrize(
+    ("arguments", "start"),
+    [
+        (("--start", "X40. Z0."), [0, 20]),
+        (("--start", "x40.z0."), [0, 20]),
+        (("--start", "G00 X40000 Z0"), [0, 20]),
+        (("--start", "X2. Z0.", "--units", "inch"), [0, 25.4]),
+        (("--start", "G20 X2. Z0."), [0, 25.4]),
+        (("--start", "X40."), [None, 20]),
+        (("--start", ""), [None, None]),
+        (("--start", "Z 0. X"), [0, None]),
+        ((), [None, None]),
+    ],
+)
+def test_start_is_read_as_the_control_reads_a_block(arguments, start):
+    document = solve_json("--block", "G111 X100. A180. K-1. B120.", *arguments)
+    assert document["contours"][0]["start"] == start
+    assert ("position-unknown" in {each["code"] for each in document["diagnostics"]}) == (None in start)
+
+
+def test_inches_are_shown_in_inches_and_written_to_json_in_mm():
+    block = ("--block", "G111 X4. A180. K-1. B120.", "--start", "X2. Z0.", "--units", "inch")
+    assert solve_json(*block)["contours"][0]["points"]["V1"] == pytest.approx([-25.4, 25.4])
+    assert "-1.00000" in run("solve", *block)[1]
+
+
+def test_rules_choose_whether_a_determined_block_that_the_manual_refuses_is_solved():
+    block = ("--block", "G111 X100. A180. K-30. B120. U60.", "--start", "X40. Z0.")
+    documents = {rules: solve_json(*block, "--rules", rules) for rules in ("enforce", "warn", "off")}
+    found = {
+        rules: (document["contours"][0]["status"], {each["code"]: each["severity"] for each in document["diagnostics"]})
+        for rules, document in documents.items()
+    }
+    assert found["enforce"][0] == "rejected"
+    assert found["enforce"][1]["g111-x-and-u"] == "error"
+    assert found["warn"][0] == "overdetermined"
+    assert found["warn"][1]["g111-x-and-u"] == "warning"
+    assert found["off"] == ("overdetermined", {"words-redundant": "warning"})

@@ -1,0 +1,88 @@
+"""The floors of the house: a room imports only from lower floors; some imports are for some rooms only."""
+
+import ast
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+import contoursolve
+
+FLOORS = (
+    "source tolerance",
+    "diagnostic",
+    "syntax",
+    "model",
+    "reading rules constraints",
+    "backends",
+    "analysis",
+    "solving",
+    "contour",
+    "explain",
+    "examine",
+    "dialects",
+    "pipeline",
+    "output api",
+    "__init__",
+    "cli",
+    "__main__",
+)
+FLOOR_OF = {room: number for number, rooms in enumerate(FLOORS) for room in rooms.split()}
+HOUSE = Path(contoursolve.__file__).parent
+MODULES = sorted(HOUSE.rglob("*.py"))
+
+
+def room_of(module: Path) -> str:
+    return module.relative_to(HOUSE).with_suffix("").parts[0]
+
+
+def imports(module: Path) -> Iterator[str]:
+    """Full names of everything imported anywhere in a module."""
+    for node in ast.walk(ast.parse(module.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f"{module}: a relative import hides the room"
+            yield from (f"{node.module}.{alias.name}" for alias in node.names)
+
+
+def rooms(module: Path) -> Iterator[str]:
+    for name in imports(module):
+        house, _, rest = name.partition(".")
+        if house == "contoursolve":
+            room = rest.split(".")[0]
+            yield room if room in FLOOR_OF else "__init__"
+
+
+@pytest.mark.parametrize("module", MODULES, ids=lambda module: str(module.relative_to(HOUSE)))
+def test_a_room_imports_only_from_lower_floors(module):
+    own = room_of(module)
+    assert own in FLOOR_OF, f"the room {own} has no floor"
+    assert [room for room in rooms(module) if room != own and FLOOR_OF[room] >= FLOOR_OF[own]] == []
+
+
+def test_only_backends_import_sympy_and_casadi():
+    outside = [
+        str(module)
+        for module in MODULES
+        for name in imports(module)
+        if name.split(".")[0] in ("sympy", "casadi", "flint", "scipy") and room_of(module) != "backends"
+    ]
+    assert outside == []
+
+
+G111 = "contoursolve.solve('G111 X100. A180. K-30. {}', start='X40. Z0.').answers[0]"
+PAIR = r"contoursolve.solve('G17 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q-1').answers[0]"
+
+
+@pytest.mark.parametrize(
+    "use",
+    ["pass", f"{G111.format('B120. P5.')}.contour.end", f"{PAIR}.contour.end", f"{G111.format('')}.diagnostics[0]"],
+    ids=["importing the package", "solving G111", "solving a circle and a line", "refusing G111"],
+)
+def test_neither_sympy_nor_scipy_is_needed_for(use):
+    program = f"import sys, contoursolve\n{use}\nprint(*sorted({{'sympy', 'scipy'}} & sys.modules.keys()))"
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert done.stdout.split() == []

@@ -1,0 +1,83 @@
+"""Every row of the catalogue proves itself: its rejected examples raise it, its accepted ones do not."""
+
+import pytest
+
+from contoursolve import Result, UnknownControlError, solve
+from contoursolve.dialects import DIALECTS
+
+WITHOUT_REJECTED_EXAMPLE = {
+    "not-verified": "an answer that fails its own equations is an error of contoursolve; no block is known to cause it",
+}
+
+ALARMS = {
+    "yasnac-lx3": {"144", "145", "146"},
+    "nct-99m": {"3011", "3012", "3014", "3017", "3081", "3084"},
+}
+"""The alarm numbers on the pages that we have; no other may be invented."""
+
+SHARED = {id(rule) for rule in DIALECTS["yasnac-lx3"].rules} & {id(rule) for rule in DIALECTS["nct-99m"].rules}
+RULES = {(name, rule.code): rule for name, dialect in DIALECTS.items() for rule in dialect.rules}
+
+
+def examples(kind):
+    """(control, code, program); the rows that all controls share once, with the control that the words show."""
+    shared = {id(rule): rule for rule in RULES.values() if id(rule) in SHARED}
+    rows = [(None, "common", rule) for rule in shared.values()]
+    rows += [(control, control, rule) for (control, _), rule in RULES.items() if id(rule) not in SHARED]
+    return [
+        pytest.param(control, rule.code, program, id=f"{name}-{rule.code}-{number}")
+        for control, name, rule in rows
+        for number, program in enumerate(getattr(rule, kind), 1)
+    ]
+
+
+def examine(program: str, control: str | None) -> Result:
+    """The control of a common row's example is the one that its words show, else the lathe."""
+    try:
+        result = solve(program, control=control)
+    except UnknownControlError:
+        return solve(program, control="yasnac-lx3")
+    return result if result.control else solve(program, control="yasnac-lx3")
+
+
+@pytest.mark.parametrize(("control", "code", "program"), examples("rejected"))
+def test_rejected_example_raises_its_code(control, code, program):
+    found = examine(program, control).diagnostics
+    assert code in {each.code for each in found}
+    for each in found:
+        line = program.split("\n")[each.span.line - 1]
+        assert 1 <= each.span.column < each.span.end_column <= max(len(line), 1) + 1
+        assert not set("{}") & set(each.message + each.help)
+        assert "None" not in each.message + each.help
+        assert "\n" not in each.message
+
+
+@pytest.mark.parametrize(("control", "code", "program"), examples("accepted"))
+def test_accepted_example_raises_no_error_and_not_its_code(control, code, program):
+    result = examine(program, control)
+    assert code not in {each.code for each in result.diagnostics}
+    assert not result.has_errors
+
+
+def test_every_rule_has_examples_of_both_kinds():
+    assert {code for (_, code), rule in RULES.items() if not rule.accepted} == set()
+    assert {code for (_, code), rule in RULES.items() if not rule.rejected} == set(WITHOUT_REJECTED_EXAMPLE)
+
+
+def test_every_rule_has_one_code_in_its_control():
+    for dialect in DIALECTS.values():
+        codes = [rule.code for rule in dialect.rules]
+        assert sorted(codes) == sorted(set(codes))
+
+
+def test_no_alarm_number_is_invented():
+    for (control, _), rule in RULES.items():
+        assert rule.alarm is None or rule.alarm.number.split()[0] in ALARMS[control]
+
+
+def test_every_event_has_a_row_in_every_control_that_it_can_happen_in():
+    """A finding without a row would be a crash; events that only one control knows are in one table."""
+    common = {rule.about for rule in RULES.values() if id(rule) in SHARED and rule.about}
+    for kind in {type(about) for about in common}:
+        missing = set(kind) - {rule.about for rule in RULES.values()}
+        assert not missing
