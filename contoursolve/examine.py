@@ -58,6 +58,7 @@ class Answer:
 
     form: str
     lines: tuple[int, ...]
+    claim: Claim
     status: Status
     plane: Plane
     unit: Length
@@ -116,6 +117,7 @@ def examine(claim: Claim, rules: tuple[Rule, ...], policy: Policy) -> Answer:
     return Answer(
         form=claim.form.name,
         lines=tuple(block.line for block in claim.blocks),
+        claim=claim,
         status=notebook.status,
         plane=profile.plane,
         unit=profile.unit,
@@ -255,7 +257,8 @@ def _on_line(span: Span | None) -> str:
 
 
 def _explain_skippable(context: Context, claim: Claim) -> Iterator[Diagnostic]:
-    if any(claim.before.axes[axis].is_skippable for axis in claim.before.plane.axes):
+    skippable = {block.is_skippable for block in claim.blocks}
+    if len(skippable) > 1 or any(claim.before.axes[axis].is_skippable for axis in claim.before.plane.axes):
         yield report(context, context.row(Trouble.SKIPPABLE_START), Basis.RULE, [])
 
 

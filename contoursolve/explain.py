@@ -29,7 +29,7 @@ class Words:
     def __format__(self, spec: str) -> str:
         wanted = (spec,) if spec in dict(self.by_name) else spec.split()
         texts = [text for name, text in self.by_name if not spec or name in wanted]
-        return _shorten(_enumerate(texts)) or "the block"
+        return _shorten(join(texts)) or "the block"
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +39,7 @@ class Present:
     by_name: Mapping[str, str]
 
     def __format__(self, spec: str) -> str:
-        return _enumerate([self.by_name[name] for name in spec.split() if name in self.by_name]) or "none of them"
+        return join([self.by_name[name] for name in spec.split() if name in self.by_name]) or "none of them"
 
 
 @dataclass(frozen=True, slots=True)
@@ -236,10 +236,11 @@ def _unknowns_text(names: Sequence[str], profile: Profile) -> str:
     for name in names:
         point, _, axis = name.partition(".")
         points.setdefault(point, []).extend([profile.plane.axes[int(axis)]] if axis else [])
-    return _enumerate([f"{point} ({_enumerate(axes)})" if axes else point for point, axes in points.items()])
+    return join([f"{point} ({join(axes)})" if axes else point for point, axes in points.items()])
 
 
-def _enumerate(texts: Sequence[str]) -> str:
+def join(texts: Sequence[str]) -> str:
+    """Texts as a list in a sentence: `A, B and C`."""
     return " and ".join(filter(None, (", ".join(texts[:-1]), *texts[-1:])))
 
 

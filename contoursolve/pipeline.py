@@ -141,9 +141,11 @@ def _state_after(claim: Claim, answer: Answer, dialect: Dialect) -> State:
     """
     state, last = claim.after, claim.blocks[-1]
     if answer.contour:
-        ends = zip(state.plane.axes, answer.contour.end, strict=True)
+        is_skippable = any(block.is_skippable for block in claim.blocks)
+        is_skippable |= any(claim.before.axes[axis].is_skippable for axis in state.plane.axes)
+        ends = zip(state.plane.axes, map(Decimal, answer.contour.end), strict=True)
         return state.move(
-            {axis: Position(Decimal(value), "the end of this contour", last.span) for axis, value in ends}
+            {axis: Position(value, "the end of this contour", last.span, is_skippable) for axis, value in ends}
         )
     addresses = dialect.modes.lexicon.addresses
     words = [word for word in last.words if word.address in addresses and addresses[word.address].axis]

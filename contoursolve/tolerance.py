@@ -13,8 +13,9 @@ REGULAR = 1e-12
 the rounding of a sine and 10 million times smaller than the sine of the least angle, 0.001 deg."""
 
 TOUCHING = 16 * 2.0**-52
-"""1 (share of the radius). A line whose distance to the centre differs from the radius by less
-than this touches the circle: the difference is then below the rounding of the distance itself."""
+"""1 (share of the radius plus the coordinates, counted from the start point). A line whose distance to the
+centre differs from the radius by less than this touches the circle: the difference is then below the
+rounding of the distance itself."""
 
 ERROR_BOUND_WARNING = 1e-6
 """mm. A contour whose coordinates may be off by more than this is reported: a thousandth of the

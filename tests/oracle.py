@@ -119,7 +119,7 @@ def _is_legal(words: Words) -> bool:
         not any(words.keys() >= pair for pair in ({"X", "U"}, {"Z", "W"}, {"C", "P"}, {"D", "Q"}))
         and all(words.get(name, 0) >= 0 for name in "CPDQ")
         and all(abs(words.get(name, 0)) <= 360 for name in "AB")
-        and (first >= 2 and sum(second) >= 2 or first == 1 and all(second))
+        and ((first >= 2 and sum(second) >= 2) or (first == 1 and all(second)))
         and not (second[1] and second[2] and words.keys() & {"D", "Q"})
     )
 

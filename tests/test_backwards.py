@@ -5,11 +5,11 @@ as printed. Words have 12 decimals, so that rounding them moves a point by less 
 Blocks that nobody drew are held against the oracle's verdict.
 """
 
+from cmath import phase
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from decimal import Decimal
 from itertools import product
-from cmath import phase
 from math import degrees
 from random import Random
 from typing import Any, NamedTuple
@@ -239,7 +239,6 @@ def test_g111_is_refused_or_solved_as_the_sheet_says_whatever_its_words() -> Non
     blocks = [random_words(rng) for _ in range(6_000)]
     cases = [g111_case(rng, complex(rng.uniform(-50, 50), rng.uniform(0, 60)), words) for words in blocks]
     compared = assert_verdicts_agree(cases, LATHE)
-    print(compared, len(cases)-compared.total())
     assert compared.total() > 0.999 * len(cases)
     assert min(compared[status] for status in ("solved", "rejected", "no-solution")) > 700
 
@@ -262,7 +261,6 @@ def test_g111_along_the_axes_and_at_45_degrees_is_judged_as_the_sheet_says() -> 
             words[word] = rng.choice(("0.", "5.", "10.", "20.", "30.", "40."))
         cases.append(g111_case(rng, start, words))
     compared = assert_verdicts_agree(cases, LATHE)
-    print(compared)
     assert compared.total() == len(cases)
     assert min(compared[status] for status in ("solved", "no-solution", "underdetermined")) > 1_000
 
@@ -385,7 +383,6 @@ def test_every_drawn_arc_and_line_is_found_again() -> None:
 def test_an_arc_and_line_are_refused_or_solved_as_the_sheet_says_whatever_their_words() -> None:
     rng = Random(3014)
     compared = assert_verdicts_agree([random_pair(rng) for _ in range(3_000)], MILL)
-    print(compared)
     assert compared.total() > 0.999 * 3_000
     assert min(compared[status] for status in ("solved", "rejected", "no-solution", "conflicting")) > 100
 
@@ -408,7 +405,6 @@ def test_an_arc_and_line_on_round_numbers_are_judged_as_the_sheet_says() -> None
         line = {first: f"{end.real:.1f}", second: f"{end.imag:.1f}", ",A": f"{angle}.", "Q": pair.side[1:] + "1"}
         cases.append(pair_case(rng, pair, start + center, arc, line))
     compared = assert_verdicts_agree(cases, MILL)
-    print(compared, len(cases))
     assert compared.total() > 0.95 * len(cases)
     assert min(compared[status] for status in ("solved", "no-solution")) > 700
 
@@ -432,7 +428,8 @@ def random_pair(rng: Random) -> Case:
         center = complex(rng.uniform(-90, 90), rng.uniform(-90, 90))
         point = center - center * heading(rng.uniform(0, 360)) * rng.choice((1, 1, 1 + 1e-5, 1.01))
         point += 0 if pair.is_incremental else start
-        arc = {first: printed(point.real), second: printed(point.imag), i: printed(center.real), j: printed(center.imag)}
+        arc = {first: printed(point.real), second: printed(point.imag)}
+        arc |= {i: printed(center.real), j: printed(center.imag)}
     elif pair.circle.startswith("center"):
         arc |= {i: length(), j: length()}
     else:

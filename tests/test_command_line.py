@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 import time
+from decimal import Decimal
 from math import atan2, hypot, tau
 from pathlib import Path
 
@@ -330,6 +331,15 @@ def test_json_of_a_circle_and_a_line_names_its_branch_and_turns_the_right_way():
         assert 0 < (end - begin) % tau < tau / 2
 
 
+@pytest.mark.parametrize("circle", ["I-5000 J0", "X-5000 Y0 I-5000 J0", "X0 Y5000 R5000", "X-5000 Y0 R5000"])
+@pytest.mark.parametrize("height", ["4999.99", "4999.999999", "4999.9999999999"])
+def test_radius_of_the_certificate_bounds_the_error_of_a_line_that_almost_touches(circle, height):
+    blocks = ("G17 G41 G0 X5000 Y0", f"G3 {circle}", f"G1 X-6000 Y{height} ,A180 Q-1")
+    (contour,) = solve_json(*(part for block in blocks for part in ("--block", block)))["contours"]
+    exact = float((Decimal(5000) ** 2 - Decimal(height) ** 2).sqrt())
+    assert abs(contour["points"]["P1"][0] - exact) <= contour["certificate"]["radius"]
+
+
 def test_json_of_check_names_each_finding_and_its_program():
     status, output, _ = run("check", SHAFT, BROKEN, "--format", "json")
     document = json.loads(output)
@@ -387,6 +397,7 @@ BAD = {
         "G17 G41\nG1 X-50 Y42.857 ,A171.87 Q-1",
         "nct-line-without-arc position-unknown",
     ),
+    "an M block between the arc and the line": (PAIR.replace("\nG1 X-50", "\nM8\nG1 X-50"), "nct-line-without-arc"),
     "centre of another plane": (PAIR.replace("R50", "I-50 K0"), "nct-center-outside-plane"),
     "centre of another plane only": (
         PAIR.replace("X-50 Y0 R50", "K-50"),

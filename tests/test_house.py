@@ -23,6 +23,7 @@ FLOORS = (
     "explain",
     "examine",
     "dialects",
+    "diagnosis",
     "pipeline",
     "output api",
     "__init__",

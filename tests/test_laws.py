@@ -12,6 +12,7 @@ from math import atan2, degrees, hypot
 from random import Random
 from typing import Any
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from oracle import PLANES
@@ -77,7 +78,8 @@ def angle_of(first: Decimal, second: Decimal) -> Decimal:
 @st.composite
 def tapers(draw: st.DrawFn) -> Problem:
     z, x, k, i, w, u = (draw(GRID) for _ in range(6))
-    true = {"A": angle_of(k, i), "I": i, "K": k, "B": angle_of(w - k, u / 2 - i), "X": x + u, "U": u, "Z": z + w, "W": w}
+    true = {"A": angle_of(k, i), "I": i, "K": k, "B": angle_of(w - k, u / 2 - i)}
+    true |= {"X": x + u, "U": u, "Z": z + w, "W": w}
     first = draw(st.sampled_from(("AI", "AK", "IK", "AIK")))
     second = draw(st.sampled_from(("BX", "BU", "BZ", "BW", "XZ", "XW", "UZ", "UW", "BXZ", "BUW")))
     if len(second) == 3 and draw(st.booleans()):
@@ -90,7 +92,7 @@ def tapers(draw: st.DrawFn) -> Problem:
     if draw(ONE_IN_FOUR):
         wrong = draw(st.sampled_from(names))
         words[wrong] = draw(ANGLES if wrong in "AB" else GRID)
-    has_corner2 = len(second) == 2 and "B" in second or draw(ONE_IN_FOUR)
+    has_corner2 = (len(second) == 2 and "B" in second) or draw(ONE_IN_FOUR)
     for name in draw(st.sampled_from(("", "", "C", "P", "D", "Q", "CD", "CQ", "PD", "PQ", "CP", "DQ"))):
         if name in "CP" or has_corner2:
             words[name] = draw(SIZES)
@@ -325,3 +327,36 @@ def test_a_lathe_number_without_a_point_counts_thousandths(problem: Problem) -> 
     ]
     answer = problem.answer("\n".join(lines))
     assert (answer.status, answer.contour) == (problem.answer().status, problem.answer().contour)
+
+
+# Exact decimals that binary fractions miss by a little.
+PLACES = ("0", "66.6", "1234.567", "-7777.7")
+RADII = ("50", "12.3", "2.3", "7.7")
+
+
+@pytest.mark.parametrize("place", PLACES)
+def test_a_half_circle_by_its_radius_is_solved_wherever_it_lies(place: str) -> None:
+    at = Decimal(place)
+    for radius in map(Decimal, RADII):
+        program = (
+            f"G17 G42 G0 X{at} Y{at}\nG3 X{at - 2 * radius} Y{at} R{radius}\n"
+            f"G1 X{at - radius} Y{at + 3 * radius} ,A90 Q1"
+        )
+        (answer,) = solve(program, control=MILL).answers
+        assert answer.status.value == "solved", program
+        crossing = answer.contour.points["P1"]
+        # The centre lies off the chord by the root of the rounding.
+        assert hypot(crossing[0] - float(at - radius), crossing[1] - float(at + radius)) <= 1e-4, program
+
+
+@pytest.mark.parametrize("place", PLACES)
+def test_a_tangent_line_touches_the_circle_wherever_it_lies(place: str) -> None:
+    at = Decimal(place)
+    for radius in map(Decimal, RADII):
+        for angle, side, ahead in (("0", "1", 20), ("0", "-1", 20), ("180", "1", -20)):
+            program = (
+                f"G17 G42 G0 X{at} Y{at}\nG3 I{-radius} J0\nG1 X{at - radius + ahead} Y{at + radius} ,A{angle} Q{side}"
+            )
+            (answer,) = solve(program, control=MILL).answers
+            assert answer.status.value == "solved", program
+            assert [each.code for each in answer.diagnostics] == ["nct-circle-touched"], program

@@ -17,7 +17,7 @@ def start_of(result: Result) -> dict[str, float | None]:
 
 
 def check(result: Result, expected: dict[str, float | None], line: int | tuple[int, ...] | None) -> None:
-    """`line` is the one (or are the ones) that makes the coordinates unknown that are expected to be None."""
+    """`line` (one or several) made the coordinates unknown that are expected to be None."""
     lines = line if isinstance(line, tuple) else (line,) if line else ()
     assert start_of(result) == pytest.approx(expected)
     lost = [each for each in result.answers[-1].diagnostics if each.code == "position-unknown"]
@@ -25,7 +25,7 @@ def check(result: Result, expected: dict[str, float | None], line: int | tuple[i
     assert [each.addresses for each in lost] == ([unknown] if unknown else [])
     assert (result.answers[-1].contour is None) == bool(unknown)
     if unknown:
-        assert f"start point's {' and '.join(unknown)} " in lost[0].message
+        assert f"start point is not known in {' and '.join(unknown)}:" in lost[0].message
         assert all(f"(line {line})" in lost[0].message for line in lines)
         assert {label.span.line for label in lost[0].labels[1:]} == set(lines)
 
@@ -182,6 +182,7 @@ def test_start_set_by_a_block_that_may_be_skipped_is_told():
         (f"{HERE}\n/G01 X50.\nG00 X40.\n{CONTOUR}", False),
         (f"{HERE}\n/G01 X50.\nG00 U2.\n{CONTOUR}", True),
         (f"{HERE}\n/M08\n{CONTOUR}", False),
+        (f"{HERE}\n/{CONTOUR}\nG111 A180. K-30. B90. X220.", True),
     ):
         codes = {each.code: each.severity.value for each in solve(program).diagnostics}
         assert codes == ({"start-skippable": "info"} if is_told else {})

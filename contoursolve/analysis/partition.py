@@ -69,3 +69,42 @@ def order(system: System, facts: Sequence[Fact]) -> tuple[Group, ...]:
         if unknown not in index:
             visit(unknown)
     return tuple(groups)
+
+
+class Parts(NamedTuple):
+    """The Dulmage-Mendelsohn parts of a system, by structure alone (Dulmage and Mendelsohn 1958).
+
+    The facts of the over-determined part are more than its unknowns; the unknowns of the
+    under-determined part are more than its facts; the rest fits one to one.
+    """
+
+    over_facts: tuple[Fact, ...]
+    over_unknowns: tuple[str, ...]
+    under_facts: tuple[Fact, ...]
+    under_unknowns: tuple[str, ...]
+
+
+def decompose(system: System) -> Parts:
+    """The over- and the under-determined part: all that alternating paths reach from what is unmatched."""
+    fact_of = match(system, system.facts)
+    unknown_of = {fact: unknown for unknown, fact in fact_of.items()}
+    over = [fact for fact in system.facts if fact not in unknown_of]
+    over_unknowns: list[str] = []
+    for fact in over:
+        for unknown in system.unknowns_of(fact):
+            if unknown not in over_unknowns:
+                over_unknowns.append(unknown)
+                over.append(fact_of[unknown])
+    under = [unknown for unknown in system.unknowns if unknown not in fact_of]
+    under_facts: list[Fact] = []
+    for unknown in under:
+        for fact in system.facts:
+            if unknown in system.unknowns_of(fact) and fact not in under_facts:
+                under_facts.append(fact)
+                under.append(unknown_of[fact])
+    return Parts(
+        tuple(fact for fact in system.facts if fact in over),
+        tuple(name for name in system.unknowns if name in over_unknowns),
+        tuple(fact for fact in system.facts if fact in under_facts),
+        tuple(name for name in system.unknowns if name in under),
+    )

@@ -107,22 +107,12 @@ class Compiled:
         return dict(zip(self.outputs, local.results.tolist(), strict=True))
 
 
-def inverse_norm(entries: Mapping[tuple[int, int], float], size: int, doubles: int) -> float:
-    """Largest row sum of the absolute inverse of a square matrix; infinite if it is singular.
-
-    `doubles` is the number of directions in which a double solution was recognised: so many of the
-    smallest singular values are left out.
-    """
+def inverse_norm(entries: Mapping[tuple[int, int], float], size: int) -> float:
+    """Largest row sum of the absolute inverse of a square matrix; infinite if it is singular."""
     matrix = numpy.zeros((size, size))
     for (row, column), value in entries.items():
         matrix[row, column] = value
     try:
-        if doubles:
-            left, values, right = numpy.linalg.svd(matrix)
-            kept = slice(0, size - doubles)
-            inverse = right.T[:, kept] / values[kept] @ left.T[kept]
-        else:
-            inverse = numpy.linalg.inv(matrix)
+        return float(numpy.abs(numpy.linalg.inv(matrix)).sum(axis=1).max())
     except numpy.linalg.LinAlgError:
         return float("inf")
-    return float(numpy.abs(inverse).sum(axis=1).max())

@@ -91,3 +91,12 @@ def determinant(matrix: Any) -> str:
     # Denominators are radii, which are no condition of their own.
     factors = [sympy.trigsimp(base) for base, _ in sympy.factor_list(numerator)[1]]
     return str(sympy.Mul(*factors))
+
+
+def eliminate(residuals: Sequence[Any], unknowns: Sequence[Any], wanted: Any) -> str:
+    """`wanted` as a formula from residuals that are affine in it and in the unknowns, as text; empty if none."""
+    used = [unknown for unknown in unknowns if any(residual.has(unknown) for residual in residuals)]
+    for solution in sympy.solve(residuals, [*used, wanted], dict=True):
+        if wanted in solution and not any(solution[wanted].has(unknown) for unknown in used):
+            return str(sympy.trigsimp(sympy.simplify(solution[wanted])))
+    return ""

@@ -125,7 +125,7 @@ READING_RULES = (
     ),
     Rule(
         code="position-unknown",
-        message="the start point's {axes} is not known: {reason}",
+        message="the start point is not known in {axes}: {reason}",
         help="position {axes} with an absolute word before this block",
         source=_READING,
         about=Trouble.POSITION_UNKNOWN,
@@ -134,8 +134,8 @@ READING_RULES = (
     ),
     Rule(
         code="start-skippable",
-        message="the start point was set by a block that begins with / and is taken as executed",
-        help="make sure that the contour is the same with the block skipped",
+        message="the contour depends on a block that begins with / and is taken as executed",
+        help="make sure that the contour is right with that block skipped, too",
         source=_READING,
         about=Trouble.SKIPPABLE_START,
         severity=Severity.INFO,

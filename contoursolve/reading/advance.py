@@ -50,7 +50,7 @@ def apply_modes(state: State, block: Block, modes: Modes) -> State:
                 state = replace(state, is_incremental=code.effect is Effect.INCREMENTAL)
             case Effect.COMPENSATION:
                 state = replace(state, compensation=code.number)
-            case Effect.SHIFT:
+            case Effect.SHIFT | Effect.FRAME:
                 reason = f"G{code.number} changes the coordinate system"
                 state = state.lose(modes.axes, reason, block.span)
             case _:
@@ -67,9 +67,9 @@ def advance(state: State, block: Block, modes: Modes) -> State:
     state = apply_modes(state, block, modes)
     if block.find("O"):
         state = state.lose(modes.axes, "a new program begins", block.span)
-    call = block.find("M")
-    if call and call.number is not None and int(call.number) in modes.calls:
-        return state.lose(modes.axes, f"{call.text} calls or ends a subprogram", call.span)
+    for word in block.words:
+        if word.address == "M" and word.number in modes.calls:
+            return state.lose(modes.axes, f"{word.text} calls or ends a subprogram", word.span)
     lost = _lost_by_faults(block, modes)
     effect, reason = _effect(state, block, modes)
     words = [word for word in block.words if _axis(word, modes)]
@@ -112,11 +112,10 @@ def _effect(state: State, block: Block, modes: Modes) -> tuple[Effect, str]:
     """What the block does with its axis words, and the reason to give if the position is lost."""
     for code in codes_of(block, modes):
         if isinstance(code, Word):
-            has_axes = any(_axis(word, modes) for word in block.words)
-            return Effect.SINGLE if has_axes else Effect.NO_MOTION, f"{code.text} is not known to contoursolve"
+            return Effect.SINGLE, f"{code.text} is not known to contoursolve"
         if code.effect in (Effect.SINGLE, Effect.UNRESOLVED):
             return Effect.SINGLE, f"the end of G{code.number} ({code.meaning}) is not followed"
-        if code.effect is Effect.NO_MOTION:
+        if code.effect in (Effect.NO_MOTION, Effect.FRAME):
             return Effect.NO_MOTION, ""
         if code.effect is Effect.PRESET:
             return Effect.MOTION, ""

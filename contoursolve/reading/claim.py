@@ -44,6 +44,8 @@ class Claim:
     after: State
     words: Mapping[str, Word]
     givens: Mapping[str, Given]
+    vocabulary: Mapping[str, tuple[str, int]]
+    """The address and the block (its index) of every name that a word may state here."""
     unknown: tuple[Word, ...] = ()
     repeated: tuple[Word, ...] = ()
     circumstances: frozenset[str] = frozenset()

@@ -24,6 +24,8 @@ class Effect(Enum):
     """Declares the coordinates of the present position: afterwards they are the block's."""
     SHIFT = "shift"
     """Changes the coordinate system: all coordinates are unknown afterwards."""
+    FRAME = "frame"
+    """Changes the coordinate system with the axis words of its block: all coordinates are unknown."""
     PLANE = "plane"
     UNITS = "units"
     ABSOLUTE = "absolute"

@@ -52,6 +52,8 @@ class Form:
     intersections: tuple[str, ...]
     allowed: frozenset[str]
     combinations: tuple[tuple[tuple[str, ...], ...], ...]
+    choices: tuple[str, ...]
+    """Givens whose sign alone chooses between two solutions."""
     meanings: Mapping[str, str]
     """What a given means in this form, where its address does not say it."""
 

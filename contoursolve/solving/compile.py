@@ -105,13 +105,15 @@ class _Builder:
         offset = (through[0] - center[0]) * -sine + (through[1] - center[1]) * cosine
         discriminant = (radius - offset) * (radius + offset)
         side = self.tape.input(f"side:{step.circle.point}")
-        half = side * where(_touches(offset, radius), 0, sqrt(discriminant))
+        scale = radius + sum(magnitude(value) for value in (*center, *through))
+        half = side * where(_touches(offset, radius, scale), 0, sqrt(discriminant))
         self.set_point(
             step.circle.point,
             (center[0] - sine * offset + cosine * half, center[1] + cosine * offset + sine * half),
         )
         self.tape.output(f"discriminant:{number}", discriminant)
         self.tape.output(f"offset:{number}", offset)
+        self.tape.output(f"scale:{number}", scale)
         self.tape.output(f"radius:{number}", radius)
 
     def _two_points(self, step: TwoPointsStep, number: int) -> None:
@@ -121,7 +123,8 @@ class _Builder:
         chord = second[0] - first[0], second[1] - first[1]
         length = sqrt(chord[0] ** 2 + chord[1] ** 2)
         discriminant = (radius - length / 2) * (radius + length / 2)
-        root = where(_touches(length / 2, radius), 0, sqrt(discriminant))
+        scale = radius + sum(magnitude(value) for value in (*first, *second))
+        root = where(_touches(length / 2, radius, scale), 0, sqrt(discriminant))
         rise = self.tape.input(f"side:{step.first.center}") * root / length
         self.set_point(
             step.first.center,
@@ -129,6 +132,7 @@ class _Builder:
         )
         self.tape.output(f"discriminant:{number}", discriminant)
         self.tape.output(f"offset:{number}", length / 2)
+        self.tape.output(f"scale:{number}", scale)
         self.tape.output(f"radius:{number}", radius)
 
     def outputs(self, plan: Plan) -> tuple[tuple[int, int, str], ...]:
@@ -203,8 +207,8 @@ class _Builder:
         return list(residuals)
 
 
-def _touches(offset: Any, radius: Any) -> Any:
-    return magnitude(magnitude(offset) - radius) <= TOUCHING * radius
+def _touches(offset: Any, radius: Any, scale: Any) -> Any:
+    return magnitude(magnitude(offset) - radius) <= TOUCHING * scale
 
 
 @dataclass(frozen=True, slots=True)

@@ -93,10 +93,12 @@ def _check_room(figure: Figure, out: Outputs, profile: Profile) -> list[Refusal]
     refused: set[str] = set()
     for corner in figure.corners:
         setbacks = _setbacks(corner, out)
-        if any(setback > out[f"length:{line}"] + LENGTH for line, setback in setbacks.items()):
+        short = [line for line, setback in setbacks.items() if setback > out[f"length:{line}"] + LENGTH]
+        if short:
             refused.add(corner.name)
             size = float(profile.givens[corner.size].value)
             values = {"limit": _largest(corner, figure, out, size), "actual": size}
+            values |= {"needed": setbacks[short[0]], "available": out[f"length:{short[0]}"]}
             refusals.append(Refusal(RefusalKind.CORNER_TOO_LARGE, corner.name, (corner.size,), values))
     for line in (element for element in figure.path if isinstance(element, Line)):
         corners = [corner for corner in figure.corners if line.name in _setbacks(corner, out)]

@@ -2,12 +2,12 @@
 
 from collections.abc import Iterator
 from itertools import combinations
-from math import ceil, floor, isfinite, log10
+from math import asin, atan2, ceil, degrees, floor, hypot, isfinite, log10
 
 from contoursolve.analysis import judge
 from contoursolve.backends.angle import direction
 from contoursolve.backends.numeric import inverse_norm
-from contoursolve.constraints import OnCircle, System, Values, assemble
+from contoursolve.constraints import Coordinate, OnCircle, System, Values, assemble
 from contoursolve.model import FIRST, SECOND, Corner, Fact, Profile, Unit, scalar
 from contoursolve.solving.compile import COSINE, SINE, compile_system
 from contoursolve.solving.path import check_path
@@ -99,6 +99,10 @@ class _Attempt:
     """One evaluation of one system; `answer` reads the outputs in the order in which they can fail."""
 
     def __init__(self, profile: Profile, system: System) -> None:
+        first, second = profile.start.values
+        if first is None or second is None:
+            raise ValueError("the start point is not known")
+        self.start = first, second
         self.profile = profile
         self.system = system
         self.machine = compile_system(system)
@@ -106,17 +110,18 @@ class _Attempt:
         self.out = self.machine.function(self._inputs())
         self.refusals: list[Refusal] = []
         self.remarks: list[Remark] = []
-        self.doubles = 0
+        self.doubles: dict[int, dict[str, float]] = {}
 
     def _inputs(self) -> dict[str, float]:
-        inputs: dict[str, float] = {}
-        for axis, value in enumerate(self.profile.start.values):
-            if value is None:
-                raise ValueError("the start point is not known")
-            inputs[scalar(self.system.figure.start, axis)] = float(value)
+        """All inputs of the function. Coordinates are counted from the start point, and the difference is
+        taken in decimals: a shifted program has the same numbers, to the last bit."""
+        inputs = {scalar(self.system.figure.start, axis): 0.0 for axis in (FIRST, SECOND)}
+        absolute = {fact.given: fact.axis for fact in self.system.facts if isinstance(fact, Coordinate)}
         for given in self.profile.givens.values():
             if given.unit is Unit.DEGREE:
                 inputs[given.name + COSINE], inputs[given.name + SINE] = direction(given.value)
+            elif given.name in absolute:
+                inputs[given.name] = float(given.value - self.start[absolute[given.name]])
             else:
                 inputs[given.name] = float(given.value)
         for choice in self.profile.choices:
@@ -144,7 +149,7 @@ class _Attempt:
         agrees = any(remark.kind is RemarkKind.WORDS_AGREE for remark in self.remarks)
         return Solution(
             Status.OVERDETERMINED if agrees else Status.SOLVED,
-            points=points,
+            points={name: self._absolute(point) for name, point in points.items()},
             radii={name: self.out[name] for name in self.system.figure.radii},
             corners={corner.name: self._corner(corner) for corner in self.system.figure.corners},
             remarks=tuple(self.remarks),
@@ -158,14 +163,19 @@ class _Attempt:
         return Solution(status, refusals=tuple(self.refusals), remarks=agreeing)
 
     def _point(self, name: str) -> Point:
+        """A point, counted from the start point."""
         if name == self.system.figure.start:
-            first, second = self.profile.start.values
-            return float(first or 0), float(second or 0)
+            return 0.0, 0.0
         return self.out[scalar(name, FIRST)], self.out[scalar(name, SECOND)]
+
+    def _absolute(self, point: Point) -> Point:
+        return float(self.start[FIRST]) + point[FIRST], float(self.start[SECOND]) + point[SECOND]
 
     def _corner(self, corner: Corner) -> CornerSolution:
         def pair(kind: str) -> Point:
-            return self.out[f"{kind}:{corner.name}.{FIRST}"], self.out[f"{kind}:{corner.name}.{SECOND}"]
+            return self._absolute(
+                (self.out[f"{kind}:{corner.name}.{FIRST}"], self.out[f"{kind}:{corner.name}.{SECOND}"])
+            )
 
         size = float(self.profile.givens[corner.size].value)
         center = pair("center") if f"center:{corner.name}.{FIRST}" in self.out else None
@@ -202,20 +212,45 @@ class _Attempt:
         offset, radius = abs(self.out[f"offset:{number}"]), self.out[f"radius:{number}"]
         if isinstance(step, LineCircleStep):
             kind, subject, givens = RefusalKind.CIRCLE_MISSED, step.circle.point, self._givens_of(step.heading)
-            values = {"limit": radius, "actual": offset}
+            values = {"limit": radius, "actual": offset, **self._meeting_angles(step, radius)}
         else:
             kind, subject, givens = RefusalKind.RADIUS_TOO_SMALL, step.first.center, self._givens_of(step.first)
             values = {"limit": offset, "actual": radius}
         if isinstance(step, TwoPointsStep) and offset <= LENGTH:
             return Refusal(RefusalKind.CIRCLE_UNDEFINED, subject, givens)
-        if abs(offset - radius) <= TOUCHING * radius:
-            self.doubles += 1
+        if abs(offset - radius) <= TOUCHING * self.out[f"scale:{number}"]:
+            self._note_double(step)
             # A circle about the middle of two points is an ordinary half circle.
             if isinstance(step, LineCircleStep):
                 self.remarks.append(Remark(RemarkKind.TOUCHES, subject, givens, values))
         elif not offset < radius:  # true for NaN
             return _refuse(kind, subject, givens, **values, off_by_mm=abs(offset - radius))
         return None
+
+    def _note_double(self, step: LineCircleStep | TwoPointsStep) -> None:
+        """A double solution: in the error bound, a row that holds the point where it is along the direction
+        in which the two solutions part takes the place of its circle's."""
+        if isinstance(step, LineCircleStep):
+            circle, point = step.circle, step.circle.point
+            first, second = direction(self.profile.givens[step.heading.given].value)
+        else:
+            circle, point = step.second, step.first.center
+            begin, end = self._point(step.first.point), self._point(step.second.point)
+            length = hypot(end[0] - begin[0], end[1] - begin[1])
+            first, second = (begin[1] - end[1]) / length, (end[0] - begin[0]) / length
+        row = self.plan.basis.index(circle)
+        self.doubles[row] = {scalar(point, FIRST): first, scalar(point, SECOND): second}
+
+    def _meeting_angles(self, step: LineCircleStep, radius: float) -> dict[str, float]:
+        """Between which angles a line through the known point of the heading meets the circle, degrees."""
+        ends = {step.heading.tail, step.heading.head} - {step.circle.point}
+        through, center = self._point(ends.pop()), self._point(step.circle.center)
+        first, second = through[0] - center[0], through[1] - center[1]
+        distance = hypot(first, second)
+        if distance <= radius:
+            return {}
+        middle, half = degrees(atan2(second, first)), degrees(asin(radius / distance))
+        return {"angle_from": middle - half, "angle_to": middle + half}
 
     def _givens_of(self, fact: Fact) -> tuple[str, ...]:
         """The given of a fact, or those that determine what it mentions directly."""
@@ -252,7 +287,9 @@ class _Attempt:
             elif off > AGREEMENT:
                 self.remarks.append(Remark(RemarkKind.RADIUS_DIFFERS, fact.point, self._givens_of(fact), values))
             return
-        values = compare(fact, self.profile, lookup(self.profile, self.out))
+        points = {name: self._absolute(self._point(name)) for name in self.system.figure.points}
+        scalars = {scalar(name, axis): value for name, point in points.items() for axis, value in enumerate(point)}
+        values = compare(fact, self.profile, lookup(self.profile, scalars))
         if off <= AGREEMENT or abs(values.get("expected", float("inf")) - values["actual"]) <= AGREEMENT:
             self.remarks.append(Remark(RemarkKind.WORDS_AGREE, fact.given, (fact.given,), values))
         else:
@@ -261,14 +298,19 @@ class _Attempt:
     def _error_bound(self) -> float:
         """First-order bound of the error of any unknown, mm, rounded up to one digit.
 
-        Where a double solution was recognised, it bounds the error across the double direction.
+        Where a double solution was recognised, it is taken as exactly double.
         """
-        size = len(self.system.unknowns)
-        entries = {(row, column): self.out[name] for row, column, name in self.machine.slopes}
+        unknowns = self.system.unknowns
+        size = len(unknowns)
+        entries = {
+            (row, column): self.out[name] for row, column, name in self.machine.slopes if row not in self.doubles
+        }
+        for row, direction_of in self.doubles.items():
+            entries |= {(row, unknowns.index(name)): value for name, value in direction_of.items()}
         coordinates = (*self._point(self.system.figure.start), *(self.out[name] for name in self.system.unknowns))
         largest = max(1.0, *map(abs, coordinates))
         worst = max(abs(self.out[f"residual:{number}"]) for number in range(size))
-        bound = inverse_norm(entries, size, self.doubles) * (worst + ROUNDING * largest)
+        bound = inverse_norm(entries, size) * (worst + ROUNDING * largest)
         if not isfinite(bound):
             return float("inf")
         digit = 10.0 ** floor(log10(bound))

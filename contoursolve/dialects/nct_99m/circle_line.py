@@ -68,6 +68,7 @@ CIRCLE_LINE = Form(
         ),
         (("2:first", "2:second", "2:,A"),),
     ),
+    choices=("2:Q",),
     meanings={
         **{f"1:{order}": "a point of the circle" for order in ("first", "second")},
         **{f"1:{order}-step": "a point of the circle, from the start point" for order in ("first", "second")},
@@ -78,7 +79,7 @@ CIRCLE_LINE = Form(
 COMPENSATED, ALONE, OTHER_PLANE, RAPID = "@compensated", "@alone", "@other-plane", "@rapid"
 
 _TURNS = {2: Turn.CW, 3: Turn.CCW}
-_OWN_USE = (Effect.SINGLE, Effect.NO_MOTION, Effect.PRESET, Effect.CYCLE)
+_OWN_USE = (Effect.SINGLE, Effect.NO_MOTION, Effect.PRESET, Effect.CYCLE, Effect.FRAME)
 
 
 def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> Claim | Unresolved | None:
@@ -87,7 +88,7 @@ def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> Cla
     if not block.words or not _is_motion(block, state, modes):
         return None
     here = apply_modes(state, block, modes)
-    if here.motion in _TURNS:
+    if here.motion in _TURNS and _moves(block):
         rest = islice(blocks, index + 1, None)
         following = next((other for other in rest if _has_words(other)), None)
         if following and _is_over_defined(following, here, modes):
@@ -95,6 +96,11 @@ def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> Cla
     if _is_over_defined(block, state, modes):
         return _claim((block,), state, here, modes)
     return _unresolved(block, here)
+
+
+def _moves(block: Block) -> bool:
+    """Whether a block in an arc's mode is an arc: it has a G code of its own, a coordinate, a centre or R."""
+    return any(word.address in "GXYZIJKR" for word in block.words)
 
 
 def _has_words(block: Block) -> bool:
@@ -165,6 +171,12 @@ def _claim(blocks: tuple[Block, ...], state: State, here: State, modes: Modes) -
         after=after,
         words={name: word for name, word in words.items() if word.address in modes.lexicon.addresses},
         givens=_complete(givens),
+        vocabulary={
+            **{name: (address, number - 1) for (number, address), name in names.items()},
+            "1:R": ("R", 0),
+            "2:,A": (",A", 1),
+            "2:Q": ("Q", 1),
+        },
         unknown=tuple(word for word in words.values() if word.address not in CIRCLE_LINE.allowed),
         repeated=tuple(repeated),
         circumstances=frozenset(name for name, holds in circumstances.items() if holds),

@@ -54,8 +54,8 @@ CODES = (
     *_codes(Effect.CANCEL, {80: "end of cycle"}),
     *_codes(Effect.PRESET, {92: "coordinate setting"}),
     *_codes(Effect.SHIFT, dict.fromkeys(range(54, 60), "work coordinate system")),
-    *_codes(Effect.SHIFT, {50: "end of scaling", 51: "scaling", 52: "local coordinate system", 68: "rotation"}),
-    *_codes(Effect.SHIFT, {69: "end of rotation", 15: "end of polar coordinates", 16: "polar coordinates"}),
+    *_codes(Effect.FRAME, {50: "end of scaling", 51: "scaling", 52: "local coordinate system", 68: "rotation"}),
+    *_codes(Effect.FRAME, {69: "end of rotation", 15: "end of polar coordinates", 16: "polar coordinates"}),
     *_codes(Effect.NONE, {43: "length compensation", 44: "length compensation", 49: "no length compensation"}),
     *_codes(Effect.NONE, {61: "exact stop", 64: "continuous cutting", 94: "feed a minute", 95: "feed a revolution"}),
     *_codes(

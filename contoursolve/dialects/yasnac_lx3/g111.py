@@ -48,6 +48,7 @@ G111 = Form(
     intersections=(V1, V2),
     allowed=frozenset(row.address for row in ADDRESSES) | _PASSING,
     combinations=tuple(((), (address,)) for address in "AIKBXUZW"),
+    choices=(),
     meanings={},
 )
 
@@ -105,6 +106,7 @@ def _claim(block: Block, codes: list[Code], state: State, modes: Modes) -> Claim
         after=after,
         words=stated,
         givens={name: given for name, given in givens.items() if given is not None},
+        vocabulary={address: (address, 0) for address in lexicon.addresses},
         unknown=tuple(word for word in words.values() if word.address not in G111.allowed | _REFUSED),
         repeated=tuple(repeated),
     )

@@ -1,0 +1,40 @@
+"""Identities: how words that say the same depend on one another, for all values, by sympy."""
+
+from collections.abc import Sequence
+from itertools import combinations
+
+from contoursolve.analysis.verdict import judge
+from contoursolve.constraints import Coordinate, Heading, Offset, System
+from contoursolve.model import Fact
+
+
+def tied_sets(system: System) -> tuple[tuple[Fact, ...], ...]:
+    """All minimal sets of facts of which, for all values, each follows from the others."""
+    found: list[tuple[Fact, ...]] = []
+    for size in range(1, len(system.unknowns) + 2):
+        for facts in combinations(system.facts, size):
+            if not any(set(other) <= set(facts) for other in found) and judge(system.keep(facts)).rank < size:
+                found.append(facts)
+    return tuple(found)
+
+
+def derive_identity(system: System, facts: Sequence[Fact]) -> str:
+    """The last length among the facts as a formula of the other words, such as `K = I/tan(A)`.
+
+    All facts must be affine in the unknowns. Lengths are radius values; S.0 and S.1 are the start
+    point's coordinates.
+    """
+    from contoursolve.backends import symbolic  # noqa: PLC0415 - sympy is slow to import, see judge
+
+    lengths = [fact for fact in facts if isinstance(fact, Offset | Coordinate)]
+    symbols = symbolic.Symbols()
+    unknowns = [symbols.scalar(name) for name in system.unknowns]
+    if not lengths:
+        return ""
+    solved = symbolic.eliminate([fact.residual(symbols) for fact in facts], unknowns, symbols.amount(lengths[-1].given))
+    return f"{lengths[-1].given} = {solved}" if solved else ""
+
+
+def is_affine(facts: Sequence[Fact]) -> bool:
+    """Whether all facts are affine in the unknowns."""
+    return all(isinstance(fact, Offset | Coordinate | Heading) for fact in facts)

@@ -1,0 +1,90 @@
+"""Edits of a block's text: words dropped, added, or written with another value."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from decimal import ROUND_DOWN, ROUND_HALF_EVEN, Decimal
+from enum import Enum
+
+from contoursolve.model import Length, Unit
+from contoursolve.reading import Lexicon, WithoutPoint
+from contoursolve.source import Span
+from contoursolve.syntax import Block
+
+
+class EditKind(Enum):
+    """What is done to a word."""
+
+    DROP = "delete"
+    ADD = "add"
+    CHANGE = "change"
+
+
+@dataclass(frozen=True, slots=True)
+class Edit:
+    """One word dropped, added or changed. `span` is the old word's place, `text` the new word."""
+
+    kind: EditKind
+    address: str
+    span: Span | None = None
+    old: str = ""
+    text: str = ""
+    line: int = 0
+    """Line of the block that an added word goes to."""
+
+    def __str__(self) -> str:
+        if self.kind is EditKind.CHANGE:
+            return f"write {self.text} for {self.old}"
+        return f"{self.kind.value} {self.text or self.old}"
+
+
+PLACEHOLDER = "?"
+"""Stands for a number that the block does not give."""
+
+
+def apply(blocks: Iterable[Block], edits: Iterable[Edit]) -> tuple[str, ...]:
+    """The texts of the blocks with the edits made; blanks that a dropped word leaves double are merged."""
+    edits = tuple(edits)
+    texts = []
+    for block in blocks:
+        text = block.text
+        own = [edit for edit in edits if edit.span is not None and edit.span.line == block.line]
+        for edit in sorted(own, key=lambda each: each.span.column if each.span else 0, reverse=True):
+            assert edit.span is not None
+            before, after = text[: edit.span.column - 1], text[edit.span.end_column - 1 :]
+            if edit.text:
+                text = before + edit.text + after
+            else:
+                text = before.rstrip(" ") + after if before.strip() else before + after.lstrip(" ")
+        for edit in edits:
+            if edit.kind is EditKind.ADD and edit.line == block.line:
+                text = _insert(text, edit.text)
+        texts.append(text)
+    return tuple(texts)
+
+
+def _insert(text: str, word: str) -> str:
+    """A word added behind the last one, before a comment."""
+    cut = min((place for place in (text.find("("), text.find(";")) if place >= 0), default=len(text))
+    head, tail = text[:cut].rstrip(), text[cut:]
+    return f"{head} {word}" + (f" {tail}" if tail else "")
+
+
+def write_word(address: str, value: float, lexicon: Lexicon, unit: Length, is_limit: bool = False) -> str:
+    """A word for a value in mm (radius) or degrees, rounded to the control's least increment.
+
+    A limit is rounded towards zero, so that the value still fits.
+    """
+    row, numbers = lexicon.addresses[address], lexicon.numbers
+    number = Decimal(repr(value))
+    if row.unit is Unit.DEGREE:
+        step = numbers.degree
+    else:
+        step = numbers.inch if unit is Length.INCH else numbers.mm
+        number = number / unit.in_mm * (2 if row.is_diameter else 1)
+    number = number.quantize(step, ROUND_DOWN if is_limit else ROUND_HALF_EVEN)
+    if number == 0:
+        number = abs(number)
+    text = f"{number:f}".rstrip("0")
+    if text.endswith(".") and (numbers.without_point is WithoutPoint.AS_WRITTEN or number == 0):
+        text = text[:-1]
+    return address + text

@@ -1,0 +1,18 @@
+"""The identities that ship with the package, in the user's words."""
+
+import json
+import pkgutil
+from collections.abc import Iterable
+from functools import lru_cache
+
+
+def identity(givens: Iterable[str]) -> str:
+    """How these words depend on one another, such as `K = I/tan(A)`; empty where no formula is kept."""
+    return _shipped().get(" ".join(sorted(givens)), "")
+
+
+@lru_cache(maxsize=1)
+def _shipped() -> dict[str, str]:
+    data = pkgutil.get_data("contoursolve.analysis", "identities.json")
+    table: dict[str, str] = json.loads(data) if data else {}
+    return table

@@ -1,0 +1,107 @@
+"""Which checks a contour went through, what each found, and which could not run, and why."""
+
+from dataclasses import dataclass
+from enum import Enum
+
+from contoursolve.analysis import decompose, judge
+from contoursolve.constraints import System, assemble
+from contoursolve.diagnostic import Basis, Severity
+from contoursolve.examine import Answer, Policy
+from contoursolve.model import Profile
+from contoursolve.reading import read
+from contoursolve.syntax import FaultKind
+
+
+class Verdict(Enum):
+    """What became of one check."""
+
+    PASSED = "passed"
+    FOUND = "found"
+    NOT_RUN = "not run"
+
+
+@dataclass(frozen=True, slots=True)
+class Layer:
+    """One check, its verdict, and in words what it looked at or why it could not run."""
+
+    name: str
+    verdict: Verdict
+    remark: str
+
+
+def list_layers(answer: Answer, policy: Policy) -> tuple[Layer, ...]:
+    """The six checks of a contour, in order. A check that could not run has found nothing and passed nothing."""
+    claim = answer.claim
+    whole = read(claim, frozenset(fact.given for fact in answer.profile.ignored))
+    grammar = [each for each in answer.diagnostics if each.code in _GRAMMAR]
+    refused = [each for each in answer.diagnostics if each.basis is Basis.RULE and _counts(each.severity)]
+    refused = [each for each in refused if each not in grammar]
+    layers = [_layer("grammar", bool(grammar), f"{_count(claim.blocks, 'block')}, every character")]
+    if any(block.faults for block in claim.blocks):
+        layers.append(Layer("rules", Verdict.NOT_RUN, "not every word could be read"))
+    elif policy is Policy.OFF:
+        layers.append(Layer("rules", Verdict.NOT_RUN, "switched off"))
+    else:
+        layers.append(_layer("rules", bool(refused), "which words may stand together"))
+    blocked = "not every word could be read" if grammar else ""
+    if len(claim.blocks) < claim.form.length:
+        blocked = "a block is missing"
+    if blocked:
+        return (*layers, *(Layer(name, Verdict.NOT_RUN, blocked) for name in _EQUATIONS))
+    system = assemble(whole)
+    return (*layers, *_equations(answer, whole, system))
+
+
+_GRAMMAR = frozenset(kind.value for kind in FaultKind) | {
+    "address-repeated",
+    "address-unknown",
+    "value-variable",
+    "value-too-large",
+}
+_EQUATIONS = ("structure", "generic rank", "values", "geometry")
+
+
+def _equations(answer: Answer, profile: Profile, system: System) -> list[Layer]:
+    parts, verdict = decompose(system), judge(system)
+    size = f"{_count(system.facts, 'equation')}, {_count(system.unknowns, 'unknown')}"
+    layers = [_layer("structure", bool(parts.over_facts or parts.under_unknowns), size)]
+    rank = f"rank {verdict.rank} of {len(system.unknowns)}, exact"
+    if verdict.condition and verdict.condition != "1":
+        rank += f"; determined unless {verdict.condition} = 0"
+    layers.append(_layer("generic rank", bool(verdict.free or verdict.tied), rank))
+    blocked = ""
+    if not profile.start.is_known:
+        blocked = "the start point is not known"
+    elif verdict.free:
+        blocked = "words are missing"
+    elif any(each.basis is Basis.STRUCTURAL for each in answer.diagnostics):
+        blocked = "a corner or a choice is not determined"
+    if blocked:
+        return [*layers, *(Layer(name, Verdict.NOT_RUN, blocked) for name in ("values", "geometry"))]
+    codes = {each.code for each in answer.diagnostics if each.basis is Basis.NUMERICAL}
+    about_values = {code for code in codes if code.endswith(_AT_VALUES)}
+    layers.append(_layer("values", bool(about_values), "regular at these values, and words agree"))
+    if any(each.basis is Basis.RULE and each.severity is Severity.ERROR for each in answer.diagnostics):
+        return [*layers, Layer("geometry", Verdict.NOT_RUN, "a rule refuses the block")]
+    found = any(
+        each.basis is Basis.NUMERICAL and each.severity is Severity.ERROR and each.code not in about_values
+        for each in answer.diagnostics
+    )
+    if about_values and not found and answer.contour is None:
+        return [*layers, Layer("geometry", Verdict.NOT_RUN, "the points are not determined")]
+    return [*layers, _layer("geometry", found, "intersections exist, direction of travel, room for corners")]
+
+
+_AT_VALUES = ("-parallel", "-not-fixed", "-conflict", "-redundant", "-difference", "-sensitive")
+
+
+def _layer(name: str, has_found: bool, remark: str) -> Layer:
+    return Layer(name, Verdict.FOUND if has_found else Verdict.PASSED, remark)
+
+
+def _counts(severity: Severity) -> bool:
+    return severity is not Severity.INFO
+
+
+def _count(things: tuple[object, ...], noun: str) -> str:
+    return f"{len(things)} {noun}{'' if len(things) == 1 else 's'}"

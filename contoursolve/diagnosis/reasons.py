@@ -1,0 +1,114 @@
+"""Reasons in short sentences: because these words say this, and that word says that, ... so."""
+
+from collections.abc import Iterator, Sequence
+
+from contoursolve.constraints import Heading
+from contoursolve.diagnosis.affine import AffineFacts, Circuit, Freedom
+from contoursolve.diagnosis.identities import identity
+from contoursolve.diagnostic import Diagnostic
+from contoursolve.explain import angle_text, join, length_text
+from contoursolve.model import FIRST, SECOND, Fact, Line, Profile, scalar
+from contoursolve.solving import lookup
+from contoursolve.tolerance import AGREEMENT, REGULAR
+
+
+def conflict_reasons(profile: Profile, affine: AffineFacts, circuit: Circuit) -> Iterator[str]:
+    """Where the facts of a circuit put the point that they are about, and how far apart.
+
+    The last fact that is not an angle is held against the others, because a place can be compared.
+    """
+    places = [fact for fact in circuit.facts if not isinstance(fact, Heading)] or list(circuit.facts)
+    single = places[-1]
+    others = [fact for fact in circuit.facts if fact is not single]
+    fixed = affine.fixed_by(others)
+    point = getattr(single, "point", "")
+    known = {name: value for name, value in fixed.items() if name.partition(".")[0] == point}
+    off = max(circuit.off)
+    if known and single.given:
+        given = profile.givens[single.given]
+        row = affine.facts.index(single)
+        axis = next(axis for axis in (FIRST, SECOND) if scalar(point, axis) in single.reads())
+        own = -float(affine.constants[row]) / float(affine.matrix[row, affine.unknowns.index(scalar(point, axis))])
+        apart = f"{length_text(circuit.off[circuit.facts.index(single)], profile.unit)} apart"
+        ending = "the same place" if off <= AGREEMENT else apart
+        yield (
+            f"because {_words(profile, others)} put {point} at {place_text(profile, known)}, "
+            f"and {given.word.text if given.word else given.name} puts it at "
+            f"{place_text(profile, {scalar(point, axis): own})}: {ending}"
+        )
+    formula = identity(fact.given for fact in circuit.facts)
+    if formula:
+        yield f"these words are tied: {formula}"
+    agreeing = [_agreeing(profile, affine, circuit, fact) for fact in circuit.facts]
+    if off > AGREEMENT and any(agreeing):
+        yield f"any one of these would agree with the others: {', '.join(filter(None, agreeing))}"
+
+
+def _agreeing(profile: Profile, affine: AffineFacts, circuit: Circuit, fact: Fact) -> str:
+    """The value with which one fact of a circuit would agree with the others."""
+    fixed = affine.fixed_by([other for other in circuit.facts if other is not fact])
+    at = lookup(profile, fixed)
+    if not fact.given or not all(name in at.scalars for name in fact.reads()):
+        return ""
+    value, given = fact.implied(at), profile.givens[fact.given]
+    if value is None:
+        return ""
+    if isinstance(fact, Heading):
+        return f"{given.name} {angle_text(value)}"
+    return f"{given.name} {length_text(value * (2 if given.is_diameter else 1), profile.unit)}"
+
+
+def freedom_reasons(profile: Profile, freedoms: Sequence[Freedom]) -> Iterator[str]:
+    """What can still move, and how."""
+    for freedom in freedoms:
+        if freedom.direction is None:
+            yield f"{freedom.point} can still lie anywhere"
+            continue
+        axis = next((axis for axis in (FIRST, SECOND) if abs(freedom.direction[1 - axis]) < REGULAR), None)
+        way = f"along {profile.plane.axes[axis]}" if axis is not None else f"along {angle_text(freedom.angle)}"
+        yield f"{freedom.point} can still slide {way}"
+
+
+def path_reasons(profile: Profile, affine: AffineFacts | None, finding: Diagnostic) -> Iterator[str]:
+    """What the numbers of a finding about the path come from."""
+    values = finding.values
+    if "needed" in values:
+        yield (
+            f"because the line has {length_text(values['available'], profile.unit)}, and the corner takes "
+            f"{length_text(values['needed'], profile.unit)} of it"
+        )
+    if "angle_from" in values:
+        yield (
+            f"a line through the same end point meets the circle with ,A between "
+            f"{angle_text(values['angle_from'])} and {angle_text(values['angle_to'])}"
+        )
+    if affine is not None and finding.code.endswith("-reversed"):
+        fixed = affine.fixed_by(affine.facts)
+        for line in (element for element in profile.figure.path if isinstance(element, Line)):
+            word = profile.givens[line.heading].word if line.heading else None
+            if word and word.span == finding.span:
+                tail, head = (_known(profile, fixed, point) for point in (line.tail, line.head))
+                yield (
+                    f"because {line.name} goes from {place_text(profile, tail)} to {place_text(profile, head)}, "
+                    f"and {word.text} points the other way"
+                )
+
+
+def _known(profile: Profile, fixed: dict[str, float], point: str) -> dict[str, float]:
+    at = lookup(profile, fixed)
+    return {scalar(point, axis): at.coordinate(point, axis) for axis in (FIRST, SECOND)}
+
+
+def place_text(profile: Profile, scalars: dict[str, float]) -> str:
+    """Coordinates in the user's terms: `Z-10.000 X60.000` (mm or inches, X of a lathe as diameter)."""
+    texts = []
+    for name, value in sorted(scalars.items(), key=lambda item: item[0].partition(".")[2]):
+        axis = int(name.partition(".")[2])
+        shown = value * (2 if profile.plane.diameters[axis] else 1)
+        texts.append(f"{profile.plane.axes[axis]} {length_text(shown, profile.unit)}")
+    return " ".join(texts)
+
+
+def _words(profile: Profile, facts: Sequence[Fact]) -> str:
+    words = (profile.givens[fact.given].word for fact in facts if fact.given)
+    return join([word.text for word in words if word])

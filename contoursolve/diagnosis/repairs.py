@@ -1,0 +1,346 @@
+"""What to write instead: every smallest change of a block's words that the control accepts and that has a
+contour. Each one is applied to the text, read, checked and solved again before it is offered."""
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import combinations, product
+from math import hypot
+
+from contoursolve.contour import Contour
+from contoursolve.diagnosis.affine import affine_facts
+from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, apply, write_word
+from contoursolve.diagnostic import Applicability, Diagnostic, Severity
+from contoursolve.dialects import Dialect
+from contoursolve.examine import Answer, Policy, examine
+from contoursolve.model import Given, Length, Profile, Unit
+from contoursolve.reading import Claim, Form, Lexicon, read
+from contoursolve.rules import Rule, check
+from contoursolve.solving import Status, lookup
+from contoursolve.syntax import Word, parse_block
+from contoursolve.tolerance import AGREEMENT
+
+MOST_EDITS = 4
+"""Words that a repair may touch; more is a new block."""
+
+MOST_TRIED = 60
+"""Changed blocks that are solved for one repair; beyond it the list is not called complete."""
+
+
+@dataclass(frozen=True, slots=True)
+class Repair:
+    """A change of a block that the control accepts, with the block that it makes.
+
+    `contour` is the path then (None for a placeholder, whose number is missing), `deviation` the largest
+    distance (mm) of its named points and its end from those of the refused block, where that has any.
+    """
+
+    edits: tuple[Edit, ...]
+    replacement: str
+    applicability: Applicability
+    contour: Contour | None
+    deviation: float
+
+
+@dataclass(frozen=True, slots=True)
+class Repairs:
+    """Repairs, best first: fewest edits, smallest change of the contour.
+
+    `is_complete` tells that all smallest sets of words to drop and add, up to `MOST_EDITS`, were tried.
+    """
+
+    repairs: tuple[Repair, ...]
+    is_complete: bool
+
+
+def find_repairs(answer: Answer, dialect: Dialect) -> Repairs:
+    """The repairs of a contour that was refused, or in which a word is ignored.
+
+    A repair leaves no error and no warning. None of them contains another one.
+    """
+    claim = answer.claim
+    if len(claim.blocks) < claim.form.length:
+        return Repairs((), is_complete=False)
+    whole = _Geometry.of(claim)
+    reference = answer.contour or examine(claim, dialect.rules, Policy.OFF).contour
+    codes = {each.code for each in answer.diagnostics}
+    found: list[Repair] = []
+    tried: set[tuple[Edit, ...]] = set()
+    for drafts in (_sets(answer, dialect, whole), _values(answer, dialect, whole), _slips(answer, dialect, whole)):
+        for edits in drafts:
+            if len(tried) < MOST_TRIED and not any(set(other.edits) <= set(edits) for other in found):
+                repair = _try(claim, dialect, edits, codes, reference) if edits not in tried else None
+                found += [repair] if repair else []
+            tried.add(edits)
+    found = [repair for repair in found if not any(set(other.edits) < set(repair.edits) for other in found)]
+    found.sort(key=lambda each: (each.applicability is Applicability.PLACEHOLDER, len(each.edits), each.deviation))
+    return Repairs(tuple(found), is_complete=len(tried) <= MOST_TRIED)
+
+
+@dataclass(frozen=True, slots=True)
+class _Geometry:
+    """What some words fix of the drawing, as far as they do not contradict each other."""
+
+    profile: Profile
+    fixed: Mapping[str, float]
+
+    @classmethod
+    def of(cls, claim: Claim, kept: frozenset[str] | None = None) -> "_Geometry":
+        names = frozenset(claim.givens)
+        profile = read(claim, names - (names if kept is None else kept))
+        affine = affine_facts(profile, profile.facts) if profile.facts else None
+        if affine is None or any(max(circuit.off) > AGREEMENT for circuit in affine.circuits()):
+            return cls(profile, {})
+        return cls(profile, affine.fixed_by(profile.facts))
+
+    def implied(self, claim: Claim, name: str) -> float | None:
+        """The value (mm or degrees) that a word would have."""
+        at = lookup(self.profile, dict(self.fixed))
+        for row in claim.form.facts:
+            if row.fact.given == name and all(each in at.scalars for each in row.fact.reads()):
+                return row.fact.implied(at)
+        return None
+
+
+def _sets(answer: Answer, dialect: Dialect, whole: _Geometry) -> Iterator[tuple[Edit, ...]]:
+    """Words to drop and to add: every smallest set that makes the combination legal, and for a legal one
+    what may be dropped or exchanged."""
+    claim = answer.claim
+    forced = tuple(_unreadable(claim))
+    if forced:
+        yield forced
+    present, names = frozenset(claim.words), frozenset(claim.vocabulary)
+    extra = {row.fact.given for row in claim.form.facts} | set(claim.form.choices)
+    if not _is_singular(whole):
+        extra -= present ^ extra if _is_legal_set(claim, dialect.rules) else set()
+    changes = smallest_changes(claim.form, dialect.rules, present, names & frozenset(extra), claim.circumstances)
+    for change in changes:
+        drops = tuple(_drop(claim.words[name]) for name in sorted(change & present))
+        kept = _Geometry.of(claim, present - change) if change - present else whole
+        added = [_additions(claim, dialect, name, (whole, kept)) for name in sorted(change - present)]
+        corrected = [options for name, options in _corrections(claim, dialect) if name not in change]
+        for edits in product(*added, *corrected):
+            yield (*forced, *drops, *edits)
+    if frozenset() in changes:
+        yield from ((*forced, *edits) for edits in _other_corners(claim))
+
+
+def _drop(word: Word) -> Edit:
+    return Edit(EditKind.DROP, word.address, word.span, word.text)
+
+
+def _change(word: Word, text: str) -> Edit:
+    return Edit(EditKind.CHANGE, word.address, word.span, word.text, text)
+
+
+def _unreadable(claim: Claim) -> Iterator[Edit]:
+    """What every repair must take out or correct: characters, addresses without a meaning, repetitions."""
+    for word in (*claim.unknown, *claim.repeated):
+        yield _drop(word)
+    for block in claim.blocks:
+        for fault in block.faults:
+            text = fault.text.replace(",", ".") if fault.address and fault.text.count(",") == 1 else ""
+            kind = EditKind.CHANGE if text else EditKind.DROP
+            yield Edit(kind, fault.address, fault.span, fault.text, text)
+
+
+def _corrections(claim: Claim, dialect: Dialect) -> Iterator[tuple[str, list[Edit]]]:
+    """Words whose value a rule refuses, with the values that mean the same or were meant."""
+    for offence in check(dialect.rules, claim.form.name, claim.stated()):
+        if offence.rule.when is None or not offence.rule.when.reads_values:
+            continue
+        for name in offence.names:
+            word, given = claim.words[name], claim.givens[name]
+            if given.unit is Unit.SIGN:
+                yield name, [_change(word, f"{word.address}-1"), _change(word, f"{word.address}1")]
+            elif given.value:
+                value = float(given.value % 360 if given.unit is Unit.DEGREE else abs(given.value))
+                yield name, [_change(word, write_word(word.address, value, dialect.modes.lexicon, claim.after.unit))]
+
+
+def _additions(claim: Claim, dialect: Dialect, name: str, geometries: Iterable[_Geometry]) -> list[Edit]:
+    """A word added: with the value that the geometry fixes, each sign of a choice, or a placeholder."""
+    address, index = claim.vocabulary[name]
+    texts = [f"{address}-1", f"{address}1"] if name in claim.form.choices else [address + PLACEHOLDER]
+    for geometry in geometries:
+        value = geometry.implied(claim, name)
+        if value is not None:
+            texts = [write_word(address, value, dialect.modes.lexicon, claim.after.unit)]
+            break
+    return [Edit(EditKind.ADD, address, text=text, line=claim.blocks[index].line) for text in texts]
+
+
+def _other_corners(claim: Claim) -> Iterator[tuple[Edit, ...]]:
+    """Each corner as it is, without its word, or with the word for its other shape."""
+    options: list[list[tuple[Edit, ...]]] = []
+    for row in claim.form.corners:
+        for name in row.shapes.keys() & claim.words.keys():
+            word = claim.words[name]
+            others = [_change(word, other + word.text.lstrip()[1:]) for other in row.shapes if other != name]
+            options.append([(), (_drop(word),), *((other,) for other in others)])
+    for choice in product(*options):
+        edits = tuple(edit for part in choice for edit in part)
+        if edits:
+            yield edits
+
+
+def is_legal(form: Form, rules: tuple[Rule, ...], names: frozenset[str], circumstances: frozenset[str]) -> bool:
+    """Whether no rule refuses the combination of words, whatever their values."""
+    offences = check(rules, form.name, dict.fromkeys(names | circumstances))
+    return not any(offence.rule.severity is Severity.ERROR for offence in offences)
+
+
+@lru_cache(maxsize=4096)
+def smallest_changes(
+    form: Form,
+    rules: tuple[Rule, ...],
+    present: frozenset[str],
+    extra: frozenset[str],
+    circumstances: frozenset[str],
+) -> tuple[frozenset[str], ...]:
+    """All smallest sets of names whose dropping or adding makes a combination that no rule refuses.
+
+    Where the combination is legal already, a word may be dropped or exchanged for another one.
+    """
+
+    if is_legal(form, rules, present, circumstances):
+        one = (frozenset({name}) for name in sorted(present))
+        exchanged = (frozenset({old, new}) for old in sorted(present & extra) for new in sorted(extra - present))
+        return (
+            frozenset(),
+            *(change for change in (*one, *exchanged) if is_legal(form, rules, present ^ change, circumstances)),
+        )
+    found: list[frozenset[str]] = []
+    universe = sorted(present | extra)
+    for size in range(1, MOST_EDITS + 1):
+        for names in combinations(universe, size):
+            change = frozenset(names)
+            if not any(other <= change for other in found) and is_legal(form, rules, present ^ change, circumstances):
+                found.append(change)
+    return tuple(found)
+
+
+def _is_singular(whole: _Geometry) -> bool:
+    """Whether the words leave something free although there are enough of them."""
+    affine = affine_facts(whole.profile, whole.profile.facts)
+    return affine is not None and len(affine.facts) >= len(affine.unknowns) and bool(affine.freedoms())
+
+
+def _is_legal_set(claim: Claim, rules: tuple[Rule, ...]) -> bool:
+    return is_legal(claim.form, rules, frozenset(claim.words), claim.circumstances)
+
+
+def _values(answer: Answer, dialect: Dialect, whole: _Geometry) -> Iterator[tuple[Edit, ...]]:
+    """One word with another value: what a finding or the other words ask for."""
+    claim, unit, lexicon = answer.claim, answer.claim.after.unit, dialect.modes.lexicon
+    forced = tuple(_unreadable(claim))
+    affine = affine_facts(whole.profile, whole.profile.facts)
+    circuits = affine.circuits() if affine else ()
+    tied = {fact.given for circuit in circuits if max(circuit.off) > AGREEMENT for fact in circuit.facts}
+    for name, word in claim.words.items():
+        given = claim.givens.get(name)
+        if given is None or word.number is None or given.unit is Unit.SIGN:
+            continue
+        texts = [
+            write_word(word.address, value, lexicon, unit, is_limit="limit" in key)
+            for key, value in _asked(answer, word, given)
+        ]
+        if name in tied:
+            value = _Geometry.of(claim, frozenset(claim.givens) - {name}).implied(claim, name)
+            texts += [write_word(word.address, value, lexicon, unit)] if value is not None else []
+        yield from ((*forced, _change(word, text)) for text in dict.fromkeys(texts) if text != word.text)
+
+
+def _slips(answer: Answer, dialect: Dialect, whole: _Geometry) -> Iterator[tuple[Edit, ...]]:
+    """One word as it may have been meant, where the words are legal and determine a path that cannot be."""
+    claim, unit, lexicon = answer.claim, answer.claim.after.unit, dialect.modes.lexicon
+    is_about_values = answer.status is Status.NO_SOLUTION and not _is_singular(whole)
+    if is_about_values and any(not finding.values.get("limit") for finding in answer.diagnostics):
+        for name, word in claim.words.items():
+            given = claim.givens.get(name)
+            if given is not None and given.unit is not Unit.SIGN and name not in _sizes(claim):
+                texts = _variants(word, given, lexicon, unit)
+                yield from ((_change(word, text),) for text in dict.fromkeys(texts) if text != word.text)
+
+
+def _sizes(claim: Claim) -> set[str]:
+    """The words that give a corner its size."""
+    return {name for row in claim.form.corners for name in row.shapes}
+
+
+def _asked(answer: Answer, word: Word, given: Given) -> Iterator[tuple[str, float]]:
+    """The values that findings about a word ask for, in mm (radius) or degrees."""
+    for finding in answer.diagnostics:
+        if finding.labels and finding.labels[0].span == word.span:
+            for key in ("expected", "limit"):
+                if key in finding.values and abs(finding.values[key]) < float("inf"):
+                    yield key, finding.values[key] * (0.5 if given.is_diameter else 1.0)
+
+
+def _variants(word: Word, given: Given, lexicon: Lexicon, unit: Length) -> Iterator[str]:
+    """The word as it may have been meant: point forgotten, opposite or mirrored angle, other sign."""
+    value = float(given.value)
+    if not word.has_point and abs(value) < abs(float(word.number or 0)):
+        yield word.text.rstrip() + "."
+    if given.unit is Unit.DEGREE:
+        for angle in (value - 180 if value > 0 else value + 180, 180 - value, -value):
+            yield write_word(word.address, angle, lexicon, unit)
+    elif value:
+        yield write_word(word.address, -value, lexicon, unit)
+
+
+def _try(
+    claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], codes: set[str], reference: Contour | None
+) -> Repair | None:
+    """The repair, if the changed block is read as the same form, accepted, and solved without a finding."""
+    texts = apply(claim.blocks, edits)
+    if texts == tuple(block.text for block in claim.blocks):
+        return None
+    replacement = "\n".join(texts)
+    if any(edit.text.endswith(PLACEHOLDER) for edit in edits):
+        is_fixed = _is_fixed_by_a_number(claim, dialect, texts)
+        return Repair(edits, replacement, Applicability.PLACEHOLDER, None, 0.0) if is_fixed else None
+    answer = _examine_again(claim, dialect, texts)
+    if answer is None or answer.status is not Status.SOLVED or answer.contour is None:
+        return None
+    if any(each.severity is not Severity.INFO and not _now_agrees(each, codes) for each in answer.diagnostics):
+        return None
+    deviation = _deviation(answer.contour, reference) if reference else float("inf")
+    is_same = deviation <= AGREEMENT and len(answer.contour.elements) == len(reference.elements if reference else ())
+    applicability = Applicability.SAFE if is_same else Applicability.CHANGES_CONTOUR
+    return Repair(edits, replacement, applicability, answer.contour, deviation)
+
+
+def _now_agrees(finding: Diagnostic, codes: set[str]) -> bool:
+    """Whether a finding that the block did not have before says only that an ignored word now agrees."""
+    is_new = finding.code not in codes and finding.severity is Severity.WARNING
+    return is_new and finding.values.get("off_by_mm", float("inf")) <= AGREEMENT
+
+
+def _examine_again(claim: Claim, dialect: Dialect, texts: tuple[str, ...]) -> Answer | None:
+    blocks = [parse_block(text, block.line) for text, block in zip(texts, claim.blocks, strict=True)]
+    found = dialect.find(blocks, 0, claim.before, dialect.modes)
+    if not isinstance(found, Claim) or len(found.blocks) != len(blocks):
+        return None
+    return examine(found, dialect.rules, Policy.ENFORCE)
+
+
+_SAMPLE = "37.123"
+"""Stands for any number where only the words matter."""
+
+
+def _is_fixed_by_a_number(claim: Claim, dialect: Dialect, texts: tuple[str, ...]) -> bool:
+    """Whether the words determine the drawing at these values, whatever number the placeholder becomes."""
+    blocks = [parse_block(text.replace(PLACEHOLDER, _SAMPLE), 1) for text in texts]
+    found = dialect.find(blocks, 0, claim.before, dialect.modes)
+    if not isinstance(found, Claim) or len(found.blocks) != len(blocks):
+        return False
+    profile = read(found, frozenset())
+    affine = affine_facts(profile, profile.facts)
+    return affine is None or not affine.freedoms()
+
+
+def _deviation(contour: Contour, reference: Contour) -> float:
+    pairs = [(contour.end, reference.end)]
+    pairs += [(contour.points[name], at) for name, at in reference.points.items() if name in contour.points]
+    return max(hypot(a[0] - b[0], a[1] - b[1]) for a, b in pairs)

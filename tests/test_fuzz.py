@@ -1,0 +1,197 @@
+"""Text that nobody would write: reading it loses no character, and solving it always ends in statuses and findings.
+
+The mutations work on windows of a few lines around each contour, not on whole programs: a whole program
+is about 60 lines of which a mutation touches one, so windows try 15 times as many in the same time.
+"""
+
+import random
+import re
+import string
+from decimal import Decimal
+from math import hypot, isfinite
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from contoursolve import Result, Severity, Status, parse, solve
+from contoursolve.dialects import DIALECTS
+from contoursolve.output.contours import contour_lines
+from contoursolve.output.document import to_json
+from contoursolve.output.findings import finding_lines
+
+PROGRAMS = {
+    path.name: (path.read_text(), "nct-99m" if "NCT" in path.read_text() else "yasnac-lx3")
+    for path in sorted((Path(__file__).parent.parent / "notebooks" / "programs").glob("*.nc"))
+}
+MUTANTS, WHOLE_PROGRAMS = 24_000, 300
+SHARDS = 8
+"""A failing shard names its seed, so that one failure is repeated in seconds."""
+
+GAP = 1e-9
+"""mm."""
+
+LETTERS = st.sampled_from("ABCDFGIJKMNOPQRSTUWXYZabcxyz,/%#[]();.+-0123456789 \t$\0\u00e9\u0663\u20ac\U0001f600")
+ANYTHING = st.one_of(st.text(), st.text(alphabet=LETTERS), st.text(alphabet="\r\n\x0b\x0c\x1c\x85\u2028X1. ;("))
+BLANKS = re.compile(r"[ \t\f\v\x02\x03\x11-\x14\x1a\ufeff%]*")
+SKIP = re.compile(r"[ \t]*/[1-9]?(?![0-9])")
+COMMENTS = re.compile(r"\([^)]*\)|;.*")
+
+
+@given(ANYTHING)
+@settings(max_examples=2_000, deadline=None, derandomize=True)
+def test_every_character_is_in_a_word_a_fault_a_comment_or_blank(text):
+    program = parse(text)
+    assert "\n".join(block.text for block in program.blocks) == re.sub(r"\r\n?", "\n", text).removesuffix("\n")
+    for number, block in enumerate(program.blocks, 1):
+        assert block.line == number
+        skip = SKIP.match(block.text)
+        rest, here = "", skip.end() if skip else 0
+        for part in sorted((*block.words, *block.faults), key=lambda part: part.span):
+            begin, end = part.span.column - 1, part.span.end_column - 1
+            assert part.span.line == number
+            assert here <= begin < end <= len(block.text)
+            rest, here = rest + block.text[here:begin] + "\n", end
+        for word in block.words:
+            assert block.text[word.span.column - 1 : word.span.end_column - 1] == word.text
+            value = re.fullmatch(r",?[ \t]*[A-Z][ \t]*(.+)", word.text, re.IGNORECASE | re.ASCII)[1]
+            assert "".join(word.text.removesuffix(value).split()).upper() == word.address
+            assert word.number == (None if set("#[") & set(value) else Decimal(value))
+            assert word.number is None or value.isascii()
+        if not block.macro:
+            for piece in (rest + block.text[here:]).split("\n"):
+                assert BLANKS.fullmatch(COMMENTS.sub("", piece)), piece
+
+
+@given(ANYTHING, st.sampled_from(sorted(DIALECTS)), st.sampled_from(["enforce", "warn", "off"]))
+@settings(max_examples=1_000, deadline=None, derandomize=True)
+def test_arbitrary_text_is_answered(text, control, rules):
+    check(solve(text, control=control, rules=rules), text)
+
+
+def check(result: Result, text: str) -> None:
+    """What holds for the answer to any text."""
+    lines = [block.text for block in result.program.blocks]
+    for answer in result.answers:
+        assert isinstance(answer.status, Status)
+        has_path = answer.status in (Status.SOLVED, Status.OVERDETERMINED) and answer.contour is not None
+        assert has_path or any(each.severity is Severity.ERROR for each in answer.diagnostics)
+        if has_path:
+            here = answer.contour.start
+            for element in answer.contour.elements:
+                assert hypot(element.start[0] - here[0], element.start[1] - here[1]) <= GAP
+                here = element.end
+            assert isfinite(here[0])
+            assert isfinite(here[1])
+    assert result.answers or result.diagnostics
+    for finding in result.diagnostics:
+        for span in (finding.span, *(label.span for label in finding.labels)):
+            assert 1 <= span.line <= max(len(lines), 1)
+            assert 1 <= span.column < span.end_column <= max(len(lines[span.line - 1]) if lines else 0, 1) + 1
+        assert finding.message.isprintable() or not text.isprintable()
+
+
+ODD = (
+    *"%/#[]();,.+-$&'\"\\\0\t\x1a \u00c4\u0663\u2212\ufeff\U0001f600",
+    *(" G111 ", " G1 ", " G91 ", " G41 ", " G18 ", " G04 ", " M98 ", " N10 ", " O1 ", " IF ", " #1=", "[#1]"),
+    *(" ,A", ",A90", " ,R2", " Q0", " Q-1", " R-5", " I0", " K0", " A90.", " B0", " P1000.", " C0", " X#1", "\n", "\r"),
+    *("1e9", "-", "--", "..", "0", "9" * 40, "0.0000001", "." + "9" * 20, "99999.", "NaN", "INF"),
+)
+WORD = re.compile(r",?[A-Za-z][ ]*[-+]?[0-9.]+")
+
+
+def mutate(text: str, draw: random.Random) -> str:
+    """One random change of characters, words or lines."""
+    lines = text.split("\n")
+    words = list(WORD.finditer(text))
+    place, other = draw.randrange(len(text) + 1), draw.randrange(len(text) + 1)
+    match draw.randrange(9):
+        case 0:
+            return text[:place] + text[place + 1 :]
+        case 1:
+            return text[:place] + text[place : place + 1] + text[place:]
+        case 2:
+            return text[:place] + draw.choice(ODD) + text[place:]
+        case 3:
+            return text[:place] + draw.choice(string.printable) + text[place + 1 :]
+        case 4 if words:
+            word = draw.choice(words)
+            return text[: word.start()] + text[word.end() :]
+        case 5 if words:
+            word = draw.choice(words)
+            return text[: word.end()] + draw.choice((" ", "")) + draw.choice(words)[0] + text[word.end() :]
+        case 6 if words:
+            word, value = draw.choice(words), draw.choice(words)[0].lstrip(",")[1:]
+            return text[: word.start()] + word[0].rstrip("-+0123456789. ") + value + text[word.end() :]
+        case 7:
+            low, high = sorted((place, other))
+            return text[:low] + text[low:high][::-1][: draw.randrange(8)] + text[high if high - low < 8 else low :]
+        case _:
+            index, target = draw.randrange(len(lines)), draw.randrange(len(lines))
+            change = draw.randrange(3)
+            if change == 0:
+                lines.insert(target, lines[index])
+            elif change == 1:
+                del lines[index]
+            else:
+                lines[index], lines[target] = lines[target], lines[index]
+            return "\n".join(lines)
+
+
+def windows() -> list[tuple[str, str]]:
+    """(lines before, the lines of one or two contours with those between, control)."""
+    found = []
+    for text, control in PROGRAMS.values():
+        lines = text.split("\n")
+        answers = solve(text, control=control).answers
+        for answer, following in zip(answers, (*answers[1:], answers[0]), strict=True):
+            start = [float(value) * (2 if control == "yasnac-lx3" and axis == "X" else 1)
+                     for axis, value in zip(answer.plane.axes, answer.start.values, strict=True)]  # fmt: skip
+            first, second = answer.plane.axes
+            modes = "G00 " if control == "yasnac-lx3" else f"{answer.plane.code} G41 G0 "
+            before = f"{modes}{first}{start[0]:.4f} {second}{start[1]:.4f}"
+            last = following.lines[-1] if 0 < following.lines[0] - answer.lines[-1] <= 3 else answer.lines[-1]
+            found.append(("\n".join((before, *lines[answer.lines[0] - 1 : last])), control))
+    return found
+
+
+WINDOWS = windows()
+
+
+@pytest.mark.parametrize("seed", range(SHARDS))
+def test_mutated_contours_are_answered(seed):
+    draw = random.Random(seed)
+    for count in range(MUTANTS // SHARDS):
+        text, control = draw.choice(WINDOWS)
+        for _ in range(draw.choice((1, 1, 1, 2, 3, 8))):
+            text = mutate(text, draw) or " "
+        rules = draw.choice(("enforce", "enforce", "warn", "off"))
+        try:
+            result = solve(text, control=control, rules=rules)
+            check(result, text)
+            if count % 10 == 0:
+                sources = {block.line: block.text for block in result.program.blocks}
+                assert to_json(result)
+                assert all(contour_lines(answer, result) for answer in result.answers)
+                assert all(finding_lines(finding, "x.nc", sources) for finding in result.diagnostics)
+        except Exception as error:
+            raise AssertionError(f"solve({text!r}, control={control!r}, rules={rules!r})") from error
+
+
+def test_mutated_whole_programs_are_answered():
+    draw = random.Random(99)
+    for _ in range(WHOLE_PROGRAMS):
+        text, control = draw.choice(list(PROGRAMS.values()))
+        for _ in range(5):
+            text = mutate(text, draw)
+        try:
+            check(solve(text, control=control), text)
+        except Exception as error:
+            raise AssertionError(f"solve({text!r}, control={control!r})") from error
+
+
+def test_windows_cover_every_contour_and_most_are_solved():
+    answers = [solve(text, control=control).answers[0] for text, control in WINDOWS]
+    assert len(answers) == sum(len(solve(text, control=control).answers) for text, control in PROGRAMS.values())
+    assert sum(answer.status is Status.SOLVED for answer in answers) == 7 + 6 + 1
