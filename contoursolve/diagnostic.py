@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import Enum
+from math import atan2, degrees
 
 from contoursolve.source import Evidence, Source, Span
 
@@ -83,3 +84,61 @@ class Diagnostic:
     notes: tuple[str, ...] = ()
     help: str = ""
     fixes: tuple[Fix, ...] = ()
+
+
+class Verdict(Enum):
+    """What became of one check."""
+
+    PASSED = "passed"
+    FOUND = "found"
+    NOT_RUN = "not run"
+
+
+@dataclass(frozen=True, slots=True)
+class Layer:
+    """One check, its verdict, and in words what it looked at or why it could not run."""
+
+    name: str
+    verdict: Verdict
+    remark: str
+
+
+@dataclass(frozen=True, slots=True)
+class Freedom:
+    """How far a point is from being fixed: with a `direction` it slides along it, without it lies anywhere.
+
+    `direction` is a unit vector in the plane's axes.
+    """
+
+    point: str
+    direction: tuple[float, float] | None
+
+    @property
+    def angle(self) -> float | None:
+        """The direction in degrees, 0 to less than 180; None where the point lies anywhere."""
+        return None if self.direction is None else degrees(atan2(self.direction[1], self.direction[0])) % 180
+
+
+@dataclass(frozen=True, slots=True)
+class Tie:
+    """A smallest set of words that say the same, each following from the others.
+
+    `identity` is the formula that ties them for all values, where one is kept. `off_by_mm` is by how much
+    they disagree; `is_conflict` whether that is more than the least increment.
+    """
+
+    addresses: tuple[str, ...]
+    identity: str
+    off_by_mm: float
+    is_conflict: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnosis:
+    """What the equations of one contour say: the checks it went through, what can still move, and which
+    words say the same. The ties are all there are, found exhaustively, where `is_complete`."""
+
+    layers: tuple[Layer, ...]
+    freedoms: tuple[Freedom, ...]
+    ties: tuple[Tie, ...]
+    is_complete: bool

@@ -8,7 +8,7 @@ from enum import Enum
 from contoursolve.analysis import judge
 from contoursolve.constraints import assemble
 from contoursolve.contour import Contour, trace
-from contoursolve.diagnostic import Basis, Diagnostic, Label, Severity
+from contoursolve.diagnostic import Basis, Diagnosis, Diagnostic, Label, Severity
 from contoursolve.explain import (
     Context,
     context_of,
@@ -68,6 +68,8 @@ class Answer:
     side: Side | None
     error_bound: float
     diagnostics: tuple[Diagnostic, ...]
+    diagnosis: Diagnosis | None = None
+    """Made where there is a finding, see `contoursolve.diagnosis`."""
 
 
 class _Notebook:

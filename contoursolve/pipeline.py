@@ -4,6 +4,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
 
+from contoursolve.diagnosis import diagnose
 from contoursolve.diagnostic import Basis, Diagnostic, Severity
 from contoursolve.dialects import DIALECTS, Dialect, Unresolved
 from contoursolve.examine import Answer, Policy, examine, explain_fault, explain_words, rank
@@ -93,6 +94,8 @@ class _Examiner:
             found = dialect.find(blocks, index, state, dialect.modes)
             if isinstance(found, Claim):
                 answer = examine(found, self.rules, self.policy)
+                if any(each.severity is not Severity.INFO for each in answer.diagnostics):
+                    answer = diagnose(answer, dialect, self.policy)
                 yield answer
                 state = _state_after(found, answer, dialect)
                 index += found.blocks[-1].line - block.line

@@ -8,34 +8,14 @@ facts that say the same.
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations
-from math import atan2, degrees
 
 import numpy
 
 from contoursolve.constraints import OnCircle, assemble
+from contoursolve.diagnostic import Freedom
 from contoursolve.model import FIRST, SECOND, Fact, Profile, scalar
 from contoursolve.solving import lookup
 from contoursolve.tolerance import REGULAR
-
-
-@dataclass(frozen=True, slots=True)
-class Freedom:
-    """How far a point is from being fixed: `rank` 1 it slides along `direction`, 2 it moves anywhere.
-
-    `direction` is a unit vector in the plane's axes (None for rank 2); `angle` its direction in degrees,
-    from 0 to less than 180.
-    """
-
-    point: str
-    rank: int
-    direction: tuple[float, float] | None
-
-    @property
-    def angle(self) -> float:
-        """Direction in degrees, 0 to less than 180; 0 where the point moves anywhere."""
-        if self.direction is None:
-            return 0.0
-        return degrees(atan2(self.direction[1], self.direction[0])) % 180
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +72,7 @@ class AffineFacts:
             along = right[0] if right[0][numpy.argmax(abs(right[0]))] > 0 else -right[0]
             if rank:
                 direction = (float(along[0]), float(along[1])) if rank == 1 else None
-                result.append(Freedom(point, rank, direction))
+                result.append(Freedom(point, direction))
         return tuple(result)
 
     def fixed_by(self, facts: Sequence[Fact]) -> dict[str, float]:

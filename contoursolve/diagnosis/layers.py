@@ -1,32 +1,12 @@
 """Which checks a contour went through, what each found, and which could not run, and why."""
 
-from dataclasses import dataclass
-from enum import Enum
-
 from contoursolve.analysis import decompose, judge
 from contoursolve.constraints import System, assemble
-from contoursolve.diagnostic import Basis, Severity
+from contoursolve.diagnostic import Basis, Layer, Severity, Verdict
 from contoursolve.examine import Answer, Policy
 from contoursolve.model import Profile
 from contoursolve.reading import read
 from contoursolve.syntax import FaultKind
-
-
-class Verdict(Enum):
-    """What became of one check."""
-
-    PASSED = "passed"
-    FOUND = "found"
-    NOT_RUN = "not run"
-
-
-@dataclass(frozen=True, slots=True)
-class Layer:
-    """One check, its verdict, and in words what it looked at or why it could not run."""
-
-    name: str
-    verdict: Verdict
-    remark: str
 
 
 def list_layers(answer: Answer, policy: Policy) -> tuple[Layer, ...]:

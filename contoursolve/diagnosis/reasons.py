@@ -3,9 +3,9 @@
 from collections.abc import Iterator, Sequence
 
 from contoursolve.constraints import Heading
-from contoursolve.diagnosis.affine import AffineFacts, Circuit, Freedom
+from contoursolve.diagnosis.affine import AffineFacts, Circuit
 from contoursolve.diagnosis.identities import identity
-from contoursolve.diagnostic import Diagnostic
+from contoursolve.diagnostic import Diagnostic, Freedom
 from contoursolve.explain import angle_text, join, length_text
 from contoursolve.model import FIRST, SECOND, Fact, Line, Profile, scalar
 from contoursolve.solving import lookup
@@ -65,7 +65,7 @@ def freedom_reasons(profile: Profile, freedoms: Sequence[Freedom]) -> Iterator[s
             yield f"{freedom.point} can still lie anywhere"
             continue
         axis = next((axis for axis in (FIRST, SECOND) if abs(freedom.direction[1 - axis]) < REGULAR), None)
-        way = f"along {profile.plane.axes[axis]}" if axis is not None else f"along {angle_text(freedom.angle)}"
+        way = f"along {profile.plane.axes[axis]}" if axis is not None else f"along {angle_text(freedom.angle or 0)}"
         yield f"{freedom.point} can still slide {way}"
 
 

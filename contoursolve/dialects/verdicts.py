@@ -1,4 +1,4 @@
-"""Writes the table of sympy's verdicts that ships with the package: `python -m contoursolve.dialects.verdicts`."""
+"""Writes the tables of sympy's results that ship with the package: `python -m contoursolve.dialects.verdicts`."""
 
 import json
 from dataclasses import asdict
@@ -6,6 +6,7 @@ from pathlib import Path
 
 from contoursolve import analysis
 from contoursolve.analysis import derive
+from contoursolve.analysis.identities import derive_identity, is_affine, tied_sets
 from contoursolve.constraints import build_system
 from contoursolve.dialects import DIALECTS
 from contoursolve.reading import lay_out, stated_sets
@@ -20,8 +21,29 @@ def table() -> str:
                 layout = lay_out(form, stated, frozenset(), None)
                 system = build_system(layout.figure, layout.facts)
                 rows[system.equations_key] = json.dumps(asdict(derive(system)))
+    return _write(rows)
+
+
+def identity_table() -> str:
+    """For every smallest set of words that say the same: the formula that ties them, by sympy, as JSON."""
+    rows = {}
+    for dialect in DIALECTS.values():
+        for form in dialect.forms:
+            layout = lay_out(form, frozenset().union(*stated_sets(form)), frozenset(), None)
+            system = build_system(layout.figure, layout.facts)
+            for facts in tied_sets(system) if is_affine(layout.facts) else ():
+                formula = derive_identity(system, facts)
+                for axis, coordinate in enumerate(dialect.plane.axes):
+                    formula = formula.replace(f"S.{axis}", f"{coordinate}start")
+                rows[" ".join(sorted(fact.given for fact in facts))] = json.dumps(formula)
+    return _write(rows)
+
+
+def _write(rows: dict[str, str]) -> str:
     return "{\n" + ",\n".join(f"{json.dumps(key)}: {row}" for key, row in sorted(rows.items())) + "\n}\n"
 
 
 if __name__ == "__main__":
-    (Path(analysis.__file__).parent / "verdicts.json").write_text(table(), encoding="utf-8", newline="\n")
+    folder = Path(analysis.__file__).parent
+    (folder / "verdicts.json").write_text(table(), encoding="utf-8", newline="\n")
+    (folder / "identities.json").write_text(identity_table(), encoding="utf-8", newline="\n")

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from contoursolve.contour import ArcSegment, Segment
-from contoursolve.diagnostic import Diagnostic
+from contoursolve.diagnostic import Diagnosis, Diagnostic
 from contoursolve.examine import Answer
 from contoursolve.pipeline import Result
 from contoursolve.solving import Point
@@ -59,6 +59,16 @@ def finding_data(finding: Diagnostic) -> dict[str, Any]:
         "end_column": finding.span.end_column,
         "message": finding.message,
         "help": finding.help,
+        "notes": list(finding.notes),
+        "labels": [
+            {
+                "line": label.span.line,
+                "column": label.span.column,
+                "end_column": label.span.end_column,
+                "text": label.text,
+            }
+            for label in finding.labels
+        ],
         "addresses": list(finding.addresses),
         "basis": finding.basis.value,
         "source": {
@@ -95,6 +105,29 @@ def _contour(answer: Answer) -> dict[str, Any]:
         "certificate": {"kind": "verified", "radius": _finite(answer.error_bound)}
         if contour
         else {"kind": "unknown", "radius": None},
+        "diagnosis": _diagnosis(answer.diagnosis) if answer.diagnosis else None,
+    }
+
+
+def _diagnosis(diagnosis: Diagnosis) -> dict[str, Any]:
+    return {
+        "layers": [
+            {"name": layer.name, "verdict": layer.verdict.value, "remark": layer.remark} for layer in diagnosis.layers
+        ],
+        "freedoms": [
+            {"point": each.point, "direction": list(each.direction) if each.direction else None, "angle": each.angle}
+            for each in diagnosis.freedoms
+        ],
+        "ties": [
+            {
+                "addresses": list(tie.addresses),
+                "identity": tie.identity,
+                "off_by_mm": tie.off_by_mm,
+                "is_conflict": tie.is_conflict,
+            }
+            for tie in diagnosis.ties
+        ],
+        "is_complete": diagnosis.is_complete,
     }
 
 

@@ -2,11 +2,20 @@
 
 from collections.abc import Callable, Mapping
 
-from contoursolve.diagnostic import Diagnostic, Label
+from contoursolve.diagnostic import Applicability, Diagnostic, Label
 from contoursolve.output.layout import printable
 
 WIDTH = 100
 """Characters of a program line shown around the place."""
+
+SHOWN_FIXES = 4
+"""Fixes shown in text."""
+
+_APPLICABILITY = {
+    Applicability.SAFE: "same contour",
+    Applicability.CHANGES_CONTOUR: "changes the contour",
+    Applicability.PLACEHOLDER: "needs a number",
+}
 
 Style = Callable[[str, str], str]
 """(text, role) to styled text; roles are error, warning, info, frame and bold."""
@@ -35,8 +44,14 @@ def finding_lines(finding: Diagnostic, name: str, sources: Mapping[int, str], st
         lines += [f"{bar} {line}" for line in _marks(labels, shift, primary, len(text), style, role)]
     foot = " " * (gutter + 1) + style("=", "frame")
     lines += [f"{foot} {note}" for note in finding.notes]
-    if finding.help:
+    if finding.help and not any(fix.applicability is not Applicability.PLACEHOLDER for fix in finding.fixes):
         lines.append(f"{foot} help: {finding.help}")
+    for fix in finding.fixes[:SHOWN_FIXES]:
+        lines.append(f"{foot} fix [{_APPLICABILITY[fix.applicability]}]: {fix.description}")
+        if fix.applicability is not Applicability.PLACEHOLDER:
+            lines += [f"{' ' * (gutter + 4)} {printable(line.strip())[:WIDTH]}" for line in fix.replacement.split("\n")]
+    if len(finding.fixes) > SHOWN_FIXES:
+        lines.append(f"{foot} and {len(finding.fixes) - SHOWN_FIXES} more fixes (--format json lists all)")
     lines.append(f"{foot} source: {finding.source}")
     if finding.alarm:
         lines.append(f"{foot} control: alarm {finding.alarm.number} ({finding.alarm.evidence.value})")
