@@ -11,14 +11,17 @@ the path is. Lengths are in mm, X of a lathe is a radius, angles are in degrees.
 """
 
 from contoursolve.api import (
+    Completion,
     UnreadableProgramError,
     check,
     check_file,
+    completions,
     parse,
     read_program,
     solve,
     solve_file,
     solve_program,
+    what_if,
 )
 from contoursolve.contour import ArcSegment, Contour, LineSegment
 from contoursolve.diagnostic import Basis, Diagnostic, Severity
@@ -34,6 +37,7 @@ __all__ = [
     "ArcSegment",
     "Basis",
     "Block",
+    "Completion",
     "Contour",
     "Diagnostic",
     "LineSegment",
@@ -47,9 +51,11 @@ __all__ = [
     "Word",
     "check",
     "check_file",
+    "completions",
     "parse",
     "read_program",
     "solve",
     "solve_file",
     "solve_program",
+    "what_if",
 ]

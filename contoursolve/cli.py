@@ -17,9 +17,10 @@ from contoursolve.diagnostic import Diagnostic, Severity
 from contoursolve.dialects import DIALECTS
 from contoursolve.examine import Answer, Policy
 from contoursolve.model import Length
-from contoursolve.output.catalogue import catalogue_lines, rule_lines
+from contoursolve.output.catalogue import catalogue_lines, rule_lines, table_lines
 from contoursolve.output.contours import contour_lines
 from contoursolve.output.document import findings_to_json, to_json
+from contoursolve.output.exchange import to_github, to_sarif
 from contoursolve.output.findings import Style, finding_lines, plain
 from contoursolve.output.layout import count
 from contoursolve.pipeline import Result, UnknownControlError
@@ -75,14 +76,6 @@ def _common(command: Callable[..., None]) -> Callable[..., None]:
                 help="Rules of the control's manual: refuse what they refuse; only warn; or let the geometry "
                 "alone decide.",
             ),
-            click.option(
-                "--format",
-                "format_",
-                type=click.Choice(["text", "json"]),
-                default="text",
-                show_default=True,
-                help="What to print; json is in mm, with X as radius.",
-            ),
         )
     ):
         command = option(command)
@@ -109,6 +102,14 @@ def main() -> None:
 @main.command()
 @click.argument("program", required=False)
 @_common
+@click.option(
+    "--format",
+    "format_",
+    type=click.Choice(["text", "json"]),
+    default="text",
+    show_default=True,
+    help="What to print; json is in mm, with X as radius.",
+)
 @click.pass_context
 def solve(
     context: click.Context,
@@ -139,6 +140,21 @@ def solve(
 @main.command()
 @click.argument("programs", nargs=-1, metavar="PROGRAM...")
 @_common
+@click.option(
+    "--format",
+    "format_",
+    type=click.Choice(["text", "json", "sarif", "github"]),
+    default="text",
+    show_default=True,
+    help="What to print: text, one JSON document, SARIF 2.1.0, or GitHub's annotations.",
+)
+@click.option(
+    "--fail-on",
+    type=click.Choice(["error", "warning", "never"]),
+    default="error",
+    show_default=True,
+    help="The least finding that makes the exit status 1.",
+)
 @click.pass_context
 def check(
     context: click.Context,
@@ -147,6 +163,7 @@ def check(
     blocks: tuple[str, ...],
     start: str | None,
     format_: str,
+    fail_on: str,
     **options: Any,
 ) -> None:
     """Report the findings about each PROGRAM (files, or - for standard input), and nothing else.
@@ -155,22 +172,38 @@ def check(
     contoursolve check shaft.nc flange.nc
     contoursolve check --control yasnac-lx3 - < shaft.nc
     """
-    results = [only_findings(_examine(each, start, options)) for each in _load(programs, blocks, start)]
-    if format_ == "json":
-        click.echo(findings_to_json(results))
-    else:
-        for result in results:
-            _print(_findings(result, result.diagnostics, _style()))
-        _print_summary(results)
-    context.exit(FOUND_ERRORS if any(result.has_errors for result in results) else 0)
+    programs_loaded = _load(programs, blocks, start)
+    is_shown = len(programs_loaded) > 1 and sys.stderr.isatty()
+    with click.progressbar(programs_loaded, label="checking", file=sys.stderr, hidden=not is_shown) as loaded:
+        results = [only_findings(_examine(each, start, options)) for each in loaded]
+    match format_:
+        case "json":
+            click.echo(findings_to_json(results))
+        case "sarif":
+            click.echo(to_sarif(results, __version__))
+        case "github":
+            _print([to_github(results)])
+        case _:
+            for result in results:
+                _print(_findings(result, result.diagnostics, _style()))
+            _print_summary(results)
+    failing = {"error": (Severity.ERROR,), "warning": (Severity.ERROR, Severity.WARNING), "never": ()}[fail_on]
+    found = {finding.severity for result in results for finding in result.diagnostics}
+    context.exit(FOUND_ERRORS if found & set(failing) else 0)
 
 
 @main.command()
 @click.option("--control", type=click.Choice(list(DIALECTS)), help="Only the rules of this control.")
-def rules(control: str | None) -> None:
+@click.option(
+    "--table",
+    "is_table",
+    is_flag=True,
+    help="Instead: every set of words of every form, legal or not, determined or not.",
+)
+def rules(control: str | None, is_table: bool) -> None:
     """List the whole catalogue of rules and findings, with their evidence and the control's alarms."""
     chosen = [dialect for name, dialect in DIALECTS.items() if control in (None, name)]
-    click.echo("\n".join(catalogue_lines(chosen)))
+    _print(table_lines(chosen) if is_table else catalogue_lines(chosen))
 
 
 @main.command()

@@ -29,7 +29,7 @@ class Words:
     def __format__(self, spec: str) -> str:
         wanted = (spec,) if spec in dict(self.by_name) else spec.split()
         texts = [text for name, text in self.by_name if not spec or name in wanted]
-        return _shorten(join(texts)) or "the block"
+        return shorten(join(texts)) or "the block"
 
 
 @dataclass(frozen=True, slots=True)
@@ -176,7 +176,7 @@ def explain_missing(context: Context, profile: Profile, verdict: Verdict, claim:
         context.row(Trouble.UNDERDETERMINED),
         Basis.SYMBOLIC,
         [],
-        free=_unknowns_text(verdict.free, profile),
+        free=unknowns_text(verdict.free, profile),
         completions=completions,
     )
 
@@ -190,7 +190,7 @@ def explain_result(context: Context, event: Refusal | Remark, profile: Profile) 
     givens = [profile.givens[name] for name in event.givens]
     words = [given.word for given in givens if given.word]
     values = dict(event.values)
-    fields: dict[str, Any] = {"subject": event.subject, "free": _unknowns_text(event.subject.split(","), profile)}
+    fields: dict[str, Any] = {"subject": event.subject, "free": unknowns_text(event.subject.split(","), profile)}
     is_word = event.kind in _OF_A_WORD
     for name in ("limit", "expected", "actual"):
         if name in values:
@@ -230,7 +230,7 @@ def _labels(event: Refusal | Remark, fields: Mapping[str, Any]) -> list[str]:
     return []
 
 
-def _unknowns_text(names: Sequence[str], profile: Profile) -> str:
+def unknowns_text(names: Sequence[str], profile: Profile) -> str:
     """Unknown scalars in the user's words: `V1 (Z and X)`."""
     points: dict[str, list[str]] = {}
     for name in names:
@@ -244,7 +244,8 @@ def join(texts: Sequence[str]) -> str:
     return " and ".join(filter(None, (", ".join(texts[:-1]), *texts[-1:])))
 
 
-def _shorten(text: str) -> str:
+def shorten(text: str) -> str:
+    """A text for a message, cut where it is very long."""
     return text if len(text) <= SHOWN else text[: SHOWN - 4] + " ..."
 
 

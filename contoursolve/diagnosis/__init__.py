@@ -2,8 +2,9 @@
 
 from contoursolve.diagnosis.affine import AffineFacts, Circuit, affine_facts
 from contoursolve.diagnosis.diagnose import diagnose
-from contoursolve.diagnosis.edits import Edit, EditKind
+from contoursolve.diagnosis.edits import Edit, EditKind, apply_edits
 from contoursolve.diagnosis.repairs import Repair, Repairs, find_repairs
+from contoursolve.diagnosis.table import Row, tabulate
 
 __all__ = [
     "AffineFacts",
@@ -12,7 +13,10 @@ __all__ = [
     "EditKind",
     "Repair",
     "Repairs",
+    "Row",
     "affine_facts",
+    "apply_edits",
     "diagnose",
     "find_repairs",
+    "tabulate",
 ]

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from decimal import ROUND_DOWN, ROUND_HALF_EVEN, Decimal
 from enum import Enum
 
+from contoursolve.explain import shorten
 from contoursolve.model import Length, Unit
 from contoursolve.reading import Lexicon, WithoutPoint
 from contoursolve.source import Span
@@ -33,15 +34,15 @@ class Edit:
 
     def __str__(self) -> str:
         if self.kind is EditKind.CHANGE:
-            return f"write {self.text} for {self.old}"
-        return f"{self.kind.value} {self.text or self.old}"
+            return f"write {shorten(self.text)} for {shorten(self.old)}"
+        return f"{self.kind.value} {shorten(self.text or self.old)}"
 
 
 PLACEHOLDER = "?"
 """Stands for a number that the block does not give."""
 
 
-def apply(blocks: Iterable[Block], edits: Iterable[Edit]) -> tuple[str, ...]:
+def apply_edits(blocks: Iterable[Block], edits: Iterable[Edit]) -> tuple[str, ...]:
     """The texts of the blocks with the edits made; blanks that a dropped word leaves double are merged."""
     edits = tuple(edits)
     texts = []

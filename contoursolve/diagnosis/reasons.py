@@ -31,14 +31,16 @@ def conflict_reasons(profile: Profile, affine: AffineFacts, circuit: Circuit) ->
         own = -float(affine.constants[row]) / float(affine.matrix[row, affine.unknowns.index(scalar(point, axis))])
         apart = f"{length_text(circuit.off[circuit.facts.index(single)], profile.unit)} apart"
         ending = "the same place" if off <= AGREEMENT else apart
+        verb = "put" if len(others) > 1 else "puts"
         yield (
-            f"because {_words(profile, others)} put {point} at {place_text(profile, known)}, "
+            f"because {_words(profile, others)} {verb} {point} at {place_text(profile, known)}, "
             f"and {given.word.text if given.word else given.name} puts it at "
             f"{place_text(profile, {scalar(point, axis): own})}: {ending}"
         )
     formula = identity(fact.given for fact in circuit.facts)
     if formula:
-        yield f"these words are tied: {formula}"
+        radius = " (X and U as radius)" if "tan" in formula and ("X" in formula or "U" in formula) else ""
+        yield f"these words are tied: {formula}{radius}"
     agreeing = [_agreeing(profile, affine, circuit, fact) for fact in circuit.facts]
     if off > AGREEMENT and any(agreeing):
         yield f"any one of these would agree with the others: {', '.join(filter(None, agreeing))}"
@@ -105,7 +107,7 @@ def place_text(profile: Profile, scalars: dict[str, float]) -> str:
     for name, value in sorted(scalars.items(), key=lambda item: item[0].partition(".")[2]):
         axis = int(name.partition(".")[2])
         shown = value * (2 if profile.plane.diameters[axis] else 1)
-        texts.append(f"{profile.plane.axes[axis]} {length_text(shown, profile.unit)}")
+        texts.append(f"{profile.plane.axes[axis]}{length_text(shown, profile.unit)}")
     return " ".join(texts)
 
 

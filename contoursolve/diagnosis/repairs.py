@@ -9,7 +9,7 @@ from math import hypot
 
 from contoursolve.contour import Contour
 from contoursolve.diagnosis.affine import affine_facts
-from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, apply, write_word
+from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, apply_edits, write_word
 from contoursolve.diagnostic import Applicability, Diagnostic, Severity
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer, Policy, examine
@@ -17,7 +17,7 @@ from contoursolve.model import Given, Length, Profile, Unit
 from contoursolve.reading import Claim, Form, Lexicon, read
 from contoursolve.rules import Rule, check
 from contoursolve.solving import Status, lookup
-from contoursolve.syntax import Word, parse_block
+from contoursolve.syntax import FaultKind, Word, parse_block
 from contoursolve.tolerance import AGREEMENT
 
 MOST_EDITS = 4
@@ -59,7 +59,7 @@ def find_repairs(answer: Answer, dialect: Dialect) -> Repairs:
     A repair leaves no error and no warning. None of them contains another one.
     """
     claim = answer.claim
-    if len(claim.blocks) < claim.form.length:
+    if len(claim.blocks) < claim.form.length or not answer.start.is_known:
         return Repairs((), is_complete=False)
     whole = _Geometry.of(claim)
     reference = answer.contour or examine(claim, dialect.rules, Policy.OFF).contour
@@ -109,6 +109,8 @@ def _sets(answer: Answer, dialect: Dialect, whole: _Geometry) -> Iterator[tuple[
     forced = tuple(_unreadable(claim))
     if forced:
         yield forced
+    if _has_faults(claim):
+        return
     present, names = frozenset(claim.words), frozenset(claim.vocabulary)
     extra = {row.fact.given for row in claim.form.facts} | set(claim.form.choices)
     if not _is_singular(whole):
@@ -133,12 +135,19 @@ def _change(word: Word, text: str) -> Edit:
     return Edit(EditKind.CHANGE, word.address, word.span, word.text, text)
 
 
+def _has_faults(claim: Claim) -> bool:
+    """Whether some characters are no word, so that it is not known which words the block has."""
+    return any(fault.kind is not FaultKind.COMMENT_NOT_CLOSED for block in claim.blocks for fault in block.faults)
+
+
 def _unreadable(claim: Claim) -> Iterator[Edit]:
     """What every repair must take out or correct: characters, addresses without a meaning, repetitions."""
     for word in (*claim.unknown, *claim.repeated):
         yield _drop(word)
     for block in claim.blocks:
         for fault in block.faults:
+            if fault.kind is FaultKind.COMMENT_NOT_CLOSED:
+                continue
             text = fault.text.replace(",", ".") if fault.address and fault.text.count(",") == 1 else ""
             kind = EditKind.CHANGE if text else EditKind.DROP
             yield Edit(kind, fault.address, fault.span, fault.text, text)
@@ -233,6 +242,8 @@ def _is_legal_set(claim: Claim, rules: tuple[Rule, ...]) -> bool:
 def _values(answer: Answer, dialect: Dialect, whole: _Geometry) -> Iterator[tuple[Edit, ...]]:
     """One word with another value: what a finding or the other words ask for."""
     claim, unit, lexicon = answer.claim, answer.claim.after.unit, dialect.modes.lexicon
+    if _has_faults(claim):
+        return
     forced = tuple(_unreadable(claim))
     affine = affine_facts(whole.profile, whole.profile.facts)
     circuits = affine.circuits() if affine else ()
@@ -279,13 +290,13 @@ def _asked(answer: Answer, word: Word, given: Given) -> Iterator[tuple[str, floa
 
 def _variants(word: Word, given: Given, lexicon: Lexicon, unit: Length) -> Iterator[str]:
     """The word as it may have been meant: point forgotten, opposite or mirrored angle, other sign."""
-    value = float(given.value)
+    value, row = float(given.value), lexicon.addresses[word.address]
     if not word.has_point and abs(value) < abs(float(word.number or 0)):
         yield word.text.rstrip() + "."
     if given.unit is Unit.DEGREE:
         for angle in (value - 180 if value > 0 else value + 180, 180 - value, -value):
             yield write_word(word.address, angle, lexicon, unit)
-    elif value:
+    elif value and not (row.is_diameter and not row.is_increment):  # a diameter has no other side
         yield write_word(word.address, -value, lexicon, unit)
 
 
@@ -293,7 +304,7 @@ def _try(
     claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], codes: set[str], reference: Contour | None
 ) -> Repair | None:
     """The repair, if the changed block is read as the same form, accepted, and solved without a finding."""
-    texts = apply(claim.blocks, edits)
+    texts = apply_edits(claim.blocks, edits)
     if texts == tuple(block.text for block in claim.blocks):
         return None
     replacement = "\n".join(texts)

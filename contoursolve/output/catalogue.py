@@ -1,7 +1,8 @@
 """The catalogue of rules as text."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
+from contoursolve.diagnosis import tabulate
 from contoursolve.dialects import Dialect
 from contoursolve.output.layout import columns
 from contoursolve.rules import Rule
@@ -20,6 +21,15 @@ def catalogue_lines(dialects: Iterable[Dialect]) -> list[str]:
     return lines
 
 
+def table_lines(dialects: Iterable[Dialect]) -> Iterator[str]:
+    """Legality and determinacy of every set of words of every form."""
+    for dialect in dialects:
+        for form in dialect.forms:
+            yield f"{dialect.name} {form.name}, {form.title}: words | the manual's rules | the equations"
+            yield from (str(row) for row in tabulate(form, dialect))
+            yield ""
+
+
 def _alarm(rule: Rule) -> str:
     return f"{rule.alarm.number.split()[0]} ({rule.alarm.evidence.value})" if rule.alarm else "-"
 
@@ -34,7 +44,7 @@ def rule_lines(rule: Rule, controls: Iterable[str]) -> list[str]:
         ("applies to", ", ".join(controls)),
     ]
     lines += columns(facts, left=(0, 1))
-    for title, examples in (("raises it", rule.rejected), ("does not", rule.accepted)):
+    for title, examples in (("wrong", rule.rejected), ("right", rule.accepted)):
         for example in examples:
             lines += ["", f"  {title}:", *(f"    {_short(line)}" for line in example.split("\n"))]
     return lines

@@ -24,6 +24,9 @@ def contour_lines(answer: Answer, result: Result) -> list[str]:
     lines += ["", *columns(_given_rows(answer, form, dialect), left=(0, 3))]
     if answer.contour:
         lines += ["", *columns(_path_rows(answer), left=(0, 1))]
+    elif answer.diagnosis:
+        rows = [(layer.name, layer.verdict.value, layer.remark) for layer in answer.diagnosis.layers]
+        lines += ["", *columns([("check", "", ""), *rows], left=(0, 1, 2))]
     return [*lines, ""]
 
 

@@ -3,7 +3,7 @@
 from contoursolve.reading.advance import Modes, advance, apply_modes, codes_of, positions
 from contoursolve.reading.claim import Claim, Trouble, read
 from contoursolve.reading.codes import Code, Effect
-from contoursolve.reading.form import CornerRow, FactRow, Form, lay_out, stated_sets
+from contoursolve.reading.form import CornerRow, FactRow, Form, Sample, lay_out, stated_sets
 from contoursolve.reading.lexicon import Address, Lexicon, NumberFormat, WithoutPoint
 from contoursolve.reading.state import Position, State
 
@@ -19,6 +19,7 @@ __all__ = [
     "Modes",
     "NumberFormat",
     "Position",
+    "Sample",
     "State",
     "Trouble",
     "WithoutPoint",

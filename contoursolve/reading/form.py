@@ -30,6 +30,15 @@ class CornerRow:
 
 
 @dataclass(frozen=True, slots=True)
+class Sample:
+    """A program that states a contour of a form, for tables of its words: `before` leads to the start point,
+    and each word in braces in `blocks` may be left out."""
+
+    before: str
+    blocks: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Form:
     """One way of describing a contour.
 
@@ -52,6 +61,7 @@ class Form:
     intersections: tuple[str, ...]
     allowed: frozenset[str]
     combinations: tuple[tuple[tuple[str, ...], ...], ...]
+    sample: Sample
     choices: tuple[str, ...]
     """Givens whose sign alone chooses between two solutions."""
     meanings: Mapping[str, str]

@@ -18,6 +18,7 @@ from contoursolve.reading import (
     FactRow,
     Form,
     Modes,
+    Sample,
     State,
     apply_modes,
     codes_of,
@@ -68,6 +69,7 @@ CIRCLE_LINE = Form(
         ),
         (("2:first", "2:second", "2:,A"),),
     ),
+    sample=Sample("G17 G41 G0 X50 Y0", ("G3 {X-50.0} {Y0} {I-50} {J0} {R50}", "G1 X-50 Y42.857 ,A171.87 {Q-1}")),
     choices=("2:Q",),
     meanings={
         **{f"1:{order}": "a point of the circle" for order in ("first", "second")},

@@ -7,7 +7,19 @@ from contoursolve.constraints import Coordinate, Heading, Offset
 from contoursolve.dialects.dialect import Unresolved
 from contoursolve.dialects.yasnac_lx3.lexicon import ADDRESSES
 from contoursolve.model import FIRST, SECOND, CornerShape, Line
-from contoursolve.reading import Claim, Code, CornerRow, Effect, FactRow, Form, Modes, State, apply_modes, codes_of
+from contoursolve.reading import (
+    Claim,
+    Code,
+    CornerRow,
+    Effect,
+    FactRow,
+    Form,
+    Modes,
+    Sample,
+    State,
+    apply_modes,
+    codes_of,
+)
 from contoursolve.syntax import Block, Word
 
 START, V1, V2 = "S", "V1", "V2"
@@ -48,6 +60,10 @@ G111 = Form(
     intersections=(V1, V2),
     allowed=frozenset(row.address for row in ADDRESSES) | _PASSING,
     combinations=tuple(((), (address,)) for address in "AIKBXUZW"),
+    sample=Sample(
+        "G00 X40. Z0.",
+        ("G111 {A160.} {B120.} {C2.} {D2.} {I10.919} {K-30.} {P2.} {Q2.} {U60.} {W-41.016} {X100.} {Z-41.016}",),
+    ),
     choices=(),
     meanings={},
 )

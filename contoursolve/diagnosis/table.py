@@ -1,0 +1,92 @@
+"""The table legality x determinacy: every set of a form's words, what the manual and the equations say of it."""
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import combinations
+
+from contoursolve.analysis import judge
+from contoursolve.constraints import assemble
+from contoursolve.dialects import Dialect
+from contoursolve.explain import unknowns_text
+from contoursolve.model import Corner, Length, Profile
+from contoursolve.reading import Claim, Form, advance, read
+from contoursolve.rules import check
+from contoursolve.solving import points_with_two_solutions
+from contoursolve.syntax import parse
+
+_OPTIONAL = re.compile(r"\{([^}]*)\}")
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One set of words: the rules that refuse it, the words that the control ignores, what the words that
+    remain leave free or say twice, and the condition under which they determine the contour."""
+
+    addresses: tuple[str, ...]
+    refusals: tuple[str, ...]
+    ignored: tuple[str, ...]
+    faults: tuple[str, ...]
+    condition: str
+
+    def __str__(self) -> str:
+        legality = f"refused: {', '.join(self.refusals)}" if self.refusals else "legal"
+        if self.ignored:
+            legality += f" (ignores {', '.join(self.ignored)})"
+        determinacy = "; ".join(self.faults) or "determined"
+        if not self.faults and self.condition != "1":
+            determinacy += f" unless {self.condition} = 0"
+        return f"{' '.join(self.addresses) or '-'} | {legality} | {determinacy}"
+
+
+def tabulate(form: Form, dialect: Dialect) -> Iterator[Row]:
+    """One row for every set of the optional words of a form's sample, smallest sets first."""
+    texts = [word for block in form.sample.blocks for word in _OPTIONAL.findall(block)]
+    for size in range(len(texts) + 1):
+        for chosen in combinations(texts, size):
+            yield _row(form, dialect, frozenset(chosen))
+
+
+def _row(form: Form, dialect: Dialect, chosen: frozenset[str]) -> Row:
+    lines = [_OPTIONAL.sub(lambda word: word[1] if word[1] in chosen else "", block) for block in form.sample.blocks]
+    state = advance(dialect.initial_state(Length.MM), parse(form.sample.before).blocks[0], dialect.modes)
+    blocks = parse("\n".join(lines)).blocks
+    claim = dialect.find(blocks, 0, state, dialect.modes)
+    if not isinstance(claim, Claim) or claim.form is not form:
+        raise ValueError(f"{lines} is no block of the form {form.name}")
+    offences = check(dialect.rules, form.name, claim.stated())
+    ignored = tuple(offence.rule.ignores for offence in offences if offence.rule.ignores)
+    profile = read(claim, frozenset(ignored))
+    verdict = judge(assemble(profile))
+    optional = (word for block in blocks for word in block.words if word.text in chosen)
+    return Row(
+        addresses=tuple(word.address for word in optional),
+        refusals=tuple(offence.rule.code for offence in offences if not offence.rule.ignores),
+        ignored=ignored,
+        faults=tuple(_faults(profile)),
+        condition=verdict.condition,
+    )
+
+
+def _faults(profile: Profile) -> Iterator[str]:
+    """What keeps the facts from determining one contour."""
+    system = assemble(profile)
+    verdict = judge(system)
+    if verdict.free:
+        yield f"free: {unknowns_text(verdict.free, profile)}"
+    # A circle may have more points than it needs; what counts is what words say.
+    tied = [system.facts[index] for index in verdict.tied]
+    words = [profile.givens[fact.given].word for fact in tied if fact.given]
+    if words:
+        yield f"tied: {', '.join(word.address for word in words if word)}"
+    names = [corner.name for corner in profile.figure.corners]
+    yield from (f"{name} given twice" for name in dict.fromkeys(names) if names.count(name) > 1)
+    nowhere = {corner.name for corner in profile.figure.corners if not (corner.after or _lands(corner))}
+    yield from (f"{name} lands nowhere" for name in sorted(nowhere))
+    if not verdict.free:
+        chosen = {choice.point for choice in profile.choices}
+        yield from (f"two solutions for {each}" for each in points_with_two_solutions(system) if each not in chosen)
+
+
+def _lands(corner: Corner) -> bool:
+    return corner.lands_parallel_to is not None

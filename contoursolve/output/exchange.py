@@ -1,0 +1,121 @@
+"""Findings for other tools: SARIF 2.1.0 for editors and code scanning, and GitHub's annotations."""
+
+import hashlib
+import json
+from collections.abc import Iterable, Sequence
+from pathlib import PurePath
+from typing import Any
+
+from contoursolve.diagnostic import Applicability, Diagnostic, Fix, Severity
+from contoursolve.dialects import DIALECTS
+from contoursolve.pipeline import Result
+from contoursolve.rules import Rule
+
+_LEVEL = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
+_COMMAND = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "notice"}
+
+
+def to_sarif(results: Sequence[Result], version: str) -> str:
+    """One SARIF log (OASIS SARIF 2.1.0): every rule of the catalogue declared, every finding a result.
+
+    A result's fingerprint is made of the rule, the text of the line and how often both have occurred
+    before, so that it stays the same when lines are inserted elsewhere.
+    """
+    rules = sorted({rule.code: rule for dialect in DIALECTS.values() for rule in dialect.rules}.items())
+    index = {code: number for number, (code, _) in enumerate(rules)}
+    run = {
+        "tool": {"driver": {"name": "contoursolve", "version": version, "rules": [_rule(rule) for _, rule in rules]}},
+        "columnKind": "unicodeCodePoints",
+        "results": [each for result in results for each in _results(result, index)],
+    }
+    log = {"$schema": "https://json.schemastore.org/sarif-2.1.0.json", "version": "2.1.0", "runs": [run]}
+    return json.dumps(log, indent=1)
+
+
+def _rule(rule: Rule) -> dict[str, Any]:
+    return {
+        "id": rule.code,
+        "shortDescription": {"text": rule.title},
+        "fullDescription": {"text": f"{rule.title}. {rule.source}."},
+        "help": {"text": rule.advice},
+        "defaultConfiguration": {"level": _LEVEL[rule.severity]},
+        "properties": {"evidence": rule.source.evidence.value, "alarm": rule.alarm.number if rule.alarm else None},
+    }
+
+
+def _results(result: Result, index: dict[str, int]) -> Iterable[dict[str, Any]]:
+    seen: dict[str, int] = {}
+    lines = {block.line: block.text for block in result.program.blocks}
+    for finding in result.diagnostics:
+        subject = f"{finding.code}\n{lines.get(finding.span.line, '').strip()}"
+        seen[subject] = seen.get(subject, 0) + 1
+        fingerprint = hashlib.sha256(f"{subject}\n{seen[subject]}".encode()).hexdigest()
+        data: dict[str, Any] = {
+            "ruleId": finding.code,
+            "ruleIndex": index[finding.code],
+            "level": _LEVEL[finding.severity],
+            "message": {"text": "\n".join((finding.message, *finding.notes))},
+            "locations": [_location(result, finding)],
+            "partialFingerprints": {"contoursolve/v1": fingerprint},
+            "properties": {"basis": finding.basis.value, "values": _finite(finding)},
+        }
+        fixes = [_fix(result, finding, fix) for fix in finding.fixes if _is_one_line(fix)]
+        if fixes:
+            data["fixes"] = fixes
+        yield data
+
+
+def _is_one_line(fix: Fix) -> bool:
+    return fix.applicability is not Applicability.PLACEHOLDER and "\n" not in fix.replacement
+
+
+def _finite(finding: Diagnostic) -> dict[str, float]:
+    return {name: value for name, value in finding.values.items() if abs(value) < float("inf")}
+
+
+def _uri(result: Result) -> dict[str, str]:
+    return {"uri": PurePath(result.program.name).as_posix().replace(" ", "%20").replace("<", "").replace(">", "")}
+
+
+def _location(result: Result, finding: Diagnostic) -> dict[str, Any]:
+    region = {
+        "startLine": max(finding.span.line, 1),
+        "startColumn": finding.span.column,
+        "endColumn": finding.span.end_column,
+    }
+    return {"physicalLocation": {"artifactLocation": _uri(result), "region": region}}
+
+
+def _fix(result: Result, finding: Diagnostic, fix: Fix) -> dict[str, Any]:
+    block = next(block for block in result.program.blocks if block.line == finding.span.line)
+    region = {"startLine": block.line, "startColumn": 1, "endColumn": len(block.text) + 1}
+    change = {"deletedRegion": region, "insertedContent": {"text": fix.replacement}}
+    return {
+        "description": {"text": fix.description},
+        "artifactChanges": [{"artifactLocation": _uri(result), "replacements": [change]}],
+    }
+
+
+def to_github(results: Iterable[Result]) -> str:
+    """One workflow command a finding, which GitHub shows beside the line (Actions, workflow commands)."""
+    lines = []
+    for result in results:
+        for finding in result.diagnostics:
+            place = {
+                "file": PurePath(result.program.name).as_posix(),
+                "line": max(finding.span.line, 1),
+                "col": finding.span.column,
+                "endColumn": finding.span.end_column,
+                "title": finding.code,
+            }
+            properties = ",".join(f"{name}={_escape(str(value), ':,')}" for name, value in place.items())
+            fixes = (f"fix: {fix.description}" for fix in finding.fixes[:1])
+            message = _escape("\n".join((finding.message, *finding.notes, *fixes)), "")
+            lines.append(f"::{_COMMAND[finding.severity]} {properties}::{message}")
+    return "\n".join(lines)
+
+
+def _escape(text: str, more: str) -> str:
+    for character in "%\r\n" + more:
+        text = text.replace(character, f"%{ord(character):02X}")
+    return text
