@@ -25,7 +25,7 @@ from contoursolve.api import (
 )
 from contoursolve.contour import ArcSegment, Contour, LineSegment
 from contoursolve.diagnostic import Basis, Diagnostic, Severity
-from contoursolve.examine import Answer, Policy
+from contoursolve.examine import Answer, Depth, Policy
 from contoursolve.pipeline import Result, UnknownControlError
 from contoursolve.solving import Status
 from contoursolve.syntax import Block, Program, Word
@@ -39,6 +39,7 @@ __all__ = [
     "Block",
     "Completion",
     "Contour",
+    "Depth",
     "Diagnostic",
     "LineSegment",
     "Policy",

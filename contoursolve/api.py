@@ -10,7 +10,7 @@ from contoursolve.contour import Contour
 from contoursolve.diagnosis import Edit, EditKind, apply_edits, find_repairs
 from contoursolve.diagnostic import Diagnostic, Severity
 from contoursolve.dialects import DIALECTS, Dialect
-from contoursolve.examine import Policy
+from contoursolve.examine import Depth, Policy
 from contoursolve.model import Length
 from contoursolve.pipeline import Result, UnknownControlError, recognise, run
 from contoursolve.syntax import Program
@@ -53,6 +53,7 @@ def solve(
     start: str | None = None,
     units: str = "mm",
     rules: str = "enforce",
+    depth: str = "full",
     name: str = "<program>",
 ) -> Result:
     """Solve every contour of a program, or of a single block.
@@ -63,6 +64,7 @@ def solve(
         start: words that give the start point, such as `"X40. Z0."`, as the control reads them.
         units: `mm` or `inch`, for numbers before any G20 or G21.
         rules: `enforce`, `warn` or `off` (see `Policy`).
+        depth: `full`, or `verdict` for findings without reasons and repairs (see `Depth`).
         name: what findings call the program.
 
     Returns:
@@ -71,7 +73,7 @@ def solve(
 
     Raises:
         UnknownControlError: the control is unknown, or the program does not tell it.
-        ValueError: units or rules is none of its choices.
+        ValueError: units, rules or depth is none of its choices.
 
     >>> answer = solve("G111 X100. A180. K-30. B120. P5. Q5.", start="X40. Z0.").answers[0]
     >>> answer.status.value
@@ -81,7 +83,8 @@ def solve(
     >>> solve("G111 X100. A180. B120.", start="X40. Z0.").answers[0].status.value
     'rejected'
     """
-    return solve_program(syntax.parse(text, name), control=control, start=start, units=units, rules=rules)
+    program = syntax.parse(text, name)
+    return solve_program(program, control=control, start=start, units=units, rules=rules, depth=depth)
 
 
 def check(
@@ -182,11 +185,12 @@ def solve_program(
     start: str | None = None,
     units: str = "mm",
     rules: str = "enforce",
+    depth: str = "full",
 ) -> Result:
     """Solve every contour of a program that was parsed or read before; as `solve`."""
     dialect = _dialect(control) if control else recognise(program)
     beginning = syntax.parse(start, program.name, first_line=0) if start is not None else None
-    return run(program, dialect, Length(units), Policy(rules), beginning)
+    return run(program, dialect, Length(units), Policy(rules), Depth(depth), beginning)
 
 
 def only_findings(result: Result) -> Result:

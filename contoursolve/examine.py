@@ -48,6 +48,15 @@ class Policy(Enum):
     """The rules are not applied: the geometry alone decides."""
 
 
+class Depth(Enum):
+    """How much is worked out about a contour that has an error or a warning."""
+
+    VERDICT = "verdict"
+    """Its findings."""
+    FULL = "full"
+    """Also why they are so, and every repair; some milliseconds a contour."""
+
+
 @dataclass(frozen=True, slots=True)
 class Answer:
     """What became of one contour of a program.

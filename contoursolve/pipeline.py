@@ -7,7 +7,7 @@ from decimal import Decimal
 from contoursolve.diagnosis import diagnose
 from contoursolve.diagnostic import Basis, Diagnostic, Severity
 from contoursolve.dialects import DIALECTS, Dialect, Unresolved
-from contoursolve.examine import Answer, Policy, examine, explain_fault, explain_words, rank
+from contoursolve.examine import Answer, Depth, Policy, examine, explain_fault, explain_words, rank
 from contoursolve.explain import Context, report
 from contoursolve.model import Length
 from contoursolve.reading import Claim, Position, State, Trouble, advance, positions
@@ -46,14 +46,19 @@ def recognise(program: Program) -> Dialect | None:
 
 
 def run(
-    program: Program, dialect: Dialect | None, unit: Length, policy: Policy, start: Program | None = None
+    program: Program,
+    dialect: Dialect | None,
+    unit: Length,
+    policy: Policy,
+    depth: Depth = Depth.FULL,
+    start: Program | None = None,
 ) -> Result:
     """Examine every block of a program and solve every contour.
 
     `start` is a block that states the start point apart from the program. Without a dialect only the
     characters of the program are examined.
     """
-    examiner = _Examiner(program, dialect, unit, policy)
+    examiner = _Examiner(program, dialect, unit, policy, depth)
     answers = list(examiner.walk(start))
     if not answers and not any(each.severity is Severity.ERROR for each in examiner.diagnostics):
         examiner.nothing_to_solve()
@@ -69,11 +74,12 @@ _FAULTS_OF_NO_CONSEQUENCE = (FaultKind.STRAY_CHARACTER,)
 class _Examiner:
     """One pass over one program: the modal state as it goes, and the findings outside contours."""
 
-    def __init__(self, program: Program, dialect: Dialect | None, unit: Length, policy: Policy) -> None:
+    def __init__(self, program: Program, dialect: Dialect | None, unit: Length, policy: Policy, depth: Depth) -> None:
         self.program = program
         self.dialect = dialect
         self.unit = unit
         self.policy = policy
+        self.depth = depth
         self.rules = dialect.rules if dialect else DIALECTS["yasnac-lx3"].rules
         self.diagnostics: list[Diagnostic] = []
 
@@ -94,7 +100,8 @@ class _Examiner:
             found = dialect.find(blocks, index, state, dialect.modes)
             if isinstance(found, Claim):
                 answer = examine(found, self.rules, self.policy)
-                if any(each.severity is not Severity.INFO for each in answer.diagnostics):
+                has_findings = any(each.severity is not Severity.INFO for each in answer.diagnostics)
+                if has_findings and self.depth is Depth.FULL:
                     answer = diagnose(answer, dialect, self.policy)
                 yield answer
                 state = _state_after(found, answer, dialect)

@@ -50,7 +50,9 @@ def numbers(words: Mapping[str, str]) -> dict[str, Decimal]:
 
 def solve_all(cases: Sequence[Case], control: str) -> Iterator[tuple[Case, Answer, str]]:
     """All cases as one program; the text of each, to show."""
-    answers = solve("\n".join(line for case in cases for line in case.program), control=control).answers
+    answers = solve(
+        "\n".join(line for case in cases for line in case.program), control=control, depth="verdict"
+    ).answers
     for case, answer in zip(cases, answers, strict=True):
         yield case, answer, "\n".join(case.program)
 

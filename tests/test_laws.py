@@ -49,7 +49,7 @@ class Problem:
 
     def answer(self, program: str | None = None, **arguments: str) -> Answer:
         text = program if program is not None else "\n".join(" ".join(block.texts()) for block in self.blocks)
-        (answer,) = solve(text, control=self.control, rules=self.rules, **arguments).answers
+        (answer,) = solve(text, control=self.control, rules=self.rules, depth="verdict", **arguments).answers
         return answer
 
 
