@@ -12,7 +12,7 @@ from contoursolve.reading import Form, Lexicon
 from contoursolve.solving import Point
 from contoursolve.syntax import Word
 
-DECIMALS = {Length.MM: 4, Length.INCH: 5}
+_INCH = float(Length.INCH.in_mm)
 
 
 def contour_lines(answer: Answer, result: Result) -> list[str]:
@@ -100,8 +100,8 @@ def _path_rows(answer: Answer) -> list[tuple[str, ...]]:
 
 
 def _length(mm: float, unit: Length) -> str:
-    decimals = DECIMALS[unit]
-    return f"{round(mm / float(unit.in_mm), decimals) + 0.0:.{decimals}f}"
+    text = f"{mm:.4f}" if unit is Length.MM else f"{mm / _INCH:.5f}"
+    return text.removeprefix("-") if text in ("-0.0000", "-0.00000") else text
 
 
 def _unit(unit: Length) -> str:

@@ -1,7 +1,7 @@
 """The modal state of a control: where the tool is, and what is in force."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from decimal import Decimal
 
 from contoursolve.model import Length, Plane, Start
@@ -41,7 +41,10 @@ class State:
 
     def move(self, changes: Mapping[str, Position]) -> "State":
         """The state with other positions on some axes."""
-        return replace(self, axes={**self.axes, **changes}) if changes else self
+        if not changes:
+            return self
+        axes = {**self.axes, **changes}
+        return State(axes, self.motion, self.plane, self.unit, self.is_incremental, self.compensation)
 
     def lose(self, axes: Mapping[str, Position] | tuple[str, ...], reason: str, span: Span) -> "State":
         """The state with the position on these axes unknown."""
