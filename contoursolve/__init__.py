@@ -10,25 +10,27 @@ the path is. Lengths are in mm, X of a lathe is a radius, angles are in degrees.
 ['line 1', 'corner 1', 'line 2', 'corner 2']
 """
 
-from contoursolve.api import (
-    Completion,
-    UnreadableProgramError,
-    check,
-    check_file,
-    completions,
-    parse,
-    read_program,
-    solve,
-    solve_file,
-    solve_program,
-    what_if,
-)
-from contoursolve.contour import ArcSegment, Contour, LineSegment
-from contoursolve.diagnostic import Basis, Diagnostic, Severity
-from contoursolve.examine import Answer, Depth, Policy
-from contoursolve.pipeline import Result, UnknownControlError
-from contoursolve.solving import Status
-from contoursolve.syntax import Block, Program, Word
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from contoursolve.api import (
+        UnreadableProgramError,
+        check,
+        check_file,
+        parse,
+        read_program,
+        solve,
+        solve_file,
+        solve_program,
+    )
+    from contoursolve.contour import ArcSegment, Contour, LineSegment
+    from contoursolve.diagnostic import Basis, Diagnosis, Diagnostic, Severity
+    from contoursolve.examine import Answer, Depth, Policy
+    from contoursolve.pipeline import Result, UnknownControlError
+    from contoursolve.solving import Status
+    from contoursolve.syntax import Block, Program, Word
+    from contoursolve.trial import Completion, completions, what_if
 
 __version__ = "0.1.0"
 
@@ -40,6 +42,7 @@ __all__ = [
     "Completion",
     "Contour",
     "Depth",
+    "Diagnosis",
     "Diagnostic",
     "LineSegment",
     "Policy",
@@ -60,3 +63,28 @@ __all__ = [
     "solve_program",
     "what_if",
 ]
+
+_ROOMS = {
+    "contour": ("ArcSegment", "Contour", "LineSegment"),
+    "diagnostic": ("Basis", "Diagnosis", "Diagnostic", "Severity"),
+    "examine": ("Answer", "Depth", "Policy"),
+    "pipeline": ("Result", "UnknownControlError"),
+    "solving": ("Status",),
+    "syntax": ("Block", "Program", "Word"),
+    "trial": ("Completion", "completions", "what_if"),
+}
+"""Where the public names live; the others are in `api`."""
+
+
+def __getattr__(name: str) -> Any:
+    """A public name, imported when it is first used: `import contoursolve` itself costs nothing."""
+    if name not in __all__:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    room = next((room for room, names in _ROOMS.items() if name in names), "api")
+    value = getattr(import_module(f"{__name__}.{room}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return [*globals(), *__all__]

@@ -1,13 +1,10 @@
 """The front door for Python: parse, check and solve a block, a text or a file."""
 
 import sys
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 from contoursolve import syntax
-from contoursolve.contour import Contour
-from contoursolve.diagnosis import Edit, EditKind, apply_edits, find_repairs
 from contoursolve.diagnostic import Diagnostic, Severity
 from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.examine import Depth, Policy
@@ -21,16 +18,6 @@ _TAPE_CODES = bytes([0x02, 0x03, 0x11, 0x12, 0x13, 0x14, 0x1A])
 
 _BINARY = frozenset(range(0x20)) - frozenset(b"\t\n\v\f\r" + _TAPE_CODES)
 """Bytes that no program holds; a file in UTF-16 holds NUL."""
-
-
-@dataclass(frozen=True, slots=True)
-class Completion:
-    """A word that completes a block: the word, the whole block with it, and the contour that it then has
-    (None while the word's number is open)."""
-
-    word: str
-    block: str
-    contour: Contour | None
 
 
 class UnreadableProgramError(ValueError):
@@ -106,66 +93,6 @@ def check(
     return only_findings(solve(text, control=control, start=start, units=units, rules=rules, name=name)).diagnostics
 
 
-def what_if(
-    block: str,
-    *,
-    drop: Iterable[str] = (),
-    add: Iterable[str] = (),
-    change: Mapping[str, str] | None = None,
-    control: str | None = None,
-    start: str | None = None,
-    units: str = "mm",
-    rules: str = "enforce",
-) -> Result:
-    """Solve a block with words dropped (by address), added, or changed (address to the new word).
-
-    Other arguments and errors as for `solve`; raises ValueError if a word to drop or change is not there,
-    or there more than once.
-
-    >>> block = "G111 A135. I10. K-12. B180. Z-40."
-    >>> what_if(block, drop=["A"], start="X40. Z0.").diagnostics
-    ()
-    >>> what_if(block, change={"K": "K-10."}, start="X40. Z0.", rules="off").answers[0].status.value
-    'overdetermined'
-    """
-    program = syntax.parse(block)
-    edits = [_edit(program, address, "") for address in drop]
-    edits += [_edit(program, address, word) for address, word in (change or {}).items()]
-    last = next(each for each in reversed(program.blocks) if each.words)
-    edits += [Edit(EditKind.ADD, word, text=word, line=last.line) for word in add]
-    text = "\n".join(apply_edits(program.blocks, edits))
-    return solve(text, control=control, start=start, units=units, rules=rules)
-
-
-def _edit(program: Program, address: str, text: str) -> Edit:
-    words = [word for block in program.blocks for word in block.words if word.address == address.upper()]
-    if len(words) != 1:
-        raise ValueError(f"the block has {len(words)} words {address}; exactly one can be dropped or changed")
-    kind = EditKind.CHANGE if text else EditKind.DROP
-    return Edit(kind, words[0].address, words[0].span, words[0].text, text)
-
-
-def completions(
-    block: str, *, control: str | None = None, start: str | None = None, units: str = "mm"
-) -> tuple[Completion, ...]:
-    """Every single word that would complete a block, with its value where the geometry fixes it already.
-
-    Arguments and errors as for `solve`. A word whose number is still to be chosen ends with `?`.
-
-    >>> [each.word for each in completions("G111 A135. B180. Z-40.", start="X40. Z0.")]
-    ['I?', 'K?', 'U?', 'X?']
-    """
-    program = syntax.parse(block)
-    dialect = _dialect(control) if control else recognise(program)
-    result = solve(block, control=control, start=start, units=units)
-    repairs = (repair for answer in result.answers if dialect for repair in find_repairs(answer, dialect).repairs)
-    return tuple(
-        Completion(repair.edits[0].text, repair.replacement, repair.contour)
-        for repair in repairs
-        if len(repair.edits) == 1 and repair.edits[0].kind is EditKind.ADD
-    )
-
-
 def solve_file(path: str | Path, *, control: str | None = None, units: str = "mm", rules: str = "enforce") -> Result:
     """Solve every contour of a file; `-` is standard input. Raises UnreadableProgramError, and as `solve`."""
     return solve_program(read_program(path), control=control, units=units, rules=rules)
@@ -188,7 +115,7 @@ def solve_program(
     depth: str = "full",
 ) -> Result:
     """Solve every contour of a program that was parsed or read before; as `solve`."""
-    dialect = _dialect(control) if control else recognise(program)
+    dialect = find_dialect(control) if control else recognise(program)
     beginning = syntax.parse(start, program.name, first_line=0) if start is not None else None
     return run(program, dialect, Length(units), Policy(rules), Depth(depth), beginning)
 
@@ -229,7 +156,8 @@ def read_program(path: str | Path) -> Program:
     return syntax.parse(text, "<standard input>" if name == STANDARD_INPUT else name)
 
 
-def _dialect(control: str) -> Dialect:
+def find_dialect(control: str) -> Dialect:
+    """The control of this name. Raises UnknownControlError, which lists the choices."""
     if control not in DIALECTS:
         raise UnknownControlError(f"unknown control {control!r}; choose from {', '.join(DIALECTS)}")
     return DIALECTS[control]

@@ -1,4 +1,7 @@
-"""The command line: arguments in, text or JSON out, exit status 0 (no error found), 1 (errors found), 2."""
+"""The command line: arguments in, text or JSON out, exit status 0 (no error found), 1 (errors found), 2.
+
+What only some commands need, they import themselves, so that the others start sooner.
+"""
 
 import gc
 import io
@@ -6,6 +9,7 @@ import os
 import sys
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import partial
 from itertools import islice
 from typing import Any
 
@@ -17,17 +21,17 @@ from contoursolve.diagnostic import Diagnostic, Severity
 from contoursolve.dialects import DIALECTS
 from contoursolve.examine import Answer, Policy
 from contoursolve.model import Length
-from contoursolve.output.catalogue import catalogue_lines, rule_lines, table_lines
 from contoursolve.output.contours import contour_lines
 from contoursolve.output.document import findings_to_json, to_json
-from contoursolve.output.exchange import to_github, to_sarif
 from contoursolve.output.findings import Style, finding_lines, plain
 from contoursolve.output.layout import count
 from contoursolve.pipeline import Result, UnknownControlError
+from contoursolve.rules import Rule
 from contoursolve.solving import Status
 from contoursolve.syntax import Program
 
 FOUND_ERRORS, COULD_NOT_RUN = 1, 2
+
 
 _COLORS: dict[str, dict[str, Any]] = {
     "error": {"fg": "red", "bold": True},
@@ -128,7 +132,7 @@ def solve(
     contoursolve solve shaft.nc
     contoursolve solve --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0."
     """
-    result = _examine(_load([program] if program else [], blocks, start)[0], start, options)
+    result = _examine(_load([program] if program else [], blocks, start)[0](), start, options)
     if format_ == "json":
         click.echo(to_json(result))
     else:
@@ -172,16 +176,30 @@ def check(
     contoursolve check shaft.nc flange.nc
     contoursolve check --control yasnac-lx3 - < shaft.nc
     """
-    programs_loaded = _load(programs, blocks, start)
-    is_shown = len(programs_loaded) > 1 and sys.stderr.isatty()
-    with click.progressbar(programs_loaded, label="checking", file=sys.stderr, hidden=not is_shown) as loaded:
-        results = [only_findings(_examine(each, start, options)) for each in loaded]
+    is_shown = len(programs) > 1 and sys.stderr.isatty()
+    results, failures = [], []
+    with click.progressbar(
+        _load(programs, blocks, start), label="checking", file=sys.stderr, hidden=not is_shown
+    ) as loaded:
+        for load in loaded:
+            try:
+                results.append(only_findings(_examine(load(), start, options)))
+            except CouldNotRunError as error:
+                failures.append(error)
+    for failure in failures:
+        failure.show()
+    if failures and not results:
+        context.exit(COULD_NOT_RUN)
     match format_:
         case "json":
             click.echo(findings_to_json(results))
         case "sarif":
+            from contoursolve.output.exchange import to_sarif  # noqa: PLC0415 - only here
+
             click.echo(to_sarif(results, __version__))
         case "github":
+            from contoursolve.output.exchange import to_github  # noqa: PLC0415 - only here
+
             _print([to_github(results)])
         case _:
             for result in results:
@@ -189,7 +207,7 @@ def check(
             _print_summary(results)
     failing = {"error": (Severity.ERROR,), "warning": (Severity.ERROR, Severity.WARNING), "never": ()}[fail_on]
     found = {finding.severity for result in results for finding in result.diagnostics}
-    context.exit(FOUND_ERRORS if found & set(failing) else 0)
+    context.exit(COULD_NOT_RUN if failures else FOUND_ERRORS if found & set(failing) else 0)
 
 
 @main.command()
@@ -202,6 +220,8 @@ def check(
 )
 def rules(control: str | None, is_table: bool) -> None:
     """List the whole catalogue of rules and findings, with their evidence and the control's alarms."""
+    from contoursolve.output.catalogue import catalogue_lines, table_lines  # noqa: PLC0415 - only here
+
     chosen = [dialect for name, dialect in DIALECTS.items() if control in (None, name)]
     _print(table_lines(chosen) if is_table else catalogue_lines(chosen))
 
@@ -209,26 +229,44 @@ def rules(control: str | None, is_table: bool) -> None:
 @main.command()
 @click.argument("code")
 def explain(code: str) -> None:
-    """Explain one rule by its CODE: in words, blocks that raise it, blocks that do not, its source."""
+    """Explain a rule by its CODE, or all rules behind an alarm number of the control.
+
+    Prints the rule in words, wrong blocks, right blocks, and its place in the manual.
+
+    \b
+    contoursolve explain g111-line-1
+    contoursolve explain 146
+    """
+    from contoursolve.output.catalogue import rule_lines  # noqa: PLC0415 - only here
+
     wanted = code.strip().lower()
-    controls = [name for name, dialect in DIALECTS.items() if any(rule.code == wanted for rule in dialect.rules)]
-    if not controls:
-        raise CouldNotRunError(f"no rule has the code {code!r}; 'contoursolve rules' lists them")
-    rule = next(rule for rule in DIALECTS[controls[0]].rules if rule.code == wanted)
-    click.echo("\n".join(rule_lines(rule, controls)))
+    found: dict[str, tuple[Rule, list[str]]] = {}
+    for name, dialect in DIALECTS.items():
+        for rule in dialect.rules:
+            if wanted in (rule.code, rule.alarm.number.split()[0] if rule.alarm else ""):
+                found.setdefault(rule.code, (rule, []))[1].append(name)
+    if not found:
+        raise CouldNotRunError(f"no rule has the code or the alarm {code!r}; 'contoursolve rules' lists them")
+    for rule, controls in found.values():
+        click.echo("\n".join((*rule_lines(rule, controls), "")))
 
 
-def _load(paths: Sequence[str], blocks: tuple[str, ...], start: str | None) -> list[Program]:
+def _load(paths: Sequence[str], blocks: tuple[str, ...], start: str | None) -> list[Callable[[], Program]]:
+    """How to get each program that is asked for; a file is read when its turn comes."""
     if blocks and paths:
         raise click.UsageError("give either a PROGRAM or --block, not both")
     if start is not None and not blocks:
         raise click.UsageError("--start goes with --block; a PROGRAM states its own positions")
     if blocks:
-        return [syntax.parse("\n".join(blocks), "<block>")]
+        return [lambda: syntax.parse("\n".join(blocks), "<block>")]
     if not paths:
         raise click.UsageError("missing PROGRAM: name a file, or - for standard input, or use --block")
+    return [partial(_read, path) for path in paths]
+
+
+def _read(path: str) -> Program:
     try:
-        return [read_program(path) for path in paths]
+        return read_program(path)
     except UnreadableProgramError as error:
         raise CouldNotRunError(str(error)) from None
 
@@ -266,6 +304,8 @@ def _findings(result: Result, findings: Iterable[Diagnostic], style: Style) -> I
     for finding in findings:
         numbers = {label.span.line for label in finding.labels}
         sources = {number: blocks[number - first].text for number in numbers if 0 <= number - first < len(blocks)}
+        if result.start:
+            sources[0] = result.start.text
         yield from finding_lines(finding, result.program.name, sources, style)
 
 

@@ -136,9 +136,14 @@ class Tie:
 @dataclass(frozen=True, slots=True)
 class Diagnosis:
     """What the equations of one contour say: the checks it went through, what can still move, and which
-    words say the same. The ties are all there are, found exhaustively, where `is_complete`."""
+    words say the same.
+
+    `ties_complete` tells that the ties are all there are, found exhaustively; `repairs_complete` that all
+    smallest sets of words to drop and to add were tried.
+    """
 
     layers: tuple[Layer, ...]
     freedoms: tuple[Freedom, ...]
     ties: tuple[Tie, ...]
-    is_complete: bool
+    ties_complete: bool
+    repairs_complete: bool

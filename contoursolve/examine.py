@@ -18,9 +18,10 @@ from contoursolve.explain import (
     explain_result,
     length_text,
     report,
+    without_point,
 )
 from contoursolve.model import Length, Plane, Profile, Side, Start
-from contoursolve.reading import Claim, Trouble, read
+from contoursolve.reading import Claim, Lexicon, Trouble, read
 from contoursolve.rules import Rule, check
 from contoursolve.solving import (
     Refusal,
@@ -115,7 +116,7 @@ def examine(claim: Claim, rules: tuple[Rule, ...], policy: Policy) -> Answer:
     profile = read(claim, frozenset(offence.rule.ignores for offence in ignoring))
     if not profile.start.is_known:
         notebook.add(_explain_start(context, claim), Status.UNDERDETERMINED)
-    for finding in _explain_skippable(context, claim):
+    for finding in (*_explain_skippable(context, claim), *without_point(context, claim)):
         notebook.add(finding)
     solution = _examine_geometry(context, claim, profile, notebook) if is_readable else Solution(Status.REJECTED)
     for offence in ignoring:
@@ -147,7 +148,7 @@ def _examine_words(context: Context, claim: Claim, notebook: _Notebook) -> None:
     for block in claim.blocks:
         for fault in block.faults:
             notebook.add(explain_fault(context, fault), Status.REJECTED)
-    for finding in (*explain_words(context, claim.repeated, words), *_explain_unknown(context, claim)):
+    for finding in (*explain_words(context, claim.lexicon, claim.repeated, words), *_explain_unknown(context, claim)):
         notebook.add(finding, Status.REJECTED)
     variables = [word for word in claim.words.values() if word.number is None]
     if variables:
@@ -225,7 +226,9 @@ def explain_fault(context: Context, fault: Fault) -> Diagnostic:
     return replace(report(context, rule, Basis.RULE, [shown]), addresses=(fault.address,) if fault.address else ())
 
 
-def explain_words(context: Context, repeated: Sequence[Word], words: Sequence[Word]) -> Iterator[Diagnostic]:
+def explain_words(
+    context: Context, lexicon: Lexicon, repeated: Sequence[Word], words: Sequence[Word]
+) -> Iterator[Diagnostic]:
     """Addresses given twice, and values beyond all travel."""
     for address, line in dict.fromkeys((word.address, word.span.line) for word in repeated):
         same = [word for word in words if word.address == address and word.span.line == line]
@@ -233,8 +236,8 @@ def explain_words(context: Context, repeated: Sequence[Word], words: Sequence[Wo
             same = [word for word in same if word.number in {each.number for each in repeated}]
         yield report(context, context.row(Trouble.REPEATED_ADDRESS), Basis.RULE, same)
     for word in words:
-        factor = 1 if word.has_point else 1_000
-        if word.number is not None and abs(word.number) > Decimal(LARGEST) * factor and word.address not in ("N", "O"):
+        value = lexicon.value(word, context.unit) if word.address in lexicon.addresses else None
+        if value is not None and abs(value) > Decimal(LARGEST):
             limit = length_text(LARGEST, context.unit)
             yield report(context, context.row(Trouble.VALUE_TOO_LARGE), Basis.RULE, [word], limit=limit)
 

@@ -1,6 +1,6 @@
 """Puts findings into words: a row of the catalogue, the words of the block, and the values compared."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 from typing import Any
@@ -13,6 +13,7 @@ from contoursolve.rules import Offence, Rule
 from contoursolve.solving import Refusal, RefusalKind, Remark, RemarkKind, Solution, compare, lookup
 from contoursolve.source import Span
 from contoursolve.syntax import Word
+from contoursolve.tolerance import AGREEMENT
 
 _BEGINNING = Span(1, 1, 2)
 
@@ -96,7 +97,6 @@ def report(
     words: Iterable[Word],
     values: Mapping[str, float] | None = None,
     labels: Iterable[str] = (),
-    notes: Iterable[str] = (),
     **fields: Any,
 ) -> Diagnostic:
     """One finding: the row's message with its fields filled in, its words marked."""
@@ -123,7 +123,6 @@ def report(
         labels=tuple(Label(span, note) for span, note in zip(spans, texts, strict=False)),
         addresses=tuple(dict.fromkeys(word.address for word in blamed)),
         values=values or {},
-        notes=tuple(notes),
     )
 
 
@@ -152,7 +151,8 @@ def explain_ignored(context: Context, offence: Offence, profile: Profile, soluti
     label = ""
     if expected is not None:
         gap = abs(values["actual"] - expected)
-        comparison = (
+        agrees = "; it agrees with them" if gap <= AGREEMENT else ""
+        comparison = agrees or (
             f"; they make it {angle_text(expected)}, it is off by {angle_text(gap)} "
             f"({length_text(values['off_by_mm'], context.unit)})"
         )
@@ -201,24 +201,22 @@ def explain_result(context: Context, event: Refusal | Remark, profile: Profile) 
             fields[name] = text
     if "off_by_mm" in values:
         fields["off"] = length_text(values["off_by_mm"], context.unit)
-    notes = _without_point(context, profile) if isinstance(event, Refusal) else []
     labels = _labels(event, fields)
-    return report(context, context.row(event.kind), Basis.NUMERICAL, words, values, labels, notes, **fields)
+    return report(context, context.row(event.kind), Basis.NUMERICAL, words, values, labels, **fields)
 
 
-def _without_point(context: Context, profile: Profile) -> list[str]:
-    """Words that a control reads in least increments, because they have no decimal point."""
-    notes = []
-    for given in sorted(profile.givens.values(), key=lambda each: each.name):
+def without_point(context: Context, claim: Claim) -> Iterator[Diagnostic]:
+    """Words that are read in least increments because they have no decimal point, where others have one."""
+    words = [given.word for given in claim.givens.values() if given.word and given.word.number]
+    for given in claim.givens.values() if any(word.has_point for word in words) else ():
         word = given.word
-        if word is None or word.has_point or not word.number or given.unit is Unit.SIGN:
+        if word is None or not word.number or word.has_point or given.unit is Unit.SIGN:
             continue
         typed = given.value * 2 if given.is_diameter else given.value
         if abs(typed) < abs(word.number):
-            in_degrees = given.unit is Unit.DEGREE
-            value = angle_text(float(typed)) if in_degrees else length_text(float(typed), context.unit)
-            notes.append(f"{word.text} has no decimal point and is read in least increments, as {value}")
-    return notes
+            is_length = given.unit is Unit.MM
+            text = length_text(float(typed), context.unit) if is_length else angle_text(float(typed))
+            yield report(context, context.row(Trouble.POINT_MISSING), Basis.RULE, [word], actual=text)
 
 
 def _labels(event: Refusal | Remark, fields: Mapping[str, Any]) -> list[str]:

@@ -4,7 +4,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
 
-from contoursolve.diagnosis import diagnose
 from contoursolve.diagnostic import Basis, Diagnostic, Severity
 from contoursolve.dialects import DIALECTS, Dialect, Unresolved
 from contoursolve.examine import Answer, Depth, Policy, examine, explain_fault, explain_words, rank
@@ -22,6 +21,8 @@ class Result:
     control: str | None
     answers: tuple[Answer, ...]
     diagnostics: tuple[Diagnostic, ...]
+    start: Program | None = None
+    """What stated the start point apart from the program; its line is line 0."""
 
     @property
     def has_errors(self) -> bool:
@@ -64,7 +65,7 @@ def run(
         examiner.nothing_to_solve()
     everything = [*examiner.diagnostics, *(each for answer in answers for each in answer.diagnostics)]
     everything.sort(key=rank)
-    return Result(program, dialect.name if dialect else None, tuple(answers), tuple(everything))
+    return Result(program, dialect.name if dialect else None, tuple(answers), tuple(everything), start)
 
 
 _FAULTS_OF_NO_CONSEQUENCE = (FaultKind.STRAY_CHARACTER,)
@@ -102,6 +103,9 @@ class _Examiner:
                 answer = examine(found, self.rules, self.policy)
                 has_findings = any(each.severity is not Severity.INFO for each in answer.diagnostics)
                 if has_findings and self.depth is Depth.FULL:
+                    # Most programs need no diagnosis, and none should wait for its import.
+                    from contoursolve.diagnosis import diagnose  # noqa: PLC0415
+
                     answer = diagnose(answer, dialect, self.policy)
                 yield answer
                 state = _state_after(found, answer, dialect)
@@ -134,9 +138,10 @@ class _Examiner:
                 finding = replace(finding, severity=Severity.WARNING)
             self.diagnostics.append(finding)
         if self.dialect:
-            addresses = self.dialect.modes.lexicon.addresses
+            lexicon = self.dialect.modes.lexicon
+            addresses = lexicon.addresses
             axis_words = [word for word in block.words if word.address in addresses and addresses[word.address].axis]
-            self.diagnostics += explain_words(context, _repeated(axis_words), axis_words)
+            self.diagnostics += explain_words(context, lexicon, _repeated(axis_words), axis_words)
 
     def _unresolved(self, found: Unresolved) -> None:
         context = Context(self.rules, self.unit, place=found.block.span)

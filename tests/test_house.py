@@ -26,6 +26,7 @@ FLOORS = (
     "diagnosis",
     "pipeline",
     "output api",
+    "trial",
     "__init__",
     "cli",
     "__main__",

@@ -8,10 +8,12 @@ from contoursolve.diagnosis.identities import identity
 from contoursolve.diagnosis.layers import list_layers
 from contoursolve.diagnosis.reasons import conflict_reasons, freedom_reasons, path_reasons, place_text
 from contoursolve.diagnosis.repairs import Repair, find_repairs
-from contoursolve.diagnostic import Diagnosis, Diagnostic, Fix, Severity, Tie
+from contoursolve.diagnostic import Diagnosis, Diagnostic, Fix, Label, Severity, Tie
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer, Policy
+from contoursolve.explain import length_text
 from contoursolve.model import scalar
+from contoursolve.source import Span
 from contoursolve.tolerance import AGREEMENT
 
 
@@ -22,22 +24,41 @@ def diagnose(answer: Answer, dialect: Dialect, policy: Policy) -> Answer:
     is_readable = not any(block.faults for block in answer.claim.blocks)
     circuits = affine.circuits() if affine and is_readable else ()
     freedoms = affine.freedoms() if affine and is_readable else ()
+    repairs = find_repairs(answer, dialect)
     diagnosis = Diagnosis(
         layers=list_layers(answer, policy),
         freedoms=freedoms,
         ties=tuple(_tie(answer, circuit) for circuit in circuits),
-        is_complete=affine is not None,
+        ties_complete=affine is not None,
+        repairs_complete=repairs.is_complete,
     )
-    findings = [
-        replace(finding, notes=(*finding.notes, *_reasons(answer, affine, circuits, diagnosis, finding)))
-        for finding in answer.diagnostics
-    ]
+    findings = []
+    for finding in answer.diagnostics:
+        reasons = tuple(_reasons(answer, affine, circuits, diagnosis, finding))
+        labels = _start_labels(answer) if reasons and finding.code.endswith(_FROM_START) else ()
+        findings.append(replace(finding, notes=finding.notes + reasons, labels=finding.labels + labels))
     main = next((index for index, finding in enumerate(findings) if finding.severity is not Severity.INFO), None)
     if main is not None:
-        repairs = find_repairs(answer, dialect).repairs
-        fixes = tuple(_fix(answer, repair) for repair in repairs)
+        fixes = tuple(_fix(answer, repair) for repair in repairs.repairs)
         findings[main] = replace(findings[main], fixes=fixes)
     return replace(answer, diagnostics=tuple(findings), diagnosis=diagnosis)
+
+
+_FROM_START = ("-ignored", "-conflict", "-reversed")
+
+
+def _start_labels(answer: Answer) -> tuple[Label, ...]:
+    """The words that set the start point, on the lines before the contour."""
+    profile, before = answer.profile, answer.claim.before
+    labels: dict[Span, str] = {}
+    for axis, value, is_diameter in zip(profile.plane.axes, profile.start.values, profile.plane.diameters, strict=True):
+        span = before.axes[axis].span
+        if span and value is not None and 0 < span.line < answer.lines[0]:
+            text = "start point used here"
+            if is_diameter:
+                text = f"a radius of {length_text(float(value), profile.unit)}"
+            labels.setdefault(span, text)
+    return tuple(Label(span, text) for span, text in labels.items())
 
 
 def _tie(answer: Answer, circuit: Circuit) -> Tie:

@@ -1,7 +1,7 @@
 """Which checks a contour went through, what each found, and which could not run, and why."""
 
 from contoursolve.analysis import decompose, judge
-from contoursolve.constraints import System, assemble
+from contoursolve.constraints import OnCircle, System, assemble
 from contoursolve.diagnostic import Basis, Layer, Severity, Verdict
 from contoursolve.examine import Answer, Policy
 from contoursolve.model import Profile
@@ -44,11 +44,16 @@ _EQUATIONS = ("structure", "generic rank", "values", "geometry")
 def _equations(answer: Answer, profile: Profile, system: System) -> list[Layer]:
     parts, verdict = decompose(system), judge(system)
     size = f"{_count(system.facts, 'equation')}, {_count(system.unknowns, 'unknown')}"
-    layers = [_layer("structure", bool(parts.over_facts or parts.under_unknowns), size)]
+    # A point of a circle may be given besides its centre: the control compares the radii, and so do we.
+    spare = [system.facts[index] for index in range(len(system.facts)) if index not in verdict.basis]
+    is_over = any(not isinstance(fact, OnCircle) for fact in spare)
+    if spare and not is_over:
+        size += f", {_count(tuple(spare), 'check')}"
+    layers = [_layer("structure", bool(parts.under_unknowns or (parts.over_facts and is_over)), size)]
     rank = f"rank {verdict.rank} of {len(system.unknowns)}, exact"
     if verdict.condition and verdict.condition != "1":
         rank += f"; determined unless {verdict.condition} = 0"
-    layers.append(_layer("generic rank", bool(verdict.free or verdict.tied), rank))
+    layers.append(_layer("generic rank", bool(verdict.free or is_over), rank))
     blocked = ""
     if not profile.start.is_known:
         blocked = "the start point is not known"

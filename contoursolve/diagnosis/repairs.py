@@ -3,6 +3,7 @@ contour. Each one is applied to the text, read, checked and solved again before 
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from decimal import Decimal
 from functools import lru_cache
 from itertools import combinations, product
 from math import hypot
@@ -66,7 +67,8 @@ def find_repairs(answer: Answer, dialect: Dialect) -> Repairs:
     codes = {each.code for each in answer.diagnostics}
     found: list[Repair] = []
     tried: set[tuple[Edit, ...]] = set()
-    for drafts in (_sets(answer, dialect, whole), _values(answer, dialect, whole), _slips(answer, dialect, whole)):
+    stages = (_points, _sets, _values, _slips)
+    for drafts in (stage(answer, dialect, whole) for stage in stages):
         for edits in drafts:
             if len(tried) < MOST_TRIED and not any(set(other.edits) <= set(edits) for other in found):
                 repair = _try(claim, dialect, edits, codes, reference) if edits not in tried else None
@@ -102,11 +104,27 @@ class _Geometry:
         return None
 
 
+def _points(answer: Answer, _dialect: Dialect, _whole: _Geometry) -> Iterator[tuple[Edit, ...]]:
+    """Decimal points added to the words that lack them, where others of the block have one: each alone, and all."""
+    missing = [each for each in answer.diagnostics if each.code == "point-missing"]
+    spans = {finding.span for finding in missing}
+    edits = [_change(word, word.text + ".") for word in answer.claim.words.values() if word.span in spans]
+    yield from ((edit,) for edit in edits)
+    if len(edits) > 1:
+        yield tuple(edits)
+
+
 def _sets(answer: Answer, dialect: Dialect, whole: _Geometry) -> Iterator[tuple[Edit, ...]]:
     """Words to drop and to add: every smallest set that makes the combination legal, and for a legal one
     what may be dropped or exchanged."""
     claim = answer.claim
-    forced = tuple(_unreadable(claim))
+    for forced in _unreadable(claim):
+        yield from _legal_sets(claim, dialect, whole, forced)
+
+
+def _legal_sets(
+    claim: Claim, dialect: Dialect, whole: _Geometry, forced: tuple[Edit, ...]
+) -> Iterator[tuple[Edit, ...]]:
     if forced:
         yield forced
     if _has_faults(claim):
@@ -114,7 +132,7 @@ def _sets(answer: Answer, dialect: Dialect, whole: _Geometry) -> Iterator[tuple[
     present, names = frozenset(claim.words), frozenset(claim.vocabulary)
     extra = {row.fact.given for row in claim.form.facts} | set(claim.form.choices)
     if not _is_singular(whole):
-        extra -= present ^ extra if _is_legal_set(claim, dialect.rules) else set()
+        extra -= present ^ extra if _is_clean_set(claim, dialect.rules) else set()
     changes = smallest_changes(claim.form, dialect.rules, present, names & frozenset(extra), claim.circumstances)
     for change in changes:
         drops = tuple(_drop(claim.words[name]) for name in sorted(change & present))
@@ -140,17 +158,27 @@ def _has_faults(claim: Claim) -> bool:
     return any(fault.kind is not FaultKind.COMMENT_NOT_CLOSED for block in claim.blocks for fault in block.faults)
 
 
-def _unreadable(claim: Claim) -> Iterator[Edit]:
-    """What every repair must take out or correct: characters, addresses without a meaning, repetitions."""
-    for word in (*claim.unknown, *claim.repeated):
-        yield _drop(word)
+def _unreadable(claim: Claim) -> Iterator[tuple[Edit, ...]]:
+    """What every repair must take out or correct: characters, addresses without a meaning, repetitions. Of an
+    address that is given twice, either word may be the one that is meant."""
+    edits = [_drop(word) for word in claim.unknown]
     for block in claim.blocks:
         for fault in block.faults:
             if fault.kind is FaultKind.COMMENT_NOT_CLOSED:
                 continue
             text = fault.text.replace(",", ".") if fault.address and fault.text.count(",") == 1 else ""
             kind = EditKind.CHANGE if text else EditKind.DROP
-            yield Edit(kind, fault.address, fault.span, fault.text, text)
+            edits.append(Edit(kind, fault.address, fault.span, fault.text, text))
+    either = [
+        [_drop(word), *(_drop(first) for first in claim.words.values() if _is_same(first, word))]
+        for word in claim.repeated
+    ]
+    for choice in product(*either):
+        yield (*edits, *choice)
+
+
+def _is_same(first: Word, word: Word) -> bool:
+    return first.address == word.address and first.span.line == word.span.line and first.number != word.number
 
 
 def _corrections(claim: Claim, dialect: Dialect) -> Iterator[tuple[str, list[Edit]]]:
@@ -193,10 +221,9 @@ def _other_corners(claim: Claim) -> Iterator[tuple[Edit, ...]]:
             yield edits
 
 
-def is_legal(form: Form, rules: tuple[Rule, ...], names: frozenset[str], circumstances: frozenset[str]) -> bool:
-    """Whether no rule refuses the combination of words, whatever their values."""
-    offences = check(rules, form.name, dict.fromkeys(names | circumstances))
-    return not any(offence.rule.severity is Severity.ERROR for offence in offences)
+def is_clean(form: Form, rules: tuple[Rule, ...], names: frozenset[str], circumstances: frozenset[str]) -> bool:
+    """Whether no rule refuses or ignores something in the combination of words, whatever their values."""
+    return not check(rules, form.name, dict.fromkeys(names | circumstances))
 
 
 @lru_cache(maxsize=4096)
@@ -207,24 +234,23 @@ def smallest_changes(
     extra: frozenset[str],
     circumstances: frozenset[str],
 ) -> tuple[frozenset[str], ...]:
-    """All smallest sets of names whose dropping or adding makes a combination that no rule refuses.
+    """All smallest sets of names whose dropping or adding makes a combination that no rule
+    refuses, and in which none ignores a word.
 
-    Where the combination is legal already, a word may be dropped or exchanged for another one.
+    Where the combination is that already, a word may be dropped or exchanged for another one.
     """
 
-    if is_legal(form, rules, present, circumstances):
+    if is_clean(form, rules, present, circumstances):
         one = (frozenset({name}) for name in sorted(present))
         exchanged = (frozenset({old, new}) for old in sorted(present & extra) for new in sorted(extra - present))
-        return (
-            frozenset(),
-            *(change for change in (*one, *exchanged) if is_legal(form, rules, present ^ change, circumstances)),
-        )
+        changes = (frozenset(), *one, *exchanged)
+        return tuple(change for change in changes if is_clean(form, rules, present ^ change, circumstances))
     found: list[frozenset[str]] = []
     universe = sorted(present | extra)
     for size in range(1, MOST_EDITS + 1):
         for names in combinations(universe, size):
             change = frozenset(names)
-            if not any(other <= change for other in found) and is_legal(form, rules, present ^ change, circumstances):
+            if not any(other <= change for other in found) and is_clean(form, rules, present ^ change, circumstances):
                 found.append(change)
     return tuple(found)
 
@@ -235,8 +261,8 @@ def _is_singular(whole: _Geometry) -> bool:
     return affine is not None and len(affine.facts) >= len(affine.unknowns) and bool(affine.freedoms())
 
 
-def _is_legal_set(claim: Claim, rules: tuple[Rule, ...]) -> bool:
-    return is_legal(claim.form, rules, frozenset(claim.words), claim.circumstances)
+def _is_clean_set(claim: Claim, rules: tuple[Rule, ...]) -> bool:
+    return is_clean(claim.form, rules, frozenset(claim.words), claim.circumstances)
 
 
 def _values(answer: Answer, dialect: Dialect, whole: _Geometry) -> Iterator[tuple[Edit, ...]]:
@@ -244,10 +270,11 @@ def _values(answer: Answer, dialect: Dialect, whole: _Geometry) -> Iterator[tupl
     claim, unit, lexicon = answer.claim, answer.claim.after.unit, dialect.modes.lexicon
     if _has_faults(claim):
         return
-    forced = tuple(_unreadable(claim))
+    forced = next(_unreadable(claim))
     affine = affine_facts(whole.profile, whole.profile.facts)
     circuits = affine.circuits() if affine else ()
     tied = {fact.given for circuit in circuits if max(circuit.off) > AGREEMENT for fact in circuit.facts}
+    asked_together: list[Edit] = []
     for name, word in claim.words.items():
         given = claim.givens.get(name)
         if given is None or word.number is None or given.unit is Unit.SIGN:
@@ -256,10 +283,16 @@ def _values(answer: Answer, dialect: Dialect, whole: _Geometry) -> Iterator[tupl
             write_word(word.address, value, lexicon, unit, is_limit="limit" in key)
             for key, value in _asked(answer, word, given)
         ]
-        if name in tied:
+        asked_together += [_change(word, texts[0])] if texts and texts[0] != word.text else []
+        if name in tied and answer.status is not Status.OVERDETERMINED:
             value = _Geometry.of(claim, frozenset(claim.givens) - {name}).implied(claim, name)
+            if value is not None and given.unit is Unit.DEGREE:
+                value += 360 * round((float(given.value) - value) / 360)
             texts += [write_word(word.address, value, lexicon, unit)] if value is not None else []
-        yield from ((*forced, _change(word, text)) for text in dict.fromkeys(texts) if text != word.text)
+        new = (text for text in dict.fromkeys(texts) if Decimal(text.removeprefix(word.address)) != word.number)
+        yield from ((*forced, _change(word, text)) for text in new)
+    if len(asked_together) > 1:
+        yield (*forced, *asked_together)
 
 
 def _slips(answer: Answer, dialect: Dialect, whole: _Geometry) -> Iterator[tuple[Edit, ...]]:
@@ -280,23 +313,36 @@ def _sizes(claim: Claim) -> set[str]:
 
 
 def _asked(answer: Answer, word: Word, given: Given) -> Iterator[tuple[str, float]]:
-    """The values that findings about a word ask for, in mm (radius) or degrees."""
+    """The values that errors about a word ask for, in mm (radius) or degrees."""
     for finding in answer.diagnostics:
-        if finding.labels and finding.labels[0].span == word.span:
+        if finding.severity is Severity.ERROR and finding.labels and finding.labels[0].span == word.span:
             for key in ("expected", "limit"):
-                if key in finding.values and abs(finding.values[key]) < float("inf"):
+                if given.unit is Unit.DEGREE and key == "limit":
+                    yield from (("expected", angle) for angle in _meeting(finding, given))
+                elif key in finding.values and abs(finding.values[key]) < float("inf"):
                     yield key, finding.values[key] * (0.5 if given.is_diameter else 1.0)
 
 
+def _meeting(finding: Diagnostic, given: Given) -> Iterator[float]:
+    """The angle nearest to the given one with which a line meets the circle that it misses, degrees."""
+    if "angle_from" in finding.values:
+        low, high = finding.values["angle_from"] + _INSIDE, finding.values["angle_to"] - _INSIDE
+        value = float(given.value)
+        near = [edge + 360 * round((value - edge) / 360) for edge in (low, high)]
+        yield min(near, key=lambda edge: abs(edge - value))
+
+
+_INSIDE = 0.002
+"""Degrees. Two least increments, so that a rounded angle still meets the circle."""
+
+
 def _variants(word: Word, given: Given, lexicon: Lexicon, unit: Length) -> Iterator[str]:
-    """The word as it may have been meant: point forgotten, opposite or mirrored angle, other sign."""
+    """The word as it may have been meant: opposite or mirrored angle, other sign."""
     value, row = float(given.value), lexicon.addresses[word.address]
-    if not word.has_point and abs(value) < abs(float(word.number or 0)):
-        yield word.text.rstrip() + "."
     if given.unit is Unit.DEGREE:
         for angle in (value - 180 if value > 0 else value + 180, 180 - value, -value):
             yield write_word(word.address, angle, lexicon, unit)
-    elif value and not (row.is_diameter and not row.is_increment):  # a diameter has no other side
+    elif value and (row.is_increment or not row.axis):  # the sign of a coordinate depends on the origin
         yield write_word(word.address, -value, lexicon, unit)
 
 

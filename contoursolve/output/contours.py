@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 from contoursolve.contour import ArcSegment
+from contoursolve.diagnostic import Verdict
 from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.examine import Answer
 from contoursolve.model import Length, Turn, Unit
@@ -11,6 +12,8 @@ from contoursolve.pipeline import Result
 from contoursolve.reading import Form, Lexicon
 from contoursolve.solving import Point
 from contoursolve.syntax import Word
+
+_VERDICT = {Verdict.PASSED: "passed", Verdict.FOUND: "see finding", Verdict.NOT_RUN: "not run"}
 
 _INCH = float(Length.INCH.in_mm)
 
@@ -25,8 +28,8 @@ def contour_lines(answer: Answer, result: Result) -> list[str]:
     if answer.contour:
         lines += ["", *columns(_path_rows(answer), left=(0, 1))]
     elif answer.diagnosis:
-        rows = [(layer.name, layer.verdict.value, layer.remark) for layer in answer.diagnosis.layers]
-        lines += ["", *columns([("check", "", ""), *rows], left=(0, 1, 2))]
+        rows = [(layer.name, _VERDICT[layer.verdict], layer.remark) for layer in answer.diagnosis.layers]
+        lines += ["", *columns([("check", "verdict", "what was checked"), *rows], left=(0, 1, 2))]
     return [*lines, ""]
 
 

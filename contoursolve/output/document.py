@@ -127,7 +127,8 @@ def _diagnosis(diagnosis: Diagnosis) -> dict[str, Any]:
             }
             for tie in diagnosis.ties
         ],
-        "is_complete": diagnosis.is_complete,
+        "ties_complete": diagnosis.ties_complete,
+        "repairs_complete": diagnosis.repairs_complete,
     }
 
 

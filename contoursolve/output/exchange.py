@@ -5,6 +5,7 @@ import json
 from collections.abc import Iterable, Sequence
 from pathlib import PurePath
 from typing import Any
+from urllib.parse import quote
 
 from contoursolve.diagnostic import Applicability, Diagnostic, Fix, Severity
 from contoursolve.dialects import DIALECTS
@@ -74,7 +75,9 @@ def _finite(finding: Diagnostic) -> dict[str, float]:
 
 
 def _uri(result: Result) -> dict[str, str]:
-    return {"uri": PurePath(result.program.name).as_posix().replace(" ", "%20").replace("<", "").replace(">", "")}
+    """The file as a relative or absolute URI (RFC 3986)."""
+    path = PurePath(result.program.name)
+    return {"uri": path.as_uri() if path.is_absolute() else quote(path.as_posix())}
 
 
 def _location(result: Result, finding: Diagnostic) -> dict[str, Any]:

@@ -32,7 +32,7 @@ def finding_lines(finding: Diagnostic, name: str, sources: Mapping[int, str], st
     title = style(f"{role}[{finding.code}]", role) + style(f": {finding.message}", "bold")
     gutter = max(len(str(label.span.line)) for label in finding.labels) if finding.labels else 1
     bar = " " * (gutter + 1) + style("|", "frame")
-    place = f"{name}:{finding.span.line}:{finding.span.column}"
+    place = f"{name}:{finding.span.line}:{finding.span.column}" if finding.span.line else "--start"
     lines = [title, " " * gutter + style("-->", "frame") + f" {place}", bar]
     by_line: dict[int, list[Label]] = {}
     for label in finding.labels:
@@ -44,7 +44,7 @@ def finding_lines(finding: Diagnostic, name: str, sources: Mapping[int, str], st
         lines += [f"{bar} {line}" for line in _marks(labels, shift, primary, len(text), style, role)]
     foot = " " * (gutter + 1) + style("=", "frame")
     lines += [f"{foot} {note}" for note in finding.notes]
-    if finding.help and not any(fix.applicability is not Applicability.PLACEHOLDER for fix in finding.fixes):
+    if finding.help and not any(fix.applicability is Applicability.SAFE for fix in finding.fixes):
         lines.append(f"{foot} help: {finding.help}")
     for fix in finding.fixes[:SHOWN_FIXES]:
         lines.append(f"{foot} fix [{_APPLICABILITY[fix.applicability]}]: {fix.description}")

@@ -7,6 +7,7 @@ from enum import Enum
 
 from contoursolve.model import Choice, Given, Profile, Turn
 from contoursolve.reading.form import Form, lay_out
+from contoursolve.reading.lexicon import Lexicon
 from contoursolve.reading.state import State
 from contoursolve.syntax import Block, Word
 
@@ -17,6 +18,7 @@ class Trouble(Enum):
     REPEATED_ADDRESS = "repeated-address"
     UNKNOWN_ADDRESS = "unknown-address"
     VARIABLE = "variable"
+    POINT_MISSING = "point-missing"
     VALUE_TOO_LARGE = "value-too-large"
     POSITION_UNKNOWN = "position-unknown"
     SKIPPABLE_START = "skippable-start"
@@ -33,12 +35,13 @@ class Trouble(Enum):
 class Claim:
     """A contour before any check.
 
-    `words` are the words by the name of the given that they state; `values` their values in mm or
-    degrees (None for a variable); `circumstances` are names such as `@compensated`. `before` is the
+    `words` are the words by the name of the given that they state; `givens` their values in mm or
+    degrees, without those that are variables; `circumstances` are names such as `@compensated`. `before` is the
     state at the start point, `after` the state with the modes of all its blocks.
     """
 
     form: Form
+    lexicon: Lexicon
     blocks: tuple[Block, ...]
     before: State
     after: State

@@ -42,9 +42,9 @@ class Sample:
 class Form:
     """One way of describing a contour.
 
-    `points` and `radii` are unknown as soon as some fact mentions them. `headings` names the given
-    angle of a line; a line runs in its sense. `facts` are in order of precedence: where words say too
-    much, the first ones are solved for. `allowed` are the addresses that may stand in its blocks.
+    `points` and `radii` are unknown as soon as some fact mentions them. `facts` are in order of
+    precedence: where words say too much, the first ones are solved for. `allowed` are the addresses that
+    may stand in its blocks.
     `length` is the number of its blocks. `combinations` are slots, each with the sets of givens that
     may fill it: their product is every combination of words that the equations can tell apart.
     """

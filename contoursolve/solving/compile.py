@@ -49,6 +49,8 @@ class _Builder:
         for axis in (FIRST, SECOND):
             name = scalar(system.figure.start, axis)
             self.scalars[name] = self.tape.input(name)
+        self.rooms: dict[str, Any] = {}
+        """What the corners leave of each line."""
         self.amounts = _Inputs(self.tape)
         self.directions = _Directions(self.tape)
 
@@ -166,16 +168,20 @@ class _Builder:
                 start, end = self.point(lines[index].tail), self.point(lines[index + 1].head)
                 quadrant = sign(end[FIRST] - start[FIRST]), sign(end[SECOND] - start[SECOND])
                 residuals += self._corner(corner, directions[corner.before], directions[corner.after], quadrant)
+        for line in lines:
+            self.tape.output(f"room:{line.name}", self.rooms[line.name])
         return tuple(residuals)
 
     def _direction(self, line: Line) -> Pair:
         tail, head = self.point(line.tail), self.point(line.head)
         step = head[0] - tail[0], head[1] - tail[1]
         if line.heading is None:
-            self.tape.output(f"length:{line.name}", sqrt(step[0] ** 2 + step[1] ** 2))
-            return unit(step)
-        direction = self.directions[line.heading]
-        self.tape.output(f"length:{line.name}", step[0] * direction[0] + step[1] * direction[1])
+            direction, length = unit(step), sqrt(step[0] ** 2 + step[1] ** 2)
+        else:
+            direction = self.directions[line.heading]
+            length = step[0] * direction[0] + step[1] * direction[1]
+        self.tape.output(f"length:{line.name}", length)
+        self.rooms[line.name] = length
         return direction
 
     def _landing(self, corner: Corner, arriving: Pair, earlier: Pair) -> list[str]:
@@ -194,6 +200,9 @@ class _Builder:
         built = build_corner(corner.shape, self.point(corner.at), arriving, leaving, size, quadrant)
         self.tape.output(f"setback-in:{name}", built.setback_in)
         self.tape.output(f"setback-out:{name}", built.setback_out)
+        self.rooms[corner.before] -= built.setback_in
+        if corner.after is not None:
+            self.rooms[corner.after] -= built.setback_out
         self.tape.output(f"turn:{name}", built.turn)
         self.tape.output(f"cosine:{name}", built.cosine)
         for axis in (FIRST, SECOND):

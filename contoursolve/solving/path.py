@@ -102,10 +102,10 @@ def _check_room(figure: Figure, out: Outputs, profile: Profile) -> list[Refusal]
             refusals.append(Refusal(RefusalKind.CORNER_TOO_LARGE, corner.name, (corner.size,), values))
     for line in (element for element in figure.path if isinstance(element, Line)):
         corners = [corner for corner in figure.corners if line.name in _setbacks(corner, out)]
-        total = sum(_setbacks(corner, out)[line.name] for corner in corners)
-        if total > out[f"length:{line.name}"] + LENGTH and not refused & {corner.name for corner in corners}:
-            values = {"limit": out[f"length:{line.name}"], "actual": total}
-            values["off_by_mm"] = values["actual"] - values["limit"]
+        room = out[f"room:{line.name}"]
+        if room < -LENGTH and not refused & {corner.name for corner in corners}:
+            length = out[f"length:{line.name}"]
+            values = {"limit": length, "actual": length - room, "off_by_mm": -room}
             givens = tuple(corner.size for corner in corners)
             refusals.append(Refusal(RefusalKind.CORNERS_OVERLAP, line.name, givens, values))
     return refusals

@@ -1,13 +1,14 @@
 """Solves a determined profile and believes nothing: every answer is held against the original equations."""
 
 from collections.abc import Iterator
+from decimal import Decimal
 from itertools import combinations
 from math import asin, atan2, ceil, degrees, floor, hypot, isfinite, log10
 
 from contoursolve.analysis import judge
 from contoursolve.backends.angle import direction
 from contoursolve.backends.numeric import inverse_norm
-from contoursolve.constraints import Coordinate, OnCircle, System, Values, assemble
+from contoursolve.constraints import Coordinate, Offset, OnCircle, Radius, System, Values, assemble
 from contoursolve.model import FIRST, SECOND, Corner, Fact, Profile, Unit, scalar
 from contoursolve.solving.compile import COSINE, SINE, compile_system
 from contoursolve.solving.path import check_path
@@ -111,6 +112,7 @@ class _Attempt:
         self.refusals: list[Refusal] = []
         self.remarks: list[Remark] = []
         self.doubles: dict[int, dict[str, float]] = {}
+        self.split = 0.0
 
     def _inputs(self) -> dict[str, float]:
         """All inputs of the function. Coordinates are counted from the start point, and the difference is
@@ -144,7 +146,7 @@ class _Attempt:
         if self.refusals:
             return self._refused()
         bound = self._error_bound()
-        if not bound <= ERROR_BOUND_WARNING:
+        if not bound - self.split <= ERROR_BOUND_WARNING:
             self.remarks.append(Remark(RemarkKind.SENSITIVE, "", (), {"limit": ERROR_BOUND_WARNING, "actual": bound}))
         agrees = any(remark.kind is RemarkKind.WORDS_AGREE for remark in self.remarks)
         return Solution(
@@ -219,7 +221,7 @@ class _Attempt:
         if isinstance(step, TwoPointsStep) and offset <= LENGTH:
             return Refusal(RefusalKind.CIRCLE_UNDEFINED, subject, givens)
         if abs(offset - radius) <= TOUCHING * self.out[f"scale:{number}"]:
-            self._note_double(step)
+            self._note_double(step, radius, self.out[f"scale:{number}"])
             # A circle about the middle of two points is an ordinary half circle.
             if isinstance(step, LineCircleStep):
                 self.remarks.append(Remark(RemarkKind.TOUCHES, subject, givens, values))
@@ -227,9 +229,10 @@ class _Attempt:
             return _refuse(kind, subject, givens, **values, off_by_mm=abs(offset - radius))
         return None
 
-    def _note_double(self, step: LineCircleStep | TwoPointsStep) -> None:
-        """A double solution: in the error bound, a row that holds the point where it is along the direction
-        in which the two solutions part takes the place of its circle's."""
+    def _note_double(self, step: LineCircleStep | TwoPointsStep, radius: float, scale: float) -> None:
+        """A double solution, as far as floats can tell: in the error bound, a row that holds the point where it
+        is along the direction in which the two solutions part takes the place of its circle's, and how far
+        apart they could be is added."""
         if isinstance(step, LineCircleStep):
             circle, point = step.circle, step.circle.point
             first, second = direction(self.profile.givens[step.heading.given].value)
@@ -240,6 +243,23 @@ class _Attempt:
             first, second = (begin[1] - end[1]) / length, (end[0] - begin[0]) / length
         row = self.plan.basis.index(circle)
         self.doubles[row] = {scalar(point, FIRST): first, scalar(point, SECOND): second}
+        if isinstance(step, LineCircleStep) or not self._is_half_circle(step):
+            self.split = max(self.split, (2 * radius * TOUCHING * scale) ** 0.5)
+
+    def _is_half_circle(self, step: TwoPointsStep) -> bool:
+        """Whether the radius is exactly half the chord, in decimals."""
+        values: dict[tuple[str, int], Decimal] = {}
+        radius = Decimal(0)
+        for fact in self.system.facts:
+            value = self.profile.givens[fact.given].value if fact.given else Decimal(0)
+            if isinstance(fact, Radius) and fact.radius == step.first.radius:
+                radius = value
+            elif isinstance(fact, Coordinate):
+                values[fact.point, fact.axis] = value - self.start[fact.axis]
+            elif isinstance(fact, Offset) and fact.origin == self.system.figure.start:
+                values[fact.point, fact.axis] = value
+        chord = [values.get((step.second.point, axis)) for axis in (FIRST, SECOND)]
+        return None not in chord and sum(part**2 for part in chord if part is not None) == 4 * radius**2
 
     def _meeting_angles(self, step: LineCircleStep, radius: float) -> dict[str, float]:
         """Between which angles a line through the known point of the heading meets the circle, degrees."""
@@ -310,7 +330,7 @@ class _Attempt:
         coordinates = (*self._point(self.system.figure.start), *(self.out[name] for name in self.system.unknowns))
         largest = max(1.0, *map(abs, coordinates))
         worst = max(abs(self.out[f"residual:{number}"]) for number in range(size))
-        bound = inverse_norm(entries, size) * (worst + ROUNDING * largest)
+        bound = inverse_norm(entries, size) * (worst + ROUNDING * largest) + self.split
         if not isfinite(bound):
             return float("inf")
         digit = 10.0 ** floor(log10(bound))

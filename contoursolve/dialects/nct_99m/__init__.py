@@ -10,7 +10,8 @@ from contoursolve.syntax import Block
 
 def _signs(block: Block) -> bool:
     stated = {word.address for word in block.words}
-    is_over_defined_circle = {"R", "Q"} <= stated and len(stated & {"I", "J", "K"}) == 2  # noqa: PLR2004
+    is_arc = any(word.address == "G" and word.number in (2, 3) for word in block.words)
+    is_over_defined_circle = is_arc and {"R", "Q"} <= stated and len(stated & {"I", "J", "K"}) == 2  # noqa: PLR2004
     return bool(stated & {",A", ",C", ",R"}) or is_over_defined_circle
 
 

@@ -7,7 +7,6 @@ of the plane, so that one set of tables serves G17, G18 and G19.
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from decimal import Decimal
-from itertools import islice
 
 from contoursolve.constraints import Coordinate, Heading, Offset, OnCircle, Radius
 from contoursolve.dialects.dialect import Unresolved
@@ -79,6 +78,8 @@ CIRCLE_LINE = Form(
 )
 
 COMPENSATED, ALONE, OTHER_PLANE, RAPID = "@compensated", "@alone", "@other-plane", "@rapid"
+CHAINED = "@chained"
+"""The next block is over-defined, too."""
 
 _TURNS = {2: Turn.CW, 3: Turn.CCW}
 _OWN_USE = (Effect.SINGLE, Effect.NO_MOTION, Effect.PRESET, Effect.CYCLE, Effect.FRAME)
@@ -91,13 +92,28 @@ def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> Cla
         return None
     here = apply_modes(state, block, modes)
     if here.motion in _TURNS and _moves(block):
-        rest = islice(blocks, index + 1, None)
-        following = next((other for other in rest if _has_words(other)), None)
-        if following and _is_over_defined(following, here, modes):
-            return _claim((block, following), state, here, modes)
+        following = _next(blocks, index)
+        if following is not None and _is_over_defined(blocks[following], here, modes):
+            after, last = apply_modes(here, blocks[following], modes), _next(blocks, following)
+            is_chained = last is not None and (
+                _is_over_defined(blocks[last], after, modes) or _is_over_defined_circle(blocks[last], after, modes)
+            )
+            return _claim((block, blocks[following]), state, here, modes, is_chained)
     if _is_over_defined(block, state, modes):
-        return _claim((block,), state, here, modes)
+        return _claim((block,), state, here, modes, is_chained=False)
     return _unresolved(block, here)
+
+
+def _next(blocks: Sequence[Block], index: int) -> int | None:
+    """The index of the next block that says something."""
+    return next((other for other in range(index + 1, len(blocks)) if _has_words(blocks[other])), None)
+
+
+def _is_over_defined_circle(block: Block, before: State, modes: Modes) -> bool:
+    """A circle with end point, centre and radius together, and Q (16.3)."""
+    here = apply_modes(before, block, modes)
+    stated = {word.address for word in block.words}
+    return here.motion in _TURNS and stated >= {*here.plane.axes, *here.plane.centers, "R", "Q"}
 
 
 def _moves(block: Block) -> bool:
@@ -140,7 +156,7 @@ def _unresolved(block: Block, here: State) -> Unresolved | None:
     return None
 
 
-def _claim(blocks: tuple[Block, ...], state: State, here: State, modes: Modes) -> Claim:
+def _claim(blocks: tuple[Block, ...], state: State, here: State, modes: Modes, is_chained: bool) -> Claim:
     after = apply_modes(here, blocks[-1], modes) if len(blocks) > 1 else here
     names = dict(_names(here, after))
     words: dict[str, Word] = {}
@@ -165,9 +181,11 @@ def _claim(blocks: tuple[Block, ...], state: State, here: State, modes: Modes) -
         ALONE: len(blocks) == 1,
         OTHER_PLANE: after.plane != here.plane,
         RAPID: after.motion == 0,
+        CHAINED: is_chained,
     }
     return Claim(
         form=CIRCLE_LINE,
+        lexicon=modes.lexicon,
         blocks=blocks,
         before=replace(state, plane=here.plane, unit=here.unit),
         after=after,

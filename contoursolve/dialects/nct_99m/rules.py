@@ -3,7 +3,7 @@
 from decimal import Decimal
 
 from contoursolve.diagnostic import Alarm, Severity
-from contoursolve.dialects.nct_99m.circle_line import ALONE, COMPENSATED, OTHER_PLANE, RAPID
+from contoursolve.dialects.nct_99m.circle_line import ALONE, CHAINED, COMPENSATED, OTHER_PLANE, RAPID
 from contoursolve.dialects.nct_99m.lexicon import MANUAL
 from contoursolve.rules import Condition, Rule, Value, all_of, at_most, some
 from contoursolve.solving import RefusalKind, RemarkKind
@@ -175,6 +175,16 @@ COMBINATION_RULES = (
         when=some("1:,C", "1:,R", "2:,C", "2:,R"),
         accepted=(_GOOD,),
         rejected=(_START + "G3 X-50 Y0 R50 ,R2\n" + _LINE,),
+    ),
+    Rule(
+        code="nct-chain",
+        message="the next block is over-defined, too: this is a chain (16.3.5), which this version does not resolve",
+        help="the pair was not solved: the line's end is then not its real end, but a point that it passes through",
+        source=_manual("16.3.5; the rule which coordinates are a real end"),
+        form=_FORM,
+        when=some(CHAINED),
+        accepted=(_GOOD,),
+        rejected=(_GOOD + "\nG2 X-80 Y20 I-60 J30 R20 Q1",),
     ),
     Rule(
         code="nct-plane-changes",

@@ -94,6 +94,10 @@ def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> Cla
     if unresolved:
         word = next(word for word in block.words if word.address == "G" and word.number == unresolved.number)
         return Unresolved(block, word, f"G{unresolved.number} ({unresolved.meaning})")
+    corner = next((word for word in block.words if word.address in ("I", "K")), None)
+    if corner and len(axis_words) == 1 and apply_modes(state, block, modes).motion == 1:
+        # p. 31-32: the bevel of G11 in another form.
+        return Unresolved(block, corner, "G01 with one axis and I or K (bevelling)")
     if not codes and state.motion in (11, 12) and axis_words:
         return Unresolved(block, axis_words[0], f"G{state.motion} (modal, {modes.codes[state.motion].meaning})")
     return None
@@ -117,6 +121,7 @@ def _claim(block: Block, codes: list[Code], state: State, modes: Modes) -> Claim
     givens = {name: lexicon.given(name, word, after.unit) for name, word in words.items() if name in lexicon.addresses}
     return Claim(
         form=G111,
+        lexicon=lexicon,
         blocks=(block,),
         before=replace(state, unit=after.unit),
         after=after,

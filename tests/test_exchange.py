@@ -1,0 +1,189 @@
+"""Findings for other tools: SARIF, GitHub's annotations, exit statuses and the summary of many files."""
+
+import json
+import os
+import re
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
+
+import jsonschema
+import pytest
+from click.testing import CliRunner, Result
+
+from contoursolve import solve
+from contoursolve.cli import main
+from contoursolve.dialects import DIALECTS
+from contoursolve.output.exchange import to_github
+
+BROKEN = "G00 X40. Z0.\nG111 A135. I10. K-12. B180. Z-40. P2.\nG00 X40. Z0.\nG111 A180. K-30. P90. B120. X100.\n"
+CLEAN = "G00 X40. Z0.\nG111 A180. K-30. B120. X100.\n"
+WARNED = "G00 X40. Z0.\nG111 A135. I10. K-12. B180. Z-40.\n"
+NOTHING = "G00 X40. Z0.\nM30\n"
+
+
+@pytest.fixture
+def save(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+    def write(text: str, name: str = "part.nc") -> str:
+        Path(name).write_text(text, encoding="utf-8")
+        return name
+
+    return write
+
+
+def check(*arguments: str) -> Result:
+    return CliRunner().invoke(main, ["check", *arguments])
+
+
+def sarif(*paths: str) -> dict:
+    (run,) = json.loads(check(*paths, "--format", "sarif").output)["runs"]
+    return run
+
+
+# SARIF ------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("text", [BROKEN, CLEAN, WARNED, NOTHING, "", "G111 A1,5\n", "%\nG111 A#1 \u00e9\n"])
+def test_sarif_holds_against_its_schema(text, save):
+    path = os.environ.get("CONTOURSOLVE_SARIF_SCHEMA")
+    if not path:
+        pytest.skip("set CONTOURSOLVE_SARIF_SCHEMA to the file of the SARIF 2.1.0 schema to validate against it")
+    schema = json.loads(Path(path).read_text(encoding="utf-8"))
+    log = json.loads(check(save(text), "--control", "yasnac-lx3", "--format", "sarif").output)
+    jsonschema.validators.validator_for(schema)(schema).validate(log)
+
+
+def test_sarif_declares_every_rule_and_each_result_points_to_its_own(save):
+    run = sarif(save(BROKEN))
+    rules = run["tool"]["driver"]["rules"]
+    codes = [rule["id"] for rule in rules]
+    assert set(codes) == {rule.code for dialect in DIALECTS.values() for rule in dialect.rules}
+    assert len(codes) == len(set(codes))
+    assert all(rule["shortDescription"]["text"] and rule["help"]["text"] for rule in rules)
+    assert {result["ruleId"] for result in run["results"]} == {"g111-a-ignored", "g111-corner-too-large"}
+    assert all(codes[result["ruleIndex"]] == result["ruleId"] for result in run["results"])
+
+
+def test_sarif_region_is_the_word_that_the_message_is_about(save):
+    lines = BROKEN.splitlines()
+    for result in sarif(save(BROKEN))["results"]:
+        region = result["locations"][0]["physicalLocation"]["region"]
+        word = lines[region["startLine"] - 1][region["startColumn"] - 1 : region["endColumn"] - 1]
+        assert word == {"g111-a-ignored": "A135.", "g111-corner-too-large": "P90."}[result["ruleId"]]
+
+
+def fingerprints(run: dict) -> list[tuple[str, str]]:
+    return [(result["ruleId"], json.dumps(result["partialFingerprints"])) for result in run["results"]]
+
+
+def test_fingerprints_stay_when_lines_are_inserted_above_and_differ_from_one_another(save):
+    twice = BROKEN + BROKEN
+    before = fingerprints(sarif(save(twice)))
+    after = fingerprints(sarif(save("(a comment)\nG21\n\n" + twice)))
+    assert before == after
+    assert len(set(before)) == len(before) == 4
+
+
+def test_sarif_fixes_applied_to_the_file_remove_their_finding(save):
+    run = sarif(save(BROKEN))
+    fixes = [(result["ruleId"], fix) for result in run["results"] for fix in result.get("fixes", ())]
+    assert {code for code, _ in fixes} == {"g111-a-ignored", "g111-corner-too-large"}
+    for code, fix in fixes:
+        (change,) = fix["artifactChanges"]
+        (replacement,) = change["replacements"]
+        region, lines = replacement["deletedRegion"], BROKEN.splitlines()
+        assert change["artifactLocation"]["uri"] == "part.nc"
+        line = lines[region["startLine"] - 1]
+        text = replacement["insertedContent"]["text"]
+        lines[region["startLine"] - 1] = line[: region["startColumn"] - 1] + text + line[region["endColumn"] - 1 :]
+        found = [each.code for each in solve("\n".join(lines)).diagnostics]
+        assert code not in found, (fix["description"], found)
+        assert len(found) == 1
+
+
+@pytest.mark.parametrize("name", ["a b.nc", "a%20b.nc", "a#1.nc", "Welle-\u00d8.nc", "a[1].nc"])
+def test_sarif_uri_is_a_uri_of_the_file(name, save):
+    (result, *_) = sarif(save(BROKEN, name))["results"]
+    uri = result["locations"][0]["physicalLocation"]["artifactLocation"]["uri"]
+    assert re.fullmatch(r"(?:[A-Za-z0-9._~!$&'()*+,;=:@/-]|%[0-9A-Fa-f]{2})+", uri)
+    assert unquote(urlsplit(uri).path) == name
+
+
+# GitHub -----------------------------------------------------------------------------------------------
+
+COMMAND = re.compile(r"::(error|warning|notice) ((?:[A-Za-z]+=[^,:\r\n]*,?)+)::(.+)")
+
+
+def test_github_has_one_line_a_finding_with_its_place(save):
+    output = check(save(BROKEN), "--format", "github").output
+    lines = output.splitlines()
+    found = solve(BROKEN).diagnostics
+    assert len(lines) == len(found) == 2
+    for line, finding in zip(lines, found, strict=True):
+        kind, properties, message = COMMAND.fullmatch(line).groups()
+        fields = dict(each.split("=", 1) for each in properties.split(","))
+        assert kind == finding.severity.value
+        assert fields["file"] == "part.nc"
+        assert (int(fields["line"]), int(fields["col"])) == (finding.span.line, finding.span.column)
+        assert fields["title"] == finding.code
+        assert message.split("%0A")[0] == finding.message.replace("%", "%25")
+
+
+def test_github_escapes_what_would_end_a_property_or_a_command():
+    result = solve("G00 X40. Z0.\nG111 A180. K-30. B120. X10%0.\n", name="50%,a:b.nc")
+    lines = to_github([result]).splitlines()
+    assert len(lines) == len(result.diagnostics) > 0
+    for line in lines:
+        _, properties, message = COMMAND.fullmatch(line).groups()
+        assert properties.startswith("file=50%25%2Ca%3Ab.nc,")
+        assert not re.search(r"%(?!25|0A|0D)", message)
+
+
+def test_github_prints_no_finding_where_there_is_none(save):
+    assert check(save(CLEAN), "--format", "github").output.strip() == ""
+
+
+# Exit statuses and the summary ------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("format_", ["text", "json", "sarif", "github"])
+@pytest.mark.parametrize(
+    ("text", "fails_on"),
+    [(BROKEN, {"error", "warning"}), (WARNED, {"warning"}), (NOTHING, {"warning"}), (CLEAN, set())],
+)
+def test_fail_on_names_the_least_finding_that_fails(text, fails_on, format_, save):
+    path = save(text)
+    statuses = {each: check(path, "--format", format_, "--fail-on", each).exit_code for each in FAIL_ON}
+    assert statuses == {each: int(each in fails_on) for each in FAIL_ON}
+    assert check(path, "--format", format_).exit_code == int("error" in fails_on)
+
+
+FAIL_ON = ("error", "warning", "never")
+
+
+def test_fail_on_never_still_tells_that_it_could_not_run(save):
+    assert check("missing.nc", "--fail-on", "never").exit_code == 2
+
+
+def test_summary_of_several_files_tells_nothing_found_from_nothing_examined(save):
+    clean, nothing, broken = save(CLEAN, "1.nc"), save(NOTHING, "2.nc"), save(BROKEN, "3.nc")
+    assert check(clean).output == "1 contour (1 solved); nothing found\n"
+    assert check(nothing).output.splitlines()[-1] == "no contour examined; 1 warning"
+    assert check(clean, clean).output == "2 programs, 2 contours (2 solved); nothing found\n"
+    last = check(clean, nothing, broken).output.splitlines()[-1]
+    assert last == "3 programs, 3 contours (2 solved, 1 no-solution); 1 error, 2 warnings"
+
+
+def test_summary_names_the_files_in_which_no_contour_was_examined(save):
+    output = check(save(CLEAN, "1.nc"), save(NOTHING, "2.nc")).output
+    assert "2.nc" in output
+    assert "no-contour" in output
+    assert "nothing found" not in output
+
+
+def test_findings_of_several_files_are_each_in_their_own(save):
+    names = [save(WARNED, "1.nc"), save(CLEAN, "2.nc"), save(BROKEN, "3.nc")]
+    run = sarif(*names)
+    uris = [result["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] for result in run["results"]]
+    assert uris == ["1.nc", "3.nc", "3.nc"]

@@ -1,0 +1,153 @@
+"""The table of all sets of words: kept as reviewed files, and G111's part restated by linear algebra of our own."""
+
+from functools import lru_cache
+from itertools import chain, combinations
+from math import cos, radians, sin
+from pathlib import Path
+
+import numpy
+import pytest
+from click.testing import CliRunner
+
+from contoursolve.cli import main
+
+TABLES = Path(__file__).parent / "cases" / "tables"
+LETTERS = "ABCDIKPQUWXZ"
+EQUATIONS = "AIKBXUZW"
+NOT_MIXED = ("XU", "ZW", "CP", "DQ")
+
+
+@lru_cache(maxsize=1)
+def tables() -> dict[str, str]:
+    """What the command prints, by form: lines of the form and, first, their header."""
+    outcome = CliRunner().invoke(main, ["rules", "--table"])
+    assert outcome.exit_code == 0
+    parts = outcome.output.rstrip("\n").split("\n\n")
+    names = ("g111", "circle-line")
+    assert len(parts) == len(names)
+    return {name: part.strip("\n") + "\n" for name, part in zip(names, parts, strict=True)}
+
+
+@lru_cache(maxsize=1)
+def g111_rows() -> dict[frozenset[str], tuple[str, str]]:
+    """By set of letters: what the table says of its legality and of its determinacy."""
+    rows = [line.split(" | ") for line in tables()["g111"].splitlines()[1:]]
+    result = {frozenset(words.split()) - {"-"}: (legality, rest) for words, legality, rest in rows}
+    assert len(result) == len(rows)
+    return result
+
+
+def is_legal(letters: frozenset[str]) -> bool:
+    """The control's sheet, restated."""
+    first = len(letters & set("AIK"))
+    has_b, has_x, has_z = (bool(letters & set(slot)) for slot in ("B", "XU", "ZW"))
+    return (
+        not any(letters >= set(pair) for pair in NOT_MIXED)
+        and ((first >= 2 and has_b + has_x + has_z >= 2) or (first == 1 and has_b and has_x and has_z))
+        and not (has_x and has_z and letters & set("DQ"))
+    )
+
+
+def ignored(letters: frozenset[str]) -> frozenset[str]:
+    """Note v drops A, note vi drops B."""
+    first, second = letters & set("AIK"), {"B"} <= letters and letters & set("XU") and letters & set("ZW")
+    return frozenset(("A" if len(first) == 3 else "") + ("B" if second and len(first) >= 2 else ""))
+
+
+def matrix(letters: frozenset[str], seed: int) -> numpy.ndarray:
+    """One row for each word that is an equation, at random angles; columns V1z, V1x, V2z, V2x."""
+    a, b = (radians(angle) for angle in numpy.random.default_rng(seed).uniform(5, 85, 2))
+    rows = {
+        "A": (sin(a), -cos(a), 0, 0),
+        "I": (0, 1, 0, 0),
+        "K": (1, 0, 0, 0),
+        "B": (-sin(b), cos(b), sin(b), -cos(b)),
+        **dict.fromkeys("XU", (0, 0, 0, 1)),
+        **dict.fromkeys("ZW", (0, 0, 1, 0)),
+    }
+    return numpy.array([rows[each] for each in EQUATIONS if each in letters], dtype=float).reshape(-1, 4)
+
+
+def ranks(letters: frozenset[str]) -> int:
+    return max(int(numpy.linalg.matrix_rank(matrix(letters, seed), tol=1e-9)) for seed in (1, 2))
+
+
+def free_and_tied(letters: frozenset[str]) -> tuple[frozenset[str], frozenset[str]]:
+    """The unknowns that no rows fix, and the words whose row the other rows make up."""
+    full = ranks(letters)
+    names = ("V1z", "V1x", "V2z", "V2x")
+    free = []
+    for column, name in enumerate(names):
+        unit = numpy.eye(4)[column]
+        grown = numpy.vstack([matrix(letters, 1), unit])
+        free += [name] if numpy.linalg.matrix_rank(grown, tol=1e-9) > full else []
+    tied = (each for each in letters & set(EQUATIONS) if ranks(letters - {each}) == full)
+    return frozenset(free), frozenset(tied)
+
+
+@pytest.mark.parametrize("name", ["g111", "circle-line"])
+def test_table_is_the_reviewed_one(name):
+    assert tables()[name] == (TABLES / f"{name}.txt").read_text(encoding="utf-8")
+
+
+def test_table_has_every_set_of_letters_once():
+    sets = chain.from_iterable(combinations(LETTERS, size) for size in range(len(LETTERS) + 1))
+    assert set(g111_rows()) == set(map(frozenset, sets))
+
+
+def test_276_sets_are_legal_and_they_are_those_of_the_manual():
+    legal = {letters for letters, (legality, _) in g111_rows().items() if legality.startswith("legal")}
+    assert len(legal) == 276
+    assert legal == {letters for letters in g111_rows() if is_legal(letters)}
+
+
+def test_every_legal_set_is_determined():
+    not_determined = {
+        "".join(sorted(letters)): rest
+        for letters, (legality, rest) in g111_rows().items()
+        if legality.startswith("legal") and not rest.startswith("determined")
+    }
+    assert not_determined == {}
+
+
+def test_words_that_the_control_ignores_are_those_of_the_notes():
+    for letters, (legality, _) in g111_rows().items():
+        named = legality.partition("(ignores ")[2].rstrip(")").split(", ") if "(ignores" in legality else []
+        assert frozenset(named) == ignored(letters), sorted(letters)
+
+
+def test_set_is_determined_exactly_when_its_equations_have_rank_4_without_a_spare_and_each_corner_one_shape():
+    for letters, (_, rest) in g111_rows().items():
+        kept = letters - ignored(letters)
+        equations = kept & set(EQUATIONS)
+        is_regular = ranks(kept) == len(equations) == 4
+        has_one_shape = not any(letters >= set(pair) for pair in ("CP", "DQ"))
+        # Corner 2 lands parallel to the axis that B's other partner leaves open: one of X and Z, and B, must be there.
+        lands = "B" in kept and bool(kept & set("XU")) != bool(kept & set("ZW"))
+        expected = is_regular and has_one_shape and (lands or not letters & set("DQ"))
+        assert rest.startswith("determined") == expected, (sorted(letters), rest)
+
+
+def test_free_unknowns_and_tied_words_are_those_of_the_null_spaces():
+    for letters, (_, rest) in g111_rows().items():
+        free, tied = free_and_tied(letters - ignored(letters))
+        parts = {part.partition(": ")[0]: part.partition(": ")[2] for part in rest.split("; ")}
+        said = set()
+        for point in ("V1", "V2"):
+            text = parts.get("free", "").partition(f"{point} (")[2].partition(")")[0]
+            said |= {point + axis.lower() for axis in ("Z", "X") if axis in text}
+        assert said == free, (sorted(letters), rest)
+        assert set(parts.get("tied", "").replace(",", "").split()) == tied, (sorted(letters), rest)
+
+
+def test_condition_is_zero_exactly_where_the_equations_are_singular():
+    names = {"sin": sin, "cos": cos}
+    for letters, (_, rest) in g111_rows().items():
+        if not rest.startswith("determined"):
+            continue
+        condition = rest.partition("unless ")[2].removesuffix(" = 0") or "1"
+        rows = letters - ignored(letters)
+        for seed in (1, 2, 3):
+            a, b = (radians(angle) for angle in numpy.random.default_rng(seed).uniform(5, 85, 2))
+            value = abs(eval(condition, {"__builtins__": {}}, {**names, "A": a, "B": b}))
+            assert value == pytest.approx(abs(numpy.linalg.det(matrix(rows, seed))), abs=1e-12), sorted(letters)
