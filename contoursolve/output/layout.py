@@ -6,16 +6,9 @@ from collections.abc import Sequence
 def columns(rows: Sequence[Sequence[str]], left: Sequence[int] = (0,), indent: str = "  ") -> list[str]:
     """Lines with aligned cells, two blanks apart; the columns named in `left` are aligned left."""
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    return [
-        (
-            indent
-            + "  ".join(
-                cell.ljust(width) if number in left else cell.rjust(width)
-                for number, (cell, width) in enumerate(zip(row, widths, strict=True))
-            )
-        ).rstrip()
-        for row in rows
-    ]
+    cells = (f"{{:{'<' if number in left else '>'}{width}}}" for number, width in enumerate(widths))
+    template = indent + "  ".join(cells)
+    return [template.format(*row).rstrip() for row in rows]
 
 
 def printable(text: str) -> str:
