@@ -10,6 +10,7 @@ from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.examine import Depth, Policy
 from contoursolve.model import Length
 from contoursolve.pipeline import Result, UnknownControlError, recognise, run
+from contoursolve.reading import Trouble
 from contoursolve.syntax import Program
 
 STANDARD_INPUT = "-"
@@ -122,9 +123,10 @@ def solve_program(
 
 def only_findings(result: Result) -> Result:
     """The result as `check` reports it: that there is nothing to solve is then a warning."""
-    findings = (
-        replace(each, severity=Severity.WARNING) if each.code == "no-contour" else each for each in result.diagnostics
-    )
+    findings = [
+        replace(each, severity=Severity.WARNING) if each.about is Trouble.NO_CONTOUR else each
+        for each in result.diagnostics
+    ]
     return replace(result, diagnostics=tuple(findings))
 
 

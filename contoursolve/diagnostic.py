@@ -84,6 +84,8 @@ class Diagnostic:
     notes: tuple[str, ...] = ()
     help: str = ""
     fixes: tuple[Fix, ...] = ()
+    about: Enum | None = None
+    """The event that the finding is about, whatever the control calls it; None for a plain rule."""
 
 
 class Verdict(Enum):

@@ -123,6 +123,7 @@ def report(
         labels=tuple(Label(span, note) for span, note in zip(spans, texts, strict=False)),
         addresses=tuple(dict.fromkeys(word.address for word in blamed)),
         values=values or {},
+        about=rule.about,
     )
 
 

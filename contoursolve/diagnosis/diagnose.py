@@ -13,6 +13,8 @@ from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer, Policy
 from contoursolve.explain import length_text
 from contoursolve.model import scalar
+from contoursolve.reading import Trouble
+from contoursolve.solving import RefusalKind, RemarkKind
 from contoursolve.source import Span
 from contoursolve.tolerance import AGREEMENT
 
@@ -35,7 +37,7 @@ def diagnose(answer: Answer, dialect: Dialect, policy: Policy) -> Answer:
     findings = []
     for finding in answer.diagnostics:
         reasons = tuple(_reasons(answer, affine, circuits, diagnosis, finding))
-        labels = _start_labels(answer) if reasons and finding.code.endswith(_FROM_START) else ()
+        labels = _start_labels(answer) if reasons and finding.about in _FROM_START else ()
         findings.append(replace(finding, notes=finding.notes + reasons, labels=finding.labels + labels))
     main = next((index for index, finding in enumerate(findings) if finding.severity is not Severity.INFO), None)
     if main is not None:
@@ -44,7 +46,7 @@ def diagnose(answer: Answer, dialect: Dialect, policy: Policy) -> Answer:
     return replace(answer, diagnostics=tuple(findings), diagnosis=diagnosis)
 
 
-_FROM_START = ("-ignored", "-conflict", "-reversed")
+_FROM_START = (Trouble.WORD_IGNORED, RefusalKind.WORDS_DISAGREE, RefusalKind.LINE_REVERSED)
 
 
 def _start_labels(answer: Answer) -> tuple[Label, ...]:
@@ -66,7 +68,7 @@ def _tie(answer: Answer, circuit: Circuit) -> Tie:
     words = (givens[fact.given].word for fact in circuit.facts if fact.given)
     return Tie(
         addresses=tuple(word.address for word in words if word),
-        identity=identity(fact.given for fact in circuit.facts),
+        identity=identity(answer.form, (fact.given for fact in circuit.facts)),
         off_by_mm=max(circuit.off),
         is_conflict=max(circuit.off) > AGREEMENT,
     )
@@ -80,18 +82,24 @@ def _reasons(
     finding: Diagnostic,
 ) -> Iterator[str]:
     profile = answer.profile
-    if affine is not None and finding.code.endswith(_ABOUT_TIES):
+    if affine is not None and finding.about in _ABOUT_TIES:
         for circuit in circuits:
             words = (profile.givens[fact.given].word for fact in circuit.facts if fact.given)
             if any(word and word.address in finding.addresses for word in words):
                 yield from conflict_reasons(profile, affine, circuit)
-    if finding.code.endswith(_ABOUT_FREEDOM):
+    if finding.about in _ABOUT_FREEDOM:
         yield from freedom_reasons(profile, diagnosis.freedoms)
     yield from path_reasons(profile, affine, finding)
 
 
-_ABOUT_TIES = ("-conflict", "-redundant", "-ignored", "-parallel", "-not-fixed")
-_ABOUT_FREEDOM = ("-missing", "-not-fixed")
+_ABOUT_TIES = (
+    Trouble.WORD_IGNORED,
+    RefusalKind.WORDS_DISAGREE,
+    RefusalKind.LINES_PARALLEL,
+    RefusalKind.NOT_FIXED,
+    RemarkKind.WORDS_AGREE,
+)
+_ABOUT_FREEDOM = (Trouble.UNDERDETERMINED, RefusalKind.NOT_FIXED)
 
 
 def _fix(answer: Answer, repair: Repair) -> Fix:
@@ -101,7 +109,8 @@ def _fix(answer: Answer, repair: Repair) -> Fix:
         profile, contour = answer.profile, repair.contour
         name, at = "the contour ends", contour.end
         if answer.contour is None and len(answer.lines) > 1:
-            name, at = "P1 is", contour.points["P1"]
+            point = profile.intersections[0]
+            name, at = f"{point} is", contour.points[point]
         place = place_text(profile, {scalar("", axis): value for axis, value in enumerate(at)})
         description += f" -> {name} at {place}"
     return Fix(description, repair.replacement, repair.applicability)

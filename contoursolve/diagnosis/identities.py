@@ -6,9 +6,9 @@ from collections.abc import Iterable
 from functools import lru_cache
 
 
-def identity(givens: Iterable[str]) -> str:
-    """How these words depend on one another, such as `K = I/tan(A)`; empty where no formula is kept."""
-    return _shipped().get(" ".join(sorted(givens)), "")
+def identity(form: str, givens: Iterable[str]) -> str:
+    """How these words of a form depend on one another, such as `K = I/tan(A)`; empty where no formula is kept."""
+    return _shipped().get(f"{form}: {' '.join(sorted(givens))}", "")
 
 
 @lru_cache(maxsize=1)

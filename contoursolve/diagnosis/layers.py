@@ -5,7 +5,8 @@ from contoursolve.constraints import OnCircle, System, assemble
 from contoursolve.diagnostic import Basis, Layer, Severity, Verdict
 from contoursolve.examine import Answer, Policy
 from contoursolve.model import Profile
-from contoursolve.reading import read
+from contoursolve.reading import Trouble, read
+from contoursolve.solving import RefusalKind, RemarkKind
 from contoursolve.syntax import FaultKind
 
 
@@ -13,7 +14,7 @@ def list_layers(answer: Answer, policy: Policy) -> tuple[Layer, ...]:
     """The six checks of a contour, in order. A check that could not run has found nothing and passed nothing."""
     claim = answer.claim
     whole = read(claim, frozenset(fact.given for fact in answer.profile.ignored))
-    grammar = [each for each in answer.diagnostics if each.code in _GRAMMAR]
+    grammar = [each for each in answer.diagnostics if each.about in _GRAMMAR]
     refused = [each for each in answer.diagnostics if each.basis is Basis.RULE and _counts(each.severity)]
     refused = [each for each in refused if each not in grammar]
     layers = [_layer("grammar", bool(grammar), f"{_count(claim.blocks, 'block')}, every character")]
@@ -32,12 +33,13 @@ def list_layers(answer: Answer, policy: Policy) -> tuple[Layer, ...]:
     return (*layers, *_equations(answer, whole, system))
 
 
-_GRAMMAR = frozenset(kind.value for kind in FaultKind) | {
-    "address-repeated",
-    "address-unknown",
-    "value-variable",
-    "value-too-large",
-}
+_GRAMMAR = (
+    *FaultKind,
+    Trouble.REPEATED_ADDRESS,
+    Trouble.UNKNOWN_ADDRESS,
+    Trouble.VARIABLE,
+    Trouble.VALUE_TOO_LARGE,
+)
 _EQUATIONS = ("structure", "generic rank", "values", "geometry")
 
 
@@ -63,21 +65,25 @@ def _equations(answer: Answer, profile: Profile, system: System) -> list[Layer]:
         blocked = "a corner or a choice is not determined"
     if blocked:
         return [*layers, *(Layer(name, Verdict.NOT_RUN, blocked) for name in ("values", "geometry"))]
-    codes = {each.code for each in answer.diagnostics if each.basis is Basis.NUMERICAL}
-    about_values = {code for code in codes if code.endswith(_AT_VALUES)}
+    numerical = [each for each in answer.diagnostics if each.basis is Basis.NUMERICAL]
+    about_values = [each for each in numerical if each.about in _AT_VALUES]
     layers.append(_layer("values", bool(about_values), "regular at these values, and words agree"))
     if any(each.basis is Basis.RULE and each.severity is Severity.ERROR for each in answer.diagnostics):
         return [*layers, Layer("geometry", Verdict.NOT_RUN, "a rule refuses the block")]
-    found = any(
-        each.basis is Basis.NUMERICAL and each.severity is Severity.ERROR and each.code not in about_values
-        for each in answer.diagnostics
-    )
+    found = any(each.severity is Severity.ERROR and each not in about_values for each in numerical)
     if about_values and not found and answer.contour is None:
         return [*layers, Layer("geometry", Verdict.NOT_RUN, "the points are not determined")]
     return [*layers, _layer("geometry", found, "intersections exist, direction of travel, room for corners")]
 
 
-_AT_VALUES = ("-parallel", "-not-fixed", "-conflict", "-redundant", "-difference", "-sensitive")
+_AT_VALUES = (
+    RefusalKind.LINES_PARALLEL,
+    RefusalKind.NOT_FIXED,
+    RefusalKind.WORDS_DISAGREE,
+    RefusalKind.RADIUS_DIFFERENCE,
+    RemarkKind.WORDS_AGREE,
+    RemarkKind.SENSITIVE,
+)
 
 
 def _layer(name: str, has_found: bool, remark: str) -> Layer:

@@ -8,7 +8,7 @@ from contoursolve.diagnosis.identities import identity
 from contoursolve.diagnostic import Diagnostic, Freedom
 from contoursolve.explain import angle_text, join, length_text
 from contoursolve.model import FIRST, SECOND, Fact, Line, Profile, scalar
-from contoursolve.solving import lookup
+from contoursolve.solving import RefusalKind, lookup
 from contoursolve.tolerance import AGREEMENT, REGULAR
 
 
@@ -37,7 +37,7 @@ def conflict_reasons(profile: Profile, affine: AffineFacts, circuit: Circuit) ->
             f"and {given.word.text if given.word else given.name} puts it at "
             f"{place_text(profile, {scalar(point, axis): own})}: {ending}"
         )
-    formula = identity(fact.given for fact in circuit.facts)
+    formula = identity(profile.form, (fact.given for fact in circuit.facts))
     if formula:
         radius = " (X and U as radius)" if "tan" in formula and ("X" in formula or "U" in formula) else ""
         yield f"these words are tied: {formula}{radius}"
@@ -81,10 +81,10 @@ def path_reasons(profile: Profile, affine: AffineFacts | None, finding: Diagnost
         )
     if "angle_from" in values:
         yield (
-            f"a line through the same end point meets the circle with ,A between "
+            f"a line through the same end point meets the circle with {finding.addresses[0]} between "
             f"{angle_text(values['angle_from'])} and {angle_text(values['angle_to'])}"
         )
-    if affine is not None and finding.code.endswith("-reversed"):
+    if affine is not None and finding.about is RefusalKind.LINE_REVERSED:
         fixed = affine.fixed_by(affine.facts)
         for line in (element for element in profile.figure.path if isinstance(element, Line)):
             word = profile.givens[line.heading].word if line.heading else None

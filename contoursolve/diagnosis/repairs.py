@@ -15,7 +15,7 @@ from contoursolve.diagnostic import Applicability, Diagnostic, Severity
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer, Policy, examine
 from contoursolve.model import Given, Length, Profile, Unit
-from contoursolve.reading import Claim, Form, Lexicon, read
+from contoursolve.reading import Claim, Form, Lexicon, Trouble, read
 from contoursolve.rules import Rule, check
 from contoursolve.solving import Status, lookup
 from contoursolve.syntax import FaultKind, Word, parse_block
@@ -106,7 +106,7 @@ class _Geometry:
 
 def _points(answer: Answer, _dialect: Dialect, _whole: _Geometry) -> Iterator[tuple[Edit, ...]]:
     """Decimal points added to the words that lack them, where others of the block have one: each alone, and all."""
-    missing = [each for each in answer.diagnostics if each.code == "point-missing"]
+    missing = [each for each in answer.diagnostics if each.about is Trouble.POINT_MISSING]
     spans = {finding.span for finding in missing}
     edits = [_change(word, word.text + ".") for word in answer.claim.words.values() if word.span in spans]
     yield from ((edit,) for edit in edits)
@@ -211,9 +211,10 @@ def _other_corners(claim: Claim) -> Iterator[tuple[Edit, ...]]:
     """Each corner as it is, without its word, or with the word for its other shape."""
     options: list[list[tuple[Edit, ...]]] = []
     for row in claim.form.corners:
-        for name in row.shapes.keys() & claim.words.keys():
+        for name in (name for name in row.shapes if name in claim.words):
             word = claim.words[name]
-            others = [_change(word, other + word.text.lstrip()[1:]) for other in row.shapes if other != name]
+            texts = (word.text.upper().replace(word.address, other, 1) for other in row.shapes if other != name)
+            others = [_change(word, text) for text in texts]
             options.append([(), (_drop(word),), *((other,) for other in others)])
     for choice in product(*options):
         edits = tuple(edit for part in choice for edit in part)

@@ -35,7 +35,8 @@ def identity_table() -> str:
                 formula = derive_identity(system, facts)
                 for axis, coordinate in enumerate(dialect.plane.axes):
                     formula = formula.replace(f"S.{axis}", f"{coordinate}start")
-                rows[" ".join(sorted(fact.given for fact in facts))] = json.dumps(formula)
+                key = f"{form.name}: {' '.join(sorted(fact.given for fact in facts))}"
+                rows[key] = json.dumps(formula)
     return _write(rows)
 
 

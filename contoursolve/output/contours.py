@@ -48,7 +48,8 @@ def _given_rows(answer: Answer, form: Form, dialect: Dialect) -> list[tuple[str,
         meaning += " - ignored" if name in ignored else ""
         rows.append((word.text, *_value(word, dialect.modes.lexicon, answer.unit), meaning))
     if answer.side:
-        rows.append(("choice", answer.side.value, "", "of two intersections, by the sign of Q"))
+        choice = next(choice for choice in answer.profile.choices if choice.side is answer.side)
+        rows.append(("choice", answer.side.value, "", f"of two intersections, by {words[choice.given].text}"))
     return rows
 
 

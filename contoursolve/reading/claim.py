@@ -18,6 +18,7 @@ class Trouble(Enum):
     REPEATED_ADDRESS = "repeated-address"
     UNKNOWN_ADDRESS = "unknown-address"
     VARIABLE = "variable"
+    WORD_IGNORED = "word-ignored"
     POINT_MISSING = "point-missing"
     VALUE_TOO_LARGE = "value-too-large"
     POSITION_UNKNOWN = "position-unknown"

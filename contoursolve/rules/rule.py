@@ -15,8 +15,8 @@ class Rule:
     """One row of the catalogue.
 
     `message` is a template; its fields are listed in `explain`. A rule finds something in one of two
-    ways: `when` holds for the words of a block of `form`; or something else in the program or its
-    geometry happens that `about` names. `ignores` names the word that the control then drops without
+    ways: `when` holds for the words of a block of `form`; or something in the program or its geometry
+    happens that `about` names. `ignores` names the word that the control then drops without
     a word. Each example is a program; `rejected` ones raise this code, `accepted` ones do not.
     """
 

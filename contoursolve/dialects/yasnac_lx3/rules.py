@@ -5,6 +5,7 @@ from decimal import Decimal
 from contoursolve.diagnostic import Alarm, Severity
 from contoursolve.dialects.yasnac_lx3.g111 import OTHER_G
 from contoursolve.dialects.yasnac_lx3.lexicon import MANUAL
+from contoursolve.reading import Trouble
 from contoursolve.rules import Rule, Value, all_of, at_least, at_most, some
 from contoursolve.solving import RefusalKind
 from contoursolve.source import Evidence, Source
@@ -124,6 +125,7 @@ COMBINATION_RULES = (
         severity=Severity.WARNING,
         form=_FORM,
         when=all_of("A", "I", "K"),
+        about=Trouble.WORD_IGNORED,
         ignores="A",
         accepted=(_GOOD,),
         rejected=(_START + "G111 A135. I10. K-12. B180. Z-40.",),
@@ -136,6 +138,7 @@ COMBINATION_RULES = (
         severity=Severity.WARNING,
         form=_FORM,
         when=_WHOLE_LINE_2 & at_least(2, "A", "I", "K"),
+        about=Trouble.WORD_IGNORED,
         ignores="B",
         accepted=(_GOOD, _START + "G111 A180. B120. X100. Z-47."),
         rejected=(_START + "G111 A180. K-30. B120. X100. Z-47.",),
