@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from itertools import combinations
 
 from contoursolve.analysis.verdict import judge
-from contoursolve.constraints import Coordinate, Heading, Offset, System
+from contoursolve.constraints import Coordinate, Heading, Offset, OnCircle, System
 from contoursolve.model import Fact
 
 
@@ -33,6 +33,21 @@ def derive_identity(system: System, facts: Sequence[Fact]) -> str:
         return ""
     solved = symbolic.eliminate([fact.residual(symbols) for fact in facts], unknowns, symbols.amount(lengths[-1].given))
     return f"{lengths[-1].given} = {solved}" if solved else ""
+
+
+def derive_circle_identity(system: System, facts: Sequence[Fact]) -> str:
+    """What two points of one circle make their words satisfy, as a formula that is zero; empty if the tie is
+    another one. S.0 and S.1 are the start point's coordinates."""
+    from contoursolve.backends import symbolic  # noqa: PLC0415 - sympy is slow to import, see judge
+
+    circles = [fact for fact in facts if isinstance(fact, OnCircle)]
+    if len(circles) != 2 or len({(fact.center, fact.radius) for fact in circles}) != 1:  # noqa: PLR2004
+        return ""
+    symbols = symbolic.Symbols()
+    radius = symbols.radius(circles[0].radius)
+    first, second = (fact.residual(symbols) * 2 * radius for fact in circles)
+    affine = [fact.residual(symbols) for fact in facts if not isinstance(fact, OnCircle)]
+    return symbolic.substitute_solution(first - second, affine, [symbols.scalar(name) for name in system.unknowns])
 
 
 def is_affine(facts: Sequence[Fact]) -> bool:

@@ -100,3 +100,10 @@ def eliminate(residuals: Sequence[Any], unknowns: Sequence[Any], wanted: Any) ->
         if wanted in solution and not any(solution[wanted].has(unknown) for unknown in used):
             return str(sympy.trigsimp(sympy.simplify(solution[wanted])))
     return ""
+
+
+def substitute_solution(expression: Any, residuals: Sequence[Any], unknowns: Sequence[Any]) -> str:
+    """An expression with the unknowns replaced by what affine residuals make of them, as text `... = 0`."""
+    used = [unknown for unknown in unknowns if any(residual.has(unknown) for residual in residuals)]
+    solution = sympy.solve(residuals, used, dict=True)
+    return f"{sympy.simplify(sympy.expand(expression.subs(solution[0])))} = 0" if solution else ""

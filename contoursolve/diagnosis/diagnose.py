@@ -3,6 +3,8 @@
 from collections.abc import Iterator
 from dataclasses import replace
 
+from contoursolve.analysis import judge
+from contoursolve.constraints import OnCircle, assemble
 from contoursolve.diagnosis.affine import AffineFacts, Circuit, affine_facts
 from contoursolve.diagnosis.identities import identity
 from contoursolve.diagnosis.layers import list_layers
@@ -16,7 +18,7 @@ from contoursolve.model import scalar
 from contoursolve.reading import Trouble
 from contoursolve.solving import RefusalKind, RemarkKind
 from contoursolve.source import Span
-from contoursolve.tolerance import AGREEMENT
+from contoursolve.tolerance import AGREEMENT, RADIUS_DIFFERENCE
 
 
 def diagnose(answer: Answer, dialect: Dialect, policy: Policy) -> Answer:
@@ -30,8 +32,8 @@ def diagnose(answer: Answer, dialect: Dialect, policy: Policy) -> Answer:
     diagnosis = Diagnosis(
         layers=list_layers(answer, policy),
         freedoms=freedoms,
-        ties=tuple(_tie(answer, circuit) for circuit in circuits),
-        ties_complete=affine is not None,
+        ties=tuple(_tie(answer, circuit) for circuit in circuits) or tuple(_circle_ties(answer)),
+        ties_complete=is_readable and answer.start.is_known,
         repairs_complete=repairs.is_complete,
     )
     findings = []
@@ -68,10 +70,32 @@ def _tie(answer: Answer, circuit: Circuit) -> Tie:
     words = (givens[fact.given].word for fact in circuit.facts if fact.given)
     return Tie(
         addresses=tuple(word.address for word in words if word),
-        identity=identity(answer.form, (fact.given for fact in circuit.facts)),
+        identity=identity(answer.profile, circuit.facts),
         off_by_mm=max(circuit.off),
         is_conflict=max(circuit.off) > AGREEMENT,
     )
+
+
+def _circle_ties(answer: Answer) -> Iterator[Tie]:
+    """The tie of a circle whose centre and whose point are both given; there is at most this one."""
+    profile = answer.profile
+    system = assemble(profile)
+    verdict = judge(system)
+    tied = [system.facts[index] for index in verdict.tied]
+    if len(verdict.basis) + 1 != len(system.facts) or not any(isinstance(fact, OnCircle) for fact in tied):
+        return
+    words = (profile.givens[fact.given].word for fact in tied if fact.given)
+    compared = [each for each in answer.diagnostics if each.about in _ABOUT_RADII]
+    off = compared[0].values["off_by_mm"] if compared else 0.0
+    yield Tie(
+        addresses=tuple(word.address for word in words if word),
+        identity=identity(profile, tied),
+        off_by_mm=off,
+        is_conflict=off > RADIUS_DIFFERENCE,
+    )
+
+
+_ABOUT_RADII = (RefusalKind.RADIUS_DIFFERENCE, RemarkKind.RADIUS_DIFFERS)
 
 
 def _reasons(
@@ -89,6 +113,8 @@ def _reasons(
                 yield from conflict_reasons(profile, affine, circuit)
     if finding.about in _ABOUT_FREEDOM:
         yield from freedom_reasons(profile, diagnosis.freedoms)
+    if finding.about in _ABOUT_RADII:
+        yield from (f"these words are tied: {tie.identity}" for tie in diagnosis.ties if tie.identity)
     yield from path_reasons(profile, affine, finding)
 
 

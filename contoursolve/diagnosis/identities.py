@@ -5,10 +5,20 @@ import pkgutil
 from collections.abc import Iterable
 from functools import lru_cache
 
+from contoursolve.model import Fact, Profile, scalar
 
-def identity(form: str, givens: Iterable[str]) -> str:
-    """How these words of a form depend on one another, such as `K = I/tan(A)`; empty where no formula is kept."""
-    return _shipped().get(f"{form}: {' '.join(sorted(givens))}", "")
+
+def identity(profile: Profile, facts: Iterable[Fact]) -> str:
+    """How the words of these facts depend on one another, such as `K = I/tan(A)`; empty where no formula is
+    kept. The start point's coordinates are called Zstart, Xstart and so on."""
+    names = sorted(fact.given for fact in facts if fact.given)
+    formula = _shipped().get(f"{profile.form}: {' '.join(names)}", "")
+    for name in sorted(names, key=len, reverse=True):
+        word = profile.givens[name].word
+        formula = formula.replace(name, word.address if word else f"{profile.givens[name].value:f}")
+    for number, axis in enumerate(profile.plane.axes):
+        formula = formula.replace(scalar(profile.figure.start, number), f"{axis}start")
+    return formula
 
 
 @lru_cache(maxsize=1)

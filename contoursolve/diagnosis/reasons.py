@@ -37,7 +37,7 @@ def conflict_reasons(profile: Profile, affine: AffineFacts, circuit: Circuit) ->
             f"and {given.word.text if given.word else given.name} puts it at "
             f"{place_text(profile, {scalar(point, axis): own})}: {ending}"
         )
-    formula = identity(profile.form, (fact.given for fact in circuit.facts))
+    formula = identity(profile, circuit.facts)
     if formula:
         radius = " (X and U as radius)" if "tan" in formula and ("X" in formula or "U" in formula) else ""
         yield f"these words are tied: {formula}{radius}"

@@ -1,15 +1,17 @@
 """Writes the tables of sympy's results that ship with the package: `python -m contoursolve.dialects.verdicts`."""
 
 import json
+from collections.abc import Iterator
 from dataclasses import asdict
 from pathlib import Path
 
 from contoursolve import analysis
 from contoursolve.analysis import derive
-from contoursolve.analysis.identities import derive_identity, is_affine, tied_sets
+from contoursolve.analysis.identities import derive_circle_identity, derive_identity, is_affine, tied_sets
 from contoursolve.constraints import build_system
 from contoursolve.dialects import DIALECTS
-from contoursolve.reading import lay_out, stated_sets
+from contoursolve.model import Fact
+from contoursolve.reading import Form, lay_out, stated_sets
 
 
 def table() -> str:
@@ -29,15 +31,26 @@ def identity_table() -> str:
     rows = {}
     for dialect in DIALECTS.values():
         for form in dialect.forms:
-            layout = lay_out(form, frozenset().union(*stated_sets(form)), frozenset(), None)
-            system = build_system(layout.figure, layout.facts)
-            for facts in tied_sets(system) if is_affine(layout.facts) else ():
-                formula = derive_identity(system, facts)
-                for axis, coordinate in enumerate(dialect.plane.axes):
-                    formula = formula.replace(f"S.{axis}", f"{coordinate}start")
-                key = f"{form.name}: {' '.join(sorted(fact.given for fact in facts))}"
+            for facts, formula in _identities(form):
+                key = f"{form.name}: {' '.join(sorted(fact.given for fact in facts if fact.given))}"
                 rows[key] = json.dumps(formula)
     return _write(rows)
+
+
+def _identities(form: Form) -> Iterator[tuple[tuple[Fact, ...], str]]:
+    layout = lay_out(form, frozenset().union(*stated_sets(form)), frozenset(), None)
+    if is_affine(layout.facts):
+        system = build_system(layout.figure, layout.facts)
+        yield from ((facts, derive_identity(system, facts)) for facts in tied_sets(system))
+        return
+    for stated in stated_sets(form):
+        layout = lay_out(form, stated, frozenset(), None)
+        system = build_system(layout.figure, layout.facts)
+        verdict = derive(system)
+        tied = tuple(layout.facts[index] for index in verdict.tied)
+        formula = derive_circle_identity(system, tied)
+        if formula and len(layout.facts) == len(system.unknowns) + 1:
+            yield tied, formula
 
 
 def _write(rows: dict[str, str]) -> str:
