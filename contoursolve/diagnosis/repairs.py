@@ -134,15 +134,19 @@ def _legal_sets(
     if not _is_singular(whole):
         extra -= present ^ extra if _is_clean_set(claim, dialect.rules) else set()
     changes = smallest_changes(claim.form, dialect.rules, present, names & frozenset(extra), claim.circumstances)
+    bases: list[tuple[Edit, ...]] = []
     for change in changes:
         drops = tuple(_drop(claim.words[name]) for name in sorted(change & present))
         kept = _Geometry.of(claim, present - change) if change - present else whole
         added = [_additions(claim, dialect, name, (whole, kept)) for name in sorted(change - present)]
         corrected = [options for name, options in _corrections(claim, dialect) if name not in change]
-        for edits in product(*added, *corrected):
-            yield (*forced, *drops, *edits)
-    if frozenset() in changes:
-        yield from ((*forced, *edits) for edits in _other_corners(claim))
+        bases += [(*forced, *drops, *edits) for edits in product(*added, *corrected)]
+    yield from bases
+    # A legal block may still have a corner that cannot be made.
+    for base in bases:
+        spans = {edit.span for edit in base}
+        if not any(edit.text.endswith(PLACEHOLDER) for edit in base):
+            yield from ((*base, *edits) for edits in _other_corners(claim) if not any(e.span in spans for e in edits))
 
 
 def _drop(word: Word) -> Edit:
