@@ -103,7 +103,7 @@ def main() -> None:
             stream.reconfigure(errors="replace")
 
 
-@main.command()
+@main.command(short_help="Solve every contour block of a program.")
 @click.argument("program", required=False)
 @_common
 @click.option(
@@ -141,7 +141,7 @@ def solve(
     context.exit(FOUND_ERRORS if result.has_errors else 0)
 
 
-@main.command()
+@main.command(short_help="Report findings only, for any number of programs.")
 @click.argument("programs", nargs=-1, metavar="PROGRAM...")
 @_common
 @click.option(
@@ -210,7 +210,7 @@ def check(
     context.exit(COULD_NOT_RUN if failures else FOUND_ERRORS if found & set(failing) else 0)
 
 
-@main.command()
+@main.command(short_help="List the whole catalogue of rules.")
 @click.option("--control", type=click.Choice(list(DIALECTS)), help="Only the rules of this control.")
 @click.option(
     "--table",
@@ -226,7 +226,7 @@ def rules(control: str | None, is_table: bool) -> None:
     _print(table_lines(chosen) if is_table else catalogue_lines(chosen))
 
 
-@main.command()
+@main.command(short_help="Explain one rule, or all behind an alarm number.")
 @click.argument("code")
 def explain(code: str) -> None:
     """Explain a rule by its CODE, or all rules behind an alarm number of the control.

@@ -162,7 +162,7 @@ def _examine_geometry(context: Context, claim: Claim, profile: Profile, notebook
     """
     is_refused = Status.REJECTED in notebook.statuses
     if len(claim.blocks) < claim.form.length:
-        rule, missing = context.row(Trouble.UNDERDETERMINED), "the arc, which is not there"
+        rule, missing = context.row(Trouble.UNDERDETERMINED), f"{claim.form.blocks[0]}, which is not there"
         finding = report(context, rule, Basis.RULE, [], free=missing, completions="write it in the block before")
         notebook.add(_secondary(finding, is_refused), Status.UNDERDETERMINED)
         return Solution(Status.UNDERDETERMINED)

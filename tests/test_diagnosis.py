@@ -38,7 +38,7 @@ def verdicts(answer: Answer) -> dict[str, str]:
     return {layer.name: layer.verdict.value for layer in answer.diagnosis.layers}
 
 
-# The six blocks of shared/anchors.md ------------------------------------------------------------------
+# Six blocks that other solvers trip over -----------------------------------------------------------------
 
 AIK = "A135. I10. K{k} B180. Z-40."
 

@@ -142,11 +142,17 @@ def _legal_sets(
         corrected = [options for name, options in _corrections(claim, dialect) if name not in change]
         bases += [(*forced, *drops, *edits) for edits in product(*added, *corrected)]
     yield from bases
-    # A legal block may still have a corner that cannot be made.
+    # A legal block may still have corners that cannot be made.
+    sizes = _sizes(claim) & present
     for base in bases:
-        spans = {edit.span for edit in base}
+        touched = {edit.span for edit in base}
+        corners = [_drop(claim.words[name]) for name in sorted(sizes) if claim.words[name].span not in touched]
         if not any(edit.text.endswith(PLACEHOLDER) for edit in base):
-            yield from ((*base, *edits) for edits in _other_corners(claim) if not any(e.span in spans for e in edits))
+            yield from (
+                (*base, *dropped) for size in range(1, len(corners) + 1) for dropped in combinations(corners, size)
+            )
+    if frozenset() in changes:
+        yield from ((*forced, *edits) for edits in _other_corners(claim))
 
 
 def _drop(word: Word) -> Edit:

@@ -45,13 +45,13 @@ class Form:
     `points` and `radii` are unknown as soon as some fact mentions them. `facts` are in order of
     precedence: where words say too much, the first ones are solved for. `allowed` are the addresses that
     may stand in its blocks.
-    `length` is the number of its blocks. `combinations` are slots, each with the sets of givens that
+    `blocks` says what each of its blocks is. `combinations` are slots, each with the sets of givens that
     may fill it: their product is every combination of words that the equations can tell apart.
     """
 
     name: str
     title: str
-    length: int
+    blocks: tuple[str, ...]
     start: str
     points: tuple[str, ...]
     radii: tuple[str, ...]
@@ -66,6 +66,11 @@ class Form:
     """Givens whose sign alone chooses between two solutions."""
     meanings: Mapping[str, str]
     """What a given means in this form, where its address does not say it."""
+
+    @property
+    def length(self) -> int:
+        """The number of its blocks."""
+        return len(self.blocks)
 
     def __hash__(self) -> int:
         return hash(self.name)
