@@ -7,10 +7,10 @@ from typing import Any
 
 from contoursolve.analysis import Verdict
 from contoursolve.diagnostic import Basis, Diagnostic, Label
-from contoursolve.model import Length, Profile, Unit, scalar
+from contoursolve.model import Length, Profile, Unit
 from contoursolve.reading import Claim, Trouble
 from contoursolve.rules import Offence, Rule
-from contoursolve.solving import Refusal, RefusalKind, Remark, RemarkKind, Solution, compare, lookup
+from contoursolve.solving import Refusal, RefusalKind, Remark, RemarkKind, Solution, compare, lookup, scalars_of
 from contoursolve.source import Span
 from contoursolve.syntax import Word
 from contoursolve.tolerance import AGREEMENT
@@ -145,8 +145,7 @@ def explain_ignored(context: Context, offence: Offence, profile: Profile, soluti
     word = context.words[fact.given]
     if not solution.points:
         return report(context, offence.rule, Basis.RULE, [word], comparison="")
-    scalars = {scalar(name, axis): value for name, point in solution.points.items() for axis, value in enumerate(point)}
-    values = compare(fact, profile, lookup(profile, scalars))
+    values = compare(fact, profile, lookup(profile, scalars_of(solution.points)))
     expected = values.get("expected")
     comparison = "; they leave it no value to have"
     label = ""

@@ -14,9 +14,8 @@ from contoursolve.diagnostic import Diagnosis, Diagnostic, Fix, Label, Severity,
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer, Policy
 from contoursolve.explain import length_text
-from contoursolve.model import scalar
 from contoursolve.reading import Trouble
-from contoursolve.solving import RefusalKind, RemarkKind
+from contoursolve.solving import RefusalKind, RemarkKind, scalars_of
 from contoursolve.source import Span
 from contoursolve.tolerance import AGREEMENT, RADIUS_DIFFERENCE
 
@@ -66,10 +65,8 @@ def _start_labels(answer: Answer) -> tuple[Label, ...]:
 
 
 def _tie(answer: Answer, circuit: Circuit) -> Tie:
-    givens = answer.profile.givens
-    words = (givens[fact.given].word for fact in circuit.facts if fact.given)
     return Tie(
-        addresses=tuple(word.address for word in words if word),
+        addresses=tuple(word.address for word in answer.profile.words_of(circuit.facts)),
         identity=identity(answer.profile, circuit.facts),
         off_by_mm=max(circuit.off),
         is_conflict=max(circuit.off) > AGREEMENT,
@@ -84,11 +81,10 @@ def _circle_ties(answer: Answer) -> Iterator[Tie]:
     tied = [system.facts[index] for index in verdict.tied]
     if len(verdict.basis) + 1 != len(system.facts) or not any(isinstance(fact, OnCircle) for fact in tied):
         return
-    words = (profile.givens[fact.given].word for fact in tied if fact.given)
     compared = [each for each in answer.diagnostics if each.about in _ABOUT_RADII]
     off = compared[0].values["off_by_mm"] if compared else 0.0
     yield Tie(
-        addresses=tuple(word.address for word in words if word),
+        addresses=tuple(word.address for word in profile.words_of(tied)),
         identity=identity(profile, tied),
         off_by_mm=off,
         is_conflict=off > RADIUS_DIFFERENCE,
@@ -108,8 +104,7 @@ def _reasons(
     profile = answer.profile
     if affine is not None and finding.about in _ABOUT_TIES:
         for circuit in circuits:
-            words = (profile.givens[fact.given].word for fact in circuit.facts if fact.given)
-            if any(word and word.address in finding.addresses for word in words):
+            if any(word.address in finding.addresses for word in profile.words_of(circuit.facts)):
                 yield from conflict_reasons(profile, affine, circuit)
     if finding.about in _ABOUT_FREEDOM:
         yield from freedom_reasons(profile, diagnosis.freedoms)
@@ -137,6 +132,6 @@ def _fix(answer: Answer, repair: Repair) -> Fix:
         if answer.contour is None and len(answer.lines) > 1:
             point = profile.intersections[0]
             name, at = f"{point} is", contour.points[point]
-        place = place_text(profile, {scalar("", axis): value for axis, value in enumerate(at)})
+        place = place_text(profile, scalars_of({"": at}))
         description += f" -> {name} at {place}"
     return Fix(description, repair.replacement, repair.applicability)

@@ -112,5 +112,4 @@ def place_text(profile: Profile, scalars: dict[str, float]) -> str:
 
 
 def _words(profile: Profile, facts: Sequence[Fact]) -> str:
-    words = (profile.givens[fact.given].word for fact in facts if fact.given)
-    return join([word.text for word in words if word])
+    return join([word.text for word in profile.words_of(facts)])

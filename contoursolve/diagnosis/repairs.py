@@ -9,7 +9,7 @@ from itertools import combinations, product
 from math import hypot
 
 from contoursolve.contour import Contour
-from contoursolve.diagnosis.affine import affine_facts
+from contoursolve.diagnosis.affine import AffineFacts, Circuit, affine_facts
 from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, apply_edits, write_word
 from contoursolve.diagnostic import Applicability, Diagnostic, Severity
 from contoursolve.dialects import Dialect
@@ -25,7 +25,7 @@ MOST_EDITS = 4
 """Words that a repair may touch; more is a new block."""
 
 MOST_TRIED = 60
-"""Changed blocks that are solved for one repair; beyond it the list is not called complete."""
+"""Changed blocks that are considered for one contour; beyond it the list is not called complete."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,16 +84,25 @@ class _Geometry:
     """What some words fix of the drawing, as far as they do not contradict each other."""
 
     profile: Profile
+    affine: AffineFacts | None
+    circuits: tuple[Circuit, ...]
     fixed: Mapping[str, float]
 
     @classmethod
     def of(cls, claim: Claim, kept: frozenset[str] | None = None) -> "_Geometry":
         names = frozenset(claim.givens)
         profile = read(claim, names - (names if kept is None else kept))
-        affine = affine_facts(profile, profile.facts) if profile.facts else None
-        if affine is None or any(max(circuit.off) > AGREEMENT for circuit in affine.circuits()):
-            return cls(profile, {})
-        return cls(profile, affine.fixed_by(profile.facts))
+        affine = affine_facts(profile, profile.facts)
+        circuits = affine.circuits() if affine else ()
+        is_consistent = all(max(circuit.off) <= AGREEMENT for circuit in circuits)
+        fixed = affine.fixed_by(profile.facts) if affine and profile.facts and is_consistent else {}
+        return cls(profile, affine, circuits, fixed)
+
+    @property
+    def is_singular(self) -> bool:
+        """Whether the words leave something free although there are enough of them."""
+        affine = self.affine
+        return affine is not None and len(affine.facts) >= len(affine.unknowns) and bool(affine.freedoms())
 
     def implied(self, claim: Claim, name: str) -> float | None:
         """The value (mm or degrees) that a word would have."""
@@ -131,7 +140,7 @@ def _legal_sets(
         return
     present, names = frozenset(claim.words), frozenset(claim.vocabulary)
     extra = {row.fact.given for row in claim.form.facts} | set(claim.form.choices)
-    if not _is_singular(whole):
+    if not whole.is_singular:
         extra -= present ^ extra if _is_clean_set(claim, dialect.rules) else set()
     changes = smallest_changes(claim.form, dialect.rules, present, names & frozenset(extra), claim.circumstances)
     bases: list[tuple[Edit, ...]] = []
@@ -266,12 +275,6 @@ def smallest_changes(
     return tuple(found)
 
 
-def _is_singular(whole: _Geometry) -> bool:
-    """Whether the words leave something free although there are enough of them."""
-    affine = affine_facts(whole.profile, whole.profile.facts)
-    return affine is not None and len(affine.facts) >= len(affine.unknowns) and bool(affine.freedoms())
-
-
 def _is_clean_set(claim: Claim, rules: tuple[Rule, ...]) -> bool:
     return is_clean(claim.form, rules, frozenset(claim.words), claim.circumstances)
 
@@ -282,9 +285,7 @@ def _values(answer: Answer, dialect: Dialect, whole: _Geometry) -> Iterator[tupl
     if _has_faults(claim):
         return
     forced = next(_unreadable(claim))
-    affine = affine_facts(whole.profile, whole.profile.facts)
-    circuits = affine.circuits() if affine else ()
-    tied = {fact.given for circuit in circuits if max(circuit.off) > AGREEMENT for fact in circuit.facts}
+    tied = {fact.given for circuit in whole.circuits if max(circuit.off) > AGREEMENT for fact in circuit.facts}
     asked_together: list[Edit] = []
     for name, word in claim.words.items():
         given = claim.givens.get(name)
@@ -309,7 +310,7 @@ def _values(answer: Answer, dialect: Dialect, whole: _Geometry) -> Iterator[tupl
 def _slips(answer: Answer, dialect: Dialect, whole: _Geometry) -> Iterator[tuple[Edit, ...]]:
     """One word as it may have been meant, where the words are legal and determine a path that cannot be."""
     claim, unit, lexicon = answer.claim, answer.claim.after.unit, dialect.modes.lexicon
-    is_about_values = answer.status is Status.NO_SOLUTION and not _is_singular(whole)
+    is_about_values = answer.status is Status.NO_SOLUTION and not whole.is_singular
     if is_about_values and any(not finding.values.get("limit") for finding in answer.diagnostics):
         for name, word in claim.words.items():
             given = claim.givens.get(name)

@@ -76,9 +76,8 @@ def _faults(profile: Profile) -> Iterator[str]:
         yield f"free: {unknowns_text(verdict.free, profile)}"
     # A circle may have more points than it needs; what counts is what words say.
     tied = [system.facts[index] for index in verdict.tied]
-    words = [profile.givens[fact.given].word for fact in tied if fact.given]
-    if words:
-        yield f"tied: {', '.join(word.address for word in words if word)}"
+    if any(fact.given for fact in tied):
+        yield f"tied: {', '.join(word.address for word in profile.words_of(tied))}"
     names = [corner.name for corner in profile.figure.corners]
     yield from (f"{name} given twice" for name in dict.fromkeys(names) if names.count(name) > 1)
     nowhere = {corner.name for corner in profile.figure.corners if not (corner.after or _lands(corner))}

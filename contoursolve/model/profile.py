@@ -1,6 +1,6 @@
 """The drawing of one contour with the values that its blocks give: what reading makes of words."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from decimal import Decimal
 from enum import Enum
@@ -126,6 +126,11 @@ class Profile:
     def figure(self) -> Figure:
         """The drawing without its values."""
         return self.layout.figure
+
+    def words_of(self, facts: Iterable[Fact]) -> list[Word]:
+        """The words that state these facts; what the form or the control states by itself has none."""
+        words = (self.givens[fact.given].word for fact in facts if fact.given)
+        return [word for word in words if word]
 
     @property
     def facts(self) -> tuple[Fact, ...]:

@@ -11,7 +11,7 @@ from contoursolve.solving.solution import (
     Solution,
     Status,
 )
-from contoursolve.solving.solve import compare, lookup, solve
+from contoursolve.solving.solve import compare, lookup, scalars_of, solve
 
 __all__ = [
     "CornerSolution",
@@ -28,5 +28,6 @@ __all__ = [
     "lookup",
     "make_plan",
     "points_with_two_solutions",
+    "scalars_of",
     "solve",
 ]

@@ -1,6 +1,6 @@
 """Solves a determined profile and believes nothing: every answer is held against the original equations."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from decimal import Decimal
 from itertools import combinations
 from math import asin, atan2, ceil, degrees, floor, hypot, isfinite, log10
@@ -79,6 +79,11 @@ def lookup(profile: Profile, scalars: dict[str, float]) -> Values:
         {given.name: float(given.value) for given in givens if given.unit is Unit.MM},
         {given.name: direction(given.value) for given in givens if given.unit is Unit.DEGREE},
     )
+
+
+def scalars_of(points: Mapping[str, Point]) -> dict[str, float]:
+    """The coordinates of points by their scalars' names."""
+    return {scalar(name, axis): value for name, point in points.items() for axis, value in enumerate(point)}
 
 
 def compare(fact: Fact, profile: Profile, at: Values) -> dict[str, float]:
@@ -308,8 +313,7 @@ class _Attempt:
                 self.remarks.append(Remark(RemarkKind.RADIUS_DIFFERS, fact.point, self._givens_of(fact), values))
             return
         points = {name: self._absolute(self._point(name)) for name in self.system.figure.points}
-        scalars = {scalar(name, axis): value for name, point in points.items() for axis, value in enumerate(point)}
-        values = compare(fact, self.profile, lookup(self.profile, scalars))
+        values = compare(fact, self.profile, lookup(self.profile, scalars_of(points)))
         if off <= AGREEMENT or abs(values.get("expected", float("inf")) - values["actual"]) <= AGREEMENT:
             self.remarks.append(Remark(RemarkKind.WORDS_AGREE, fact.given, (fact.given,), values))
         else:
