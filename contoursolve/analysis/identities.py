@@ -28,10 +28,11 @@ def derive_identity(system: System, facts: Sequence[Fact]) -> str:
 
     lengths = [fact for fact in facts if isinstance(fact, Offset | Coordinate)]
     symbols = symbolic.Symbols()
+    at = symbols.lookup(system.headed)
     unknowns = [symbols.scalar(name) for name in system.unknowns]
     if not lengths:
         return ""
-    solved = symbolic.eliminate([fact.residual(symbols) for fact in facts], unknowns, symbols.amount(lengths[-1].given))
+    solved = symbolic.eliminate([fact.residual(at) for fact in facts], unknowns, symbols.scalar(lengths[-1].given))
     return f"{lengths[-1].given} = {solved}" if solved else ""
 
 
@@ -44,9 +45,9 @@ def derive_circle_identity(system: System, facts: Sequence[Fact]) -> str:
     if len(circles) != 2 or len({(fact.center, fact.radius) for fact in circles}) != 1:  # noqa: PLR2004
         return ""
     symbols = symbolic.Symbols()
-    radius = symbols.radius(circles[0].radius)
-    first, second = (fact.residual(symbols) * 2 * radius for fact in circles)
-    affine = [fact.residual(symbols) for fact in facts if not isinstance(fact, OnCircle)]
+    at = symbols.lookup(system.headed)
+    first, second = (fact.equation(at) for fact in circles)
+    affine = [fact.residual(at) for fact in facts if not isinstance(fact, OnCircle)]
     return symbolic.substitute_solution(first - second, affine, [symbols.scalar(name) for name in system.unknowns])
 
 

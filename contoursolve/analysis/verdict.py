@@ -2,10 +2,12 @@
 
 import json
 import pkgutil
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
+from contoursolve.analysis.partition import order
 from contoursolve.constraints import System
 
 
@@ -15,7 +17,8 @@ class Verdict:
 
     `basis` are the indices of the first facts that determine as much as all of them do; `tied` those
     of facts that take part in a dependency; `free` the unknown scalars that nothing determines.
-    `condition` is the determinant of the basis, as text (empty unless all unknowns are determined).
+    `condition` is the determinant of the basis, as text (empty unless all unknowns are determined), without the
+    groups of more than `LARGEST_DETERMINANT` unknowns.
     """
 
     rank: int
@@ -52,7 +55,8 @@ def derive(system: System) -> Verdict:
     from contoursolve.backends import symbolic  # noqa: PLC0415 - 200 ms, see judge
 
     symbols = symbolic.Symbols()
-    residuals = [fact.residual(symbols) for fact in system.facts]
+    at = symbols.lookup(system.headed)
+    residuals = [fact.equation(at) for fact in system.facts]
     unknowns = [symbols.scalar(name) for name in system.unknowns]
     if not residuals:
         return Verdict(0, (), (), system.unknowns, "")
@@ -60,14 +64,33 @@ def derive(system: System) -> Verdict:
     ranks = [symbolic.exact_rank(matrix, symbols.random_point(seed)) for seed in SEEDS]
     best = max(ranks, key=lambda each: each.rank)
     is_determined = not best.free_columns
+    basis = best.independent_rows
     return Verdict(
         rank=best.rank,
-        basis=best.independent_rows,
+        basis=basis,
         tied=best.dependent_rows,
         free=tuple(system.unknowns[column] for column in best.free_columns),
-        condition=symbolic.determinant(matrix.extract(list(best.independent_rows), list(range(matrix.cols))))
-        if is_determined
-        else "",
+        condition=_condition(system, matrix, basis) if is_determined else "",
+    )
+
+
+LARGEST_DETERMINANT = 5
+"""The determinant of a larger group has hundreds of terms and tells nobody anything."""
+
+
+def _condition(system: System, matrix: Any, basis: Sequence[int]) -> str:
+    """What must not be zero: the product of the determinants of the groups that are solved one after the other."""
+    from contoursolve.backends import symbolic  # noqa: PLC0415 - see judge
+
+    groups = order(system, [system.facts[index] for index in basis])
+    row_of = {system.facts[index]: index for index in basis}
+    column_of = {name: index for index, name in enumerate(system.unknowns)}
+    small = [group for group in groups if len(group.unknowns) <= LARGEST_DETERMINANT]
+    return symbolic.determinants(
+        [
+            matrix.extract([row_of[fact] for fact in group.facts], [column_of[name] for name in group.unknowns])
+            for group in small
+        ]
     )
 
 

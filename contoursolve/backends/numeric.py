@@ -13,6 +13,16 @@ def sqrt(value: Any) -> Any:
     return casadi.sqrt(value)
 
 
+def cosine(value: Any) -> Any:
+    """Cosine of an angle in radians."""
+    return casadi.cos(value)
+
+
+def sine(value: Any) -> Any:
+    """Sine of an angle in radians."""
+    return casadi.sin(value)
+
+
 def sign(value: Any) -> Any:
     """-1, 0 or 1."""
     return casadi.sign(value)
@@ -50,12 +60,20 @@ class Tape:
         """Declare an output."""
         self._outputs[name] = expression
 
+    @property
+    def inputs(self) -> tuple[str, ...]:
+        """The names of the inputs, in order."""
+        return tuple(self._inputs)
+
+    def function(self) -> Any:
+        """The CasADi function of all inputs, as one vector, to all outputs, as another."""
+        inputs = casadi.vertcat(*self._inputs.values()) if self._inputs else casadi.SX(0, 1)
+        outputs = casadi.densify(casadi.vertcat(*self._outputs.values()))
+        return casadi.Function("contour", [inputs], [outputs])
+
     def finish(self) -> "Compiled":
         """The function of all inputs and outputs."""
-        inputs = casadi.vertcat(*self._inputs.values())
-        outputs = casadi.densify(casadi.vertcat(*self._outputs.values()))
-        function = casadi.Function("contour", [inputs], [outputs])
-        return Compiled(function, tuple(self._inputs), tuple(self._outputs))
+        return Compiled(self.function(), self.inputs, tuple(self._outputs))
 
 
 def symbol(name: str) -> Any:
@@ -78,6 +96,36 @@ def jacobian_parts(residuals: Sequence[Any], unknowns: Sequence[Any], at: Sequen
     jacobian = casadi.substitute(casadi.jacobian(stacked, symbols), symbols, casadi.vertcat(*at))
     rows, columns = jacobian.sparsity().get_triplet()
     return {(row, column): jacobian[row, column] for row, column in zip(rows, columns, strict=True)}
+
+
+def derivatives(residuals: Sequence[Any], unknowns: Sequence[Any]) -> list[Any]:
+    """The dense Jacobian of residuals by unknowns, row by row."""
+    jacobian = casadi.densify(casadi.jacobian(casadi.vertcat(*residuals), casadi.vertcat(*unknowns)))
+    return [jacobian[row, column] for row in range(len(residuals)) for column in range(len(unknowns))]
+
+
+def quadratic_parts(
+    residuals: Sequence[Any], unknowns: Sequence[Any]
+) -> dict[tuple[int, tuple[int, ...]], Any] | None:
+    """The coefficients of polynomials of degree 2 by (residual, monomial); None if one is of another kind.
+
+    A monomial names the unknowns that are multiplied, by their index in order: `(0, 0)`, `(1,)`, `()`.
+    """
+    symbols = casadi.vertcat(*unknowns)
+    zero = casadi.SX.zeros(len(unknowns))
+    parts: dict[tuple[int, tuple[int, ...]], Any] = {}
+    for number, residual in enumerate(residuals):
+        hessian, gradient = casadi.hessian(residual, symbols)
+        if casadi.which_depends(casadi.vec(hessian), symbols, 1, False).count(True):
+            return None
+        parts[number, ()] = casadi.substitute(residual, symbols, zero)
+        at_zero = casadi.substitute(gradient, symbols, zero)
+        for row in set(gradient.sparsity().row()):
+            parts[number, (row,)] = at_zero[row, 0]
+        for row, column in zip(*hessian.sparsity().get_triplet(), strict=True):
+            if row <= column:
+                parts[number, (row, column)] = hessian[row, column] / (2 if row == column else 1)
+    return parts
 
 
 class Compiled:

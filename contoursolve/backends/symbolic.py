@@ -1,13 +1,15 @@
 """Sympy: the exact, generic properties of a system's equations."""
 
 import random
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import sympy
 from sympy.polys.domains import QQ
 from sympy.polys.matrices import DomainMatrix
+
+from contoursolve.constraints import Functions, Values
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,40 +26,71 @@ class ExactRank:
 
 
 class Symbols:
-    """A lookup of sympy symbols for every scalar, amount and direction."""
+    """Sympy symbols for every scalar, amount, direction and side, created when a formula asks for them."""
 
     def __init__(self) -> None:
         self._symbols: dict[str, Any] = {}
         self._angles: dict[str, Any] = {}
 
     def scalar(self, name: str) -> Any:
-        """The symbol of a coordinate or a radius."""
+        """The symbol of a coordinate, a radius, an amount, or a part of a line."""
         return self._symbols.setdefault(name, sympy.Symbol(name, real=True))
 
-    def coordinate(self, point: str, axis: int) -> Any:
-        return self.scalar(f"{point}.{axis}")
-
-    def radius(self, name: str) -> Any:
-        return self.scalar(name)
-
-    def amount(self, given: str) -> Any:
-        return self.scalar(given)
-
     def direction(self, given: str) -> tuple[Any, Any]:
+        """Cosine and sine of a given angle's symbol."""
         angle = self._angles.setdefault(given, sympy.Symbol(given, real=True))
         return sympy.cos(angle), sympy.sin(angle)
 
+    def lookup(self, headed: Mapping[str, tuple[str, str]]) -> Values:
+        """A lookup of these symbols; `headed` are the lines of given direction."""
+        return Values(
+            _Created(self.scalar),
+            _Created(self.scalar),
+            _Created(self.direction),
+            headed,
+            _Created(self.scalar),
+            Functions(sympy.sqrt, sympy.cos, sympy.sin),
+        )
+
     def random_point(self, seed: int) -> dict[Any, Any]:
-        """A rational value for every symbol; angles get rational cosines and sines."""
+        """A rational value for every symbol; angles and directions of lines get rational cosines and sines."""
         draw = random.Random(seed)
         point: dict[Any, Any] = {}
-        for angle in self._angles.values():
+
+        def direction() -> tuple[Any, Any]:
             t = sympy.Rational(draw.randint(1, 9_999), draw.randint(1, 9_999))
-            point[sympy.cos(angle)] = (1 - t**2) / (1 + t**2)
-            point[sympy.sin(angle)] = 2 * t / (1 + t**2)
-        for symbol in self._symbols.values():
-            point[symbol] = sympy.Rational(draw.randint(1, 99_999), draw.randint(1, 999))
+            return (1 - t**2) / (1 + t**2), 2 * t / (1 + t**2)
+
+        for angle in self._angles.values():
+            point[sympy.cos(angle)], point[sympy.sin(angle)] = direction()
+        for name, symbol in self._symbols.items():
+            line, _, part = name.rpartition(".")
+            if symbol in point:
+                continue
+            if part in ("cos", "sin"):
+                point[self.scalar(f"{line}.cos")], point[self.scalar(f"{line}.sin")] = direction()
+            else:
+                point[symbol] = sympy.Rational(draw.randint(1, 99_999), draw.randint(1, 999))
         return point
+
+
+class _Created(Mapping[str, Any]):
+    """A mapping that makes what is asked for."""
+
+    def __init__(self, make: Callable[[str], Any]) -> None:
+        self._make = make
+
+    def __getitem__(self, name: str) -> Any:
+        return self._make(name)
+
+    def __contains__(self, _name: object) -> bool:
+        return True
+
+    def __iter__(self) -> Any:
+        raise TypeError("symbols are created by asking for them")
+
+    def __len__(self) -> int:
+        raise TypeError("symbols are created by asking for them")
 
 
 def jacobian(residuals: Sequence[Any], unknowns: Sequence[Any]) -> Any:
@@ -85,11 +118,12 @@ def exact_rank(matrix: Any, point: dict[Any, Any]) -> ExactRank:
     )
 
 
-def determinant(matrix: Any) -> str:
-    """The distinct factors of a square matrix's determinant, whose zeros are its zeros, as text."""
-    numerator, _ = sympy.fraction(sympy.factor(sympy.trigsimp(matrix.det(method="berkowitz"))))
-    # Denominators are radii, which are no condition of their own.
-    factors = [sympy.trigsimp(base) for base, _ in sympy.factor_list(numerator)[1]]
+def determinants(matrices: Sequence[Any]) -> str:
+    """The distinct factors of the determinants of square matrices, whose zeros are their zeros, as text."""
+    factors: dict[Any, None] = {}
+    for matrix in matrices:
+        numerator, _ = sympy.fraction(sympy.factor(sympy.trigsimp(matrix.det(method="berkowitz"))))
+        factors |= dict.fromkeys(sympy.trigsimp(base) for base, _ in sympy.factor_list(numerator)[1])
     return str(sympy.Mul(*factors))
 
 

@@ -1,7 +1,47 @@
 """Facts as equations, and the system that they make together."""
 
-from contoursolve.constraints.facts import Coordinate, Heading, Offset, OnCircle, Radius
+from contoursolve.constraints.circles import ArcLength, Contact, EqualRadii, OnCircle, Radius, TangentCircles
+from contoursolve.constraints.lines import (
+    Along,
+    Directed,
+    Extent,
+    Foot,
+    Tangent,
+    TangentLine,
+    Through,
+    TurnBetween,
+    UnitDirection,
+)
+from contoursolve.constraints.points import Coordinate, Distance, EqualDistances, Heading, Offset
 from contoursolve.constraints.system import System, assemble, build_system
-from contoursolve.constraints.values import Values
+from contoursolve.constraints.values import FLOATS, Functions, Values, headed_lines
 
-__all__ = ["Coordinate", "Heading", "Offset", "OnCircle", "Radius", "System", "Values", "assemble", "build_system"]
+__all__ = [
+    "FLOATS",
+    "Along",
+    "ArcLength",
+    "Contact",
+    "Coordinate",
+    "Directed",
+    "Distance",
+    "EqualDistances",
+    "EqualRadii",
+    "Extent",
+    "Foot",
+    "Functions",
+    "Heading",
+    "Offset",
+    "OnCircle",
+    "Radius",
+    "System",
+    "Tangent",
+    "TangentCircles",
+    "TangentLine",
+    "Through",
+    "TurnBetween",
+    "UnitDirection",
+    "Values",
+    "assemble",
+    "build_system",
+    "headed_lines",
+]

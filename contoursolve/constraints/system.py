@@ -1,17 +1,20 @@
 """A figure and its facts as a system of equations, free of values."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 
-from contoursolve.model import FIRST, SECOND, Fact, Figure, Layout, Profile, scalar
+from contoursolve.constraints.equation import both
+from contoursolve.constraints.values import headed_lines
+from contoursolve.model import Fact, Figure, Layout, Profile, line_scalars
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class System:
     """Unknown scalars and the facts about them.
 
-    The coordinates of the figure's start are known, all other points and the radii are unknown.
-    `choices` are the points with two solutions between which something outside the facts chooses.
+    The coordinates of the figure's start and places are known, all other points, the radii and the carriers
+    are unknown. `choices` are the points with two solutions between which something outside the facts chooses.
     `key` is a text that is equal for equal systems; caches go by it. `equations_key` leaves out the
     path and the corners, which state nothing about the points.
     """
@@ -20,6 +23,8 @@ class System:
     facts: tuple[Fact, ...]
     choices: tuple[str, ...]
     unknowns: tuple[str, ...]
+    headed: Mapping[str, tuple[str, str]]
+    known: frozenset[str]
     equations_key: str
     key: str
 
@@ -30,9 +35,15 @@ class System:
         return hash(self.key)
 
     def unknowns_of(self, fact: Fact) -> tuple[str, ...]:
-        """The unknown scalars that a fact mentions."""
-        known = {scalar(self.figure.start, FIRST), scalar(self.figure.start, SECOND)}
-        return tuple(name for name in fact.reads() if name not in known)
+        """The unknown scalars that a fact mentions. A line of given direction is known by its tail alone."""
+        names: dict[str, None] = {}
+        for name in fact.reads():
+            line, _, part = name.rpartition(".")
+            if line not in self.headed or part not in ("cos", "sin", "off"):
+                names[name] = None
+            elif part == "off":
+                names.update(dict.fromkeys(both(self.headed[line][1])))
+        return tuple(name for name in names if name not in self.known)
 
     def keep(self, facts: tuple[Fact, ...]) -> "System":
         """The same figure with other facts."""
@@ -42,10 +53,12 @@ class System:
 @lru_cache(maxsize=8192)
 def build_system(figure: Figure, facts: tuple[Fact, ...], choices: tuple[str, ...] = ()) -> System:
     """The system of a figure; equal arguments give the same object."""
-    coordinates = (scalar(point, axis) for point in figure.points for axis in (FIRST, SECOND))
-    unknowns = (*coordinates, *figure.radii)
+    lines = (name for line in figure.carriers for name in line_scalars(line))
+    unknowns = (*both(*figure.points), *figure.radii, *lines)
     equations_key = f"{','.join(unknowns)}: {'; '.join(map(str, facts))}"
-    return System(figure, facts, choices, unknowns, equations_key, f"{equations_key} | {figure} | {choices}")
+    known = frozenset((*both(figure.start, *figure.places), *figure.known_radii))
+    key = f"{equations_key} | {figure} | {choices}"
+    return System(figure, facts, choices, unknowns, headed_lines(figure), known, equations_key, key)
 
 
 def assemble(profile: Profile) -> System:

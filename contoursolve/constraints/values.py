@@ -1,28 +1,75 @@
 """A lookup over plain mappings, for numbers and symbols of every kind."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from typing import Any
 
-from contoursolve.model import scalar
+from contoursolve.model import FIRST, SECOND, Figure, Line, line_scalars, scalar
+
+
+@dataclass(frozen=True, slots=True)
+class Functions:
+    """What equations need beyond arithmetic, for one kind of number."""
+
+    root: Callable[[Any], Any] = math.sqrt
+    cosine: Callable[[Any], Any] = math.cos
+    sine: Callable[[Any], Any] = math.sin
+
+
+FLOATS = Functions()
 
 
 @dataclass(frozen=True, slots=True)
 class Values:
-    """`scalars` holds coordinates and radii by name, `amounts` and `directions` the givens."""
+    """`scalars` holds coordinates, radii and lines by name, `amounts`, `directions` and `signs` the givens.
+
+    A coordinate or a radius that is no scalar is a given. `headed` are the lines whose direction is a given,
+    each with that given and with a point of the line.
+    """
 
     scalars: Mapping[str, Any]
     amounts: Mapping[str, Any]
     directions: Mapping[str, tuple[Any, Any]]
+    headed: Mapping[str, tuple[str, str]] = field(default_factory=dict)
+    signs: Mapping[str, Any] = field(default_factory=dict)
+    functions: Functions = FLOATS
 
     def coordinate(self, point: str, axis: int) -> Any:
-        return self.scalars[scalar(point, axis)]
+        return self.radius(scalar(point, axis))
 
     def radius(self, name: str) -> Any:
-        return self.scalars[name]
+        return self.scalars[name] if name in self.scalars else self.amounts[name]
 
     def amount(self, given: str) -> Any:
         return self.amounts[given]
 
     def direction(self, given: str) -> tuple[Any, Any]:
         return self.directions[given]
+
+    def line(self, name: str) -> tuple[Any, Any, Any]:
+        if name not in self.headed:
+            cosine, sine, offset = (self.scalars[each] for each in line_scalars(name))
+            return cosine, sine, offset
+        heading, tail = self.headed[name]
+        cosine, sine = self.direction(heading)
+        return cosine, sine, cosine * self.coordinate(tail, SECOND) - sine * self.coordinate(tail, FIRST)
+
+    def side(self, name: str) -> Any:
+        return self.signs[name]
+
+    def rotation(self, angle: Any) -> tuple[Any, Any]:
+        return self.functions.cosine(angle), self.functions.sine(angle)
+
+    def root(self, value: Any) -> Any:
+        return self.functions.root(value)
+
+
+def headed_lines(figure: Figure) -> dict[str, tuple[str, str]]:
+    """The lines of a figure whose direction is a given, each with that given and with a point of the line."""
+    lines = (line for line in (*figure.path, *figure.lines) if isinstance(line, Line))
+    return {
+        line.name: (line.heading, line.tail)
+        for line in lines
+        if line.heading is not None and line.name not in figure.carriers
+    }

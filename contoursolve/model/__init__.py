@@ -1,7 +1,7 @@
 """The drawing: figures without values, facts, and profiles with the values of a block."""
 
-from contoursolve.model.fact import Fact, Lookup, scalar
-from contoursolve.model.figure import FIRST, SECOND, Arc, Corner, CornerShape, Figure, Line, Turn
+from contoursolve.model.fact import Fact, Lookup, line_scalars, scalar
+from contoursolve.model.figure import FIRST, SECOND, Arc, Circle, Corner, CornerShape, Figure, Line, Turn
 from contoursolve.model.profile import Choice, Given, Layout, Length, Plane, Profile, Side, Start, Unit
 
 __all__ = [
@@ -9,6 +9,7 @@ __all__ = [
     "SECOND",
     "Arc",
     "Choice",
+    "Circle",
     "Corner",
     "CornerShape",
     "Fact",
@@ -24,5 +25,6 @@ __all__ = [
     "Start",
     "Turn",
     "Unit",
+    "line_scalars",
     "scalar",
 ]

@@ -54,8 +54,8 @@ class CornerShape(Enum):
 class Corner:
     """A corner at the virtual intersection `at`, between the line `before` and what follows.
 
-    `after` names the next line; without it the corner lands on a line parallel to axis
-    `lands_parallel_to`, which the block itself does not cut.
+    `after` names the next line of the path; without it the corner lands on a line that the block itself does
+    not cut: parallel to axis `lands_parallel_to`, or the figure's line `lands_on`.
     """
 
     name: str
@@ -65,14 +65,42 @@ class Corner:
     before: str
     after: str | None = None
     lands_parallel_to: int | None = None
+    lands_on: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Circle:
+    """A circle that is not part of the path, about a point with a radius; either may be known or unknown."""
+
+    name: str
+    center: str
+    radius: str
 
 
 @dataclass(frozen=True, slots=True)
 class Figure:
-    """A drawing without its values: unknown points and radii, the path from `start`, its corners."""
+    """A drawing without its values: unknown points and radii, the path from `start`, its corners.
+
+    `places` are points with given coordinates (the givens `place.0` and `place.1`). `lines` and `circles` are
+    not part of the path; `known_radii` are radii that are givens. `carriers` names the lines whose direction
+    and place are unknowns of their own: `line.cos`, `line.sin`, and the distance of the origin to the right of
+    the line, `line.off`.
+    """
 
     start: str
     points: tuple[str, ...]
     radii: tuple[str, ...]
     path: tuple[Line | Arc, ...]
     corners: tuple[Corner, ...] = ()
+    places: tuple[str, ...] = ()
+    known_radii: tuple[str, ...] = ()
+    lines: tuple[Line, ...] = ()
+    circles: tuple[Circle, ...] = ()
+    carriers: tuple[str, ...] = ()
+
+    def line(self, name: str) -> Line:
+        """The line of this name, of the path or beside it."""
+        for line in (*self.path, *self.lines):
+            if isinstance(line, Line) and line.name == name:
+                return line
+        raise KeyError(name)

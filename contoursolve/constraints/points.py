@@ -1,18 +1,15 @@
-"""Facts as equations: one class a fact, one residual formula for floats, sympy and CasADi alike."""
+"""Facts about points: coordinates, distances, the direction from one to another."""
 
 from dataclasses import dataclass
 from math import atan2, degrees, hypot
 from typing import Any
 
-from contoursolve.model import FIRST, SECOND, Lookup, scalar
-
-
-def _both(point: str) -> tuple[str, str]:
-    return scalar(point, FIRST), scalar(point, SECOND)
+from contoursolve.constraints.equation import Equation, both, dot, step
+from contoursolve.model import Lookup, scalar
 
 
 @dataclass(frozen=True, slots=True)
-class Coordinate:
+class Coordinate(Equation):
     """`point` has the given coordinate on `axis`."""
 
     given: str
@@ -30,7 +27,7 @@ class Coordinate:
 
 
 @dataclass(frozen=True, slots=True)
-class Offset:
+class Offset(Equation):
     """`point` lies the given distance from `origin`, counted along `axis`."""
 
     given: str
@@ -49,66 +46,64 @@ class Offset:
 
 
 @dataclass(frozen=True, slots=True)
-class Heading:
-    """The line from `tail` to `head` runs at the given angle (its sense is checked apart)."""
+class Heading(Equation):
+    """The line from `tail` to `head` runs at the given angle."""
 
     given: str
     tail: str
     head: str
 
     def reads(self) -> tuple[str, ...]:
-        return *_both(self.tail), *_both(self.head)
+        return both(self.tail, self.head)
 
     def residual(self, at: Lookup) -> Any:
         cosine, sine = at.direction(self.given)
-        first, second = _step(at, self.tail, self.head)
+        first, second = step(at, self.tail, self.head)
         return first * sine - second * cosine
 
     def implied(self, at: Lookup) -> float | None:
-        first, second = _step(at, self.tail, self.head)
+        first, second = step(at, self.tail, self.head)
         return degrees(atan2(second, first)) if hypot(first, second) > 0 else None
 
 
 @dataclass(frozen=True, slots=True)
-class OnCircle:
-    """`point` lies on the circle about `center`; to first order the residual is the distance from it."""
+class Distance(Equation):
+    """`tail` and `head` lie the given distance apart; to first order the residual is the excess."""
 
-    point: str
-    center: str
-    radius: str
-    given: str = ""
+    given: str
+    tail: str
+    head: str
 
     def reads(self) -> tuple[str, ...]:
-        return *_both(self.point), *_both(self.center), self.radius
+        return both(self.tail, self.head)
+
+    def equation(self, at: Lookup) -> Any:
+        between = step(at, self.tail, self.head)
+        return dot(between, between) - at.amount(self.given) ** 2
 
     def residual(self, at: Lookup) -> Any:
-        first, second = _step(at, self.center, self.point)
-        radius = at.radius(self.radius)
-        return (first**2 + second**2 - radius**2) / (2 * radius)
+        return self.equation(at) / (2 * at.amount(self.given))
 
-    def implied(self, _at: Lookup) -> float | None:
-        return None
+    def implied(self, at: Lookup) -> float | None:
+        return hypot(*map(float, step(at, self.tail, self.head)))
 
 
 @dataclass(frozen=True, slots=True)
-class Radius:
-    """The radius has the given value."""
+class EqualDistances(Equation):
+    """Two pairs of points lie equally far apart."""
 
     given: str
-    radius: str
+    first: tuple[str, str]
+    second: tuple[str, str]
 
     def reads(self) -> tuple[str, ...]:
-        return (self.radius,)
+        return tuple(dict.fromkeys(both(*self.first, *self.second)))
+
+    def equation(self, at: Lookup) -> Any:
+        first, second = step(at, *self.first), step(at, *self.second)
+        return dot(first, first) - dot(second, second)
 
     def residual(self, at: Lookup) -> Any:
-        return at.radius(self.radius) - at.amount(self.given)
+        first, second = step(at, *self.first), step(at, *self.second)
+        return at.root(dot(first, first)) - at.root(dot(second, second))
 
-    def implied(self, at: Lookup) -> float | None:
-        return float(at.radius(self.radius))
-
-
-def _step(at: Lookup, tail: str, head: str) -> tuple[Any, Any]:
-    return (
-        at.coordinate(head, FIRST) - at.coordinate(tail, FIRST),
-        at.coordinate(head, SECOND) - at.coordinate(tail, SECOND),
-    )

@@ -1,0 +1,146 @@
+"""python-flint: rational numbers, and balls that are certain to hold a real number.
+
+A number here is either exact (`fmpq`) or a ball (`arb`); arithmetic mixes them, and whatever is exact
+stays exact. Balls have the precision of the innermost `precision` block.
+"""
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from decimal import Decimal
+from fractions import Fraction
+from functools import lru_cache
+from math import inf, nextafter
+from typing import Any
+
+import flint
+from flint import acb_poly, arb, fmpq
+
+Number = Any
+"""fmpq or arb; python-flint has no types of its own for checkers."""
+
+WORKING, HIGHEST = 212, 848
+"""Bits of a ball's midpoint: four and sixteen times those of a double."""
+
+
+@contextmanager
+def precision(bits: int) -> Iterator[None]:
+    """Balls made inside have midpoints of this many bits."""
+    with flint.ctx.workprec(bits):
+        yield
+
+
+def exact(value: Decimal | Fraction | float) -> Number:
+    """A finite decimal, fraction or float as the rational number that it is."""
+    numerator, denominator = value.as_integer_ratio()
+    return fmpq(numerator, denominator)
+
+
+def direction(degrees: Decimal) -> tuple[Number, Number]:
+    """(cosine, sine) of an angle: exact for multiples of 90 degrees, else balls."""
+    return _direction(degrees, flint.ctx.prec)
+
+
+@lru_cache(maxsize=65536)
+def _direction(degrees: Decimal, _bits: int) -> tuple[Number, Number]:
+    turns = exact(degrees) / 180
+    halves = turns * 2
+    if halves.q == 1:
+        return ((fmpq(1), fmpq(0)), (fmpq(0), fmpq(1)), (fmpq(-1), fmpq(0)), (fmpq(0), fmpq(-1)))[int(halves.p) % 4]
+    sine, cosine = arb.sin_cos_pi_fmpq(turns)
+    return cosine, sine
+
+
+def is_exact(value: Number) -> bool:
+    """Whether a number is a rational one."""
+    return isinstance(value, fmpq)
+
+
+def sign(value: Number) -> int | None:
+    """-1, 0 or 1; None for a ball that holds zero."""
+    if isinstance(value, fmpq):
+        return int(value.p > 0) - int(value.p < 0)
+    if value > 0:
+        return 1
+    return -1 if value < 0 else None
+
+
+def root(value: Number) -> Number:
+    """Square root: exact for the square of a rational number."""
+    if isinstance(value, fmpq):
+        if value.p < 0:
+            raise ValueError("square root of a negative number")
+        numerator, denominator = value.p.isqrt(), value.q.isqrt()
+        if numerator**2 == value.p and denominator**2 == value.q:
+            return fmpq(numerator, denominator)
+        return arb(value).sqrt()
+    return value.sqrt()
+
+
+def cosine(value: Number) -> Number:
+    """Cosine of an angle in radians."""
+    return arb(value).cos()
+
+
+def sine(value: Number) -> Number:
+    """Sine of an angle in radians."""
+    return arb(value).sin()
+
+
+def magnitude(value: Number) -> Number:
+    """Absolute value."""
+    return abs(value)
+
+
+def hull(value: Number, margin: float) -> Number:
+    """A ball about a number's midpoint, wider by `margin`."""
+    return arb(value) + arb(0, margin)
+
+
+def around(value: float, margin: float) -> Number:
+    """The ball of radius `margin` about a float."""
+    return arb(value, margin)
+
+
+def is_finite(value: Number) -> bool:
+    """Whether a number has finite bounds."""
+    return isinstance(value, fmpq) or bool(value.is_finite())
+
+
+def middle(value: Number) -> float:
+    """The float nearest to a number's midpoint."""
+    return int(value.p) / int(value.q) if isinstance(value, fmpq) else float(value.mid())
+
+
+def width(value: Number) -> float:
+    """The radius of a ball as a float, rounded up; 0 for a rational number."""
+    return 0.0 if isinstance(value, fmpq) else _up(value.rad())
+
+
+def distance(value: Number, at: float) -> float:
+    """The largest distance of a number from a float, rounded up."""
+    return _up(abs(arb(value) - arb(at)).upper())
+
+
+def contains(outer: Number, inner: Number) -> bool:
+    """Whether `inner` lies in the interior of the ball `outer`."""
+    return bool(arb(outer).contains_interior(arb(inner)))
+
+
+def intersects(first: Number, second: Number) -> bool:
+    """Whether two balls have a point in common."""
+    return bool(arb(first).overlaps(arb(second)))
+
+
+def real_roots(coefficients: Sequence[Number]) -> list[Number] | None:
+    """All real roots of a polynomial (constant first), each in a ball of its own; None if they cannot be told apart."""
+    try:
+        roots = acb_poly([arb(each) for each in coefficients]).roots()
+    except ValueError:
+        return None
+    # The roots are isolated: one whose ball meets the real line is its own conjugate.
+    return [each.real for each in roots if each.imag.contains(0)]
+
+
+def _up(value: Any) -> float:
+    found = float(value)
+    return nextafter(found, inf) if found > 0 else found

@@ -1,0 +1,90 @@
+"""Runs the instructions of a CasADi function on numbers of any kind: balls, rationals, intervals."""
+
+import operator
+from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
+from typing import Any
+
+import casadi
+
+_BINARY: Mapping[int, Callable[[Any, Any], Any]] = {
+    casadi.OP_ADD: operator.add,
+    casadi.OP_SUB: operator.sub,
+    casadi.OP_MUL: operator.mul,
+    casadi.OP_DIV: operator.truediv,
+}
+_UNARY: Mapping[int, Callable[[Any], Any]] = {
+    casadi.OP_NEG: operator.neg,
+    casadi.OP_SQ: lambda value: value**2,
+    casadi.OP_TWICE: lambda value: value + value,
+    casadi.OP_INV: lambda value: 1 / value,
+    casadi.OP_ASSIGN: lambda value: value,
+}
+_POWERS = (casadi.OP_POW, casadi.OP_CONSTPOW)
+_FUNCTIONS: Mapping[int, str] = {
+    casadi.OP_SQRT: "root",
+    casadi.OP_COS: "cosine",
+    casadi.OP_SIN: "sine",
+    casadi.OP_FABS: "magnitude",
+    casadi.OP_SIGN: "sign",
+}
+
+
+class Replay:
+    """The instructions of a function of one vector to one vector, as a list to run through.
+
+    `functions` gives what is not arithmetic, as attributes `root`, `cosine`, `sine`, `magnitude`, `sign`; `constant`
+    makes a number of the wanted kind from a rational one.
+    """
+
+    def __init__(self, function: Any, functions: Any, constant: Callable[[Fraction], Any]) -> None:
+        self._zero = constant(Fraction(0))
+        self._inputs: list[tuple[int, int]] = []
+        self._outputs: list[tuple[int, int]] = []
+        self._count = function.nnz_out(0)
+        self._steps: list[tuple[Callable[..., Any], tuple[int, ...], int]] = []
+        self._constants: list[tuple[int, Any]] = []
+        # CasADi reuses places of its work vector; every value gets a place of its own here.
+        place: dict[int, int] = {}
+        for number in range(function.n_instructions()):
+            kind = function.instruction_id(number)
+            if kind == casadi.OP_OUTPUT:
+                self._outputs.append((place[function.instruction_input(number)[0]], function.instruction_output(number)[1]))
+                continue
+            read = tuple(function.instruction_input(number))
+            target = function.instruction_output(number)[0]
+            if kind == casadi.OP_INPUT:
+                self._inputs.append((read[1], number))
+            elif kind == casadi.OP_CONST:
+                self._constants.append((number, constant(Fraction(function.instruction_constant(number)))))
+            else:
+                self._steps.append((_operation(kind, functions), tuple(place[each] for each in read), number))
+            place[target] = number
+        self._places = function.n_instructions()
+
+    def __call__(self, inputs: Sequence[Any]) -> list[Any]:
+        """The outputs at these inputs; an output that is always zero is the constant 0."""
+        work: list[Any] = [None] * self._places
+        for source, target in self._inputs:
+            work[target] = inputs[source]
+        for target, value in self._constants:
+            work[target] = value
+        for operation, read, target in self._steps:
+            work[target] = operation(*[work[each] for each in read])
+        results = [self._zero] * self._count
+        for source, target in self._outputs:
+            results[target] = work[source]
+        return results
+
+
+def _operation(kind: int, functions: Any) -> Callable[..., Any]:
+    if kind in _BINARY:
+        return _BINARY[kind]
+    if kind in _UNARY:
+        return _UNARY[kind]
+    if kind in _FUNCTIONS:
+        found: Callable[..., Any] = getattr(functions, _FUNCTIONS[kind])
+        return found
+    if kind in _POWERS:
+        return operator.pow
+    raise ValueError(f"CasADi instruction {kind} has no counterpart here")

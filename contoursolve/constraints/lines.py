@@ -1,0 +1,197 @@
+"""Facts about lines as a whole: their direction, what they pass through, what they touch, how far they go."""
+
+from dataclasses import dataclass
+from math import atan2, degrees
+from typing import Any
+
+from contoursolve.constraints.circles import side_of
+from contoursolve.constraints.equation import Equation, both, cross, dot, rotate, step
+from contoursolve.model import FIRST, SECOND, Lookup, Turn, line_scalars
+
+
+@dataclass(frozen=True, slots=True)
+class UnitDirection(Equation):
+    """The direction of a line has the length 1."""
+
+    line: str
+    given: str = ""
+
+    def reads(self) -> tuple[str, ...]:
+        return line_scalars(self.line)[:2]
+
+    def equation(self, at: Lookup) -> Any:
+        cosine, sine, _ = at.line(self.line)
+        return cosine**2 + sine**2 - 1
+
+    def residual(self, at: Lookup) -> Any:
+        return self.equation(at) / 2
+
+
+@dataclass(frozen=True, slots=True)
+class Directed(Equation):
+    """The line runs at the given angle."""
+
+    given: str
+    line: str
+
+    def reads(self) -> tuple[str, ...]:
+        return line_scalars(self.line)[:2]
+
+    def residual(self, at: Lookup) -> Any:
+        return cross(at.line(self.line)[:2], at.direction(self.given))
+
+    def sense(self, at: Lookup) -> Any:
+        return dot(at.line(self.line)[:2], at.direction(self.given))
+
+    def implied(self, at: Lookup) -> float | None:
+        cosine, sine, _ = at.line(self.line)
+        return degrees(atan2(float(sine), float(cosine)))
+
+
+@dataclass(frozen=True, slots=True)
+class Through(Equation):
+    """The line passes through `point`; the residual is how far to the left of it the point lies."""
+
+    line: str
+    point: str
+    given: str = ""
+
+    def reads(self) -> tuple[str, ...]:
+        return *line_scalars(self.line), *both(self.point)
+
+    def residual(self, at: Lookup) -> Any:
+        return left_of(at, self.line, self.point)
+
+
+@dataclass(frozen=True, slots=True)
+class Foot(Equation):
+    """`point` is the foot of the perpendicular from `center` onto the line, along the line."""
+
+    line: str
+    point: str
+    center: str
+    given: str = ""
+
+    def reads(self) -> tuple[str, ...]:
+        return *line_scalars(self.line)[:2], *both(self.point, self.center)
+
+    def residual(self, at: Lookup) -> Any:
+        return dot(at.line(self.line)[:2], step(at, self.center, self.point))
+
+
+@dataclass(frozen=True, slots=True)
+class TangentLine(Equation):
+    """The line touches the circle about `center`, which lies to its left (`side` +1) or right (-1)."""
+
+    line: str
+    center: str
+    radius: str
+    side: str | int
+    given: str = ""
+
+    def reads(self) -> tuple[str, ...]:
+        return *line_scalars(self.line), *both(self.center), self.radius
+
+    def sides(self) -> tuple[str, ...]:
+        return (self.side,) if isinstance(self.side, str) else ()
+
+    def residual(self, at: Lookup) -> Any:
+        return left_of(at, self.line, self.center) - side_of(self.side, at) * at.radius(self.radius)
+
+
+@dataclass(frozen=True, slots=True)
+class Extent(Equation):
+    """From `tail` to `head`, both on the line, it goes the given length along the line."""
+
+    given: str
+    line: str
+    tail: str
+    head: str
+
+    def reads(self) -> tuple[str, ...]:
+        return *line_scalars(self.line)[:2], *both(self.tail, self.head)
+
+    def residual(self, at: Lookup) -> Any:
+        return self._extent(at) - at.amount(self.given)
+
+    def _extent(self, at: Lookup) -> Any:
+        return dot(at.line(self.line)[:2], step(at, self.tail, self.head))
+
+    def implied(self, at: Lookup) -> float | None:
+        return float(self._extent(at))
+
+
+@dataclass(frozen=True, slots=True)
+class Along:
+    """The direction of a line."""
+
+    line: str
+
+    def reads(self) -> tuple[str, ...]:
+        """Names of the scalars that the direction depends on."""
+        return line_scalars(self.line)[:2]
+
+    def vector(self, at: Lookup) -> tuple[Any, Any]:
+        """A vector in the direction, 1 mm long."""
+        return at.line(self.line)[:2]
+
+    def length(self, _at: Lookup) -> Any:
+        """The length of the vector."""
+        return 1
+
+
+@dataclass(frozen=True, slots=True)
+class Tangent:
+    """The direction of an arc where it passes `point`."""
+
+    point: str
+    center: str
+    radius: str
+    turn: Turn
+
+    def reads(self) -> tuple[str, ...]:
+        """Names of the scalars that the direction depends on."""
+        return *both(self.point, self.center), self.radius
+
+    def vector(self, at: Lookup) -> tuple[Any, Any]:
+        """A vector in the direction, as long as the radius."""
+        first, second = step(at, self.center, self.point)
+        return -self.turn.sign * second, self.turn.sign * first
+
+    def length(self, at: Lookup) -> Any:
+        """The length of the vector."""
+        return at.radius(self.radius)
+
+
+@dataclass(frozen=True, slots=True)
+class TurnBetween(Equation):
+    """The direction of travel turns by the given angle from the first element to the second."""
+
+    given: str
+    first: Along | Tangent
+    second: Along | Tangent
+
+    def reads(self) -> tuple[str, ...]:
+        return tuple(dict.fromkeys((*self.first.reads(), *self.second.reads())))
+
+    def _vectors(self, at: Lookup) -> tuple[tuple[Any, Any], tuple[Any, Any]]:
+        return rotate(self.first.vector(at), at.direction(self.given)), self.second.vector(at)
+
+    def equation(self, at: Lookup) -> Any:
+        return cross(*self._vectors(at))
+
+    def residual(self, at: Lookup) -> Any:
+        return self.equation(at) / (self.first.length(at) * self.second.length(at))
+
+    def sense(self, at: Lookup) -> Any:
+        return dot(*self._vectors(at))
+
+    def implied(self, at: Lookup) -> float | None:
+        first, second = self.first.vector(at), self.second.vector(at)
+        return degrees(atan2(float(cross(first, second)), float(dot(first, second))))
+
+
+def left_of(at: Lookup, line: str, point: str) -> Any:
+    """How far to the left of a line a point lies, mm."""
+    cosine, sine, offset = at.line(line)
+    return cosine * at.coordinate(point, SECOND) - sine * at.coordinate(point, FIRST) - offset

@@ -1,0 +1,157 @@
+"""All solutions of a determined system, step by step, with proof of their number or an honest doubt."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from itertools import product
+
+from contoursolve.analysis import Group, judge, order
+from contoursolve.backends import ball
+from contoursolve.backends.ball import Number
+from contoursolve.constraints import System
+from contoursolve.model import Line, Profile, scalar
+from contoursolve.solving.elimination import Obstacle, ObstacleError, Root, solve_polynomials
+from contoursolve.solving.ground import Ground, ground_of, witness_of
+from contoursolve.solving.kernel import Kernel, make_kernel
+from contoursolve.solving.polynomial import Coefficient, Monomial, Polynomial, polynomial
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """One solution of the equations: every unknown, exact or in a ball, and the sides at which elements touch.
+
+    `doubles` are the unknowns of steps whose two solutions have become one.
+    """
+
+    scalars: Mapping[str, Number]
+    signs: Mapping[str, int]
+    doubles: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Doubt:
+    """A part of the search that could not be decided: the unknowns of the step, and why."""
+
+    unknowns: tuple[str, ...]
+    obstacle: Obstacle
+
+
+@dataclass(frozen=True, slots=True)
+class Enumeration:
+    """What a search found. The list is complete, with proof, if there is no doubt."""
+
+    found: tuple[Found, ...]
+    doubts: tuple[Doubt, ...]
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether these are all the solutions there are."""
+        return not self.doubts
+
+
+def enumerate_solutions(profile: Profile, system: System) -> Enumeration:
+    """All solutions of a determined system at the values of a profile, whatever the choices of the control.
+
+    Where a ball is too wide to decide, everything is done again with four times the digits.
+    """
+    verdict = judge(system)
+    basis = tuple(system.facts[index] for index in verdict.basis)
+    groups = order(system, basis)
+    enumeration = Enumeration((), ())
+    for bits in (ball.WORKING, ball.HIGHEST):
+        with ball.precision(bits):
+            enumeration = _Search(system, groups, ground_of(profile)).run()
+        if enumeration.is_complete:
+            break
+    return enumeration
+
+
+class _Search:
+    def __init__(self, system: System, groups: tuple[Group, ...], ground: Ground) -> None:
+        self.system = system
+        self.groups = groups
+        self.ground = ground
+        self.doubts: list[Doubt] = []
+        self.runs = [line for line in system.figure.path if isinstance(line, Line) and line.name in system.figure.carriers]
+        self.free = [line.name for line in system.figure.lines if line.name in system.figure.carriers]
+
+    def run(self) -> Enumeration:
+        states = [Found({}, {})]
+        for group in self.groups:
+            kernel = make_kernel(self.system, group)
+            states = [after for state in states for after in self._advance(state, kernel)]
+        return Enumeration(tuple(states), tuple(dict.fromkeys(self.doubts)))
+
+    def _advance(self, state: Found, kernel: Kernel) -> Iterator[Found]:
+        open_sides = [side for side in kernel.sides if side not in state.signs]
+        for values in product((1, -1), repeat=len(open_sides)):
+            signs = {**state.signs, **dict(zip(open_sides, values, strict=True))}
+            try:
+                roots = self._solve(kernel, state.scalars, signs)
+            except ObstacleError as error:
+                self.doubts.append(Doubt(kernel.unknowns, error.obstacle))
+                continue
+            for root in roots:
+                scalars = {**state.scalars, **{kernel.unknowns[index]: each for index, each in root.values.items()}}
+                doubles = state.doubles + (kernel.unknowns if root.is_double else ())
+                after = Found(scalars, signs, doubles)
+                if self._is_possible(after, kernel):
+                    yield after
+
+    def _solve(self, kernel: Kernel, scalars: Mapping[str, Number], signs: Mapping[str, int]) -> list[Root]:
+        if kernel.coefficients is None:
+            raise ObstacleError(Obstacle.NO_CLOSED_FORM)
+        return solve_polynomials(
+            self._polynomials(kernel, scalars, signs), frozenset(range(len(kernel.unknowns)))
+        )
+
+    def _polynomials(
+        self, kernel: Kernel, scalars: Mapping[str, Number], signs: Mapping[str, int]
+    ) -> list[Polynomial]:
+        inputs = [
+            Coefficient(self.ground.number(name, scalars, signs), witness_of(name, signs)) for name in kernel.parameters
+        ]
+        rows: list[dict[Monomial, Coefficient]] = [{} for _ in kernel.facts]
+        for (row, monomial), value in zip(kernel.terms, kernel.coefficients(inputs), strict=True):
+            rows[row][monomial] = value
+        return [polynomial(row) for row in rows]
+
+    def _is_possible(self, state: Found, kernel: Kernel) -> bool:
+        """Whether radii are positive and everything runs in its stated sense; what cannot be decided is a doubt."""
+        for value in self._must_be_positive(state, kernel):
+            match ball.sign(value):
+                case None:
+                    self.doubts.append(Doubt(kernel.unknowns, Obstacle.UNDECIDED))
+                case 1:
+                    pass
+                case _:
+                    return False
+        return True
+
+    def _must_be_positive(self, state: Found, kernel: Kernel) -> Iterator[Number]:
+        new = set(kernel.unknowns)
+        yield from (state.scalars[name] for name in self.system.figure.radii if name in new)
+        at = self.ground.values(state.scalars, state.signs, self.system)
+        for fact in self.system.facts:
+            names = self.system.unknowns_of(fact)
+            if new & set(names) and all(name in state.scalars for name in names):
+                sense = fact.sense(at)
+                if sense is not None:
+                    yield sense
+        for line in self.runs:
+            yield from self._run(line, state, new)
+        for name in self.free:
+            # A line beside the path has no sense: it is taken to run to the right, or upwards.
+            if f"{name}.cos" in new:
+                cosine = state.scalars[f"{name}.cos"]
+                yield cosine if ball.sign(cosine) != 0 else state.scalars[f"{name}.sin"]
+
+    def _run(self, line: Line, state: Found, new: set[str]) -> Iterator[Number]:
+        ends = [scalar(point, axis) for point in (line.tail, line.head) for axis in (0, 1)]
+        names = {*ends, f"{line.name}.cos"} - self.system.known
+        if new & names and names <= state.scalars.keys():
+            at = self.ground.values(state.scalars, state.signs, self.system)
+            cosine, sine, _ = at.line(line.name)
+            yield (at.coordinate(line.head, 0) - at.coordinate(line.tail, 0)) * cosine + (
+                at.coordinate(line.head, 1) - at.coordinate(line.tail, 1)
+            ) * sine
+

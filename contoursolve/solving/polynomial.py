@@ -1,0 +1,148 @@
+"""Polynomials in the unknowns of one step, whose coefficients know which of them vanish for all values."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from hashlib import sha256
+from typing import Any
+
+from contoursolve.backends import ball
+from contoursolve.backends.ball import Number
+from contoursolve.constraints import Functions
+
+PRIME = 2**61 - 1
+"""Coefficients are computed a second time modulo this prime, at values drawn from the names of the inputs: one that
+is zero there is zero for all values, with a chance of error of about 1e-17 (Schwartz 1980)."""
+
+
+class Coefficient:
+    """A number and what it is modulo `PRIME` at other values of the inputs."""
+
+    __slots__ = ("value", "witness")
+
+    def __init__(self, value: Number, witness: int) -> None:
+        self.value = value
+        self.witness = witness
+
+    def __add__(self, other: "Coefficient") -> "Coefficient":
+        return Coefficient(self.value + other.value, (self.witness + other.witness) % PRIME)
+
+    def __sub__(self, other: "Coefficient") -> "Coefficient":
+        return Coefficient(self.value - other.value, (self.witness - other.witness) % PRIME)
+
+    def __mul__(self, other: "Coefficient") -> "Coefficient":
+        return Coefficient(self.value * other.value, self.witness * other.witness % PRIME)
+
+    def __truediv__(self, other: "Coefficient") -> "Coefficient":
+        return Coefficient(self.value / other.value, self.witness * pow(other.witness, -1, PRIME) % PRIME)
+
+    def __pow__(self, exponent: int) -> "Coefficient":
+        return Coefficient(self.value**exponent, pow(self.witness, exponent, PRIME))
+
+    def __neg__(self) -> "Coefficient":
+        return Coefficient(-self.value, -self.witness % PRIME)
+
+    def __rtruediv__(self, one: int) -> "Coefficient":
+        return Coefficient(one / self.value, one * pow(self.witness, -1, PRIME) % PRIME)
+
+    @property
+    def is_zero(self) -> bool:
+        """Whether the coefficient is zero: for all values, or exactly at these."""
+        return self.witness == 0 or (ball.is_exact(self.value) and self.value == 0)
+
+
+def rational(value: Fraction) -> Coefficient:
+    """A number that is the same for all values."""
+    return Coefficient(ball.exact(value), value.numerator * pow(value.denominator, -1, PRIME) % PRIME)
+
+
+def _apart(function: Callable[[Number], Number], name: str) -> Callable[[Coefficient], Coefficient]:
+    """A function of a coefficient, whose witness has nothing to do with any other."""
+    return lambda each: Coefficient(function(each.value), draw(f"{name} {each.witness}"))
+
+
+def _rotation(part: int) -> Callable[[Coefficient], Coefficient]:
+    function = (ball.cosine, ball.sine)[part]
+    return lambda each: Coefficient(function(each.value), draw_direction(str(each.witness))[part])
+
+
+COEFFICIENTS = Functions(_apart(ball.root, "root"), _rotation(0), _rotation(1))
+
+
+def draw(name: str) -> int:
+    """The witness of an input."""
+    return int.from_bytes(sha256(name.encode()).digest()[:8], "big") % PRIME
+
+
+def draw_direction(name: str) -> tuple[int, int]:
+    """The witnesses of the cosine and the sine of a direction: their squares add up to 1."""
+    parameter = draw(name)
+    scale = pow(1 + parameter**2, -1, PRIME)
+    return (1 - parameter**2) * scale % PRIME, 2 * parameter * scale % PRIME
+
+
+Monomial = tuple[int, ...]
+"""Indices of the unknowns that are multiplied, in order; empty for the constant."""
+
+
+@dataclass(frozen=True, slots=True)
+class Polynomial:
+    """Coefficients by monomial, without those that are zero."""
+
+    terms: Mapping[Monomial, Coefficient]
+
+    @property
+    def degree(self) -> int:
+        """The largest number of unknowns that are multiplied; -1 for the zero polynomial."""
+        return max(map(len, self.terms), default=-1)
+
+    @property
+    def unknowns(self) -> frozenset[int]:
+        """The unknowns that occur."""
+        return frozenset(index for monomial in self.terms for index in monomial)
+
+    @property
+    def constant(self) -> Coefficient | None:
+        """The constant term."""
+        return self.terms.get(())
+
+    def __add__(self, other: "Polynomial") -> "Polynomial":
+        terms = dict(self.terms)
+        for monomial, each in other.terms.items():
+            terms[monomial] = terms[monomial] + each if monomial in terms else each
+        return polynomial(terms)
+
+    def scaled(self, factor: Coefficient) -> "Polynomial":
+        """Every coefficient times a factor."""
+        return polynomial({monomial: each * factor for monomial, each in self.terms.items()})
+
+    def __mul__(self, other: "Polynomial") -> "Polynomial":
+        terms: dict[Monomial, Coefficient] = {}
+        for first, a in self.terms.items():
+            for second, b in other.terms.items():
+                monomial = tuple(sorted(first + second))
+                terms[monomial] = terms[monomial] + a * b if monomial in terms else a * b
+        return polynomial(terms)
+
+    def substitute(self, unknown: int, replacement: "Polynomial") -> "Polynomial":
+        """The polynomial with one unknown replaced."""
+        if unknown not in self.unknowns:
+            return self
+        result = polynomial({})
+        for monomial, each in self.terms.items():
+            count = monomial.count(unknown)
+            term = polynomial({tuple(index for index in monomial if index != unknown): each})
+            for _ in range(count):
+                term = term * replacement
+            result = result + term
+        return result
+
+
+def polynomial(terms: Mapping[Monomial, Coefficient]) -> Polynomial:
+    """A polynomial without its zero terms."""
+    return Polynomial({monomial: each for monomial, each in terms.items() if not each.is_zero})
+
+
+def known(value: Any) -> Polynomial:
+    """A number that was found for an unknown, as a polynomial; it is like no other number."""
+    return polynomial({(): Coefficient(value, draw(str(value)))})
