@@ -251,6 +251,66 @@ def explain(code: str) -> None:
         click.echo("\n".join((*rule_lines(rule, controls), "")))
 
 
+@main.command(short_help="Check a claimed answer, independently.")
+@click.argument("program")
+@click.argument("result", metavar="RESULT.json")
+@click.option(
+    "--control",
+    type=click.Choice(list(DIALECTS)),
+    help="The control. Without it, the one that the result names.",
+)
+@click.option(
+    "--units",
+    type=click.Choice([unit.value for unit in Length]),
+    default="mm",
+    show_default=True,
+    help="Unit of the program's numbers before any G20 or G21.",
+)
+@click.option(
+    "--format",
+    "format_",
+    type=click.Choice(["text", "json"]),
+    default="text",
+    show_default=True,
+    help="What to print: text, or a receipt with every check, its residual and its limit.",
+)
+@click.pass_context
+def verify(
+    context: click.Context,
+    /,
+    program: str,
+    result: str,
+    control: str | None,
+    units: str,
+    format_: str,
+) -> None:
+    """Check every element of RESULT.json against the words of PROGRAM (one of them may be -).
+
+    RESULT.json is what solve printed with --format json. Each point, radius and direction is held against the
+    words with formulas of its own, none of the solver's; what was not checked is named, too.
+
+    Exit status: 0 nothing claimed is wrong, 1 something is, 2 could not run.
+
+    \b
+    contoursolve solve shaft.nc --format json > shaft.json
+    contoursolve verify shaft.nc shaft.json
+    """
+    from contoursolve import verification  # noqa: PLC0415 - only here
+
+    if program == result == "-":
+        raise click.UsageError("only one of PROGRAM and RESULT.json can be standard input")
+    try:
+        inputs = verification.read_document(program), verification.read_document(result)
+        receipt = verification.verify(*inputs, control=control, units=units)
+    except verification.CannotVerifyError as error:
+        raise CouldNotRunError(str(error)) from None
+    if format_ == "json":
+        click.echo(verification.to_json(receipt))
+    else:
+        _print(verification.report_lines(receipt))
+    context.exit(FOUND_ERRORS if receipt.verdict is verification.Verdict.FAILED else 0)
+
+
 def _load(paths: Sequence[str], blocks: tuple[str, ...], start: str | None) -> list[Callable[[], Program]]:
     """How to get each program that is asked for; a file is read when its turn comes."""
     if blocks and paths:

@@ -24,7 +24,7 @@ FLOORS = (
     "examine",
     "dialects",
     "diagnosis",
-    "pipeline",
+    "pipeline verification",
     "output api",
     "trial",
     "__init__",

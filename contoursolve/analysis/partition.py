@@ -14,16 +14,17 @@ class Group(NamedTuple):
     unknowns: tuple[str, ...]
 
 
-def match(system: System, facts: Sequence[Fact]) -> dict[str, Fact]:
+def match(system: System, facts: Sequence[Fact], unknowns: Sequence[str] | None = None) -> dict[str, Fact]:
     """A maximum matching from unknowns to facts; earlier facts are matched in preference to later ones.
 
-    Augmenting paths (Berge 1957); the matched facts are the greedy basis of a transversal matroid.
+    `unknowns` are those of the system unless told otherwise. Augmenting paths (Berge 1957); the matched facts are the greedy basis of a transversal matroid.
     """
     matched: dict[str, Fact] = {}
+    wanted = frozenset(system.unknowns if unknowns is None else unknowns)
 
     def augment(fact: Fact, seen: set[str]) -> bool:
         for unknown in system.unknowns_of(fact):
-            if unknown not in seen:
+            if unknown in wanted and unknown not in seen:
                 seen.add(unknown)
                 if unknown not in matched or augment(matched[unknown], seen):
                     matched[unknown] = fact
@@ -35,15 +36,16 @@ def match(system: System, facts: Sequence[Fact]) -> dict[str, Fact]:
     return matched
 
 
-def order(system: System, facts: Sequence[Fact]) -> tuple[Group, ...]:
+def order(system: System, facts: Sequence[Fact], unknowns: Sequence[str] | None = None) -> tuple[Group, ...]:
     """The finest sequence of groups in which each determines its unknowns from the ones before.
 
-    `facts` must match all unknowns one to one. The groups are the strongly connected components of
+    `facts` must match all unknowns (of the system, unless told otherwise) one to one; raises ValueError if not. The groups are the strongly connected components of
     the matched incidence graph (Tarjan 1972), the block triangular form of Dulmage and Mendelsohn.
     """
-    matched = match(system, facts)
-    if len(matched) != len(system.unknowns) or len(facts) != len(matched):
-        raise ValueError(f"{len(facts)} facts match {len(matched)} of {len(system.unknowns)} unknowns")
+    wanted = system.unknowns if unknowns is None else tuple(unknowns)
+    matched = match(system, facts, wanted)
+    if len(matched) != len(wanted) or len(facts) != len(matched):
+        raise ValueError(f"{len(facts)} facts match {len(matched)} of {len(wanted)} unknowns")
     index: dict[str, int] = {}
     low: dict[str, int] = {}
     stack: list[str] = []
@@ -53,6 +55,8 @@ def order(system: System, facts: Sequence[Fact]) -> tuple[Group, ...]:
         index[unknown] = low[unknown] = len(index)
         stack.append(unknown)
         for needed in system.unknowns_of(matched[unknown]):
+            if needed not in matched:
+                continue
             if needed not in index:
                 visit(needed)
                 low[unknown] = min(low[unknown], low[needed])
@@ -61,11 +65,11 @@ def order(system: System, facts: Sequence[Fact]) -> tuple[Group, ...]:
         if low[unknown] == index[unknown]:
             members = stack[stack.index(unknown) :]
             del stack[stack.index(unknown) :]
-            names = tuple(name for name in system.unknowns if name in members)
+            names = tuple(name for name in wanted if name in members)
             own = {id(matched[name]) for name in names}
             groups.append(Group(tuple(fact for fact in facts if id(fact) in own), names))
 
-    for unknown in system.unknowns:
+    for unknown in wanted:
         if unknown not in index:
             visit(unknown)
     return tuple(groups)

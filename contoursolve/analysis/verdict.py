@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
+from contoursolve.analysis.generic import generic_rank
 from contoursolve.analysis.partition import order
 from contoursolve.constraints import System
 
@@ -40,14 +41,21 @@ about degree / range, 1e-3 (Schwartz 1980), two of them with 1e-6, and the shipp
 
 @lru_cache(maxsize=8192)
 def judge(system: System) -> Verdict:
-    """The verdict on a system: from the table that ships with the package, else by sympy.
+    """The verdict on a system: from the table that ships with the package, else by the rank at random values.
 
     Importing sympy takes longer than solving a program, and its verdict on a combination of words
     never changes, so those of all the controls' forms are kept in `verdicts.json`; a test compares
-    every one of them with `derive`.
+    every one of them with `derive`. Systems with further facts are judged without sympy, and without a condition.
     """
     known = _shipped().get(system.equations_key)
-    return _from_json(known) if known else derive(system)
+    return _from_json(known) if known else survey(system)
+
+
+def survey(system: System) -> Verdict:
+    """The verdict on a system without sympy, from its rank modulo a prime; it has no condition."""
+    rank = generic_rank(system)
+    free = tuple(system.unknowns[column] for column in rank.free_columns)
+    return Verdict(rank.rank, rank.independent_rows, rank.dependent_rows, free, "")
 
 
 def derive(system: System) -> Verdict:

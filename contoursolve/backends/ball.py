@@ -76,6 +76,11 @@ def root(value: Number) -> Number:
     return value.sqrt()
 
 
+def both_roots(value: Number) -> Number:
+    """A ball about 0 that holds both square roots of whatever is not negative in a ball."""
+    return arb(0, arb(value).upper().sqrt())
+
+
 def cosine(value: Number) -> Number:
     """Cosine of an angle in radians."""
     return arb(value).cos()
@@ -91,9 +96,9 @@ def magnitude(value: Number) -> Number:
     return abs(value)
 
 
-def hull(value: Number, margin: float) -> Number:
-    """A ball about a number's midpoint, wider by `margin`."""
-    return arb(value) + arb(0, margin)
+def between(low: float, high: float) -> Number:
+    """The ball from one float to another."""
+    return arb(low).union(arb(high))
 
 
 def around(value: float, margin: float) -> Number:
@@ -124,6 +129,19 @@ def distance(value: Number, at: float) -> float:
 def contains(outer: Number, inner: Number) -> bool:
     """Whether `inner` lies in the interior of the ball `outer`."""
     return bool(arb(outer).contains_interior(arb(inner)))
+
+
+def center(value: Number) -> Number:
+    """The midpoint of a ball, as a ball without width."""
+    return value if isinstance(value, fmpq) else value.mid()
+
+
+def common(first: Number, second: Number) -> Number | None:
+    """What two balls have in common, or a little more; None if nothing."""
+    try:
+        return arb(first).intersection(arb(second))
+    except ValueError:
+        return None
 
 
 def intersects(first: Number, second: Number) -> bool:

@@ -105,14 +105,15 @@ def derivatives(residuals: Sequence[Any], unknowns: Sequence[Any]) -> list[Any]:
 
 
 def quadratic_parts(
-    residuals: Sequence[Any], unknowns: Sequence[Any]
+    residuals: Sequence[Any], unknowns: Sequence[Any], origin: Sequence[Any]
 ) -> dict[tuple[int, tuple[int, ...]], Any] | None:
     """The coefficients of polynomials of degree 2 by (residual, monomial); None if one is of another kind.
 
-    A monomial names the unknowns that are multiplied, by their index in order: `(0, 0)`, `(1,)`, `()`.
+    The polynomials are in what the unknowns are more than at the origin. A monomial names the unknowns that are
+    multiplied, by their index in order: `(0, 0)`, `(1,)`, `()`.
     """
     symbols = casadi.vertcat(*unknowns)
-    zero = casadi.SX.zeros(len(unknowns))
+    zero = casadi.vertcat(*origin)
     parts: dict[tuple[int, tuple[int, ...]], Any] = {}
     for number, residual in enumerate(residuals):
         hessian, gradient = casadi.hessian(residual, symbols)
@@ -164,3 +165,12 @@ def inverse_norm(entries: Mapping[tuple[int, int], float], size: int) -> float:
         return float(numpy.abs(numpy.linalg.inv(matrix)).sum(axis=1).max())
     except numpy.linalg.LinAlgError:
         return float("inf")
+
+
+def inverse(rows: Sequence[Sequence[float]]) -> list[list[float]] | None:
+    """The inverse of a square matrix; None if it is singular or not finite."""
+    try:
+        found = numpy.linalg.inv(numpy.array(rows))
+    except numpy.linalg.LinAlgError:
+        return None
+    return found.tolist() if numpy.isfinite(found).all() else None

@@ -2,27 +2,14 @@
 
 import random
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import sympy
 from sympy.polys.domains import QQ
 from sympy.polys.matrices import DomainMatrix
 
+from contoursolve.backends.residue import ExactRank
 from contoursolve.constraints import Functions, Values
-
-
-@dataclass(frozen=True, slots=True)
-class ExactRank:
-    """Rank of a matrix of rationals with its two null spaces, as indices of their non-zero entries."""
-
-    rank: int
-    independent_rows: tuple[int, ...]
-    """The first rows, in order, that raise the rank."""
-    dependent_rows: tuple[int, ...]
-    """Rows that take part in some dependency."""
-    free_columns: tuple[int, ...]
-    """Columns whose unknown is not determined."""
 
 
 class Symbols:

@@ -3,9 +3,11 @@
 from contoursolve.constraints.circles import ArcLength, Contact, EqualRadii, OnCircle, Radius, TangentCircles
 from contoursolve.constraints.lines import (
     Along,
+    ChamferLeg,
     Directed,
     Extent,
     Foot,
+    Parallel,
     Tangent,
     TangentLine,
     Through,
@@ -20,6 +22,7 @@ __all__ = [
     "FLOATS",
     "Along",
     "ArcLength",
+    "ChamferLeg",
     "Contact",
     "Coordinate",
     "Directed",
@@ -32,6 +35,7 @@ __all__ = [
     "Heading",
     "Offset",
     "OnCircle",
+    "Parallel",
     "Radius",
     "System",
     "Tangent",

@@ -22,6 +22,12 @@ class Equation:
     def sense(self, _at: Lookup) -> Any:
         return None
 
+    def sense_reads(self) -> tuple[str, ...]:
+        return self.reads()
+
+    def reads(self) -> tuple[str, ...]:
+        raise NotImplementedError
+
     def implied(self, _at: Lookup) -> float | None:
         return None
 

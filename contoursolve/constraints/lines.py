@@ -6,7 +6,7 @@ from typing import Any
 
 from contoursolve.constraints.circles import side_of
 from contoursolve.constraints.equation import Equation, both, cross, dot, rotate, step
-from contoursolve.model import FIRST, SECOND, Lookup, Turn, line_scalars
+from contoursolve.model import FIRST, SECOND, Lookup, Turn, line_scalars, scalar
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,7 +20,7 @@ class UnitDirection(Equation):
         return line_scalars(self.line)[:2]
 
     def equation(self, at: Lookup) -> Any:
-        cosine, sine, _ = at.line(self.line)
+        cosine, sine = at.bearing(self.line)
         return cosine**2 + sine**2 - 1
 
     def residual(self, at: Lookup) -> Any:
@@ -38,13 +38,13 @@ class Directed(Equation):
         return line_scalars(self.line)[:2]
 
     def residual(self, at: Lookup) -> Any:
-        return cross(at.line(self.line)[:2], at.direction(self.given))
+        return cross(at.bearing(self.line), at.direction(self.given))
 
     def sense(self, at: Lookup) -> Any:
-        return dot(at.line(self.line)[:2], at.direction(self.given))
+        return dot(at.bearing(self.line), at.direction(self.given))
 
     def implied(self, at: Lookup) -> float | None:
-        cosine, sine, _ = at.line(self.line)
+        cosine, sine = at.bearing(self.line)
         return degrees(atan2(float(sine), float(cosine)))
 
 
@@ -65,18 +65,52 @@ class Through(Equation):
 
 @dataclass(frozen=True, slots=True)
 class Foot(Equation):
-    """`point` is the foot of the perpendicular from `center` onto the line, along the line."""
+    """`point` is the foot of the perpendicular from `center` onto the line.
+
+    With a `corner`, the point must lie before it on the line (`way` +1) or beyond it (-1).
+    """
 
     line: str
     point: str
     center: str
     given: str = ""
+    corner: str = ""
+    way: int = 1
 
     def reads(self) -> tuple[str, ...]:
         return *line_scalars(self.line)[:2], *both(self.point, self.center)
 
     def residual(self, at: Lookup) -> Any:
-        return dot(at.line(self.line)[:2], step(at, self.center, self.point))
+        return dot(at.bearing(self.line), step(at, self.center, self.point))
+
+    def sense(self, at: Lookup) -> Any:
+        return self.way * dot(at.bearing(self.line), step(at, self.point, self.corner)) if self.corner else None
+
+    def sense_reads(self) -> tuple[str, ...]:
+        return *self.reads(), *(both(self.corner) if self.corner else ())
+
+
+@dataclass(frozen=True, slots=True)
+class Parallel(Equation):
+    """The line is parallel to `axis` and runs the way that a path advances along it: the first of the pairs of
+    points in `advance` that moves along the axis tells."""
+
+    line: str
+    axis: int
+    advance: tuple[tuple[str, str], ...]
+    given: str = ""
+
+    def reads(self) -> tuple[str, ...]:
+        return line_scalars(self.line)[:2]
+
+    def residual(self, at: Lookup) -> Any:
+        return at.bearing(self.line)[1 - self.axis]
+
+    def sense(self, at: Lookup) -> Any:
+        return at.bearing(self.line)[self.axis] * way(at, self.advance, self.axis)
+
+    def sense_reads(self) -> tuple[str, ...]:
+        return *self.reads(), *(scalar(point, self.axis) for ends in self.advance for point in ends)
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,10 +149,42 @@ class Extent(Equation):
         return self._extent(at) - at.amount(self.given)
 
     def _extent(self, at: Lookup) -> Any:
-        return dot(at.line(self.line)[:2], step(at, self.tail, self.head))
+        return dot(at.bearing(self.line), step(at, self.tail, self.head))
 
     def implied(self, at: Lookup) -> float | None:
         return float(self._extent(at))
+
+
+@dataclass(frozen=True, slots=True)
+class ChamferLeg(Equation):
+    """A 45 degree chamfer from `begin` to `end` extends as far as its size along `axis`, to one side.
+
+    The side is the way in which a path advances, see `Parallel`.
+    """
+
+    begin: str
+    end: str
+    size: str
+    side: str
+    axis: int
+    advance: tuple[tuple[str, str], ...]
+    given: str = ""
+
+    def reads(self) -> tuple[str, ...]:
+        return scalar(self.begin, self.axis), scalar(self.end, self.axis), self.size
+
+    def sides(self) -> tuple[str, ...]:
+        return (self.side,)
+
+    def residual(self, at: Lookup) -> Any:
+        extent = step(at, self.begin, self.end)[self.axis]
+        return extent - at.side(self.side) * at.radius(self.size)
+
+    def sense(self, at: Lookup) -> Any:
+        return at.side(self.side) * way(at, self.advance, self.axis)
+
+    def sense_reads(self) -> tuple[str, ...]:
+        return *self.reads(), *(scalar(point, self.axis) for ends in self.advance for point in ends)
 
 
 @dataclass(frozen=True, slots=True)
@@ -133,7 +199,7 @@ class Along:
 
     def vector(self, at: Lookup) -> tuple[Any, Any]:
         """A vector in the direction, 1 mm long."""
-        return at.line(self.line)[:2]
+        return at.bearing(self.line)
 
     def length(self, _at: Lookup) -> Any:
         """The length of the vector."""
@@ -189,6 +255,12 @@ class TurnBetween(Equation):
     def implied(self, at: Lookup) -> float | None:
         first, second = self.first.vector(at), self.second.vector(at)
         return degrees(atan2(float(cross(first, second)), float(dot(first, second))))
+
+
+def way(at: Lookup, advance: tuple[tuple[str, str], ...], axis: int) -> Any:
+    """How far a path advances along an axis, by the first of its lines that moves along it at all."""
+    moves = [step(at, *ends)[axis] for ends in advance]
+    return next((move for move in moves if move != 0), moves[0])
 
 
 def left_of(at: Lookup, line: str, point: str) -> Any:

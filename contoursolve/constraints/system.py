@@ -1,6 +1,6 @@
 """A figure and its facts as a system of equations, free of values."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -35,9 +35,13 @@ class System:
         return hash(self.key)
 
     def unknowns_of(self, fact: Fact) -> tuple[str, ...]:
-        """The unknown scalars that a fact mentions. A line of given direction is known by its tail alone."""
+        """The unknown scalars that a fact mentions."""
+        return self.unknowns_among(fact.reads())
+
+    def unknowns_among(self, reads: Iterable[str]) -> tuple[str, ...]:
+        """The unknown scalars behind names that a fact reads; a line of given direction is known by its tail."""
         names: dict[str, None] = {}
-        for name in fact.reads():
+        for name in reads:
             line, _, part = name.rpartition(".")
             if line not in self.headed or part not in ("cos", "sin", "off"):
                 names[name] = None

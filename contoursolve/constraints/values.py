@@ -47,12 +47,17 @@ class Values:
     def direction(self, given: str) -> tuple[Any, Any]:
         return self.directions[given]
 
+    def bearing(self, name: str) -> tuple[Any, Any]:
+        if name in self.headed:
+            return self.direction(self.headed[name][0])
+        cosine, sine, _ = line_scalars(name)
+        return self.scalars[cosine], self.scalars[sine]
+
     def line(self, name: str) -> tuple[Any, Any, Any]:
+        cosine, sine = self.bearing(name)
         if name not in self.headed:
-            cosine, sine, offset = (self.scalars[each] for each in line_scalars(name))
-            return cosine, sine, offset
-        heading, tail = self.headed[name]
-        cosine, sine = self.direction(heading)
+            return cosine, sine, self.scalars[line_scalars(name)[2]]
+        tail = self.headed[name][1]
         return cosine, sine, cosine * self.coordinate(tail, SECOND) - sine * self.coordinate(tail, FIRST)
 
     def side(self, name: str) -> Any:

@@ -18,6 +18,9 @@ class Lookup(Protocol):
     def direction(self, given: str) -> tuple[Any, Any]:
         """Cosine and sine of a given angle."""
 
+    def bearing(self, name: str) -> tuple[Any, Any]:
+        """Cosine and sine of a line's direction."""
+
     def line(self, name: str) -> tuple[Any, Any, Any]:
         """Cosine and sine of a line's direction, and how far to the right of it the origin lies, mm.
 
@@ -55,6 +58,9 @@ class Fact(Protocol):
 
     def sense(self, at: Lookup) -> Any:
         """What must be positive besides, because the equation alone allows the opposite; None if nothing."""
+
+    def sense_reads(self) -> tuple[str, ...]:
+        """Names of the scalars that the sense depends on."""
 
     def implied(self, at: Lookup) -> float | None:
         """The value of the given (mm or degrees) that makes the residual zero; None where any does."""

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
+from contoursolve.analysis.generic import Directions, Inputs
 from contoursolve.backends.numeric import (
     Compiled,
     Tape,
@@ -22,24 +23,6 @@ from contoursolve.solving.corners import Pair, build_corner, unit
 from contoursolve.solving.plan import AffineStep, DistanceStep, LineCircleStep, Plan, Step, TwoPointsStep, make_plan
 from contoursolve.tolerance import TOUCHING
 
-COSINE, SINE = ":cos", ":sin"
-"""Suffixes of the two inputs of a given angle."""
-
-
-class _Inputs:
-    """Givens as inputs of a tape, created when a formula asks for them."""
-
-    def __init__(self, tape: Tape) -> None:
-        self._tape = tape
-
-    def __getitem__(self, given: str) -> Any:
-        return self._tape.input(given)
-
-
-class _Directions(_Inputs):
-    def __getitem__(self, given: str) -> Pair:
-        return self._tape.input(given + COSINE), self._tape.input(given + SINE)
-
 
 class _Builder:
     def __init__(self, system: System) -> None:
@@ -51,11 +34,11 @@ class _Builder:
             self.scalars[name] = self.tape.input(name)
         self.rooms: dict[str, Any] = {}
         """What the corners leave of each line."""
-        self.amounts = _Inputs(self.tape)
-        self.directions = _Directions(self.tape)
+        self.amounts = Inputs(self.tape, {})
+        self.directions = Directions(self.tape, {})
 
     def at(self, scalars: dict[str, Any]) -> Values:
-        return Values(scalars, self.amounts, self.directions)  # type: ignore[arg-type]
+        return Values(scalars, self.amounts, self.directions, self.system.headed)
 
     def point(self, name: str) -> Pair:
         return self.scalars[scalar(name, FIRST)], self.scalars[scalar(name, SECOND)]

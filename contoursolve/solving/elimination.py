@@ -6,9 +6,12 @@ from enum import Enum
 from fractions import Fraction
 from itertools import combinations
 
+from contoursolve.analysis.generic import witness_of
 from contoursolve.backends import ball
 from contoursolve.backends.ball import Number
-from contoursolve.solving.polynomial import PRIME, Coefficient, Monomial, Polynomial, known, polynomial
+from contoursolve.backends.residue import PRIME
+from contoursolve.solving.kernel import ORIGIN, Kernel
+from contoursolve.solving.polynomial import Coefficient, Monomial, Polynomial, known, polynomial, rational
 
 SHEAR = Fraction(3, 7)
 """Two conics are turned by this much (as a shear) before one unknown is eliminated, so that no two of their
@@ -22,6 +25,7 @@ class Obstacle(Enum):
     UNDECIDED = "whether a determinant is zero cannot be decided"
     TOUCHING = "whether two solutions are one or none cannot be decided"
     NO_CLOSED_FORM = "no closed form is known for it"
+    UNFINISHED = "the search was given up before all of its range was decided"
 
 
 class ObstacleError(Exception):
@@ -40,15 +44,29 @@ class Root:
     is_double: bool = False
 
 
-def solve_polynomials(equations: Sequence[Polynomial], unknowns: frozenset[int]) -> list[Root]:
-    """All real solutions. Raises ObstacleError where they cannot be told."""
-    return list(_solve(list(equations), unknowns))
+Limits = Mapping[int, float] | None
+"""How large each unknown may be. Solutions beyond are of no interest, and two that cannot be told apart may be
+enclosed together: that is for searches which look closer afterwards. Without limits nothing is left out."""
 
 
-def _solve(equations: list[Polynomial], unknowns: frozenset[int]) -> Iterator[Root]:
+def solve_step(kernel: Kernel, parameters: Sequence[Coefficient], limits: Limits = None) -> list[Root]:
+    """All real solutions of a step at the values of its parameters. Raises ObstacleError where they cannot be told."""
+    origin = {
+        name.removeprefix(ORIGIN): value.value
+        for name, value in zip(kernel.parameters, parameters, strict=True)
+        if name.startswith(ORIGIN)
+    }
+    unknowns = frozenset(range(len(kernel.unknowns)))
+    return [
+        Root({index: value + origin[kernel.unknowns[index]] for index, value in root.values.items()}, root.is_double)
+        for root in _solve(equations_of(kernel, parameters), unknowns, limits)
+    ]
+
+
+def _solve(equations: list[Polynomial], unknowns: frozenset[int], limits: Limits) -> Iterator[Root]:
     pending: list[tuple[int, Polynomial]] = []
     """Unknowns as polynomials in those that are eliminated later."""
-    equations, unknowns = _eliminate(equations, unknowns, pending)
+    equations, unknowns = _eliminate(equations, unknowns, pending, limits)
     if not unknowns:
         if _is_consistent(equations):
             yield _back(pending, {}, is_double=False)
@@ -60,9 +78,9 @@ def _solve(equations: list[Polynomial], unknowns: frozenset[int]) -> Iterator[Ro
     if single is not None:
         (unknown,) = single.unknowns
         rest = [each for each in equations if each is not single]
-        for value, is_double in _roots(single, unknown):
+        for value, is_double in _roots(single, unknown, limits):
             replacement = known(value)
-            for root in _solve([each.substitute(unknown, replacement) for each in rest], unknowns - {unknown}):
+            for root in _solve([each.substitute(unknown, replacement) for each in rest], unknowns - {unknown}, limits):
                 yield _back(pending, {**root.values, unknown: value}, is_double or root.is_double)
         return
     pair = next((pair for pair in combinations(equations, 2) if len(pair[0].unknowns | pair[1].unknowns) == 2), None)
@@ -74,12 +92,12 @@ def _solve(equations: list[Polynomial], unknowns: frozenset[int]) -> Iterator[Ro
         replaced = rest
         for unknown, value in values.items():
             replaced = [each.substitute(unknown, known(value)) for each in replaced]
-        for root in _solve(replaced, unknowns - used):
+        for root in _solve(replaced, unknowns - used, limits):
             yield _back(pending, {**root.values, **values}, root.is_double)
 
 
 def _eliminate(
-    equations: list[Polynomial], unknowns: frozenset[int], pending: list[tuple[int, Polynomial]]
+    equations: list[Polynomial], unknowns: frozenset[int], pending: list[tuple[int, Polynomial]], limits: Limits
 ) -> tuple[list[Polynomial], frozenset[int]]:
     """Solve affine equations one after the other, and make affine ones by combining the others."""
     while True:
@@ -97,6 +115,8 @@ def _eliminate(
             if monomial and ball.sign(each.terms[monomial].value)
         ]
         if not found:
+            if any(_is_beyond(each, limits) for each in linear):
+                return [polynomial({(): Coefficient(ball.exact(1.0), 1)})], unknowns
             raise ObstacleError(Obstacle.UNDECIDED)
         _, _, _, pivot, monomial = max(found, key=lambda each: (ball.middle(each[0]), each[1], each[2]))
         lead = pivot.terms[monomial]
@@ -153,7 +173,54 @@ def _without(row: Polynomial, monomial: Monomial, pivot: Polynomial) -> Polynomi
     return Polynomial({key: each for key, each in combined.terms.items() if key != monomial})
 
 
-def _roots(equation: Polynomial, unknown: int) -> list[tuple[Number, bool]]:
+def equations_of(kernel: Kernel, inputs: Sequence[Coefficient]) -> list[Polynomial]:
+    """The equations of a step as polynomials, at the values of its parameters."""
+    if kernel.coefficients is None:
+        raise ObstacleError(Obstacle.NO_CLOSED_FORM)
+    rows: list[dict[Monomial, Coefficient]] = [{} for _ in kernel.facts]
+    for (row, monomial), value in zip(kernel.terms, kernel.coefficients(inputs), strict=True):
+        rows[row][monomial] = value
+    return [polynomial(row) for row in rows]
+
+
+def remaining(kernel: Kernel) -> int | None:
+    """How many unknowns of a step are left when its affine equations are solved; None if it has no closed form.
+
+    Found at random values, which are the same for all drawings.
+    """
+    if kernel.coefficients is None:
+        return None
+    inputs = [
+        Coefficient(ball.exact(0.0), 0)
+        if name.startswith(ORIGIN)
+        else Coefficient(ball.around(witness_of(name) / PRIME, 0.0), witness_of(name))
+        for name in kernel.parameters
+    ]
+    try:
+        equations, unknowns = _eliminate(equations_of(kernel, inputs), frozenset(range(len(kernel.facts))), [], None)
+    except ObstacleError:
+        return None
+    singles = {unknown for each in equations if len(each.unknowns) == 1 for unknown in each.unknowns}
+    others = unknowns - singles
+    pairs = any(each.unknowns == others for each in equations)
+    return len(unknowns) if not others or (len(others) == 2 and pairs) else None  # noqa: PLR2004 - a pair
+
+
+def _is_beyond(equation: Polynomial, limits: Limits) -> bool:
+    """Whether an equation can hold only if an unknown is larger than its limit."""
+    if limits is None or equation.constant is None:
+        return False
+    most: Number = ball.exact(0.0)
+    for monomial, each in equation.terms.items():
+        size = 1.0
+        for index in monomial:
+            size *= limits[index]
+        if monomial:
+            most = most + ball.magnitude(each.value) * ball.exact(size)
+    return ball.sign(ball.magnitude(equation.constant.value) - most) == 1
+
+
+def _roots(equation: Polynomial, unknown: int, limits: Limits) -> list[tuple[Number, bool]]:
     """The real roots of a polynomial of degree 2 in one unknown, each with whether it is double."""
     zero = ball.exact(Fraction(0))
     a, b, c = (
@@ -161,10 +228,14 @@ def _roots(equation: Polynomial, unknown: int) -> list[tuple[Number, bool]]:
         for monomial in ((unknown, unknown), (unknown,), ())
     )
     if ball.sign(a) is None:
+        if _is_beyond(equation, limits):
+            return []
         raise ObstacleError(Obstacle.UNDECIDED)
     discriminant = b * b - 4 * a * c
     match ball.sign(discriminant):
         case None:
+            if limits is not None:
+                return [((-b + ball.both_roots(discriminant)) / (2 * a), False)]
             raise ObstacleError(Obstacle.TOUCHING)
         case -1:
             return []
@@ -183,9 +254,7 @@ def _roots(equation: Polynomial, unknown: int) -> list[tuple[Number, bool]]:
 def _conics(first: Polynomial, second: Polynomial, unknowns: tuple[int, int]) -> Iterator[dict[int, Number]]:
     """The common points of two conics: the roots of a quartic in one unknown, and the other one from each."""
     x, y = unknowns
-    shear = Coefficient(ball.exact(SHEAR), SHEAR.numerator * pow(SHEAR.denominator, -1, PRIME) % PRIME)
-    one = Coefficient(ball.exact(Fraction(1)), 1)
-    sheared = polynomial({(x,): one, (y,): shear})
+    sheared = polynomial({(x,): rational(Fraction(1)), (y,): rational(SHEAR)})
     p, q = (_by_power(each.substitute(x, sheared), x, y) for each in (first, second))
     # y**2 * p2 + y * p1 + p0 = 0 and the same with q: the resultant, and the line that they have in common.
     zero: list[Coefficient] = []

@@ -5,14 +5,18 @@ from dataclasses import dataclass
 from itertools import product
 
 from contoursolve.analysis import Group, judge, order
+from contoursolve.analysis.generic import witness_of
 from contoursolve.backends import ball
 from contoursolve.backends.ball import Number
+from contoursolve.backends.residue import draw
 from contoursolve.constraints import System
 from contoursolve.model import Line, Profile, scalar
-from contoursolve.solving.elimination import Obstacle, ObstacleError, Root, solve_polynomials
-from contoursolve.solving.ground import Ground, ground_of, witness_of
-from contoursolve.solving.kernel import Kernel, make_kernel
-from contoursolve.solving.polynomial import Coefficient, Monomial, Polynomial, polynomial
+from contoursolve.solving.driven import find_drive, follow
+from contoursolve.solving.elimination import Obstacle, ObstacleError, Root, solve_step
+from contoursolve.solving.ground import Ground, ground_of
+from contoursolve.solving.kernel import ORIGIN, Kernel, make_kernel
+from contoursolve.solving.polynomial import Coefficient
+from contoursolve.solving.search import search_everywhere
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +64,8 @@ def enumerate_solutions(profile: Profile, system: System) -> Enumeration:
     for bits in (ball.WORKING, ball.HIGHEST):
         with ball.precision(bits):
             enumeration = _Search(system, groups, ground_of(profile)).run()
-        if enumeration.is_complete:
+        # More digits do not finish a search.
+        if not any(doubt.obstacle in (Obstacle.TOUCHING, Obstacle.UNDECIDED) for doubt in enumeration.doubts):
             break
     return enumeration
 
@@ -71,22 +76,23 @@ class _Search:
         self.groups = groups
         self.ground = ground
         self.doubts: list[Doubt] = []
+        self.reach = ground.reach(system)
         self.runs = [line for line in system.figure.path if isinstance(line, Line) and line.name in system.figure.carriers]
         self.free = [line.name for line in system.figure.lines if line.name in system.figure.carriers]
 
     def run(self) -> Enumeration:
         states = [Found({}, {})]
         for group in self.groups:
-            kernel = make_kernel(self.system, group)
-            states = [after for state in states for after in self._advance(state, kernel)]
+            states = [after for state in states for after in self._advance(state, group)]
         return Enumeration(tuple(states), tuple(dict.fromkeys(self.doubts)))
 
-    def _advance(self, state: Found, kernel: Kernel) -> Iterator[Found]:
+    def _advance(self, state: Found, group: Group) -> Iterator[Found]:
+        kernel = make_kernel(self.system, group)
         open_sides = [side for side in kernel.sides if side not in state.signs]
         for values in product((1, -1), repeat=len(open_sides)):
             signs = {**state.signs, **dict(zip(open_sides, values, strict=True))}
             try:
-                roots = self._solve(kernel, state.scalars, signs)
+                roots = self._solve(group, kernel, state.scalars, signs)
             except ObstacleError as error:
                 self.doubts.append(Doubt(kernel.unknowns, error.obstacle))
                 continue
@@ -97,23 +103,52 @@ class _Search:
                 if self._is_possible(after, kernel):
                     yield after
 
-    def _solve(self, kernel: Kernel, scalars: Mapping[str, Number], signs: Mapping[str, int]) -> list[Root]:
-        if kernel.coefficients is None:
-            raise ObstacleError(Obstacle.NO_CLOSED_FORM)
-        return solve_polynomials(
-            self._polynomials(kernel, scalars, signs), frozenset(range(len(kernel.unknowns)))
-        )
+    def _solve(
+        self, group: Group, kernel: Kernel, scalars: Mapping[str, Number], signs: Mapping[str, int]
+    ) -> list[Root]:
+        if kernel.coefficients is not None:
+            try:
+                return solve_step(kernel, self._coefficients(kernel, scalars, signs, {}))
+            except ObstacleError as error:
+                if error.obstacle is not Obstacle.NO_CLOSED_FORM:
+                    raise
+        return self._follow(group, kernel, scalars, signs)
 
-    def _polynomials(
-        self, kernel: Kernel, scalars: Mapping[str, Number], signs: Mapping[str, int]
-    ) -> list[Polynomial]:
-        inputs = [
-            Coefficient(self.ground.number(name, scalars, signs), witness_of(name, signs)) for name in kernel.parameters
+    def _follow(
+        self, group: Group, kernel: Kernel, scalars: Mapping[str, Number], signs: Mapping[str, int]
+    ) -> list[Root]:
+        drive = find_drive(self.system, group)
+        reach = {name: self.reach[name] for name in kernel.unknowns}
+
+        def inputs(step: Kernel, found: Mapping[str, Number]) -> dict[str, Number]:
+            names = step.arguments[len(step.unknowns) :]
+            return {name: self.ground.number(name, {**scalars, **found}, signs) for name in names}
+
+        if drive is None:
+            self.doubts.append(Doubt(kernel.unknowns, Obstacle.NO_CLOSED_FORM))
+            return search_everywhere(kernel, inputs(kernel, {}), reach)
+        roots, is_complete = follow(
+            drive,
+            kernel,
+            lambda step, found, origin: self._coefficients(step, {**scalars, **found}, signs, origin),
+            inputs,
+            reach,
+        )
+        if not is_complete:
+            self.doubts.append(Doubt(kernel.unknowns, Obstacle.UNFINISHED))
+        return roots
+
+    def _coefficients(
+        self, kernel: Kernel, scalars: Mapping[str, Number], signs: Mapping[str, int], origin: Mapping[str, Number]
+    ) -> list[Coefficient]:
+        """The parameters of a step; the origin is zero unless told otherwise."""
+        zero = Coefficient(ball.exact(0), 0)
+        return [
+            (Coefficient(origin[name.removeprefix(ORIGIN)], draw(name)) if origin else zero)
+            if name.startswith(ORIGIN)
+            else Coefficient(self.ground.number(name, scalars, signs), witness_of(name, signs))
+            for name in kernel.parameters
         ]
-        rows: list[dict[Monomial, Coefficient]] = [{} for _ in kernel.facts]
-        for (row, monomial), value in zip(kernel.terms, kernel.coefficients(inputs), strict=True):
-            rows[row][monomial] = value
-        return [polynomial(row) for row in rows]
 
     def _is_possible(self, state: Found, kernel: Kernel) -> bool:
         """Whether radii are positive and everything runs in its stated sense; what cannot be decided is a doubt."""
@@ -132,7 +167,7 @@ class _Search:
         yield from (state.scalars[name] for name in self.system.figure.radii if name in new)
         at = self.ground.values(state.scalars, state.signs, self.system)
         for fact in self.system.facts:
-            names = self.system.unknowns_of(fact)
+            names = self.system.unknowns_among(fact.sense_reads())
             if new & set(names) and all(name in state.scalars for name in names):
                 sense = fact.sense(at)
                 if sense is not None:
@@ -150,7 +185,7 @@ class _Search:
         names = {*ends, f"{line.name}.cos"} - self.system.known
         if new & names and names <= state.scalars.keys():
             at = self.ground.values(state.scalars, state.signs, self.system)
-            cosine, sine, _ = at.line(line.name)
+            cosine, sine = at.bearing(line.name)
             yield (at.coordinate(line.head, 0) - at.coordinate(line.tail, 0)) * cosine + (
                 at.coordinate(line.head, 1) - at.coordinate(line.tail, 1)
             ) * sine

@@ -3,12 +3,14 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from contoursolve.analysis.generic import COSINE, SIDE
 from contoursolve.backends import ball
 from contoursolve.backends.ball import Number
-from contoursolve.constraints import Functions, System, Values
+from contoursolve.constraints import Coordinate, Functions, System, Values
 from contoursolve.model import FIRST, SECOND, Given, Profile, Unit, scalar
-from contoursolve.solving.kernel import COSINE, SIDE, SINE
-from contoursolve.solving.polynomial import draw, draw_direction
+
+REACH = 16.0
+"""How many times as far as anything that is given a search goes."""
 
 BALLS = Functions(ball.root, ball.cosine, ball.sine)
 
@@ -25,6 +27,33 @@ class Ground:
         """A lookup of exact numbers and balls for the facts of a system."""
         directions = {name: ball.direction(given.value) for name, given in self.angles.items()}
         return Values({**self.scalars, **scalars}, self.amounts, directions, system.headed, signs, BALLS)
+
+    def reach(self, system: System) -> dict[str, tuple[float, float]]:
+        """The range of every unknown in which solutions are searched for where there is no closed form.
+
+        Lengths and coordinates go `REACH` times as far from the start point as anything that is given.
+        """
+        starts = [ball.middle(self.scalars.get(scalar(system.figure.start, axis), ball.exact(0.0))) for axis in (0, 1)]
+        absolute = {fact.given: fact.axis for fact in system.facts if isinstance(fact, Coordinate)}
+        absolute |= {scalar(place, axis): axis for place in system.figure.places for axis in (0, 1)}
+        sizes = [
+            abs(ball.middle(value) - (starts[absolute[name]] if name in absolute else 0.0))
+            for name, value in self.amounts.items()
+        ]
+        far = REACH * max([1e-3, *sizes])
+        ranges: dict[str, tuple[float, float]] = {}
+        for name in system.unknowns:
+            part = name.rpartition(".")[2]
+            if part in ("cos", "sin"):
+                ranges[name] = (-1.0, 1.0)
+            elif name in system.figure.radii:
+                ranges[name] = (0.0, far)
+            elif part == "off":
+                ranges[name] = (-far - sum(map(abs, starts)), far + sum(map(abs, starts)))
+            else:
+                start = starts[int(part)]
+                ranges[name] = (start - far, start + far)
+        return ranges
 
     def number(self, name: str, scalars: Mapping[str, Number], signs: Mapping[str, int]) -> Number:
         """The value of an input of a kernel."""
@@ -55,15 +84,4 @@ def ground_of(profile: Profile) -> Ground:
         {name: ball.exact(given.value) for name, given in givens if given.unit is not Unit.DEGREE},
         {name: given for name, given in givens if given.unit is Unit.DEGREE},
     )
-
-
-def witness_of(name: str, signs: Mapping[str, int]) -> int:
-    """What stands for an input of a kernel where it is asked which coefficients vanish for all values."""
-    if name.startswith(SIDE):
-        return signs[name.removeprefix(SIDE)]
-    for cosine, sine in ((COSINE, SINE), (".cos", ".sin")):
-        for number, ending in enumerate((cosine, sine)):
-            if name.endswith(ending):
-                return draw_direction(name.removesuffix(ending))[number]
-    return draw(name)
 

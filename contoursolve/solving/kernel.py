@@ -1,58 +1,28 @@
 """The equations of one step of a plan, ready for exact numbers and balls."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
 from contoursolve.analysis import Group
+from contoursolve.analysis.generic import lookup
 from contoursolve.backends import ball, numeric
 from contoursolve.backends.numeric import Tape
 from contoursolve.backends.replay import Replay
-from contoursolve.constraints import Functions, System, Values
+from contoursolve.constraints import System
 from contoursolve.model import Fact
 from contoursolve.solving.polynomial import COEFFICIENTS, Monomial, rational
 
-COSINE, SINE, SIDE = ":cos", ":sin", "side:"
-"""What the inputs for a given angle end with, and that for a side begins with."""
-
-SYMBOLS = Functions(numeric.sqrt, numeric.cosine, numeric.sine)
-
-
-class Inputs(Mapping[str, Any]):
-    """Numbers by name as inputs of a tape, created when a formula asks for them; some are symbols already."""
-
-    def __init__(self, tape: Tape, symbols: Mapping[str, Any], prefix: str = "") -> None:
-        self._tape = tape
-        self._symbols = symbols
-        self._prefix = prefix
-
-    def __getitem__(self, name: str) -> Any:
-        return self._symbols[name] if name in self._symbols else self._tape.input(self._prefix + name)
-
-    def __contains__(self, _name: object) -> bool:
-        return True
-
-    def __iter__(self) -> Any:
-        raise TypeError("inputs are created by asking for them")
-
-    def __len__(self) -> int:
-        raise TypeError("inputs are created by asking for them")
-
-
-class Directions(Inputs):
-    """Given angles as pairs of inputs."""
-
-    def __getitem__(self, name: str) -> Any:
-        return self._tape.input(name + COSINE), self._tape.input(name + SINE)
+ORIGIN = "origin:"
+"""What the inputs for the point begin with about which polynomials are written."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Kernel:
     """Equations and unknowns of one step.
 
-    `coefficients` gives the coefficients of the equations as polynomials in the unknowns, in the order of
-    `terms` (equation, monomial), at the values of `parameters`; it is None if an equation is no polynomial of
+    `coefficients` gives the coefficients of the equations as polynomials in the unknowns, counted from an origin, in
+    the order of `terms` (equation, monomial), at the values of `parameters`; it is None if an equation is no polynomial of
     degree 2. `equations` gives the equations and then their derivatives, row by row, at the values of
     `arguments`, which are the unknowns and then other inputs. `function` is the same in CasADi.
     """
@@ -75,7 +45,9 @@ def make_kernel(system: System, group: Group) -> Kernel:
     symbols = {name: numeric.symbol(name) for name in group.unknowns}
     tape = Tape()
     parts = numeric.quadratic_parts(
-        [fact.equation(lookup(system, tape, symbols)) for fact in group.facts], list(symbols.values())
+        [fact.equation(lookup(system, tape, symbols)) for fact in group.facts],
+        list(symbols.values()),
+        [tape.input(ORIGIN + name) for name in group.unknowns],
     )
     coefficients = None
     if parts is not None:
@@ -101,14 +73,20 @@ def make_kernel(system: System, group: Group) -> Kernel:
     )
 
 
-def lookup(system: System, tape: Tape, symbols: Mapping[str, Any]) -> Values:
-    """A lookup whose values are symbols, or inputs of a tape."""
-    return Values(
-        Inputs(tape, symbols),
-        Inputs(tape, {}),
-        Directions(tape, {}),
-        system.headed,
-        Inputs(tape, {}, SIDE),
-        SYMBOLS,
-    )
+@dataclass(frozen=True, slots=True, eq=False)
+class Slopes:
+    """Derivatives of facts' equations by `names`, row by row, at the values of `arguments`."""
 
+    names: tuple[str, ...]
+    arguments: tuple[str, ...]
+    replay: Replay
+
+
+def make_slopes(system: System, facts: tuple[Fact, ...], names: tuple[str, ...]) -> Slopes:
+    """The derivatives of facts by some unknowns."""
+    tape = Tape()
+    unknowns = [tape.input(name) for name in names]
+    equations = [fact.equation(lookup(system, tape, {})) for fact in facts]
+    for number, expression in enumerate(numeric.derivatives(equations, unknowns)):
+        tape.output(str(number), expression)
+    return Slopes(names, tape.inputs, Replay(tape.function(), ball, ball.exact))

@@ -3,20 +3,15 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from hashlib import sha256
 from typing import Any
 
-from contoursolve.backends import ball
+from contoursolve.backends import ball, residue
 from contoursolve.backends.ball import Number
+from contoursolve.backends.residue import PRIME, draw, draw_direction
 from contoursolve.constraints import Functions
 
-PRIME = 2**61 - 1
-"""Coefficients are computed a second time modulo this prime, at values drawn from the names of the inputs: one that
-is zero there is zero for all values, with a chance of error of about 1e-17 (Schwartz 1980)."""
-
-
 class Coefficient:
-    """A number and what it is modulo `PRIME` at other values of the inputs."""
+    """A number and what it is modulo `PRIME` at other values of the inputs: zero there is zero for all values."""
 
     __slots__ = ("value", "witness")
 
@@ -53,7 +48,7 @@ class Coefficient:
 
 def rational(value: Fraction) -> Coefficient:
     """A number that is the same for all values."""
-    return Coefficient(ball.exact(value), value.numerator * pow(value.denominator, -1, PRIME) % PRIME)
+    return Coefficient(ball.exact(value), residue.rational(value))
 
 
 def _apart(function: Callable[[Number], Number], name: str) -> Callable[[Coefficient], Coefficient]:
@@ -67,18 +62,6 @@ def _rotation(part: int) -> Callable[[Coefficient], Coefficient]:
 
 
 COEFFICIENTS = Functions(_apart(ball.root, "root"), _rotation(0), _rotation(1))
-
-
-def draw(name: str) -> int:
-    """The witness of an input."""
-    return int.from_bytes(sha256(name.encode()).digest()[:8], "big") % PRIME
-
-
-def draw_direction(name: str) -> tuple[int, int]:
-    """The witnesses of the cosine and the sine of a direction: their squares add up to 1."""
-    parameter = draw(name)
-    scale = pow(1 + parameter**2, -1, PRIME)
-    return (1 - parameter**2) * scale % PRIME, 2 * parameter * scale % PRIME
 
 
 Monomial = tuple[int, ...]

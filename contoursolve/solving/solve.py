@@ -6,11 +6,12 @@ from itertools import combinations
 from math import asin, atan2, ceil, degrees, floor, hypot, isfinite, log10
 
 from contoursolve.analysis import judge
+from contoursolve.analysis.generic import COSINE, SINE
 from contoursolve.backends.angle import direction
 from contoursolve.backends.numeric import inverse_norm
 from contoursolve.constraints import Coordinate, Offset, OnCircle, Radius, System, Values, assemble
 from contoursolve.model import FIRST, SECOND, Corner, Fact, Profile, Unit, scalar
-from contoursolve.solving.compile import COSINE, SINE, compile_system
+from contoursolve.solving.compile import compile_system
 from contoursolve.solving.path import check_path
 from contoursolve.solving.plan import AffineStep, DistanceStep, LineCircleStep, Step, TwoPointsStep
 from contoursolve.solving.solution import (

@@ -1,0 +1,220 @@
+"""A drawing under construction: a figure with its facts, to which statements add what they speak about."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from decimal import Decimal
+
+from contoursolve.constraints import (
+    Along,
+    ChamferLeg,
+    Foot,
+    OnCircle,
+    Parallel,
+    Radius,
+    Tangent,
+    TangentLine,
+    Through,
+    UnitDirection,
+)
+from contoursolve.model import (
+    FIRST,
+    SECOND,
+    Arc,
+    Circle,
+    Corner,
+    CornerShape,
+    Fact,
+    Figure,
+    Given,
+    Layout,
+    Line,
+    Unit,
+    scalar,
+)
+from contoursolve.syntax import Word
+
+
+class StatementError(ValueError):
+    """A statement that makes no sense for this drawing; the message says why."""
+
+
+@dataclass(frozen=True, slots=True)
+class Round:
+    """A circle, an arc or a rounding: its centre, its radius, and where it begins and ends, if it does."""
+
+    center: str
+    radius: str
+    begin: str = ""
+    end: str = ""
+
+
+class Draft:
+    """A figure, its facts and its givens. Statements ask it for elements, which it adds as they are needed.
+
+    `word` is what states the facts that are being added; it is kept with their givens.
+    """
+
+    def __init__(self, figure: Figure, facts: Sequence[Fact], givens: Mapping[str, Given]) -> None:
+        self.figure = figure
+        self.facts = list(facts)
+        self.givens = dict(givens)
+        self.word: Word | None = None
+
+    def layout(self) -> Layout:
+        """The figure with all the facts."""
+        return Layout(self.figure, tuple(self.facts))
+
+    def add(self, *facts: Fact) -> None:
+        """Add facts."""
+        self.facts += facts
+
+    def give(self, name: str, value: Decimal, unit: Unit, *, is_diameter: bool = False) -> str:
+        """Add a given and return its name."""
+        self.givens[name] = Given(name, value, unit, self.word, is_diameter)
+        return name
+
+    def element(self, name: str) -> Line | Arc | Corner | Circle:
+        """The element of this name. Raises StatementError if there is none."""
+        everything = (*self.figure.path, *self.figure.corners, *self.figure.lines, *self.figure.circles)
+        for element in everything:
+            if element.name == name:
+                return element
+        names = ", ".join(element.name for element in everything)
+        raise StatementError(f"there is no element {name!r} here; elements are {names}")
+
+    def line(self, name: str) -> Line:
+        """A line whose direction can be spoken about: stated, or unknown as a whole."""
+        line = self.element(name)
+        if not isinstance(line, Line):
+            raise StatementError(f"{name} is not a line")
+        if line.heading is None and name not in self.figure.carriers:
+            self.figure = replace(self.figure, carriers=(*self.figure.carriers, name))
+            self.add(UnitDirection(name))
+            self.add(*(Through(name, end) for end in (line.tail, line.head) if end))
+        return line
+
+    def round(self, name: str) -> Round:
+        """An arc, a circle, or a rounding. Raises StatementError for anything else."""
+        match self.element(name):
+            case Arc() as arc:
+                return Round(arc.center, arc.radius, arc.tail, arc.head)
+            case Circle() as circle:
+                return Round(circle.center, circle.radius)
+            case Corner() as corner if corner.shape is CornerShape.FILLET:
+                self.corner(name)
+                return Round(f"{name}.center", f"{name}.radius", f"{name}.begin", f"{name}.end")
+            case _:
+                raise StatementError(f"{name} is not round")
+
+    def point(self, part: str, name: str) -> str:
+        """The point that begins, ends or centers an element."""
+        element = self.element(name)
+        if isinstance(element, Corner):
+            self.corner(name)
+            if part == "center" and element.shape is not CornerShape.FILLET:
+                raise StatementError(f"{name} is not round")
+            return f"{name}.{part}"
+        if part == "center":
+            return self.round(name).center
+        found = {"begin": getattr(element, "tail", ""), "end": getattr(element, "head", "")}[part]
+        if not found:
+            raise StatementError(f"{name} has no {part}")
+        return str(found)
+
+    def place(self, name: str, values: tuple[Decimal, Decimal]) -> str:
+        """A point with given coordinates, mm."""
+        for axis, value in enumerate(values):
+            self.give(scalar(name, axis), value, Unit.MM)
+        self.figure = replace(self.figure, places=(*self.figure.places, name))
+        return name
+
+    def circle(self, name: str, center: tuple[Decimal, Decimal], radius: Decimal) -> Round:
+        """A given circle."""
+        place = self.place(f"{name}.center", center)
+        known = self.give(f"{name}.radius", radius, Unit.MM)
+        self.figure = replace(self.figure, known_radii=(*self.figure.known_radii, known))
+        return Round(place, known)
+
+    def given_line(self, name: str, place: tuple[Decimal, Decimal], degrees: Decimal) -> str:
+        """A given line through a place in a direction."""
+        line = Line(name, self.place(f"{name}.place", place), "", self.give(f"{name}.angle", degrees, Unit.DEGREE))
+        self.figure = replace(self.figure, lines=(*self.figure.lines, line))
+        return name
+
+    def junction(self, first: str, second: str) -> str:
+        """The point in which two neighbours of the path meet."""
+        one, other = self.element(first), self.element(second)
+        if isinstance(one, Line | Arc) and isinstance(other, Line | Arc):
+            for before, after in ((one, other), (other, one)):
+                if before.head and before.head == after.tail:
+                    return before.head
+        raise StatementError(f"{first} and {second} are not neighbours")
+
+    def travel(self, name: str, at: str) -> Along | Tangent:
+        """The direction in which an element of the path is travelled at one of its ends."""
+        element = self.element(name)
+        if isinstance(element, Arc):
+            return Tangent(at, element.center, element.radius, element.turn)
+        self.line(name)
+        return Along(name)
+
+    def leave(self, point: str, arc: Arc) -> None:
+        """Drop that a point lies on an arc's circle: something else says so, in a way that keeps a tangent point
+        apart from a double intersection."""
+        self.facts = [
+            fact
+            for fact in self.facts
+            if not (isinstance(fact, OnCircle) and (fact.point, fact.center) == (point, arc.center))
+        ]
+
+    def corner(self, name: str) -> None:
+        """Make a corner's own points and its size unknowns, tied to its lines."""
+        corner = self.element(name)
+        if not isinstance(corner, Corner) or f"{name}.begin" in self.figure.points:
+            return
+        before, after = corner.before, corner.after or self._landing(corner)
+        self.line(before)
+        self.line(after)
+        begin, end, size = f"{name}.begin", f"{name}.end", f"{name}.radius"
+        points = (begin, end)
+        if corner.size in self.givens:
+            self.add(Radius(corner.size, size))
+        if corner.shape is CornerShape.FILLET:
+            center, side = f"{name}.center", f"{name}.side"
+            points = (center, begin, end)
+            self.add(
+                TangentLine(before, center, size, side),
+                TangentLine(after, center, size, side),
+                Through(before, begin),
+                Foot(before, begin, center, corner=corner.at, way=1),
+                Through(after, end),
+                Foot(after, end, center, corner=corner.at, way=-1),
+            )
+        else:
+            self.add(Through(before, begin), Through(after, end))
+            self.add(*(ChamferLeg(begin, end, size, f"{name}.{axis}", axis, self._advance(corner)) for axis in (FIRST, SECOND)))
+        self.figure = replace(
+            self.figure, points=(*self.figure.points, *points), radii=(*self.figure.radii, size)
+        )
+
+    def _advance(self, corner: Corner) -> tuple[tuple[str, str], ...]:
+        """The pairs of points whose way along an axis is the way of a 45 degree chamfer; the first that moves counts."""
+        lines = [element for element in self.figure.path if isinstance(element, Line)]
+        index = next(number for number, line in enumerate(lines) if line.name == corner.before)
+        if corner.after is not None:
+            after = next(line for line in lines if line.name == corner.after)
+            return ((lines[index].tail, after.head),)
+        return tuple((line.tail, line.head) for line in reversed(lines[: index + 1]))
+
+    def _landing(self, corner: Corner) -> str:
+        """The line that a last corner lands on."""
+        if corner.lands_on is not None:
+            return corner.lands_on
+        if corner.lands_parallel_to is None:
+            raise StatementError(f"nothing tells which line {corner.name} lands on")
+        name = f"{corner.name}.landing"
+        line = Line(name, corner.at, "")
+        self.figure = replace(self.figure, lines=(*self.figure.lines, line))
+        self.line(name)
+        self.add(Parallel(name, corner.lands_parallel_to, self._advance(corner)))
+        return name

@@ -1,0 +1,261 @@
+"""The textual form of statements, with the place of every mistake.
+
+    fact     := quantity "=" (number | "?" | quantity)
+              | element "passes through" place
+              | element "tangent to" (element | "circle" "(" axis-words R-word ")" | "line" "(" axis-words A-word ")")
+              | corner "meets" ("next line" | "line to" place | "line at" number)
+    quantity := "length of" element | "straight part of" line | "direction of" line | "radius of" element
+              | "angle from" element "to" element
+              | axis "of" (point | ("begin" | "end" | "center") "of" element)
+    place    := "(" axis-word axis-word ")"
+
+Capitals do not matter. Numbers mean what they say, with or without a decimal point, in the unit of the
+program; a coordinate of an axis that the control programs as a diameter is a diameter.
+"""
+
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from decimal import Decimal
+
+from contoursolve.model import Length, Plane
+from contoursolve.statements.meeting import Meeting, MeetsLine
+from contoursolve.statements.statement import (
+    CircleAt,
+    DirectionIs,
+    EqualLengths,
+    EqualSizes,
+    LengthIs,
+    LineAt,
+    PassesThrough,
+    Place,
+    PointIs,
+    RadiusIs,
+    Statement,
+    StraightIs,
+    Touches,
+    TurnIs,
+)
+
+_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?(?![\w.])")
+_BLANK = re.compile(r"[\s,]*")
+LONGEST_NUMBER = 40
+
+
+class GrammarError(ValueError):
+    """A statement that cannot be read: the message, and from which to which character (from 0)."""
+
+    def __init__(self, message: str, begin: int, end: int) -> None:
+        super().__init__(message)
+        self.begin = begin
+        self.end = max(end, begin + 1)
+
+
+@dataclass(frozen=True, slots=True)
+class Vocabulary:
+    """What a statement may mention: elements and points by name, the plane's axes, the unit of lengths."""
+
+    elements: Sequence[str]
+    points: Sequence[str]
+    plane: Plane
+    unit: Length
+
+
+@dataclass(frozen=True, slots=True)
+class _Quantity:
+    kind: str
+    names: tuple[str, ...]
+    state: Callable[[Decimal | None], Statement]
+    is_angle: bool = False
+    factor: Decimal = Decimal(1)
+
+
+def read_statement(text: str, vocabulary: Vocabulary) -> Statement:
+    """The statement that a text makes. Raises GrammarError."""
+    reader = _Reader(text, vocabulary)
+    statement = reader.statement()
+    reader.finish()
+    return statement
+
+
+class _Reader:
+    def __init__(self, text: str, vocabulary: Vocabulary) -> None:
+        self.text = text
+        self.words = vocabulary
+        self.at = 0
+
+    def statement(self) -> Statement:
+        quantity = self._quantity()
+        if quantity is not None:
+            return self._equation(quantity)
+        element = self._element("an element, or a quantity such as `length of`, `radius of`, `Z of`")
+        if self._accept("passes through") or self._accept("through"):
+            return PassesThrough(element, self._place())
+        if self._accept("is tangent to") or self._accept("tangent to"):
+            return Touches(element, self._other())
+        if self._accept("meets"):
+            return MeetsLine(element, self._meeting())
+        raise self._error("`passes through`, `tangent to` or `meets`")
+
+    def finish(self) -> None:
+        self._skip()
+        if self.at < len(self.text):
+            raise self._error("the end of the fact")
+
+    def _equation(self, quantity: _Quantity) -> Statement:
+        if not self._symbol("="):
+            raise self._error("`=`")
+        if self._symbol("?"):
+            return quantity.state(None)
+        begin = self._skip()
+        other = self._quantity()
+        if other is None:
+            value = self._number()
+            return quantity.state(value if quantity.is_angle else value * quantity.factor * self.words.unit.in_mm)
+        if quantity.kind == other.kind == "length":
+            return EqualLengths(quantity.names[0], other.names[0])
+        if quantity.kind == other.kind == "radius":
+            return EqualSizes(quantity.names[0], other.names[0])
+        raise GrammarError("only two lengths or two radii can be equal", begin, self.at)
+
+    def _quantity(self) -> _Quantity | None:
+        if self._accept("length of"):
+            name = self._element("an element")
+            return _Quantity("length", (name,), lambda value: LengthIs(name, value))
+        if self._accept("straight part of"):
+            name = self._element("a line")
+            return _Quantity("straight part", (name,), lambda value: StraightIs(name, value))
+        if self._accept("direction of"):
+            name = self._element("a line")
+            return _Quantity("direction", (name,), lambda value: DirectionIs(name, value), is_angle=True)
+        if self._accept("radius of") or self._accept("size of"):
+            name = self._element("an element")
+            return _Quantity("radius", (name,), lambda value: RadiusIs(name, value))
+        if self._accept("angle from"):
+            first = self._element("an element")
+            if not self._accept("to"):
+                raise self._error("`to`")
+            second = self._element("an element")
+            return _Quantity("angle", (first, second), lambda value: TurnIs(first, second, value), is_angle=True)
+        for axis, name in enumerate(self.words.plane.axes):
+            if self._accept(f"{name} of"):
+                return self._coordinate(axis)
+        return None
+
+    def _coordinate(self, axis: int) -> _Quantity:
+        factor = Decimal("0.5") if self.words.plane.diameters[axis] else Decimal(1)
+        for part, spellings in (("begin", ("begin", "start")), ("end", ("end",)), ("center", ("center", "centre"))):
+            if any(self._accept(f"{spelling} of") for spelling in spellings):
+                name = self._element("an element")
+                return _Quantity("coordinate", (name,), lambda value: PointIs(part, name, axis, value), factor=factor)
+        name = self._name(self.words.points, "a point, or `begin of`, `end of`, `center of`")
+        return _Quantity("coordinate", (name,), lambda value: PointIs("", name, axis, value), factor=factor)
+
+    def _other(self) -> str | CircleAt | LineAt:
+        begin = self.at
+        if self._accept("circle") and self._symbol("("):
+            place = self._axis_words()
+            radius = self._lettered("R") * self.words.unit.in_mm
+            self._close()
+            if radius < 0:
+                raise GrammarError("a radius is not negative", begin, self.at)
+            return CircleAt(place, radius)
+        self.at = begin
+        if self._accept("line") and self._symbol("("):
+            place = self._axis_words()
+            angle = self._lettered("A")
+            self._close()
+            return LineAt(place, angle)
+        self.at = begin
+        return self._element("an element, `circle (...)` or `line (...)`")
+
+    def _meeting(self) -> Meeting:
+        if self._accept("next line"):
+            return Meeting(None, None)
+        if self._accept("line to"):
+            return Meeting(self._place(), None)
+        if self._accept("line at"):
+            return Meeting(None, self._number())
+        raise self._error("`next line`, `line to (...)` or `line at` an angle")
+
+    def _place(self) -> Place:
+        if not self._symbol("("):
+            raise self._error("`(` and a place such as "+ self._example())
+        place = self._axis_words()
+        self._close()
+        return place
+
+    def _axis_words(self) -> Place:
+        values: dict[int, Decimal] = {}
+        for _ in range(2):
+            for axis, letter in enumerate(self.words.plane.axes):
+                if axis not in values and self._peek_letter(letter):
+                    factor = Decimal("0.5") if self.words.plane.diameters[axis] else Decimal(1)
+                    values[axis] = self._lettered(letter) * factor * self.words.unit.in_mm
+        if len(values) < 2:  # noqa: PLR2004 - both axes
+            raise self._error("a place such as " + self._example())
+        return values[0], values[1]
+
+    def _example(self) -> str:
+        first, second = self.words.plane.axes
+        return f"`({first}10. {second}20.)`"
+
+    def _peek_letter(self, letter: str) -> bool:
+        self._skip()
+        return self.text[self.at : self.at + 1].upper() == letter
+
+    def _lettered(self, letter: str) -> Decimal:
+        if not self._peek_letter(letter):
+            raise self._error(f"`{letter}` and a number")
+        self.at += 1
+        return self._number()
+
+    def _close(self) -> None:
+        if not self._symbol(")"):
+            raise self._error("`)`")
+
+    def _element(self, expected: str) -> str:
+        return self._name(self.words.elements, expected)
+
+    def _name(self, names: Sequence[str], expected: str) -> str:
+        self._skip()
+        for name in sorted(names, key=len, reverse=True):
+            if self._accept(name):
+                return name
+        raise self._error(f"{expected} ({', '.join(names)})")
+
+    def _number(self) -> Decimal:
+        self._skip()
+        match = _NUMBER.match(self.text, self.at)
+        if not match or len(match[0]) > LONGEST_NUMBER:
+            raise self._error("a number")
+        self.at = match.end()
+        return Decimal(match[0])
+
+    def _accept(self, phrase: str) -> bool:
+        """Whether the next words are these; then they are passed over."""
+        begin = self._skip()
+        pattern = r"\s+".join(re.escape(word) for word in phrase.split()) + r"(?!\w)"
+        match = re.compile(pattern, re.IGNORECASE).match(self.text, begin)
+        if match:
+            self.at = match.end()
+        return match is not None
+
+    def _symbol(self, symbol: str) -> bool:
+        self._skip()
+        if self.text.startswith(symbol, self.at):
+            self.at += 1
+            return True
+        return False
+
+    def _skip(self) -> int:
+        match = _BLANK.match(self.text, self.at)
+        if match:
+            self.at = match.end()
+        return self.at
+
+    def _error(self, expected: str) -> GrammarError:
+        self._skip()
+        rest = re.compile(r"[^\s(),=]+|.", re.DOTALL).match(self.text, self.at)
+        found = f"`{rest[0]}`" if rest else "the end"
+        return GrammarError(f"expected {expected}, found {found}", self.at, rest.end() if rest else self.at)

@@ -1,0 +1,304 @@
+"""Further facts that a user may state about a drawing: one small class each, with its values.
+
+Lengths are in mm, angles in degrees, coordinates in the plane's axes with X of a lathe as radius. A value that
+is None is asked for instead of stated. `state` adds the equations to a draft under a name.
+"""
+
+from dataclasses import dataclass
+from decimal import Decimal
+from typing import Protocol
+
+from contoursolve.constraints import (
+    Along,
+    ArcLength,
+    Contact,
+    Coordinate,
+    Directed,
+    Distance,
+    EqualDistances,
+    EqualRadii,
+    Extent,
+    Foot,
+    Heading,
+    OnCircle,
+    Radius,
+    TangentCircles,
+    TangentLine,
+    Through,
+    TurnBetween,
+)
+from contoursolve.model import FIRST, SECOND, Arc, Corner, CornerShape, Fact, Line, Unit
+from contoursolve.statements.draft import Draft, Round, StatementError
+
+Place = tuple[Decimal, Decimal]
+
+
+@dataclass(frozen=True, slots=True)
+class CircleAt:
+    """A given circle."""
+
+    center: Place
+    radius: Decimal
+
+
+@dataclass(frozen=True, slots=True)
+class LineAt:
+    """A given line through a place, running at an angle."""
+
+    place: Place
+    angle: Decimal
+
+
+class Statement(Protocol):
+    """What a user states or asks about a drawing."""
+
+    def state(self, draft: Draft, name: str) -> Fact:
+        """Add the equations, and return the one that the statement amounts to.
+
+        Raises StatementError if it makes no sense for this drawing. A value that is asked for adds no given;
+        the fact that is returned tells it (`implied`).
+        """
+
+
+@dataclass(frozen=True, slots=True)
+class PointIs:
+    """A coordinate of a point: a virtual intersection, or where an element begins, ends or has its centre."""
+
+    part: str
+    """`begin`, `end` or `center`; empty where `of` is a point itself."""
+    of: str
+    axis: int
+    value: Decimal | None
+
+    def state(self, draft: Draft, name: str) -> Fact:
+        point = draft.point(self.part, self.of) if self.part else self.of
+        if not self.part and point not in (*draft.figure.points, draft.figure.start):
+            raise StatementError(f"there is no point {point!r} here; points are {', '.join(draft.figure.points)}")
+        return _stated(draft, Coordinate(name, point, self.axis), self.value, Unit.MM)
+
+
+@dataclass(frozen=True, slots=True)
+class LengthIs:
+    """The length of a line (between the virtual intersections at its ends), of an arc, or of a corner."""
+
+    element: str
+    value: Decimal | None
+
+    def state(self, draft: Draft, name: str) -> Fact:
+        element = draft.element(self.element)
+        if isinstance(element, Line):
+            _check_ends(element)
+            if element.heading is None and element.name not in draft.figure.carriers:
+                return _stated(draft, Distance(name, element.tail, element.head), self.value, Unit.MM)
+            return _stated(draft, Extent(name, element.name, element.tail, element.head), self.value, Unit.MM)
+        if isinstance(element, Corner) and element.shape is not CornerShape.FILLET:
+            draft.corner(element.name)
+            ends = f"{element.name}.begin", f"{element.name}.end"
+            return _stated(draft, Distance(name, *ends), self.value, Unit.MM)
+        form = draft.round(self.element)
+        if not form.begin:
+            raise StatementError(f"{self.element} is a whole circle and has no ends")
+        turn = element.turn if isinstance(element, Arc) else None
+        if turn is None:
+            raise StatementError(f"the length of {self.element} depends on its sense; state the angle between its lines")
+        return _stated(draft, ArcLength(name, form.begin, form.end, form.center, form.radius, turn), self.value, Unit.MM)
+
+
+@dataclass(frozen=True, slots=True)
+class StraightIs:
+    """The length of a line's straight part, between the corners at its ends."""
+
+    line: str
+    value: Decimal | None
+
+    def state(self, draft: Draft, name: str) -> Fact:
+        line = draft.line(self.line)
+        _check_ends(line)
+        ends = [line.tail, line.head]
+        for corner in draft.figure.corners:
+            for number, (at, part) in enumerate(((line.tail, "end"), (line.head, "begin"))):
+                if corner.at == at:
+                    ends[number] = draft.point(part, corner.name)
+        return _stated(draft, Extent(name, self.line, *ends), self.value, Unit.MM)
+
+
+@dataclass(frozen=True, slots=True)
+class DirectionIs:
+    """The direction in which a line runs."""
+
+    line: str
+    value: Decimal | None
+
+    def state(self, draft: Draft, name: str) -> Fact:
+        line = draft.element(self.line)
+        if isinstance(line, Line) and line.heading is not None:
+            return _stated(draft, Heading(name, line.tail, line.head), self.value, Unit.DEGREE)
+        draft.line(self.line)
+        return _stated(draft, Directed(name, self.line), self.value, Unit.DEGREE)
+
+
+@dataclass(frozen=True, slots=True)
+class TurnIs:
+    """By how much the direction of travel turns from one element to another, counter-clockwise."""
+
+    first: str
+    second: str
+    value: Decimal | None
+
+    def state(self, draft: Draft, name: str) -> Fact:
+        first, second = draft.element(self.first), draft.element(self.second)
+        if isinstance(first, Line) and isinstance(second, Line):
+            vectors: tuple[object, object] = (draft.travel(self.first, ""), draft.travel(self.second, ""))
+        else:
+            at = draft.junction(self.first, self.second)
+            vectors = (draft.travel(self.first, at), draft.travel(self.second, at))
+        return _stated(draft, TurnBetween(name, *vectors), self.value, Unit.DEGREE)  # type: ignore[arg-type]
+
+
+@dataclass(frozen=True, slots=True)
+class PassesThrough:
+    """An element, or the line or circle that it is part of, passes through a place."""
+
+    element: str
+    place: Place
+
+    def state(self, draft: Draft, name: str) -> Fact:
+        place = draft.place(f"{name}.place", self.place)
+        if isinstance(draft.element(self.element), Line):
+            draft.line(self.element)
+            return _named(draft, name, Through(self.element, place, name))
+        form = draft.round(self.element)
+        return _named(draft, name, OnCircle(place, form.center, form.radius, name))
+
+
+@dataclass(frozen=True, slots=True)
+class RadiusIs:
+    """The radius of an arc, a circle or a rounding, or the size of a chamfer."""
+
+    element: str
+    value: Decimal | None
+
+    def state(self, draft: Draft, name: str) -> Fact:
+        element = draft.element(self.element)
+        if isinstance(element, Corner):
+            draft.corner(element.name)
+            return _stated(draft, Radius(name, f"{element.name}.radius"), self.value, Unit.MM)
+        return _stated(draft, Radius(name, draft.round(self.element).radius), self.value, Unit.MM)
+
+
+@dataclass(frozen=True, slots=True)
+class Touches:
+    """Two elements are tangent. Neighbours go on smoothly; others touch from any side."""
+
+    first: str
+    second: str | CircleAt | LineAt
+
+    def state(self, draft: Draft, name: str) -> Fact:
+        if isinstance(self.second, str):
+            try:
+                at = draft.junction(self.first, self.second)
+            except StatementError:
+                return self._touch(draft, name, self.second)
+            return self._join(draft, name, at)
+        if isinstance(self.second, CircleAt):
+            return self._touch(draft, name, draft.circle(name, self.second.center, self.second.radius))
+        return self._touch(draft, name, draft.given_line(f"{name}.line", self.second.place, self.second.angle))
+
+    def _join(self, draft: Draft, name: str, at: str) -> Fact:
+        """Neighbours: the sense of both says on which side they touch."""
+        first, second = draft.element(self.first), draft.element(str(self.second))
+        if isinstance(first, Arc) and isinstance(second, Arc):
+            circles = (first.center, first.radius), (second.center, second.radius)
+            side = 1 if first.turn is not second.turn else -1
+            draft.leave(at, first)
+            draft.leave(at, second)
+            draft.add(*(Contact(at, *circles, side, axis) for axis in (FIRST, SECOND)))
+            return _named(draft, name, TangentCircles(*circles, side, name))
+        if isinstance(first, Line) and isinstance(second, Line):
+            straight = draft.give(name, Decimal(0), Unit.DEGREE)
+            draft.line(self.first)
+            draft.line(second.name)
+            fact = TurnBetween(straight, Along(self.first), Along(second.name))
+            draft.add(fact)
+            return fact
+        arc, line = (first, second) if isinstance(first, Arc) else (second, first)
+        if not isinstance(arc, Arc) or not isinstance(line, Line):
+            raise StatementError(f"{self.first} and {self.second} cannot be tangent")
+        draft.line(line.name)
+        draft.leave(at, arc)
+        draft.add(Foot(line.name, at, arc.center))
+        return _named(draft, name, TangentLine(line.name, arc.center, arc.radius, arc.turn.sign, name))
+
+    def _touch(self, draft: Draft, name: str, other: str | Round) -> Fact:
+        """Elements that are not neighbours: the side is open."""
+        first = draft.element(self.first)
+        is_line = isinstance(other, str) and isinstance(draft.element(other), Line)
+        if isinstance(first, Line) and is_line:
+            raise StatementError("two lines cannot be tangent unless they are neighbours")
+        side = f"{name}.side"
+        if isinstance(first, Line) or is_line:
+            line, circle = (self.first, other) if isinstance(first, Line) else (str(other), self.first)
+            form = draft.round(circle) if isinstance(circle, str) else circle
+            draft.line(line)
+            return _named(draft, name, TangentLine(line, form.center, form.radius, side, name))
+        one = draft.round(self.first)
+        second = draft.round(other) if isinstance(other, str) else other
+        circles = (one.center, one.radius), (second.center, second.radius)
+        return _named(draft, name, TangentCircles(*circles, side, name))
+
+
+@dataclass(frozen=True, slots=True)
+class EqualLengths:
+    """Two lines are equally long."""
+
+    first: str
+    second: str
+
+    def state(self, draft: Draft, name: str) -> Fact:
+        ends = []
+        for each in (self.first, self.second):
+            line = draft.element(each)
+            if not isinstance(line, Line):
+                raise StatementError(f"{each} is not a line")
+            _check_ends(line)
+            ends.append((line.tail, line.head))
+        return _named(draft, name, EqualDistances(name, *ends))
+
+
+@dataclass(frozen=True, slots=True)
+class EqualSizes:
+    """Two arcs, circles or corners have the same radius."""
+
+    first: str
+    second: str
+
+    def state(self, draft: Draft, name: str) -> Fact:
+        radii = []
+        for each in (self.first, self.second):
+            element = draft.element(each)
+            if isinstance(element, Corner):
+                draft.corner(each)
+                radii.append(f"{each}.radius")
+            else:
+                radii.append(draft.round(each).radius)
+        return _named(draft, name, EqualRadii(name, *radii))
+
+
+def _stated(draft: Draft, fact: Fact, value: Decimal | None, unit: Unit) -> Fact:
+    """A fact with its value; one that is asked for is not added."""
+    if value is not None:
+        draft.give(fact.given, value, unit)
+        draft.add(fact)
+    return fact
+
+
+def _named(draft: Draft, name: str, fact: Fact) -> Fact:
+    """A fact without a value of its own; the given keeps the words that state it."""
+    draft.give(name, Decimal(0), Unit.SIGN)
+    draft.add(fact)
+    return fact
+
+
+def _check_ends(line: Line) -> None:
+    if not (line.tail and line.head):
+        raise StatementError(f"{line.name} is a whole line and has no ends")

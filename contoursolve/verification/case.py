@@ -1,0 +1,122 @@
+"""One contour to check: what the program says, what the result claims, in coordinates from the start point."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from decimal import Decimal
+
+from contoursolve.model import FIRST, SECOND, Turn
+from contoursolve.reading import Claim
+from contoursolve.tolerance import RESIDUAL
+from contoursolve.verification.claimed import ClaimedContour, ClaimedElement
+from contoursolve.verification.ledger import Ledger
+from contoursolve.verification.measure import EPSILON, PRINTED, ROUNDING
+from contoursolve.verification.node import Coordinates
+
+Origin = tuple[Decimal, Decimal]
+"""The start point, mm, as the program states it."""
+
+CERTIFIED = 4
+"""1. A residual that compares a point with three others may be off by the error of all four of them."""
+
+
+@dataclass(frozen=True, slots=True)
+class Circle:
+    """The circle of an arc, from the start point; radius in mm."""
+
+    center: complex
+    radius: float
+    turn: Turn
+
+
+@dataclass(frozen=True, slots=True)
+class Move:
+    """A claimed element, from the start point; `circle` is None for a line."""
+
+    start: complex
+    end: complex
+    circle: Circle | None
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """A contour with a claimed path.
+
+    All points are counted from the program's start point, the difference taken in decimals. `limit` (mm) is
+    what a residual may be: 1e-9 and the rounding of the coordinates. `reach` is the largest number counted from
+    the start point, `size` the largest coordinate of the program's own, both mm. `start_error` (mm) is how far
+    the start point may be from the one that was solved from.
+    """
+
+    claim: Claim
+    claimed: ClaimedContour
+    origin: Origin
+    end: complex | None
+    points: Mapping[str, complex]
+    moves: tuple[Move, ...]
+    size: float
+    reach: float
+    start_error: float
+
+    @property
+    def limit(self) -> float:
+        """What a residual may be, mm."""
+        return RESIDUAL + ROUNDING * self.size
+
+    def texts(self, *names: str) -> tuple[str, ...]:
+        """The words that state these givens, as typed."""
+        return tuple(self.claim.words[name].text for name in names if name in self.claim.words)
+
+    def states(self, *names: str) -> tuple[str, ...]:
+        """Those of these givens that the program states, or the control supplies."""
+        return tuple(name for name in names if name in self.claim.givens)
+
+    def value(self, name: str) -> Decimal:
+        """A given, mm or degrees, as stated."""
+        return self.claim.givens[name].value
+
+    def amount(self, name: str) -> float:
+        """A given length or increment, mm."""
+        return float(self.value(name))
+
+    def coordinate(self, name: str, axis: int) -> float:
+        """A given absolute coordinate, counted from the start point, mm."""
+        return float(self.value(name) - self.origin[axis])
+
+    def compare(self, ledger: Ledger, name: str, words: Iterable[str], gap: float, unsure: float) -> None:
+        """A gap (mm) between a claimed point and the same point worked out here, which is `unsure` (mm) itself.
+
+        The claimed certificate must not promise more than that.
+        """
+        stated, certificate = tuple(words), self.claimed.certificate
+        ledger.measure(name, stated, gap, self.limit + unsure)
+        if certificate.radius is not None:
+            allowed = CERTIFIED * max(0.0, certificate.radius) + PRINTED + ROUNDING * self.size + unsure
+            ledger.measure(f"the certificate's radius covers that {name}", stated, gap, allowed)
+
+
+def make_case(claim: Claim, claimed: ClaimedContour, origin: Origin, start_error: float) -> Case:
+    """The claimed numbers of a contour, counted from its start point."""
+
+    def place(at: Coordinates) -> complex:
+        return complex(
+            float(Decimal(at[FIRST]) - origin[FIRST]),
+            float(Decimal(at[SECOND]) - origin[SECOND]),
+        )
+
+    def move(element: ClaimedElement) -> Move:
+        arc = element.arc
+        circle = Circle(place(arc.center), arc.radius, arc.turn) if arc else None
+        return Move(place(element.start), place(element.end), circle)
+
+    moves = tuple(map(move, claimed.elements))
+    points = {name: place(at) for name, at in claimed.points.items()}
+    end = None if claimed.end is None else place(claimed.end)
+    circles = [each.circle for each in moves if each.circle]
+    near = [abs(each.end) for each in moves]
+    near += [abs(each.center) for each in circles] + [abs(each.radius) for each in circles]
+    near += map(abs, points.values())
+    reach = max([1.0, *near, *(abs(float(given.value)) for given in claim.givens.values())])
+    size = reach + max(abs(float(value)) for value in origin)
+    # The solver went on from an end of its own, of which the result has 12 decimals.
+    inherited = start_error + EPSILON * size if start_error else 0.0
+    return Case(claim, claimed, origin, end, points, moves, size, reach, inherited)

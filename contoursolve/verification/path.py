@@ -1,0 +1,40 @@
+"""What holds for every path, whatever its form: no gaps, nothing without length, arcs on their circles."""
+
+from contoursolve.tolerance import LENGTH
+from contoursolve.verification.case import Case
+from contoursolve.verification.ledger import Ledger
+from contoursolve.verification.measure import PRINTED
+
+SHORTEST = LENGTH - 2 * PRINTED
+"""mm. Elements shorter than this are left out; the ends of this one were rounded to 12 decimals."""
+
+CERTIFICATE_KINDS = ("exact", "unique", "verified", "unknown")
+
+
+def check_path(case: Case, ledger: Ledger) -> None:
+    """The claimed elements as a path from the start to the claimed end."""
+    here, name = 0j, "the start"
+    for number, move in enumerate(case.moves, 1):
+        own = f"element {number}"
+        ledger.measure(f"{own} begins at {name}", (), abs(move.start - here), case.limit)
+        length = abs(move.end - move.start)
+        ledger.require(f"{own} has a length", (), length >= SHORTEST, f"{length:.3g} mm")
+        if move.circle:
+            center, radius = move.circle.center, move.circle.radius
+            ledger.require(f"{own} has a radius", (), radius > 0, f"{radius:g} mm")
+            ledger.measure(f"{own} begins on its circle", (), abs(move.start - center) - radius, case.limit)
+            ledger.measure(f"{own} ends on its circle", (), abs(move.end - center) - radius, case.limit)
+        here, name = move.end, f"the end of {own}"
+    if ledger.require("the result says where the contour ends", (), case.end is not None, "end is null"):
+        ledger.measure(f"the contour ends at {name}", (), abs((case.end or 0j) - here), case.limit)
+
+
+def check_certificate(case: Case, ledger: Ledger) -> None:
+    """What can be said of the certificate alone; its radius is held against every point that is worked out."""
+    certificate = case.claimed.certificate
+    named = certificate.kind in CERTIFICATE_KINDS
+    ledger.require("the certificate is of a known kind", (), named, f"{ascii(certificate.kind)[:60]}")
+    if certificate.radius is None:
+        ledger.omit("the certificate", "it names no radius")
+    else:
+        ledger.require("the certificate's radius is not negative", (), certificate.radius >= 0, "it is")

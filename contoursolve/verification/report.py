@@ -1,0 +1,74 @@
+"""A receipt as text: a line for each contour, what is wrong with it, what was not checked, the verdict."""
+
+from collections.abc import Iterator
+
+from contoursolve.tolerance import AGREEMENT
+from contoursolve.verification.ledger import Check
+from contoursolve.verification.receipt import ContourReceipt, Receipt, Verdict
+
+_VERDICTS = {
+    Verdict.VERIFIED: "verified",
+    Verdict.FAILED: "WRONG",
+    Verdict.NOTHING_CHECKED: "no path checked",
+}
+
+
+def report_lines(receipt: Receipt) -> Iterator[str]:
+    """The lines of a receipt, in pure ASCII apart from the names of the inputs."""
+    for contour in receipt.contours:
+        yield from _contour_lines(receipt, contour)
+    for omission in receipt.omissions:
+        yield f"{receipt.program.name}: not checked: {_plain(omission.what)}: {_plain(omission.why)}"
+    if receipt.contours or receipt.omissions:
+        yield ""
+    yield f"program {receipt.program.checksum}  {receipt.program.name}"
+    yield f"result  {receipt.result.checksum}  {receipt.result.name}"
+    yield _summary(receipt)
+
+
+def _contour_lines(receipt: Receipt, contour: ContourReceipt) -> Iterator[str]:
+    claimed = f"claimed {contour.status}" if contour.status else "not in the result"
+    place = f"{receipt.program.name}:{contour.line}: {_plain(contour.form)}: {claimed}"
+    yield f"{place}: {_VERDICTS[contour.verdict]} ({_count(len(contour.checks), 'check')}{_largest(contour)})"
+    for check in contour.checks:
+        if not check.passed:
+            yield f"  wrong: {_check_text(check)}"
+    for omission in contour.omissions:
+        yield f"  not checked: {_plain(omission.what)}: {_plain(omission.why)}"
+
+
+def _largest(contour: ContourReceipt) -> str:
+    """The largest residual, if the path was checked; what the control lets differ is no error of the result."""
+    measured = (check for check in contour.checks if check.limit is not None and check.limit < AGREEMENT)
+    found = [check.residual for check in measured if check.residual is not None]
+    return f", off by at most {max(found):.1e} mm" if found and contour.verdict is Verdict.VERIFIED else ""
+
+
+def _check_text(check: Check) -> str:
+    words = f" ({' '.join(map(_plain, check.words))})" if check.words else ""
+    if check.limit is None:
+        return f"{check.name}{words}: {_plain(check.remark) or 'it is not so'}"
+    off = "not a number" if check.residual is None else f"off by {check.residual:.3g} {check.unit}"
+    return f"{check.name}{words}: {off}, allowed {check.limit:.1e} {check.unit}"
+
+
+def _summary(receipt: Receipt) -> str:
+    """How many contours got which verdict, and the verdict on all of them."""
+    verdicts = [contour.verdict for contour in receipt.contours]
+    counts = ", ".join(f"{verdicts.count(each)} {_VERDICTS[each]}" for each in Verdict if each in verdicts)
+    examined = f"{_count(len(verdicts), 'contour')} ({counts})" if verdicts else "no contour"
+    meaning = {
+        Verdict.VERIFIED: "every claimed path is right",
+        Verdict.FAILED: "the result is not right",
+        Verdict.NOTHING_CHECKED: "checked nothing: the result claims no path that could be checked",
+    }
+    return f"{examined}; {meaning[receipt.verdict]}"
+
+
+def _plain(text: str) -> str:
+    """Text of the inputs in printable ASCII."""
+    return text if text.isascii() and text.isprintable() else ascii(text)[1:-1]
+
+
+def _count(number: int, noun: str) -> str:
+    return f"{number} {noun}{'' if number == 1 else 's'}"
