@@ -1,8 +1,12 @@
 """The front door for Python: parse, check and solve a block, a text or a file."""
 
+from __future__ import annotations
+
 import sys
+from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from contoursolve import syntax
 from contoursolve.diagnostic import Diagnostic, Severity
@@ -11,7 +15,10 @@ from contoursolve.examine import Depth, Policy
 from contoursolve.model import Length
 from contoursolve.pipeline import Result, UnknownControlError, recognise, run
 from contoursolve.reading import Trouble
-from contoursolve.syntax import Program
+from contoursolve.syntax import Directive, Program
+
+if TYPE_CHECKING:
+    from contoursolve.statements import Statement
 
 STANDARD_INPUT = "-"
 _TAPE_CODES = bytes([0x02, 0x03, 0x11, 0x12, 0x13, 0x14, 0x1A])
@@ -42,6 +49,7 @@ def solve(
     units: str = "mm",
     rules: str = "enforce",
     depth: str = "full",
+    facts: Iterable[str | Statement] = (),
     name: str = "<program>",
 ) -> Result:
     """Solve every contour of a program, or of a single block.
@@ -53,6 +61,7 @@ def solve(
         units: `mm` or `inch`, for numbers before any G20 or G21.
         rules: `enforce`, `warn` or `off` (see `Policy`).
         depth: `full`, or `verdict` for findings without reasons and repairs (see `Depth`).
+        facts: further facts about the only contour, as text (see `contoursolve facts`) or as statements.
         name: what findings call the program.
 
     Returns:
@@ -61,6 +70,7 @@ def solve(
 
     Raises:
         UnknownControlError: the control is unknown, or the program does not tell it.
+        FactPlaceError: facts for a program of several contours.
         ValueError: units, rules or depth is none of its choices.
 
     >>> answer = solve("G111 X100. A180. K-30. B120. P5. Q5.", start="X40. Z0.").answers[0]
@@ -70,9 +80,12 @@ def solve(
     ['-50.2073', '50.0000']
     >>> solve("G111 X100. A180. B120.", start="X40. Z0.").answers[0].status.value
     'rejected'
+    >>> asked = solve("G111 X100. A180. K-30. B120. P?", start="X40. Z0.", facts=["straight part of line 2 = 30."])
+    >>> f"{asked.answers[0].answers[0].value:.3f}"
+    '8.038'
     """
     program = syntax.parse(text, name)
-    return solve_program(program, control=control, start=start, units=units, rules=rules, depth=depth)
+    return solve_program(program, control=control, start=start, units=units, rules=rules, depth=depth, facts=facts)
 
 
 def check(
@@ -114,11 +127,18 @@ def solve_program(
     units: str = "mm",
     rules: str = "enforce",
     depth: str = "full",
+    facts: Iterable[str | Statement] = (),
 ) -> Result:
     """Solve every contour of a program that was parsed or read before; as `solve`."""
     dialect = find_dialect(control) if control else recognise(program)
     beginning = syntax.parse(start, program.name, first_line=0) if start is not None else None
-    return run(program, dialect, Length(units), Policy(rules), Depth(depth), beginning)
+    stated = [_fact(fact, -number) for number, fact in enumerate(facts, 1)]
+    return run(program, dialect, Length(units), Policy(rules), Depth(depth), beginning, stated)
+
+
+def _fact(fact: str | Statement, line: int) -> Directive:
+    text = fact if isinstance(fact, str) else str(fact)
+    return replace(syntax.read_directive(text, line), statement=None if isinstance(fact, str) else fact)
 
 
 def only_findings(result: Result) -> Result:

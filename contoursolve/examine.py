@@ -1,9 +1,12 @@
 """One contour from its words to its path: every check in order, and everything there is to say."""
 
-from collections.abc import Iterator, Sequence
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from enum import Enum
+from typing import TYPE_CHECKING
 
 from contoursolve.analysis import judge
 from contoursolve.constraints import assemble
@@ -20,7 +23,7 @@ from contoursolve.explain import (
     report,
     without_point,
 )
-from contoursolve.model import Length, Plane, Profile, Side, Start
+from contoursolve.model import Length, Plane, Profile, Question, Side, Start
 from contoursolve.reading import Claim, Lexicon, Trouble, read
 from contoursolve.rules import Rule, check
 from contoursolve.solving import (
@@ -30,9 +33,15 @@ from contoursolve.solving import (
     RemarkKind,
     Solution,
     Status,
+    lookup,
     points_with_two_solutions,
+    scalars_of,
     solve,
 )
+from contoursolve.solving.certificate import Certificate
+
+if TYPE_CHECKING:
+    from contoursolve.solving.alternatives import Alternatives
 from contoursolve.source import Span
 from contoursolve.syntax import Fault, Word
 from contoursolve.tolerance import LARGEST
@@ -59,6 +68,23 @@ class Depth(Enum):
 
 
 @dataclass(frozen=True, slots=True)
+class AskedValue:
+    """A value that was asked for: mm (radius) or degrees; None where nothing determines it."""
+
+    question: Question
+    value: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class Filled:
+    """Blocks with the values that were asked for filled in, rounded to the least increment; they make the same
+    contour to within `deviation` mm."""
+
+    blocks: tuple[str, ...]
+    deviation: float
+
+
+@dataclass(frozen=True, slots=True)
 class Answer:
     """What became of one contour of a program.
 
@@ -80,6 +106,13 @@ class Answer:
     diagnostics: tuple[Diagnostic, ...]
     diagnosis: Diagnosis | None = None
     """Made where there is a finding, see `contoursolve.diagnosis`."""
+    certificate: Certificate | None = None
+    answers: tuple[AskedValue, ...] = ()
+    """The values that were asked for."""
+    alternatives: Alternatives | None = None
+    """Every solution, where more than the control's own was looked for; see `list_alternatives`."""
+    filled: Filled | None = None
+    """The block with them filled in, where it then stands alone."""
 
 
 class _Notebook:
@@ -99,8 +132,20 @@ class _Notebook:
         return next((status for status in Status if status in self.statuses), Status.SOLVED)
 
 
-def examine(claim: Claim, rules: tuple[Rule, ...], policy: Policy) -> Answer:
-    """Everything there is to say about one contour, and its path if there is one."""
+def _no_place() -> None:
+    """The next block is not known."""
+
+
+def examine(
+    claim: Claim,
+    rules: tuple[Rule, ...],
+    policy: Policy,
+    next_place: Callable[[], tuple[Decimal, Decimal] | None] = _no_place,
+) -> Answer:
+    """Everything there is to say about one contour, and its path if there is one.
+
+    `next_place` tells where the line of the next block ends, if that is known; some facts are about it.
+    """
     context, notebook = context_of(claim, rules), _Notebook()
     _examine_words(context, claim, notebook)
     is_readable = not notebook.statuses
@@ -111,18 +156,25 @@ def examine(claim: Claim, rules: tuple[Rule, ...], policy: Policy) -> Answer:
         if not offence.rule.ignores:
             finding = explain_offence(context, offence)
             weaker = replace(finding, severity=Severity.WARNING)
-            notebook.add(finding if policy is Policy.ENFORCE else weaker, Status.REJECTED)
+            # What states or asks more than the control reads is not a block for the control yet.
+            is_strict = policy is Policy.ENFORCE and not _is_extended(claim)
+            notebook.add(finding if is_strict else weaker, Status.REJECTED)
     ignoring = [offence for offence in offences if offence.rule.ignores]
-    profile = read(claim, frozenset(offence.rule.ignores for offence in ignoring))
+    profile, is_stated = _state_more(
+        context, claim, read(claim, frozenset(offence.rule.ignores for offence in ignoring)), next_place, notebook
+    )
+    is_readable = is_readable and is_stated
     if not profile.start.is_known:
         notebook.add(_explain_start(context, claim), Status.UNDERDETERMINED)
     for finding in (*_explain_skippable(context, claim), *without_point(context, claim)):
         notebook.add(finding)
-    solution = _examine_geometry(context, claim, profile, notebook) if is_readable else Solution(Status.REJECTED)
+    solution, alternatives = Solution(Status.REJECTED), None
+    if is_readable:
+        solution, alternatives = _examine_geometry(context, claim, profile, notebook)
     for offence in ignoring:
         notebook.add(explain_ignored(context, offence, profile, solution))
 
-    is_path = solution.points and notebook.status in (Status.SOLVED, Status.OVERDETERMINED)
+    is_path = bool(solution.points) and notebook.status in (Status.SOLVED, Status.OVERDETERMINED)
     contour = trace(profile, solution) if is_path else None
     is_double = any(remark.kind is RemarkKind.TOUCHES for remark in solution.remarks)
     side = next((choice.side for choice in profile.choices if choice.point in profile.intersections), None)
@@ -139,7 +191,53 @@ def examine(claim: Claim, rules: tuple[Rule, ...], policy: Policy) -> Answer:
         side=side if contour and not is_double else None,
         error_bound=solution.error_bound,
         diagnostics=tuple(sorted(notebook.findings, key=rank)),
+        certificate=solution.certificate if contour else None,
+        answers=tuple(_answer(question, profile, solution) for question in profile.questions),
+        alternatives=alternatives,
     )
+
+
+def list_alternatives(answer: Answer) -> Alternatives | None:
+    """Every solution of a contour, the control's choice among them; None where nothing was solved, or where the
+    equations are solved one after the other without a choice, so that there is one."""
+    if answer.alternatives is not None or answer.contour is None or not points_with_two_solutions(assemble(answer.profile)):
+        return answer.alternatives
+    from contoursolve.solving.alternatives import find_alternatives  # noqa: PLC0415 - see _solve
+
+    return find_alternatives(answer.profile)
+
+
+def _is_extended(claim: Claim) -> bool:
+    return bool(claim.directives) or any(word.is_asked for word in claim.words.values())
+
+
+def _state_more(
+    context: Context,
+    claim: Claim,
+    profile: Profile,
+    next_place: Callable[[], tuple[Decimal, Decimal] | None],
+    notebook: _Notebook,
+) -> tuple[Profile, bool]:
+    """The profile with the facts that comments state, and whether all of them could be used."""
+    if not profile.is_extended:
+        return profile, True
+    # Few blocks state more than their words.
+    from contoursolve.statements import Flaw, apply_statements  # noqa: PLC0415
+
+    profile, faults = apply_statements(profile, claim.directives, next_place)
+    kinds = {Flaw.UNREADABLE: Trouble.FACT_UNREADABLE, Flaw.IMPOSSIBLE: Trouble.FACT_IMPOSSIBLE}
+    for fault in faults:
+        rule = context.row(kinds[fault.flaw])
+        notebook.add(report(context, rule, Basis.RULE, [fault.word], reason=fault.message), Status.REJECTED)
+    return profile, not faults
+
+
+def _answer(question: Question, profile: Profile, solution: Solution) -> AskedValue:
+    """The value of what is asked for, at the points of a solution."""
+    if not solution.points:
+        return AskedValue(question, None)
+    scalars = {**solution.scalars, **scalars_of(solution.points), **solution.radii}
+    return AskedValue(question, question.fact.implied(lookup(profile, scalars)))
 
 
 def _examine_words(context: Context, claim: Claim, notebook: _Notebook) -> None:
@@ -150,12 +248,14 @@ def _examine_words(context: Context, claim: Claim, notebook: _Notebook) -> None:
             notebook.add(explain_fault(context, fault), Status.REJECTED)
     for finding in (*explain_words(context, claim.lexicon, claim.repeated, words), *_explain_unknown(context, claim)):
         notebook.add(finding, Status.REJECTED)
-    variables = [word for word in claim.words.values() if word.number is None]
+    variables = [word for word in claim.words.values() if word.number is None and not word.is_asked]
     if variables:
         notebook.add(report(context, context.row(Trouble.VARIABLE), Basis.RULE, variables), Status.UNDERDETERMINED)
 
 
-def _examine_geometry(context: Context, claim: Claim, profile: Profile, notebook: _Notebook) -> Solution:
+def _examine_geometry(
+    context: Context, claim: Claim, profile: Profile, notebook: _Notebook
+) -> tuple[Solution, Alternatives | None]:
     """The system for all values, then its solution at the values of the block.
 
     A block that is refused is not solved; but if it says too much, whether its words agree is told.
@@ -165,21 +265,41 @@ def _examine_geometry(context: Context, claim: Claim, profile: Profile, notebook
         rule, missing = context.row(Trouble.UNDERDETERMINED), f"{claim.form.blocks[0]}, which is not there"
         finding = report(context, rule, Basis.RULE, [], free=missing, completions="write it in the block before")
         notebook.add(_secondary(finding, is_refused), Status.UNDERDETERMINED)
-        return Solution(Status.UNDERDETERMINED)
+        return Solution(Status.UNDERDETERMINED), None
     structure = list(_examine_system(context, claim, profile))
     for status, finding in structure:
         notebook.add(_secondary(finding, is_refused), status)
     system = assemble(profile)
     says_too_much = len(system.facts) > len(system.unknowns)
     if structure or not profile.start.is_known or (is_refused and not says_too_much):
-        return Solution(Status.UNDERDETERMINED)
-    solution = solve(profile)
+        return Solution(Status.UNDERDETERMINED), None
+    solution, alternatives = _solve(profile)
     events: list[Refusal | Remark] = [*solution.refusals, *solution.remarks]
     for event in events:
         if not is_refused or event.kind in _ABOUT_WORDS:
             notebook.add(explain_result(context, event, profile))
             notebook.statuses.add(solution.status)
-    return Solution(solution.status) if is_refused else solution
+    return (Solution(solution.status), None) if is_refused else (solution, alternatives)
+
+
+def _solve(profile: Profile) -> tuple[Solution, Alternatives | None]:
+    """The contour that the control makes, or the only one that there is."""
+    is_chosen = not profile.is_extended and not _open_points(profile)
+    solution = solve(profile) if is_chosen else None
+    if solution is not None and not any(remark.kind is RemarkKind.TOUCHES for remark in solution.remarks):
+        return solution, None
+    # Unusual combinations, open choices, and lines that touch as far as floats can tell.
+    from contoursolve.solving.alternatives import find_alternatives  # noqa: PLC0415
+    from contoursolve.solving.decide import decide  # noqa: PLC0415
+
+    alternatives = find_alternatives(profile)
+    return decide(alternatives, profile), alternatives
+
+
+def _open_points(profile: Profile) -> list[str]:
+    """The points between whose two places nothing chooses."""
+    chosen = {choice.point for choice in profile.choices}
+    return [point for point in points_with_two_solutions(assemble(profile)) if point not in chosen]
 
 
 _ABOUT_WORDS = (RefusalKind.WORDS_DISAGREE, RemarkKind.WORDS_AGREE)
@@ -199,10 +319,10 @@ def _examine_system(context: Context, claim: Claim, profile: Profile) -> Iterato
     by_name: dict[str, list[str]] = {}
     for corner in profile.figure.corners:
         by_name.setdefault(corner.name, []).append(corner.size)
-        if profile.givens[corner.size].value < 0:
+        if corner.size in profile.givens and profile.givens[corner.size].value < 0:
             rule, word = context.row(Trouble.CORNER_NEGATIVE), [context.words[corner.size]]
             yield Status.NO_SOLUTION, report(context, rule, Basis.NUMERICAL, word, subject=corner.name)
-        if corner.after is None and corner.lands_parallel_to is None:
+        if corner.after is None and corner.lands_parallel_to is None and corner.lands_on is None:
             rule = context.row(Trouble.CORNER_NOWHERE)
             word = [context.words[corner.size]]
             yield Status.UNDERDETERMINED, report(context, rule, Basis.STRUCTURAL, word, subject=corner.name)
@@ -211,12 +331,6 @@ def _examine_system(context: Context, claim: Claim, profile: Profile) -> Iterato
             words = [context.words[size] for size in sizes]
             rule = context.row(Trouble.CORNER_TWICE)
             yield Status.CONFLICTING, report(context, rule, Basis.STRUCTURAL, words, subject=name)
-    if verdict.is_determined:
-        chosen = {choice.point for choice in profile.choices}
-        for point in points_with_two_solutions(system):
-            if point not in chosen:
-                rule = context.row(Trouble.CHOICE_MISSING)
-                yield Status.UNDERDETERMINED, report(context, rule, Basis.STRUCTURAL, [], subject=point)
 
 
 def explain_fault(context: Context, fault: Fault) -> Diagnostic:

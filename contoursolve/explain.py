@@ -201,6 +201,8 @@ def explain_result(context: Context, event: Refusal | Remark, profile: Profile) 
             fields[name] = text
     if "off_by_mm" in values:
         fields["off"] = length_text(values["off_by_mm"], context.unit)
+    if event.kind is RemarkKind.SEVERAL:
+        fields["count"] = f"{event.values['actual']:.0f}"
     labels = _labels(event, fields)
     return report(context, context.row(event.kind), Basis.NUMERICAL, words, values, labels, **fields)
 

@@ -9,8 +9,8 @@ from contoursolve.dialects import DIALECTS, Dialect, Unresolved
 from contoursolve.examine import Answer, Depth, Policy, examine, explain_fault, explain_words, rank
 from contoursolve.explain import Context, report
 from contoursolve.model import Length
-from contoursolve.reading import Claim, Position, State, Trouble, advance, positions
-from contoursolve.syntax import Block, FaultKind, Program, Word
+from contoursolve.reading import Claim, Position, State, Trouble, advance, apply_modes, positions
+from contoursolve.syntax import Block, Directive, FaultKind, Program, Word
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,6 +23,8 @@ class Result:
     diagnostics: tuple[Diagnostic, ...]
     start: Program | None = None
     """What stated the start point apart from the program; its line is line 0."""
+    facts: tuple[Directive, ...] = ()
+    """What was stated apart from the program; their lines are -1, -2, ..."""
 
     @property
     def has_errors(self) -> bool:
@@ -32,6 +34,30 @@ class Result:
 
 class UnknownControlError(ValueError):
     """The program does not tell which control it is for; the message lists the choices."""
+
+
+class FactPlaceError(ValueError):
+    """Facts were stated apart from a program with several contours; the message says what to do."""
+
+
+def _attach(
+    program: Program, dialect: Dialect, unit: Length, start: Program | None, facts: Sequence[Directive]
+) -> Program:
+    """The program with further facts in the last block of its only contour, or else of its last block."""
+    answers = list(_Examiner(program, dialect, unit, Policy.OFF, Depth.VERDICT).walk(start))
+    if len(answers) > 1:
+        lines = ", ".join(str(answer.lines[0]) for answer in answers)
+        raise FactPlaceError(
+            f"the program has {len(answers)} contours (lines {lines}); write the fact into the block that it is about, "
+            "as a comment (contoursolve: ...)"
+        )
+    lines_with_words = [block.line for block in program.blocks if block.words]
+    last = answers[0].lines[-1] if answers else max(lines_with_words, default=0)
+    blocks = tuple(
+        replace(block, directives=(*block.directives, *facts)) if block.line == last else block
+        for block in program.blocks
+    )
+    return replace(program, blocks=blocks)
 
 
 def recognise(program: Program) -> Dialect | None:
@@ -53,19 +79,24 @@ def run(
     policy: Policy,
     depth: Depth = Depth.FULL,
     start: Program | None = None,
+    facts: Sequence[Directive] = (),
 ) -> Result:
     """Examine every block of a program and solve every contour.
 
-    `start` is a block that states the start point apart from the program. Without a dialect only the
-    characters of the program are examined.
+    `start` is a block that states the start point apart from the program, `facts` are further facts about its
+    only contour; raises FactPlaceError if it has several. Without a dialect only the characters of the program are
+    examined.
     """
+    if facts and dialect is not None:
+        program = _attach(program, dialect, unit, start, facts)
     examiner = _Examiner(program, dialect, unit, policy, depth)
     answers = list(examiner.walk(start))
     if not answers and not any(each.severity is Severity.ERROR for each in examiner.diagnostics):
         examiner.nothing_to_solve()
     everything = [*examiner.diagnostics, *(each for answer in answers for each in answer.diagnostics)]
     everything.sort(key=rank)
-    return Result(program, dialect.name if dialect else None, tuple(answers), tuple(everything), start)
+    control = dialect.name if dialect else None
+    return Result(program, control, tuple(answers), tuple(everything), start, tuple(facts))
 
 
 _FAULTS_OF_NO_CONSEQUENCE = (FaultKind.STRAY_CHARACTER,)
@@ -100,7 +131,7 @@ class _Examiner:
             block = blocks[index]
             found = dialect.find(blocks, index, state, dialect.modes)
             if isinstance(found, Claim):
-                answer = examine(found, self.rules, self.policy)
+                answer = self._examine(found, index, state)
                 has_findings = any(each.severity is not Severity.INFO for each in answer.diagnostics)
                 if has_findings and self.depth is Depth.FULL:
                     # Most programs need no diagnosis, and none should wait for its import.
@@ -117,6 +148,19 @@ class _Examiner:
                     self._unresolved(found)
                     state = state.lose(state.plane.axes, f"{found.form} is not resolved", found.word.span)
             index += 1
+
+    def _examine(self, found: Claim, index: int, state: State) -> Answer:
+        """The answer to a contour that begins at a block, with the values that it asks for filled in."""
+        dialect, blocks = self.dialect, self.program.blocks
+        if dialect is None:
+            raise ValueError("without a control there is no contour")
+        after = index + found.blocks[-1].line - found.blocks[0].line + 1
+        answer = examine(found, self.rules, self.policy, lambda: _next_place(blocks[after:], found, dialect))
+        if answer.contour is None or not any(value.value is not None for value in answer.answers):
+            return answer
+        from contoursolve.fill import fill_in  # noqa: PLC0415 - few blocks ask for a value
+
+        return replace(answer, filled=fill_in(answer, state, dialect))
 
     def nothing_to_solve(self) -> None:
         """The finding that a program has no contour block."""
@@ -170,6 +214,23 @@ def _state_after(claim: Claim, answer: Answer, dialect: Dialect) -> State:
     lines = " and ".join(str(line) for line in answer.lines)
     reason = f"the contour of line {lines} before it is not solved"
     return state.lose(state.plane.axes, reason, last.span).move(programmed)
+
+
+def _next_place(blocks: Sequence[Block], claim: Claim, dialect: Dialect) -> tuple[Decimal, Decimal] | None:
+    """Where the line of the next block ends, if it is a line and both its coordinates are known."""
+    block = next((block for block in blocks if block.words), None)
+    if block is None or block.faults:
+        return None
+    modes, state = dialect.modes, apply_modes(claim.after, block, dialect.modes)
+    addresses = modes.lexicon.addresses
+    words = [word for word in block.words if word.address in addresses and addresses[word.address].axis]
+    if state.motion not in (0, 1, None):
+        return None
+    unknown = state.lose(modes.axes, "the contour before it is not solved yet", None)
+    first, second = (positions(unknown, words, modes, False).get(axis) for axis in state.plane.axes)
+    if first is None or second is None or first.value is None or second.value is None:
+        return None
+    return first.value, second.value
 
 
 def _repeated(words: Sequence[Word]) -> list[Word]:

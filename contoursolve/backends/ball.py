@@ -7,7 +7,6 @@ stays exact. Balls have the precision of the innermost `precision` block.
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from decimal import Decimal
-from fractions import Fraction
 from functools import lru_cache
 from math import inf, nextafter
 from typing import Any
@@ -29,8 +28,8 @@ def precision(bits: int) -> Iterator[None]:
         yield
 
 
-def exact(value: Decimal | Fraction | float) -> Number:
-    """A finite decimal, fraction or float as the rational number that it is."""
+def exact(value: Decimal | float) -> Number:
+    """A finite decimal or float as the rational number that it is."""
     numerator, denominator = value.as_integer_ratio()
     return fmpq(numerator, denominator)
 
@@ -104,6 +103,11 @@ def between(low: float, high: float) -> Number:
 def around(value: float, margin: float) -> Number:
     """The ball of radius `margin` about a float."""
     return arb(value, margin)
+
+
+def wider(value: Number, margin: float) -> Number:
+    """A ball about a number, wider by `margin`."""
+    return arb(value) + arb(0, margin)
 
 
 def is_finite(value: Number) -> bool:

@@ -71,9 +71,23 @@ class Tape:
         outputs = casadi.densify(casadi.vertcat(*self._outputs.values()))
         return casadi.Function("contour", [inputs], [outputs])
 
+    def keep(self, prefixes: tuple[str, ...], names: Sequence[str]) -> "Tape":
+        """The same tape with only the outputs of these names, or that begin so."""
+        kept = Tape()
+        kept._inputs = self._inputs
+        kept._outputs = {
+            name: each for name, each in self._outputs.items() if name in names or name.startswith(prefixes)
+        }
+        return kept
+
+    @property
+    def outputs(self) -> tuple[str, ...]:
+        """The names of the outputs, in order."""
+        return tuple(self._outputs)
+
     def finish(self) -> "Compiled":
         """The function of all inputs and outputs."""
-        return Compiled(self.function(), self.inputs, tuple(self._outputs))
+        return Compiled(self.function(), self.inputs, self.outputs)
 
 
 def symbol(name: str) -> Any:

@@ -2,7 +2,6 @@
 
 import operator
 from collections.abc import Callable, Mapping, Sequence
-from fractions import Fraction
 from typing import Any
 
 import casadi
@@ -20,6 +19,7 @@ _UNARY: Mapping[int, Callable[[Any], Any]] = {
     casadi.OP_INV: lambda value: 1 / value,
     casadi.OP_ASSIGN: lambda value: value,
 }
+_CHOICES = (casadi.OP_EQ, casadi.OP_LE, casadi.OP_NOT, casadi.OP_IF_ELSE_ZERO)
 _POWERS = (casadi.OP_POW, casadi.OP_CONSTPOW)
 _FUNCTIONS: Mapping[int, str] = {
     casadi.OP_SQRT: "root",
@@ -34,31 +34,35 @@ class Replay:
     """The instructions of a function of one vector to one vector, as a list to run through.
 
     `functions` gives what is not arithmetic, as attributes `root`, `cosine`, `sine`, `magnitude`, `sign`; `constant`
-    makes a number of the wanted kind from a rational one.
+    makes a number of the wanted kind from a float.
     """
 
-    def __init__(self, function: Any, functions: Any, constant: Callable[[Fraction], Any]) -> None:
-        self._zero = constant(Fraction(0))
+    def __init__(self, function: Any, functions: Any, constant: Callable[[float], Any]) -> None:
+        self._zero = constant(0.0)
         self._inputs: list[tuple[int, int]] = []
         self._outputs: list[tuple[int, int]] = []
         self._count = function.nnz_out(0)
-        self._steps: list[tuple[Callable[..., Any], tuple[int, ...], int]] = []
+        self._steps: list[tuple[Callable[..., Any], int, int, int]] = []
+        """Operation, first and second operand (-1 for none), result."""
         self._constants: list[tuple[int, Any]] = []
         # CasADi reuses places of its work vector; every value gets a place of its own here.
         place: dict[int, int] = {}
         for number in range(function.n_instructions()):
             kind = function.instruction_id(number)
             if kind == casadi.OP_OUTPUT:
-                self._outputs.append((place[function.instruction_input(number)[0]], function.instruction_output(number)[1]))
+                self._outputs.append(
+                    (place[function.instruction_input(number)[0]], function.instruction_output(number)[1])
+                )
                 continue
             read = tuple(function.instruction_input(number))
             target = function.instruction_output(number)[0]
             if kind == casadi.OP_INPUT:
                 self._inputs.append((read[1], number))
             elif kind == casadi.OP_CONST:
-                self._constants.append((number, constant(Fraction(function.instruction_constant(number)))))
+                self._constants.append((number, constant(function.instruction_constant(number))))
             else:
-                self._steps.append((_operation(kind, functions), tuple(place[each] for each in read), number))
+                first, second = place[read[0]], place[read[1]] if len(read) > 1 else -1
+                self._steps.append((_operation(kind, functions), first, second, number))
             place[target] = number
         self._places = function.n_instructions()
 
@@ -69,8 +73,8 @@ class Replay:
             work[target] = inputs[source]
         for target, value in self._constants:
             work[target] = value
-        for operation, read, target in self._steps:
-            work[target] = operation(*[work[each] for each in read])
+        for operation, first, second, target in self._steps:
+            work[target] = operation(work[first], work[second]) if second >= 0 else operation(work[first])
         results = [self._zero] * self._count
         for source, target in self._outputs:
             results[target] = work[source]
@@ -87,4 +91,18 @@ def _operation(kind: int, functions: Any) -> Callable[..., Any]:
         return found
     if kind in _POWERS:
         return operator.pow
+    if kind in _CHOICES:
+        return _choice(kind, functions)
     raise ValueError(f"CasADi instruction {kind} has no counterpart here")
+
+
+def _choice(kind: int, functions: Any) -> Callable[..., Any]:
+    """Comparisons give True or False here; `functions.sign` and `functions.at_most` decide, or raise an error."""
+    if kind == casadi.OP_EQ:
+        return lambda a, b: functions.sign(a - b) == 0
+    if kind == casadi.OP_LE:
+        compare: Callable[..., Any] = functions.at_most
+        return compare
+    if kind == casadi.OP_NOT:
+        return operator.not_
+    return lambda condition, value: value if condition else value * 0

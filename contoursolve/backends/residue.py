@@ -5,9 +5,7 @@ The chance that something else is zero by accident is about its degree / PRIME, 
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import lru_cache
-from hashlib import sha256
 
 PRIME = 2**61 - 1
 
@@ -42,15 +40,20 @@ class Residue:
         return Residue(-self.value)
 
 
-def rational(value: Fraction) -> int:
-    """A fraction as a residue."""
-    return value.numerator * pow(value.denominator, -1, PRIME) % PRIME
+EXPONENT = 0x1E3779B97F4A7C15
+"""Prime to PRIME - 1: powers of different numbers differ, and tell nothing of each other."""
+
+
+def rational(value: float) -> int:
+    """The rational number that a float is, as a residue."""
+    numerator, denominator = value.as_integer_ratio()
+    return numerator * pow(denominator, -1, PRIME) % PRIME
 
 
 @lru_cache(maxsize=65536)
 def draw(name: str) -> int:
     """A residue that has nothing to do with that of any other name."""
-    return int.from_bytes(sha256(name.encode()).digest()[:8], "big") % PRIME
+    return pow(int.from_bytes(b"\1" + name.encode(), "big"), EXPONENT, PRIME)
 
 
 @lru_cache(maxsize=65536)
@@ -115,7 +118,11 @@ def exact_rank(matrix: Sequence[Sequence[int]], columns: int) -> ExactRank:
         row = [value * scale % PRIME for value in row]
         made_of = {index: share * scale % PRIME for index, share in made_of.items()}
         kept = [
-            (pivot, [(a - other[lead] * b) % PRIME for a, b in zip(other, row, strict=True)], _less(others, other[lead], made_of))
+            (
+                pivot,
+                [(a - other[lead] * b) % PRIME for a, b in zip(other, row, strict=True)],
+                _less(others, other[lead], made_of),
+            )
             for pivot, other, others in kept
         ]
         kept.append((lead, row, made_of))
@@ -128,6 +135,4 @@ def exact_rank(matrix: Sequence[Sequence[int]], columns: int) -> ExactRank:
 
 
 def _less(row: dict[int, int], factor: int, other: dict[int, int]) -> dict[int, int]:
-    return {
-        index: (row.get(index, 0) - factor * other.get(index, 0)) % PRIME for index in row.keys() | other.keys()
-    }
+    return {index: (row.get(index, 0) - factor * other.get(index, 0)) % PRIME for index in row.keys() | other.keys()}

@@ -1,22 +1,33 @@
-"""Facts as equations, and the system that they make together."""
+"""Facts as equations, and the system that they make together.
 
-from contoursolve.constraints.circles import ArcLength, Contact, EqualRadii, OnCircle, Radius, TangentCircles
-from contoursolve.constraints.lines import (
-    Along,
-    ChamferLeg,
-    Directed,
-    Extent,
-    Foot,
-    Parallel,
-    Tangent,
-    TangentLine,
-    Through,
-    TurnBetween,
-    UnitDirection,
-)
-from contoursolve.constraints.points import Coordinate, Distance, EqualDistances, Heading, Offset
+The facts that no control's form states by itself are imported when they are first used: to make a record class
+takes half a millisecond, and there are many.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from contoursolve.constraints.circles import OnCircle, Radius
+from contoursolve.constraints.points import Coordinate, Heading, Offset
 from contoursolve.constraints.system import System, assemble, build_system
 from contoursolve.constraints.values import FLOATS, Functions, Values, headed_lines
+
+if TYPE_CHECKING:
+    from contoursolve.constraints.distances import Distance, EqualDistances
+    from contoursolve.constraints.lines import (
+        Along,
+        ChamferLeg,
+        Directed,
+        Extent,
+        Foot,
+        Parallel,
+        Tangent,
+        TangentLine,
+        Through,
+        TurnBetween,
+        UnitDirection,
+    )
+    from contoursolve.constraints.touching import ArcLength, Contact, EqualRadii, TangentCircles
 
 __all__ = [
     "FLOATS",
@@ -49,3 +60,16 @@ __all__ = [
     "build_system",
     "headed_lines",
 ]
+
+_ROOMS = {
+    "distances": ("Distance", "EqualDistances"),
+    "touching": ("ArcLength", "Contact", "EqualRadii", "TangentCircles"),
+}
+"""Where the facts live that are imported late; the others are in `lines`."""
+
+
+def __getattr__(name: str) -> Any:
+    if name not in __all__:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    room = next((room for room, names in _ROOMS.items() if name in names), "lines")
+    return getattr(import_module(f"{__name__}.{room}"), name)

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from math import atan2, degrees
 from typing import Any
 
-from contoursolve.constraints.circles import side_of
 from contoursolve.constraints.equation import Equation, both, cross, dot, rotate, step
+from contoursolve.constraints.touching import side_of
 from contoursolve.model import FIRST, SECOND, Lookup, Turn, line_scalars, scalar
 
 

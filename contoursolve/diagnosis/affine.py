@@ -11,7 +11,8 @@ from itertools import combinations
 
 import numpy
 
-from contoursolve.constraints import OnCircle, assemble
+from contoursolve.analysis.identities import is_affine
+from contoursolve.constraints import assemble
 from contoursolve.diagnostic import Freedom
 from contoursolve.model import FIRST, SECOND, Fact, Profile, scalar
 from contoursolve.solving import lookup
@@ -90,7 +91,7 @@ class AffineFacts:
 
 def affine_facts(profile: Profile, facts: Sequence[Fact]) -> AffineFacts | None:
     """Facts of a profile, at its values, as a matrix; None if one is not affine or the start is unknown."""
-    if any(isinstance(fact, OnCircle) for fact in facts) or not profile.start.is_known:
+    if not is_affine(facts) or not profile.start.is_known:
         return None
     unknowns = assemble(profile).unknowns
 

@@ -13,7 +13,9 @@ from contoursolve.syntax import FaultKind
 def list_layers(answer: Answer, policy: Policy) -> tuple[Layer, ...]:
     """The six checks of a contour, in order. A check that could not run has found nothing and passed nothing."""
     claim = answer.claim
+    # Further facts belong to the profile that was solved; those of ignored words are left out there as well.
     whole = read(claim, frozenset(fact.given for fact in answer.profile.ignored))
+    whole = answer.profile if whole.is_extended else whole
     grammar = [each for each in answer.diagnostics if each.about in _GRAMMAR]
     refused = [each for each in answer.diagnostics if each.basis is Basis.RULE and _counts(each.severity)]
     refused = [each for each in refused if each not in grammar]
@@ -38,6 +40,8 @@ _GRAMMAR = (
     Trouble.REPEATED_ADDRESS,
     Trouble.UNKNOWN_ADDRESS,
     Trouble.VARIABLE,
+    Trouble.FACT_UNREADABLE,
+    Trouble.FACT_IMPOSSIBLE,
     Trouble.VALUE_TOO_LARGE,
 )
 _EQUATIONS = ("structure", "generic rank", "values", "geometry")

@@ -60,7 +60,8 @@ def find_repairs(answer: Answer, dialect: Dialect) -> Repairs:
     A repair leaves no error and no warning. None of them contains another one.
     """
     claim = answer.claim
-    if len(claim.blocks) < claim.form.length or not answer.start.is_known:
+    if len(claim.blocks) < claim.form.length or not answer.start.is_known or answer.profile.is_extended:
+        # With further facts, what to write instead is the block with its values filled in.
         return Repairs((), is_complete=False)
     whole = _Geometry.of(claim)
     reference = answer.contour or examine(claim, dialect.rules, Policy.OFF).contour

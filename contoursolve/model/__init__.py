@@ -2,7 +2,7 @@
 
 from contoursolve.model.fact import Fact, Lookup, line_scalars, scalar
 from contoursolve.model.figure import FIRST, SECOND, Arc, Circle, Corner, CornerShape, Figure, Line, Turn
-from contoursolve.model.profile import Choice, Given, Layout, Length, Plane, Profile, Side, Start, Unit
+from contoursolve.model.profile import Choice, Given, Layout, Length, Plane, Profile, Question, Side, Start, Unit
 
 __all__ = [
     "FIRST",
@@ -21,6 +21,7 @@ __all__ = [
     "Lookup",
     "Plane",
     "Profile",
+    "Question",
     "Side",
     "Start",
     "Turn",

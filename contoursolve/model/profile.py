@@ -55,6 +55,17 @@ class Given:
 
 
 @dataclass(frozen=True, slots=True)
+class Question:
+    """A value that is asked for: its name, the fact that tells it, and how it is written."""
+
+    name: str
+    fact: Fact
+    unit: Unit
+    word: Word
+    is_diameter: bool = False
+
+
+@dataclass(frozen=True, slots=True)
 class Start:
     """The start point of a contour: a value in mm (X as radius) per axis, None where unknown."""
 
@@ -121,6 +132,9 @@ class Profile:
     intersections: tuple[str, ...]
     ignored: tuple[Fact, ...] = ()
     choices: tuple[Choice, ...] = ()
+    questions: tuple[Question, ...] = ()
+    is_extended: bool = False
+    """Whether it states or asks more than its form provides for."""
 
     @property
     def figure(self) -> Figure:

@@ -32,7 +32,9 @@ def finding_lines(finding: Diagnostic, name: str, sources: Mapping[int, str], st
     title = style(f"{role}[{finding.code}]", role) + style(f": {finding.message}", "bold")
     gutter = max(len(str(label.span.line)) for label in finding.labels) if finding.labels else 1
     bar = " " * (gutter + 1) + style("|", "frame")
-    place = f"{name}:{finding.span.line}:{finding.span.column}" if finding.span.line else "--start"
+    place = f"{name}:{finding.span.line}:{finding.span.column}"
+    if finding.span.line <= 0:
+        place = "--fact" if finding.span.line else "--start"
     lines = [title, " " * gutter + style("-->", "frame") + f" {place}", bar]
     by_line: dict[int, list[Label]] = {}
     for label in finding.labels:

@@ -1,7 +1,7 @@
 """Modal state, and the way from blocks to profiles."""
 
 from contoursolve.reading.advance import Modes, advance, apply_modes, codes_of, positions
-from contoursolve.reading.claim import Claim, Trouble, read
+from contoursolve.reading.claim import Claim, Selector, Trouble, read
 from contoursolve.reading.codes import Code, Effect
 from contoursolve.reading.form import CornerRow, FactRow, Form, Sample, lay_out, stated_sets
 from contoursolve.reading.lexicon import Address, Lexicon, NumberFormat, WithoutPoint
@@ -20,6 +20,7 @@ __all__ = [
     "NumberFormat",
     "Position",
     "Sample",
+    "Selector",
     "State",
     "Trouble",
     "WithoutPoint",

@@ -1,15 +1,16 @@
 """A contour found in a program: its form, its blocks, and every word with the given that it states."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from decimal import Decimal
 from enum import Enum
 
-from contoursolve.model import Choice, Given, Profile, Turn
+from contoursolve.constraints import Radius
+from contoursolve.model import Choice, Fact, Given, Profile, Question, Side, Turn
 from contoursolve.reading.form import Form, lay_out
 from contoursolve.reading.lexicon import Lexicon
 from contoursolve.reading.state import State
-from contoursolve.syntax import Block, Word
+from contoursolve.syntax import Block, Directive, Word
 
 
 class Trouble(Enum):
@@ -29,7 +30,17 @@ class Trouble(Enum):
     CORNER_TWICE = "corner-twice"
     CORNER_NEGATIVE = "corner-negative"
     CORNER_NOWHERE = "corner-nowhere"
-    CHOICE_MISSING = "choice-missing"
+    FACT_UNREADABLE = "fact-unreadable"
+    FACT_IMPOSSIBLE = "fact-impossible"
+
+
+@dataclass(frozen=True, slots=True)
+class Selector:
+    """A word that chooses one of the two places of a point."""
+
+    point: str
+    side: Side
+    word: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,6 +66,13 @@ class Claim:
     circumstances: frozenset[str] = frozenset()
     choices: tuple[Choice, ...] = ()
     turn: Turn | None = None
+    selectors: tuple[Selector, ...] = ()
+    """The words that would choose, whether they are stated or not."""
+
+    @property
+    def directives(self) -> tuple[Directive, ...]:
+        """What comments in its blocks state for contoursolve alone."""
+        return tuple(directive for block in self.blocks for directive in block.directives)
 
     def stated(self) -> dict[str, Decimal | None]:
         """What the rules on combinations look at."""
@@ -68,7 +86,8 @@ def read(claim: Claim, ignored: frozenset[str]) -> Profile:
     sharp = frozenset(
         word for row in claim.form.corners for word in row.shapes if word in names and not claim.givens[word].value
     )
-    layout = lay_out(claim.form, names - ignored, sharp, claim.turn)
+    asked = frozenset(name for name, word in claim.words.items() if word.is_asked)
+    layout = lay_out(claim.form, names - ignored, sharp, claim.turn, asked)
     dropped = tuple(row.fact for row in claim.form.facts if row.fact.given in ignored & names)
     return Profile(
         form=claim.form.name,
@@ -81,4 +100,22 @@ def read(claim: Claim, ignored: frozenset[str]) -> Profile:
         intersections=claim.form.intersections,
         ignored=dropped,
         choices=claim.choices,
+        questions=tuple(_questions(claim, asked)),
+        is_extended=bool(asked or claim.directives),
     )
+
+
+def _questions(claim: Claim, asked: frozenset[str]) -> Iterator[Question]:
+    """The words that are asked for, with the facts that they would state."""
+    for row in claim.form.facts:
+        if row.fact.given in asked:
+            yield _question(claim, row.fact.given, row.fact)
+    for corner in claim.form.corners:
+        for name in asked & corner.shapes.keys():
+            yield _question(claim, name, Radius(name, f"{corner.name}.radius"))
+
+
+def _question(claim: Claim, name: str, fact: Fact) -> Question:
+    word = claim.words[name]
+    row = claim.lexicon.addresses[word.address]
+    return Question(name, fact, row.unit, word, row.is_diameter)

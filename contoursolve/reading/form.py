@@ -86,8 +86,10 @@ def stated_sets(form: Form) -> Iterator[frozenset[str]]:
 
 
 @lru_cache(maxsize=8192)
-def lay_out(form: Form, stated: frozenset[str], sharp: frozenset[str], turn: Turn | None) -> Layout:
-    """The layout that a form makes of the givens that are stated.
+def lay_out(
+    form: Form, stated: frozenset[str], sharp: frozenset[str], turn: Turn | None, asked: frozenset[str] = frozenset()
+) -> Layout:
+    """The layout that a form makes of the givens that are stated; a corner whose size is asked for is there, too.
 
     `sharp` are the corner words of value 0, which make no corner; `turn` is the sense of the arcs.
     """
@@ -108,17 +110,17 @@ def lay_out(form: Form, stated: frozenset[str], sharp: frozenset[str], turn: Tur
         tuple(point for point in form.points if point in mentioned | ends),
         tuple(radius for radius in form.radii if radius in mentioned),
         tuple(path),
-        tuple(corner for row in form.corners for corner in _corners(row, stated, sharp)),
+        tuple(corner for row in form.corners for corner in _corners(row, stated, asked, sharp)),
     )
     return Layout(figure, facts)
 
 
-def _corners(row: CornerRow, stated: frozenset[str], sharp: frozenset[str]) -> list[Corner]:
+def _corners(row: CornerRow, stated: frozenset[str], asked: frozenset[str], sharp: frozenset[str]) -> list[Corner]:
     """The corner of a row: none without its word, several if several words are stated."""
     landing = [axis for names, axis in row.landing if stated & set(names)]
     axis = landing[0] if len(landing) == 1 else None
     return [
         Corner(row.name, row.at, shape, word, row.before, row.after, axis)
         for word, shape in row.shapes.items()
-        if word in stated and word not in sharp
+        if word in stated | asked and word not in sharp
     ]

@@ -4,7 +4,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-from contoursolve.analysis.generic import Directions, Inputs
+from contoursolve.backends import ball
+from contoursolve.backends.inputs import Directions, Inputs
 from contoursolve.backends.numeric import (
     Compiled,
     Tape,
@@ -17,6 +18,7 @@ from contoursolve.backends.numeric import (
     symbol,
     where,
 )
+from contoursolve.backends.replay import Replay
 from contoursolve.constraints import System, Values
 from contoursolve.model import FIRST, SECOND, Corner, Line, scalar
 from contoursolve.solving.corners import Pair, build_corner, unit
@@ -91,7 +93,7 @@ class _Builder:
         discriminant = (radius - offset) * (radius + offset)
         side = self.tape.input(f"side:{step.circle.point}")
         scale = radius + sum(magnitude(value) for value in (*center, *through))
-        half = side * where(_touches(offset, radius, scale), 0, sqrt(discriminant))
+        half = side * self._root(discriminant, offset, radius, scale)
         self.set_point(
             step.circle.point,
             (center[0] - sine * offset + cosine * half, center[1] + cosine * offset + sine * half),
@@ -109,7 +111,7 @@ class _Builder:
         length = sqrt(chord[0] ** 2 + chord[1] ** 2)
         discriminant = (radius - length / 2) * (radius + length / 2)
         scale = radius + sum(magnitude(value) for value in (*first, *second))
-        root = where(_touches(length / 2, radius, scale), 0, sqrt(discriminant))
+        root = self._root(discriminant, length / 2, radius, scale)
         rise = self.tape.input(f"side:{step.first.center}") * root / length
         self.set_point(
             step.first.center,
@@ -119,6 +121,10 @@ class _Builder:
         self.tape.output(f"offset:{number}", length / 2)
         self.tape.output(f"scale:{number}", scale)
         self.tape.output(f"radius:{number}", radius)
+
+    def _root(self, discriminant: Any, offset: Any, radius: Any, scale: Any) -> Any:
+        """The root of a discriminant; 0 where floats cannot tell that a line does more than touch."""
+        return where(_touches(offset, radius, scale), 0, sqrt(discriminant))
 
     def outputs(self, plan: Plan) -> tuple[tuple[int, int, str], ...]:
         """The unknowns, the residuals of all facts, and the Jacobian of the basis."""
@@ -145,7 +151,11 @@ class _Builder:
         directions = {line.name: self._direction(line) for line in lines}
         for corner in self.system.figure.corners:
             index = next(number for number, line in enumerate(lines) if line.name == corner.before)
-            if corner.after is None:
+            if corner.lands_on is not None:
+                leaving = self._direction_beside(self.system.figure.line(corner.lands_on))
+                arriving, earlier = directions[corner.before], directions[lines[index - 1].name]
+                residuals += self._corner(corner, arriving, leaving, _quadrant(arriving, earlier))
+            elif corner.after is None:
                 residuals += self._landing(corner, directions[corner.before], directions[lines[index - 1].name])
             else:
                 start, end = self.point(lines[index].tail), self.point(lines[index + 1].head)
@@ -167,16 +177,23 @@ class _Builder:
         self.rooms[line.name] = length
         return direction
 
+    def _direction_beside(self, line: Line) -> Pair:
+        """The direction of a line beside the path, which is stated or leads to a place."""
+        if line.heading is not None:
+            cosine, sine = self.directions[line.heading]
+            return cosine, sine
+        at = self.at(self.scalars)
+        tail, head = self.point(line.tail), (at.coordinate(line.head, FIRST), at.coordinate(line.head, SECOND))
+        return unit((head[FIRST] - tail[FIRST], head[SECOND] - tail[SECOND]))
+
     def _landing(self, corner: Corner, arriving: Pair, earlier: Pair) -> list[str]:
         """A corner onto an axis-parallel line: it goes on the way its line advances on each axis, and
         a component that is zero is taken from the line before (YASNAC LX3, Tables 2.35 and 2.36)."""
-        quadrant = tuple(
-            where(is_zero(arriving[axis]), sign(earlier[axis]), sign(arriving[axis])) for axis in (FIRST, SECOND)
-        )
+        quadrant = _quadrant(arriving, earlier)
         along_first = corner.lands_parallel_to == FIRST
         leaving = (quadrant[FIRST], 0) if along_first else (0, quadrant[SECOND])
         self.tape.output(f"landing:{corner.name}", quadrant[FIRST if along_first else SECOND])
-        return self._corner(corner, arriving, leaving, (quadrant[FIRST], quadrant[SECOND]))
+        return self._corner(corner, arriving, leaving, quadrant)
 
     def _corner(self, corner: Corner, arriving: Pair, leaving: Pair, quadrant: Pair) -> list[str]:
         size, name = self.tape.input(corner.size), corner.name
@@ -199,6 +216,14 @@ class _Builder:
         return list(residuals)
 
 
+def _quadrant(arriving: Pair, earlier: Pair) -> Pair:
+    """The way a line advances on each axis; a component that is zero is taken from the line before."""
+    first, second = (
+        where(is_zero(arriving[axis]), sign(earlier[axis]), sign(arriving[axis])) for axis in (FIRST, SECOND)
+    )
+    return first, second
+
+
 def _touches(offset: Any, radius: Any, scale: Any) -> Any:
     return magnitude(magnitude(offset) - radius) <= TOUCHING * scale
 
@@ -212,6 +237,8 @@ class Machine:
     slopes: tuple[tuple[int, int, str], ...]
     """(row, column, output) of the Jacobian of the basis by the unknowns."""
     corner_residuals: tuple[str, ...]
+    tape: Tape
+    """All expressions, from which the proof makes a function of its own."""
 
 
 @lru_cache(maxsize=4096)
@@ -223,4 +250,71 @@ def compile_system(system: System) -> Machine:
         builder.run(step, number)
     slopes = builder.outputs(plan)
     residuals = builder.path()
-    return Machine(plan, builder.tape.finish(), slopes, residuals)
+    return Machine(plan, builder.tape.finish(), slopes, residuals, builder.tape)
+
+
+@dataclass(frozen=True, slots=True)
+class PathMachine:
+    """The path of a figure as a function of its points, whatever they were found from."""
+
+    function: Compiled
+    corner_residuals: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class ProofMachine:
+    """The closed form of a system in exact numbers and balls, with the names of inputs and outputs.
+
+    Outputs that begin with `determinant:` must not be zero, those that begin with `discriminant:` or `radius:`
+    must be positive, and those that begin with `residual:` must hold zero.
+    """
+
+    replay: Replay
+    inputs: tuple[str, ...]
+    outputs: tuple[str, ...]
+
+
+@lru_cache(maxsize=4096)
+def compile_proof(system: System) -> ProofMachine:
+    """The closed form of a determined system for exact numbers and balls."""
+    tape = compile_system(system).tape.keep(_PROOF_OUTPUTS, system.unknowns)
+    return ProofMachine(Replay(tape.function(), Exactly, ball.exact), tape.inputs, tape.outputs)
+
+
+class Exactly:
+    """Functions of exact numbers and balls; a sign that cannot be told raises ArithmeticError."""
+
+    root = staticmethod(ball.root)
+    magnitude = staticmethod(ball.magnitude)
+
+    @staticmethod
+    def sign(value: ball.Number) -> int:
+        """-1, 0 or 1."""
+        found = ball.sign(value)
+        if found is None:
+            raise ArithmeticError("a sign cannot be told")
+        return found
+
+    @staticmethod
+    def at_most(value: ball.Number, limit: ball.Number) -> bool:
+        """Whether a value is at most so large: here, whether it is zero."""
+        if ball.is_exact(value) and value == 0:
+            return True
+        if ball.sign(value - limit) == 1:
+            return False
+        raise ArithmeticError("two solutions are too close for floats")
+
+
+_PROOF_OUTPUTS = ("determinant:", "discriminant:", "radius:", "residual:", "begin:", "end:", "center:")
+
+
+@lru_cache(maxsize=1024)
+def compile_path(system: System) -> PathMachine:
+    """The lines and corners of a path at given points; the same outputs as of `compile_system`."""
+    builder = _Builder(system)
+    for name in system.unknowns:
+        builder.scalars[name] = builder.tape.input(name)
+    residuals = builder.path()
+    # A path of arcs alone has no outputs of its own.
+    builder.tape.output("start", builder.scalars[scalar(system.figure.start, FIRST)])
+    return PathMachine(builder.tape.finish(), residuals)

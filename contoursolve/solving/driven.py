@@ -16,11 +16,11 @@ from contoursolve.backends import ball
 from contoursolve.backends.ball import Number
 from contoursolve.constraints import System, UnitDirection
 from contoursolve.model import Fact
-from contoursolve.solving.elimination import ObstacleError, Root, remaining, solve_step
+from contoursolve.solving.elimination import Close, Limits, ObstacleError, Root, remaining, solve_step
 from contoursolve.solving.kernel import Kernel, Slopes, make_kernel, make_slopes
 from contoursolve.solving.krawczyk import Content, content_of, keep, refine, solve_linear
-from contoursolve.solving.search import search
 from contoursolve.solving.polynomial import Coefficient
+from contoursolve.solving.search import search
 
 EVALUATIONS = 1_000
 """How many intervals are looked at before a search is given up as undecided."""
@@ -149,7 +149,9 @@ def _branches(
     """Boxes that hold all solutions whose parameter lies in an interval."""
     parameter = ball.between(*interval)
     at = ball.center(parameter)
-    branches = [_Branch(*(_parameter(drive, value, at_slope) for value, at_slope in ((parameter, 0), (at, 0), (parameter, 1))))]
+    branches = [
+        _Branch(*(_parameter(drive, value, at_slope) for value, at_slope in ((parameter, 0), (at, 0), (parameter, 1))))
+    ]
     for step, slopes in zip(drive.steps, drive.slopes, strict=True):
         branches = [
             after
@@ -180,7 +182,8 @@ def _extend(
     reach: Mapping[str, tuple[float, float]],
 ) -> Iterator[_Branch]:
     # Twice, because the unknowns are counted from an origin within reach.
-    limits = {index: 2 * max(map(abs, reach[name])) for index, name in enumerate(step.unknowns)}
+    sizes = {index: 2 * max(map(abs, reach[name])) for index, name in enumerate(step.unknowns)}
+    limits = Limits(sizes, Close.TOGETHER)
     thin: list[Root] = []
     if branch.thin is not None and branch.slope is not None:
         thin = solve_step(step, coefficients(step, branch.thin, {}), limits)

@@ -3,7 +3,6 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
-from fractions import Fraction
 from itertools import combinations
 
 from contoursolve.analysis.generic import witness_of
@@ -13,7 +12,7 @@ from contoursolve.backends.residue import PRIME
 from contoursolve.solving.kernel import ORIGIN, Kernel
 from contoursolve.solving.polynomial import Coefficient, Monomial, Polynomial, known, polynomial, rational
 
-SHEAR = Fraction(3, 7)
+SHEAR = 0.4140625
 """Two conics are turned by this much (as a shear) before one unknown is eliminated, so that no two of their
 intersections have the same abscissa in ordinary drawings."""
 
@@ -44,12 +43,27 @@ class Root:
     is_double: bool = False
 
 
-Limits = Mapping[int, float] | None
-"""How large each unknown may be. Solutions beyond are of no interest, and two that cannot be told apart may be
-enclosed together: that is for searches which look closer afterwards. Without limits nothing is left out."""
+class Close(Enum):
+    """What to do with two solutions that cannot be told apart, or from none."""
+
+    REFUSE = "raise an error"
+    TOGETHER = "enclose both in one ball, for a search that looks closer afterwards"
+    DOUBLE = "take them for one double solution"
 
 
-def solve_step(kernel: Kernel, parameters: Sequence[Coefficient], limits: Limits = None) -> list[Root]:
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """How large each unknown may be (solutions beyond are of no interest; by index), and what is done with two
+    solutions that are too close."""
+
+    sizes: Mapping[int, float] | None = None
+    close: Close = Close.REFUSE
+
+
+UNLIMITED = Limits()
+
+
+def solve_step(kernel: Kernel, parameters: Sequence[Coefficient], limits: Limits = UNLIMITED) -> list[Root]:
     """All real solutions of a step at the values of its parameters. Raises ObstacleError where they cannot be told."""
     origin = {
         name.removeprefix(ORIGIN): value.value
@@ -197,7 +211,9 @@ def remaining(kernel: Kernel) -> int | None:
         for name in kernel.parameters
     ]
     try:
-        equations, unknowns = _eliminate(equations_of(kernel, inputs), frozenset(range(len(kernel.facts))), [], None)
+        equations, unknowns = _eliminate(
+            equations_of(kernel, inputs), frozenset(range(len(kernel.facts))), [], UNLIMITED
+        )
     except ObstacleError:
         return None
     singles = {unknown for each in equations if len(each.unknowns) == 1 for unknown in each.unknowns}
@@ -208,13 +224,13 @@ def remaining(kernel: Kernel) -> int | None:
 
 def _is_beyond(equation: Polynomial, limits: Limits) -> bool:
     """Whether an equation can hold only if an unknown is larger than its limit."""
-    if limits is None or equation.constant is None:
+    if limits.sizes is None or equation.constant is None:
         return False
     most: Number = ball.exact(0.0)
     for monomial, each in equation.terms.items():
         size = 1.0
         for index in monomial:
-            size *= limits[index]
+            size *= limits.sizes[index]
         if monomial:
             most = most + ball.magnitude(each.value) * ball.exact(size)
     return ball.sign(ball.magnitude(equation.constant.value) - most) == 1
@@ -222,7 +238,7 @@ def _is_beyond(equation: Polynomial, limits: Limits) -> bool:
 
 def _roots(equation: Polynomial, unknown: int, limits: Limits) -> list[tuple[Number, bool]]:
     """The real roots of a polynomial of degree 2 in one unknown, each with whether it is double."""
-    zero = ball.exact(Fraction(0))
+    zero = ball.exact(0.0)
     a, b, c = (
         equation.terms[monomial].value if monomial in equation.terms else zero
         for monomial in ((unknown, unknown), (unknown,), ())
@@ -234,8 +250,8 @@ def _roots(equation: Polynomial, unknown: int, limits: Limits) -> list[tuple[Num
     discriminant = b * b - 4 * a * c
     match ball.sign(discriminant):
         case None:
-            if limits is not None:
-                return [((-b + ball.both_roots(discriminant)) / (2 * a), False)]
+            if limits.close is not Close.REFUSE:
+                return [((-b + ball.both_roots(discriminant)) / (2 * a), limits.close is Close.DOUBLE)]
             raise ObstacleError(Obstacle.TOUCHING)
         case -1:
             return []
@@ -254,7 +270,7 @@ def _roots(equation: Polynomial, unknown: int, limits: Limits) -> list[tuple[Num
 def _conics(first: Polynomial, second: Polynomial, unknowns: tuple[int, int]) -> Iterator[dict[int, Number]]:
     """The common points of two conics: the roots of a quartic in one unknown, and the other one from each."""
     x, y = unknowns
-    sheared = polynomial({(x,): rational(Fraction(1)), (y,): rational(SHEAR)})
+    sheared = polynomial({(x,): rational(1.0), (y,): rational(SHEAR)})
     p, q = (_by_power(each.substitute(x, sheared), x, y) for each in (first, second))
     # y**2 * p2 + y * p1 + p0 = 0 and the same with q: the resultant, and the line that they have in common.
     zero: list[Coefficient] = []
@@ -294,7 +310,7 @@ def _by_power(equation: Polynomial, x: int, y: int) -> dict[int, list[Coefficien
     return table
 
 
-_ZERO = Coefficient(ball.exact(Fraction(0)), 0)
+_ZERO = Coefficient(ball.exact(0.0), 0)
 
 
 def _times(a: Sequence[Coefficient], b: Sequence[Coefficient]) -> list[Coefficient]:
@@ -312,9 +328,9 @@ def _difference(a: Sequence[Coefficient], b: Sequence[Coefficient]) -> list[Coef
 
 
 def _at(coefficients: Sequence[Coefficient], x: Number) -> Number:
-    value: Number = ball.exact(Fraction(0))
+    value: Number = ball.exact(0.0)
     for each in reversed(coefficients):
-        value = value * x + (ball.exact(Fraction(0)) if each.witness == 0 else each.value)
+        value = value * x + (ball.exact(0.0) if each.witness == 0 else each.value)
     return value
 
 
@@ -322,7 +338,7 @@ def _back(pending: Sequence[tuple[int, Polynomial]], values: Mapping[int, Number
     """All unknowns, from the last eliminated to the first."""
     found = dict(values)
     for unknown, expression in reversed(pending):
-        total: Number = ball.exact(Fraction(0))
+        total: Number = ball.exact(0.0)
         for monomial, each in expression.terms.items():
             total = total + (each.value * found[monomial[0]] if monomial else each.value)
         found[unknown] = total

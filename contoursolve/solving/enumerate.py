@@ -12,7 +12,7 @@ from contoursolve.backends.residue import draw
 from contoursolve.constraints import System
 from contoursolve.model import Line, Profile, scalar
 from contoursolve.solving.driven import find_drive, follow
-from contoursolve.solving.elimination import Obstacle, ObstacleError, Root, solve_step
+from contoursolve.solving.elimination import Close, Limits, Obstacle, ObstacleError, Root, solve_step
 from contoursolve.solving.ground import Ground, ground_of
 from contoursolve.solving.kernel import ORIGIN, Kernel, make_kernel
 from contoursolve.solving.polynomial import Coefficient
@@ -45,6 +45,8 @@ class Enumeration:
 
     found: tuple[Found, ...]
     doubts: tuple[Doubt, ...]
+    is_searched: bool = False
+    """Whether some step has no closed form, so that solutions were searched for within reach only."""
 
     @property
     def is_complete(self) -> bool:
@@ -61,9 +63,9 @@ def enumerate_solutions(profile: Profile, system: System) -> Enumeration:
     basis = tuple(system.facts[index] for index in verdict.basis)
     groups = order(system, basis)
     enumeration = Enumeration((), ())
-    for bits in (ball.WORKING, ball.HIGHEST):
+    for bits, close in ((ball.WORKING, Close.REFUSE), (ball.HIGHEST, Close.DOUBLE)):
         with ball.precision(bits):
-            enumeration = _Search(system, groups, ground_of(profile)).run()
+            enumeration = _Search(system, groups, ground_of(profile), close).run()
         # More digits do not finish a search.
         if not any(doubt.obstacle in (Obstacle.TOUCHING, Obstacle.UNDECIDED) for doubt in enumeration.doubts):
             break
@@ -71,20 +73,24 @@ def enumerate_solutions(profile: Profile, system: System) -> Enumeration:
 
 
 class _Search:
-    def __init__(self, system: System, groups: tuple[Group, ...], ground: Ground) -> None:
+    def __init__(self, system: System, groups: tuple[Group, ...], ground: Ground, close: Close) -> None:
         self.system = system
         self.groups = groups
         self.ground = ground
+        self.close = close
         self.doubts: list[Doubt] = []
+        self.is_searched = False
         self.reach = ground.reach(system)
-        self.runs = [line for line in system.figure.path if isinstance(line, Line) and line.name in system.figure.carriers]
-        self.free = [line.name for line in system.figure.lines if line.name in system.figure.carriers]
+        lines = [line for line in (*system.figure.path, *system.figure.lines) if isinstance(line, Line)]
+        carriers = [line for line in lines if line.name in system.figure.carriers]
+        self.runs = [line for line in carriers if line.tail and line.head]
+        self.free = [line.name for line in carriers if not line.tail]
 
     def run(self) -> Enumeration:
         states = [Found({}, {})]
         for group in self.groups:
             states = [after for state in states for after in self._advance(state, group)]
-        return Enumeration(tuple(states), tuple(dict.fromkeys(self.doubts)))
+        return Enumeration(tuple(states), tuple(dict.fromkeys(self.doubts)), self.is_searched)
 
     def _advance(self, state: Found, group: Group) -> Iterator[Found]:
         kernel = make_kernel(self.system, group)
@@ -108,16 +114,22 @@ class _Search:
     ) -> list[Root]:
         if kernel.coefficients is not None:
             try:
-                return solve_step(kernel, self._coefficients(kernel, scalars, signs, {}))
+                roots = solve_step(kernel, self._coefficients(kernel, scalars, signs, {}), Limits(close=self.close))
             except ObstacleError as error:
                 if error.obstacle is not Obstacle.NO_CLOSED_FORM:
                     raise
+            else:
+                doubles = [each for root in roots if root.is_double for each in root.values.values()]
+                if any(not ball.is_exact(each) for each in doubles):
+                    self.doubts.append(Doubt(kernel.unknowns, Obstacle.TOUCHING))
+                return roots
         return self._follow(group, kernel, scalars, signs)
 
     def _follow(
         self, group: Group, kernel: Kernel, scalars: Mapping[str, Number], signs: Mapping[str, int]
     ) -> list[Root]:
         drive = find_drive(self.system, group)
+        self.is_searched = True
         reach = {name: self.reach[name] for name in kernel.unknowns}
 
         def inputs(step: Kernel, found: Mapping[str, Number]) -> dict[str, Number]:
@@ -189,4 +201,3 @@ class _Search:
             yield (at.coordinate(line.head, 0) - at.coordinate(line.tail, 0)) * cosine + (
                 at.coordinate(line.head, 1) - at.coordinate(line.tail, 1)
             ) * sine
-

@@ -3,9 +3,9 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from contoursolve.analysis.generic import COSINE, SIDE
 from contoursolve.backends import ball
 from contoursolve.backends.ball import Number
+from contoursolve.backends.inputs import COSINE, SIDE
 from contoursolve.constraints import Coordinate, Functions, System, Values
 from contoursolve.model import FIRST, SECOND, Given, Profile, Unit, scalar
 
@@ -84,4 +84,3 @@ def ground_of(profile: Profile) -> Ground:
         {name: ball.exact(given.value) for name, given in givens if given.unit is not Unit.DEGREE},
         {name: given for name, given in givens if given.unit is Unit.DEGREE},
     )
-

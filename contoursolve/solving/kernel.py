@@ -5,8 +5,8 @@ from functools import lru_cache
 from typing import Any
 
 from contoursolve.analysis import Group
-from contoursolve.analysis.generic import lookup
 from contoursolve.backends import ball, numeric
+from contoursolve.backends.inputs import lookup
 from contoursolve.backends.numeric import Tape
 from contoursolve.backends.replay import Replay
 from contoursolve.constraints import System

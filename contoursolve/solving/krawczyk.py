@@ -102,7 +102,10 @@ def solve_linear(matrix: Sequence[Sequence[Number]], right: Sequence[Number]) ->
     weights = [[ball.exact(weight) for weight in row] for row in inverse]
     first = [_sum(weights[i][j] * right[j] for j in range(size)) for i in range(size)]
     defect = [
-        [ball.exact(1.0 if i == k else 0.0) - _sum(weights[i][j] * matrix[j][k] for j in range(size)) for k in range(size)]
+        [
+            ball.exact(1.0 if i == k else 0.0) - _sum(weights[i][j] * matrix[j][k] for j in range(size))
+            for k in range(size)
+        ]
         for i in range(size)
     ]
     norm = max(sum(ball.distance(each, 0.0) for each in row) for row in defect)

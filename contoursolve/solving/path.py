@@ -1,10 +1,9 @@
 """Can the control make the path? Direction of travel, and the room for each corner."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from math import hypot
 
 from contoursolve.model import FIRST, SECOND, Arc, Corner, CornerShape, Figure, Line, Profile
-from contoursolve.solving.compile import Machine
 from contoursolve.solving.solution import Point, Refusal, RefusalKind, Remark, RemarkKind
 from contoursolve.tolerance import LENGTH, REGULAR, RESIDUAL
 
@@ -12,9 +11,16 @@ Outputs = Mapping[str, float]
 
 
 def check_path(
-    profile: Profile, machine: Machine, points: Mapping[str, Point], out: Outputs
+    profile: Profile,
+    corner_residuals: Sequence[str],
+    points: Mapping[str, Point],
+    out: Outputs,
+    sizes: Mapping[str, float],
 ) -> tuple[list[Refusal], list[Remark]]:
-    """Everything that speaks against the path between points that satisfy the equations."""
+    """Everything that speaks against the path between points that satisfy the equations.
+
+    `out` are the outputs of a compiled path, `sizes` the sizes of its corners by the words that state them, mm.
+    """
     figure = profile.figure
     refusals: list[Refusal] = []
     remarks: list[Remark] = []
@@ -28,12 +34,12 @@ def check_path(
                 remarks.append(Remark(RemarkKind.LINE_VANISHES, element.name))
     if not refusals:
         for corner in figure.corners:
-            refusals += _check_corner(corner, figure, points, out, profile)
+            refusals += _check_corner(corner, figure, points, out, sizes[corner.size])
     if not refusals:
-        refusals += _check_room(figure, out, profile)
+        refusals += _check_room(figure, out, sizes)
     if not refusals:
         # The definitions of the corners; checked last, because a corner that does not fit may be huge.
-        residuals = [abs(out[name]) for name in machine.corner_residuals]
+        residuals = [abs(out[name]) for name in corner_residuals]
         if not all(residual <= RESIDUAL for residual in residuals):  # true for NaN
             refusals.append(Refusal(RefusalKind.NOT_VERIFIED, "", (), {"limit": RESIDUAL, "actual": max(residuals)}))
     return refusals, remarks
@@ -49,12 +55,11 @@ def _check_direction(line: Line, out: Outputs, profile: Profile) -> list[Refusal
 
 
 def _check_corner(
-    corner: Corner, figure: Figure, points: Mapping[str, Point], out: Outputs, profile: Profile
+    corner: Corner, figure: Figure, points: Mapping[str, Point], out: Outputs, size: float
 ) -> list[Refusal]:
     def refuse(kind: RefusalKind, **values: float) -> list[Refusal]:
         return [Refusal(kind, corner.name, (corner.size,), values)]
 
-    size = float(profile.givens[corner.size].value)
     for name in filter(None, (corner.before, corner.after)):
         if out[f"length:{name}"] <= LENGTH:
             return refuse(RefusalKind.CORNER_TOO_LARGE, limit=0.0, actual=size)
@@ -87,7 +92,7 @@ def _outside_rectangle(corner: Corner, figure: Figure, points: Mapping[str, Poin
     )
 
 
-def _check_room(figure: Figure, out: Outputs, profile: Profile) -> list[Refusal]:
+def _check_room(figure: Figure, out: Outputs, sizes: Mapping[str, float]) -> list[Refusal]:
     """Each line must be as long as the setbacks of the corners at its two ends."""
     refusals: list[Refusal] = []
     refused: set[str] = set()
@@ -96,7 +101,7 @@ def _check_room(figure: Figure, out: Outputs, profile: Profile) -> list[Refusal]
         short = [line for line, setback in setbacks.items() if setback > out[f"length:{line}"] + LENGTH]
         if short:
             refused.add(corner.name)
-            size = float(profile.givens[corner.size].value)
+            size = sizes[corner.size]
             values = {"limit": _largest(corner, figure, out, size), "actual": size}
             values |= {"needed": setbacks[short[0]], "available": out[f"length:{short[0]}"]}
             refusals.append(Refusal(RefusalKind.CORNER_TOO_LARGE, corner.name, (corner.size,), values))

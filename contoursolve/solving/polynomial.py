@@ -2,13 +2,13 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import Any
 
 from contoursolve.backends import ball, residue
 from contoursolve.backends.ball import Number
 from contoursolve.backends.residue import PRIME, draw, draw_direction
 from contoursolve.constraints import Functions
+
 
 class Coefficient:
     """A number and what it is modulo `PRIME` at other values of the inputs: zero there is zero for all values."""
@@ -46,7 +46,7 @@ class Coefficient:
         return self.witness == 0 or (ball.is_exact(self.value) and self.value == 0)
 
 
-def rational(value: Fraction) -> Coefficient:
+def rational(value: float) -> Coefficient:
     """A number that is the same for all values."""
     return Coefficient(ball.exact(value), residue.rational(value))
 

@@ -4,6 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import Enum
 
+from contoursolve.solving.certificate import Certificate
+
 
 class Status(Enum):
     """The verdict on one contour; the order is the order of precedence."""
@@ -16,6 +18,8 @@ class Status(Enum):
     """Words are missing: add one."""
     OVERDETERMINED = "overdetermined"
     """More words than needed that agree: drop one."""
+    AMBIGUOUS = "ambiguous"
+    """Several contours satisfy it, and nothing chooses: add the word or the fact that does."""
     NO_SOLUTION = "no-solution"
     """Determined, but the geometry does not exist or the control cannot make it: change a value."""
     SOLVED = "solved"
@@ -40,6 +44,8 @@ class RefusalKind(Enum):
     BEVEL_IN_BAND = "bevel-in-band"
     LANDING_UNKNOWN = "landing-unknown"
     ARC_EMPTY = "arc-empty"
+    NO_POINT = "no-point"
+    SEARCH_UNFINISHED = "search-unfinished"
     NOT_VERIFIED = "not-verified"
 
     @property
@@ -57,6 +63,10 @@ class RemarkKind(Enum):
 
     TOUCHES = "touches"
     """The line touches the circle: both solutions are one."""
+    SEVERAL = "several"
+    """More than one contour satisfies the block."""
+    COUNT_OPEN = "count-open"
+    """Whether these are all contours is not proven."""
     SENSITIVE = "sensitive"
     """Rounding alone may move a point by more than a thousandth of the least increment."""
     LINE_VANISHES = "line-vanishes"
@@ -120,3 +130,6 @@ class Solution:
     refusals: tuple[Refusal, ...] = ()
     remarks: tuple[Remark, ...] = ()
     error_bound: float = 0.0
+    certificate: Certificate | None = None
+    scalars: Mapping[str, float] = field(default_factory=dict)
+    """Other unknowns: directions and places of lines."""

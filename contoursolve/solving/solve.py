@@ -1,16 +1,19 @@
 """Solves a determined profile and believes nothing: every answer is held against the original equations."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
 from decimal import Decimal
 from itertools import combinations
-from math import asin, atan2, ceil, degrees, floor, hypot, isfinite, log10
+from math import asin, atan2, ceil, degrees, floor, hypot, inf, isfinite, log10
 
 from contoursolve.analysis import judge
-from contoursolve.analysis.generic import COSINE, SINE
 from contoursolve.backends.angle import direction
+from contoursolve.backends.inputs import COSINE, SINE
 from contoursolve.backends.numeric import inverse_norm
-from contoursolve.constraints import Coordinate, Offset, OnCircle, Radius, System, Values, assemble
+from contoursolve.constraints import Coordinate, Offset, OnCircle, Radius, System, Values, assemble, headed_lines
 from contoursolve.model import FIRST, SECOND, Corner, Fact, Profile, Unit, scalar
+from contoursolve.solving.certificate import Certificate
+from contoursolve.solving.certify import certify
 from contoursolve.solving.compile import compile_system
 from contoursolve.solving.path import check_path
 from contoursolve.solving.plan import AffineStep, DistanceStep, LineCircleStep, Step, TwoPointsStep
@@ -79,12 +82,19 @@ def lookup(profile: Profile, scalars: dict[str, float]) -> Values:
         {**start, **scalars},
         {given.name: float(given.value) for given in givens if given.unit is Unit.MM},
         {given.name: direction(given.value) for given in givens if given.unit is Unit.DEGREE},
+        headed_lines(profile.figure) if profile.is_extended else {},
     )
 
 
 def scalars_of(points: Mapping[str, Point]) -> dict[str, float]:
     """The coordinates of points by their scalars' names."""
     return {scalar(name, axis): value for name, point in points.items() for axis, value in enumerate(point)}
+
+
+def sizes_of(profile: Profile) -> dict[str, float]:
+    """The stated sizes of a profile's corners, mm."""
+    sizes = (corner.size for corner in profile.figure.corners)
+    return {size: float(profile.givens[size].value) for size in sizes if size in profile.givens}
 
 
 def compare(fact: Fact, profile: Profile, at: Values) -> dict[str, float]:
@@ -146,7 +156,9 @@ class _Attempt:
         self._check_equations()
         points = {name: self._point(name) for name in (self.system.figure.start, *self.system.figure.points)}
         if not self.refusals:
-            refusals, remarks = check_path(self.profile, self.machine, points, self.out)
+            refusals, remarks = check_path(
+                self.profile, self.machine.corner_residuals, points, self.out, sizes_of(self.profile)
+            )
             self.refusals += refusals
             self.remarks += remarks
         if self.refusals:
@@ -162,7 +174,16 @@ class _Attempt:
             corners={corner.name: self._corner(corner) for corner in self.system.figure.corners},
             remarks=tuple(self.remarks),
             error_bound=bound,
+            certificate=self._certificate(points, bound),
         )
+
+    def _certificate(self, points: Mapping[str, Point], bound: float) -> Certificate:
+        """What is proven of the points and the corners, as they are printed."""
+        values = {**scalars_of(points), **{name: self.out[name] for name in self.system.figure.radii}}
+        values |= {name: value for name, value in self.out.items() if name.startswith(("begin:", "end:", "center:"))}
+        certificate = certify(self.profile, self.system, values, bound)
+        touches = any(remark.kind is RemarkKind.TOUCHES for remark in self.remarks)
+        return replace(certificate, gap=0.0) if touches else certificate
 
     def _refused(self) -> Solution:
         agreeing = tuple(remark for remark in self.remarks if remark.kind is RemarkKind.WORDS_AGREE)
@@ -180,14 +201,8 @@ class _Attempt:
         return float(self.start[FIRST]) + point[FIRST], float(self.start[SECOND]) + point[SECOND]
 
     def _corner(self, corner: Corner) -> CornerSolution:
-        def pair(kind: str) -> Point:
-            return self._absolute(
-                (self.out[f"{kind}:{corner.name}.{FIRST}"], self.out[f"{kind}:{corner.name}.{SECOND}"])
-            )
-
         size = float(self.profile.givens[corner.size].value)
-        center = pair("center") if f"center:{corner.name}.{FIRST}" in self.out else None
-        return CornerSolution(pair("begin"), pair("end"), center, size, self.out[f"turn:{corner.name}"])
+        return corner_of(corner, size, self.out, self._absolute)
 
     def _examine_step(self, number: int, step: Step) -> Refusal | None:
         if isinstance(step, AffineStep):
@@ -279,13 +294,7 @@ class _Attempt:
         return {"angle_from": middle - half, "angle_to": middle + half}
 
     def _givens_of(self, fact: Fact) -> tuple[str, ...]:
-        """The given of a fact, or those that determine what it mentions directly."""
-        if fact.given:
-            return (fact.given,)
-        mentioned = set(self.system.unknowns_of(fact))
-        return tuple(
-            each.given for each in self.system.facts if each.given and set(self.system.unknowns_of(each)) <= mentioned
-        )
+        return givens_of(fact, self.system)
 
     def _check_equations(self) -> None:
         """All original equations: those solved must hold to rounding, the others as well as words can say."""
@@ -306,19 +315,13 @@ class _Attempt:
 
     def _compare(self, fact: Fact, off: float) -> None:
         """A fact that was not needed, at the points that the others give."""
-        if isinstance(fact, OnCircle):
-            values = {"limit": RADIUS_DIFFERENCE, "actual": off, "off_by_mm": off}
-            if not off <= RADIUS_DIFFERENCE:
-                self.refusals.append(Refusal(RefusalKind.RADIUS_DIFFERENCE, fact.point, self._givens_of(fact), values))
-            elif off > AGREEMENT:
-                self.remarks.append(Remark(RemarkKind.RADIUS_DIFFERS, fact.point, self._givens_of(fact), values))
-            return
         points = {name: self._absolute(self._point(name)) for name in self.system.figure.points}
-        values = compare(fact, self.profile, lookup(self.profile, scalars_of(points)))
-        if off <= AGREEMENT or abs(values.get("expected", float("inf")) - values["actual"]) <= AGREEMENT:
-            self.remarks.append(Remark(RemarkKind.WORDS_AGREE, fact.given, (fact.given,), values))
-        else:
-            self.refusals.append(Refusal(RefusalKind.WORDS_DISAGREE, fact.given, (fact.given,), values))
+        scalars = {**scalars_of(points), **{name: self.out[name] for name in self.system.figure.radii}}
+        event = compare_fact(fact, off, self.profile, self.system, lookup(self.profile, scalars))
+        if isinstance(event, Refusal):
+            self.refusals.append(event)
+        elif event is not None:
+            self.remarks.append(event)
 
     def _error_bound(self) -> float:
         """First-order bound of the error of any unknown, mm, rounded up to one digit.
@@ -340,6 +343,42 @@ class _Attempt:
             return float("inf")
         digit = 10.0 ** floor(log10(bound))
         return ceil(bound / digit) * digit
+
+
+def givens_of(fact: Fact, system: System) -> tuple[str, ...]:
+    """The given of a fact, or those that determine what it mentions directly."""
+    if fact.given:
+        return (fact.given,)
+    mentioned = set(system.unknowns_of(fact))
+    return tuple(each.given for each in system.facts if each.given and set(system.unknowns_of(each)) <= mentioned)
+
+
+def compare_fact(fact: Fact, off: float, profile: Profile, system: System, at: Values) -> Refusal | Remark | None:
+    """What to say of a fact that was not needed and is off by so much (mm) at the points that the others give."""
+    if isinstance(fact, OnCircle) and not fact.given:
+        values = {"limit": RADIUS_DIFFERENCE, "actual": off, "off_by_mm": off}
+        if not off <= RADIUS_DIFFERENCE:
+            return Refusal(RefusalKind.RADIUS_DIFFERENCE, fact.point, givens_of(fact, system), values)
+        if off > AGREEMENT:
+            return Remark(RemarkKind.RADIUS_DIFFERS, fact.point, givens_of(fact, system), values)
+        return None
+    givens = givens_of(fact, system)
+    values = compare(fact, profile, at) if fact.given else {"off_by_mm": off}
+    if off <= AGREEMENT or abs(values.get("expected", inf) - values.get("actual", inf)) <= AGREEMENT:
+        return Remark(RemarkKind.WORDS_AGREE, fact.given, givens, values) if fact.given else None
+    return Refusal(RefusalKind.WORDS_DISAGREE, fact.given, givens, values)
+
+
+def corner_of(
+    corner: Corner, size: float, out: Mapping[str, float], absolute: Callable[[Point], Point]
+) -> CornerSolution:
+    """A corner in numbers, from the outputs of a compiled path."""
+
+    def pair(kind: str) -> Point:
+        return absolute((out[f"{kind}:{corner.name}.{FIRST}"], out[f"{kind}:{corner.name}.{SECOND}"]))
+
+    center = pair("center") if f"center:{corner.name}.{FIRST}" in out else None
+    return CornerSolution(pair("begin"), pair("end"), center, size, out[f"turn:{corner.name}"])
 
 
 def _refuse(kind: RefusalKind, subject: str, givens: tuple[str, ...], **values: float) -> Refusal:

@@ -192,10 +192,13 @@ class Draft:
             )
         else:
             self.add(Through(before, begin), Through(after, end))
-            self.add(*(ChamferLeg(begin, end, size, f"{name}.{axis}", axis, self._advance(corner)) for axis in (FIRST, SECOND)))
-        self.figure = replace(
-            self.figure, points=(*self.figure.points, *points), radii=(*self.figure.radii, size)
-        )
+            self.add(
+                *(
+                    ChamferLeg(begin, end, size, f"{name}.{axis}", axis, self._advance(corner))
+                    for axis in (FIRST, SECOND)
+                )
+            )
+        self.figure = replace(self.figure, points=(*self.figure.points, *points), radii=(*self.figure.radii, size))
 
     def _advance(self, corner: Corner) -> tuple[tuple[str, str], ...]:
         """The pairs of points whose way along an axis is the way of a 45 degree chamfer; the first that moves counts."""

@@ -7,7 +7,7 @@
     quantity := "length of" element | "straight part of" line | "direction of" line | "radius of" element
               | "angle from" element "to" element
               | axis "of" (point | ("begin" | "end" | "center") "of" element)
-    place    := "(" axis-word axis-word ")"
+    place    := "(" axis-word axis-word ")", with [ ] or without brackets where a comment allows no ( )
 
 Capitals do not matter. Numbers mean what they say, with or without a decimal point, in the unit of the
 program; a coordinate of an axis that the control programs as a diameter is a diameter.
@@ -153,18 +153,20 @@ class _Reader:
 
     def _other(self) -> str | CircleAt | LineAt:
         begin = self.at
-        if self._accept("circle") and self._symbol("("):
+        bracket = self._open() if self._accept("circle") else ""
+        if self.at > begin and (bracket or self._starts_place()):
             place = self._axis_words()
             radius = self._lettered("R") * self.words.unit.in_mm
-            self._close()
+            self._close(bracket)
             if radius < 0:
                 raise GrammarError("a radius is not negative", begin, self.at)
             return CircleAt(place, radius)
         self.at = begin
-        if self._accept("line") and self._symbol("("):
+        bracket = self._open() if self._accept("line") else ""
+        if self.at > begin and (bracket or self._starts_place()):
             place = self._axis_words()
             angle = self._lettered("A")
-            self._close()
+            self._close(bracket)
             return LineAt(place, angle)
         self.at = begin
         return self._element("an element, `circle (...)` or `line (...)`")
@@ -179,11 +181,14 @@ class _Reader:
         raise self._error("`next line`, `line to (...)` or `line at` an angle")
 
     def _place(self) -> Place:
-        if not self._symbol("("):
-            raise self._error("`(` and a place such as "+ self._example())
+        bracket = self._open()
         place = self._axis_words()
-        self._close()
+        self._close(bracket)
         return place
+
+    def _open(self) -> str:
+        """The bracket that must close what begins here; none is needed."""
+        return next((closing for opening, closing in ("()", "[]") if self._symbol(opening)), "")
 
     def _axis_words(self) -> Place:
         values: dict[int, Decimal] = {}
@@ -202,7 +207,8 @@ class _Reader:
 
     def _peek_letter(self, letter: str) -> bool:
         self._skip()
-        return self.text[self.at : self.at + 1].upper() == letter
+        pattern = re.compile(re.escape(letter) + r"(?=\s*[+-]?[.\d])", re.IGNORECASE)
+        return pattern.match(self.text, self.at) is not None
 
     def _lettered(self, letter: str) -> Decimal:
         if not self._peek_letter(letter):
@@ -210,9 +216,12 @@ class _Reader:
         self.at += 1
         return self._number()
 
-    def _close(self) -> None:
-        if not self._symbol(")"):
-            raise self._error("`)`")
+    def _close(self, bracket: str) -> None:
+        if bracket and not self._symbol(bracket):
+            raise self._error(f"`{bracket}`")
+
+    def _starts_place(self) -> bool:
+        return any(self._peek_letter(letter) for letter in self.words.plane.axes)
 
     def _element(self, expected: str) -> str:
         return self._name(self.words.elements, expected)

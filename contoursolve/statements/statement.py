@@ -100,8 +100,12 @@ class LengthIs:
             raise StatementError(f"{self.element} is a whole circle and has no ends")
         turn = element.turn if isinstance(element, Arc) else None
         if turn is None:
-            raise StatementError(f"the length of {self.element} depends on its sense; state the angle between its lines")
-        return _stated(draft, ArcLength(name, form.begin, form.end, form.center, form.radius, turn), self.value, Unit.MM)
+            raise StatementError(
+                f"the length of {self.element} depends on its sense; state the angle between its lines"
+            )
+        return _stated(
+            draft, ArcLength(name, form.begin, form.end, form.center, form.radius, turn), self.value, Unit.MM
+        )
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,6 +1,17 @@
 """Blocks and words as typed."""
 
-from contoursolve.syntax.lexer import parse, parse_block
-from contoursolve.syntax.word import Block, Fault, FaultKind, Macro, Program, Word
+from contoursolve.syntax.lexer import parse, parse_block, read_directive
+from contoursolve.syntax.word import Block, Directive, Fault, FaultKind, Macro, Program, Word
 
-__all__ = ["Block", "Fault", "FaultKind", "Macro", "Program", "Word", "parse", "parse_block"]
+__all__ = [
+    "Block",
+    "Directive",
+    "Fault",
+    "FaultKind",
+    "Macro",
+    "Program",
+    "Word",
+    "parse",
+    "parse_block",
+    "read_directive",
+]

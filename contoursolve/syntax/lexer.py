@@ -4,7 +4,7 @@ import re
 from decimal import Decimal
 
 from contoursolve.source import Span
-from contoursolve.syntax.word import Block, Fault, FaultKind, Macro, Program, Word
+from contoursolve.syntax.word import Block, Directive, Fault, FaultKind, Macro, Program, Word
 
 LONGEST_BLOCK = 2_000
 """Characters of a block outside comments; no control reads more, and a listing shows no more."""
@@ -21,7 +21,7 @@ _TOKEN = re.compile(
   | (?P<open>\([^)]*)
   | (?P<word>(?P<comma>,?)[ \t]*(?P<letter>[A-Za-z])[ \t]*
       (?:(?P<number>[+-]?(?:\d+\.?\d*|\.\d+))(?![\d.]|,\d|[eE][+-]?\d+(?![\d.]))
-        |(?P<expression>[+-]?(?:\#\d+|\#?{_BRACKETS}))))
+        |(?P<expression>[+-]?(?:\#\d+|\#?{_BRACKETS}))|(?P<asked>\?)))
   | (?P<malformed>,?[ \t]*[A-Za-z][ \t]*(?:[\d.+-]|,(?=\d))+(?:[eE][+-]?\d+)?)
   | (?P<bare>,?[ \t]*[A-Za-z](?:(?![A-Za-z][ \t]*[+-]?\.?\d)[A-Za-z])*)
   | (?P<comma_only>,[^ \tA-Za-z(;]*)
@@ -60,9 +60,12 @@ def parse_block(text: str, line: int) -> Block:
         return Block(line, text, (), macro=Macro.ASSIGNMENT if macro["assignment"] else Macro.FLOW)
     words: list[Word] = []
     faults: list[Fault] = []
+    directives: list[Directive] = []
     skip = _SKIP.match(text)
     for token in _TOKEN.finditer(text, skip.end() if skip else 0):
         kind = token.lastgroup
+        if kind == "comment":
+            directives += _directives(token[0], line, token.start())
         if kind == "blank" or kind == "comment":
             continue
         span = Span(line, token.start() + 1, token.end() + 1)
@@ -73,10 +76,32 @@ def parse_block(text: str, line: int) -> Block:
                 continue
             address = (token["comma"] + token["letter"]).upper()
             value = Decimal(number) if number else None
-            words.append(Word(address, value, "." in (number or ""), token[0], span))
+            words.append(Word(address, value, "." in (number or ""), token[0], span, token["asked"] is not None))
         else:
             faults.append(Fault(_FAULTS[kind or ""], token[0], span))
-    return Block(line, text, tuple(words), tuple(faults), is_skippable=skip is not None)
+    return Block(line, text, tuple(words), tuple(faults), directives=tuple(directives), is_skippable=skip is not None)
+
+
+def read_directive(text: str, line: int, column: int = 1) -> Directive:
+    """A fact that is stated on a line, from a column on; blanks around it do not belong to it."""
+    begin = column + len(text) - len(text.lstrip())
+    return Directive(text.strip(), Span(line, begin, begin + max(len(text.strip()), 1)))
+
+
+def _directives(comment: str, line: int, offset: int) -> list[Directive]:
+    """The facts in a comment, separated by semicolons."""
+    match = _DIRECTIVE.match(comment)
+    if match is None:
+        return []
+    found, at = [], match.end()
+    for part in comment[at:].removesuffix(")").split(";"):
+        if part.strip():
+            found.append(read_directive(part, line, offset + at + 1))
+        at += len(part) + 1
+    return found
+
+
+_DIRECTIVE = re.compile(r"\(\s*contoursolve\s*:", re.IGNORECASE)
 
 
 _FAULTS = {

@@ -13,7 +13,7 @@ class Word:
     """An address with its value, such as `X40.` or `,A150`.
 
     `address` is upper case with its comma; `number` is None when the value is a variable or a macro
-    expression. `text` is what was typed.
+    expression, or when it is asked for with `?`. `text` is what was typed.
     """
 
     address: str
@@ -21,6 +21,19 @@ class Word:
     has_point: bool
     text: str
     span: Span
+    is_asked: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Directive:
+    """A fact for contoursolve alone, in a comment `(contoursolve: ...)` or stated apart from the program.
+
+    A fact apart from the program has a line number below zero, and may hold the statement that `text` shows.
+    """
+
+    text: str
+    span: Span
+    statement: object = None
 
 
 class FaultKind(Enum):
@@ -71,6 +84,7 @@ class Block:
     words: tuple[Word, ...]
     faults: tuple[Fault, ...] = ()
     macro: Macro | None = None
+    directives: tuple[Directive, ...] = ()
     is_skippable: bool = False
     """The block begins with `/`: a switch at the machine decides whether it runs."""
 

@@ -4,7 +4,7 @@ Names of givens begin with the number of the block that states them; `first` and
 of the plane, so that one set of tables serves G17, G18 and G19.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from decimal import Decimal
 
@@ -18,6 +18,7 @@ from contoursolve.reading import (
     Form,
     Modes,
     Sample,
+    Selector,
     State,
     apply_modes,
     codes_of,
@@ -93,7 +94,9 @@ def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> Cla
     here = apply_modes(state, block, modes)
     if here.motion in _TURNS and _moves(block):
         following = _next(blocks, index)
-        if following is not None and _is_over_defined(blocks[following], here, modes):
+        if following is not None and (
+            _is_over_defined(blocks[following], here, modes) or _is_stated(block, blocks[following], here, modes)
+        ):
             after, last = apply_modes(here, blocks[following], modes), _next(blocks, following)
             is_chained = last is not None and (
                 _is_over_defined(blocks[last], after, modes) or _is_over_defined_circle(blocks[last], after, modes)
@@ -143,6 +146,15 @@ def _is_over_defined(block: Block, before: State, modes: Modes) -> bool:
     return here.motion in (0, 1) and stated.issuperset({*here.plane.axes, ",A"})
 
 
+def _is_stated(block: Block, following: Block, before: State, modes: Modes) -> bool:
+    """A line that further facts join to the arc before it, for contoursolve alone."""
+    here = apply_modes(before, following, modes)
+    is_line = here.motion in (0, 1) and _is_motion(following, before, modes)
+    has_ends = any(word.address in (*here.plane.axes, ",A") for word in following.words)
+    is_asked = any(word.is_asked for each in (block, following) for word in each.words)
+    return is_line and has_ends and (is_asked or bool(block.directives or following.directives))
+
+
 def _unresolved(block: Block, here: State) -> Unresolved | None:
     words = {word.address: word for word in block.words}
     if ",A" in words:
@@ -190,7 +202,7 @@ def _claim(blocks: tuple[Block, ...], state: State, here: State, modes: Modes, i
         before=replace(state, plane=here.plane, unit=here.unit),
         after=after,
         words={name: word for name, word in words.items() if word.address in modes.lexicon.addresses},
-        givens=_complete(givens),
+        givens=_complete(givens, frozenset(name for name, word in words.items() if word.is_asked)),
         vocabulary={
             **{name: (address, number - 1) for (number, address), name in names.items()},
             "1:R": ("R", 0),
@@ -201,6 +213,7 @@ def _claim(blocks: tuple[Block, ...], state: State, here: State, modes: Modes, i
         repeated=tuple(repeated),
         circumstances=frozenset(name for name, holds in circumstances.items() if holds),
         choices=tuple(_choices(givens, turn)),
+        selectors=tuple(_selectors(words, turn)),
         turn=turn,
     )
 
@@ -219,9 +232,9 @@ def _names(here: State, after: State) -> Iterator[tuple[tuple[int, str], str]]:
             yield (number, address), f"{number}:wrong-center"
 
 
-def _complete(givens: dict[str, Given]) -> dict[str, Given]:
+def _complete(givens: dict[str, Given], asked: frozenset[str]) -> dict[str, Given]:
     """The givens with those that the control supplies: of a pair, the missing one is no distance from the
-    start (assumed, as for every circle). R counts by its size here, its sign is a choice."""
+    start (assumed, as for every circle), unless it is asked for. R counts by its size here, its sign is a choice."""
     completed = dict(givens)
     if "1:R" in givens:
         completed["1:R"] = replace(givens["1:R"], value=abs(givens["1:R"].value))
@@ -229,7 +242,8 @@ def _complete(givens: dict[str, Given]) -> dict[str, Given]:
         stated = {name.removesuffix("-step") for name in givens} & {first, second}
         if len(stated) == 1:
             missing = (second if first in stated else first) + ("" if "center" in first else "-step")
-            completed[missing] = Given(missing, Decimal(0), Unit.MM, None)
+            if not {missing, missing.removesuffix("-step")} & asked:
+                completed[missing] = Given(missing, Decimal(0), Unit.MM, None)
         if stated and first == "1:first":
             completed[POINT] = Given(POINT, Decimal(0), Unit.SIGN, None)
     return completed
@@ -242,3 +256,15 @@ def _choices(givens: dict[str, Given], turn: Turn) -> Iterator[Choice]:
         yield Choice(CENTER, Side.LEFT if left else Side.RIGHT, "1:R")
     if "2:Q" in givens and givens["2:Q"].value != 0:
         yield Choice(CROSSING, Side.NEARER if givens["2:Q"].value < 0 else Side.FARTHER, "2:Q")
+
+
+def _selectors(words: Mapping[str, Word], turn: Turn) -> Iterator[Selector]:
+    """Q chooses the intersection, and the sign of a stated R the centre."""
+    yield Selector(CROSSING, Side.NEARER, "Q-1")
+    yield Selector(CROSSING, Side.FARTHER, "Q1")
+    word = words.get("1:R")
+    if word is not None and word.number is not None:
+        size = word.text.lstrip("Rr +-")
+        for side, is_left in ((Side.LEFT, True), (Side.RIGHT, False)):
+            sign = "" if is_left == (turn is Turn.CCW) else "-"
+            yield Selector(CENTER, side, f"R{sign}{size}")

@@ -1,0 +1,121 @@
+"""Facts about circles and arcs as a whole: how they touch, what they have in common, how long they are."""
+
+from dataclasses import dataclass
+from math import atan2, tau
+from typing import Any
+
+from contoursolve.constraints.equation import Equation, both, cross, dot, rotate, step
+from contoursolve.model import Lookup, Turn, scalar
+
+
+@dataclass(frozen=True, slots=True)
+class EqualRadii(Equation):
+    """Two circles have the same radius."""
+
+    given: str
+    first: str
+    second: str
+
+    def reads(self) -> tuple[str, ...]:
+        return self.first, self.second
+
+    def residual(self, at: Lookup) -> Any:
+        return at.radius(self.first) - at.radius(self.second)
+
+
+@dataclass(frozen=True, slots=True)
+class TangentCircles(Equation):
+    """Two circles touch: from outside (`side` +1) or one inside the other (-1).
+
+    `side` is the name of an open side, or the side itself. To first order the residual is the gap.
+    """
+
+    first: tuple[str, str]
+    """Center and radius."""
+    second: tuple[str, str]
+    side: str | int
+    given: str = ""
+
+    def reads(self) -> tuple[str, ...]:
+        return *both(self.first[0], self.second[0]), self.first[1], self.second[1]
+
+    def sides(self) -> tuple[str, ...]:
+        return (self.side,) if isinstance(self.side, str) else ()
+
+    def equation(self, at: Lookup) -> Any:
+        between, side = step(at, self.first[0], self.second[0]), side_of(self.side, at)
+        first, second = at.radius(self.first[1]), at.radius(self.second[1])
+        # Expanded with side**2 = 1, so that a difference of two such equations has no squares at all.
+        return dot(between, between) - first**2 - second**2 - 2 * side * first * second
+
+    def residual(self, at: Lookup) -> Any:
+        return self.equation(at) / (2 * (at.radius(self.first[1]) + at.radius(self.second[1])))
+
+
+@dataclass(frozen=True, slots=True)
+class Contact(Equation):
+    """`point` is where two touching circles touch, in one coordinate."""
+
+    point: str
+    first: tuple[str, str]
+    second: tuple[str, str]
+    side: str | int
+    axis: int
+    given: str = ""
+
+    def reads(self) -> tuple[str, ...]:
+        points = (self.point, self.first[0], self.second[0])
+        return *(scalar(point, self.axis) for point in points), self.first[1], self.second[1]
+
+    def sides(self) -> tuple[str, ...]:
+        return (self.side,) if isinstance(self.side, str) else ()
+
+    def equation(self, at: Lookup) -> Any:
+        point, first, second = (at.coordinate(name, self.axis) for name in (self.point, self.first[0], self.second[0]))
+        reach, other = at.radius(self.first[1]), side_of(self.side, at) * at.radius(self.second[1])
+        return (reach + other) * (point - first) - reach * (second - first)
+
+    def residual(self, at: Lookup) -> Any:
+        return self.equation(at) / (at.radius(self.first[1]) + at.radius(self.second[1]))
+
+
+@dataclass(frozen=True, slots=True)
+class ArcLength(Equation):
+    """The arc from `tail` to `head` about `center` has the given length.
+
+    The residual is how far `head` lies off the ray at which the arc must end.
+    """
+
+    given: str
+    tail: str
+    head: str
+    center: str
+    radius: str
+    turn: Turn
+
+    def reads(self) -> tuple[str, ...]:
+        return *both(self.tail, self.head, self.center), self.radius
+
+    def _spokes(self, at: Lookup) -> tuple[tuple[Any, Any], tuple[Any, Any]]:
+        cosine, sine = at.rotation(at.amount(self.given) / at.radius(self.radius))
+        begin = rotate(step(at, self.center, self.tail), (cosine, self.turn.sign * sine))
+        return begin, step(at, self.center, self.head)
+
+    def equation(self, at: Lookup) -> Any:
+        return cross(*self._spokes(at))
+
+    def residual(self, at: Lookup) -> Any:
+        return self.equation(at) / at.radius(self.radius)
+
+    def sense(self, at: Lookup) -> Any:
+        return dot(*self._spokes(at))
+
+    def implied(self, at: Lookup) -> float | None:
+        begin, end = step(at, self.center, self.tail), step(at, self.center, self.head)
+        sweep = atan2(float(cross(begin, end)) * self.turn.sign, float(dot(begin, end))) % tau
+        return float(at.radius(self.radius)) * sweep
+
+
+def side_of(side: str | int, at: Lookup) -> Any:
+    """The value of a side, whether stated or open."""
+    return at.side(side) if isinstance(side, str) else side

@@ -1,0 +1,297 @@
+"""Every contour that satisfies a profile: solutions of the equations, made into paths, named and certified."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from math import inf
+
+from contoursolve.analysis import judge, order
+from contoursolve.backends import ball
+from contoursolve.backends.angle import direction
+from contoursolve.backends.ball import Number
+from contoursolve.backends.inputs import COSINE, SINE
+from contoursolve.constraints import Heading, OnCircle, System, TangentCircles, assemble, headed_lines
+from contoursolve.constraints import Values as Lookup
+from contoursolve.model import FIRST, SECOND, Arc, Choice, Profile, Side, Unit, scalar
+from contoursolve.solving.certificate import Certificate, Proof
+from contoursolve.solving.compile import compile_path
+from contoursolve.solving.enumerate import Doubt, Enumeration, Found, enumerate_solutions
+from contoursolve.solving.ground import ground_of
+from contoursolve.solving.path import check_path
+from contoursolve.solving.prove import prove_found, radius_of
+from contoursolve.solving.solution import (
+    CornerSolution,
+    Point,
+    Refusal,
+    RefusalKind,
+    Remark,
+    RemarkKind,
+    Solution,
+    Status,
+)
+from contoursolve.solving.solve import compare_fact, corner_of, sizes_of
+from contoursolve.tolerance import LENGTH, RESIDUAL
+
+
+@dataclass(frozen=True, slots=True)
+class Alternative:
+    """One solution of the equations, as a path or with what speaks against it.
+
+    `scalars` holds every unknown in mm. `sides` are the branches by the point or the elements that they are about;
+    `name` tells it from the others.
+    """
+
+    solution: Solution
+    scalars: Mapping[str, float]
+    sides: Mapping[str, str]
+    certificate: Certificate
+    name: str = ""
+
+    @property
+    def is_path(self) -> bool:
+        """Whether the control could make it."""
+        return self.solution.status in (Status.SOLVED, Status.OVERDETERMINED)
+
+
+@dataclass(frozen=True, slots=True)
+class Alternatives:
+    """All solutions of a profile's equations; the list is complete, with proof, if there is no doubt.
+
+    `reach` is how far from the start point solutions were searched for, mm; None where the closed form gives all.
+    """
+
+    items: tuple[Alternative, ...]
+    doubts: tuple[Doubt, ...]
+    reach: float | None
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether these are proven to be all."""
+        return not self.doubts
+
+    @property
+    def paths(self) -> tuple[Alternative, ...]:
+        """The solutions that the control could make."""
+        return tuple(item for item in self.items if item.is_path)
+
+
+def find_alternatives(profile: Profile) -> Alternatives:
+    """Every solution of a profile whose system is determined and whose start is known."""
+    system = assemble(profile)
+    enumeration = enumerate_solutions(profile, system)
+    with ball.precision(ball.WORKING):
+        items = [_alternative(profile, system, found) for found in enumeration.found]
+    return Alternatives(tuple(_named(items, profile)), enumeration.doubts, _reach(profile, system, enumeration))
+
+
+def choose(alternatives: Alternatives, choices: tuple[Choice, ...]) -> tuple[Alternative, ...]:
+    """The solutions that agree with the control's choices; a double solution agrees with either side."""
+    return tuple(
+        item
+        for item in alternatives.items
+        if all(item.sides.get(choice.point) in (choice.side.value, BOTH, None) for choice in choices)
+    )
+
+
+BOTH = "touches"
+"""The side of a double solution."""
+
+
+def _alternative(profile: Profile, system: System, found: Found) -> Alternative:
+    ground = ground_of(profile)
+    verdict = judge(system)
+    groups = order(system, tuple(system.facts[index] for index in verdict.basis))
+    proof, boxes = prove_found(system, groups, ground, found.scalars, found.signs)
+    starts = [float(value) for value in profile.start.values if value is not None]
+    scalars = {name: ball.middle(value) for name, value in boxes.items()}
+    out, points, corners = _path(profile, system, boxes, starts)
+    refusals, remarks = _compare(profile, system, found, boxes, scalars)
+    if not refusals:
+        machine = compile_path(system)
+        more, about = check_path(profile, machine.corner_residuals, points, out, _sizes(profile, scalars))
+        refusals += more
+        remarks += about
+    gap = 0.0 if found.doubles else None
+    if gap is not None:
+        remarks.append(Remark(RemarkKind.TOUCHES, _touching(system, found), (), {}))
+    radius = radius_of(boxes, scalars) if proof is not Proof.UNKNOWN or found.doubles else inf
+    certificate = Certificate(proof, radius, "", gap)
+    if proof is Proof.UNKNOWN:
+        certificate = _doubtful(found, radius, gap)
+    absolute = {name: (x + starts[FIRST], y + starts[SECOND]) for name, (x, y) in points.items()}
+    solution = Solution(
+        _status(refusals, remarks),
+        points=absolute if not refusals else {},
+        radii={name: scalars[name] for name in system.figure.radii} if not refusals else {},
+        corners=corners if not refusals else {},
+        refusals=tuple(refusals),
+        remarks=tuple(remarks),
+        error_bound=radius,
+        certificate=certificate,
+        scalars=scalars if not refusals else {},
+    )
+    return Alternative(solution, scalars, _sides(profile, system, found, boxes), certificate)
+
+
+def _doubtful(found: Found, radius: float, gap: float | None) -> Certificate:
+    if found.doubles:
+        return Certificate(Proof.VERIFIED, radius, "two solutions have become one, so none is alone in a box", gap)
+    return Certificate(Proof.UNKNOWN, radius, "no box about it could be proven to hold one solution", gap)
+
+
+def _status(refusals: list[Refusal], remarks: list[Remark]) -> Status:
+    if refusals:
+        found = {refusal.kind.status for refusal in refusals}
+        return next(status for status in Status if status in found)
+    agrees = any(remark.kind is RemarkKind.WORDS_AGREE for remark in remarks)
+    return Status.OVERDETERMINED if agrees else Status.SOLVED
+
+
+def _path(
+    profile: Profile, system: System, boxes: Mapping[str, Number], starts: list[float]
+) -> tuple[dict[str, float], dict[str, Point], dict[str, CornerSolution]]:
+    """The path at these points: its outputs, the points counted from the start, and the corners."""
+    figure, machine = system.figure, compile_path(system)
+    origin = [ball.exact(value) for value in profile.start.values if value is not None]
+    relative = {
+        scalar(point, axis): ball.middle(boxes[scalar(point, axis)] - origin[axis])
+        for point in figure.points
+        for axis in (FIRST, SECOND)
+    }
+    values = {name: ball.middle(value) for name, value in boxes.items()} | relative
+    values |= {scalar(figure.start, axis): 0.0 for axis in (FIRST, SECOND)}
+    values |= _sizes(profile, values)
+    for given in profile.givens.values():
+        if given.unit is Unit.DEGREE:
+            values[given.name + COSINE], values[given.name + SINE] = direction(given.value)
+        else:
+            values.setdefault(given.name, float(given.value))
+    for place in figure.places:
+        for axis in (FIRST, SECOND):
+            name = scalar(place, axis)
+            values[name] = ball.middle(ball.exact(profile.givens[name].value) - origin[axis])
+    out = machine.function(values)
+    points = {
+        name: (values[scalar(name, FIRST)], values[scalar(name, SECOND)]) for name in (figure.start, *figure.points)
+    }
+
+    def absolute(point: Point) -> Point:
+        return point[FIRST] + starts[FIRST], point[SECOND] + starts[SECOND]
+
+    corners = {corner.name: corner_of(corner, values[corner.size], out, absolute) for corner in figure.corners}
+    return out, points, corners
+
+
+def _sizes(profile: Profile, scalars: Mapping[str, float]) -> dict[str, float]:
+    """The sizes of all corners by the words that state or ask for them."""
+    found = {
+        corner.size: scalars[f"{corner.name}.radius"]
+        for corner in profile.figure.corners
+        if f"{corner.name}.radius" in scalars
+    }
+    return {**found, **sizes_of(profile)}
+
+
+def _compare(
+    profile: Profile, system: System, found: Found, boxes: Mapping[str, Number], scalars: Mapping[str, float]
+) -> tuple[list[Refusal], list[Remark]]:
+    """Every original equation in exact arithmetic; what was not needed must agree as well as words can."""
+    refusals: list[Refusal] = []
+    remarks: list[Remark] = []
+    at = ground_of(profile).values(boxes, found.signs, system)
+    basis = judge(system).basis
+    floats = Lookup(
+        {**scalars, **{name: ball.middle(value) for name, value in at.scalars.items()}},
+        {name: ball.middle(value) for name, value in at.amounts.items()},
+        {name: (ball.middle(pair[0]), ball.middle(pair[1])) for name, pair in at.directions.items()},
+        headed_lines(system.figure),
+        found.signs,
+    )
+    for index, fact in enumerate(system.facts):
+        off = ball.distance(fact.residual(at), 0.0)
+        if index in basis:
+            if not off <= RESIDUAL:  # true for NaN
+                refusals.append(Refusal(RefusalKind.NOT_VERIFIED, "", (), {"limit": RESIDUAL, "actual": off}))
+            continue
+        event = compare_fact(fact, off, profile, system, floats)
+        if isinstance(event, Refusal):
+            refusals.append(event)
+        elif event is not None:
+            remarks.append(event)
+    return refusals, remarks
+
+
+def _touching(system: System, found: Found) -> str:
+    points = {name.rpartition(".")[0] for name in found.doubles}
+    return next((point for point in system.figure.points if point in points), "the contour")
+
+
+def _sides(profile: Profile, system: System, found: Found, boxes: Mapping[str, Number]) -> dict[str, str]:
+    """On which side everything lies for which there is another: points on lines and circles, centres, contacts."""
+    at = ground_of(profile).values(boxes, found.signs, system)
+
+    def step(tail: str, head: str) -> tuple[Number, Number]:
+        first, second = (at.coordinate(head, axis) - at.coordinate(tail, axis) for axis in (FIRST, SECOND))
+        return first, second
+
+    def name(value: Number, positive: Side, negative: Side) -> str:
+        return {1: positive.value, -1: negative.value}.get(ball.sign(value) or 0, BOTH)
+
+    sides: dict[str, str] = {}
+    circles = [fact for fact in system.facts if isinstance(fact, OnCircle)]
+    unknown = set(system.figure.points)
+    for heading in (fact for fact in system.facts if isinstance(fact, Heading)):
+        for circle in circles:
+            if circle.point in (heading.tail, heading.head) and circle.point in unknown:
+                (cosine, sine), spoke = at.direction(heading.given), step(circle.center, circle.point)
+                along = cosine * spoke[FIRST] + sine * spoke[SECOND]
+                sides[circle.point] = name(along, Side.FARTHER, Side.NEARER)
+    for arc in (element for element in system.figure.path if isinstance(element, Arc)):
+        on_it = [circle.point for circle in circles if circle.center == arc.center]
+        others = [point for point in on_it if point != arc.tail and point not in sides]
+        if arc.tail in on_it and others:
+            chord, spoke = step(arc.tail, others[0]), step(arc.tail, arc.center)
+            twice = chord[FIRST] * spoke[SECOND] - chord[SECOND] * spoke[FIRST]
+            sides[arc.center] = name(twice, Side.LEFT, Side.RIGHT)
+    for fact in system.facts:
+        for side in fact.sides():
+            words = ("outside", "inside") if isinstance(fact, TangentCircles) else ("left", "right")
+            sides[side.removesuffix(".side")] = words[0] if found.signs[side] == 1 else words[1]
+    return sides
+
+
+def _named(items: list[Alternative], profile: Profile) -> Iterator[Alternative]:
+    """Every solution with a name made of the sides in which it differs from the others."""
+    differing = [
+        key
+        for key in dict.fromkeys(key for item in items for key in item.sides)
+        if len({item.sides.get(key) for item in items}) > 1
+    ]
+    shown = [", ".join(f"{key} {item.sides[key]}" for key in differing if key in item.sides) for item in items]
+    for number, item in enumerate(items):
+        same = [other for other, name in zip(items, shown, strict=True) if name == shown[number]]
+        place = _place(item, same, profile) if len(same) > 1 else ""
+        yield replace(item, name=", ".join(filter(None, (shown[number], place))))
+
+
+_RANKS = ("lowest", "second lowest", "third lowest", "fourth lowest")
+
+
+def _place(item: Alternative, same: list[Alternative], profile: Profile) -> str:
+    """Which of several solutions it is by the first coordinate or radius in which they differ."""
+    for key in item.scalars:
+        values = sorted(other.scalars[key] for other in same)
+        if values[-1] - values[0] > LENGTH and not key.endswith((".cos", ".sin", ".off")):
+            rank = values.index(item.scalars[key])
+            point, _, axis = key.rpartition(".")
+            what = f"{profile.plane.axes[int(axis)]} of {point}" if axis.isdigit() else key
+            if rank == len(values) - 1:
+                return f"{what} highest"
+            return f"{what} {_RANKS[rank] if rank < len(_RANKS) else f'{rank + 1}th lowest'}"
+    return ""
+
+
+def _reach(profile: Profile, system: System, enumeration: Enumeration) -> float | None:
+    if not enumeration.is_searched:
+        return None
+    ranges = ground_of(profile).reach(system).values()
+    return max(high - low for low, high in ranges) / 2

@@ -1,0 +1,33 @@
+"""Decides between all contours that satisfy a profile: the control's choice, the only one, or none."""
+
+from dataclasses import replace
+
+from contoursolve.model import Profile
+from contoursolve.solving.alternatives import Alternative, Alternatives, choose
+from contoursolve.solving.solution import Refusal, RefusalKind, Remark, RemarkKind, Solution, Status
+
+
+def decide(alternatives: Alternatives, profile: Profile) -> Solution:
+    """The contour of a profile, of whose equations these are the solutions.
+
+    Several contours, between which nothing chooses, are ambiguous.
+    """
+    eligible = choose(alternatives, profile.choices)
+    paths = [item for item in eligible if item.is_path]
+    count = {"actual": float(len(paths))}
+    if len(paths) > 1:
+        return Solution(Status.AMBIGUOUS, remarks=(Remark(RemarkKind.SEVERAL, "", (), count),))
+    if paths:
+        solution = paths[0].solution
+        if alternatives.is_complete:
+            return solution
+        return replace(solution, remarks=(*solution.remarks, Remark(RemarkKind.COUNT_OPEN, "", (), count)))
+    return _refused(eligible or alternatives.items, alternatives)
+
+
+def _refused(items: tuple[Alternative, ...], alternatives: Alternatives) -> Solution:
+    """Why there is no contour: what speaks against the first of the solutions, or that there is none."""
+    if items:
+        return items[0].solution
+    kind = RefusalKind.NO_POINT if alternatives.is_complete else RefusalKind.SEARCH_UNFINISHED
+    return Solution(Status.NO_SOLUTION, refusals=(Refusal(kind, ""),))

@@ -1,0 +1,127 @@
+"""Further facts of a block, put into its profile."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from enum import Enum
+from typing import cast
+
+from contoursolve.constraints import Radius
+from contoursolve.model import Corner, Profile, Question, Unit
+from contoursolve.source import Span
+from contoursolve.statements.draft import Draft, StatementError
+from contoursolve.statements.grammar import GrammarError, Vocabulary, read_statement
+from contoursolve.statements.meeting import Meeting, MeetsLine
+from contoursolve.statements.statement import (
+    DirectionIs,
+    PassesThrough,
+    Place,
+    PointIs,
+    Statement,
+    StraightIs,
+    Touches,
+    TurnIs,
+)
+from contoursolve.syntax import Directive, Word
+
+ADDRESS = "fact"
+"""What stands for the address of a fact that is no word."""
+
+_FIRST = (MeetsLine, Touches, DirectionIs, TurnIs, PassesThrough, StraightIs)
+"""Statements that say what a line is come before those that measure it."""
+
+
+class Flaw(Enum):
+    """What can be wrong with a further fact."""
+
+    UNREADABLE = "unreadable"
+    IMPOSSIBLE = "impossible"
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """A fact that was not used: what is wrong, in words, and where."""
+
+    flaw: Flaw
+    message: str
+    word: Word
+
+
+def apply_statements(
+    profile: Profile, directives: Sequence[Directive], next_place: Callable[[], Place | None]
+) -> tuple[Profile, tuple[Fault, ...]]:
+    """The profile with further facts and with what is asked for, and the facts that make no sense.
+
+    `next_place` tells where the next block's line ends, mm; None if it is not known.
+    """
+    if not profile.is_extended:
+        return profile, ()
+    draft = Draft(profile.figure, profile.facts, profile.givens)
+    words = vocabulary_of(profile)
+    faults: list[Fault] = []
+    read: list[tuple[str, Statement, Word]] = []
+    for number, directive in enumerate(directives, 1):
+        try:
+            statement = directive.statement or read_statement(directive.text, words)
+            read.append((f"fact {number}", cast(Statement, statement), word_of(directive)))
+        except GrammarError as error:
+            faults.append(Fault(Flaw.UNREADABLE, str(error), word_of(directive, error.begin, error.end)))
+    questions = list(profile.questions)
+    for name, statement, word in sorted(read, key=lambda each: _rank(each[1])):
+        draft.word = word
+        try:
+            stated = _resolved(statement, next_place)
+            fact = stated.state(draft, name)
+        except StatementError as error:
+            faults.append(Fault(Flaw.IMPOSSIBLE, str(error), word))
+            continue
+        if name not in draft.givens and fact.given == name:
+            is_angle = isinstance(stated, DirectionIs | TurnIs)
+            axis = stated.axis if isinstance(stated, PointIs) else None
+            is_diameter = axis is not None and profile.plane.diameters[axis]
+            questions.append(Question(name, fact, Unit.DEGREE if is_angle else Unit.MM, word, is_diameter))
+    draft.word = None
+    for question in profile.questions:
+        _add_size(draft, question, faults)
+    extended = replace(profile, layout=draft.layout(), givens=draft.givens, questions=tuple(questions))
+    return extended, tuple(faults)
+
+
+def vocabulary_of(profile: Profile) -> Vocabulary:
+    """What facts about a profile may mention."""
+    figure = profile.figure
+    elements = [element.name for element in (*figure.path, *figure.corners)]
+    return Vocabulary(elements, (figure.start, *figure.points), profile.plane, profile.unit)
+
+
+def word_of(directive: Directive, begin: int = 0, end: int | None = None) -> Word:
+    """A directive, or a part of it, as a word that a finding can mark."""
+    text = directive.text[begin:end] or directive.text[-1:]
+    column = directive.span.column + begin
+    return Word(ADDRESS, None, False, text, Span(directive.span.line, column, column + max(len(text), 1)))
+
+
+def _resolved(statement: Statement, next_place: Callable[[], Place | None]) -> Statement:
+    """The next block's line as a line to where it ends."""
+    if isinstance(statement, MeetsLine) and statement.line == Meeting(None, None):
+        return MeetsLine(statement.corner, Meeting(next_place(), None))
+    return statement
+
+
+def _add_size(draft: Draft, question: Question, faults: list[Fault]) -> None:
+    """A corner whose size is asked for is part of the equations."""
+    if not isinstance(question.fact, Radius):
+        return
+    for corner in draft.figure.corners:
+        if corner.size == question.name:
+            _try_corner(draft, corner, question, faults)
+
+
+def _try_corner(draft: Draft, corner: Corner, question: Question, faults: list[Fault]) -> None:
+    try:
+        draft.corner(corner.name)
+    except StatementError as error:
+        faults.append(Fault(Flaw.IMPOSSIBLE, str(error), question.word))
+
+
+def _rank(statement: Statement) -> int:
+    return _FIRST.index(type(statement)) if type(statement) in _FIRST else len(_FIRST)
