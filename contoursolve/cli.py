@@ -25,7 +25,7 @@ from contoursolve.output.contours import contour_lines
 from contoursolve.output.document import findings_to_json, to_json
 from contoursolve.output.findings import Style, finding_lines, plain
 from contoursolve.output.layout import count
-from contoursolve.pipeline import Result, UnknownControlError
+from contoursolve.pipeline import FactPlaceError, Result, UnknownControlError
 from contoursolve.rules import Rule
 from contoursolve.solving import Status
 from contoursolve.syntax import Program
@@ -60,6 +60,14 @@ def _common(command: Callable[..., None]) -> Callable[..., None]:
                 help="A block to examine instead of a file; may be repeated, one block each.",
             ),
             click.option("--start", metavar="WORDS", help='Start point for --block, such as "X40. Z0.".'),
+            click.option(
+                "--fact",
+                "facts",
+                multiple=True,
+                metavar="FACT",
+                help='A further fact about the only contour, such as "length of line 1 = 30"; may be repeated. '
+                "'contoursolve facts' lists them all.",
+            ),
             click.option(
                 "--control",
                 type=click.Choice(list(DIALECTS)),
@@ -114,6 +122,7 @@ def main() -> None:
     show_default=True,
     help="What to print; json is in mm, with X as radius.",
 )
+@click.option("--explain", "is_explained", is_flag=True, help="Also print the construction, step by step.")
 @click.pass_context
 def solve(
     context: click.Context,
@@ -122,21 +131,25 @@ def solve(
     blocks: tuple[str, ...],
     start: str | None,
     format_: str,
+    is_explained: bool,
     **options: Any,
 ) -> None:
     """Solve every contour block of PROGRAM (a file, or - for standard input).
 
-    Prints what was given, the virtual intersections, and every element of the path.
+    Prints what was given, the virtual intersections, and every element of the path, with what is proven of it; where
+    several contours satisfy a block, all of them. A word with ? for its value is asked for.
 
     \b
     contoursolve solve shaft.nc
     contoursolve solve --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0."
+    contoursolve solve --block "G111 X100. A180. K-30. B120. P?" --start "X40. Z0." \
+        --fact "straight part of line 2 = 30"
     """
     result = _examine(_load([program] if program else [], blocks, start)[0](), start, options)
     if format_ == "json":
         click.echo(to_json(result))
     else:
-        _print(_solved(result, _style()))
+        _print(_solved(result, _style(), is_explained))
         _print_summary([result])
     context.exit(FOUND_ERRORS if result.has_errors else 0)
 
@@ -224,6 +237,14 @@ def rules(control: str | None, is_table: bool) -> None:
 
     chosen = [dialect for name, dialect in DIALECTS.items() if control in (None, name)]
     _print(table_lines(chosen) if is_table else catalogue_lines(chosen))
+
+
+@main.command(short_help="List the further facts that can be stated about a contour.")
+def facts() -> None:
+    """List the further facts that can be stated about a contour, with --fact or in a comment (contoursolve: ...)."""
+    from contoursolve.output.vocabulary import vocabulary_lines  # noqa: PLC0415 - only here
+
+    _print(vocabulary_lines())
 
 
 @main.command(short_help="Explain one rule, or all behind an alarm number.")
@@ -336,6 +357,8 @@ def _examine(program: Program, start: str | None, options: dict[str, Any]) -> Re
         return solve_program(program, start=start, **options)
     except UnknownControlError as error:
         raise CouldNotRunError(f"{program.name}: {error}; say which with --control {'|'.join(DIALECTS)}") from None
+    except FactPlaceError as error:
+        raise CouldNotRunError(f"{program.name}: {error}") from None
 
 
 def _style() -> Style:
@@ -366,17 +389,18 @@ def _findings(result: Result, findings: Iterable[Diagnostic], style: Style) -> I
         sources = {number: blocks[number - first].text for number in numbers if 0 <= number - first < len(blocks)}
         if result.start:
             sources[0] = result.start.text
+        sources |= {fact.span.line: fact.text for fact in result.facts}
         yield from finding_lines(finding, result.program.name, sources, style)
 
 
-def _solved(result: Result, style: Style) -> Iterator[str]:
+def _solved(result: Result, style: Style, is_explained: bool) -> Iterator[str]:
     """Contours in order, each followed by its findings, between the findings about other blocks."""
     own = {id(finding) for answer in result.answers for finding in answer.diagnostics}
     items: list[Diagnostic | Answer] = [finding for finding in result.diagnostics if id(finding) not in own]
     items += result.answers
     for item in sorted(items, key=lambda each: each.lines[0] if isinstance(each, Answer) else each.span.line):
         if isinstance(item, Answer):
-            yield from contour_lines(item, result)
+            yield from contour_lines(item, result, is_explained=is_explained)
             yield from _findings(result, item.diagnostics, style)
         else:
             yield from _findings(result, [item], style)

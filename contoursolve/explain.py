@@ -230,13 +230,17 @@ def _labels(event: Refusal | Remark, fields: Mapping[str, Any]) -> list[str]:
     return []
 
 
+_PARTS = {"cos": "direction", "sin": "direction", "off": "place", "radius": "radius"}
+
+
 def unknowns_text(names: Sequence[str], profile: Profile) -> str:
-    """Unknown scalars in the user's words: `V1 (Z and X)`."""
-    points: dict[str, list[str]] = {}
+    """Unknown scalars in the user's words: `V1 (Z and X)`, `line 2 (direction)`."""
+    things: dict[str, dict[str, None]] = {}
     for name in names:
-        point, _, axis = name.partition(".")
-        points.setdefault(point, []).extend([profile.plane.axes[int(axis)]] if axis else [])
-    return join([f"{point} ({join(axes)})" if axes else point for point, axes in points.items()])
+        thing, _, part = name.rpartition(".")
+        shown = profile.plane.axes[int(part)] if part.isdigit() else _PARTS.get(part, "")
+        things.setdefault(thing if shown else name, {}).update({shown: None} if shown else {})
+    return join([f"{thing} ({join(list(parts))})" if parts else thing for thing, parts in things.items()])
 
 
 def join(texts: Sequence[str]) -> str:

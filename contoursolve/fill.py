@@ -9,7 +9,7 @@ from contoursolve.diagnosis.edits import write_word
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer, Filled, Policy, examine
 from contoursolve.reading import Claim, State
-from contoursolve.statements import ADDRESS
+from contoursolve.statements.words import ADDRESS
 
 FARTHEST = 0.01
 """mm. A block with rounded values whose contour is farther from the exact one is not offered."""

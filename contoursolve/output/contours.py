@@ -5,32 +5,90 @@ from collections.abc import Sequence
 from contoursolve.contour import ArcSegment
 from contoursolve.diagnostic import Verdict
 from contoursolve.dialects import DIALECTS, Dialect
-from contoursolve.examine import Answer
+from contoursolve.examine import Answer, AskedValue
 from contoursolve.model import Length, Turn, Unit
 from contoursolve.output.layout import columns, printable
+from contoursolve.output.solutions import list_solutions, printed_certificate
 from contoursolve.pipeline import Result
 from contoursolve.reading import Form, Lexicon
 from contoursolve.solving import Point
+from contoursolve.statements.words import ADDRESS
 from contoursolve.syntax import Word
 
 _VERDICT = {Verdict.PASSED: "passed", Verdict.FOUND: "see finding", Verdict.NOT_RUN: "not run"}
 
+SMALLEST = 0.0001
+"""mm. What a listing with four decimals can show."""
+
 _INCH = float(Length.INCH.in_mm)
 
 
-def contour_lines(answer: Answer, result: Result) -> list[str]:
-    """The listing of one contour, in the unit and the axes of its program."""
+def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False) -> list[str]:
+    """The listing of one contour, in the unit and the axes of its program; explained with its construction."""
     dialect = DIALECTS[result.control or ""]
     form = next(form for form in dialect.forms if form.name == answer.form)
     lines = [f"{result.program.name}:{answer.lines[0]}: {form.name} ({form.title}): {answer.status.value}"]
     lines += [f"  {printable(block.text.strip())[:160]}" for block in answer.profile.blocks]
     lines += ["", *columns(_given_rows(answer, form, dialect), left=(0, 3))]
+    if is_explained:
+        from contoursolve.output.construction import construction_lines  # noqa: PLC0415 - only on demand
+
+        lines += ["", *construction_lines(answer)]
     if answer.contour:
         lines += ["", *columns(_path_rows(answer), left=(0, 1))]
-    elif answer.diagnosis:
-        rows = [(layer.name, _VERDICT[layer.verdict], layer.remark) for layer in answer.diagnosis.layers]
-        lines += ["", *columns([("check", "verdict", "what was checked"), *rows], left=(0, 1, 2))]
+    if answer.filled:
+        lines += ["", f"  filled in (the contour moves by at most {_small(answer.filled.deviation)}):"]
+        lines += [f"    {printable(text.strip())}" for text in answer.filled.blocks]
+    lines += _solution_lines(answer)
+    if answer.contour is None and answer.diagnosis:
+        lines += ["", *_check_lines(answer)]
     return [*lines, ""]
+
+
+def _check_lines(answer: Answer) -> list[str]:
+    diagnosis = answer.diagnosis
+    layers = diagnosis.layers if diagnosis else ()
+    rows = [(layer.name, _VERDICT[layer.verdict], layer.remark) for layer in layers]
+    return columns([("check", "verdict", "what was checked"), *rows], left=(0, 1, 2))
+
+
+def _small(mm: float) -> str:
+    return "less than 0.0001 mm" if mm < SMALLEST else f"{mm:.4f} mm"
+
+
+def _solution_lines(answer: Answer) -> list[str]:
+    """The certificate, and where there are several solutions, all of them."""
+    listing = list_solutions(answer)
+    if listing is None:
+        return []
+    if len(listing.solutions) == 1 and listing.is_complete:
+        return ["", f"  certificate: {printed_certificate(answer.certificate)}"] if answer.contour else []
+    count, shown = len(listing.solutions), f"by {listing.method}"
+    known = f"these are all ({shown})" if listing.is_complete else f"there may be more ({shown})"
+    lines = ["", f"  {'at least ' if not listing.is_complete else ''}{_plural(count)}; {known}"]
+    lines += [f"  not decided: {doubt}" for doubt in listing.doubts]
+    rows = []
+    for each in listing.solutions:
+        mark = "->" if each.is_chosen else ""
+        end = " ".join(_place(each.contour.end, answer)) if each.contour else ", ".join(each.reasons)
+        label = "ends at" if each.contour else "no contour"
+        rows.append((mark, each.name or "only solution", label, end, " ".join(each.selects), str(each.certificate)))
+    lines += columns(rows, left=(0, 1, 2, 3, 4, 5))
+    if listing.chosen_by:
+        lines.append(f"  -> chosen by {listing.chosen_by}")
+    return lines
+
+
+def _plural(count: int) -> str:
+    return f"{count} solution{'' if count == 1 else 's'}"
+
+
+def _place(at: Point, answer: Answer) -> list[str]:
+    plane = answer.plane
+    return [
+        f"{axis}{_length(value * (2 if is_diameter else 1), answer.unit)}"
+        for axis, value, is_diameter in zip(plane.axes, at, plane.diameters, strict=True)
+    ]
 
 
 def _given_rows(answer: Answer, form: Form, dialect: Dialect) -> list[tuple[str, str, str, str]]:
@@ -43,14 +101,37 @@ def _given_rows(answer: Answer, form: Form, dialect: Dialect) -> list[tuple[str,
         )
     ignored = {fact.given for fact in answer.profile.ignored}
     words = {given.name: given.word for given in answer.profile.givens.values() if given.word}
+    shown_facts: set[int] = set()
     for name, word in sorted(words.items(), key=lambda item: item[1].span):
-        meaning = form.meanings.get(name) or dialect.modes.lexicon.addresses[word.address].meaning
+        if word.address == ADDRESS and id(word) in shown_facts:
+            continue
+        shown_facts.add(id(word))
+        row = dialect.modes.lexicon.addresses.get(word.address)
+        meaning = form.meanings.get(name) or (row.meaning if row else "")
         meaning += " - ignored" if name in ignored else ""
-        rows.append((word.text, *_value(word, dialect.modes.lexicon, answer.unit), meaning))
+        if word.address == ADDRESS:
+            rows.append((printable(word.text), "", "", "further fact"))
+        else:
+            rows.append((word.text, *_value(word, dialect.modes.lexicon, answer.unit), meaning))
+    rows += [_asked_row(each, answer, form, dialect) for each in answer.answers]
     if answer.side:
         choice = next(choice for choice in answer.profile.choices if choice.side is answer.side)
         rows.append(("choice", answer.side.value, "", f"of two intersections, by {words[choice.given].text}"))
     return rows
+
+
+def _asked_row(asked: AskedValue, answer: Answer, form: Form, dialect: Dialect) -> tuple[str, str, str, str]:
+    """A value that was asked for."""
+    question = asked.question
+    row = dialect.modes.lexicon.addresses.get(question.word.address)
+    meaning = form.meanings.get(question.name) or (row.meaning if row else "")
+    text = printable(question.word.text)
+    if asked.value is None:
+        return text, "?", "", f"asked: {meaning}".strip(": ")
+    if question.unit is Unit.DEGREE:
+        return text, f"{asked.value:.4f}", "deg", f"asked: {meaning}".strip(": ")
+    shown = _length(asked.value * (2 if question.is_diameter else 1), answer.unit)
+    return text, shown, _unit(answer.unit), f"asked: {meaning}".strip(": ")
 
 
 def _value(word: Word, lexicon: Lexicon, unit: Length) -> tuple[str, str]:

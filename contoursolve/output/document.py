@@ -4,14 +4,13 @@ import json
 from collections.abc import Sequence
 from typing import Any
 
-from contoursolve.contour import ArcSegment, Segment
+from contoursolve.contour import ArcSegment, Contour, Segment
 from contoursolve.diagnostic import Diagnosis, Diagnostic
-from contoursolve.examine import Answer
+from contoursolve.examine import Answer, AskedValue
+from contoursolve.output.solutions import DECIMALS, decimals_of, list_solutions, printed_certificate
 from contoursolve.pipeline import Result
 from contoursolve.solving import Point
-
-DECIMALS = 12
-"""Decimals of coordinates in mm: below the rounding of the arithmetic, so that nothing is lost."""
+from contoursolve.solving.certificate import Certificate, Proof
 
 
 def to_json(result: Result) -> str:
@@ -90,7 +89,8 @@ def finding_data(finding: Diagnostic) -> dict[str, Any]:
 
 
 def _contour(answer: Answer) -> dict[str, Any]:
-    contour = answer.contour
+    contour, certificate = answer.contour, answer.certificate
+    decimals = decimals_of(certificate)
     return {
         "line": answer.lines[0],
         "lines": list(answer.lines),
@@ -98,15 +98,76 @@ def _contour(answer: Answer) -> dict[str, Any]:
         "status": answer.status.value,
         "plane": list(answer.plane.axes),
         "start": [None if value is None else _number(float(value)) for value in answer.start.values],
-        "end": _point(contour.end) if contour else None,
-        "points": {name: _point(at) for name, at in contour.points.items()} if contour else {},
-        "elements": [_element(element) for element in contour.elements] if contour else [],
+        **_path(contour, decimals),
         "branch": answer.side.value if answer.side else None,
-        "certificate": {"kind": "verified", "radius": _finite(answer.error_bound)}
-        if contour
-        else {"kind": "unknown", "radius": None},
+        "certificate": _certificate(certificate),
+        "facts": [directive.text for directive in answer.claim.directives],
+        "asked": [_asked(each, answer) for each in answer.answers],
+        "filled": {"blocks": list(answer.filled.blocks), "deviation_mm": _number(answer.filled.deviation)}
+        if answer.filled
+        else None,
+        **_solutions(answer),
         "diagnosis": _diagnosis(answer.diagnosis) if answer.diagnosis else None,
     }
+
+
+def _path(contour: Contour | None, decimals: int) -> dict[str, Any]:
+    return {
+        "end": _point(contour.end, decimals) if contour else None,
+        "points": {name: _point(at, decimals) for name, at in contour.points.items()} if contour else {},
+        "elements": [_element(element, decimals) for element in contour.elements] if contour else [],
+    }
+
+
+def _certificate(certificate: Certificate | None) -> dict[str, Any]:
+    printed = printed_certificate(certificate)
+    if printed is None:
+        return {"kind": Proof.UNKNOWN.value, "radius": None, "reason": "there is no contour", "double": None}
+    return {
+        "kind": printed.proof.value,
+        "radius": _finite(printed.radius),
+        "reason": printed.reason,
+        "double": {"gap_mm": _finite(printed.gap)} if printed.gap is not None else None,
+    }
+
+
+def _asked(asked: AskedValue, answer: Answer) -> dict[str, Any]:
+    """A value that was asked for, in mm (X of a lathe as radius) or degrees."""
+    question = asked.question
+    return {
+        "word": question.word.text,
+        "line": question.word.span.line,
+        "unit": question.unit.value,
+        "value": None if asked.value is None else round(asked.value, decimals_of(answer.certificate)) + 0.0,
+    }
+
+
+def _solutions(answer: Answer) -> dict[str, Any]:
+    """Every solution of the equations, and whether these are proven to be all."""
+    listing = list_solutions(answer)
+    if listing is None:
+        return {"solutions": [], "count": None}
+    solutions = [
+        {
+            "name": each.name,
+            "is_chosen": each.is_chosen,
+            "selects": list(each.selects),
+            "is_path": each.contour is not None,
+            "reasons": list(each.reasons),
+            **_path(each.contour, decimals_of(each.certificate)),
+            "certificate": _certificate(each.certificate),
+        }
+        for each in listing.solutions
+    ]
+    count = {
+        "solutions": len(solutions),
+        "contours": sum(each.contour is not None for each in listing.solutions),
+        "is_complete": listing.is_complete,
+        "method": listing.method,
+        "doubts": list(listing.doubts),
+        "chosen_by": listing.chosen_by,
+    }
+    return {"solutions": solutions, "count": count}
 
 
 def _diagnosis(diagnosis: Diagnosis) -> dict[str, Any]:
@@ -132,22 +193,23 @@ def _diagnosis(diagnosis: Diagnosis) -> dict[str, Any]:
     }
 
 
-def _element(element: Segment) -> dict[str, Any]:
-    data: dict[str, Any] = {"kind": "line", "start": _point(element.start), "end": _point(element.end)}
+def _element(element: Segment, decimals: int) -> dict[str, Any]:
+    start, end = _point(element.start, decimals), _point(element.end, decimals)
+    data: dict[str, Any] = {"kind": "line", "start": start, "end": end}
     if isinstance(element, ArcSegment):
         data["kind"] = "arc"
-        data["center"] = _point(element.center)
-        data["radius"] = _number(element.radius)
+        data["center"] = _point(element.center, decimals)
+        data["radius"] = _number(element.radius, decimals)
         data["turn"] = element.turn.value
     return data
 
 
-def _point(at: Point) -> list[float]:
-    return [_number(at[0]), _number(at[1])]
+def _point(at: Point, decimals: int) -> list[float]:
+    return [_number(at[0], decimals), _number(at[1], decimals)]
 
 
-def _number(value: float) -> float:
-    return round(value, DECIMALS) + 0.0
+def _number(value: float, decimals: int = DECIMALS) -> float:
+    return round(value, decimals) + 0.0
 
 
 def _finite(value: float) -> float | None:

@@ -1,6 +1,6 @@
 """Further facts about a drawing: statements, their textual form, and the draft that they add to."""
 
-from contoursolve.statements.apply import ADDRESS, Fault, Flaw, apply_statements
+from contoursolve.statements.apply import Fault, Flaw, apply_statements
 from contoursolve.statements.draft import Draft, StatementError
 from contoursolve.statements.grammar import GrammarError, Vocabulary, read_statement
 from contoursolve.statements.meeting import Meeting, MeetsLine
@@ -21,7 +21,6 @@ from contoursolve.statements.statement import (
 )
 
 __all__ = [
-    "ADDRESS",
     "CircleAt",
     "DirectionIs",
     "Draft",

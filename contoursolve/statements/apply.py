@@ -7,7 +7,6 @@ from typing import cast
 
 from contoursolve.constraints import Radius
 from contoursolve.model import Corner, Profile, Question, Unit
-from contoursolve.source import Span
 from contoursolve.statements.draft import Draft, StatementError
 from contoursolve.statements.grammar import GrammarError, Vocabulary, read_statement
 from contoursolve.statements.meeting import Meeting, MeetsLine
@@ -21,10 +20,8 @@ from contoursolve.statements.statement import (
     Touches,
     TurnIs,
 )
+from contoursolve.statements.words import word_of
 from contoursolve.syntax import Directive, Word
-
-ADDRESS = "fact"
-"""What stands for the address of a fact that is no word."""
 
 _FIRST = (MeetsLine, Touches, DirectionIs, TurnIs, PassesThrough, StraightIs)
 """Statements that say what a line is come before those that measure it."""
@@ -91,13 +88,6 @@ def vocabulary_of(profile: Profile) -> Vocabulary:
     figure = profile.figure
     elements = [element.name for element in (*figure.path, *figure.corners)]
     return Vocabulary(elements, (figure.start, *figure.points), profile.plane, profile.unit)
-
-
-def word_of(directive: Directive, begin: int = 0, end: int | None = None) -> Word:
-    """A directive, or a part of it, as a word that a finding can mark."""
-    text = directive.text[begin:end] or directive.text[-1:]
-    column = directive.span.column + begin
-    return Word(ADDRESS, None, False, text, Span(directive.span.line, column, column + max(len(text), 1)))
 
 
 def _resolved(statement: Statement, next_place: Callable[[], Place | None]) -> Statement:

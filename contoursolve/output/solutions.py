@@ -1,0 +1,108 @@
+"""All solutions of one contour, for a person and for JSON: which there are, what selects each, how well it is known."""
+
+from dataclasses import dataclass
+from math import floor, inf, log10
+
+from contoursolve.contour import Contour, trace
+from contoursolve.examine import Answer, list_alternatives
+from contoursolve.model import Length
+from contoursolve.solving.alternatives import Alternative, Alternatives, choose
+from contoursolve.solving.certificate import Certificate, Proof, up_to_one_digit
+from contoursolve.tolerance import LENGTH
+
+DECIMALS = 12
+"""Decimals of coordinates in mm: below the rounding of the arithmetic, so that nothing is lost."""
+
+
+@dataclass(frozen=True, slots=True)
+class Listed:
+    """One solution: its name, its path (None if the control cannot make it, with the reasons), what selects it,
+    and whether it is the contour that was solved."""
+
+    name: str
+    contour: Contour | None
+    reasons: tuple[str, ...]
+    selects: tuple[str, ...]
+    is_chosen: bool
+    certificate: Certificate
+
+
+@dataclass(frozen=True, slots=True)
+class Listing:
+    """All solutions that were found, and whether these are proven to be all."""
+
+    solutions: tuple[Listed, ...]
+    is_complete: bool
+    method: str
+    doubts: tuple[str, ...]
+    chosen_by: str
+
+
+def list_solutions(answer: Answer) -> Listing | None:
+    """The solutions of a contour; None if nothing was solved."""
+    alternatives = list_alternatives(answer)
+    if alternatives is None:
+        if answer.contour is None or answer.certificate is None:
+            return None
+        only = Listed("", answer.contour, (), (), is_chosen=True, certificate=answer.certificate)
+        return Listing((only,), is_complete=True, method="closed form", doubts=(), chosen_by="")
+    eligible = choose(alternatives, answer.profile.choices)
+    paths = [item for item in eligible if item.is_path]
+    chosen = paths[0] if len(paths) == 1 and answer.contour is not None else None
+    words = [answer.claim.words[choice.given].text for choice in answer.profile.choices if choice.given in answer.claim.words]
+    method = "closed form"
+    if alternatives.reach is not None:
+        method = f"search within {alternatives.reach:.0f} mm of the start point"
+    return Listing(
+        solutions=tuple(_listed(item, item is chosen, alternatives, answer) for item in alternatives.items),
+        is_complete=alternatives.is_complete,
+        method=method,
+        doubts=tuple(f"{', '.join(doubt.unknowns)}: {doubt.obstacle.value}" for doubt in alternatives.doubts),
+        chosen_by=" and ".join(words) if chosen and len(alternatives.items) > 1 else "",
+    )
+
+
+def _listed(item: Alternative, is_chosen: bool, alternatives: Alternatives, answer: Answer) -> Listed:
+    contour = trace(answer.profile, item.solution) if item.is_path else None
+    reasons = tuple(f"{refusal.kind.value} {refusal.subject}".strip() for refusal in item.solution.refusals)
+    return Listed(item.name, contour, reasons, tuple(_selecting(item, alternatives, answer)), is_chosen, item.certificate)
+
+
+def _selecting(item: Alternative, alternatives: Alternatives, answer: Answer) -> list[str]:
+    """The words, or else the fact, that would select a solution."""
+    if len(alternatives.items) == 1:
+        return []
+    words = [
+        selector.word
+        for selector in answer.claim.selectors
+        if item.sides.get(selector.point) == selector.side.value
+        and len({other.sides.get(selector.point) for other in alternatives.items}) > 1
+    ]
+    if words:
+        return words
+    plane, unit = answer.profile.plane, answer.unit
+    for point in answer.profile.figure.points:
+        for axis in (0, 1):
+            name = f"{point}.{axis}"
+            others = [other.scalars[name] for other in alternatives.items if other is not item]
+            if all(abs(item.scalars[name] - value) > 10 * LENGTH for value in others) and "." not in point:
+                value = item.scalars[name] * (2 if plane.diameters[axis] else 1)
+                shown = value / 25.4 if unit is Length.INCH else value
+                return [f"(contoursolve: {plane.axes[axis]} of {point} = {shown:.3f})"]
+    return []
+
+
+def printed_certificate(certificate: Certificate | None) -> Certificate | None:
+    """A certificate of the numbers as they are printed: rounded to `decimals_of` it."""
+    if certificate is None or certificate.proof is Proof.EXACT:
+        return certificate
+    rounding = 0.5 * 10.0 ** -decimals_of(certificate)
+    radius = up_to_one_digit(certificate.radius + rounding)
+    return Certificate(certificate.proof, radius, certificate.reason, certificate.gap)
+
+
+def decimals_of(certificate: Certificate | None, most: int = DECIMALS) -> int:
+    """How many decimals of a coordinate in mm mean something: the radius is not larger than the last one."""
+    if certificate is None or not 0 < certificate.radius < inf:
+        return most
+    return max(0, min(most, floor(-log10(certificate.radius))))

@@ -1,0 +1,38 @@
+"""The further facts that can be stated about a contour, as a user writes them."""
+
+from collections.abc import Iterator
+
+from contoursolve.output.layout import columns
+
+_FACTS = (
+    ("length of line 1 = 30", "the length of a line, between the virtual intersections at its ends; of an arc"),
+    ("straight part of line 2 = 12.5", "what the corners at its ends leave of a line"),
+    ("direction of line 2 = 135", "the direction of travel, as an angle word states it"),
+    ("angle from line 1 to line 2 = -60", "the change of direction of travel, counter-clockwise positive"),
+    ("line 2 passes through (Z-40. X80.)", "a place on the line, or on the circle of an arc or a rounding"),
+    ("Z of end of corner 2 = -50.2", "a coordinate of where an element begins, ends or has its center"),
+    ("X of V1 = 44", "a coordinate of a point"),
+    ("radius of corner 1 = 5", "the radius of an arc or a rounding, the size of a chamfer"),
+    ("line tangent to arc", "neighbours go on smoothly; others touch"),
+    ("line 2 tangent to circle (Z-40. X120. R10.)", "an element touches a given circle"),
+    ("corner 1 tangent to line (Z0. X30. A180.)", "an arc or a rounding touches a given line, by a place and an angle"),
+    ("length of line 1 = length of line 2", "two lines are equally long"),
+    ("radius of corner 1 = radius of corner 2", "two arcs or corners have the same radius"),
+    ("corner 2 meets next line", "the last corner joins the line to where the next block ends"),
+    ("corner 2 meets line to (Z-60. X130.)", "or a line to a place"),
+    ("corner 2 meets line at 135", "or a line at an angle"),
+    ("length of line 1 = ?", "asks for a value instead of stating it"),
+)
+
+
+def vocabulary_lines() -> Iterator[str]:
+    """Every kind of fact, with an example."""
+    yield "Facts about a contour, stated with --fact, or in the program as a comment that controls ignore:"
+    yield "  G111 X100. A180. K-30. B120. P? (contoursolve: straight part of line 2 = 30)"
+    yield ""
+    yield from columns(_FACTS, left=(0, 1))
+    yield ""
+    yield "Elements: G111 has line 1, line 2, corner 1, corner 2 and the points S, V1, V2; an NCT circular-linear pair has"
+    yield "arc, line and the points S, C (center), N1 (point on the circle), P1 (intersection), N2 (end). Numbers are in the"
+    yield "unit of the program and mean what they say, with or without a decimal point; X is a diameter on a lathe. Inside a"
+    yield "comment write places with [ ] or without brackets, and separate facts by semicolons."
