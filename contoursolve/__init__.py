@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from contoursolve.diagnostic import Basis, Diagnosis, Diagnostic, Severity
     from contoursolve.examine import Answer, Depth, Policy
     from contoursolve.pipeline import Result, UnknownControlError
+    from contoursolve.sketch import Drawings, Drawn, Sketch
     from contoursolve.solving import Status
     from contoursolve.syntax import Block, Program, Word
     from contoursolve.trial import Completion, completions, what_if
@@ -44,11 +45,14 @@ __all__ = [
     "Depth",
     "Diagnosis",
     "Diagnostic",
+    "Drawings",
+    "Drawn",
     "LineSegment",
     "Policy",
     "Program",
     "Result",
     "Severity",
+    "Sketch",
     "Status",
     "UnknownControlError",
     "UnreadableProgramError",
@@ -69,6 +73,7 @@ _ROOMS = {
     "diagnostic": ("Basis", "Diagnosis", "Diagnostic", "Severity"),
     "examine": ("Answer", "Depth", "Policy"),
     "pipeline": ("Result", "UnknownControlError"),
+    "sketch": ("Drawings", "Drawn", "Sketch"),
     "solving": ("Status",),
     "syntax": ("Block", "Program", "Word"),
     "trial": ("Completion", "completions", "what_if"),

@@ -63,7 +63,7 @@ def apply_statements(
         except GrammarError as error:
             faults.append(Fault(Flaw.UNREADABLE, str(error), word_of(directive, error.begin, error.end)))
     questions = list(profile.questions)
-    for name, statement, word in sorted(read, key=lambda each: _rank(each[1])):
+    for name, statement, word in sorted(read, key=lambda each: rank(each[1])):
         draft.word = word
         try:
             stated = _resolved(statement, next_place)
@@ -113,5 +113,6 @@ def _try_corner(draft: Draft, corner: Corner, question: Question, faults: list[F
         faults.append(Fault(Flaw.IMPOSSIBLE, str(error), question.word))
 
 
-def _rank(statement: Statement) -> int:
+def rank(statement: Statement) -> int:
+    """In which order statements are put into a draft."""
     return _FIRST.index(type(statement)) if type(statement) in _FIRST else len(_FIRST)

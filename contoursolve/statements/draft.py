@@ -132,7 +132,11 @@ class Draft:
         """A given circle."""
         place = self.place(f"{name}.center", center)
         known = self.give(f"{name}.radius", radius, Unit.MM)
-        self.figure = replace(self.figure, known_radii=(*self.figure.known_radii, known))
+        self.figure = replace(
+            self.figure,
+            known_radii=(*self.figure.known_radii, known),
+            circles=(*self.figure.circles, Circle(name, place, known)),
+        )
         return Round(place, known)
 
     def given_line(self, name: str, place: tuple[Decimal, Decimal], degrees: Decimal) -> str:
