@@ -200,7 +200,11 @@ def examine(
 def list_alternatives(answer: Answer) -> Alternatives | None:
     """Every solution of a contour, the control's choice among them; None where nothing was solved, or where the
     equations are solved one after the other without a choice, so that there is one."""
-    if answer.alternatives is not None or answer.contour is None or not points_with_two_solutions(assemble(answer.profile)):
+    if (
+        answer.alternatives is not None
+        or answer.contour is None
+        or not points_with_two_solutions(assemble(answer.profile))
+    ):
         return answer.alternatives
     from contoursolve.solving.alternatives import find_alternatives  # noqa: PLC0415 - see _solve
 
@@ -271,7 +275,11 @@ def _examine_geometry(
         notebook.add(_secondary(finding, is_refused), status)
     system = assemble(profile)
     says_too_much = len(system.facts) > len(system.unknowns)
-    if structure or not profile.start.is_known or (is_refused and not says_too_much):
+    is_solvable = not structure and profile.start.is_known
+    if is_solvable and is_refused and not profile.is_extended and _open_points(profile):
+        # Which contours the missing word could choose is worth knowing.
+        return Solution(Status.UNDERDETERMINED), _solve(profile)[1]
+    if not is_solvable or (is_refused and not says_too_much):
         return Solution(Status.UNDERDETERMINED), None
     solution, alternatives = _solve(profile)
     events: list[Refusal | Remark] = [*solution.refusals, *solution.remarks]

@@ -226,7 +226,7 @@ def _next_place(blocks: Sequence[Block], claim: Claim, dialect: Dialect) -> tupl
     words = [word for word in block.words if word.address in addresses and addresses[word.address].axis]
     if state.motion not in (0, 1, None):
         return None
-    unknown = state.lose(modes.axes, "the contour before it is not solved yet", None)
+    unknown = state.lose(modes.axes, "the contour before it is not solved yet", block.span)
     first, second = (positions(unknown, words, modes, False).get(axis) for axis in state.plane.axes)
     if first is None or second is None or first.value is None or second.value is None:
         return None

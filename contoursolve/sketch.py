@@ -64,7 +64,7 @@ class Drawings(Sequence[Drawn]):
     def __len__(self) -> int:
         return len(self.drawings)
 
-    def __getitem__(self, index):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN204 - int or slice, as of a tuple
+    def __getitem__(self, index):  # type: ignore[no-untyped-def]
         return self.drawings[index]
 
     def __iter__(self) -> Iterator[Drawn]:

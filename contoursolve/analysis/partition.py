@@ -17,7 +17,8 @@ class Group(NamedTuple):
 def match(system: System, facts: Sequence[Fact], unknowns: Sequence[str] | None = None) -> dict[str, Fact]:
     """A maximum matching from unknowns to facts; earlier facts are matched in preference to later ones.
 
-    `unknowns` are those of the system unless told otherwise. Augmenting paths (Berge 1957); the matched facts are the greedy basis of a transversal matroid.
+    `unknowns` are those of the system unless told otherwise.
+    Augmenting paths (Berge 1957); the matched facts are the greedy basis of a transversal matroid.
     """
     matched: dict[str, Fact] = {}
     wanted = frozenset(system.unknowns if unknowns is None else unknowns)
@@ -39,7 +40,8 @@ def match(system: System, facts: Sequence[Fact], unknowns: Sequence[str] | None 
 def order(system: System, facts: Sequence[Fact], unknowns: Sequence[str] | None = None) -> tuple[Group, ...]:
     """The finest sequence of groups in which each determines its unknowns from the ones before.
 
-    `facts` must match all unknowns (of the system, unless told otherwise) one to one; raises ValueError if not. The groups are the strongly connected components of
+    `facts` must match all unknowns (of the system, unless told otherwise) one to one; raises ValueError if not.
+    The groups are the strongly connected components of
     the matched incidence graph (Tarjan 1972), the block triangular form of Dulmage and Mendelsohn.
     """
     wanted = system.unknowns if unknowns is None else tuple(unknowns)

@@ -49,7 +49,9 @@ def list_solutions(answer: Answer) -> Listing | None:
     eligible = choose(alternatives, answer.profile.choices)
     paths = [item for item in eligible if item.is_path]
     chosen = paths[0] if len(paths) == 1 and answer.contour is not None else None
-    words = [answer.claim.words[choice.given].text for choice in answer.profile.choices if choice.given in answer.claim.words]
+    words = [
+        answer.claim.words[choice.given].text for choice in answer.profile.choices if choice.given in answer.claim.words
+    ]
     method = "closed form"
     if alternatives.reach is not None:
         method = f"search within {alternatives.reach:.0f} mm of the start point"
@@ -65,7 +67,9 @@ def list_solutions(answer: Answer) -> Listing | None:
 def _listed(item: Alternative, is_chosen: bool, alternatives: Alternatives, answer: Answer) -> Listed:
     contour = trace(answer.profile, item.solution) if item.is_path else None
     reasons = tuple(f"{refusal.kind.value} {refusal.subject}".strip() for refusal in item.solution.refusals)
-    return Listed(item.name, contour, reasons, tuple(_selecting(item, alternatives, answer)), is_chosen, item.certificate)
+    return Listed(
+        item.name, contour, reasons, tuple(_selecting(item, alternatives, answer)), is_chosen, item.certificate
+    )
 
 
 def _selecting(item: Alternative, alternatives: Alternatives, answer: Answer) -> list[str]:

@@ -32,7 +32,7 @@ def vocabulary_lines() -> Iterator[str]:
     yield ""
     yield from columns(_FACTS, left=(0, 1))
     yield ""
-    yield "Elements: G111 has line 1, line 2, corner 1, corner 2 and the points S, V1, V2; an NCT circular-linear pair has"
-    yield "arc, line and the points S, C (center), N1 (point on the circle), P1 (intersection), N2 (end). Numbers are in the"
-    yield "unit of the program and mean what they say, with or without a decimal point; X is a diameter on a lathe. Inside a"
-    yield "comment write places with [ ] or without brackets, and separate facts by semicolons."
+    yield "Elements: G111 has line 1, line 2, corner 1, corner 2 and the points S, V1, V2; an NCT circular-linear"
+    yield "pair has arc, line and the points S, C (center), N1 (point on the circle), P1 (intersection), N2 (end)."
+    yield "Numbers are in the unit of the program and mean what they say, with or without a decimal point; X is a"
+    yield "diameter on a lathe. Inside a comment write places with [ ], and separate facts by semicolons."

@@ -110,7 +110,9 @@ def _alternative(profile: Profile, system: System, found: Found) -> Alternative:
         more, about = check_path(profile, machine.corner_residuals, points, out, _sizes(profile, scalars))
         refusals += more
         remarks += about
-    gap = 0.0 if found.doubles else None
+    # A circle about the middle of two of its points is an ordinary half circle.
+    centers = {element.center for element in system.figure.path if isinstance(element, Arc)}
+    gap = 0.0 if any(name.rpartition(".")[0] not in centers for name in found.doubles) else None
     if gap is not None:
         remarks.append(Remark(RemarkKind.TOUCHES, _touching(system, found), (), {}))
     radius = radius_of(boxes, scalars) if proof is not Proof.UNKNOWN or found.doubles else inf

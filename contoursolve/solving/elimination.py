@@ -97,12 +97,14 @@ def _solve(equations: list[Polynomial], unknowns: frozenset[int], limits: Limits
             for root in _solve([each.substitute(unknown, replacement) for each in rest], unknowns - {unknown}, limits):
                 yield _back(pending, {**root.values, unknown: value}, is_double or root.is_double)
         return
-    pair = next((pair for pair in combinations(equations, 2) if len(pair[0].unknowns | pair[1].unknowns) == 2), None)
+    pairs = combinations(equations, 2)
+    pair = next((pair for pair in pairs if len(pair[0].unknowns | pair[1].unknowns) == 2), None)  # noqa: PLR2004
     if pair is None:
         raise ObstacleError(Obstacle.NO_CLOSED_FORM)
     used = pair[0].unknowns | pair[1].unknowns
+    first, second = sorted(used)
     rest = [each for each in equations if each is not pair[0] and each is not pair[1]]
-    for values in _conics(*pair, tuple(sorted(used))):
+    for values in _conics(*pair, (first, second)):
         replaced = rest
         for unknown, value in values.items():
             replaced = [each.substitute(unknown, known(value)) for each in replaced]
@@ -120,6 +122,8 @@ def _eliminate(
             combined = _combine(equations)
             if combined is None:
                 return equations, unknowns
+            if not _is_consistent(combined):
+                return [constant for constant in combined if constant.degree <= 0], unknowns
             equations = combined
             continue
         found = [

@@ -22,8 +22,8 @@ class Kernel:
     """Equations and unknowns of one step.
 
     `coefficients` gives the coefficients of the equations as polynomials in the unknowns, counted from an origin, in
-    the order of `terms` (equation, monomial), at the values of `parameters`; it is None if an equation is no polynomial of
-    degree 2. `equations` gives the equations and then their derivatives, row by row, at the values of
+    the order of `terms` (equation, monomial), at the values of `parameters`; it is None if an equation is no
+    polynomial of degree 2. `equations` gives the equations and then their derivatives, row by row, at the values of
     `arguments`, which are the unknowns and then other inputs. `function` is the same in CasADi.
     """
 

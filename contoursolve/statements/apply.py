@@ -59,7 +59,7 @@ def apply_statements(
     for number, directive in enumerate(directives, 1):
         try:
             statement = directive.statement or read_statement(directive.text, words)
-            read.append((f"fact {number}", cast(Statement, statement), word_of(directive)))
+            read.append((f"fact {number}", cast("Statement", statement), word_of(directive)))
         except GrammarError as error:
             faults.append(Fault(Flaw.UNREADABLE, str(error), word_of(directive, error.begin, error.end)))
     questions = list(profile.questions)

@@ -180,7 +180,7 @@ class Draft:
         self.line(before)
         self.line(after)
         begin, end, size = f"{name}.begin", f"{name}.end", f"{name}.radius"
-        points = (begin, end)
+        points: tuple[str, ...] = (begin, end)
         if corner.size in self.givens:
             self.add(Radius(corner.size, size))
         if corner.shape is CornerShape.FILLET:
@@ -205,7 +205,7 @@ class Draft:
         self.figure = replace(self.figure, points=(*self.figure.points, *points), radii=(*self.figure.radii, size))
 
     def _advance(self, corner: Corner) -> tuple[tuple[str, str], ...]:
-        """The pairs of points whose way along an axis is the way of a 45 degree chamfer; the first that moves counts."""
+        """The pairs of points whose way along an axis is that of a 45 degree chamfer; the first that moves counts."""
         lines = [element for element in self.figure.path if isinstance(element, Line)]
         index = next(number for number, line in enumerate(lines) if line.name == corner.before)
         if corner.after is not None:

@@ -38,6 +38,7 @@ from contoursolve.statements.statement import (
 )
 
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?(?![\w.])")
+_PARTS = {"begin": ("begin of", "start of"), "end": ("end of",), "center": ("center of", "centre of")}
 _BLANK = re.compile(r"[\s,]*")
 LONGEST_NUMBER = 40
 
@@ -144,12 +145,10 @@ class _Reader:
 
     def _coordinate(self, axis: int) -> _Quantity:
         factor = Decimal("0.5") if self.words.plane.diameters[axis] else Decimal(1)
-        for part, spellings in (("begin", ("begin", "start")), ("end", ("end",)), ("center", ("center", "centre"))):
-            if any(self._accept(f"{spelling} of") for spelling in spellings):
-                name = self._element("an element")
-                return _Quantity("coordinate", (name,), lambda value: PointIs(part, name, axis, value), factor=factor)
-        name = self._name(self.words.points, "a point, or `begin of`, `end of`, `center of`")
-        return _Quantity("coordinate", (name,), lambda value: PointIs("", name, axis, value), factor=factor)
+        part = next((part for part, spellings in _PARTS.items() if any(map(self._accept, spellings))), "")
+        expected = "an element" if part else "a point, or `begin of`, `end of`, `center of`"
+        name = self._name(self.words.elements if part else self.words.points, expected)
+        return _Quantity("coordinate", (name,), lambda value: PointIs(part, name, axis, value), factor=factor)
 
     def _other(self) -> str | CircleAt | LineAt:
         begin = self.at

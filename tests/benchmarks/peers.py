@@ -7,10 +7,13 @@ judged by `chains.measure` alone. planegcs (FreeCAD) is not installable here: no
 """
 
 import importlib.util
+import os
+import signal
 import sys
 from cmath import exp
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from math import radians
 from pathlib import Path
@@ -33,6 +36,7 @@ from chains import (
     residuals,
     wrapped,
 )
+from sketches import chain_of, sketch_of
 
 TRUE = 1e-6
 """mm and degrees. A chain is a solution if no residual is larger."""
@@ -53,6 +57,8 @@ class Attempt(NamedTuple):
     says_solved: bool
     seconds: float
     """Of the call that solves, without building the problem."""
+    says_all: bool = False
+    """Whether it claims that there is no other solution."""
 
 
 class NotExpressibleError(Exception):
@@ -337,7 +343,56 @@ class LeastSquares:
         return Attempt((form.at(found.x),), says_solved, seconds)
 
 
-ADAPTERS: list[Adapter] = [SolveSpace(), LeastSquares(), LeastSquares(is_checking=True), LeastSquares("trf")]
+# contoursolve
+
+
+PATIENCE = float(os.environ.get("CONTOURSOLVE_PATIENCE", "5"))
+"""Seconds after which our own solver is interrupted, and has failed."""
+
+
+class LateError(Exception):
+    """The time is over."""
+
+
+@contextmanager
+def at_most(seconds: float) -> Iterator[None]:
+    """Raise LateError in here when the time is over (main thread of a POSIX system only)."""
+
+    def late(*_: object) -> None:
+        raise LateError
+
+    before = signal.signal(signal.SIGALRM, late)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+
+
+class Ours:
+    """It is given no guess, and offers every drawing that it can prove."""
+
+    name = "contoursolve"
+
+    def solve(self, case: Case) -> Attempt:
+        sketch = sketch_of(case.chain, case.facts)
+        begin = perf_counter()
+        try:
+            with at_most(PATIENCE):
+                drawings = sketch.solve()
+        except Exception:
+            # An exception that a signal raises inside of CasADi may come out as another one.
+            if perf_counter() - begin < PATIENCE:
+                raise
+            return Attempt((), says_solved=False, seconds=perf_counter() - begin)
+        seconds = perf_counter() - begin
+        proven = [drawn for drawn in drawings if drawn.certificate.proof.value in ("exact", "unique")]
+        chains = tuple(chain_of(drawn, case.chain) for drawn in proven)
+        return Attempt(chains, bool(chains) or drawings.is_complete, seconds, drawings.is_complete)
+
+
+ADAPTERS: list[Adapter] = [SolveSpace(), LeastSquares(), LeastSquares(is_checking=True), LeastSquares("trf"), Ours()]
 """Append to it what has a `name` and a `solve`."""
 if importlib.util.find_spec("slvs") is None:
     NOT_INSTALLABLE["slvs"] = "not installed"
@@ -358,14 +413,17 @@ def is_true(case: Case, chain: Chain) -> bool:
 def judge(case: Case, attempt: Attempt) -> str:
     """
     `right`: what it offers is true, and the original is among it. `another`: true, but not the original.
-    `wrong`: said to be solved, and some of it is not true. `failed`: said not to be solved.
+    `wrong`: said to be solved, and some of it is not true; or said to be all, without the original.
+    `failed`: said not to be solved.
     """
-    if not attempt.says_solved or not attempt.chains:
+    if not attempt.says_solved or not (attempt.chains or attempt.says_all):
         return FAILED
     if not all(is_true(case, chain) for chain in attempt.chains):
         return WRONG
     near = SAME * case.chain.extent
-    return RIGHT if any(distance_between(case.chain, chain) < near for chain in attempt.chains) else ANOTHER
+    if any(distance_between(case.chain, chain) < near for chain in attempt.chains):
+        return RIGHT
+    return WRONG if attempt.says_all else ANOTHER
 
 
 class Row(NamedTuple):

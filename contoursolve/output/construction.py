@@ -1,0 +1,157 @@
+"""The plan of a contour in words: a construction that a toolmaker could follow with ruler and compass."""
+
+from collections.abc import Iterator, Mapping, Sequence
+
+from contoursolve.analysis import Group, judge, order
+from contoursolve.constraints import (
+    Coordinate,
+    Foot,
+    Heading,
+    Offset,
+    OnCircle,
+    Parallel,
+    Radius,
+    System,
+    TangentCircles,
+    TangentLine,
+    Through,
+    assemble,
+)
+from contoursolve.examine import Answer, list_alternatives
+from contoursolve.explain import angle_text, join, length_text, unknowns_text
+from contoursolve.model import Fact, Profile
+from contoursolve.output.layout import printable
+from contoursolve.solving import scalars_of, solve
+from contoursolve.solving.alternatives import Alternatives, choose
+from contoursolve.solving.elimination import remaining
+from contoursolve.solving.kernel import make_kernel
+from contoursolve.statements.words import ADDRESS
+
+
+def construction_lines(answer: Answer) -> list[str]:
+    """The steps of the plan: what each finds, from which facts, which of several places is meant, and where it is."""
+    profile = answer.profile
+    if not profile.start.is_known:
+        return ["  construction: the start point is not known"]
+    system = assemble(profile)
+    verdict = judge(system)
+    if not verdict.is_determined:
+        return [f"  construction: nothing determines {unknowns_text(verdict.free, profile)}"]
+    groups = order(system, tuple(system.facts[index] for index in verdict.basis))
+    scalars, sides = _found(answer)
+    lines = ["  construction:"]
+    for number, group in enumerate(_joined(groups), 1):
+        facts = join(list(dict.fromkeys(filter(None, (_phrase(fact, group, profile) for fact in group.facts)))))
+        how = _choice(group, system, sides)
+        place = _place(group, profile, scalars)
+        lines.append(f"    {number}. {_things(group, profile)}: {facts}{how}")
+        lines += [f"       -> {place}"] if place else []
+    left = [system.facts[index] for index in range(len(system.facts)) if index not in verdict.basis]
+    words = join([printable(word.text) for word in profile.words_of(left)])
+    return [*lines, f"    checked besides: {words}"] if words else lines
+
+
+def _found(answer: Answer) -> tuple[Mapping[str, float], Mapping[str, str]]:
+    """Values (mm) and sides of the contour that was solved; empty without one."""
+    if answer.contour is None:
+        return {}, {}
+    alternatives = list_alternatives(answer)
+    if alternatives is None:
+        solution = solve(answer.profile)
+        return {**scalars_of(solution.points), **solution.radii}, {}
+    return _of_chosen(alternatives, answer.profile)
+
+
+def _of_chosen(alternatives: Alternatives, profile: Profile) -> tuple[Mapping[str, float], Mapping[str, str]]:
+    chosen = [item for item in choose(alternatives, profile.choices) if item.is_path]
+    differing = {key for key in chosen[0].sides if len({each.sides.get(key) for each in alternatives.items}) > 1}
+    return chosen[0].scalars, {key: side for key, side in chosen[0].sides.items() if key in differing}
+
+
+def _joined(groups: Sequence[Group]) -> Iterator[Group]:
+    """Steps in a row that find coordinates of one point, as one step."""
+    pending: Group | None = None
+    for group in groups:
+        if pending is not None and len(_names(pending)) == 1 and _names(pending) == _names(group):
+            pending = Group(pending.facts + group.facts, pending.unknowns + group.unknowns)
+            continue
+        if pending is not None:
+            yield pending
+        pending = group
+    if pending is not None:
+        yield pending
+
+
+def _names(group: Group) -> set[str]:
+    return {name.rpartition(".")[0] for name in group.unknowns}
+
+
+def _things(group: Group, profile: Profile) -> str:
+    """What a step finds."""
+    shown = unknowns_text(group.unknowns, profile)
+    axes = f" ({join(profile.plane.axes)})"
+    return shown.replace(axes, "")
+
+
+def _phrase(fact: Fact, group: Group, profile: Profile) -> str:
+    """One fact as a condition on what is to be found; empty for what goes without saying."""
+    given = profile.givens.get(fact.given)
+    word = f" ({printable(given.word.text)})" if given is not None and given.word is not None else ""
+    if given is not None and given.word is not None and given.word.address == ADDRESS:
+        return printable(given.word.text)
+    unit, axes = profile.unit, profile.plane.axes
+    match fact:
+        case Coordinate(point=point, axis=axis) if given is not None:
+            factor = 2 if profile.plane.diameters[axis] else 1
+            return f"{point} at {axes[axis]}{length_text(float(given.value) * factor, unit)}{word}"
+        case Offset(origin=origin, axis=axis) if given is not None:
+            return f"{length_text(float(given.value), unit)} from {origin} along {axes[axis]}{word}"
+        case Heading(tail=tail, head=head) if given is not None:
+            other = tail if f"{head}.0" in group.unknowns or f"{head}.1" in group.unknowns else head
+            return f"on the line through {other} at {angle_text(float(given.value))}{word}"
+        case OnCircle(point=point, center=center, radius=radius):
+            if radius in group.unknowns:
+                return f"the circle about {center} passes through {point}"
+            return f"{point} on the circle about {center}"
+        case Radius() if given is not None:
+            return f"radius {length_text(float(given.value), unit)}{word}"
+        case Through(line=line, point=point):
+            return f"{line} passes through {point}"
+        case TangentLine(line=line, center=center):
+            return f"{line} touches the circle about {center}"
+        case TangentCircles(first=first, second=second):
+            return f"the circles about {first[0]} and {second[0]} touch"
+        case Foot(line=line, point=point):
+            return f"{point} where the circle touches {line}"
+        case Parallel(line=line, axis=axis):
+            return f"{line} parallel to {axes[axis]}"
+        case _:
+            return ""
+
+
+def _choice(group: Group, system: System, sides: Mapping[str, str]) -> str:
+    """Which of several places is meant, and that a step has no closed form."""
+    names = _names(group)
+    chosen = [f"the one {side}" if name in names else f"{name} {side}" for name, side in sides.items() if name in names]
+    kernel = make_kernel(system, group)
+    numeric = "; no closed form: searched, and proven" if len(group.unknowns) > 1 and remaining(kernel) is None else ""
+    return (f"; {join(chosen)}" if chosen else "") + numeric
+
+
+def _place(group: Group, profile: Profile, scalars: Mapping[str, float]) -> str:
+    """Where the points of a step lie, and how large its radii are."""
+    texts = []
+    for name in group.unknowns:
+        thing, _, part = name.rpartition(".")
+        if name not in scalars or part in ("cos", "sin", "off"):
+            continue
+        value = scalars[name]
+        if part.isdigit():
+            shown = value * (2 if profile.plane.diameters[int(part)] else 1)
+            label = (
+                f"{thing} {profile.plane.axes[int(part)]}" if len(_names(group)) > 1 else profile.plane.axes[int(part)]
+            )
+            texts.append(f"{label}{length_text(shown, profile.unit)}")
+        else:
+            texts.append(f"radius {length_text(value, profile.unit)}")
+    return " ".join(texts)
