@@ -9,7 +9,7 @@ from contoursolve.diagnosis.edits import write_word
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer, Filled, Policy, examine
 from contoursolve.reading import Claim, State
-from contoursolve.statements.words import ADDRESS
+from contoursolve.syntax import FACT
 
 FARTHEST = 0.01
 """mm. A block with rounded values whose contour is farther from the exact one is not offered."""
@@ -21,7 +21,7 @@ def fill_in(answer: Answer, before: State, dialect: Dialect) -> Filled | None:
     `before` is the state at the first block. The further facts are left out: the control does not read them.
     """
     texts = {block.line: block.text for block in answer.claim.blocks}
-    words = [(each.question.word, each.value) for each in answer.answers if each.question.word.address != ADDRESS]
+    words = [(each.question.word, each.value) for each in answer.answers if each.question.word.address != FACT]
     for word, value in sorted(words, key=lambda each: each[0].span, reverse=True):
         if value is None:
             return None

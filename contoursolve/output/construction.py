@@ -25,7 +25,7 @@ from contoursolve.solving import scalars_of, solve
 from contoursolve.solving.alternatives import Alternatives, choose
 from contoursolve.solving.elimination import remaining
 from contoursolve.solving.kernel import make_kernel
-from contoursolve.statements.words import ADDRESS
+from contoursolve.syntax import FACT
 
 
 def construction_lines(answer: Answer) -> list[str]:
@@ -97,7 +97,7 @@ def _phrase(fact: Fact, group: Group, profile: Profile) -> str:
     """One fact as a condition on what is to be found; empty for what goes without saying."""
     given = profile.givens.get(fact.given)
     word = f" ({printable(given.word.text)})" if given is not None and given.word is not None else ""
-    if given is not None and given.word is not None and given.word.address == ADDRESS:
+    if given is not None and given.word is not None and given.word.address == FACT:
         return printable(given.word.text)
     unit, axes = profile.unit, profile.plane.axes
     match fact:

@@ -12,8 +12,7 @@ from contoursolve.output.solutions import list_solutions, printed_certificate
 from contoursolve.pipeline import Result
 from contoursolve.reading import Form, Lexicon
 from contoursolve.solving import Point
-from contoursolve.statements.words import ADDRESS
-from contoursolve.syntax import Word
+from contoursolve.syntax import FACT, Word
 
 _VERDICT = {Verdict.PASSED: "passed", Verdict.FOUND: "see finding", Verdict.NOT_RUN: "not run"}
 
@@ -103,13 +102,13 @@ def _given_rows(answer: Answer, form: Form, dialect: Dialect) -> list[tuple[str,
     words = {given.name: given.word for given in answer.profile.givens.values() if given.word}
     shown_facts: set[int] = set()
     for name, word in sorted(words.items(), key=lambda item: item[1].span):
-        if word.address == ADDRESS and id(word) in shown_facts:
+        if word.address == FACT and id(word) in shown_facts:
             continue
         shown_facts.add(id(word))
         row = dialect.modes.lexicon.addresses.get(word.address)
         meaning = form.meanings.get(name) or (row.meaning if row else "")
         meaning += " - ignored" if name in ignored else ""
-        if word.address == ADDRESS:
+        if word.address == FACT:
             rows.append((printable(word.text), "", "", "further fact"))
         else:
             rows.append((word.text, *_value(word, dialect.modes.lexicon, answer.unit), meaning))

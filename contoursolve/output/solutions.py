@@ -1,14 +1,19 @@
 """All solutions of one contour, for a person and for JSON: which there are, what selects each, how well it is known."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from math import floor, inf, log10
+from typing import TYPE_CHECKING
 
 from contoursolve.contour import Contour, trace
 from contoursolve.examine import Answer, list_alternatives
 from contoursolve.model import Length
-from contoursolve.solving.alternatives import Alternative, Alternatives, choose
 from contoursolve.solving.certificate import Certificate, Proof, up_to_one_digit
 from contoursolve.tolerance import LENGTH
+
+if TYPE_CHECKING:
+    from contoursolve.solving.alternatives import Alternative, Alternatives
 
 DECIMALS = 12
 """Decimals of coordinates in mm: below the rounding of the arithmetic, so that nothing is lost."""
@@ -46,6 +51,8 @@ def list_solutions(answer: Answer) -> Listing | None:
             return None
         only = Listed("", answer.contour, (), (), is_chosen=True, certificate=answer.certificate)
         return Listing((only,), is_complete=True, method="closed form", doubts=(), chosen_by="")
+    from contoursolve.solving.alternatives import choose  # noqa: PLC0415 - most contours need no choice
+
     eligible = choose(alternatives, answer.profile.choices)
     paths = [item for item in eligible if item.is_path]
     chosen = paths[0] if len(paths) == 1 and answer.contour is not None else None

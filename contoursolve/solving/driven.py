@@ -22,8 +22,11 @@ from contoursolve.solving.krawczyk import Content, content_of, keep, refine, sol
 from contoursolve.solving.polynomial import Coefficient
 from contoursolve.solving.search import search
 
-EVALUATIONS = 1_000
-"""How many intervals are looked at before a search is given up as undecided."""
+EVALUATIONS = 1_500
+"""How many intervals are looked at for one drawing before the search is given up as undecided; a second or three."""
+
+LEAST = 150
+"""How many intervals every search may look at, however much the ones before it used."""
 
 STARTS = 400
 """How many of the undecided intervals are then used as starts for CasADi's root finder."""
@@ -81,22 +84,27 @@ Inputs = Callable[[Kernel, Mapping[str, Number]], Mapping[str, Number]]
 
 
 def follow(
-    drive: Drive, whole: Kernel, coefficients: Coefficients, inputs: Inputs, reach: Mapping[str, tuple[float, float]]
-) -> tuple[list[Root], bool]:
-    """All solutions of a group within reach, and whether the list is proven to be complete.
+    drive: Drive,
+    whole: Kernel,
+    coefficients: Coefficients,
+    inputs: Inputs,
+    reach: Mapping[str, tuple[float, float]],
+    budget: int,
+) -> tuple[list[Root], bool, int]:
+    """All solutions of a group within reach, whether the list is proven to be complete, and how many intervals of
+    the budget were used.
 
     `coefficients` gives the parameters of a step at the values of some unknowns and about an origin, `inputs` the
-    arguments of a kernel;
-    `reach` is the range of each unknown.
+    arguments of a kernel; `reach` is the range of each unknown.
     """
     low, high = (-pi, pi) if drive.is_direction else reach[drive.parameter]
     pending = deque([(low, high)])
     found: list[list[Number]] = []
     known = inputs(whole, {})
     given_up: list[tuple[float, float]] = []
-    for _ in range(EVALUATIONS):
-        if not pending:
-            break
+    used = 0
+    while pending and used < budget:
+        used += 1
         begin, end = pending.popleft()
         try:
             boxes = list(_branches(drive, whole, (begin, end), coefficients, inputs, reach))
@@ -121,7 +129,7 @@ def follow(
             continue
         for box in boxes:
             search(whole, [ball.middle(each) for each in box], known, found)
-    return [Root(dict(enumerate(box))) for box in found], not undecided
+    return [Root(dict(enumerate(box))) for box in found], not undecided, used
 
 
 @dataclass(frozen=True, slots=True)

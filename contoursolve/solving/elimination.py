@@ -132,9 +132,10 @@ def _eliminate(
             for monomial in each.terms
             if monomial and ball.sign(each.terms[monomial].value)
         ]
+        # A quotient by a ball next to zero holds far too much; whether it is out of reach is asked before.
+        if any(_is_beyond(each, limits) for each in linear):
+            return [polynomial({(): Coefficient(ball.exact(1.0), 1)})], unknowns
         if not found:
-            if any(_is_beyond(each, limits) for each in linear):
-                return [polynomial({(): Coefficient(ball.exact(1.0), 1)})], unknowns
             raise ObstacleError(Obstacle.UNDECIDED)
         _, _, _, pivot, monomial = max(found, key=lambda each: (ball.middle(each[0]), each[1], each[2]))
         lead = pivot.terms[monomial]
@@ -247,9 +248,9 @@ def _roots(equation: Polynomial, unknown: int, limits: Limits) -> list[tuple[Num
         equation.terms[monomial].value if monomial in equation.terms else zero
         for monomial in ((unknown, unknown), (unknown,), ())
     )
+    if _is_beyond(equation, limits):
+        return []
     if ball.sign(a) is None:
-        if _is_beyond(equation, limits):
-            return []
         raise ObstacleError(Obstacle.UNDECIDED)
     discriminant = b * b - 4 * a * c
     match ball.sign(discriminant):

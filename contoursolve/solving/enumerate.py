@@ -11,7 +11,7 @@ from contoursolve.backends.ball import Number
 from contoursolve.backends.residue import draw
 from contoursolve.constraints import System
 from contoursolve.model import Line, Profile, scalar
-from contoursolve.solving.driven import find_drive, follow
+from contoursolve.solving.driven import EVALUATIONS, LEAST, find_drive, follow
 from contoursolve.solving.elimination import Close, Limits, Obstacle, ObstacleError, Root, solve_step
 from contoursolve.solving.ground import Ground, ground_of
 from contoursolve.solving.kernel import ORIGIN, Kernel, make_kernel
@@ -80,6 +80,7 @@ class _Search:
         self.close = close
         self.doubts: list[Doubt] = []
         self.is_searched = False
+        self.budget = EVALUATIONS
         self.reach = ground.reach(system)
         lines = [line for line in (*system.figure.path, *system.figure.lines) if isinstance(line, Line)]
         carriers = [line for line in lines if line.name in system.figure.carriers]
@@ -139,13 +140,15 @@ class _Search:
         if drive is None:
             self.doubts.append(Doubt(kernel.unknowns, Obstacle.NO_CLOSED_FORM))
             return search_everywhere(kernel, inputs(kernel, {}), reach)
-        roots, is_complete = follow(
+        roots, is_complete, used = follow(
             drive,
             kernel,
             lambda step, found, origin: self._coefficients(step, {**scalars, **found}, signs, origin),
             inputs,
             reach,
+            max(self.budget, LEAST),
         )
+        self.budget -= used
         if not is_complete:
             self.doubts.append(Doubt(kernel.unknowns, Obstacle.UNFINISHED))
         return roots

@@ -9,7 +9,7 @@ from contoursolve.backends.inputs import COSINE, SIDE
 from contoursolve.constraints import Coordinate, Functions, System, Values
 from contoursolve.model import FIRST, SECOND, Given, Profile, Unit, scalar
 
-REACH = 16.0
+REACH = 4.0
 """How many times as far as anything that is given a search goes."""
 
 BALLS = Functions(ball.root, ball.cosine, ball.sine)

@@ -24,6 +24,10 @@ class Word:
     is_asked: bool = False
 
 
+FACT = "fact"
+"""What stands for the address of a fact that is no word."""
+
+
 @dataclass(frozen=True, slots=True)
 class Directive:
     """A fact for contoursolve alone, in a comment `(contoursolve: ...)` or stated apart from the program.

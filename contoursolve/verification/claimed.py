@@ -1,14 +1,11 @@
-"""A claimed result, read from JSON of schema contoursolve/solve/1 into records; unknown fields are left alone."""
+"""A claimed result as records. What older results do not have is None."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum
 
 from contoursolve.model import Turn
-from contoursolve.verification.document import Document
-from contoursolve.verification.node import Coordinates, Node, read_json, shown
-
-SCHEMA = "contoursolve/solve/1"
+from contoursolve.verification.node import Coordinates
 
 
 class ClaimedStatus(Enum):
@@ -19,6 +16,7 @@ class ClaimedStatus(Enum):
     UNDERDETERMINED = "underdetermined"
     OVERDETERMINED = "overdetermined"
     CONFLICTING = "conflicting"
+    AMBIGUOUS = "ambiguous"
     NO_SOLUTION = "no-solution"
 
 
@@ -54,10 +52,72 @@ class ClaimedElement:
 
 @dataclass(frozen=True, slots=True)
 class ClaimedCertificate:
-    """How well the result says its points are known: `radius` in mm, None where it names none."""
+    """How well the result says its points are known: `radius` in mm, None where it names none.
+
+    `reason` says why there is no better one. `double` tells that two solutions have become one; None where the
+    result does not tell.
+    """
 
     kind: str
     radius: float | None
+    reason: str | None = None
+    double: bool | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class ClaimedPath:
+    """Where a path ends, its named points and its elements; all empty where there is none."""
+
+    end: Coordinates | None
+    points: Mapping[str, Coordinates]
+    elements: tuple[ClaimedElement, ...]
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether nothing of a path is claimed."""
+        return self.end is None and not self.points and not self.elements
+
+
+@dataclass(frozen=True, slots=True)
+class ClaimedAsked:
+    """A value that was asked for: mm (radius) or degrees, as `unit` says; None where nothing determines it."""
+
+    word: str
+    line: int
+    unit: str
+    value: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class ClaimedFilled:
+    """The blocks with the values that were asked for, and how far their contour is from the claimed one, mm."""
+
+    blocks: tuple[str, ...]
+    deviation: float
+
+
+@dataclass(frozen=True, slots=True)
+class ClaimedSolution:
+    """One solution of the equations; `path` is empty where the control cannot make it."""
+
+    name: str
+    is_chosen: bool
+    selects: tuple[str, ...]
+    is_path: bool
+    reasons: tuple[str, ...]
+    path: ClaimedPath
+    certificate: ClaimedCertificate
+
+
+@dataclass(frozen=True, slots=True)
+class ClaimedCount:
+    """How many solutions there are said to be, and how many of them are paths."""
+
+    solutions: int
+    contours: int
+    is_complete: bool
+    doubts: tuple[str, ...]
+    chosen_by: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,22 +130,20 @@ class ClaimedContour:
     status: ClaimedStatus
     plane: tuple[str, ...]
     start: tuple[float | None, ...]
-    end: Coordinates | None
-    points: Mapping[str, Coordinates]
-    elements: tuple[ClaimedElement, ...]
+    path: ClaimedPath
     branch: str | None
     certificate: ClaimedCertificate
-
-    @property
-    def is_empty(self) -> bool:
-        """Whether nothing of a path is claimed."""
-        return self.end is None and not self.points and not self.elements
+    facts: tuple[str, ...] | None = None
+    asked: tuple[ClaimedAsked, ...] | None = None
+    filled: ClaimedFilled | None = None
+    solutions: tuple[ClaimedSolution, ...] | None = None
+    count: ClaimedCount | None = None
 
     @property
     def has_path(self) -> bool:
         """Whether a path must be claimed. An overdetermined contour may have none: no-solution ranks after it."""
         is_over = self.status is ClaimedStatus.OVERDETERMINED
-        return self.status is ClaimedStatus.SOLVED or (is_over and not self.is_empty)
+        return self.status is ClaimedStatus.SOLVED or (is_over and not self.path.is_empty)
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,50 +152,3 @@ class ClaimedResult:
 
     control: str | None
     contours: tuple[ClaimedContour, ...]
-
-
-def read_result(document: Document) -> ClaimedResult:
-    """The claims of a result. Raises CannotVerifyError, which names the field that is missing or mistyped."""
-    root = read_json(document)
-    schema = root.field("schema").text()
-    if schema != SCHEMA:
-        root.field("schema").refuse(f"{shown(schema)} where {SCHEMA!r} is read: write it by 'solve --format json'")
-    control = root.field("control").optional()
-    return ClaimedResult(
-        control.text() if control else None,
-        tuple(_contour(node) for node in root.field("contours").items()),
-    )
-
-
-def _contour(node: Node) -> ClaimedContour:
-    end, branch = node.field("end").optional(), node.field("branch").optional()
-    certificate = node.field("certificate")
-    radius = certificate.field("radius").optional()
-    starts = (each.optional() for each in node.field("start").pair())
-    return ClaimedContour(
-        line=node.field("line").integer(),
-        lines=tuple(each.integer() for each in node.field("lines").items()),
-        form=node.field("form").text(),
-        status=ClaimedStatus(node.field("status").choice(tuple(each.value for each in ClaimedStatus))),
-        plane=tuple(each.text() for each in node.field("plane").pair()),
-        start=tuple(each.number() if each else None for each in starts),
-        end=end.coordinates() if end else None,
-        points={name: each.coordinates() for name, each in node.field("points").fields().items()},
-        elements=tuple(_element(each) for each in node.field("elements").items()),
-        branch=branch.text() if branch else None,
-        certificate=ClaimedCertificate(certificate.field("kind").text(), radius.number() if radius else None),
-    )
-
-
-def _element(node: Node) -> ClaimedElement:
-    kind = ElementKind(node.field("kind").choice(tuple(each.value for each in ElementKind)))
-    return ClaimedElement(
-        start=node.field("start").coordinates(),
-        end=node.field("end").coordinates(),
-        arc=_arc(node) if kind is ElementKind.ARC else None,
-    )
-
-
-def _arc(node: Node) -> ClaimedArc:
-    turn = Turn(node.field("turn").choice(tuple(each.value for each in Turn)))
-    return ClaimedArc(node.field("center").coordinates(), node.field("radius").number(), turn)

@@ -83,6 +83,11 @@ class Node:
             self.refuse(f"the field {name!r} is missing")
         return found
 
+    def maybe(self, name: str) -> "Node | None":
+        """A field that older results lack; null counts as missing."""
+        found = self.fields().get(name)
+        return found.optional() if found else None
+
     def items(self) -> "Iterator[Node]":
         if not isinstance(self.value, list):
             self.expect("a list")
@@ -103,10 +108,20 @@ class Node:
             self.expect("a text")
         return self.value
 
+    def boolean(self) -> bool:
+        if not isinstance(self.value, bool):
+            self.expect("true or false")
+        return self.value
+
     def integer(self) -> int:
+        if self.whole() < 0:
+            self.refuse(f"{shown(self.value)} is no line number")
+        return self.whole()
+
+    def whole(self) -> int:
         if isinstance(self.value, bool) or not isinstance(self.value, int):
             self.expect("a whole number")
-        if not 0 <= self.value <= FARTHEST:
+        if not abs(self.value) <= FARTHEST:
             self.refuse(f"{shown(self.value)} is no line number")
         return self.value
 

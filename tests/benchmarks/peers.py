@@ -362,7 +362,8 @@ def at_most(seconds: float) -> Iterator[None]:
         raise LateError
 
     before = signal.signal(signal.SIGALRM, late)
-    signal.setitimer(signal.ITIMER_REAL, seconds)
+    # Again and again, for an exception that is raised while an object is deleted is lost.
+    signal.setitimer(signal.ITIMER_REAL, seconds, 0.1)
     try:
         yield
     finally:
