@@ -5,7 +5,7 @@ from math import atan2, tau
 from typing import Any
 
 from contoursolve.constraints.equation import Equation, both, cross, dot, rotate, step
-from contoursolve.model import Lookup, Turn, scalar
+from contoursolve.model import Lookup, Turn
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,29 +54,29 @@ class TangentCircles(Equation):
 
 @dataclass(frozen=True, slots=True)
 class Contact(Equation):
-    """`point` is where two touching circles touch, in one coordinate."""
+    """`point`, which lies on two circles, is where they touch: in line with their centres.
+
+    It lies between the centres for a contact from outside (`side` +1), beyond them for one from inside (-1).
+    """
 
     point: str
     first: tuple[str, str]
+    """Center and radius."""
     second: tuple[str, str]
-    side: str | int
-    axis: int
+    side: int
     given: str = ""
 
     def reads(self) -> tuple[str, ...]:
-        points = (self.point, self.first[0], self.second[0])
-        return *(scalar(point, self.axis) for point in points), self.first[1], self.second[1]
-
-    def sides(self) -> tuple[str, ...]:
-        return (self.side,) if isinstance(self.side, str) else ()
+        return both(self.point, self.first[0], self.second[0])
 
     def equation(self, at: Lookup) -> Any:
-        point, first, second = (at.coordinate(name, self.axis) for name in (self.point, self.first[0], self.second[0]))
-        reach, other = at.radius(self.first[1]), side_of(self.side, at) * at.radius(self.second[1])
-        return (reach + other) * (point - first) - reach * (second - first)
+        return cross(step(at, self.first[0], self.point), step(at, self.first[0], self.second[0]))
 
     def residual(self, at: Lookup) -> Any:
         return self.equation(at) / (at.radius(self.first[1]) + at.radius(self.second[1]))
+
+    def sense(self, at: Lookup) -> Any:
+        return self.side * dot(step(at, self.first[0], self.point), step(at, self.point, self.second[0]))
 
 
 @dataclass(frozen=True, slots=True)

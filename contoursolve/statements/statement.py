@@ -27,7 +27,7 @@ from contoursolve.constraints import (
     Through,
     TurnBetween,
 )
-from contoursolve.model import FIRST, SECOND, Arc, Corner, CornerShape, Fact, Line, Unit
+from contoursolve.model import Arc, Corner, CornerShape, Fact, Line, Unit
 from contoursolve.statements.draft import Draft, Round, StatementError
 
 Place = tuple[Decimal, Decimal]
@@ -214,10 +214,7 @@ class Touches:
         if isinstance(first, Arc) and isinstance(second, Arc):
             circles = (first.center, first.radius), (second.center, second.radius)
             side = 1 if first.turn is not second.turn else -1
-            draft.leave(at, first)
-            draft.leave(at, second)
-            draft.add(*(Contact(at, *circles, side, axis) for axis in (FIRST, SECOND)))
-            return _named(draft, name, TangentCircles(*circles, side, name))
+            return _named(draft, name, Contact(at, *circles, side, name))
         if isinstance(first, Line) and isinstance(second, Line):
             straight = draft.give(name, Decimal(0), Unit.DEGREE)
             draft.line(self.first)
