@@ -86,7 +86,7 @@ def _common(command: Callable[..., None]) -> Callable[..., None]:
                 default="enforce",
                 show_default=True,
                 help="Rules of the control's manual: refuse what they refuse; only warn; or let the geometry "
-                "alone decide.",
+                "alone decide. A block with ? or further facts is not for the control yet: they only warn.",
             ),
         )
     ):
@@ -99,7 +99,7 @@ def _common(command: Callable[..., None]) -> Callable[..., None]:
 def main() -> None:
     """Solve CNC contour blocks, or say why they cannot be solved.
 
-    Reads YASNAC LX3 G111 blocks and NCT 99M circular-linear intersections.
+    Reads YASNAC LX3 G111 blocks and NCT 99M circular-linear intersections, with any further facts.
 
     Exit status: 0 no error found, 1 at least one error found, 2 could not run.
     """
@@ -142,8 +142,7 @@ def solve(
     \b
     contoursolve solve shaft.nc
     contoursolve solve --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0."
-    contoursolve solve --block "G111 X100. A180. K-30. B120. P?" --start "X40. Z0." \
-        --fact "straight part of line 2 = 30"
+    contoursolve solve --start "X40. Z0." --fact "length of line 1 = 30" --block "G111 X100. A180. B120. K?"
     """
     result = _examine(_load([program] if program else [], blocks, start)[0](), start, options)
     if format_ == "json":

@@ -19,8 +19,8 @@ class Equation:
     def residual(self, at: Lookup) -> Any:
         raise NotImplementedError
 
-    def sense(self, _at: Lookup) -> Any:
-        return None
+    def senses(self, _at: Lookup) -> tuple[Any, ...]:
+        return ()
 
     def sense_reads(self) -> tuple[str, ...]:
         return self.reads()

@@ -40,8 +40,8 @@ class Directed(Equation):
     def residual(self, at: Lookup) -> Any:
         return cross(at.bearing(self.line), at.direction(self.given))
 
-    def sense(self, at: Lookup) -> Any:
-        return dot(at.bearing(self.line), at.direction(self.given))
+    def senses(self, at: Lookup) -> tuple[Any, ...]:
+        return (dot(at.bearing(self.line), at.direction(self.given)),)
 
     def implied(self, at: Lookup) -> float | None:
         cosine, sine = at.bearing(self.line)
@@ -83,8 +83,10 @@ class Foot(Equation):
     def residual(self, at: Lookup) -> Any:
         return dot(at.bearing(self.line), step(at, self.center, self.point))
 
-    def sense(self, at: Lookup) -> Any:
-        return self.way * dot(at.bearing(self.line), step(at, self.point, self.corner)) if self.corner else None
+    def senses(self, at: Lookup) -> tuple[Any, ...]:
+        if not self.corner:
+            return ()
+        return (self.way * dot(at.bearing(self.line), step(at, self.point, self.corner)),)
 
     def sense_reads(self) -> tuple[str, ...]:
         return *self.reads(), *(both(self.corner) if self.corner else ())
@@ -106,8 +108,8 @@ class Parallel(Equation):
     def residual(self, at: Lookup) -> Any:
         return at.bearing(self.line)[1 - self.axis]
 
-    def sense(self, at: Lookup) -> Any:
-        return at.bearing(self.line)[self.axis] * way(at, self.advance, self.axis)
+    def senses(self, at: Lookup) -> tuple[Any, ...]:
+        return (at.bearing(self.line)[self.axis] * way(at, self.advance, self.axis),)
 
     def sense_reads(self) -> tuple[str, ...]:
         return *self.reads(), *(scalar(point, self.axis) for ends in self.advance for point in ends)
@@ -180,8 +182,8 @@ class ChamferLeg(Equation):
         extent = step(at, self.begin, self.end)[self.axis]
         return extent - at.side(self.side) * at.radius(self.size)
 
-    def sense(self, at: Lookup) -> Any:
-        return at.side(self.side) * way(at, self.advance, self.axis)
+    def senses(self, at: Lookup) -> tuple[Any, ...]:
+        return (at.side(self.side) * way(at, self.advance, self.axis),)
 
     def sense_reads(self) -> tuple[str, ...]:
         return *self.reads(), *(scalar(point, self.axis) for ends in self.advance for point in ends)
@@ -249,8 +251,8 @@ class TurnBetween(Equation):
     def residual(self, at: Lookup) -> Any:
         return self.equation(at) / (self.first.length(at) * self.second.length(at))
 
-    def sense(self, at: Lookup) -> Any:
-        return dot(*self._vectors(at))
+    def senses(self, at: Lookup) -> tuple[Any, ...]:
+        return (dot(*self._vectors(at)),)
 
     def implied(self, at: Lookup) -> float | None:
         first, second = self.first.vector(at), self.second.vector(at)

@@ -75,8 +75,8 @@ class Contact(Equation):
     def residual(self, at: Lookup) -> Any:
         return self.equation(at) / (at.radius(self.first[1]) + at.radius(self.second[1]))
 
-    def sense(self, at: Lookup) -> Any:
-        return self.side * dot(step(at, self.first[0], self.point), step(at, self.point, self.second[0]))
+    def senses(self, at: Lookup) -> tuple[Any, ...]:
+        return (self.side * dot(step(at, self.first[0], self.point), step(at, self.point, self.second[0])),)
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,8 +107,10 @@ class ArcLength(Equation):
     def residual(self, at: Lookup) -> Any:
         return self.equation(at) / at.radius(self.radius)
 
-    def sense(self, at: Lookup) -> Any:
-        return dot(*self._spokes(at))
+    def senses(self, at: Lookup) -> tuple[Any, ...]:
+        # 710 / 113 is 2 pi and a little more: an arc is no longer than its circle.
+        circle = at.radius(self.radius) * 710 / 113
+        return dot(*self._spokes(at)), circle - at.amount(self.given)
 
     def implied(self, at: Lookup) -> float | None:
         begin, end = step(at, self.center, self.tail), step(at, self.center, self.head)

@@ -56,8 +56,8 @@ class Fact(Protocol):
     def equation(self, at: Lookup) -> Any:
         """Zero where the residual is, and polynomial in coordinates, radii and directions where it can be."""
 
-    def sense(self, at: Lookup) -> Any:
-        """What must be positive besides, because the equation alone allows the opposite; None if nothing."""
+    def senses(self, at: Lookup) -> tuple[Any, ...]:
+        """What must be positive besides, because the equation alone allows the opposite."""
 
     def sense_reads(self) -> tuple[str, ...]:
         """Names of the scalars that the sense depends on."""

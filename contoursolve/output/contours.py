@@ -36,7 +36,7 @@ def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False)
     if answer.contour:
         lines += ["", *columns(_path_rows(answer), left=(0, 1))]
     if answer.filled:
-        lines += ["", f"  filled in (the contour moves by at most {_small(answer.filled.deviation)}):"]
+        lines += ["", f"  filled in (the contour moves by {_small(answer.filled.deviation)}):"]
         lines += [f"    {printable(text.strip())}" for text in answer.filled.blocks]
     lines += _solution_lines(answer)
     if answer.contour is None and answer.diagnosis:
@@ -67,11 +67,19 @@ def _solution_lines(answer: Answer) -> list[str]:
     lines = ["", f"  {'at least ' if not listing.is_complete else ''}{_plural(count)}; {known}"]
     lines += [f"  not decided: {doubt}" for doubt in listing.doubts]
     rows = []
+    contours = [each.contour for each in listing.solutions if each.contour]
+    differing = (
+        [point for point in contours[0].points if len({contour.points[point] for contour in contours}) > 1]
+        if contours
+        else []
+    )
     for each in listing.solutions:
         mark = "->" if each.is_chosen else ""
-        end = " ".join(_place(each.contour.end, answer)) if each.contour else ", ".join(each.reasons)
-        label = "ends at" if each.contour else "no contour"
-        rows.append((mark, each.name or "only solution", label, end, " ".join(each.selects), str(each.certificate)))
+        where = ", ".join(each.reasons)
+        if each.contour:
+            where = "  ".join(f"{point} {' '.join(_place(each.contour.points[point], answer))}" for point in differing)
+        label = "" if each.contour else "no contour:"
+        rows.append((mark, each.name or "only solution", label, where, " ".join(each.selects), str(each.certificate)))
     lines += columns(rows, left=(0, 1, 2, 3, 4, 5))
     if listing.chosen_by:
         lines.append(f"  -> chosen by {listing.chosen_by}")

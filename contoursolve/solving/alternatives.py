@@ -14,6 +14,7 @@ from contoursolve.constraints import Values as Lookup
 from contoursolve.model import FIRST, SECOND, Arc, Choice, Profile, Side, Unit, scalar
 from contoursolve.solving.certificate import Certificate, Proof
 from contoursolve.solving.compile import compile_path
+from contoursolve.solving.elimination import Obstacle
 from contoursolve.solving.enumerate import Doubt, Enumeration, Found, enumerate_solutions
 from contoursolve.solving.ground import ground_of
 from contoursolve.solving.path import check_path
@@ -80,7 +81,10 @@ def find_alternatives(profile: Profile) -> Alternatives:
     enumeration = enumerate_solutions(profile, system)
     with ball.precision(ball.WORKING):
         items = [_alternative(profile, system, found) for found in enumeration.found]
-    return Alternatives(tuple(_named(items, profile)), enumeration.doubts, _reach(profile, system, enumeration))
+    doubts = enumeration.doubts
+    if any(refusal.kind is RefusalKind.NOT_VERIFIED for item in items for refusal in item.solution.refusals):
+        doubts = (*doubts, Doubt((), Obstacle.UNDECIDED))
+    return Alternatives(tuple(_named(items, profile)), doubts, _reach(profile, system, enumeration))
 
 
 def choose(alternatives: Alternatives, choices: tuple[Choice, ...]) -> tuple[Alternative, ...]:

@@ -55,6 +55,8 @@ def find_drive(system: System, group: Group) -> Drive | None:
     best: tuple[tuple[int, int], Drive] | None = None
     for parameter, is_direction, unknowns, facts in _candidates(group):
         for left in facts:
+            if isinstance(left, UnitDirection):
+                continue  # what is left of a direction without it is zero
             used = [fact for fact in facts if fact is not left]
             try:
                 groups = order(system, used, unknowns)

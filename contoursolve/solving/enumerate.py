@@ -184,9 +184,7 @@ class _Search:
         for fact in self.system.facts:
             names = self.system.unknowns_among(fact.sense_reads())
             if new & set(names) and all(name in state.scalars for name in names):
-                sense = fact.sense(at)
-                if sense is not None:
-                    yield sense
+                yield from fact.senses(at)
         for line in self.runs:
             yield from self._run(line, state, new)
         for name in self.free:

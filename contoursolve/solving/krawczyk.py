@@ -60,12 +60,17 @@ def content_of(kernel: Kernel, box: Sequence[Number], inputs: Mapping[str, Numbe
     return Content.UNKNOWN, smaller
 
 
+REFINEMENTS = 64
+"""How often a box is made smaller; each time doubles its digits, once it is small."""
+
+
 def refine(kernel: Kernel, box: Sequence[Number], inputs: Mapping[str, Number]) -> list[Number]:
-    """A box that is proven to hold one solution, shrunk as far as it goes."""
+    """A box that is proven to hold one solution, shrunk as far as it goes; the solution stays in it."""
     current = list(box)
-    for _ in range(64):
+    for _ in range(REFINEMENTS):
         content, image = content_of(kernel, current, inputs)
-        if content is not Content.ONE or max(map(ball.width, image)) >= max(map(ball.width, current)) / 2:
+        widths = [(ball.width(new), ball.width(old)) for new, old in zip(image, current, strict=True)]
+        if content is Content.NONE or not any(new < old / 2 for new, old in widths):
             break
         current = image
     return current
