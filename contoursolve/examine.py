@@ -192,7 +192,7 @@ def examine(
         error_bound=solution.error_bound,
         diagnostics=tuple(sorted(notebook.findings, key=rank)),
         certificate=solution.certificate if contour else None,
-        answers=tuple(_answer(question, profile, solution) for question in profile.questions),
+        answers=tuple(answer_question(question, profile, solution) for question in profile.questions),
         alternatives=alternatives,
     )
 
@@ -236,7 +236,7 @@ def _state_more(
     return profile, not faults
 
 
-def _answer(question: Question, profile: Profile, solution: Solution) -> AskedValue:
+def answer_question(question: Question, profile: Profile, solution: Solution) -> AskedValue:
     """The value of what is asked for, at the points of a solution."""
     if not solution.points:
         return AskedValue(question, None)

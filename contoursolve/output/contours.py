@@ -77,13 +77,24 @@ def _solution_lines(answer: Answer) -> list[str]:
         mark = "->" if each.is_chosen else ""
         where = ", ".join(each.reasons)
         if each.contour:
-            where = "  ".join(f"{point} {' '.join(_place(each.contour.points[point], answer))}" for point in differing)
+            places = (f"{point} {' '.join(_place(each.contour.points[point], answer))}" for point in differing)
+            where = "  ".join((*places, *(_asked_text(asked, answer) for asked in each.asked)))
         label = "" if each.contour else "no contour:"
         rows.append((mark, each.name or "only solution", label, where, " ".join(each.selects), str(each.certificate)))
     lines += columns(rows, left=(0, 1, 2, 3, 4, 5))
     if listing.chosen_by:
         lines.append(f"  -> chosen by {listing.chosen_by}")
     return lines
+
+
+def _asked_text(asked: AskedValue, answer: Answer) -> str:
+    """A value that was asked for, in one solution."""
+    question, name = asked.question, asked.question.word.text.rstrip(" =?")
+    if asked.value is None:
+        return ""
+    if question.unit is Unit.DEGREE:
+        return f"{name} = {asked.value:.4f}"
+    return f"{name} = {_length(asked.value * (2 if question.is_diameter else 1), answer.unit)}"
 
 
 def _plural(count: int) -> str:

@@ -154,6 +154,7 @@ def _solutions(answer: Answer) -> dict[str, Any]:
             "selects": list(each.selects),
             "is_path": each.contour is not None,
             "reasons": list(each.reasons),
+            "asked": [_asked(value, answer) for value in each.asked],
             **_path(each.contour, decimals_of(each.certificate)),
             "certificate": _certificate(each.certificate),
         }

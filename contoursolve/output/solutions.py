@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import floor, inf, log10
 from typing import TYPE_CHECKING
 
 from contoursolve.contour import Contour, trace
-from contoursolve.examine import Answer, list_alternatives
+from contoursolve.examine import Answer, AskedValue, answer_question, list_alternatives
 from contoursolve.model import Length
 from contoursolve.solving.certificate import Certificate, Proof, up_to_one_digit
+from contoursolve.syntax import FACT
 from contoursolve.tolerance import LENGTH
 
 if TYPE_CHECKING:
@@ -26,6 +28,7 @@ class Listed:
 
     name: str
     contour: Contour | None
+    asked: tuple[AskedValue, ...]
     reasons: tuple[str, ...]
     selects: tuple[str, ...]
     is_chosen: bool
@@ -49,7 +52,7 @@ def list_solutions(answer: Answer) -> Listing | None:
     if alternatives is None:
         if answer.contour is None or answer.certificate is None:
             return None
-        only = Listed("", answer.contour, (), (), is_chosen=True, certificate=answer.certificate)
+        only = Listed("", answer.contour, answer.answers, (), (), is_chosen=True, certificate=answer.certificate)
         return Listing((only,), is_complete=True, method="closed form", doubts=(), chosen_by="")
     from contoursolve.solving.alternatives import choose  # noqa: PLC0415 - most contours need no choice
 
@@ -72,14 +75,26 @@ def list_solutions(answer: Answer) -> Listing | None:
 
 
 def _listed(item: Alternative, is_chosen: bool, alternatives: Alternatives, answer: Answer) -> Listed:
-    contour = trace(answer.profile, item.solution) if item.is_path else None
-    reasons = tuple(f"{refusal.kind.value} {refusal.subject}".strip() for refusal in item.solution.refusals)
+    profile = answer.profile
+    contour = trace(profile, item.solution) if item.is_path else None
+    asked = tuple(answer_question(question, profile, item.solution) for question in profile.questions)
+    name = item.name
+    for key, given in profile.givens.items():
+        if given.word is not None and given.word.address == FACT:
+            # A side that a fact leaves open is told by the fact.
+            name = name.replace(f"{key} ", f"{given.word.text.partition(' [')[0].partition(' (')[0]} ")
     return Listed(
-        item.name, contour, reasons, tuple(_selecting(item, alternatives, answer)), is_chosen, item.certificate
+        name=name,
+        contour=contour,
+        asked=asked,
+        reasons=tuple(f"{refusal.kind.value} {refusal.subject}".strip() for refusal in item.solution.refusals),
+        selects=tuple(_selecting(item, asked, alternatives, answer)),
+        is_chosen=is_chosen,
+        certificate=item.certificate,
     )
 
 
-def _selecting(item: Alternative, alternatives: Alternatives, answer: Answer) -> list[str]:
+def _selecting(item: Alternative, asked: Sequence[AskedValue], alternatives: Alternatives, answer: Answer) -> list[str]:
     """The words, or else the fact, that would select a solution."""
     if len(alternatives.items) == 1:
         return []
@@ -91,6 +106,9 @@ def _selecting(item: Alternative, alternatives: Alternatives, answer: Answer) ->
     ]
     if words:
         return words
+    written = [_written(each, answer) for each in asked if each.value is not None]
+    if any(written):
+        return [word for word in written if word]
     plane, unit = answer.profile.plane, answer.unit
     for point in answer.profile.figure.points:
         for axis in (0, 1):
@@ -101,6 +119,16 @@ def _selecting(item: Alternative, alternatives: Alternatives, answer: Answer) ->
                 shown = value / 25.4 if unit is Length.INCH else value
                 return [f"(contoursolve: {plane.axes[axis]} of {point} = {shown:.3f})"]
     return []
+
+
+def _written(asked: AskedValue, answer: Answer) -> str:
+    """An asked word with its value; empty for what is no word."""
+    word = asked.question.word
+    if asked.value is None or word.address == FACT:
+        return ""
+    from contoursolve.diagnosis.edits import write_word  # noqa: PLC0415 - few contours have several solutions
+
+    return write_word(word.address, asked.value, answer.claim.lexicon, answer.unit)
 
 
 def printed_certificate(certificate: Certificate | None) -> Certificate | None:

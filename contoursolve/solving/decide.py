@@ -18,11 +18,28 @@ def decide(alternatives: Alternatives, profile: Profile) -> Solution:
     if len(paths) > 1:
         return Solution(Status.AMBIGUOUS, remarks=(Remark(RemarkKind.SEVERAL, "", (), count),))
     if paths:
-        solution = paths[0].solution
+        solution = _without_selecting(paths[0].solution, alternatives)
         if alternatives.is_complete:
             return solution
         return replace(solution, remarks=(*solution.remarks, Remark(RemarkKind.COUNT_OPEN, "", (), count)))
     return _refused(eligible or alternatives.items, alternatives)
+
+
+def _without_selecting(solution: Solution, alternatives: Alternatives) -> Solution:
+    """A solution without the remark that a word was not needed, where the word tells it from another solution."""
+    selecting = {
+        refusal.subject
+        for item in alternatives.items
+        for refusal in item.solution.refusals
+        if refusal.kind is RefusalKind.WORDS_DISAGREE
+    }
+    remarks = tuple(
+        remark
+        for remark in solution.remarks
+        if remark.kind is not RemarkKind.WORDS_AGREE or remark.subject not in selecting
+    )
+    agrees = any(remark.kind is RemarkKind.WORDS_AGREE for remark in remarks)
+    return replace(solution, status=Status.OVERDETERMINED if agrees else Status.SOLVED, remarks=remarks)
 
 
 def _refused(items: tuple[Alternative, ...], alternatives: Alternatives) -> Solution:

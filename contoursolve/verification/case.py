@@ -1,19 +1,19 @@
 """One contour to check: what the program says, what the result claims, in coordinates from the start point."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from decimal import Decimal
+from math import floor, log10
 
 from contoursolve.model import FIRST, SECOND, Turn
 from contoursolve.reading import Claim
-from contoursolve.tolerance import RESIDUAL
+from contoursolve.tolerance import ERROR_BOUND_WARNING, RESIDUAL
 from contoursolve.verification.claimed import ClaimedContour, ClaimedElement
+from contoursolve.verification.facts import StatedFact
 from contoursolve.verification.ledger import Ledger
 from contoursolve.verification.measure import EPSILON, PRINTED, ROUNDING
 from contoursolve.verification.node import Coordinates
-
-Origin = tuple[Decimal, Decimal]
-"""The start point, mm, as the program states it."""
+from contoursolve.verification.quantity import Origin
 
 CERTIFIED = 4
 """1. A residual that compares a point with three others may be off by the error of all four of them."""
@@ -45,6 +45,11 @@ class Case:
     what a residual may be: 1e-9 and the rounding of the coordinates. `reach` is the largest number counted from
     the start point, `size` the largest coordinate of the program's own, both mm. `start_error` (mm) is how far
     the start point may be from the one that was solved from.
+
+    `choices` are the signs of the words that choose between solutions; a solution that is listed beside the
+    contour has those that select it, and tells no branch (`is_listed`). `grain` (mm) is what the numbers lost
+    when they were written with as many decimals as the certificate's radius leaves a meaning. `next_end` is where
+    the line of the next block ends, if the program tells it.
     """
 
     claim: Claim
@@ -56,11 +61,26 @@ class Case:
     size: float
     reach: float
     start_error: float
+    facts: tuple[StatedFact, ...] = ()
+    choices: Mapping[str, int] = field(default_factory=dict)
+    is_listed: bool = False
+    grain: float = 0.0
+    next_end: complex | None = None
 
     @property
     def limit(self) -> float:
         """What a residual may be, mm."""
-        return RESIDUAL + ROUNDING * self.size
+        return RESIDUAL + ROUNDING * self.size + 2 * self.grain
+
+    @property
+    def is_extended(self) -> bool:
+        """Whether the program states or asks for more than the words of its form."""
+        return bool(self.claim.directives or self.asked)
+
+    @property
+    def asked(self) -> tuple[str, ...]:
+        """The givens whose values are asked for."""
+        return tuple(name for name, word in self.claim.words.items() if word.is_asked)
 
     def texts(self, *names: str) -> tuple[str, ...]:
         """The words that state these givens, as typed."""
@@ -82,6 +102,10 @@ class Case:
         """A given absolute coordinate, counted from the start point, mm."""
         return float(self.value(name) - self.origin[axis])
 
+    def place(self, at: tuple[Decimal, Decimal]) -> complex:
+        """An absolute place, mm, counted from the start point."""
+        return complex(float(at[FIRST] - self.origin[FIRST]), float(at[SECOND] - self.origin[SECOND]))
+
     def compare(self, ledger: Ledger, name: str, words: Iterable[str], gap: float, unsure: float) -> None:
         """A gap (mm) between a claimed point and the same point worked out here, which is `unsure` (mm) itself.
 
@@ -96,6 +120,7 @@ class Case:
 
 def make_case(claim: Claim, claimed: ClaimedContour, origin: Origin, start_error: float) -> Case:
     """The claimed numbers of a contour, counted from its start point."""
+    path = claimed.path
 
     def place(at: Coordinates) -> complex:
         return complex(
@@ -108,9 +133,9 @@ def make_case(claim: Claim, claimed: ClaimedContour, origin: Origin, start_error
         circle = Circle(place(arc.center), arc.radius, arc.turn) if arc else None
         return Move(place(element.start), place(element.end), circle)
 
-    moves = tuple(map(move, claimed.elements))
-    points = {name: place(at) for name, at in claimed.points.items()}
-    end = None if claimed.end is None else place(claimed.end)
+    moves = tuple(map(move, path.elements))
+    points = {name: place(at) for name, at in path.points.items()}
+    end = None if path.end is None else place(path.end)
     circles = [each.circle for each in moves if each.circle]
     near = [abs(each.end) for each in moves]
     near += [abs(each.center) for each in circles] + [abs(each.radius) for each in circles]
@@ -119,4 +144,17 @@ def make_case(claim: Claim, claimed: ClaimedContour, origin: Origin, start_error
     size = reach + max(abs(float(value)) for value in origin)
     # The solver went on from an end of its own, of which the result has 12 decimals.
     inherited = start_error + EPSILON * size if start_error else 0.0
-    return Case(claim, claimed, origin, end, points, moves, size, reach, inherited)
+    return Case(claim, claimed, origin, end, points, moves, size, reach, inherited, grain=_grain(claimed))
+
+
+def _grain(claimed: ClaimedContour) -> float:
+    """Half of the last decimal, mm, if the numbers have only as many as the certificate's radius leaves a meaning."""
+    radius = claimed.certificate.radius
+    if not radius or not PRINTED < radius <= ERROR_BOUND_WARNING:
+        return 0.0
+    decimals, path = floor(-log10(radius)), claimed.path
+    numbers = [value for at in path.points.values() for value in at]
+    for each in path.elements:
+        numbers += [*each.start, *each.end, *((*each.arc.center, each.arc.radius) if each.arc else ())]
+    is_rounded = all(round(value, decimals) == value for value in numbers)
+    return 0.5 * 10.0**-decimals if is_rounded else 0.0

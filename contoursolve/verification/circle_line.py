@@ -8,14 +8,12 @@ from math import inf, sqrt
 
 from contoursolve.model import FIRST, SECOND
 from contoursolve.tolerance import AGREEMENT, RADIUS_DIFFERENCE
+from contoursolve.verification import circle_line_stated
 from contoursolve.verification.case import Case, Circle
+from contoursolve.verification.circle_line_stated import ANGLE, CENTER, CHOICE, END, POINT
 from contoursolve.verification.claimed import ClaimedStatus
 from contoursolve.verification.ledger import Ledger
 from contoursolve.verification.measure import ROUNDING, cross, direction, dot
-
-CENTER = ("1:center-first", "1:center-second")
-POINT = ("1:first", "1:first-step", "1:second", "1:second-step")
-END, ANGLE, CHOICE = ("2:first", "2:second"), "2:,A", "2:Q"
 
 READ = frozenset((*CENTER, *POINT, *END, ANGLE, CHOICE, "1:R", "1:point"))
 
@@ -35,15 +33,23 @@ class _Crossings:
     touches: bool | None
 
 
+CHOOSING = ("1:R", CHOICE)
+"""The words whose sign chooses between two solutions."""
+
+
 def check(case: Case, ledger: Ledger) -> None:
     """Everything that the words of the two blocks say about the path."""
+    if case.is_extended:
+        circle_line_stated.check(case, ledger)
+        return
     names = ", ".join(sorted(map(ascii, case.points))) or "none"
     found = ", ".join("arc" if move.circle else "line" for move in case.moves) or "nothing"
     # A line of no length is left out; an arc cannot be.
     shapes = [move.circle is not None for move in case.moves]
     known = ledger.require("the point is P1", (), case.points.keys() == {"P1"}, names)
     made = ledger.require("the elements are an arc and a line", (), shapes in ([True, False], [True]), found)
-    missing = [name for name in (*END, ANGLE, CHOICE) if not case.states(name)]
+    missing = [name for name in (*END, ANGLE) if not case.states(name)]
+    missing += [CHOICE] if not case.states(CHOICE) and CHOICE not in case.choices else []
     stated = ledger.require("the line has its words", (), not missing, f"{len(missing)} missing")
     circle = case.moves[0].circle if case.moves else None
     if not (known and made and stated and circle):
@@ -98,13 +104,12 @@ def _point(case: Case) -> complex | None:
 def _check_center_by_radius(case: Case, ledger: Ledger, circle: Circle, point: complex) -> None:
     """R > 0 makes the arc from the start to the point shorter than half a turn, R < 0 longer (printed)."""
     words, radius = case.texts("1:R", *POINT), case.amount("1:R")
-    number = case.claim.words["1:R"].number or 0
     chord = abs(point)
     name = "the circle passes through start and point"
     if not ledger.require(name, words, 0 < chord <= 2 * radius + case.limit, f"{chord:g} mm apart"):
         return
     rise, unsure = _leg(radius, chord / 2, ROUNDING * (radius + chord) + case.start_error)
-    left = (number > 0) == (circle.turn.sign > 0)
+    left = (case.choices.get("1:R", -1) > 0) == (circle.turn.sign > 0)
     center = point / 2 + rise * point / chord * (1j if left else -1j)
     if rise <= unsure:
         # About the middle of the chord: which side it is on cannot be told, and does not matter.
@@ -135,15 +140,22 @@ def _check_crossing(case: Case, ledger: Ledger, circle: Circle) -> None:
     """P1 is the nearer of the two intersections for Q < 0, the farther for Q > 0, along ,A (printed)."""
     crossing, branch = case.points["P1"], case.claimed.branch
     ledger.measure("P1 lies on the circle", (), abs(crossing - circle.center) - circle.radius, case.limit)
-    words, choice = case.texts(CHOICE), case.value(CHOICE)
+    words, choice = case.texts(CHOICE), case.choices.get(CHOICE, 0)
     if not ledger.require("Q has a sign", words, bool(choice), "Q is zero"):
         return
     meant = "nearer" if choice < 0 else "farther"
     meeting = _crossings(case, circle)
     if not ledger.require("the line meets the circle", case.texts(ANGLE, *END), meeting is not None) or not meeting:
         return
+    if case.is_listed:
+        branch = None if meeting.touches else meant
     allowed = {True: (None,), False: (meant,), None: (None, meant)}[meeting.touches]
     ledger.require("the branch is the one that Q chooses", words, branch in allowed, f"{branch!a}"[:60])
+    is_double = case.claimed.certificate.double
+    if is_double is not None and not case.is_listed:
+        remark = "it says so" if is_double else "it does not say so"
+        fits = meeting.touches is None or meeting.touches == is_double
+        ledger.require("the certificate says double where the line touches, and only there", (), fits, remark)
     # Without a branch the line touches, and the one intersection is the foot of the perpendicular.
     along = direction(case.value(ANGLE))
     sense, unsure = {None: (0, 0.0), "nearer": (-1, meeting.unsure)}.get(branch, (1, meeting.unsure))

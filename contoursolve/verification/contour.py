@@ -1,14 +1,14 @@
-"""One contour of a result against its block: where it stands, and if it claims a path, the whole path."""
+"""One contour of a result against its block: where it stands, its path if it claims one, and all its solutions."""
+
+from collections import Counter
 
 from contoursolve.reading import Claim
-from contoursolve.syntax import FaultKind
-from contoursolve.tolerance import LARGEST, RESIDUAL
-from contoursolve.verification.case import Case, make_case
+from contoursolve.tolerance import RESIDUAL
 from contoursolve.verification.claimed import ClaimedContour
-from contoursolve.verification.forms import CHECKERS
+from contoursolve.verification.examination import examine
 from contoursolve.verification.ledger import Ledger
 from contoursolve.verification.measure import ROUNDING
-from contoursolve.verification.path import check_certificate, check_path
+from contoursolve.verification.solutions import check_solutions
 from contoursolve.verification.walk import Found
 
 
@@ -17,26 +17,18 @@ def check_contour(found: Found, claimed: ClaimedContour) -> tuple[Ledger, bool]:
     ledger, claim = Ledger(), found.claim
     _check_place(claim, claimed, ledger)
     _check_start(claim, claimed, ledger)
-    if not claimed.has_path:
-        status = claimed.status.value
-        ledger.require("a contour with this status has no path", (), claimed.is_empty, f"{status}, with a path")
+    _check_facts(claim, claimed, ledger)
+    if claimed.has_path:
+        is_checked = examine(found, claimed, ledger)
+    else:
+        is_checked, status = False, claimed.status.value
+        ledger.require("a contour with this status has no path", (), claimed.path.is_empty, f"{status}, with a path")
         ledger.omit("the path", f"claimed {status}: there is none to check")
         ledger.omit("the status", "whether the block can be solved was not examined")
-        return ledger, False
-    first, second = claim.before.start().values
-    checker = CHECKERS.get(claim.form.name)
-    if first is None or second is None:
-        ledger.omit("the path", "the program does not tell where it starts")
-        return ledger, False
-    if checker is None:
-        ledger.omit("the path", f"contours of the form {claim.form.name} cannot be checked yet")
-        return ledger, False
-    case = make_case(claim, claimed, (first, second), found.start_error)
-    check_path(case, ledger)
-    check_certificate(case, ledger)
-    if _check_words(case, ledger, checker.reads):
-        checker.check(case, ledger)
-    return ledger, True
+        values = [each.word for each in claimed.asked or () if each.value is not None]
+        ledger.require("without a path no value is known", values, not values, "the result answers what is asked for")
+        ledger.require("without a path nothing is filled in", (), claimed.filled is None, "there are filled blocks")
+    return ledger, check_solutions(found, claimed, ledger) or is_checked
 
 
 def _check_place(claim: Claim, claimed: ClaimedContour, ledger: Ledger) -> None:
@@ -61,19 +53,10 @@ def _check_start(claim: Claim, claimed: ClaimedContour, ledger: Ledger) -> None:
             ledger.measure(name, (), value - float(known), limit)
 
 
-def _check_words(case: Case, ledger: Ledger, reads: frozenset[str]) -> bool:
-    """Whether the blocks can be read at all; words that the form's checker does not look at are listed."""
-    claim = case.claim
-    faults = [fault.text for block in claim.blocks for fault in block.faults if fault.kind not in _HARMLESS]
-    variables = [word.text for word in claim.words.values() if word.number is None]
-    # Beyond all travel, and beyond what decimals of 28 digits can reduce to one turn.
-    large = [given.word.text for given in claim.givens.values() if given.word and abs(given.value) > LARGEST]
-    unreadable = [*faults, *variables, *large, *(word.text for word in (*claim.repeated, *claim.unknown))]
-    for name, word in claim.words.items():
-        if name not in reads:
-            ledger.omit(word.text, "what it does to a contour of this form is not checked")
-    remark = "they have no value or no meaning, or are too large"
-    return ledger.require("every word can be read", unreadable, not unreadable, remark)
-
-
-_HARMLESS = (FaultKind.COMMENT_NOT_CLOSED,)
+def _check_facts(claim: Claim, claimed: ClaimedContour, ledger: Ledger) -> None:
+    """The result lists every fact of the program."""
+    if claimed.facts is not None:
+        missing = Counter(each.text for each in claim.directives) - Counter(claimed.facts)
+        texts = list(missing.elements())
+        if claim.directives:
+            ledger.require("the result lists the facts of the program", texts, not texts, "it does not have them")

@@ -3,20 +3,44 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from contoursolve.verification import circle_line, g111
+from contoursolve.verification import circle_line, circle_line_stated, g111
 from contoursolve.verification.case import Case
+from contoursolve.verification.drawing import Drawing
 from contoursolve.verification.ledger import Ledger
 
 
 @dataclass(frozen=True, slots=True)
 class FormChecker:
-    """How contours of one form are checked, and the names of the givens that this looks at."""
+    """How contours of one form are checked.
+
+    `reads` are the names of the givens that this looks at, `choosing` those whose sign chooses between solutions.
+    `elements` and `points` may be mentioned by facts. `redo` makes the contour of the words alone near the claimed
+    one, None if they fix none there.
+    """
 
     check: Callable[[Case, Ledger], None]
+    redo: Callable[[Case], Drawing | None]
     reads: frozenset[str]
+    choosing: tuple[str, ...]
+    elements: tuple[str, ...]
+    points: tuple[str, ...]
 
 
 CHECKERS: Mapping[str, FormChecker] = {
-    "G111": FormChecker(g111.check, g111.READ),
-    "circle-line": FormChecker(circle_line.check, circle_line.READ),
+    "G111": FormChecker(
+        check=g111.check,
+        redo=g111.redo,
+        reads=g111.READ,
+        choosing=(),
+        elements=("line 1", "line 2", "corner 1", "corner 2"),
+        points=("S", "V1", "V2"),
+    ),
+    "circle-line": FormChecker(
+        check=circle_line.check,
+        redo=circle_line_stated.redo,
+        reads=circle_line.READ,
+        choosing=circle_line.CHOOSING,
+        elements=("arc", "line"),
+        points=("S", "C", "N1", "P1", "N2"),
+    ),
 }

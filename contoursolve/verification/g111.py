@@ -1,63 +1,134 @@
-"""YASNAC LX3 G111 by its sheet (Instruction Manual, 2.8.30): the words of the two lines.
+"""YASNAC LX3 G111 by its sheet (Instruction Manual, 2.8.30): the words of the two lines, and further facts.
 
 Points count from the start point: real is Z, imaginary is X as radius.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from functools import partial
 
 from contoursolve.model import FIRST, SECOND
+from contoursolve.statements import MeetsLine
+from contoursolve.verification.asked import check_asked
 from contoursolve.verification.case import Case
 from contoursolve.verification.claimed import ClaimedStatus
-from contoursolve.verification.g111_corners import Lines, check_elements
-from contoursolve.verification.ledger import Ledger
+from contoursolve.verification.drawing import Drawing
+from contoursolve.verification.facts import Sight, statements
+from contoursolve.verification.g111_corners import check_elements
+from contoursolve.verification.g111_drawing import Lines, Meeting, Sizes, Slots, draw, drawn
+from contoursolve.verification.ledger import Ledger, fewest
 from contoursolve.verification.measure import angle_between, cross, direction, dot, unit
-from contoursolve.verification.statement import Statement, check_statements
+from contoursolve.verification.quantity import Quantity
+from contoursolve.verification.statement import Statement, check_statements, displacement
 
 LINE_1, LINE_2 = ("A", "I", "K"), ("B", "X", "U", "Z", "W")
 END_X, END_Z = ("X", "U"), ("Z", "W")
 UNKNOWNS = 4
 """Z and X of V1, Z and X of V2."""
 
-READ = frozenset((*LINE_1, *LINE_2, "C", "P", "D", "Q"))
+_SIZES = ("C", "P", "D", "Q")
+
+READ = frozenset((*LINE_1, *LINE_2, *_SIZES))
 
 
 def check(case: Case, ledger: Ledger) -> None:
-    """Everything that the words of the block say about the path."""
+    """Everything that the words and facts of the block say about the path.
+
+    A contour that is claimed overdetermined may have been solved with the notes of the manual or without them:
+    the result does not say it.
+    """
     names = ", ".join(sorted(map(ascii, case.points))) or "none"
     if not ledger.require("the points are V1 and V2", (), case.points.keys() == {"V1", "V2"}, names):
         ledger.omit("the words of the block", "they are about V1 and V2")
         return
     ledger.require("there is no choice of branch", (), case.claimed.branch is None, f"{case.claimed.branch!a}")
-    used = _used(case, ledger)
-    lines = _lines(case, used)
-    check_statements(case, ledger, list(_statements(case, used)), UNKNOWNS)
-    _check_senses(case, ledger, used, lines)
-    check_elements(case, ledger, lines)
+    ignored = _ignored(case)
+    readings = [ignored]
+    if ignored and case.claimed.status is ClaimedStatus.OVERDETERMINED:
+        readings = [{}, ignored] if case.is_extended else [{}]
+    ledger.add(fewest(partial(_reading, case, each) for each in readings))
 
 
-def _used(case: Case, ledger: Ledger) -> tuple[str, ...]:
-    """The words of both lines without those that the control ignores (supplementary notes v and vi).
-
-    A contour that is claimed overdetermined was solved without these notes: all words count.
-    """
-    stated = case.states(*LINE_1, *LINE_2)
-    if case.claimed.status is ClaimedStatus.OVERDETERMINED:
-        return stated
+def _ignored(case: Case) -> dict[str, str]:
+    """The words that the control ignores (supplementary notes v and vi), and why."""
+    stated = set(case.states(*LINE_1, *LINE_2))
     ignored: dict[str, str] = {}
-    has_whole_end = bool(set(stated) & set(END_X)) and bool(set(stated) & set(END_Z))
-    if set(stated) >= {"A", "I", "K"}:
+    has_whole_end = bool(stated & set(END_X)) and bool(stated & set(END_Z))
+    if stated >= {"A", "I", "K"}:
         ignored["A"] = "the control ignores it, because I and K are given, too (2.8.30, note v)"
-    if "B" in stated and has_whole_end and len(set(stated) & set(LINE_1)) > 1:
+    if "B" in stated and has_whole_end and len(stated & set(LINE_1)) > 1:
         ignored["B"] = "the control ignores it, because X(U), Z(W) and line 1 are given (2.8.30, note vi)"
+    return ignored
+
+
+def _reading(case: Case, ignored: dict[str, str]) -> Ledger:
+    """The checks of a contour that was solved without these words."""
+    ledger = Ledger()
     for name, why in ignored.items():
         ledger.omit(" ".join(case.texts(name)), why)
-    return tuple(name for name in stated if name not in ignored)
+    used = tuple(name for name in case.states(*LINE_1, *LINE_2) if name not in ignored)
+    lines = _lines(case, used, (case.points["V1"], case.points["V2"]))
+    elements, unknowns = Ledger(), UNKNOWNS + sum(name in case.asked for name in _SIZES)
+    found = check_elements(case, elements, lines)
+    if found is None:
+        check_statements(case, ledger, list(_statements(case, used, lines)), unknowns)
+    else:
+        slots, sizes = found
+        sight = _sight(case, used, lines, slots, sizes)
+        stated = [*_statements(case, used, lines), *statements(case.facts, sight, ledger)]
+        check_statements(case, ledger, stated, unknowns)
+        check_asked(case, ledger, _values(case, lines, sizes), sight.claimed)
+    _check_senses(case, ledger, used, lines)
+    ledger.add(elements)
+    return ledger
 
 
-def _lines(case: Case, used: tuple[str, ...]) -> Lines:
-    """The lines of the claimed points, in the directions of the words; corner 2 lands parallel to Z at a
-    programmed X, and parallel to X at a programmed Z."""
-    v1, v2 = case.points["V1"], case.points["V2"]
+def _sight(case: Case, used: tuple[str, ...], lines: Lines, slots: Slots, sizes: Sizes) -> Sight:
+    """The unknowns are Z and X of V1 and V2, and the sizes that are asked for."""
+    open_sizes = [name for name in sizes if name in case.asked]
+
+    def redraw(at: Sequence[float]) -> Drawing:
+        first, second = complex(at[0], at[1]), complex(at[2], at[3])
+        changed = sizes | dict(zip(open_sizes, at[UNKNOWNS:], strict=True))
+        return draw(_lines(case, used, (first, second)), {name: size for name, size in changed.items() if size})
+
+    unknowns = (lines.v1.real, lines.v1.imag, lines.v2.real, lines.v2.imag, *(sizes[name] for name in open_sizes))
+    return Sight(drawn(lines, slots, sizes), unknowns, redraw, case.origin, case.reach)
+
+
+def _values(case: Case, lines: Lines, sizes: Sizes) -> dict[str, Quantity]:
+    """What every word that may be asked for would have to say."""
+    z, x = (float(value) for value in case.origin)
+    return {
+        "A": Quantity(angle_between(1, lines.first), is_angle=True, reach=abs(lines.v1)),
+        "I": Quantity(lines.v1.imag),
+        "K": Quantity(lines.v1.real),
+        "B": Quantity(angle_between(1, lines.second), is_angle=True, reach=abs(lines.v2 - lines.v1)),
+        "X": Quantity(lines.v2.imag + x),
+        "U": Quantity(lines.v2.imag),
+        "Z": Quantity(lines.v2.real + z),
+        "W": Quantity(lines.v2.real),
+        **{name: Quantity(size) for name, size in sizes.items()},
+    }
+
+
+def redo(case: Case) -> Drawing | None:
+    """The contour of the words alone, near the claimed one; None if they do not fix it."""
+    used = tuple(name for name in case.states(*LINE_1, *LINE_2) if name not in _ignored(case))
+    lines = _lines(case, used, (case.points["V1"], case.points["V2"]))
+    stated = list(_statements(case, used, lines))
+    moved = displacement(stated, UNKNOWNS)
+    if moved.rank < UNKNOWNS:
+        return None
+    first, second = complex(*moved.moves[:2]), complex(*moved.moves[2:])
+    sizes = {name: case.amount(name) for name in case.states(*_SIZES) if case.value(name)}
+    return draw(_lines(case, used, (lines.v1 - first, lines.v2 - second)), sizes)
+
+
+def _lines(case: Case, used: tuple[str, ...], points: tuple[complex, complex]) -> Lines:
+    """The lines between these points, in the directions of the words; corner 2 lands parallel to Z at a programmed
+    X, and parallel to X at a programmed Z, unless a fact says which line it meets."""
+    v1, v2 = points
     by_x, by_z = (bool(set(used) & set(ends)) for ends in (END_X, END_Z))
     return Lines(
         v1=v1,
@@ -66,12 +137,31 @@ def _lines(case: Case, used: tuple[str, ...]) -> Lines:
         second=direction(case.value("B")) if "B" in used else unit(v2 - v1),
         landing=None if by_x == by_z else complex(1, 0) if by_x else complex(0, 1),
         zero=0.0 if "A" in used or not v1 else case.limit / abs(v1),
+        meeting=_meeting(case, v2),
     )
 
 
-def _statements(case: Case, used: tuple[str, ...]) -> Iterator[Statement]:
-    """What each word says about Z and X of V1 and V2."""
-    v1, v2 = case.points["V1"], case.points["V2"]
+def _meeting(case: Case, v2: complex) -> Meeting | None:
+    """The line that corner 2 meets by a fact, from V2."""
+    for each in case.facts:
+        if isinstance(each.fact, MeetsLine):
+            to, angle = each.fact.line.to, each.fact.line.angle
+            if angle is not None:
+                return Meeting(direction(angle), None, each.label)
+            end = case.next_end if to is None else case.place(to)
+            if end is not None:
+                return Meeting(unit(end - v2), abs(end - v2), each.label)
+    return None
+
+
+def _statements(case: Case, used: tuple[str, ...], lines: Lines) -> Iterator[Statement]:
+    """What each word says about Z and X of V1 and V2; sizes that are asked for change nothing of it."""
+    v1, v2 = lines.v1, lines.v2
+    for each in _of_points(case, used, v1, v2):
+        yield replace(each, gradient=(*each.gradient, *(0.0 for name in _SIZES if name in case.asked)))
+
+
+def _of_points(case: Case, used: tuple[str, ...], v1: complex, v2: complex) -> Iterator[Statement]:
     for name in used:
         (word,) = case.texts(name)
         match name:

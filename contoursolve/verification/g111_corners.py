@@ -1,5 +1,7 @@
 """YASNAC LX3 G111: the corners between the lines, and the elements of the path, by the sheet (2.8.30).
 
+The size of a corner that is asked for is that of the claimed element; the corner must then be right in all else.
+
 Points count from the start point: real is Z, imaginary is X as radius.
 """
 
@@ -9,32 +11,10 @@ from itertools import product
 
 from contoursolve.model import Turn
 from contoursolve.tolerance import LENGTH, REGULAR
-from contoursolve.verification.case import Case, Move
+from contoursolve.verification.case import Case
+from contoursolve.verification.g111_drawing import BEVELS, CORNERS, Lines, Sizes, Slots
 from contoursolve.verification.ledger import Ledger
 from contoursolve.verification.measure import PRINTED, cross, dot, sign
-
-BEVELS = ("C", "D")
-
-
-@dataclass(frozen=True, slots=True)
-class Lines:
-    """The two virtual intersections, and the unit directions of both lines; an angle in use gives them exactly.
-
-    `landing` is the unit vector of the axis that corner 2 lands along, in either sense; None if the words give
-    no such line. `zero` is the size up to which a component of `first` counts as zero.
-    """
-
-    v1: complex
-    v2: complex
-    first: complex
-    second: complex
-    landing: complex | None
-    zero: float
-
-    @property
-    def slack(self) -> float:
-        """By how much an angle in use is off its line, mm: next to nothing, unless words only just agree."""
-        return abs(cross(self.first, self.v1)) + abs(cross(self.second, self.v2 - self.v1))
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,25 +35,90 @@ class _Corner:
     room: float
 
 
-def check_elements(case: Case, ledger: Ledger, lines: Lines) -> None:
-    """The corners are those of the words, and the elements run along the lines and corners."""
-    drawn = Ledger()
-    corners = {corner.name: corner for corner in _corners(case, drawn, lines)}
-    ledger.add(drawn)
-    if drawn.failures:
-        ledger.omit("the elements", "the corners between them are not defined")
-    else:
-        _check_order(case, ledger, lines, corners)
+def check_elements(case: Case, ledger: Ledger, lines: Lines) -> tuple[Slots, Sizes] | None:
+    """The corners are those of the words, and the elements run along the lines and corners.
+
+    A line that its corners leave no length is left out; of several readings the one with the fewest faults counts.
+    Its elements by name are returned.
+    """
+    found = []
+    for slots in _readings(case):
+        attempt, sizes = Ledger(), _sizes(case, slots)
+        corners = {corner.name: corner for corner in _corners(case, attempt, lines, sizes)}
+        if attempt.failures:
+            attempt.omit("the elements", "the corners between them are not defined")
+        else:
+            _check_slots(case, attempt, lines, corners, slots)
+        found.append((attempt, slots, sizes))
+    if found:
+        best = min(found, key=lambda each: len(each[0].failures))
+        ledger.require("the elements are those that the words make", case.texts(*_WORDS), True)
+        ledger.add(best[0])
+        return best[1:]
+    list(_corners(case, ledger, lines, _sizes(case, {})))
+    shown = ", ".join("arc" if move.circle else "line" for move in case.moves) or "nothing"
+    wanted = ", ".join("arc" if shape else "line" for _, shape in _order(case))
+    remark = f"found {shown}; the words make {wanted}"
+    ledger.require("the elements are those that the words make", case.texts(*_WORDS), False, remark)
+    return None
 
 
-def _corners(case: Case, ledger: Ledger, lines: Lines) -> Iterator[_Corner]:
-    """The corners that are made: a word of 0 makes none."""
-    for name, bevel, rounding in (("corner 1", "C", "P"), ("corner 2", "D", "Q")):
-        words = [word for word in case.states(bevel, rounding) if case.value(word)]
+_WORDS = ("C", "P", "D", "Q")
+
+
+def makers(case: Case, name: str) -> list[str]:
+    """The words that make a corner: a word of 0 makes none."""
+    (words,) = ((bevel, rounding) for corner, bevel, rounding in CORNERS if corner == name)
+    return [word for word in words if word in case.asked or (case.states(word) and case.value(word))]
+
+
+def _order(case: Case) -> list[tuple[str, bool]]:
+    """The names of all elements that the words make, in order, and whether each is an arc."""
+    found = [("line 1", False), ("corner 1", False), ("line 2", False), ("corner 2", False)]
+    making = {name: makers(case, name) for name, *_ in CORNERS}
+    return [
+        (name, name in making and making[name][0] not in BEVELS)
+        for name, _ in found
+        if name not in making or making[name]
+    ]
+
+
+def _readings(case: Case) -> Iterator[Slots]:
+    """Every way to give the claimed elements their names. Lines, and corners whose size is asked for, may be of no
+    length and left out."""
+    order = _order(case)
+    optional = {"line 1", "line 2"} | {name for name, *_ in CORNERS if set(makers(case, name)) & set(case.asked)}
+    for kept in product((True, False), repeat=len(order)):
+        chosen = [each for each, is_kept in zip(order, kept, strict=True) if is_kept]
+        left = {each[0] for each, is_kept in zip(order, kept, strict=True) if not is_kept}
+        if left <= optional and [shape for _, shape in chosen] == [move.circle is not None for move in case.moves]:
+            yield dict(zip((name for name, _ in chosen), case.moves, strict=True))
+
+
+def _sizes(case: Case, slots: Slots) -> Sizes:
+    """Sizes as stated; one that is asked for is that of its element."""
+    sizes: Sizes = {}
+    for name, *_ in CORNERS:
+        for word in makers(case, name):
+            if word not in case.asked:
+                sizes[word] = case.amount(word)
+            elif name in slots:
+                move = slots[name]
+                run = move.end - move.start
+                sizes[word] = move.circle.radius if move.circle else max(abs(run.real), abs(run.imag))
+            else:
+                sizes[word] = 0.0
+    return sizes
+
+
+def _corners(case: Case, ledger: Ledger, lines: Lines, sizes: Sizes) -> Iterator[_Corner]:
+    """The corners that are made."""
+    for name, *_ in CORNERS:
+        words = [word for word in makers(case, name) if sizes[word] or word not in case.asked]
         texts = case.texts(*words)
         if not words or not ledger.require(f"{name} has one shape", texts, len(words) == 1, "two words"):
             continue
-        size = case.amount(words[0])
+        size = sizes[words[0]]
         if not ledger.require(f"{name} has a size", texts, size > 0, f"{size:g} mm"):
             continue
         room = abs(lines.v2 - lines.v1)
@@ -84,16 +129,13 @@ def _corners(case: Case, ledger: Ledger, lines: Lines) -> Iterator[_Corner]:
             if _joins(corner, ledger, texts):
                 yield corner
             continue
-        remark = "X(U) and Z(W) both give line 2"
-        if not ledger.require(f"{name} has a line to land on", texts, lines.landing is not None, remark):
+        if lines.meeting is not None:
+            texts = (*texts, lines.meeting.label)
+        leaving, remark = lines.leaving, "X(U) and Z(W) both give line 2, or neither does"
+        ledger.require(f"{name} has a line to land on", texts, leaving is not None, remark)
+        if leaving is None:
             continue
-        # Tables 2.35 and 2.36: a component that line 2 lacks is taken from line 1.
-        onward = complex(
-            sign(lines.second.real) or sign(lines.first.real, lines.zero),
-            sign(lines.second.imag) or sign(lines.first.imag, lines.zero),
-        )
-        leaving = complex(onward.real, 0) if lines.landing == 1 else complex(0, onward.imag)
-        corner = _Corner(name, words[0], size, lines.v2, lines.second, leaving, onward, room)
+        corner = _Corner(name, words[0], size, lines.v2, lines.second, leaving, lines.onward, room)
         if _joins(corner, ledger, texts):
             yield corner
 
@@ -102,32 +144,6 @@ def _joins(corner: _Corner, ledger: Ledger, texts: tuple[str, ...]) -> bool:
     """Whether a corner lies between two lines that have a length and are not parallel."""
     joins = corner.room > LENGTH and abs(cross(corner.arriving, corner.leaving)) > REGULAR
     return ledger.require(f"{corner.name} joins two lines", texts, joins, "one has no length, or they are parallel")
-
-
-Slots = dict[str, Move]
-"""The claimed elements by their names: line 1, corner 1, line 2, corner 2."""
-
-
-def _check_order(case: Case, ledger: Ledger, lines: Lines, corners: dict[str, _Corner]) -> None:
-    """The elements are the two lines and the corners, each where it belongs.
-
-    A line that its corners leave no length is left out; the reading that has the fewest faults counts.
-    """
-    order = [name for name in ("line 1", "corner 1", "line 2", "corner 2") if "line" in name or name in corners]
-    ledgers = []
-    for kept1, kept2 in product((True, False), repeat=2):
-        names = [name for name in order if (name != "line 1" or kept1) and (name != "line 2" or kept2)]
-        shapes = [name in corners and corners[name].word not in BEVELS for name in names]
-        if shapes == [move.circle is not None for move in case.moves]:
-            attempt = Ledger()
-            _check_slots(case, attempt, lines, corners, dict(zip(names, case.moves, strict=True)))
-            ledgers.append(attempt)
-    texts = case.texts(*(corner.word for corner in corners.values()))
-    found = ", ".join("arc" if move.circle else "line" for move in case.moves) or "nothing"
-    wanted = ", ".join("arc" if name in corners and corners[name].word not in BEVELS else "line" for name in order)
-    remark = f"found {found}; the words make {wanted}"
-    if ledger.require("the elements are those that the words make", texts, bool(ledgers), remark):
-        ledger.add(min(ledgers, key=lambda each: len(each.failures)))
 
 
 def _check_slots(case: Case, ledger: Ledger, lines: Lines, corners: dict[str, _Corner], slots: Slots) -> None:
@@ -146,11 +162,16 @@ def _check_slots(case: Case, ledger: Ledger, lines: Lines, corners: dict[str, _C
             ledger.measure("V1 lies between the start and V2", word, out, case.limit)
     if "corner 2" in corners:
         word = case.texts(corners["corner 2"].word)
+        if lines.meeting is not None:
+            word = (*word, lines.meeting.label)
         _check_between(limit, ledger, "corner 2 leaves line 2", word, (lines.v1, lines.v2), lines.second, line2)
         beyond = slots["corner 2"].end - lines.v2
         back = max(0.0, -dot(corners["corner 2"].leaving, beyond))
         ledger.measure("corner 2 lands ahead of V2", word, back, case.limit)
         ledger.measure("corner 2 lands on its line", word, cross(corners["corner 2"].leaving, beyond), case.limit)
+        if lines.meeting is not None and lines.meeting.length is not None:
+            beyond_end = max(0.0, dot(corners["corner 2"].leaving, beyond) - lines.meeting.length)
+            ledger.measure("corner 2 lands before the end of the line that it meets", word, beyond_end, case.limit)
     overlap = max(0.0, -dot(lines.second, line2 - joined))
     ledger.measure("the corners leave room on line 2", (), overlap, case.limit)
 

@@ -34,6 +34,8 @@ def check_certificate(case: Case, ledger: Ledger) -> None:
     certificate = case.claimed.certificate
     named = certificate.kind in CERTIFICATE_KINDS
     ledger.require("the certificate is of a known kind", (), named, f"{ascii(certificate.kind)[:60]}")
+    if certificate.kind == "unknown" and certificate.reason is not None:
+        ledger.require("the certificate says why it proves nothing", (), bool(certificate.reason), "there is no reason")
     if certificate.radius is None:
         ledger.omit("the certificate", "it names no radius")
     else:

@@ -1,7 +1,7 @@
-"""Statements of words about unknown coordinates: do they hold, and do they fix the coordinates?
+"""Statements of words and facts about unknown coordinates: do they hold, and do they fix the coordinates?
 
-Every statement is linear in the unknowns, so that solving for the residuals tells exactly how far the
-claimed point is from the one that the words fix, however weakly they fix it.
+Solving for the residuals tells how far the claimed points are from those that the statements fix, however weakly
+they fix them: exactly for words, which are linear in the unknowns, and to first order for facts.
 """
 
 from collections.abc import Sequence
@@ -13,12 +13,17 @@ from contoursolve.verification.claimed import ClaimedStatus
 from contoursolve.verification.ledger import Ledger
 from contoursolve.verification.measure import ROUNDING
 
+NUMERICAL = 1e-6
+"""1. A determinant below this is zero where slopes were found by differences."""
+
 
 @dataclass(frozen=True, slots=True)
 class Statement:
-    """What one word says: `gradient` is how its residual (mm) changes with each unknown (mm).
+    """What one word or fact says: `gradient` is how its residual (mm) changes with each unknown (mm).
 
-    `degrees` is by how much an angle is off; None for words that are no angles.
+    `degrees` is by how much an angle is off; None for words that are no angles. `at_unknowns` is the residual (mm)
+    at the unknowns themselves, where `residual` is that of the claimed elements. `against` (mm) is how far
+    something runs the opposite way. `is_numerical` tells that the gradient was made by differences.
     """
 
     name: str
@@ -26,6 +31,9 @@ class Statement:
     gradient: tuple[float, ...]
     residual: float
     degrees: float | None = None
+    at_unknowns: float | None = None
+    against: float = 0.0
+    is_numerical: bool = False
 
     @property
     def agrees(self) -> bool:
@@ -37,29 +45,40 @@ class Statement:
 class Displacement:
     """How far the unknowns are from where statements fix them.
 
-    `rank` is the number of unknowns that are fixed; `distance` (mm) the largest correction of one of them;
+    `rank` is the number of unknowns that are fixed; `moves` (mm) are their corrections, to be taken off;
     `amplification` (1) by how much an error of the words' values becomes larger in the unknowns.
     """
 
     rank: int
-    distance: float
+    moves: tuple[float, ...]
     amplification: float
+
+    @property
+    def distance(self) -> float:
+        """The largest correction of one unknown, mm."""
+        return max(map(abs, self.moves), default=0.0)
 
 
 def displacement(statements: Sequence[Statement], unknowns: int) -> Displacement:
     """Gauss-Jordan elimination with the largest pivot first."""
+    regular = NUMERICAL if any(each.is_numerical for each in statements) else REGULAR
     rows = [
-        [*each.gradient, each.residual, *(float(number == other) for other in range(len(statements)))]
+        [
+            *each.gradient,
+            each.residual if each.at_unknowns is None else each.at_unknowns,
+            *(float(number == other) for other in range(len(statements))),
+        ]
         for number, each in enumerate(statements)
     ]
-    open_rows, open_columns, fixed = set(range(len(rows))), set(range(unknowns)), []
+    open_rows, open_columns = set(range(len(rows))), set(range(unknowns))
+    fixed: dict[int, int] = {}
     while open_rows and open_columns:
         at, column = max(
             ((row, column) for row in sorted(open_rows) for column in sorted(open_columns)),
             key=lambda place: abs(rows[place[0]][place[1]]),
         )
         pivot = rows[at][column]
-        if abs(pivot) <= REGULAR:
+        if not abs(pivot) > regular:  # true for NaN
             break
         rows[at] = [entry / pivot for entry in rows[at]]
         for other in range(len(rows)):
@@ -68,11 +87,11 @@ def displacement(statements: Sequence[Statement], unknowns: int) -> Displacement
                 rows[other] = [a - factor * b for a, b in zip(rows[other], rows[at], strict=True)]
         open_rows.discard(at)
         open_columns.discard(column)
-        fixed.append(at)
+        fixed[column] = at
     return Displacement(
         rank=len(fixed),
-        distance=max((abs(rows[at][unknowns]) for at in fixed), default=0.0),
-        amplification=max((sum(map(abs, rows[at][unknowns + 1 :])) for at in fixed), default=0.0),
+        moves=tuple(rows[fixed[column]][unknowns] if column in fixed else 0.0 for column in range(unknowns)),
+        amplification=max((sum(map(abs, rows[at][unknowns + 1 :])) for at in fixed.values()), default=0.0),
     )
 
 
@@ -82,18 +101,27 @@ def check_statements(case: Case, ledger: Ledger, statements: Sequence[Statement]
     Where a contour is claimed overdetermined, the words that are not needed hold within the least increment
     only, and those that hold exactly must fix the points.
     """
-    words, is_over = [each.word for each in statements], case.claimed.status is ClaimedStatus.OVERDETERMINED
+    words, is_over = (
+        [each.word for each in statements if each.word],
+        case.claimed.status is ClaimedStatus.OVERDETERMINED,
+    )
     for each in statements:
+        stated = [each.word] if each.word else []
         if is_over and abs(each.residual) > case.limit:
             unit, off = ("mm", each.residual) if abs(each.residual) <= AGREEMENT else ("deg", each.degrees)
-            ledger.measure(f"{each.name} (agrees)", [each.word], off or each.residual, AGREEMENT, unit)
+            ledger.measure(f"{each.name} (agrees)", stated, off or each.residual, AGREEMENT, unit)
         else:
-            ledger.measure(each.name, [each.word], each.residual, case.limit)
+            ledger.measure(each.name, stated, each.residual, case.limit)
+        if each.against:
+            ledger.measure(f"{each.name} in its direction", stated, each.against, case.limit)
     surplus = len(statements) - unknowns
     name, found = "as many words as the status says", f"{len(statements)} words for {unknowns} unknowns"
     ledger.require(name, words, surplus > 0 if is_over else surplus == 0, found)
     holding = [each for each in statements if not is_over or abs(each.residual) <= case.limit]
     moved = displacement(holding, unknowns)
+    if moved.rank < unknowns and case.claimed.certificate.double:
+        ledger.omit("how far the points may be off", "two solutions have become one, so that words fix them weakly")
+        return
     found = f"they fix {moved.rank} of {unknowns} coordinates"
     if ledger.require("the words fix the points", words, moved.rank == unknowns, found):
         # What a shift of the start, or the rounding of this very calculation, does to the points.

@@ -6,11 +6,12 @@ from collections.abc import Iterator
 from contoursolve.dialects import DIALECTS, Dialect, Unresolved
 from contoursolve.model import Length
 from contoursolve.syntax import Program
-from contoursolve.verification.claimed import ClaimedContour, ClaimedResult, read_result
+from contoursolve.verification.claimed import ClaimedContour, ClaimedResult
 from contoursolve.verification.contour import check_contour
 from contoursolve.verification.document import CannotVerifyError, Document, parse_program
 from contoursolve.verification.ledger import Ledger, Omission
 from contoursolve.verification.receipt import ContourReceipt, Receipt, Verdict
+from contoursolve.verification.result import read_result
 from contoursolve.verification.walk import Found, follow
 
 _RULES = Omission(

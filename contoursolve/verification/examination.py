@@ -1,0 +1,70 @@
+"""A claimed path against the words and facts of its blocks."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from contoursolve.reading import Claim
+from contoursolve.syntax import FaultKind
+from contoursolve.tolerance import LARGEST
+from contoursolve.verification.case import Case, make_case
+from contoursolve.verification.claimed import ClaimedContour
+from contoursolve.verification.facts import check_readable, read_facts
+from contoursolve.verification.filled import check_filled
+from contoursolve.verification.forms import CHECKERS
+from contoursolve.verification.ledger import Ledger
+from contoursolve.verification.path import check_certificate, check_path
+from contoursolve.verification.walk import Found
+
+
+def examine(found: Found, claimed: ClaimedContour, ledger: Ledger, selected: Mapping[str, int] | None = None) -> bool:
+    """Check a claimed path; whether there was anything to check it by.
+
+    `selected` are the signs of the words that choose, for a solution that is listed beside the contour.
+    """
+    claim = found.claim
+    first, second = claim.before.start().values
+    checker = CHECKERS.get(claim.form.name)
+    if first is None or second is None:
+        ledger.omit("the path", "the program does not tell where it starts")
+        return False
+    if checker is None:
+        ledger.omit("the path", f"contours of the form {claim.form.name} cannot be checked yet")
+        return False
+    case = make_case(claim, claimed, (first, second), found.start_error)
+    case = replace(
+        case,
+        facts=read_facts(claim, checker.elements, checker.points),
+        choices=_signs(claim, checker.choosing) if selected is None else selected,
+        is_listed=selected is not None,
+        next_end=case.place(found.next_end) if found.next_end else None,
+    )
+    check_path(case, ledger)
+    check_certificate(case, ledger)
+    if _check_words(case, ledger, checker.reads) and check_readable(case.facts, ledger):
+        checker.check(case, ledger)
+        check_filled(case, ledger, checker, found.dialect)
+    return True
+
+
+def _signs(claim: Claim, names: tuple[str, ...]) -> dict[str, int]:
+    """The signs of words that have a value other than zero."""
+    numbers = {name: claim.words[name].number for name in names if name in claim.words}
+    return {name: 1 if number > 0 else -1 for name, number in numbers.items() if number}
+
+
+def _check_words(case: Case, ledger: Ledger, reads: frozenset[str]) -> bool:
+    """Whether the blocks can be read at all; words that the form's checker does not look at are listed."""
+    claim = case.claim
+    faults = [fault.text for block in claim.blocks for fault in block.faults if fault.kind not in _HARMLESS]
+    variables = [word.text for word in claim.words.values() if word.number is None and not word.is_asked]
+    # Beyond all travel, and beyond what decimals of 28 digits can reduce to one turn.
+    large = [given.word.text for given in claim.givens.values() if given.word and abs(given.value) > LARGEST]
+    unreadable = [*faults, *variables, *large, *(word.text for word in (*claim.repeated, *claim.unknown))]
+    for name, word in claim.words.items():
+        if name not in reads:
+            ledger.omit(word.text, "what it does to a contour of this form is not checked")
+    remark = "they have no value or no meaning, or are too large"
+    return ledger.require("every word can be read", unreadable, not unreadable, remark)
+
+
+_HARMLESS = (FaultKind.COMMENT_NOT_CLOSED,)
