@@ -43,6 +43,11 @@ class Root:
     is_double: bool = False
 
 
+FARTHEST = 1e12
+"""mm. A thousand times around the earth: where a determinant may be zero, a solution that would be farther away is
+none."""
+
+
 class Close(Enum):
     """What to do with two solutions that cannot be told apart, or from none."""
 
@@ -53,8 +58,8 @@ class Close(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """How large each unknown may be (solutions beyond are of no interest; by index), and what is done with two
-    solutions that are too close."""
+    """How large each unknown may be (by index; `FARTHEST` unless told otherwise; solutions beyond are of no interest),
+    and what is done with two solutions that are too close."""
 
     sizes: Mapping[int, float] | None = None
     close: Close = Close.REFUSE
@@ -133,7 +138,7 @@ def _eliminate(
             if monomial and ball.sign(each.terms[monomial].value)
         ]
         # A quotient by a ball next to zero holds far too much; whether it is out of reach is asked before.
-        if any(_is_beyond(each, limits) for each in linear):
+        if (not found or limits.close is Close.TOGETHER) and any(_is_beyond(each, limits) for each in linear):
             return [polynomial({(): Coefficient(ball.exact(1.0), 1)})], unknowns
         if not found:
             raise ObstacleError(Obstacle.UNDECIDED)
@@ -229,13 +234,13 @@ def remaining(kernel: Kernel) -> int | None:
 
 def _is_beyond(equation: Polynomial, limits: Limits) -> bool:
     """Whether an equation can hold only if an unknown is larger than its limit."""
-    if limits.sizes is None or equation.constant is None:
+    if equation.constant is None:
         return False
     most: Number = ball.exact(0.0)
     for monomial, each in equation.terms.items():
         size = 1.0
         for index in monomial:
-            size *= limits.sizes[index]
+            size *= limits.sizes[index] if limits.sizes is not None else FARTHEST
         if monomial:
             most = most + ball.magnitude(each.value) * ball.exact(size)
     return ball.sign(ball.magnitude(equation.constant.value) - most) == 1
@@ -248,7 +253,7 @@ def _roots(equation: Polynomial, unknown: int, limits: Limits) -> list[tuple[Num
         equation.terms[monomial].value if monomial in equation.terms else zero
         for monomial in ((unknown, unknown), (unknown,), ())
     )
-    if _is_beyond(equation, limits):
+    if (ball.sign(a) is None or limits.close is Close.TOGETHER) and _is_beyond(equation, limits):
         return []
     if ball.sign(a) is None:
         raise ObstacleError(Obstacle.UNDECIDED)
