@@ -103,7 +103,7 @@ class Parallel(Equation):
     given: str = ""
 
     def reads(self) -> tuple[str, ...]:
-        return line_scalars(self.line)[:2]
+        return (line_scalars(self.line)[1 - self.axis],)
 
     def residual(self, at: Lookup) -> Any:
         return at.bearing(self.line)[1 - self.axis]
@@ -112,7 +112,7 @@ class Parallel(Equation):
         return (at.bearing(self.line)[self.axis] * way(at, self.advance, self.axis),)
 
     def sense_reads(self) -> tuple[str, ...]:
-        return *self.reads(), *(scalar(point, self.axis) for ends in self.advance for point in ends)
+        return *line_scalars(self.line)[:2], *(scalar(point, self.axis) for ends in self.advance for point in ends)
 
 
 @dataclass(frozen=True, slots=True)
@@ -179,7 +179,7 @@ class ChamferLeg(Equation):
         return (self.side,)
 
     def residual(self, at: Lookup) -> Any:
-        extent = step(at, self.begin, self.end)[self.axis]
+        extent = at.coordinate(self.end, self.axis) - at.coordinate(self.begin, self.axis)
         return extent - at.side(self.side) * at.radius(self.size)
 
     def senses(self, at: Lookup) -> tuple[Any, ...]:
@@ -261,7 +261,7 @@ class TurnBetween(Equation):
 
 def way(at: Lookup, advance: tuple[tuple[str, str], ...], axis: int) -> Any:
     """How far a path advances along an axis, by the first of its lines that moves along it at all."""
-    moves = [step(at, *ends)[axis] for ends in advance]
+    moves = [at.coordinate(head, axis) - at.coordinate(tail, axis) for tail, head in advance]
     return next((move for move in moves if move != 0), moves[0])
 
 

@@ -60,23 +60,24 @@ class Contact(Equation):
     """
 
     point: str
-    first: tuple[str, str]
-    """Center and radius."""
-    second: tuple[str, str]
+    first: str
+    second: str
+    """The centres."""
     side: int
     given: str = ""
 
     def reads(self) -> tuple[str, ...]:
-        return both(self.point, self.first[0], self.second[0])
+        return both(self.point, self.first, self.second)
 
     def equation(self, at: Lookup) -> Any:
-        return cross(step(at, self.first[0], self.point), step(at, self.first[0], self.second[0]))
+        return cross(step(at, self.first, self.point), step(at, self.first, self.second))
 
     def residual(self, at: Lookup) -> Any:
-        return self.equation(at) / (at.radius(self.first[1]) + at.radius(self.second[1]))
+        between = step(at, self.first, self.second)
+        return self.equation(at) / at.root(dot(between, between))
 
     def senses(self, at: Lookup) -> tuple[Any, ...]:
-        return (self.side * dot(step(at, self.first[0], self.point), step(at, self.point, self.second[0])),)
+        return (self.side * dot(step(at, self.first, self.point), step(at, self.point, self.second)),)
 
 
 @dataclass(frozen=True, slots=True)

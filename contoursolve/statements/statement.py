@@ -212,9 +212,8 @@ class Touches:
         """Neighbours: the sense of both says on which side they touch."""
         first, second = draft.element(self.first), draft.element(str(self.second))
         if isinstance(first, Arc) and isinstance(second, Arc):
-            circles = (first.center, first.radius), (second.center, second.radius)
             side = 1 if first.turn is not second.turn else -1
-            return _named(draft, name, Contact(at, *circles, side, name))
+            return _named(draft, name, Contact(at, first.center, second.center, side, name))
         if isinstance(first, Line) and isinstance(second, Line):
             straight = draft.give(name, Decimal(0), Unit.DEGREE)
             draft.line(self.first)
