@@ -123,7 +123,8 @@ def _alternative(profile: Profile, system: System, found: Found) -> Alternative:
     certificate = Certificate(proof, radius, "", gap)
     if proof is Proof.UNKNOWN:
         certificate = _doubtful(found, radius, gap)
-    absolute = {name: (x + starts[FIRST], y + starts[SECOND]) for name, (x, y) in points.items()}
+    absolute = {name: (scalars[scalar(name, FIRST)], scalars[scalar(name, SECOND)]) for name in system.figure.points}
+    absolute[system.figure.start] = starts[FIRST], starts[SECOND]
     solution = Solution(
         _status(refusals, remarks),
         points=absolute if not refusals else {},

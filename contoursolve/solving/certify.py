@@ -18,7 +18,7 @@ _SIGNS = {"determinant": (-1, 1), "discriminant": (0, 1), "radius": (1,)}
 
 
 def certify(profile: Profile, system: System, values: Mapping[str, float], bound: float) -> Certificate:
-    """The certificate of values (mm, counted from the start point; unknowns and corner points by name).
+    """The certificate of values (mm; unknowns and corner points by name).
 
     Every step has one solution on the branch that its side names, if its determinant is not zero and its
     discriminant is positive; the ball about it is computed with outward rounding, and the equations are tried on it.
@@ -26,6 +26,7 @@ def certify(profile: Profile, system: System, values: Mapping[str, float], bound
     """
     machine = compile_proof(system)
     with ball.precision(BITS):
+        start = [ball.exact(each) for each in profile.start.values if each is not None]
         inputs = _inputs(profile, system)
         try:
             results = machine.replay([inputs[name] for name in machine.inputs])
@@ -42,6 +43,8 @@ def certify(profile: Profile, system: System, values: Mapping[str, float], bound
                     # A fact that was not needed agrees as well as words do; another has been compared before.
                     is_exact = False
             elif name in values:
+                axis = name.rpartition(".")[2]
+                value = value + start[int(axis)] if axis.isdigit() else value  # noqa: PLW2901 - from the start
                 radius = max(radius, ball.distance(value, values[name]))
                 is_exact = is_exact and ball.is_exact(value)
     if is_exact and radius == 0:

@@ -170,7 +170,9 @@ class _Search:
         for value in self._must_be_positive(state, kernel):
             match ball.sign(value):
                 case None:
+                    # With all the digits there are, what may still be zero is taken for it, and said so.
                     self.doubts.append(Doubt(kernel.unknowns, Obstacle.UNDECIDED))
+                    return False
                 case 1:
                     pass
                 case _:

@@ -179,8 +179,11 @@ class _Attempt:
 
     def _certificate(self, points: Mapping[str, Point], bound: float) -> Certificate:
         """What is proven of the points and the corners, as they are printed."""
-        values = {**scalars_of(points), **{name: self.out[name] for name in self.system.figure.radii}}
-        values |= {name: value for name, value in self.out.items() if name.startswith(("begin:", "end:", "center:"))}
+        absolute = {name: self._absolute(point) for name, point in points.items()}
+        values = {**scalars_of(absolute), **{name: self.out[name] for name in self.system.figure.radii}}
+        for name, value in self.out.items():
+            if name.startswith(("begin:", "end:", "center:")):
+                values[name] = float(self.start[int(name.rpartition(".")[2])]) + value
         certificate = certify(self.profile, self.system, values, bound)
         touches = any(remark.kind is RemarkKind.TOUCHES for remark in self.remarks)
         return replace(certificate, gap=0.0) if touches else certificate

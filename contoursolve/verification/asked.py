@@ -29,7 +29,7 @@ def check_asked(case: Case, ledger: Ledger, values: Mapping[str, Quantity], draw
 
     `values` are what the words of the form would have to say, by their names.
     """
-    if case.claimed.asked is None or case.is_listed:
+    if case.claimed.asked is None:
         return
     rest = list(case.claimed.asked)
     for question in _questions(case, values, drawing):

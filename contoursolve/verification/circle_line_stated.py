@@ -11,12 +11,13 @@ from contoursolve.model import FIRST, SECOND
 from contoursolve.tolerance import LENGTH, RADIUS_DIFFERENCE
 from contoursolve.verification.asked import check_asked
 from contoursolve.verification.case import Case, Circle
+from contoursolve.verification.determination import check_statements
 from contoursolve.verification.drawing import Drawing, Round, Straight
 from contoursolve.verification.facts import STEP, Sight, slopes, statements
 from contoursolve.verification.ledger import Ledger
 from contoursolve.verification.measure import angle_between, cross, direction, dot, unit
 from contoursolve.verification.quantity import Quantity
-from contoursolve.verification.statement import Statement, check_statements, displacement
+from contoursolve.verification.statement import Statement, displacement
 
 CENTER = ("1:center-first", "1:center-second")
 POINT = ("1:first", "1:first-step", "1:second", "1:second-step")
@@ -119,7 +120,7 @@ def _claimed_coordinate(case: Case, names: tuple[str, str], axis: int) -> float 
     """A coordinate that the program asks for, as the result answers it."""
     for name, is_absolute in zip(names, (True, False), strict=True):
         word = case.claim.words.get(name)
-        for asked in () if word is None or case.is_listed else case.claimed.asked or ():
+        for asked in case.claimed.asked or ():
             if word and (asked.word, asked.line) == (word.text, word.span.line) and asked.value is not None:
                 return asked.value - (float(case.origin[axis]) if is_absolute else 0.0)
     return None
@@ -222,8 +223,8 @@ def _check_choices(case: Case, ledger: Ledger, numbers: _Numbers) -> None:
             "the branch is the one that Q chooses", case.texts(CHOICE), branch in allowed, f"{branch!a}"[:60]
         )
     size, turn = case.choices.get("1:R", 0), case.claim.turn
-    # Beside the contour, nothing tells at which of two places a point is whose coordinate is asked for.
-    is_known = numbers.point is not None and not (case.is_listed and set(case.asked) & set(POINT))
+    # Without an answer, nothing tells at which of two places a point is whose coordinate is asked for.
+    is_known = case.claimed.asked is not None or not set(case.asked) & set(POINT)
     if size and is_known and numbers.point is not None and turn is not None:
         side = size * turn.sign
         off = max(0.0, -side * cross(unit(numbers.point), numbers.center))

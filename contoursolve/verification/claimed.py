@@ -107,6 +107,7 @@ class ClaimedSolution:
     reasons: tuple[str, ...]
     path: ClaimedPath
     certificate: ClaimedCertificate
+    asked: tuple[ClaimedAsked, ...] | None = None
 
 
 @dataclass(frozen=True, slots=True)

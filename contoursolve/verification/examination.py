@@ -36,6 +36,7 @@ def examine(found: Found, claimed: ClaimedContour, ledger: Ledger, selected: Map
         facts=read_facts(claim, checker.elements, checker.points),
         choices=_signs(claim, checker.choosing) if selected is None else selected,
         is_listed=selected is not None,
+        is_selected=_is_selected(claimed),
         next_end=case.place(found.next_end) if found.next_end else None,
     )
     check_path(case, ledger)
@@ -44,6 +45,12 @@ def examine(found: Found, claimed: ClaimedContour, ledger: Ledger, selected: Map
         checker.check(case, ledger)
         check_filled(case, ledger, checker, found.dialect)
     return True
+
+
+def _is_selected(claimed: ClaimedContour) -> bool:
+    """Whether the result names a solution that is none because a word disagrees with it."""
+    reasons = [reason for each in claimed.solutions or () for reason in each.reasons if not each.is_path]
+    return any(reason.startswith("words-disagree") for reason in reasons)
 
 
 def _signs(claim: Claim, names: tuple[str, ...]) -> dict[str, int]:

@@ -78,11 +78,11 @@ def _check_values(case: Case, ledger: Ledger, found: Sequence[Block]) -> None:
             off = float(Decimal(value) - stated)
             if given.unit is Unit.DEGREE:
                 off = (off + 180) % 360 - 180
-            limit = _half_increment(given, lexicon, unit) + RESIDUAL
+            limit = half_increment(given, lexicon, unit) + RESIDUAL
             ledger.measure(name, [word.text, new.text], off, limit, given.unit.value)
 
 
-def _half_increment(given: Given, lexicon: Lexicon, unit: Length) -> float:
+def half_increment(given: Given, lexicon: Lexicon, unit: Length) -> float:
     """Half of the least increment of a word, mm (radius) or degrees."""
     step = lexicon.numbers.inch * unit.in_mm if unit is Length.INCH else lexicon.numbers.mm
     if given.unit is Unit.DEGREE:

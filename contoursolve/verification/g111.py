@@ -12,6 +12,7 @@ from contoursolve.statements import MeetsLine
 from contoursolve.verification.asked import check_asked
 from contoursolve.verification.case import Case
 from contoursolve.verification.claimed import ClaimedStatus
+from contoursolve.verification.determination import check_statements
 from contoursolve.verification.drawing import Drawing
 from contoursolve.verification.facts import Sight, statements
 from contoursolve.verification.g111_corners import check_elements
@@ -19,7 +20,7 @@ from contoursolve.verification.g111_drawing import Lines, Meeting, Sizes, Slots,
 from contoursolve.verification.ledger import Ledger, fewest
 from contoursolve.verification.measure import angle_between, cross, direction, dot, unit
 from contoursolve.verification.quantity import Quantity
-from contoursolve.verification.statement import Statement, check_statements, displacement
+from contoursolve.verification.statement import Statement, displacement
 
 LINE_1, LINE_2 = ("A", "I", "K"), ("B", "X", "U", "Z", "W")
 END_X, END_Z = ("X", "U"), ("Z", "W")

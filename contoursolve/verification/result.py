@@ -103,6 +103,7 @@ def _filled(node: Node) -> ClaimedFilled:
 
 
 def _solution(node: Node) -> ClaimedSolution:
+    asked = node.maybe("asked")
     return ClaimedSolution(
         name=node.field("name").text(),
         is_chosen=node.field("is_chosen").boolean(),
@@ -111,6 +112,7 @@ def _solution(node: Node) -> ClaimedSolution:
         reasons=_texts(node.field("reasons")),
         path=_path(node),
         certificate=_certificate(node.field("certificate")),
+        asked=tuple(_asked(each) for each in asked.items()) if asked else None,
     )
 
 

@@ -8,14 +8,17 @@ from math import inf
 
 from contoursolve import syntax
 from contoursolve.statements import GrammarError, PointIs, Vocabulary, read_statement
+from contoursolve.syntax import Word
 from contoursolve.tolerance import RESIDUAL
 from contoursolve.verification.claimed import (
+    ClaimedAsked,
     ClaimedContour,
     ClaimedPath,
     ClaimedSolution,
     ClaimedStatus,
 )
 from contoursolve.verification.examination import examine
+from contoursolve.verification.filled import half_increment
 from contoursolve.verification.forms import CHECKERS
 from contoursolve.verification.ledger import Ledger, fewest
 from contoursolve.verification.measure import ROUNDING
@@ -41,10 +44,15 @@ def check_solutions(found: Found, claimed: ClaimedContour, ledger: Ledger) -> bo
         else:
             ledger.require(f"{own} has no path", (), each.path.is_empty, "it claims to be none")
             ledger.require(f"{own} has a reason against it", (), bool(each.reasons), "none is named")
+            values = [asked.word for asked in each.asked or () if asked.value is not None]
+            ledger.require(f"{own} answers nothing", values, not values, "it has no path")
     paths = [(number, each) for number, each in numbered if each.is_path]
     for (one, first), (other, second) in combinations(paths, 2):
-        apart = _distance(first.path, second.path) > _limit(first.path)
+        apart = max(_distance(first.path, second.path), _difference(first.asked, second.asked)) > _limit(first.path)
         ledger.require(f"solutions {one} and {other} are two", (), apart, "they are the same path")
+        selects = bool(first.selects and first.selects == second.selects)
+        remark = "the same words select both"
+        ledger.require(f"solutions {one} and {other} are told apart", first.selects, not selects, remark)
     is_checked = False
     for number, each in paths:
         _check_selects(found, each, [other for _, other in paths if other is not each], number, ledger)
@@ -87,6 +95,9 @@ def _check_chosen(found: Found, claimed: ClaimedContour, listed: tuple[ClaimedSo
     if ledger.require("one solution is chosen", (), len(chosen) == 1, f"{len(chosen)} are"):
         off = _distance(chosen[0].path, claimed.path)
         ledger.measure("the solution that is chosen is the contour", (), off, _limit(claimed.path))
+        if claimed.asked is not None and chosen[0].asked is not None:
+            off = _difference(claimed.asked, chosen[0].asked)
+            ledger.measure("the solution that is chosen answers as the contour", (), off, RESIDUAL)
     words = [word.text for word in found.claim.words.values()]
     parts = claimed.count.chosen_by.split(" and ") if claimed.count and claimed.count.chosen_by else []
     is_known = all(part in words for part in parts)
@@ -104,6 +115,17 @@ def _distance(one: ClaimedPath, other: ClaimedPath) -> float:
         return inf
     pairs = zip(_numbers(one), _numbers(other), strict=True)
     return max((abs(first - second) for first, second in pairs), default=0.0)
+
+
+def _difference(one: tuple[ClaimedAsked, ...] | None, other: tuple[ClaimedAsked, ...] | None) -> float:
+    """The largest difference of two answers to the same questions, mm or degrees; infinite for other questions."""
+    if one is None or other is None:
+        return 0.0
+    texts = [[(each.word, each.line, each.unit, each.value is None) for each in asked] for asked in (one, other)]
+    if texts[0] != texts[1]:
+        return inf
+    pairs = zip(one, other, strict=True)
+    return max((abs((first.value or 0.0) - (second.value or 0.0)) for first, second in pairs), default=0.0)
 
 
 def _numbers(path: ClaimedPath) -> list[float]:
@@ -125,8 +147,9 @@ def _readings(found: Found, solution: ClaimedSolution) -> Iterator[tuple[Claimed
     A word that does not tell the solutions apart is not named by what selects them.
     """
     checker = CHECKERS.get(found.claim.form.name)
-    named = _signs(found, solution)
-    names = checker.choosing if checker else ()
+    named, words = _signs(found, solution), found.claim.words
+    choosing = checker.choosing if checker else ()
+    names = [name for name in choosing if name in named or (name in words and words[name].number)]
     signs = [((named[name],) if name in named else (1, -1)) for name in names]
     for status in (ClaimedStatus.SOLVED, ClaimedStatus.OVERDETERMINED):
         for combination in product(*signs):
@@ -154,9 +177,8 @@ def _attempt(
         path=solution.path,
         branch=None,
         certificate=solution.certificate,
-        asked=None,
+        asked=solution.asked,
         filled=None,
-        solutions=None,
         count=None,
     )
     examine(found, alone, ledger, signs)
@@ -166,24 +188,50 @@ def _attempt(
 def _check_selects(
     found: Found, solution: ClaimedSolution, others: list[ClaimedSolution], number: int, ledger: Ledger
 ) -> None:
-    """A fact that selects a solution is true of it, and of no other one."""
-    checker, plane, unit = CHECKERS.get(found.claim.form.name), found.claim.after.plane, found.claim.after.unit
+    """A fact that selects a solution is true of it, and of no other one; a word has the value that it answers."""
+    checker = CHECKERS.get(found.claim.form.name)
     if checker is None:
         return
     for text in solution.selects:
-        for directive in syntax.parse_block(text, 1).directives:
-            name = f"solution {number}: what selects it is true"
-            try:
-                fact = read_statement(directive.text, Vocabulary((), checker.points, plane, unit))
-            except GrammarError as error:
-                ledger.require(name, [text], False, str(error))
-                continue
-            if isinstance(fact, PointIs) and fact.value is not None and fact.of in solution.path.points:
-                limit = SHOWN * float(unit.in_mm) / (2 if plane.diameters[fact.axis] else 1) + RESIDUAL
-                off = solution.path.points[fact.of][fact.axis] - float(fact.value)
-                ledger.measure(name, [text], off, limit)
-                apart = [abs(each.path.points[fact.of][fact.axis] - float(fact.value)) for each in others]
-                name = f"solution {number}: what selects it is true of no other"
-                ledger.require(name, [text], all(each > limit for each in apart), "it is true of another, too")
-            else:
-                ledger.omit(text, "what selects a solution is about a point that the result does not list")
+        block = syntax.parse_block(text, 1)
+        for directive in block.directives:
+            _check_fact(found, solution, others, directive.text, f"solution {number}: what selects it", ledger)
+        for word in block.words:
+            _check_word(found, solution, word, f"solution {number}: what selects it", ledger)
+
+
+def _check_fact(
+    found: Found, solution: ClaimedSolution, others: list[ClaimedSolution], text: str, own: str, ledger: Ledger
+) -> None:
+    plane, unit, points = found.claim.after.plane, found.claim.after.unit, CHECKERS[found.claim.form.name].points
+    try:
+        fact = read_statement(text, Vocabulary((), points, plane, unit))
+    except GrammarError as error:
+        ledger.require(f"{own} is true", [text], False, str(error))
+        return
+    if not isinstance(fact, PointIs) or fact.value is None or fact.of not in solution.path.points:
+        ledger.omit(text, "what selects a solution is about a point that the result does not list")
+        return
+    value = float(fact.value)
+    limit = SHOWN * float(unit.in_mm) / (2 if plane.diameters[fact.axis] else 1) + RESIDUAL
+    ledger.measure(f"{own} is true", [text], solution.path.points[fact.of][fact.axis] - value, limit)
+    places = [each.path.points[fact.of][fact.axis] for each in others if fact.of in each.path.points]
+    is_alone = all(abs(each - value) > limit for each in places)
+    ledger.require(f"{own} is true of no other", [text], is_alone, "it is true of another one, too")
+
+
+def _check_word(found: Found, solution: ClaimedSolution, word: Word, own: str, ledger: Ledger) -> None:
+    claim, unit = found.claim, found.claim.after.unit
+    stated = [each for block in claim.blocks for each in block.words if each.address == word.address]
+    given = claim.lexicon.given(word.address, word, unit) if word.address in claim.lexicon.addresses else None
+    if not ledger.require(f"{own} is a word with a value", [word.text], given is not None) or given is None:
+        return
+    for each in stated:
+        answers = [asked for asked in solution.asked or () if (asked.word, asked.line) == (each.text, each.span.line)]
+        if answers and answers[0].value is not None:
+            value = abs(given.value) if word.address == "R" else given.value
+            off, limit = answers[0].value - float(value), half_increment(given, claim.lexicon, unit) + RESIDUAL
+            ledger.measure(f"{own} has the value that is asked for", [word.text], off, limit, given.unit.value)
+        elif word.address == "R" and each.number is not None and word.number is not None:
+            is_same = abs(each.number) == abs(word.number)
+            ledger.require(f"{own} has the program's radius", [word.text], is_same, each.text)

@@ -1,4 +1,4 @@
-"""Statements of words and facts about unknown coordinates: do they hold, and do they fix the coordinates?
+"""Statements of words and facts about unknown coordinates, and how far they move the unknowns that they fix.
 
 Solving for the residuals tells how far the claimed points are from those that the statements fix, however weakly
 they fix them: exactly for words, which are linear in the unknowns, and to first order for facts.
@@ -8,10 +8,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from contoursolve.tolerance import AGREEMENT, REGULAR
-from contoursolve.verification.case import Case
-from contoursolve.verification.claimed import ClaimedStatus
-from contoursolve.verification.ledger import Ledger
-from contoursolve.verification.measure import ROUNDING
 
 NUMERICAL = 1e-6
 """1. A determinant below this is zero where slopes were found by differences."""
@@ -93,37 +89,3 @@ def displacement(statements: Sequence[Statement], unknowns: int) -> Displacement
         moves=tuple(rows[fixed[column]][unknowns] if column in fixed else 0.0 for column in range(unknowns)),
         amplification=max((sum(map(abs, rows[at][unknowns + 1 :])) for at in fixed.values()), default=0.0),
     )
-
-
-def check_statements(case: Case, ledger: Ledger, statements: Sequence[Statement], unknowns: int) -> None:
-    """Each word holds; together they fix the unknowns, just so or with words that agree; the points are there.
-
-    Where a contour is claimed overdetermined, the words that are not needed hold within the least increment
-    only, and those that hold exactly must fix the points.
-    """
-    words, is_over = (
-        [each.word for each in statements if each.word],
-        case.claimed.status is ClaimedStatus.OVERDETERMINED,
-    )
-    for each in statements:
-        stated = [each.word] if each.word else []
-        if is_over and abs(each.residual) > case.limit:
-            unit, off = ("mm", each.residual) if abs(each.residual) <= AGREEMENT else ("deg", each.degrees)
-            ledger.measure(f"{each.name} (agrees)", stated, off or each.residual, AGREEMENT, unit)
-        else:
-            ledger.measure(each.name, stated, each.residual, case.limit)
-        if each.against:
-            ledger.measure(f"{each.name} in its direction", stated, each.against, case.limit)
-    surplus = len(statements) - unknowns
-    name, found = "as many words as the status says", f"{len(statements)} words for {unknowns} unknowns"
-    ledger.require(name, words, surplus > 0 if is_over else surplus == 0, found)
-    holding = [each for each in statements if not is_over or abs(each.residual) <= case.limit]
-    moved = displacement(holding, unknowns)
-    if moved.rank < unknowns and case.claimed.certificate.double:
-        ledger.omit("how far the points may be off", "two solutions have become one, so that words fix them weakly")
-        return
-    found = f"they fix {moved.rank} of {unknowns} coordinates"
-    if ledger.require("the words fix the points", words, moved.rank == unknowns, found):
-        # What a shift of the start, or the rounding of this very calculation, does to the points.
-        unsure = moved.amplification * (ROUNDING * case.reach + case.start_error)
-        case.compare(ledger, "the points are where the words put them", words, moved.distance, unsure)

@@ -1,6 +1,5 @@
 """Follows a program from contour to contour as the control does; after each, the claimed end is the position."""
 
-from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
@@ -62,12 +61,15 @@ def _with_facts(blocks: tuple[Block, ...], claims: Mapping[int, ClaimedContour])
     added: dict[int, tuple[Directive, ...]] = {}
     own = {block.line: [each.text for each in block.directives] for block in blocks}
     for claimed in claims.values():
-        texts = Counter(text for line in claimed.lines for text in own.get(line, ()))
-        rest = [text for text in claimed.facts or () if text not in texts or texts.subtract([text]) or texts[text] < 0]
+        known = [text for line in claimed.lines for text in own.get(line, ())]
+        rest: list[Directive] = []
+        for text in claimed.facts or ():
+            if text in known:
+                known.remove(text)
+            else:
+                rest.append(syntax.read_directive(text, -len(rest) - 1))
         if rest and claimed.lines:
-            added[claimed.lines[-1]] = tuple(
-                syntax.read_directive(text, -number) for number, text in enumerate(rest, 1)
-            )
+            added[claimed.lines[-1]] = tuple(rest)
     return tuple(
         replace(block, directives=(*block.directives, *added[block.line])) if block.line in added else block
         for block in blocks
