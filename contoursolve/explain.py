@@ -170,7 +170,9 @@ def explain_missing(context: Context, profile: Profile, verdict: Verdict, claim:
         if row.fact.given and row.fact.given not in stated and free & set(row.fact.reads())
     ]
     addresses = dict.fromkeys(name for name in able if name in claim.form.allowed)
-    completions = f"words that say something about it: {', '.join(addresses)}" if addresses else "add a word for it"
+    completions = "add a word for it, or state a fact about it with --fact; 'contoursolve facts' lists them"
+    if addresses and not profile.is_extended:
+        completions = f"words that say something about it: {', '.join(addresses)}"
     return report(
         context,
         context.row(Trouble.UNDERDETERMINED),

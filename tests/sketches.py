@@ -1,8 +1,9 @@
-"""Chains, circles and lines of the oracles as sketches of the package, and its drawings back as chains."""
+"""Chains as sketches of the package, and its drawings back as chains."""
 
 from collections.abc import Sequence
+from random import Random
 
-from chains import Arc, Chain, Fact
+from chains import Arc, Chain, Fact, distance_between, form_residuals, measure, random_chain, random_facts
 
 from contoursolve import Sketch
 from contoursolve.sketch import Drawn
@@ -28,3 +29,22 @@ def chain_of(drawn: Drawn, form: Chain) -> Chain:
     for number in form.arcs:
         places += [*drawn.points[f"E{number}.center"], drawn.radii[f"E{number}.radius"]]
     return form.at(places)
+
+
+def chain_case(seed: int) -> tuple[Chain, list[Fact]]:
+    """A chain of 1 to 8 elements, with up to all of its facts swapped if it is short, else up to three."""
+    random = Random(seed)
+    chain = random_chain(random, 1 + seed % 8)
+    swaps = random.randint(1, chain.freedom if len(chain.elements) <= 2 else 3)
+    return chain, random_facts(chain, random, swaps)
+
+
+def is_drawing(chain: Chain, facts: Sequence[Fact]) -> bool:
+    """Whether a chain satisfies all its facts, and its arcs meet its points, by a measure of its own."""
+    misses = [*form_residuals(chain), *(measure(chain, fact) for fact in facts)]
+    return chain.is_proper and all(abs(each) <= 1e-6 for each in misses)
+
+
+def is_among(chain: Chain, drawn: Sequence[Chain]) -> bool:
+    """Whether a chain is one of those that were drawn."""
+    return any(distance_between(chain, each) <= 1e-6 * chain.extent for each in drawn)

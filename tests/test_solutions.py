@@ -5,32 +5,21 @@ An answer is right, or an honest doubt (`is_complete` is False); a wrong number 
 
 import json
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from decimal import Decimal
 from fractions import Fraction
 from itertools import pairwise, product
-from math import inf, radians, sqrt
+from math import sqrt
 from random import Random
 from typing import Any, NamedTuple
 
 import oracle_apollonius as oracle
 import pytest
-from chains import (
-    Chain,
-    Fact,
-    distance_between,
-    fact_of,
-    form_residuals,
-    measure,
-    random_chain,
-    random_facts,
-    solutions,
-    standard_facts,
-)
+from chains import solutions
 from click.testing import CliRunner
 from mpmath import mp, mpf
 from oracle_apollonius import KNOWN, Circle, EndlessError, Line, Point, Thing
-from sketches import chain_of, sketch_of
+from sketches import chain_case, chain_of, is_among, is_drawing, sketch_of
 
 import contoursolve
 from contoursolve import Answer, Sketch
@@ -39,6 +28,7 @@ from contoursolve.backends import ball
 from contoursolve.cli import main
 from contoursolve.constraints import assemble
 from contoursolve.examine import list_alternatives
+from contoursolve.output.solutions import DECIMALS, printed_certificate
 from contoursolve.sketch import Drawings, Drawn
 from contoursolve.solving.certificate import Proof
 from contoursolve.solving.enumerate import enumerate_solutions
@@ -153,7 +143,9 @@ def test_a_circle_is_found_among_those_that_touch_what_touches_it(kinds: str) ->
         circle, given = oracle.touching_things(random, kinds)
         things = written(given)
         assert compare_circles(things) == "right"
-        exact = [each for each in oracle.tangent_circles(*things, keep_given=True) if miss(each, circle) < 1e-3 * circle.r]
+        exact = [
+            each for each in oracle.tangent_circles(*things, keep_given=True) if miss(each, circle) < 1e-3 * circle.r
+        ]
         drawn = [circle_of(each) for each in circles_touching(things)]
         assert sum(miss(each, circle) < 1e-3 * circle.r for each in drawn) == len(exact)
 
@@ -200,7 +192,9 @@ def compare_lines(things: Sequence[Thing]) -> int | None:
     return len(drawings)
 
 
-@pytest.mark.parametrize("turn", [(1, 0), (0, 1), (Fraction(3, 5), Fraction(4, 5)), (Fraction(-7, 25), Fraction(24, 25))])
+@pytest.mark.parametrize(
+    "turn", [(1, 0), (0, 1), (Fraction(3, 5), Fraction(4, 5)), (Fraction(-7, 25), Fraction(24, 25))]
+)
 def test_a_circle_moves_through_another_and_has_4_3_2_1_and_0_tangents_with_it(turn: tuple[Fraction, Fraction]) -> None:
     for apart, count in ((60, 4), (50, 3), (30, 2), (10, 1), (5, 0)):
         x, y = (str(float(apart * part)) for part in turn)
@@ -282,11 +276,11 @@ def solve_json(*blocks: str, rules: str = "off") -> Any:
 def test_the_command_line_counts_the_intersections_of_a_pair_without_q(arc: str, line: str, count: int) -> None:
     """Radii have no sign here for lack of a word; a centre on either side of the chord is a solution."""
     contour = solve_json("G17 G90 G41 G0 X0 Y0", f"G3 {arc}", f"G1 {line}")
-    center = [Point(*map(float, (arc.split()[0][1:], arc.split()[1][1:])))] if "R" not in arc else None
-    things = [Circle(each.x, each.y, 50) for each in center or ()]
-    if not things:
-        x, _, radius = (float(word[1:]) for word in arc.split())
-        things = [Circle(*each, radius) for each in oracle.intersections(Circle(0, 0, radius), Circle(x, 0, radius))]
+    first, second, *radius = (float(word[1:]) for word in arc.split())
+    centers = [Point(first, second)]
+    if radius:
+        centers = oracle.intersections(Circle(0, 0, *radius), Circle(first, second, *radius))
+    things = [Circle(*each, *(radius or [50])) for each in centers]
     x, y, angle = (float(word.strip(",")[1:]) for word in line.split())
     wanted = [place for thing in things for place in oracle.intersections(thing, Line(x, y, angle))]
     assert len(wanted) == count, "the table is wrong"
@@ -359,7 +353,9 @@ def test_circles_that_touch_what_nearly_touches_are_counted(things: Any) -> None
         assert is_known or (step == 0 and isinstance(three[0], Line))
 
 
-def pair(x: Decimal | int, y: Decimal | int = 100, word: str = "Q1", angle: str = "90", *, rules: str = "off") -> Answer:
+def pair(
+    x: Decimal | int, y: Decimal | int = 100, word: str = "Q1", angle: str = "90", *, rules: str = "off"
+) -> Answer:
     """A circle of radius 50 about (50, 0) from its point at 0, and a line."""
     program = f"G17 G90 G41 G0 X0 Y0\nG3 I50 J0\nG1 X{Decimal(x):f} Y{Decimal(y):f} ,A{angle} {word}"
     return contoursolve.solve(program, control="nct-99m", rules=rules).answers[0]
@@ -377,7 +373,9 @@ def test_a_pair_near_a_tangent_is_solved_or_refused_and_nothing_between(rules: s
         ):
             assert answer.status.value == ("solved" if inside else "no-solution")
             certificate = answer.certificate
-            assert (certificate is not None and certificate.proof is Proof.UNIQUE and not certificate.is_double) == inside
+            assert (
+                certificate is not None and certificate.proof is Proof.UNIQUE and not certificate.is_double
+            ) == inside
     for answer in (pair(100, rules=rules), pair(200, 50, angle="0", rules=rules, word="Q-1")):
         assert answer.status.value == "solved"
         assert answer.certificate is not None
@@ -451,10 +449,17 @@ def search_from(stage: Stage, guesses: int, random: Random) -> None:
             inputs, hits = stage.inputs(signs), set[int]()
             for _ in range(guesses // len(stage.signs)):
                 found: list[list[Any]] = []
-                search(stage.kernel, [random.uniform(*stage.ranges[name]) / 4 for name in stage.kernel.unknowns], inputs, found)
+                search(
+                    stage.kernel,
+                    [random.uniform(*stage.ranges[name]) / 4 for name in stage.kernel.unknowns],
+                    inputs,
+                    found,
+                )
                 for box in found:
                     radii = [
-                        value for name, value in zip(stage.kernel.unknowns, box, strict=True) if name.endswith(".radius")
+                        value
+                        for name, value in zip(stage.kernel.unknowns, box, strict=True)
+                        if name.endswith(".radius")
                     ]
                     if all(ball.middle(radius) > 0 for radius in radii):
                         hit = [
@@ -532,3 +537,302 @@ def jump(one: Any, other: Any) -> float:
     """The largest distance that an end of an element moves."""
     pairs = zip(one.elements, other.elements, strict=True)
     return max(abs(complex(*a.end) - complex(*b.end)) for a, b in pairs)
+
+
+# Drawn first, stated afterwards ------------------------------------------------------------------------------
+
+CASES = 300
+# fmt: off
+SLOW = frozenset({
+    3, 21, 31, 37, 49, 53, 68, 69, 86, 105, 116, 130, 137, 159, 172, 187, 202, 206, 218, 222, 225, 228, 241, 246, 249,
+    261, 282, 290, 294,
+})
+# fmt: on
+"""Seeds that take longer than half a second, for a step without a closed form; they are run by the benchmarks."""
+MISSED = frozenset({25})
+"""Seeds whose drawings lack the original: it is proven, and refused for a ball that is wider than 1e-9 mm, which
+leaves the list open. Take out what is found again."""
+
+
+@pytest.mark.parametrize("first", range(0, CASES, 50))
+def test_a_chain_is_found_again_from_facts_that_are_true_of_it(first: int) -> None:
+    missed = set()
+    for seed in range(first, first + 50):
+        if seed in SLOW:
+            continue
+        chain, facts = chain_case(seed)
+        drawings = sketch_of(chain, facts).solve()
+        drawn = [chain_of(each, chain) for each in drawings]
+        if not is_among(chain, drawn):
+            missed.add(seed)
+        assert all(is_drawing(each, facts) for each in drawn), f"seed {seed}: a drawing is none"
+        if drawings.is_complete and len(chain.elements) <= 3 and seed not in MISSED:
+            # Newton's method may run off to where rounding hides what is not true.
+            others = [each for each in solutions(chain, facts, Random(seed), starts=2) if is_drawing(each, facts)]
+            assert all(is_among(other, drawn) for other in others), f"seed {seed}: another solution is missing"
+    assert missed == {seed for seed in MISSED if first <= seed < first + 50}
+
+
+def test_an_arc_is_not_longer_than_its_circle() -> None:
+    sketch = Sketch((10, 0))
+    sketch.arc("E1", "ccw")
+    for fact in ("X of center of E1 = 0", "Y of center of E1 = 0", "length of E1 = 100"):
+        sketch.state(fact)
+    drawings = sketch.solve()
+    assert (len(drawings), drawings.is_complete) == (0, True)
+
+
+def line_and_arc() -> Drawings:
+    sketch = Sketch()
+    sketch.line("E1")
+    sketch.arc("E2", "ccw")
+    for fact in (
+        "direction of E1 = -70",
+        "angle from E1 to E2 = -45",
+        "X of P2 = 50",
+        "Y of P2 = -60",
+        "E2 passes through (X85 Y-30)",
+    ):
+        sketch.state(fact)
+    return sketch.solve()
+
+
+def test_a_list_without_a_proven_solution_is_not_said_to_be_complete() -> None:
+    assert_count(line_and_arc(), 1)
+
+
+@pytest.mark.xfail(strict=True, reason="a proven solution is refused, because its ball is wider than 1e-9 mm")
+def test_a_proven_solution_is_drawn() -> None:
+    drawings = line_and_arc()
+    assert (len(drawings), drawings.is_complete) == (1, True)
+
+
+# What is proven ----------------------------------------------------------------------------------------------
+
+
+def exact_direction(degrees: Decimal) -> Any:
+    """As a complex number of 60 digits; exact along the axes."""
+    quarter, rest = divmod(degrees, 90)
+    return mp.mpc(0, 1) ** (int(quarter) % 4) * mp.expj(mpf(str(rest)) * mp.pi / 180)
+
+
+def meet(place: Any, way: Any, other: Any, other_way: Any) -> Any:
+    return place + way * ((other - place).conjugate() * other_way).imag / (way.conjugate() * other_way).imag
+
+
+def rounded(at: Any, before: Any, after: Any, radius: Any) -> list[Any]:
+    """Where a rounding begins and ends, and its centre."""
+    half = mp.arg(after / before) / 2
+    cut = radius * abs(mp.tan(half))
+    begin = at - cut * before
+    return [begin, at + cut * after, begin + radius * before * (1j if half > 0 else -1j)]
+
+
+def exact_g111(start: tuple[Decimal, Decimal], words: Mapping[str, Decimal]) -> list[Any]:
+    """V1 and V2, and the places of the roundings P and Q: two words for each line."""
+    number = {name: mpf(str(value)) for name, value in words.items()}
+    begin = mp.mpc(str(start[0]), str(start[1]))
+    across, along = mp.mpc(1), mp.mpc(0, 1)
+    loci = {
+        "I": (begin + 1j * number.get("I", 0), across),
+        "K": (begin + number.get("K", 0), along),
+        "A": (begin, exact_direction(words.get("A", Decimal(0)))),
+    }
+    one, other = (loci[name] for name in "AIK" if name in words)
+    first = meet(*one, *other)
+    ends = {
+        "X": (1j * number.get("X", 0) / 2, across),
+        "U": (begin + 1j * number.get("U", 0) / 2, across),
+        "Z": (mp.mpc(number.get("Z", 0)), along),
+        "W": (begin + number.get("W", 0), along),
+        "B": (first, exact_direction(words.get("B", Decimal(0)))),
+    }
+    one, other = (ends[name] for name in "BXUZW" if name in words)
+    second = meet(*one, *other)
+    ways = [(first - begin) / abs(first - begin), (second - first) / abs(second - first)]
+    places = [first, second]
+    if "P" in words:
+        places += rounded(first, *ways, number["P"])
+    if "Q" in words:
+        lands_along_z = "X" in words or "U" in words
+        landing = mp.mpc(mp.sign(ways[1].real)) if lands_along_z else mp.mpc(0, mp.sign(ways[1].imag))
+        places += rounded(second, ways[1], landing, number["Q"])
+    return places
+
+
+G111_RANGES = {
+    "A": (150, 170),
+    "I": (1, 4),
+    "K": (-30, -20),
+    "B": (100, 130),
+    "X": (90, 110),
+    "U": (50, 70),
+    "Z": (-60, -50),
+    "W": (-60, -50),
+}
+
+
+def test_the_exact_places_of_a_g111_contour_are_within_the_certified_radius() -> None:
+    random = Random(111)
+    with mp.workdps(60):
+        for _ in range(150):
+            line1 = random.choice((("A", "I"), ("A", "K"), ("I", "K")))
+            line2 = random.choice((("B", "X"), ("B", "U"), ("B", "Z"), ("X", "Z"), ("U", "W"), ("X", "W")))
+            places = random.choice((0, 3, 9))
+            names = *line1, *line2
+            words = {name: round(Decimal(random.uniform(*G111_RANGES[name])), places) for name in names}
+            if "B" in words:
+                words["P"] = Decimal(2)
+            if "B" in words and random.random() < 0.5:
+                words["Q"] = Decimal(3)
+            start = round(Decimal(random.uniform(-10, 10)), places), Decimal(random.randint(36, 44))
+            block = " ".join(f"{name}{value:f}" + ("" if "." in f"{value:f}" else ".") for name, value in words.items())
+            z, x = (f"{value:f}" + ("" if "." in f"{value:f}" else ".") for value in start)
+            answer = contoursolve.solve(f"G00 X{x} Z{z}\nG111 {block}").answers[0]
+            assert answer.contour is not None, block
+            exact = exact_g111((start[0], start[1] / 2), words)
+            assert_certified(answer, exact)
+
+
+def places_of(answer: Answer) -> list[tuple[float, float]]:
+    """Every point, end and centre of a contour."""
+    assert answer.contour is not None
+    elements = answer.contour.elements
+    places = [*answer.contour.points.values(), *(element.end for element in elements)]
+    return places + [element.center for element in elements if hasattr(element, "center")]
+
+
+def assert_certified(answer: Answer, exact: Sequence[Any], *, is_printed: bool = True) -> None:
+    """Each exact place is as close to one of the contour, as printed or as computed, as the certificate says."""
+    certificate = printed_certificate(answer.certificate) if is_printed else answer.certificate
+    assert certificate is not None
+    assert certificate.proof in (Proof.UNIQUE, Proof.EXACT)
+    found = places_of(answer)
+    for place in exact:
+        near = min(found, key=lambda each: abs(complex(*each) - place))
+        for value, wanted in zip(near, (place.real, place.imag), strict=True):
+            off = abs((mpf(f"{value:.{DECIMALS}f}") if is_printed else mpf(value)) - wanted)
+            assert off <= certificate.radius, (answer.profile.blocks, certificate, float(off))
+
+
+@pytest.mark.xfail(strict=True, reason="the radius leaves out the rounding of adding the start point")
+def test_the_numbers_of_the_python_interface_are_within_the_certified_radius() -> None:
+    answer = contoursolve.solve("G00 X38. Z4.493\nG111 I3.465 K-22.854 X97.563 Z-51.937").answers[0]
+    with mp.workdps(60):
+        assert_certified(answer, [mp.mpc("-18.361", "22.465"), mp.mpc("-51.937", "48.7815")], is_printed=False)
+
+
+@pytest.mark.xfail(strict=True, reason="the radius leaves out the rounding of adding the start point")
+def test_the_end_of_a_line_is_within_the_certified_radius_wherever_the_sketch_begins() -> None:
+    sketch = Sketch(("-17.036", "-27.768"))
+    sketch.line("E1")
+    sketch.state("direction of E1 = 0")
+    sketch.state("length of E1 = 46.379")
+    (drawn,) = sketch.solve()
+    off = abs(Fraction(drawn.points["P1"][0]) - Fraction("46.379") + Fraction("17.036"))
+    assert off <= Fraction(drawn.certificate.radius)
+
+
+def test_the_exact_intersection_of_a_pair_is_within_the_certified_radius() -> None:
+    random = Random(1633)
+    with mp.workdps(60):
+        for number in range(150):
+            places = (0, 3, 9)[number % 3]
+            start, center, end = (
+                tuple(round(Decimal(random.uniform(-reach, reach)), places) for _ in range(2))
+                for reach in (50, 40, 150)
+            )
+            angle = (
+                Decimal(random.randrange(-180, 180, 15)) if number % 2 else round(Decimal(random.uniform(-180, 180)), 6)
+            )
+            i, j = (value - begin for value, begin in zip(center, start, strict=True))
+            program = (
+                f"G17 G90 G41 G0 X{start[0]:f} Y{start[1]:f}\nG3 I{i:f} J{j:f}\n"
+                f"G1 X{end[0]:f} Y{end[1]:f} ,A{angle:f} Q{random.choice((1, -1))}"
+            )
+            answer = contoursolve.solve(program, control="nct-99m").answers[0]
+            if answer.contour is None:
+                continue
+            x, y = (mpf(str(value)) for value in center)
+            radius = mp.hypot(mpf(str(i)), mpf(str(j)))
+            way, place = exact_direction(angle), mp.mpc(str(end[0]), str(end[1]))
+            # From the foot of the centre on the line, as far to both sides as the circle reaches.
+            spoke = mp.mpc(x, y) - place
+            foot = place + way * (way.conjugate() * spoke).real
+            reach = mp.sqrt(radius**2 - abs(mp.mpc(x, y) - foot) ** 2)
+            crossing = complex(*answer.contour.points["P1"])
+            exact = min((foot + reach * way, foot - reach * way), key=lambda each: abs(each - crossing))
+            assert_certified(answer, [exact])
+
+
+def test_what_the_command_line_prints_is_within_the_radius_that_it_prints() -> None:
+    random = Random(12)
+    with mp.workdps(60):
+        for _ in range(20):
+            x, y = (round(Decimal(random.uniform(20, 80)), 4), round(Decimal(random.uniform(70, 120)), 4))
+            contour = solve_json("G17 G90 G41 G0 X0.1 Y0.2", "G3 I50 J0", f"G1 X{x} Y{y} ,A90")
+            for each in contour["solutions"]:
+                rise = mp.sqrt(2500 - (mpf(str(x)) - mpf("50.1")) ** 2)
+                x1, y1 = each["points"]["P1"]
+                radius = each["certificate"]["radius"]
+                assert abs(mpf(x1) - mpf(str(x))) <= radius
+                assert min(abs(mpf(y1) - mpf("0.2") - way * rise) for way in (1, -1)) <= radius
+
+
+@pytest.mark.parametrize("kinds", KINDS)
+def test_the_exact_circle_is_within_the_certified_radius(kinds: str) -> None:
+    random = Random(f"certified {kinds}")
+    for _ in range(15):
+        things = written(oracle.random_things(random, kinds))
+        wanted = oracle.tangent_circles(*things, keep_given=True)
+        for drawn in circles_touching(things):
+            certificate = drawn.certificate
+            assert certificate.proof in (Proof.EXACT, Proof.UNIQUE)
+            assert min(miss(circle_of(drawn), exact) for exact in wanted) <= certificate.radius
+
+
+def fraction_gap(circle: Circle, thing: Thing) -> Fraction:
+    """0 if a circle touches a thing, in rational numbers; lines along the axes only."""
+    x, y, r = map(Fraction, circle)
+    if isinstance(thing, Line):
+        far = y - Fraction(thing.y) if thing.a in (0, 180) else x - Fraction(thing.x)
+        return abs(far) - r
+    other = Fraction(thing.r) if isinstance(thing, Circle) else Fraction(0)
+    square = (x - Fraction(thing.x)) ** 2 + (y - Fraction(thing.y)) ** 2
+    return min(square - (r + other) ** 2, square - (r - other) ** 2, key=abs)
+
+
+def test_a_circle_is_exact_only_if_it_touches_exactly() -> None:
+    """Whole numbers and quarters: some of the circles have a rational place, most have not."""
+    random = Random(60)
+    proofs: Counter[Proof] = Counter()
+    for _ in range(150):
+        things: list[Thing] = [Point(random.randint(-8, 8), random.randint(-8, 8)) for _ in range(3)]
+        for place, kind in enumerate(random.choice(("PPP", "PPP", "PPL", "PLL", "CLL", "CPL", "CPP"))):
+            x, y = things[place][:2]
+            if kind == "C":
+                things[place] = Circle(x, y, random.choice((0.25, 1, 2, 5)))
+            if kind == "L":
+                things[place] = Line(x, y, random.choice((0, 90)))
+        for drawn in circles_touching(things):
+            proofs[drawn.certificate.proof] += 1
+            is_true = all(fraction_gap(circle_of(drawn), thing) == 0 for thing in things)
+            if drawn.certificate.proof is Proof.EXACT and drawn.certificate.radius == 0:
+                assert is_true, things
+            if drawn.certificate.proof is not Proof.EXACT:
+                assert not is_true, things
+    assert min(proofs[Proof.EXACT], proofs[Proof.UNIQUE]) > 20
+
+
+def test_a_double_solution_is_one_whose_two_solutions_are_one_exactly() -> None:
+    for things in (
+        (Circle(0, 0, 30), Circle(50, 0, 20)),
+        (Circle(0, 0, 30), Circle(10, 0, 20)),
+        (Circle("0.1", "0.2", "0.3"), Circle("0.4", "0.6", "0.2")),
+    ):
+        doubles = [drawn.certificate for drawn in lines_touching(things) if drawn.certificate.is_double]
+        assert [(each.proof, each.gap) for each in doubles] == [(Proof.EXACT, 0.0)]
+        assert str(doubles[0]).startswith("double: touches")
+    for step in LADDER:
+        near = lines_touching((Circle(0, 0, 30), Circle(str(50 + step), 0, 20)))
+        assert not any(drawn.certificate.is_double for drawn in near)

@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 
 import contoursolve
 from contoursolve.cli import main
+from contoursolve.verification import Document, Verdict, verify
 
 PROGRAMS = Path(__file__).parent.parent / "notebooks" / "programs"
 ROOM = Path(contoursolve.__file__).parent / "verification"
@@ -95,6 +96,11 @@ class Desk:
         self.result.write_bytes(data)
         return run("verify", self.program, self.result, *options)
 
+    def is_wrong(self, result: object) -> bool:
+        """The same without the command line, which takes longer than the verification."""
+        documents = Document("program", self.program.read_bytes()), Document("result", json.dumps(result).encode())
+        return verify(*documents).verdict is Verdict.FAILED
+
     def receipt(self, result: object, *options: str) -> dict[str, Any]:
         status, output, _ = self.verify(result, "--format", "json", *options)
         receipt: dict[str, Any] = json.loads(output)
@@ -105,6 +111,15 @@ class Desk:
 @pytest.fixture
 def desk(tmp_path):
     return Desk(tmp_path)
+
+
+def older(result: dict[str, Any]) -> dict[str, Any]:
+    """The result without the list of solutions, against which a changed number would stand out."""
+    contours = [
+        {name: value for name, value in contour.items() if name not in ("solutions", "count")}
+        for contour in result["contours"]
+    ]
+    return {**result, "contours": contours}
 
 
 def failures(receipt: dict[str, Any]) -> list[str]:
@@ -152,11 +167,11 @@ def test_overdetermined_contours_are_held_against_all_their_words(desk, words, s
     assert failures(receipt) == []
     assert receipt["verdict"] == ("verified" if contour["end"] else "nothing-checked")
     if contour["end"]:
-        for wrong in nudged(result):
-            assert desk.verify(wrong)[0] == 1
+        for wrong in nudged(older(result)):
+            assert desk.is_wrong(wrong)
         # With notes v and vi of the manual, A or B is ignored, and the block is solved.
         by_the_notes = desk.solve(LATHE + words)["contours"][0]
-        claim = {**contour, "status": "solved"}
+        claim = {**older(result)["contours"][0], "status": "solved"}
         is_right = all(by_the_notes[name] == claim[name] for name in ("status", "elements"))
         assert desk.verify({**result, "contours": [claim]})[0] == (0 if is_right else 1)
 
@@ -181,7 +196,7 @@ def test_either_input_may_be_standard_input(desk):
 def test_fields_that_are_not_known_are_left_alone(desk):
     result = desk.solve(PROGRAM)
     (contour,) = result["contours"]
-    contour |= {"solutions": [{"end": None}], "facts": "any"}
+    contour |= {"families": [{"end": None}], "mood": "any"}
     contour["certificate"]["by"] = "anyone"
     assert desk.receipt({**result, "later": 1})["verdict"] == "verified"
 
@@ -230,20 +245,20 @@ def nudged(result: dict[str, Any]) -> Iterator[dict[str, Any]]:
 
 @pytest.mark.parametrize("text", SAMPLES.values(), ids=SAMPLES)
 def test_a_number_that_is_off_by_a_millionth_is_found(desk, text):
-    result = desk.solve(text)
+    result = older(desk.solve(text))
     for number, wrong in enumerate(nudged(result)):
-        assert desk.verify(wrong)[0] == 1, number
+        assert desk.is_wrong(wrong), number
     for place, value in coordinates(result):
         if value:
-            assert desk.verify(changed(result, place, -value))[0] == 1, place
+            assert desk.is_wrong(changed(result, place, -value)), place
 
 
 @pytest.mark.parametrize("name", ["shaft.nc", "plate.nc"])
 def test_a_number_of_a_whole_program_that_is_off_is_found(desk, name):
-    result = desk.solve((PROGRAMS / name).read_text(encoding="utf-8"))
+    result = older(desk.solve((PROGRAMS / name).read_text(encoding="utf-8")))
     for number, (place, value) in enumerate(coordinates(result)):
         wrong = value + NUDGE if number % 2 or not value else -value
-        assert desk.verify(changed(result, place, wrong))[0] == 1, place
+        assert desk.is_wrong(changed(result, place, wrong)), place
 
 
 def tampered(contour: dict[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
@@ -262,7 +277,7 @@ def tampered(contour: dict[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
         yield "element in halves", {"elements": [*elements[:number], *halves, *elements[number + 1 :]]}
     for number, (one, other) in enumerate(pairwise(elements)):
         yield "swapped", {"elements": [*elements[:number], other, one, *elements[number + 2 :]]}
-    for status in ("rejected", "underdetermined", "overdetermined", "conflicting", "no-solution"):
+    for status in ("rejected", "underdetermined", "overdetermined", "conflicting", "ambiguous", "no-solution"):
         yield status, {"status": status}
     yield "no elements", {"elements": []}
     yield "no end", {"end": None}
@@ -280,10 +295,10 @@ def tampered(contour: dict[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
 
 @pytest.mark.parametrize("name", ["two roundings", "two bevels", "sharp corners", "a radius", "a centre", "increments"])
 def test_a_result_that_was_tampered_with_is_found(desk, name):
-    result = desk.solve(SAMPLES[name])
+    result = older(desk.solve(SAMPLES[name]))
     (contour,) = result["contours"]
     for what, change in tampered(contour):
-        assert desk.verify({**result, "contours": [{**contour, **change}]})[0] == 1, what
+        assert desk.is_wrong({**result, "contours": [{**contour, **change}]}), what
 
 
 def test_the_branch_of_a_line_that_touches_is_none(desk):
@@ -293,7 +308,7 @@ def test_the_branch_of_a_line_that_touches_is_none(desk):
 
 
 def test_the_other_intersection_is_no_answer(desk):
-    other = desk.solve(SAMPLES["the farther point"])
+    other = older(desk.solve(SAMPLES["the farther point"]))
     result = desk.solve(PAIR)
     assert desk.receipt(result)["verdict"] == "verified"
     assert desk.receipt(other)["verdict"] == "failed"
