@@ -159,7 +159,8 @@ def examine(
             # What states or asks more than the control reads is not a block for the control yet.
             is_strict = policy is Policy.ENFORCE and not _is_extended(claim)
             notebook.add(finding if is_strict else weaker, Status.REJECTED)
-    ignoring = [offence for offence in offences if offence.rule.ignores]
+    # A word that is asked for states nothing that could be ignored.
+    ignoring = [offence for offence in offences if offence.rule.ignores and offence.rule.ignores in claim.givens]
     profile, is_stated = _state_more(
         context, claim, read(claim, frozenset(offence.rule.ignores for offence in ignoring)), next_place, notebook
     )
@@ -310,7 +311,7 @@ def _open_points(profile: Profile) -> list[str]:
     return [point for point in points_with_two_solutions(assemble(profile)) if point not in chosen]
 
 
-_ABOUT_WORDS = (RefusalKind.WORDS_DISAGREE, RemarkKind.WORDS_AGREE)
+_ABOUT_WORDS = (RefusalKind.WORDS_DISAGREE, RefusalKind.FACT_DISAGREES, RemarkKind.WORDS_AGREE)
 
 
 def _secondary(finding: Diagnostic, is_refused: bool) -> Diagnostic:

@@ -106,7 +106,7 @@ class Parallel(Equation):
         return (line_scalars(self.line)[1 - self.axis],)
 
     def residual(self, at: Lookup) -> Any:
-        return at.bearing(self.line)[1 - self.axis]
+        return at.scalar(line_scalars(self.line)[1 - self.axis])
 
     def senses(self, at: Lookup) -> tuple[Any, ...]:
         return (at.bearing(self.line)[self.axis] * way(at, self.advance, self.axis),)

@@ -35,11 +35,14 @@ class Values:
     signs: Mapping[str, Any] = field(default_factory=dict)
     functions: Functions = FLOATS
 
+    def scalar(self, name: str) -> Any:
+        return self.scalars[name] if name in self.scalars else self.amounts[name]
+
     def coordinate(self, point: str, axis: int) -> Any:
-        return self.radius(scalar(point, axis))
+        return self.scalar(scalar(point, axis))
 
     def radius(self, name: str) -> Any:
-        return self.scalars[name] if name in self.scalars else self.amounts[name]
+        return self.scalar(name)
 
     def amount(self, given: str) -> Any:
         return self.amounts[given]

@@ -84,6 +84,7 @@ _AT_VALUES = (
     RefusalKind.LINES_PARALLEL,
     RefusalKind.NOT_FIXED,
     RefusalKind.WORDS_DISAGREE,
+    RefusalKind.FACT_DISAGREES,
     RefusalKind.RADIUS_DIFFERENCE,
     RemarkKind.WORDS_AGREE,
     RemarkKind.SENSITIVE,

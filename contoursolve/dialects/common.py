@@ -274,6 +274,15 @@ SYSTEM_RULES = (
         rejected=(_GOOD + " U50.",),
     ),
     Rule(
+        code="fact-conflict",
+        message="{words} is not true of the contour that the other words and facts give: it is off by {off}",
+        help="delete it, or change what it is about",
+        source=_GEOMETRY,
+        about=RefusalKind.FACT_DISAGREES,
+        accepted=(_GOOD,),
+        rejected=(_GOOD + " (contoursolve: line 2 passes through [Z-40. X80.])",),
+    ),
+    Rule(
         code="words-redundant",
         message="{words} says what the other words say already",
         help="delete it",

@@ -6,6 +6,9 @@ from typing import Any, Protocol
 class Lookup(Protocol):
     """Gives the values of points, radii and givens; a value is anything with `+ - * / **`."""
 
+    def scalar(self, name: str) -> Any:
+        """A coordinate, a radius, or a part of a line, by its name."""
+
     def coordinate(self, point: str, axis: int) -> Any:
         """One coordinate of a point, mm."""
 

@@ -31,7 +31,7 @@ def _without_selecting(solution: Solution, alternatives: Alternatives) -> Soluti
         refusal.subject
         for item in alternatives.items
         for refusal in item.solution.refusals
-        if refusal.kind is RefusalKind.WORDS_DISAGREE
+        if refusal.kind in (RefusalKind.WORDS_DISAGREE, RefusalKind.FACT_DISAGREES)
     }
     remarks = tuple(
         remark

@@ -34,6 +34,8 @@ class RefusalKind(Enum):
     RADIUS_TOO_SMALL = "radius-too-small"
     CIRCLE_UNDEFINED = "circle-undefined"
     WORDS_DISAGREE = "words-disagree"
+    FACT_DISAGREES = "fact-disagrees"
+    """A fact without a value of its own is not true of what the others give."""
     RADIUS_DIFFERENCE = "radius-difference"
     LINE_REVERSED = "line-reversed"
     CORNER_TOO_LARGE = "corner-too-large"
@@ -53,7 +55,7 @@ class RefusalKind(Enum):
         """The status that this refusal gives a contour."""
         if self is RefusalKind.NOT_FIXED:
             return Status.UNDERDETERMINED
-        if self in (RefusalKind.WORDS_DISAGREE, RefusalKind.RADIUS_DIFFERENCE):
+        if self in (RefusalKind.WORDS_DISAGREE, RefusalKind.FACT_DISAGREES, RefusalKind.RADIUS_DIFFERENCE):
             return Status.CONFLICTING
         return Status.NO_SOLUTION
 

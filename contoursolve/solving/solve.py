@@ -369,7 +369,8 @@ def compare_fact(fact: Fact, off: float, profile: Profile, system: System, at: V
     values = compare(fact, profile, at) if fact.given else {"off_by_mm": off}
     if off <= AGREEMENT or abs(values.get("expected", inf) - values.get("actual", inf)) <= AGREEMENT:
         return Remark(RemarkKind.WORDS_AGREE, fact.given, givens, values) if fact.given else None
-    return Refusal(RefusalKind.WORDS_DISAGREE, fact.given, givens, values)
+    kind = RefusalKind.WORDS_DISAGREE if "expected" in values else RefusalKind.FACT_DISAGREES
+    return Refusal(kind, fact.given, givens, values)
 
 
 def corner_of(

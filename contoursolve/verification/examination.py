@@ -34,7 +34,7 @@ def examine(found: Found, claimed: ClaimedContour, ledger: Ledger, selected: Map
     case = replace(
         case,
         facts=read_facts(claim, checker.elements, checker.points),
-        choices=_signs(claim, checker.choosing) if selected is None else selected,
+        choices=signs_of(claim, checker.choosing) if selected is None else selected,
         is_listed=selected is not None,
         is_selected=_is_selected(claimed),
         next_end=case.place(found.next_end) if found.next_end else None,
@@ -53,7 +53,7 @@ def _is_selected(claimed: ClaimedContour) -> bool:
     return any(reason.startswith("words-disagree") for reason in reasons)
 
 
-def _signs(claim: Claim, names: tuple[str, ...]) -> dict[str, int]:
+def signs_of(claim: Claim, names: tuple[str, ...]) -> dict[str, int]:
     """The signs of words that have a value other than zero."""
     numbers = {name: claim.words[name].number for name in names if name in claim.words}
     return {name: 1 if number > 0 else -1 for name, number in numbers.items() if number}

@@ -17,7 +17,7 @@ from contoursolve.verification.claimed import (
     ClaimedSolution,
     ClaimedStatus,
 )
-from contoursolve.verification.examination import examine
+from contoursolve.verification.examination import examine, signs_of
 from contoursolve.verification.filled import half_increment
 from contoursolve.verification.forms import CHECKERS
 from contoursolve.verification.ledger import Ledger, fewest
@@ -53,17 +53,33 @@ def check_solutions(found: Found, claimed: ClaimedContour, ledger: Ledger) -> bo
         selects = bool(first.selects and first.selects == second.selects)
         remark = "the same words select both"
         ledger.require(f"solutions {one} and {other} are told apart", first.selects, not selects, remark)
-    is_checked = False
+    is_checked, eligible = False, 0
     for number, each in paths:
         _check_selects(found, each, [other for _, other in paths if other is not each], number, ledger)
         if each.is_chosen and claimed.has_path:
+            eligible += 1
             continue  # it is the contour, and that is checked
         attempt = fewest(partial(_attempt, found, claimed, each, *reading) for reading in _readings(found, each))
         is_checked |= bool(attempt.checks)
         for check in attempt.checks:
             ledger.checks.append(replace(check, name=f"solution {number}: {check.name}"))
         ledger.omissions += [each for each in attempt.omissions if each not in ledger.omissions]
+        eligible += _is_eligible(found, claimed, each)
+    if claimed.has_path and paths:
+        ledger.require("the program chooses one path", (), eligible == 1, f"{eligible} of {len(paths)} agree with it")
+    elif claimed.status is ClaimedStatus.AMBIGUOUS:
+        remark = f"{eligible} of {len(paths)} agree with it"
+        ledger.require("the program does not choose one path", (), eligible > 1, remark)
     return is_checked
+
+
+def _is_eligible(found: Found, claimed: ClaimedContour, solution: ClaimedSolution) -> bool:
+    """Whether a solution agrees with the words of the program that choose, too."""
+    checker = CHECKERS.get(found.claim.form.name)
+    signs = signs_of(found.claim, checker.choosing if checker else ())
+    statuses = (ClaimedStatus.SOLVED, ClaimedStatus.OVERDETERMINED)
+    attempts = (partial(_attempt, found, claimed, solution, status, signs) for status in statuses)
+    return not fewest(attempts).failures
 
 
 def _check_count(claimed: ClaimedContour, listed: tuple[ClaimedSolution, ...], ledger: Ledger) -> None:
@@ -88,9 +104,6 @@ def _check_chosen(found: Found, claimed: ClaimedContour, listed: tuple[ClaimedSo
     if not claimed.has_path:
         status = claimed.status.value
         ledger.require("no solution is chosen", (), not chosen, f"{status}, with {len(chosen)} chosen")
-        if claimed.status is ClaimedStatus.AMBIGUOUS:
-            paths = sum(each.is_path for each in listed)
-            ledger.require("several solutions are paths", (), paths > 1, f"{paths} of them")
         return
     if ledger.require("one solution is chosen", (), len(chosen) == 1, f"{len(chosen)} are"):
         off = _distance(chosen[0].path, claimed.path)
