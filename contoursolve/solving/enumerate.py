@@ -91,7 +91,23 @@ class _Search:
         states = [Found({}, {})]
         for group in self.groups:
             states = [after for state in states for after in self._advance(state, group)]
+        states = [self._with_sides(state) for state in states]
         return Enumeration(tuple(states), tuple(dict.fromkeys(self.doubts)), self.is_searched)
+
+    def _with_sides(self, state: Found) -> Found:
+        """The state with the sides of facts that were not needed: where the fact is nearer to being true."""
+        signs = dict(state.signs)
+        for fact in self.system.facts:
+            for side in fact.sides():
+                if side not in signs:
+                    off = {
+                        sign: ball.distance(
+                            fact.residual(self.ground.values(state.scalars, {**signs, side: sign}, self.system)), 0.0
+                        )
+                        for sign in (1, -1)
+                    }
+                    signs[side] = 1 if off[1] <= off[-1] else -1
+        return Found(state.scalars, signs, state.doubles)
 
     def _advance(self, state: Found, group: Group) -> Iterator[Found]:
         kernel = make_kernel(self.system, group)
