@@ -189,8 +189,9 @@ _OF_A_WORD = {RefusalKind.WORDS_DISAGREE, RemarkKind.WORDS_AGREE}
 
 def explain_result(context: Context, event: Refusal | Remark, profile: Profile) -> Diagnostic:
     """A refusal or a remark of the solver."""
-    givens = [profile.givens[name] for name in event.givens]
-    words = [given.word for given in givens if given.word]
+    givens = [profile.givens[name] for name in event.givens if name in profile.givens]
+    asked = [question.word for question in profile.questions if question.name in event.givens]
+    words = [given.word for given in givens if given.word] + asked
     values = dict(event.values)
     fields: dict[str, Any] = {"subject": event.subject, "free": unknowns_text(event.subject.split(","), profile)}
     is_word = event.kind in _OF_A_WORD

@@ -164,7 +164,6 @@ def test_classical_places_of_three_things(name: str) -> None:
         assert compare_circles(things) == ("open" if name == "three lines through one point" else "right")
 
 
-@pytest.mark.xfail(strict=True, reason="a radius that may be zero counts as positive: the same point, eight times")
 def test_a_circle_of_radius_zero_is_no_drawing() -> None:
     drawings = circles_touching((Line(1, 1, 0), Line(1, 1, 50), Line(1, 1, 90)))
     assert not drawings.is_complete
@@ -715,14 +714,12 @@ def assert_certified(answer: Answer, exact: Sequence[Any], *, is_printed: bool =
             assert off <= certificate.radius, (answer.profile.blocks, certificate, float(off))
 
 
-@pytest.mark.xfail(strict=True, reason="the radius leaves out the rounding of adding the start point")
 def test_the_numbers_of_the_python_interface_are_within_the_certified_radius() -> None:
     answer = contoursolve.solve("G00 X38. Z4.493\nG111 I3.465 K-22.854 X97.563 Z-51.937").answers[0]
     with mp.workdps(60):
         assert_certified(answer, [mp.mpc("-18.361", "22.465"), mp.mpc("-51.937", "48.7815")], is_printed=False)
 
 
-@pytest.mark.xfail(strict=True, reason="the radius leaves out the rounding of adding the start point")
 def test_the_end_of_a_line_is_within_the_certified_radius_wherever_the_sketch_begins() -> None:
     sketch = Sketch(("-17.036", "-27.768"))
     sketch.line("E1")

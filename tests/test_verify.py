@@ -2,6 +2,7 @@
 
 import ast
 import json
+import re
 from collections.abc import Iterator
 from copy import deepcopy
 from hashlib import sha256
@@ -16,6 +17,7 @@ from hypothesis import strategies as st
 
 import contoursolve
 from contoursolve.cli import main
+from contoursolve.syntax import parse
 from contoursolve.verification import Document, Verdict, verify
 
 PROGRAMS = Path(__file__).parent.parent / "notebooks" / "programs"
@@ -460,6 +462,335 @@ def test_a_contour_after_one_without_a_path_is_checked_where_its_start_is_known(
     assert desk.receipt(changed(unknown, ("contours", 1, "start", 0), 1.0))["verdict"] == "failed"
 
 
+# --- Further facts, values that are asked for, several solutions -------------------------------------
+
+
+def block(words: str, facts: str = "", after: str = "") -> str:
+    return f"{LATHE}G111 {words}" + (f" (contoursolve: {facts})" if facts else "") + after
+
+
+def pair(arc: str, line: str, facts: str = "") -> str:
+    return f"{MILL}{arc}\n{line}" + (f" (contoursolve: {facts})" if facts else "")
+
+
+EXTENDED = {
+    "length of line 1": block("X100. A180. B120. P5.", "length of line 1 = 30"),
+    "length of line 2": block("A180. K-30. B120.", "length of line 2 = 34.641"),
+    "direction": block("X100. A180. K-30.", "direction of line 2 = 120"),
+    "turn of lines": block("X100. A180. K-30.", "angle from line 1 to line 2 = -60"),
+    "line through a place": block("X100. A180. K-30.", "line 2 passes through [Z-40. X74.641]"),
+    "rounding through a place": block("X100. A180. K-30. B120. P?", "corner 1 passes through [Z-31. X44.]"),
+    "coordinate of V1": block("K-30. X100. B120. P3.", "X of V1 = 44"),
+    "begin of a corner": block("X100. A180. K-30. B120. P?", "Z of begin of corner 1 = -25"),
+    "center of a corner": block("X100. A180. K-30. B120. P?", "X of center of corner 1 = 57"),
+    "radius of a corner": block("X100. A180. K-30. B120. P?", "radius of corner 1 = 5.5"),
+    "length of a bevel": block("X100. A180. K-30. B120. C?", "length of corner 1 = 6"),
+    "line touches a circle": block("X100. A180. B120. P1.", "line 2 tangent to circle [Z-40. X120. R10.]"),
+    "rounding touches a line": block("X100. A180. K-30. B120. P?", "corner 1 tangent to line [Z0. X50.1 A179.]"),
+    "rounding touches a circle": block("X100. A180. K-30. B120. P?", "corner 1 tangent to circle [Z-20. X60. R2.]"),
+    "equal lengths": block("X100. A180. B120.", "length of line 1 = length of line 2"),
+    "meets a line at an angle": block("X100. A180. K-30. B120. Q5.", "corner 2 meets line at 170"),
+    "bevel meets a line": block("X100. A180. K-30. B120. D2.", "corner 2 meets line at 170"),
+    "meets a line to a place": block("X100. A180. K-30. B120. Q5.", "corner 2 meets line to [Z-60. X130.]"),
+    "meets the next line": block("X100. A180. K-30. B120. Q5.", "corner 2 meets next line", "\nG01 Z-70. X110."),
+    "two contours": block("X100. Z-47. B120.", "length of line 1 = 30"),
+    "an angle that is asked for": block("A? I5. B120. X100. P3.", "length of line 1 = 20"),
+    "an increment that is asked for": block("A180. K-30. B120. U? P3.", "length of line 2 = 40"),
+    "inches": "G20\nG00 X1.5 Z0.\nG111 X4. A180. K-1.2 B120. P? (contoursolve: straight part of line 2 = 1.1)",
+    "a fact that agrees": block("X100. A180. K-30. B120.", "Z of V2 = -47.3205"),
+    "a fact that agrees, A and B ignored": block("X100. A135. I10. K-12. B180. Z-40.", "Z of V2 = -40"),
+    "everything is asked for": block(
+        "X100. A170. K-30. B120. P5.",
+        "length of line 1 = ?; straight part of line 2 = ?; direction of line 1 = ?; X of end of corner 1 = ?; "
+        "angle from line 1 to line 2 = ?; Z of V2 = ?; radius of corner 1 = ?; Z of begin of line 2 = ?",
+    ),
+    "tangent": pair("G3 I-50 J0", "G1 X-80 Y42.857", "line tangent to arc"),
+    "tangent, clockwise": pair("G2 I-50 J0", "G1 X-80 Y42.857", "arc tangent to line"),
+    "tangent, one coordinate": pair("G3 I-50 J0", "G1 X-80 ,A171.87", "line tangent to arc"),
+    "length of the arc": pair("G3 I-50 J0", "G1 X-80 Y42.857", "length of arc = 60"),
+    "turn from the arc": pair("G3 I-50 J0", "G1 X-80 Y42.857", "angle from arc to line = 10"),
+    "begin of the line": pair("G3 I-50 J0", "G1 X-80 Y42.857", "X of begin of line = -10"),
+    "length of the line": pair("G3 I-50 J0", "G1 X-50 Y42.857 ,A?", "length of line = 20"),
+    "the arc touches a line": pair("G3 X-50 Y0 R?", "G1 X-80 Y42.857 ,A171.87 Q1", "arc tangent to line [X0 Y60 A0]"),
+    "the arc through two places": pair(
+        "G3 I? J?", "G1 X-80 Y42.857 ,A171.87 Q1", "arc passes through [X10 Y50.1]; arc passes through [X-50 Y0]"
+    ),
+    "radius that is asked for": pair("G3 X-30 Y40 R?", "G1 X-50 Y42.857 ,A171.87 Q-1", "Y of C = 0.2"),
+    "a fact chooses the point": pair("G3 X? Y-40 I-50 J0", "G1 X-80 Y42.857 ,A171.87 Q1", "X of N1 = 30"),
+    "Q that is asked for": pair("G3 I-50 J0", "G1 X-50 Y42.857 ,A171.87 Q?"),
+    "R and Q choose": pair("G3 X-30 Y40 R50", "G1 X-50 Y42.857 ,A171.87 Q-1"),
+    "Q is missing": pair("G3 I-50 J0", "G1 X-50 Y42.857 ,A171.87"),
+    "a fact chooses": pair("G3 I-50 J0", "G1 X-50 Y42.857 ,A171.87", "length of line = 90.914"),
+}
+
+UNCHOSEN = ("ambiguous", "rejected")
+
+
+def solved(desk: Desk, name: str) -> dict[str, Any]:
+    """The result for one of these programs."""
+    is_mill = EXTENDED[name].startswith(MILL)
+    return desk.solve(EXTENDED[name], *(("--control", "nct-99m") if is_mill else ()))
+
+
+@pytest.mark.parametrize("name", EXTENDED)
+def test_what_solve_says_of_facts_and_questions_is_right(desk, name):
+    result = solved(desk, name)
+    (contour,) = result["contours"]
+    assert any(each["is_path"] for each in contour["solutions"])
+    receipt = desk.receipt(result)
+    assert failures(receipt) == []
+    assert receipt["verdict"] == "verified"
+    # Results of before there were facts, questions and solutions are read as well.
+    rest = {
+        key: value for key, value in contour.items() if key not in ("facts", "asked", "filled", "solutions", "count")
+    }
+    certificate = {key: contour["certificate"][key] for key in ("kind", "radius")}
+    receipt = desk.receipt({**result, "contours": [{**rest, "certificate": certificate}]})
+    if not name.startswith("a fact chooses"):  # that something chooses is known from what it excludes
+        assert failures(receipt) == []
+        assert receipt["verdict"] == ("nothing-checked" if contour["status"] in UNCHOSEN else "verified")
+
+
+def listed(result: dict[str, Any]) -> Iterator[tuple[Place, float]]:
+    """Every number of all paths and answers that a result lists, apart from the lines of the program."""
+    for place, value in numbers(result["contours"]):
+        if not {"certificate", "diagnosis", "start", "deviation_mm"} & set(place):
+            yield ("contours", *place), value
+
+
+@pytest.mark.parametrize("name", EXTENDED)
+def test_a_number_of_facts_questions_and_solutions_that_is_off_is_found(desk, name):
+    result = solved(desk, name)
+    places = list(listed(result))
+    assert len(places) > 8
+    chosen = [number for number, each in enumerate(result["contours"][0]["solutions"]) if each["is_chosen"]]
+    for number, (place, value) in enumerate(places):
+        assert desk.is_wrong(changed(result, place, value + (NUDGE if number % 2 else -NUDGE))), place
+        # The chosen one is the same as the contour.
+        if value and value != 180 and not (place[2] == "solutions" and place[3] in chosen):
+            assert desk.is_wrong(changed(result, place, -value)), place
+    # The contour by itself.
+    for number, (place, value) in enumerate(listed(older(result))):
+        assert desk.is_wrong(changed(older(result), place, value + (-NUDGE if number % 2 else NUDGE))), place
+
+
+STATED = re.compile(r"(?<== )[-+]?[\d.]+|(?<=[ZXYR])-?[\d.]+(?=[ \]])(?=[^\[]*\])|(?<=at )\d+")
+"""The numbers in facts."""
+
+
+@pytest.mark.parametrize("name", [name for name in EXTENDED if STATED.search(EXTENDED[name].partition("solve:")[2])])
+def test_the_answer_to_a_slightly_different_fact_is_wrong(desk, name):
+    text = EXTENDED[name]
+    begin = text.index("contoursolve:")
+    for match in STATED.finditer(text, begin):
+        # Some only agree within the least increment, and a place may be moved along a level line.
+        if name.startswith("a fact") or match[0] == "0":
+            continue
+        number = match[0] if "." in match[0] else match[0] + "."
+        other = text[: match.start()] + number + "00002" + text[match.end() :]
+        if "." in match[0]:
+            other = text[: match.start()] + f"{float(match[0]) + 2e-5:.6f}" + text[match.end() :]
+        result = desk.solve(other, *(("--control", "nct-99m") if text.startswith(MILL) else ()))
+        assert not desk.is_wrong(result), other
+        (contour,) = result["contours"]
+        program = parse(text).blocks
+        contour |= {"facts": [each.text for block in program for each in block.directives], "filled": None}
+        desk.program.write_bytes(text.encode())
+        assert desk.is_wrong(result), other
+        assert desk.is_wrong(older(result)) or contour["status"] in UNCHOSEN, other
+
+
+def with_contour(result: dict[str, Any], **change: Any) -> dict[str, Any]:
+    return {**result, "contours": [{**result["contours"][0], **change}]}
+
+
+@pytest.mark.parametrize(
+    "name", [name for name in EXTENDED if name not in ("a fact that agrees", "a fact that agrees, A and B ignored")]
+)
+def test_a_list_of_solutions_that_was_tampered_with_is_found(desk, name):
+    result = solved(desk, name)
+    (contour,) = result["contours"]
+    solutions, count = contour["solutions"], contour["count"]
+    for number, each in enumerate(solutions):
+        rest = [*solutions[:number], *solutions[number + 1 :]]
+        assert desk.is_wrong(with_contour(result, solutions=rest))
+        assert desk.is_wrong(with_contour(result, solutions=[*solutions, each])), "the number is wrong"
+        more = {**count, "solutions": count["solutions"] + 1, "contours": count["contours"] + each["is_path"]}
+        if each["is_path"]:
+            assert desk.is_wrong(with_contour(result, solutions=[*solutions, each], count=more)), "twice"
+        if each["is_path"] and each["is_chosen"]:
+            fewer = {**count, "solutions": len(rest), "contours": sum(other["is_path"] for other in rest)}
+            assert desk.is_wrong(with_contour(result, solutions=rest, count=fewer)), "the contour is not among them"
+        for change in (
+            {"is_chosen": not each["is_chosen"]},
+            {"is_path": not each["is_path"]},
+            {"elements": each["elements"][:-1], "is_path": True},
+            {"points": {}, "is_path": True},
+            {"end": None, "is_path": True},
+        ):
+            changed_one = [*solutions[:number], {**each, **change}, *solutions[number + 1 :]]
+            assert desk.is_wrong(with_contour(result, solutions=changed_one)), change
+        for other in solutions:
+            if each["is_path"] and other["is_path"] and other is not each:
+                marked = [{**one, "is_chosen": one is each} for one in solutions]
+                assert each["is_chosen"] or desk.is_wrong(with_contour(result, solutions=marked)), "another is marked"
+                if each["selects"] != other["selects"]:
+                    swaps = {each["name"]: other["selects"], other["name"]: each["selects"]}
+                    swapped = [{**one, "selects": swaps.get(one["name"], one["selects"])} for one in solutions]
+                    assert desk.is_wrong(with_contour(result, solutions=swapped)), "words of others"
+    for change in (
+        {"solutions": count["solutions"] + 1},
+        {"contours": count["contours"] - 1},
+        {"is_complete": not count["is_complete"]},
+    ):
+        assert desk.is_wrong(with_contour(result, count={**count, **change}))
+    assert desk.is_wrong(with_contour(result, count=None))
+    if contour["end"]:
+        assert desk.is_wrong(with_contour(result, count={**count, "chosen_by": "Q7"}))
+        assert desk.is_wrong(with_contour(result, solutions=[{**each, "is_chosen": False} for each in solutions]))
+        # A word that tells the contour from another solution may agree, too.
+        for status in (
+            "ambiguous",
+            "underdetermined",
+            *(() if name.startswith("a fact chooses") else ("overdetermined",)),
+        ):
+            assert desk.is_wrong(with_contour(result, status=status)), status
+    else:
+        path = next(each for each in solutions if each["is_path"])
+        own = {key: path[key] for key in ("end", "points", "elements", "certificate", "asked")}
+        one = [{**each, "is_chosen": each is path} for each in solutions]
+        claim = with_contour(result, **own, status="solved", solutions=one)
+        assert desk.is_wrong(with_contour(result, **own, solutions=one))
+        if contour["status"] == "ambiguous" and "Q" not in name:
+            # That nothing chooses cannot be seen in the contour; the other paths of the list tell it.
+            assert desk.is_wrong(claim)
+
+
+def test_facts_missing_added_or_unreadable_are_found(desk):
+    result = solved(desk, "coordinate of V1")
+    facts = result["contours"][0]["facts"]
+    for wrong in ([], ["X of V1 = 45"], [*facts, "length of line 1 = 30"], [*facts, "nonsense"], [*facts, *facts]):
+        assert desk.is_wrong(with_contour(result, facts=wrong)), wrong
+    assert desk.is_wrong(with_contour(result, facts=[*facts, "length of corner 2 = 3"])), "there is no corner 2"
+    assert desk.is_wrong(with_contour(result, facts=[*facts, "Z of V1 = 1e999"]))
+    result = older(result)
+    assert not desk.is_wrong(
+        with_contour(result, facts=[*facts, "Z of V1 = ?"], asked=[asks("Z of V1 = ?", -1, -30.0)])
+    )
+    assert desk.is_wrong(with_contour(result, facts=[*facts, "Z of V1 = ?"], asked=[asks("Z of V1 = ?", -1, 30.0)]))
+    assert desk.is_wrong(with_contour(result, asked=[asks("Z of V1 = ?", -1, -30.0)])), "nobody asks"
+
+
+def asks(word: str, line: int, value: float | None, unit: str = "mm") -> dict[str, Any]:
+    return {"word": word, "line": line, "unit": unit, "value": value}
+
+
+def test_facts_from_the_command_line_are_named_as_such(desk):
+    for text, fact, options in (
+        (block("X100. A180. B120."), "length of line 1 = 30", ()),
+        (pair("G3 I-50 J0", "G1 X-80 Y42.857"), "line tangent to arc", ("--control", "nct-99m")),
+    ):
+        result = desk.solve(text, "--fact", fact, *options)
+        receipt = desk.receipt(result)
+        assert receipt["verdict"] == "verified"
+        (contour,) = receipt["contours"]
+        words = [word for check in contour["checks"] if check["name"] == "the fact holds" for word in check["words"]]
+        assert words == [f"{fact} (stated in the result only)"]
+        assert f"the fact {fact}" in [each["what"] for each in contour["not_checked"]]
+        for place, value in listed(older(result)):
+            assert desk.is_wrong(changed(older(result), place, value + NUDGE)), place
+        assert desk.receipt(with_contour(result, facts=[]))["verdict"] == "failed"
+
+
+def test_a_value_that_was_asked_for_is_answered_once(desk):
+    result = solved(desk, "everything is asked for")
+    asked = result["contours"][0]["asked"]
+    assert len(asked) == 8
+    for number, each in enumerate(asked):
+        rest = [*asked[:number], *asked[number + 1 :]]
+        for wrong in (rest, [*asked, each], [*rest, {**each, "value": None}], [*rest, {**each, "line": 7}]):
+            assert desk.is_wrong(with_contour(result, asked=wrong))
+        unit = "mm" if each["unit"] == "deg" else "deg"
+        assert desk.is_wrong(with_contour(result, asked=[*rest, {**each, "unit": unit}]))
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        *("begin of a corner", "length of a bevel", "an increment that is asked for", "inches"),
+        *(
+            "the arc through two places",
+            "radius that is asked for",
+            "a fact chooses the point",
+        ),
+    ],
+)
+def test_filled_blocks_are_the_program_with_the_values(desk, name):
+    result = solved(desk, name)
+    filled = result["contours"][0]["filled"]
+    blocks, deviation = filled["blocks"], filled["deviation_mm"]
+    assert desk.receipt(result)["verdict"] == "verified"
+
+    def is_wrong(blocks: list[str], deviation: float = deviation) -> bool:
+        return desk.is_wrong(with_contour(result, filled={"blocks": blocks, "deviation_mm": deviation}))
+
+    own = desk.program.read_text(encoding="utf-8").split("\n")[-len(blocks) :]
+    assert is_wrong(own), "nothing is filled in"
+    assert is_wrong(blocks[:-1])
+    assert is_wrong([*blocks, ""])
+    assert is_wrong([*blocks[:-1], blocks[-1] + " "])
+    assert is_wrong([blocks[0] + " F1", *blocks[1:]])
+    for off in (NUDGE, -NUDGE, 1e-3):
+        assert is_wrong(blocks, deviation + off)
+    for at, line in enumerate(blocks):
+        words = parse(own[at]).blocks[0].words
+        for word, new in zip(words, parse(line).blocks[0].words, strict=True):
+            if word.is_asked:
+                value = float(new.number or 0)
+                for text in (f"{value + 0.001:.4f}", f"{-value:.4f}" if value else "1.", "", "#1", "?"):
+                    changed_word = line[: new.span.column - 1] + word.address + text + line[new.span.end_column - 1 :]
+                    assert is_wrong([*blocks[:at], changed_word, *blocks[at + 1 :]]), text
+            elif word.number:
+                changed_word = line[: new.span.column - 1] + word.address + "7." + line[new.span.end_column - 1 :]
+                assert is_wrong([*blocks[:at], changed_word, *blocks[at + 1 :]])
+
+
+@pytest.mark.parametrize(
+    ("name", "old", "new"),
+    [
+        ("length of line 1", "= 30", "= 30.0001"),
+        ("length of line 1", "A180.", "A180. K-30."),
+        ("tangent", "tangent to", "passes through"),
+        ("tangent", "line tangent to arc", "angle from arc to line = 180"),
+        ("tangent", "G3", "G2"),
+        ("tangent, one coordinate", ",A171.87", ",A171.88"),
+        ("length of the arc", "length of arc = 60", "length of arc = 374.159265358979"),
+        ("length of the arc", "length of arc = 60", "length of arc = -60"),
+        ("meets a line at an angle", "170", "-10"),
+        ("meets the next line", "X110.", "X110.001"),
+        ("meets the next line", "G01", "G02"),
+        ("meets a line to a place", "Z-60. X130.", "Z-47.4 X100.274"),
+        ("direction", "= 120", "= -60"),
+        ("turn of lines", "-60", "60"),
+        ("radius that is asked for", "R?", "R50"),
+        ("radius that is asked for", "R?", ""),
+        ("begin of a corner", "P?", "Q?"),
+        ("begin of a corner", "P?", "C?"),
+        ("begin of a corner", "P?", "P8.66"),
+        ("R and Q choose", "R50", "R-50"),
+        ("R and Q choose", "Q-1", "Q1"),
+    ],
+)
+def test_a_program_with_facts_that_was_changed_afterwards_is_found(desk, name, old, new):
+    result = solved(desk, name)
+    text = EXTENDED[name]
+    assert old in text
+    desk.program.write_bytes(text.replace(old, new).encode())
+    own = [each.text for block in parse(text.replace(old, new)).blocks for each in block.directives]
+    assert desk.verify(result)[0] == 1
+    assert desk.verify(with_contour(older(result), facts=own))[0] == 1
+
+
 # --- The receipt -----------------------------------------------------------------------------------
 
 
@@ -518,6 +849,20 @@ TROUBLE: tuple[tuple[str, Place, Any, str], ...] = (
     ("turn", ("contours", 0, "elements", 1, "turn"), "left", "elements[1].turn: 'left' where one of cw, ccw"),
     ("radius", ("contours", 0, "elements", 1, "radius"), None, "elements[1].radius: null where a number"),
     ("certificate", ("contours", 0, "certificate"), "unique", "certificate: 'unique' where an object"),
+    ("reason", ("contours", 0, "certificate", "reason"), 5, "certificate.reason: 5 where a text"),
+    ("double", ("contours", 0, "certificate", "double"), 5, "certificate.double: 5 where an object"),
+    ("gap", ("contours", 0, "certificate", "double"), {"gap_mm": "0"}, "double.gap_mm: '0' where a number"),
+    ("facts", ("contours", 0, "facts"), "any", "contours[0].facts: 'any' where a list"),
+    ("fact", ("contours", 0, "facts"), [1], "contours[0].facts[0]: 1 where a text"),
+    ("asked", ("contours", 0, "asked"), [None], "contours[0].asked[0]: null where an object"),
+    ("asked line", ("contours", 0, "asked"), [{"word": "P?", "line": "1"}], "the field 'value' is missing"),
+    ("filled", ("contours", 0, "filled"), {"blocks": "G111", "deviation_mm": 0}, "filled.blocks: 'G111' where a list"),
+    ("solutions", ("contours", 0, "solutions"), {}, "contours[0].solutions: an object where a list"),
+    ("solution", ("contours", 0, "solutions", 0, "end"), 1, "contours[0].solutions[0].end: 1 where a list"),
+    ("chosen", ("contours", 0, "solutions", 0, "is_chosen"), 1, "solutions[0].is_chosen: 1 where true or false"),
+    ("selects", ("contours", 0, "solutions", 0, "selects"), [1], "solutions[0].selects[0]: 1 where a text"),
+    ("count", ("contours", 0, "count", "solutions"), 1.5, "contours[0].count.solutions: 1.5 where a whole number"),
+    ("complete", ("contours", 0, "count", "is_complete"), None, "is_complete: null where true or false"),
 )
 
 
@@ -639,7 +984,13 @@ def places(value: Any, place: Place = ()) -> Iterator[Place]:
 @FUZZ
 @given(data=st.data())
 def test_whatever_is_put_in_a_result_gets_an_answer(desk, data):
-    result = desk.solve(data.draw(st.sampled_from((PROGRAM, PAIR, LATHE + "G111 A180. B120. X100."))))
+    samples = (
+        PROGRAM,
+        PAIR,
+        LATHE + "G111 A180. B120. X100.",
+        *map(EXTENDED.get, ("begin of a corner", "two contours")),
+    )
+    result = desk.solve(data.draw(st.sampled_from(samples)))
     del result["diagnostics"]
     wrong = changed(result, data.draw(st.sampled_from(list(places(result)))), data.draw(JSON))
     status, output, errors = desk.verify(wrong, "--format", data.draw(st.sampled_from(("text", "json"))))

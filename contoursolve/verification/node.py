@@ -71,22 +71,26 @@ class Node:
         self.refuse(f"{shown(self.value)} where {wanted} is expected")
 
     def fields(self) -> "dict[str, Node]":
-        if not isinstance(self.value, dict):
-            self.expect("an object")
-        prefix = f"{self.place}." if self.place else ""
-        # A name of the document's own making is shown as ASCII, whatever it holds.
-        return {name: Node(value, prefix + ascii(name)[1:-1], self.document) for name, value in self.value.items()}
+        return {name: self._at(name) for name in self._object()}
 
     def field(self, name: str) -> "Node":
-        found = self.fields().get(name)
-        if found is None:
+        if name not in self._object():
             self.refuse(f"the field {name!r} is missing")
-        return found
+        return self._at(name)
+
+    def _object(self) -> dict[str, Any]:
+        if not isinstance(self.value, dict):
+            self.expect("an object")
+        return self.value
+
+    def _at(self, name: str) -> "Node":
+        # A name of the document's own making is shown as ASCII, whatever it holds.
+        shown_name = ascii(name)[1:-1]
+        return Node(self.value[name], f"{self.place}.{shown_name}" if self.place else shown_name, self.document)
 
     def maybe(self, name: str) -> "Node | None":
         """A field that older results lack; null counts as missing."""
-        found = self.fields().get(name)
-        return found.optional() if found else None
+        return self._at(name).optional() if name in self._object() else None
 
     def items(self) -> "Iterator[Node]":
         if not isinstance(self.value, list):

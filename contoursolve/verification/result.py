@@ -75,12 +75,11 @@ def _certificate(node: Node) -> ClaimedCertificate:
     gap = double.field("gap_mm").optional() if double else None
     if gap:
         gap.number()
-    tells = "double" in node.fields()
     return ClaimedCertificate(
         kind=node.field("kind").text(),
         radius=radius.number() if radius else None,
         reason=reason.text() if reason else None,
-        double=double is not None if tells else None,
+        double=double is not None if "double" in node.fields() else None,
     )
 
 

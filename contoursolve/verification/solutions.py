@@ -64,7 +64,7 @@ def check_solutions(found: Found, claimed: ClaimedContour, ledger: Ledger) -> bo
         for check in attempt.checks:
             ledger.checks.append(replace(check, name=f"solution {number}: {check.name}"))
         ledger.omissions += [each for each in attempt.omissions if each not in ledger.omissions]
-        eligible += _is_eligible(found, claimed, each)
+        eligible += not attempt.failures and _is_eligible(found, claimed, each)
     if claimed.has_path and paths:
         ledger.require("the program chooses one path", (), eligible == 1, f"{eligible} of {len(paths)} agree with it")
     elif claimed.status is ClaimedStatus.AMBIGUOUS:
@@ -74,9 +74,11 @@ def check_solutions(found: Found, claimed: ClaimedContour, ledger: Ledger) -> bo
 
 
 def _is_eligible(found: Found, claimed: ClaimedContour, solution: ClaimedSolution) -> bool:
-    """Whether a solution agrees with the words of the program that choose, too."""
+    """Whether a solution, right in all else, agrees with the words of the program that choose, too."""
     checker = CHECKERS.get(found.claim.form.name)
     signs = signs_of(found.claim, checker.choosing if checker else ())
+    if not signs:
+        return True
     statuses = (ClaimedStatus.SOLVED, ClaimedStatus.OVERDETERMINED)
     attempts = (partial(_attempt, found, claimed, solution, status, signs) for status in statuses)
     return not fewest(attempts).failures
