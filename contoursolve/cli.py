@@ -306,8 +306,9 @@ def verify(
 ) -> None:
     """Check every element of RESULT.json against the words of PROGRAM (one of them may be -).
 
-    RESULT.json is what solve printed with --format json. Each point, radius and direction is held against the
-    words with formulas of its own, none of the solver's; what was not checked is named, too.
+    RESULT.json is what solve printed with --format json. Each point, radius and direction, each value that was asked
+    for and each listed solution is held against the words and further facts with formulas of its own, none of the
+    solver's; what was not checked is named, too.
 
     Exit status: 0 nothing claimed is wrong, 1 something is, 2 could not run.
 

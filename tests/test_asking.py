@@ -24,6 +24,9 @@ from contoursolve.cli import main
 from contoursolve.output.solutions import list_solutions
 from contoursolve.pipeline import FactPlaceError
 
+OFTEN = 20
+"""Cases of a kind after which there is no need for more."""
+
 TOLERANCE = 1e-6
 """mm. What 12 decimals of a fact leave of a drawing that is not close to a singular one."""
 
@@ -237,6 +240,10 @@ def drawing_of_outcome(outcome: Outcome, start: complex, names: list[str]) -> Dr
     return Drawing({"S": start, **outcome.points}, parts)
 
 
+WITH_B = ("BX", "BU", "BZ", "BW")
+"""Words that let a second corner follow."""
+
+
 def random_taper(rng: Random) -> Taper:
     """A taper without accidents: nothing short, no turn close to 0 or 180 degrees."""
     while True:
@@ -245,7 +252,7 @@ def random_taper(rng: Random) -> Taper:
         second = rect(rng.uniform(15, 60), phase(first) + radians(copysign(rng.uniform(15, 150), rng.uniform(-1, 1))))
         if rng.random() < 0.4:
             second *= abs(first) / abs(second)
-        pairs = rng.choice(("AI", "AK", "IK")), rng.choice(("BX", "BU", "BZ", "BW", "XZ", "XW", "UZ", "UW"))
+        pairs = rng.choice(("AI", "AK", "IK")), rng.choice((*WITH_B, *WITH_B, "XZ", "XW", "UZ", "UW"))
         v2 = start + first + second
         true = {"A": direction(first), "I": first.imag, "K": first.real, "B": direction(second)}
         true |= {"X": 2 * v2.imag, "Z": v2.real, "U": 2 * (v2 - start).imag, "W": (v2 - start).real}
@@ -254,7 +261,7 @@ def random_taper(rng: Random) -> Taper:
         if rng.random() < 0.8:
             sizes[1] = sizes[0]
         corners = dict(zip((rng.choice("CP"), rng.choice("DQ")), sizes, strict=True))
-        has_first, has_second = rng.random() < 0.8, "B" in words and rng.random() < 0.8
+        has_first, has_second = rng.random() < 0.9, "B" in words and rng.random() < 0.9
         words |= {name: value for name, value in corners.items() if (has_first if name in "CP" else has_second)}
         outcome = g111(start, words)
         names = ["line 1", "corner 1", "line 2", "corner 2"]
@@ -390,7 +397,9 @@ def assert_words_hold(taper: Taper, erased: str, drawing: Drawing) -> None:
 
 def test_a_taper_comes_back_from_a_fact_instead_of_a_word() -> None:
     kinds, erased = Counter[str](), Counter[str]()
-    for case in (case for seed in range(40) for case in taper_cases(seed)):
+    for case in (case for seed in range(36) for case in taper_cases(seed)):
+        if kinds[case.facts[0].kind] >= OFTEN and erased[case.erased] >= OFTEN:
+            continue
         (answer,) = solve(case.program, **case.arguments).answers
         found, told = solutions_of(answer), (case.program, case.arguments)
         for drawing in found:
@@ -449,14 +458,8 @@ def test_a_direction_is_found_from_a_fact_about_a_corner(block: str, fact: str, 
 # The line that the last corner meets ----------------------------------------------------------------------
 
 
-TO_THE_RIGHT = "a line to a place on the same X, to the right, is not verified: off by nan"
 LANDINGS = [
-    pytest.param(
-        word,
-        how,
-        lands,
-        marks=[pytest.mark.xfail(strict=True, reason=TO_THE_RIGHT)] if lands == 0 and how != "at" else [],
-    )
+    (word, how, lands)
     for word in "QD"
     for how in ("at", "to", "next")
     for lands in ((0.0, 35.0, 90.0, 150.0, 180.0, -100.0, -170.0) if word == "Q" else (150.0, 180.0, -170.0))
@@ -582,13 +585,13 @@ def is_moved_pair(pair: Pair, erased: str, fact: Fact) -> bool:
 
 def test_a_circle_and_a_line_come_back_from_a_fact_instead_of_a_word() -> None:
     kinds, words, unfinished = Counter[str](), Counter[str](), 0
-    for seed in range(40):
+    for seed in range(30):
         rng = Random(seed)
         pair, name = random_pair(rng), rng.choice(("mm", "inch"))
         units = pair.units(25.4 if name == "inch" else 1.0)
         for fact in pair_facts(pair, units, rng):
             candidates = [word for word in pair_erasures(pair) if is_moved_pair(pair, word, fact)]
-            if not candidates:
+            if not candidates or kinds[fact.kind] >= OFTEN:
                 continue
             erased = rng.choice(candidates)
             mark = rng.choice(("?", "")) if erased[0] == "2" else "?"
@@ -862,15 +865,14 @@ def test_a_fact_that_contradicts_the_words_is_named(fact: str, value: str) -> No
     assert found["words-conflict"]["end_column"] == len(fact) + 1
 
 
-OPEN_SIDE = "KeyError('fact 1.side'): a touching fact that is not needed, so that its side is never chosen"
 VALUELESS = [
     "length of line 1 = length of line 2",
     "radius of corner 1 = radius of corner 2",
     "line 1 passes through (Z-10. X41.)",
     "corner 1 passes through (Z-28. X50.)",
-    broken(OPEN_SIDE, "line 1 tangent to circle (Z-10. X46. R4.)"),
-    broken(OPEN_SIDE, "corner 1 tangent to circle (Z-10. X46. R4.)"),
-    broken(OPEN_SIDE, "corner 1 tangent to line (Z-10. X46. A0.)"),
+    "line 1 tangent to circle (Z-10. X46. R4.)",
+    "corner 1 tangent to circle (Z-10. X46. R4.)",
+    "corner 1 tangent to line (Z-10. X46. A0.)",
 ]
 
 
@@ -891,8 +893,8 @@ AGREEMENTS = [
     "angle from line 1 to line 2 = -60",
     "line 1 passes through (Z-10. X40.)",
     "radius of corner 1 = radius of corner 2",
-    broken(OPEN_SIDE, "line 1 tangent to circle (Z-10. X46. R3.)"),
-    broken(OPEN_SIDE, "corner 1 tangent to line (Z-10. X40. A0.)"),
+    "line 1 tangent to circle (Z-10. X46. R3.)",
+    "corner 1 tangent to line (Z-10. X40. A0.)",
 ]
 
 
@@ -976,10 +978,6 @@ def test_a_value_beyond_all_travel_is_named_as_one_of_a_word_is(fact: str) -> No
     assert "value-too-large" in found
 
 
-ASKED_SIZE = "KeyError('P'): explaining that a corner does not fit whose size is asked for"
-
-
-@pytest.mark.xfail(strict=True, reason=ASKED_SIZE)
 @pytest.mark.parametrize(
     ("block", "fact"),
     [
@@ -997,14 +995,15 @@ def test_a_size_that_would_have_to_be_too_large_or_negative_is_refused(block: st
 STOP_ITERATION = "RuntimeError: generator raised StopIteration"
 ZERO = "length of line 1 = 0"
 UNUSUAL = [
-    broken(OPEN_SIDE, "G111 A180. K-30. B120. X100. P2.", ["corner 1 tangent to line 2"]),
+    ("G111 A180. K-30. B120. X100. P2.", ["corner 1 tangent to line 2"]),
     ("G111 A180. K-30. B120. X100. P?", ["corner 1 passes through (Z-28. X41.)", "corner 1 tangent to line 2"]),
     broken("ZeroDivisionError: EqualDistances or Distance of length 0", "G111 K-30. I0. B120. X100. P2.", [ZERO]),
     ("G111 A180. B120. X100. Q2.", ["Z of end of corner 2 = -50"]),
+    broken(STOP_ITERATION, "G111 K-30. I0. B120. X100. P? Q2.", ["corner 1 tangent to corner 2"]),
     broken(STOP_ITERATION, "G111 A180. K-30. X100. Z?", ["length of line 1 = length of line 2"]),
     ("G111 A? K? B? X? Z? P? Q? C? D? I? U? W?", []),
     ("G111 A180. K-30. X100. C2.", ["Z of begin of corner 1 = -28"]),
-    broken(TO_THE_RIGHT, "G111 A180. K-30. B120. X100. Q5.", ["corner 2 meets line to (Z-40. X100.)"]),
+    ("G111 A180. K-30. B120. X100. Q5.", ["corner 2 meets line to (Z-40. X100.)"]),
 ]
 
 
@@ -1012,3 +1011,26 @@ UNUSUAL = [
 def test_unusual_facts_are_answered_without_blaming_the_package(block: str, facts: list[str]) -> None:
     _, found = contour_of(block, *facts)
     assert "not-verified" not in found
+
+
+UNEXPLAINED = "IndexError in output/construction.py: --explain where the facts are in conflict and nothing is chosen"
+
+
+@pytest.mark.xfail(strict=True, reason=UNEXPLAINED)
+def test_a_conflict_can_be_explained() -> None:
+    lines = ("G17 G41 G0 X50 Y0", "G3 I-50 J?", "G1 X-50 Y42.857 ,A171.87 Q-1")
+    blocks = [part for line in lines for part in ("--block", line)]
+    status, _, _ = run("solve", *blocks, "--fact", "direction of line = 172", "--explain")
+    assert status == 1
+
+
+SMOOTH_BY_ANGLE = "a proven solution is refused as not verified (off by 1e-8), the other is called solved"
+
+
+@pytest.mark.xfail(strict=True, reason=SMOOTH_BY_ANGLE)
+def test_a_turn_of_nothing_between_neighbours_is_a_tangent() -> None:
+    program = "G17 G41 G0 X50 Y0\nG3 I-50 J?\nG1 X-50 Y42.857 ,A171.87 Q-1"
+    tangent, _ = contour_of(program, "line tangent to arc")
+    smooth, _ = contour_of(program, "angle from arc to line = 0")
+    assert [each["is_path"] for each in smooth["solutions"]] == [each["is_path"] for each in tangent["solutions"]]
+    assert smooth["status"] == tangent["status"]

@@ -314,12 +314,8 @@ FREE = ("G111 A180. B120. X100. P5. Q5.", "G111 A180. K-30. B120. P? Q5.", WHOLE
 """Every line has its direction, so that solving takes steps in closed form."""
 
 
-CRASHES = "KeyError for facts that disagree and have no value, see test_asking.py"
-
-
-@pytest.mark.xfail(strict=True, reason=CRASHES)
 @given(st.sampled_from(FREE), st.lists(fact_texts(), min_size=1, max_size=2), st.booleans())
-@settings(max_examples=150, deadline=None, derandomize=True)
+@settings(max_examples=100, deadline=None, derandomize=True)
 def test_any_fact_about_a_block_is_answered(block: str, facts: list[str], is_comment: bool) -> None:
     if is_comment:
         arguments = ["--block", f"{block} (contoursolve: {'; '.join(facts)})"]
@@ -352,7 +348,7 @@ def asked(word: str) -> str:
 
 
 @given(st.lists(st.sampled_from(ASKABLE), min_size=1, max_size=12, unique=True), st.randoms(use_true_random=False))
-@settings(max_examples=120, deadline=None, derandomize=True)
+@settings(max_examples=80, deadline=None, derandomize=True)
 @example(list(ASKABLE[:12]), None)
 def test_a_question_mark_may_stand_in_any_word_of_a_taper(words: list[str], rng: Any) -> None:
     texts = [asked(word) if rng is None or rng.random() < 0.4 else word for word in words]
@@ -360,7 +356,7 @@ def test_a_question_mark_may_stand_in_any_word_of_a_taper(words: list[str], rng:
 
 
 @given(st.randoms(use_true_random=False))
-@settings(max_examples=100, deadline=None, derandomize=True)
+@settings(max_examples=60, deadline=None, derandomize=True)
 def test_a_question_mark_may_stand_in_any_word_of_a_pair(rng: Any) -> None:
     kept = [[word for word in words if rng.random() < 0.9] for words in MILL_WORDS]
     lines = [" ".join(asked(word) if rng.random() < 0.25 else word for word in words) for words in kept]

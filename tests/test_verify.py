@@ -561,17 +561,19 @@ def listed(result: dict[str, Any]) -> Iterator[tuple[Place, float]]:
 @pytest.mark.parametrize("name", EXTENDED)
 def test_a_number_of_facts_questions_and_solutions_that_is_off_is_found(desk, name):
     result = solved(desk, name)
-    places = list(listed(result))
+    places = [each for each in listed(result) if each[0][2] == "solutions"]
     assert len(places) > 8
+    # The chosen one is the same as the contour, which is looked at by itself.
     chosen = [number for number, each in enumerate(result["contours"][0]["solutions"]) if each["is_chosen"]]
     for number, (place, value) in enumerate(places):
         assert desk.is_wrong(changed(result, place, value + (NUDGE if number % 2 else -NUDGE))), place
-        # The chosen one is the same as the contour.
-        if value and value != 180 and not (place[2] == "solutions" and place[3] in chosen):
+        if value and value != 180 and place[3] not in chosen:
             assert desk.is_wrong(changed(result, place, -value)), place
-    # The contour by itself.
-    for number, (place, value) in enumerate(listed(older(result))):
-        assert desk.is_wrong(changed(older(result), place, value + (-NUDGE if number % 2 else NUDGE))), place
+    alone = older(result)
+    for number, (place, value) in enumerate(listed(alone)):
+        assert desk.is_wrong(changed(alone, place, value + (-NUDGE if number % 2 else NUDGE))), place
+        if value and value != 180:
+            assert desk.is_wrong(changed(alone, place, -value)), place
 
 
 STATED = re.compile(r"(?<== )[-+]?[\d.]+|(?<=[ZXYR])-?[\d.]+(?=[ \]])(?=[^\[]*\])|(?<=at )\d+")
@@ -664,6 +666,39 @@ def test_a_list_of_solutions_that_was_tampered_with_is_found(desk, name):
         if contour["status"] == "ambiguous" and "Q" not in name:
             # That nothing chooses cannot be seen in the contour; the other paths of the list tell it.
             assert desk.is_wrong(claim)
+
+
+@pytest.mark.parametrize(
+    ("text", "facts", "line"),
+    [
+        (block("X100. A180. K-30. B120."), ["length of line 1 = 30"], "G111 X100. A180. K-30."),
+        (block("X100. A180. K-30. B120."), ["Z of V1 = -30"], "G111 X100. A180. K-30."),
+        (
+            pair("G3 I-50 J0", "G1 X-80 Y42.857", "line tangent to arc"),
+            ["radius of arc = 50"],
+            "G1 X-80 Y42.857",
+        ),
+    ],
+)
+def test_words_that_leave_the_points_loose_fix_none(desk, text, facts, line):
+    """As many words as unknowns, of which some say the same: any path along the way would do."""
+    result = older(desk.solve(text, *(("--control", "nct-99m") if text.startswith(MILL) else ())))
+    program = "\n".join([*text.split("\n")[:-1], f"{line} (contoursolve: {facts[0]})"])
+    desk.program.write_bytes(program.encode())
+    found = failures(desk.receipt(with_contour(result, facts=facts)))
+    assert found == ["the words fix the points"]
+
+
+def test_a_half_circle_and_a_touching_line_are_fixed(desk):
+    for text in (
+        pair("G3 X-50 Y0 R50", LINE, "length of line = ?"),
+        pair("G3 I-50 J0", "G1 X-50 Y50 ,A180", "length of arc = ?"),
+    ):
+        result = desk.solve(text)
+        receipt = desk.receipt(result)
+        assert failures(receipt) == []
+        if result["contours"][0]["status"] == "solved":
+            assert "how far the points may be off" in [each["what"] for each in receipt["contours"][0]["not_checked"]]
 
 
 def test_facts_missing_added_or_unreadable_are_found(desk):

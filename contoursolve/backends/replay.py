@@ -14,7 +14,7 @@ _BINARY: Mapping[int, Callable[[Any, Any], Any]] = {
 }
 _UNARY: Mapping[int, Callable[[Any], Any]] = {
     casadi.OP_NEG: operator.neg,
-    casadi.OP_SQ: lambda value: value**2,
+    casadi.OP_SQ: lambda value: value * value,  # a power of a ball about 0 is no number
     casadi.OP_TWICE: lambda value: value + value,
     casadi.OP_INV: lambda value: 1 / value,
     casadi.OP_ASSIGN: lambda value: value,

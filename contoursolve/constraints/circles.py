@@ -21,7 +21,7 @@ class OnCircle(Equation):
 
     def equation(self, at: Lookup) -> Any:
         spoke, radius = step(at, self.center, self.point), at.radius(self.radius)
-        return dot(spoke, spoke) - radius**2
+        return dot(spoke, spoke) - radius * radius
 
     def residual(self, at: Lookup) -> Any:
         return self.equation(at) / (2 * at.radius(self.radius))

@@ -21,7 +21,7 @@ class Distance(Equation):
 
     def equation(self, at: Lookup) -> Any:
         between = step(at, self.tail, self.head)
-        return dot(between, between) - at.amount(self.given) ** 2
+        return dot(between, between) - at.amount(self.given) * at.amount(self.given)
 
     def residual(self, at: Lookup) -> Any:
         return self.equation(at) / (2 * at.amount(self.given))

@@ -21,7 +21,7 @@ class UnitDirection(Equation):
 
     def equation(self, at: Lookup) -> Any:
         cosine, sine = at.bearing(self.line)
-        return cosine**2 + sine**2 - 1
+        return cosine * cosine + sine * sine - 1
 
     def residual(self, at: Lookup) -> Any:
         return self.equation(at) / 2

@@ -46,7 +46,7 @@ class TangentCircles(Equation):
         between, side = step(at, self.first[0], self.second[0]), side_of(self.side, at)
         first, second = at.radius(self.first[1]), at.radius(self.second[1])
         # Expanded with side**2 = 1, so that a difference of two such equations has no squares at all.
-        return dot(between, between) - first**2 - second**2 - 2 * side * first * second
+        return dot(between, between) - first * first - second * second - 2 * side * first * second
 
     def residual(self, at: Lookup) -> Any:
         return self.equation(at) / (2 * (at.radius(self.first[1]) + at.radius(self.second[1])))

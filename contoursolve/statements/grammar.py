@@ -36,11 +36,13 @@ from contoursolve.statements.statement import (
     Touches,
     TurnIs,
 )
+from contoursolve.tolerance import LARGEST
 
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?(?![\w.])")
 _PARTS = {"begin": ("begin of", "start of"), "end": ("end of",), "center": ("center of", "centre of")}
 _BLANK = re.compile(r"[\s,]*")
 LONGEST_NUMBER = 40
+"""Characters of a number; 17 digits are all that a double holds."""
 
 
 class GrammarError(ValueError):
@@ -237,8 +239,11 @@ class _Reader:
         match = _NUMBER.match(self.text, self.at)
         if not match or len(match[0]) > LONGEST_NUMBER:
             raise self._error("a number")
+        value = Decimal(match[0])
+        if abs(value) > Decimal(LARGEST):
+            raise GrammarError(f"{match[0]} is larger than a control can travel", self.at, match.end())
         self.at = match.end()
-        return Decimal(match[0])
+        return value
 
     def _accept(self, phrase: str) -> bool:
         """Whether the next words are these; then they are passed over."""

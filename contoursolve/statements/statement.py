@@ -85,6 +85,7 @@ class LengthIs:
     value: Decimal | None
 
     def state(self, draft: Draft, name: str) -> Fact:
+        _check_size(self.value, "a length")
         element = draft.element(self.element)
         if isinstance(element, Line):
             _check_ends(element)
@@ -183,6 +184,7 @@ class RadiusIs:
     value: Decimal | None
 
     def state(self, draft: Draft, name: str) -> Fact:
+        _check_size(self.value, "a radius")
         element = draft.element(self.element)
         if isinstance(element, Corner):
             draft.corner(element.name)
@@ -297,6 +299,11 @@ def _named(draft: Draft, name: str, fact: Fact) -> Fact:
     draft.give(name, Decimal(0), Unit.SIGN)
     draft.add(fact)
     return fact
+
+
+def _check_size(value: Decimal | None, what: str) -> None:
+    if value is not None and value <= 0:
+        raise StatementError(f"{what} is larger than 0, not {value:f}")
 
 
 def _check_ends(line: Line) -> None:

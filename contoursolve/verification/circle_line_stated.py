@@ -69,7 +69,7 @@ def check(case: Case, ledger: Ledger) -> None:
     of_words = list(_statements(case, numbers))
     of_facts = list(statements(case.facts, sight, ledger))
     needed = _needed(case, ledger, of_words, of_facts, len(sight.unknowns))
-    check_statements(case, ledger, needed, len(sight.unknowns))
+    check_statements(case, ledger, needed, sight.unknowns)
     _check_choices(case, ledger, numbers)
     check_asked(case, ledger, _values(case, numbers), sight.claimed)
 
@@ -154,8 +154,12 @@ def _statements(case: Case, numbers: _Numbers) -> Iterator[Statement]:
 
     def state(name: str, given: str, residual: Callable[[_Numbers], float], against: float = 0.0) -> Statement:
         (word,) = case.texts(given) or ("",)
-        slope = slopes(lambda at: residual(numbers.changed(at)), numbers.listed(), STEP * case.reach)
-        return Statement(name, word, slope, residual(numbers), against=against, is_numerical=True)
+
+        def value(at: Sequence[float]) -> float:
+            return residual(numbers.changed(at))
+
+        slope = slopes(value, numbers.listed(), STEP * case.reach)
+        return Statement(name, word, slope, residual(numbers), against=against, value=value)
 
     yield state("the start lies on the circle", "", lambda at: abs(at.center) - at.radius)
     yield state("P1 lies on the circle", "", lambda at: abs(at.crossing - at.center) - at.radius)

@@ -1,16 +1,19 @@
 """Do the words and facts of a contour hold, and do they fix its points where they are claimed?"""
 
 from collections.abc import Sequence
+from dataclasses import replace
+from math import inf
 
-from contoursolve.tolerance import AGREEMENT
+from contoursolve.tolerance import AGREEMENT, RESIDUAL
 from contoursolve.verification.case import Case
 from contoursolve.verification.claimed import ClaimedStatus
+from contoursolve.verification.drawing import UnmeasurableError
 from contoursolve.verification.ledger import Ledger
 from contoursolve.verification.measure import ROUNDING
 from contoursolve.verification.statement import Statement, displacement
 
 
-def check_statements(case: Case, ledger: Ledger, statements: Sequence[Statement], unknowns: int) -> None:
+def check_statements(case: Case, ledger: Ledger, statements: Sequence[Statement], unknowns: Sequence[float]) -> None:
     """Each word holds; together they fix the unknowns, just so or with words that agree; the points are there.
 
     Where a contour is claimed overdetermined, the words that are not needed hold within the least increment
@@ -19,7 +22,7 @@ def check_statements(case: Case, ledger: Ledger, statements: Sequence[Statement]
     """
     words = [each.word for each in statements if each.word]
     is_over = case.claimed.status is ClaimedStatus.OVERDETERMINED
-    if case.is_selected and len(statements) > unknowns:
+    if case.is_selected and len(statements) > len(unknowns):
         is_over = True
     for each in statements:
         stated = [each.word] if each.word else []
@@ -30,16 +33,58 @@ def check_statements(case: Case, ledger: Ledger, statements: Sequence[Statement]
             ledger.measure(each.name, stated, each.residual, case.limit)
         if each.against:
             ledger.measure(f"{each.name} in its direction", stated, each.against, case.limit)
-    surplus = len(statements) - unknowns
-    name, found = "as many words as the status says", f"{len(statements)} words for {unknowns} unknowns"
+    surplus = len(statements) - len(unknowns)
+    name, found = "as many words as the status says", f"{len(statements)} words for {len(unknowns)} unknowns"
     ledger.require(name, words, surplus > 0 if is_over else surplus == 0, found)
     holding = [each for each in statements if not is_over or abs(each.residual) <= case.limit]
-    moved = displacement(holding, unknowns)
-    if moved.rank < unknowns and case.claimed.certificate.double:
+    moved = displacement(holding, len(unknowns))
+    is_fixed = moved.rank == len(unknowns)
+    is_double = not is_fixed and all(_is_alone(holding, unknowns, index, case.reach) for index in moved.free)
+    found = f"they fix {moved.rank} of {len(unknowns)} coordinates"
+    ledger.require("the words fix the points", words, is_fixed or is_double, found)
+    if is_double:
         ledger.omit("how far the points may be off", "two solutions have become one, so that words fix them weakly")
-        return
-    found = f"they fix {moved.rank} of {unknowns} coordinates"
-    if ledger.require("the words fix the points", words, moved.rank == unknowns, found):
+    if is_fixed:
         # What a shift of the start, or the rounding of this very calculation, does to the points.
         unsure = moved.amplification * (ROUNDING * case.reach + case.start_error)
         case.compare(ledger, "the points are where the words put them", words, moved.distance, unsure)
+
+
+def _is_alone(statements: Sequence[Statement], unknowns: Sequence[float], free: int, reach: float) -> bool:
+    """Whether no solutions lie beside one where an unknown is not fixed to first order: where two have become one,
+    as where a line touches a circle, a step to either side leaves no solution."""
+    others = [index for index in range(len(unknowns)) if index != free]
+    for step in (ASIDE * reach, -ASIDE * reach):
+        at = [value + (step if index == free else 0.0) for index, value in enumerate(unknowns)]
+        for _ in range(ITERATIONS):
+            here = [_moved(each, unknowns, at) for each in statements]
+            moves = displacement([_without(each, free) for each in here], len(others)).moves
+            for index, move in zip(others, moves, strict=True):
+                at[index] -= move
+            if max(map(abs, moves), default=0.0) > reach:
+                break
+        if all(abs(_moved(each, unknowns, at).residual) <= RESIDUAL + ROUNDING * reach for each in statements):
+            return False
+    return True
+
+
+ASIDE = 1e-3
+"""1 (share of the reach). How far aside a neighbouring solution is looked for."""
+
+ITERATIONS = 10
+
+
+def _moved(statement: Statement, unknowns: Sequence[float], at: Sequence[float]) -> Statement:
+    """A statement at other unknowns."""
+    if statement.value is not None:
+        try:
+            return replace(statement, residual=statement.value(at), at_unknowns=None)
+        except UnmeasurableError:
+            return replace(statement, residual=inf, at_unknowns=None)
+    steps = (other - value for other, value in zip(at, unknowns, strict=True))
+    off = sum(slope * step for slope, step in zip(statement.gradient, steps, strict=True))
+    return replace(statement, residual=statement.residual + off, at_unknowns=None)
+
+
+def _without(statement: Statement, index: int) -> Statement:
+    return replace(statement, gradient=(*statement.gradient[:index], *statement.gradient[index + 1 :]))

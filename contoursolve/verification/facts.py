@@ -9,7 +9,7 @@ from contoursolve.statements import GrammarError, MeetsLine, Vocabulary, read_st
 from contoursolve.tolerance import LARGEST
 from contoursolve.verification.drawing import Drawing, UnmeasurableError
 from contoursolve.verification.ledger import Ledger
-from contoursolve.verification.quantity import Fact, Gap, Origin, gap, numbers
+from contoursolve.verification.quantity import Fact, Origin, gap, numbers
 from contoursolve.verification.statement import Statement
 
 STEP = 1e-6
@@ -94,23 +94,19 @@ def statements(facts: Sequence[StatedFact], sight: Sight, ledger: Ledger) -> Ite
     for each in facts:
         if each.fact is None or not each.is_stated:
             continue
+        value = _value(each.fact, sight)
         try:
-            here = gap(each.fact, sight.claimed, sight.origin)
-            slope, there = _look(each.fact, sight)
+            here, there = gap(each.fact, sight.claimed, sight.origin), value(sight.unknowns)
+            slope = slopes(value, sight.unknowns, STEP * sight.reach)
         except UnmeasurableError as error:
             ledger.require("the fact is about the contour", [each.label], False, str(error))
             continue
-        yield Statement(
-            "the fact holds", each.label, slope, here.residual, here.degrees, there.residual, here.against, True
-        )
+        yield Statement("the fact holds", each.label, slope, here.residual, here.degrees, there, here.against, value)
 
 
-def _look(fact: Fact, sight: Sight) -> tuple[tuple[float, ...], Gap]:
-    """How a fact's residual changes with each unknown, by central differences; and its gap at the unknowns."""
-    step = STEP * sight.reach
-    return slopes(lambda at: gap(fact, sight.redraw(at), sight.origin).residual, sight.unknowns, step), gap(
-        fact, sight.redraw(sight.unknowns), sight.origin
-    )
+def _value(fact: Fact, sight: Sight) -> Callable[[Sequence[float]], float]:
+    """A fact's residual (mm) as a function of the unknowns."""
+    return lambda at: gap(fact, sight.redraw(at), sight.origin).residual
 
 
 def slopes(value: Callable[[Sequence[float]], float], at: Sequence[float], step: float) -> tuple[float, ...]:

@@ -69,15 +69,15 @@ def _reading(case: Case, ignored: dict[str, str]) -> Ledger:
         ledger.omit(" ".join(case.texts(name)), why)
     used = tuple(name for name in case.states(*LINE_1, *LINE_2) if name not in ignored)
     lines = _lines(case, used, (case.points["V1"], case.points["V2"]))
-    elements, unknowns = Ledger(), UNKNOWNS + sum(name in case.asked for name in _SIZES)
+    elements, no_sizes = Ledger(), [0.0 for name in _SIZES if name in case.asked]
     found = check_elements(case, elements, lines)
     if found is None:
-        check_statements(case, ledger, list(_statements(case, used, lines)), unknowns)
+        check_statements(case, ledger, list(_statements(case, used, lines)), [*_coordinates(lines), *no_sizes])
     else:
         slots, sizes = found
         sight = _sight(case, used, lines, slots, sizes)
         stated = [*_statements(case, used, lines), *statements(case.facts, sight, ledger)]
-        check_statements(case, ledger, stated, unknowns)
+        check_statements(case, ledger, stated, sight.unknowns)
         check_asked(case, ledger, _values(case, lines, sizes), sight.claimed)
     _check_senses(case, ledger, used, lines)
     ledger.add(elements)
@@ -93,8 +93,12 @@ def _sight(case: Case, used: tuple[str, ...], lines: Lines, slots: Slots, sizes:
         changed = sizes | dict(zip(open_sizes, at[UNKNOWNS:], strict=True))
         return draw(_lines(case, used, (first, second)), {name: size for name, size in changed.items() if size})
 
-    unknowns = (lines.v1.real, lines.v1.imag, lines.v2.real, lines.v2.imag, *(sizes[name] for name in open_sizes))
+    unknowns = (*_coordinates(lines), *(sizes[name] for name in open_sizes))
     return Sight(drawn(lines, slots, sizes), unknowns, redraw, case.origin, case.reach)
+
+
+def _coordinates(lines: Lines) -> tuple[float, ...]:
+    return lines.v1.real, lines.v1.imag, lines.v2.real, lines.v2.imag
 
 
 def _values(case: Case, lines: Lines, sizes: Sizes) -> dict[str, Quantity]:

@@ -4,7 +4,7 @@ Solving for the residuals tells how far the claimed points are from those that t
 they fix them: exactly for words, which are linear in the unknowns, and to first order for facts.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from contoursolve.tolerance import AGREEMENT, REGULAR
@@ -19,7 +19,8 @@ class Statement:
 
     `degrees` is by how much an angle is off; None for words that are no angles. `at_unknowns` is the residual (mm)
     at the unknowns themselves, where `residual` is that of the claimed elements. `against` (mm) is how far
-    something runs the opposite way. `is_numerical` tells that the gradient was made by differences.
+    something runs the opposite way. `value` is the residual (mm) at any unknowns where it is no linear function; the
+    gradient was then made by differences.
     """
 
     name: str
@@ -29,7 +30,7 @@ class Statement:
     degrees: float | None = None
     at_unknowns: float | None = None
     against: float = 0.0
-    is_numerical: bool = False
+    value: Callable[[Sequence[float]], float] | None = None
 
     @property
     def agrees(self) -> bool:
@@ -41,11 +42,13 @@ class Statement:
 class Displacement:
     """How far the unknowns are from where statements fix them.
 
-    `rank` is the number of unknowns that are fixed; `moves` (mm) are their corrections, to be taken off;
-    `amplification` (1) by how much an error of the words' values becomes larger in the unknowns.
+    `rank` is the number of unknowns that are fixed, `free` are the indices of the others. `moves` (mm) are the
+    corrections of all, to be taken off; `amplification` (1) by how much an error of the words' values becomes
+    larger in the unknowns.
     """
 
     rank: int
+    free: tuple[int, ...]
     moves: tuple[float, ...]
     amplification: float
 
@@ -57,7 +60,7 @@ class Displacement:
 
 def displacement(statements: Sequence[Statement], unknowns: int) -> Displacement:
     """Gauss-Jordan elimination with the largest pivot first."""
-    regular = NUMERICAL if any(each.is_numerical for each in statements) else REGULAR
+    regular = NUMERICAL if any(each.value for each in statements) else REGULAR
     rows = [
         [
             *each.gradient,
@@ -86,6 +89,7 @@ def displacement(statements: Sequence[Statement], unknowns: int) -> Displacement
         fixed[column] = at
     return Displacement(
         rank=len(fixed),
+        free=tuple(sorted(open_columns)),
         moves=tuple(rows[fixed[column]][unknowns] if column in fixed else 0.0 for column in range(unknowns)),
         amplification=max((sum(map(abs, rows[at][unknowns + 1 :])) for at in fixed.values()), default=0.0),
     )

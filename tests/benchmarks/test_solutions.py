@@ -90,7 +90,7 @@ def test_every_chain_is_found_again(backwards: Counter[str]) -> None:
     assert backwards[RIGHT] == CASES
 
 
-def test_of_all_peers_ours_alone_gives_no_wrong_answer_for_a_right_one() -> None:
+def test_beside_its_peers_ours_gives_no_wrong_answer_for_a_right_one() -> None:
     rows = run_peers(random_cases(CASES, 1), ADAPTERS)
     print(f"\n{table(rows)}")  # noqa: T201 what this is run for
     ours = next(row for row in rows if row.peer == Ours.name)

@@ -7,7 +7,7 @@ from contoursolve.dialects.yasnac_lx3.g111 import OTHER_G
 from contoursolve.dialects.yasnac_lx3.lexicon import MANUAL
 from contoursolve.reading import Trouble
 from contoursolve.rules import Rule, Value, all_of, at_least, at_most, some
-from contoursolve.solving import RefusalKind
+from contoursolve.solving import RefusalKind, RemarkKind
 from contoursolve.source import Evidence, Source
 
 _FORM = "G111"
@@ -189,7 +189,19 @@ COMBINATION_RULES = (
     ),
 )
 
+_TOUCHING = Source("contoursolve", "further facts", Evidence.ASSUMED)
+
 GEOMETRY_RULES = (
+    Rule(
+        code="g111-touches",
+        message="{subject}: two contours have become one, because an element just touches; a small change parts them",
+        help="check that it is meant to touch",
+        source=_TOUCHING,
+        about=RemarkKind.TOUCHES,
+        severity=Severity.WARNING,
+        accepted=(_GOOD,),
+        rejected=("G00 X40. Z0.\nG111 A180. K-30. X100. (contoursolve: length of line 2 = 30)",),
+    ),
     Rule(
         code="g111-parallel",
         message="no point satisfies {words} together: the lines are parallel and {off} apart",
