@@ -25,7 +25,7 @@ from contoursolve.explain import (
 )
 from contoursolve.model import Length, Plane, Profile, Question, Side, Start
 from contoursolve.reading import Claim, Lexicon, Trouble, read
-from contoursolve.rules import Rule, check
+from contoursolve.rules import Offence, Rule, check
 from contoursolve.solving import (
     Refusal,
     RefusalKind,
@@ -151,7 +151,7 @@ def examine(
     is_readable = not notebook.statuses
     # Where characters could not be read, which words the block has is not known.
     is_whole = not any(block.faults for block in claim.blocks)
-    offences = check(rules, claim.form.name, claim.stated()) if is_whole and policy is not Policy.OFF else ()
+    offences = _offences(claim, rules) if is_whole and policy is not Policy.OFF else ()
     for offence in offences:
         if not offence.rule.ignores:
             finding = explain_offence(context, offence)
@@ -159,8 +159,7 @@ def examine(
             # What states or asks more than the control reads is not a block for the control yet.
             is_strict = policy is Policy.ENFORCE and not _is_extended(claim)
             notebook.add(finding if is_strict else weaker, Status.REJECTED)
-    # A word that is asked for states nothing that could be ignored.
-    ignoring = [offence for offence in offences if offence.rule.ignores and offence.rule.ignores in claim.givens]
+    ignoring = [offence for offence in offences if offence.rule.ignores]
     profile, is_stated = _state_more(
         context, claim, read(claim, frozenset(offence.rule.ignores for offence in ignoring)), next_place, notebook
     )
@@ -210,6 +209,20 @@ def list_alternatives(answer: Answer) -> Alternatives | None:
     from contoursolve.solving.alternatives import find_alternatives  # noqa: PLC0415 - see _solve
 
     return find_alternatives(answer.profile)
+
+
+def _offences(claim: Claim, rules: tuple[Rule, ...]) -> tuple[Offence, ...]:
+    """The rules that hold for the stated words. A word that is asked for may fill a gap, but it is never one too
+    many: what refuses must do so without it as well, and what ignores another word must do so by itself."""
+    stated = claim.stated()
+    offences = tuple(check(rules, claim.form.name, stated))
+    asked = {name for name, word in claim.words.items() if word.is_asked}
+    if not asked:
+        return offences
+    without = tuple(check(rules, claim.form.name, {name: stated[name] for name in stated if name not in asked}))
+    codes = {offence.rule.code for offence in without}
+    refusing = tuple(each for each in offences if not each.rule.ignores and each.rule.code in codes)
+    return (*refusing, *(each for each in without if each.rule.ignores))
 
 
 def _is_extended(claim: Claim) -> bool:

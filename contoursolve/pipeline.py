@@ -181,6 +181,9 @@ class _Examiner:
             if fault.kind in _FAULTS_OF_NO_CONSEQUENCE:
                 finding = replace(finding, severity=Severity.WARNING)
             self.diagnostics.append(finding)
+        for directive in block.directives:
+            place = Context(self.rules, self.unit, place=directive.span)
+            self.diagnostics.append(report(place, place.row(Trouble.FACT_NOWHERE), Basis.RULE, []))
         if self.dialect:
             lexicon = self.dialect.modes.lexicon
             addresses = lexicon.addresses

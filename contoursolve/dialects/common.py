@@ -256,6 +256,16 @@ SYSTEM_RULES = (
         rejected=(_START + "G111 A180. K-30. B120. (contoursolve: length of line 9 = 20)",),
     ),
     Rule(
+        code="fact-nowhere",
+        message="this fact stands in no contour block, and is not used",
+        help="write the comment into the block of the contour that it is about",
+        source=_own("facts about a contour"),
+        about=Trouble.FACT_NOWHERE,
+        severity=Severity.WARNING,
+        accepted=(_START + "G111 A180. K-30. B120. (contoursolve: length of line 2 = 20)",),
+        rejected=(_START + "(contoursolve: length of line 2 = 20)\n" + _GOOD.partition("\n")[2],),
+    ),
+    Rule(
         code="fact-impossible",
         message="{words} says nothing about this contour: {reason}",
         help="see `contoursolve facts` for what can be stated",

@@ -64,6 +64,8 @@ def _found(answer: Answer) -> tuple[Mapping[str, float], Mapping[str, str]]:
 
 def _of_chosen(alternatives: Alternatives, profile: Profile) -> tuple[Mapping[str, float], Mapping[str, str]]:
     chosen = [item for item in choose(alternatives, profile.choices) if item.is_path]
+    if not chosen:
+        return {}, {}
     differing = {key for key in chosen[0].sides if len({each.sides.get(key) for each in alternatives.items}) > 1}
     return chosen[0].scalars, {key: side for key, side in chosen[0].sides.items() if key in differing}
 

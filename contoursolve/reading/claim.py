@@ -32,6 +32,7 @@ class Trouble(Enum):
     CORNER_NOWHERE = "corner-nowhere"
     FACT_UNREADABLE = "fact-unreadable"
     FACT_IMPOSSIBLE = "fact-impossible"
+    FACT_NOWHERE = "fact-nowhere"
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,9 +9,9 @@ from contoursolve.backends import ball
 from contoursolve.backends.angle import direction
 from contoursolve.backends.ball import Number
 from contoursolve.backends.inputs import COSINE, SINE
-from contoursolve.constraints import Heading, OnCircle, System, TangentCircles, assemble, headed_lines
+from contoursolve.constraints import OnCircle, System, TangentCircles, assemble, headed_lines
 from contoursolve.constraints import Values as Lookup
-from contoursolve.model import FIRST, SECOND, Arc, Choice, Profile, Side, Unit, scalar
+from contoursolve.model import FIRST, SECOND, Arc, Choice, Line, Profile, Side, Unit, scalar
 from contoursolve.solving.certificate import Certificate, Proof
 from contoursolve.solving.compile import compile_path
 from contoursolve.solving.elimination import Obstacle
@@ -246,11 +246,13 @@ def _sides(profile: Profile, system: System, found: Found, boxes: Mapping[str, N
     sides: dict[str, str] = {}
     circles = [fact for fact in system.facts if isinstance(fact, OnCircle)]
     unknown = set(system.figure.points)
-    for heading in (fact for fact in system.facts if isinstance(fact, Heading)):
+    for line in (element for element in system.figure.path if isinstance(element, Line)):
         for circle in circles:
-            if circle.point in (heading.tail, heading.head) and circle.point in unknown:
-                (cosine, sine), spoke = at.direction(heading.given), step(circle.center, circle.point)
-                along = cosine * spoke[FIRST] + sine * spoke[SECOND]
+            if circle.point in (line.tail, line.head) and circle.point in unknown:
+                # The sense of travel is that of the angle, or leads from end to end where no angle is stated.
+                way = at.direction(line.heading) if line.heading is not None else step(line.tail, line.head)
+                spoke = step(circle.center, circle.point)
+                along = way[FIRST] * spoke[FIRST] + way[SECOND] * spoke[SECOND]
                 sides[circle.point] = name(along, Side.FARTHER, Side.NEARER)
     for arc in (element for element in system.figure.path if isinstance(element, Arc)):
         on_it = [circle.point for circle in circles if circle.center == arc.center]

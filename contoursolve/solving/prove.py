@@ -9,7 +9,7 @@ from contoursolve.constraints import System
 from contoursolve.solving.certificate import Proof, up_to_one_digit
 from contoursolve.solving.ground import Ground
 from contoursolve.solving.kernel import make_kernel
-from contoursolve.solving.krawczyk import Content, content_of
+from contoursolve.solving.krawczyk import Content, content_of, refine
 
 MARGIN = 2.0**-100
 """How far the box that is tested reaches beyond a solution's ball, as a share of the coordinates."""
@@ -41,7 +41,7 @@ def prove_found(
         content, image = content_of(kernel, [ball.wider(each, margin) for each in values], inputs)
         if content is not Content.ONE:
             return Proof.UNKNOWN, dict(scalars)
-        boxes.update(zip(kernel.unknowns, image, strict=True))
+        boxes.update(zip(kernel.unknowns, refine(kernel, image, inputs), strict=True))
     return proof, boxes
 
 

@@ -130,6 +130,8 @@ class Draft:
 
     def circle(self, name: str, center: tuple[Decimal, Decimal], radius: Decimal) -> Round:
         """A given circle."""
+        if radius <= 0:
+            raise StatementError("a circle has a radius larger than 0; a line through a point `passes through` it")
         place = self.place(f"{name}.center", center)
         known = self.give(f"{name}.radius", radius, Unit.MM)
         self.figure = replace(

@@ -48,9 +48,9 @@ def examine(found: Found, claimed: ClaimedContour, ledger: Ledger, selected: Map
 
 
 def _is_selected(claimed: ClaimedContour) -> bool:
-    """Whether the result names a solution that is none because a word disagrees with it."""
+    """Whether the result names a solution that is none because a word or a fact disagrees with it."""
     reasons = [reason for each in claimed.solutions or () for reason in each.reasons if not each.is_path]
-    return any(reason.startswith("words-disagree") for reason in reasons)
+    return any(reason.startswith(("words-disagree", "fact-disagrees")) for reason in reasons)
 
 
 def signs_of(claim: Claim, names: tuple[str, ...]) -> dict[str, int]:
