@@ -22,7 +22,7 @@ def decide(alternatives: Alternatives, profile: Profile) -> Solution:
         if alternatives.is_complete:
             return solution
         return replace(solution, remarks=(*solution.remarks, Remark(RemarkKind.COUNT_OPEN, "", (), count)))
-    return _refused(eligible or alternatives.items, alternatives)
+    return _refused(eligible, alternatives)
 
 
 def _without_selecting(solution: Solution, alternatives: Alternatives) -> Solution:
