@@ -212,17 +212,23 @@ def _needed(
 def _check_choices(case: Case, ledger: Ledger, numbers: _Numbers) -> None:
     """Q chooses the nearer or the farther intersection along ,A; the sign of R the shorter or the longer arc to the
     given point (printed)."""
-    branch, meant, is_double = case.claimed.branch, None, bool(case.claimed.certificate.double)
+    branch, is_double = case.claimed.branch, bool(case.claimed.certificate.double)
     sign = case.choices.get(CHOICE, 0)
-    if sign and case.states(ANGLE):
+    run = numbers.end - numbers.crossing
+    allowed: tuple[str | None, ...] = (None,)
+    if sign and (case.states(ANGLE) or abs(run) > case.limit):
         meant = "nearer" if sign < 0 else "farther"
-        ahead = dot(direction(case.value(ANGLE)), numbers.crossing - numbers.center)
+        # Where no ,A is stated, the line runs from the intersection to its end.
+        along = direction(case.value(ANGLE)) if case.states(ANGLE) else unit(run)
+        ahead = dot(along, numbers.crossing - numbers.center)
         off = max(0.0, -sign * ahead)
         ledger.measure("P1 is the intersection that Q chooses", case.texts(CHOICE), off, case.limit)
+        # A line that just touches leaves Q nothing to choose.
+        touches = is_double or (not case.states(ANGLE) and abs(ahead) <= case.limit)
+        allowed = (meant, None) if touches else (meant,)
     elif case.states(CHOICE):
-        ledger.omit(" ".join(case.texts(CHOICE)), "without ,A there is nothing that it would choose")
+        ledger.omit(" ".join(case.texts(CHOICE)), "the line has no direction along which it would choose")
     if not case.is_listed:
-        allowed = (meant, None) if is_double else (meant,)
         ledger.require(
             "the branch is the one that Q chooses", case.texts(CHOICE), branch in allowed, f"{branch!a}"[:60]
         )
