@@ -48,6 +48,15 @@ class CouldNotRunError(click.ClickException):
     exit_code = COULD_NOT_RUN
 
 
+_units = click.option(
+    "--units",
+    type=click.Choice([unit.value for unit in Length]),
+    default="mm",
+    show_default=True,
+    help="Unit of the program's numbers before any G20 or G21.",
+)
+
+
 def _common(command: Callable[..., None]) -> Callable[..., None]:
     """The options that `solve` and `check` share."""
     for option in reversed(
@@ -73,13 +82,7 @@ def _common(command: Callable[..., None]) -> Callable[..., None]:
                 type=click.Choice(list(DIALECTS)),
                 help="The control. Without it, the control is found from the program where that is clear.",
             ),
-            click.option(
-                "--units",
-                type=click.Choice([unit.value for unit in Length]),
-                default="mm",
-                show_default=True,
-                help="Unit of the program's numbers before any G20 or G21.",
-            ),
+            _units,
             click.option(
                 "--rules",
                 type=click.Choice([policy.value for policy in Policy]),
@@ -279,13 +282,7 @@ def explain(code: str) -> None:
     type=click.Choice(list(DIALECTS)),
     help="The control. Without it, the one that the result names.",
 )
-@click.option(
-    "--units",
-    type=click.Choice([unit.value for unit in Length]),
-    default="mm",
-    show_default=True,
-    help="Unit of the program's numbers before any G20 or G21.",
-)
+@_units
 @click.option(
     "--format",
     "format_",

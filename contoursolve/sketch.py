@@ -85,7 +85,6 @@ class Sketch:
         self._facts: list[OnCircle] = []
         self._beside: list[tuple[str, tuple[Decimal, Decimal] | None, Decimal | None]] = []
         self._free_lines: list[Line] = []
-        self._circles: list[Circle] = []
         self._statements: list[str | Statement] = []
 
     def line(self, name: str, to: str = "") -> None:

@@ -1,11 +1,12 @@
 """A solved contour as text: what was given, the virtual intersections, every element of the path."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from contoursolve.contour import ArcSegment
 from contoursolve.diagnostic import Verdict
 from contoursolve.dialects import DIALECTS, Dialect
-from contoursolve.examine import Answer, AskedValue
+from contoursolve.examine import Answer, AskedValue, list_alternatives
 from contoursolve.model import Length, Turn, Unit
 from contoursolve.output.layout import columns, printable
 from contoursolve.output.solutions import list_solutions, printed_certificate
@@ -25,6 +26,10 @@ _INCH = float(Length.INCH.in_mm)
 def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False) -> list[str]:
     """The listing of one contour, in the unit and the axes of its program; explained with its construction."""
     dialect = DIALECTS[result.control or ""]
+    alternatives = list_alternatives(answer)
+    if alternatives is not answer.alternatives:
+        # Found here once, for the construction and for the list.
+        answer = replace(answer, alternatives=alternatives)
     form = next(form for form in dialect.forms if form.name == answer.form)
     lines = [f"{result.program.name}:{answer.lines[0]}: {form.name} ({form.title}): {answer.status.value}"]
     lines += [f"  {printable(block.text.strip())[:160]}" for block in answer.profile.blocks]

@@ -1,16 +1,15 @@
 """Every contour that satisfies a profile: solutions of the equations, made into paths, named and certified."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import inf
 
-from contoursolve.analysis import judge, order
+from contoursolve.analysis import Group, judge, order
 from contoursolve.backends import ball
 from contoursolve.backends.angle import direction
 from contoursolve.backends.ball import Number
 from contoursolve.backends.inputs import COSINE, SINE
-from contoursolve.constraints import OnCircle, System, TangentCircles, assemble, headed_lines
-from contoursolve.constraints import Values as Lookup
+from contoursolve.constraints import OnCircle, System, TangentCircles, Values, assemble
 from contoursolve.model import FIRST, SECOND, Arc, Choice, Line, Profile, Side, Unit, scalar
 from contoursolve.solving.certificate import Certificate, Proof
 from contoursolve.solving.compile import compile_path
@@ -79,8 +78,10 @@ def find_alternatives(profile: Profile) -> Alternatives:
     """Every solution of a profile whose system is determined and whose start is known."""
     system = assemble(profile)
     enumeration = enumerate_solutions(profile, system)
+    basis = tuple(system.facts[index] for index in judge(system).basis)
+    groups = order(system, basis)
     with ball.precision(ball.WORKING):
-        items = [_alternative(profile, system, found) for found in enumeration.found]
+        items = [_alternative(profile, system, groups, found) for found in enumeration.found]
     doubts = enumeration.doubts
     if any(refusal.kind is RefusalKind.NOT_VERIFIED for item in items for refusal in item.solution.refusals):
         doubts = (*doubts, Doubt((), Obstacle.UNDECIDED))
@@ -100,15 +101,14 @@ BOTH = "touches"
 """The side of a double solution."""
 
 
-def _alternative(profile: Profile, system: System, found: Found) -> Alternative:
+def _alternative(profile: Profile, system: System, groups: Sequence[Group], found: Found) -> Alternative:
     ground = ground_of(profile)
-    verdict = judge(system)
-    groups = order(system, tuple(system.facts[index] for index in verdict.basis))
     proof, boxes = prove_found(system, groups, ground, found.scalars, found.signs)
     starts = [float(value) for value in profile.start.values if value is not None]
     scalars = {name: ball.middle(value) for name, value in boxes.items()}
     out, points, corners = _path(profile, system, boxes, starts)
-    refusals, remarks = _compare(profile, system, found, boxes, scalars)
+    at = ground.values(boxes, found.signs, system)
+    refusals, remarks = _compare(profile, system, at, scalars)
     if not refusals:
         machine = compile_path(system)
         more, about = check_path(profile, machine.corner_residuals, points, out, _sizes(profile, scalars))
@@ -136,7 +136,7 @@ def _alternative(profile: Profile, system: System, found: Found) -> Alternative:
         certificate=certificate,
         scalars=scalars if not refusals else {},
     )
-    return Alternative(solution, scalars, _sides(profile, system, found, boxes), certificate)
+    return Alternative(solution, scalars, _sides(system, at), certificate)
 
 
 def _doubtful(found: Found, radius: float, gap: float | None) -> Certificate:
@@ -199,19 +199,18 @@ def _sizes(profile: Profile, scalars: Mapping[str, float]) -> dict[str, float]:
 
 
 def _compare(
-    profile: Profile, system: System, found: Found, boxes: Mapping[str, Number], scalars: Mapping[str, float]
+    profile: Profile, system: System, at: Values, scalars: Mapping[str, float]
 ) -> tuple[list[Refusal], list[Remark]]:
     """Every original equation in exact arithmetic; what was not needed must agree as well as words can."""
     refusals: list[Refusal] = []
     remarks: list[Remark] = []
-    at = ground_of(profile).values(boxes, found.signs, system)
     basis = judge(system).basis
-    floats = Lookup(
+    floats = Values(
         {**scalars, **{name: ball.middle(value) for name, value in at.scalars.items()}},
         {name: ball.middle(value) for name, value in at.amounts.items()},
         {name: (ball.middle(pair[0]), ball.middle(pair[1])) for name, pair in at.directions.items()},
-        headed_lines(system.figure),
-        found.signs,
+        at.headed,
+        at.signs,
     )
     for index, fact in enumerate(system.facts):
         off = ball.distance(fact.residual(at), 0.0)
@@ -232,9 +231,8 @@ def _touching(system: System, found: Found) -> str:
     return next((point for point in system.figure.points if point in points), "the contour")
 
 
-def _sides(profile: Profile, system: System, found: Found, boxes: Mapping[str, Number]) -> dict[str, str]:
+def _sides(system: System, at: Values) -> dict[str, str]:
     """On which side everything lies for which there is another: points on lines and circles, centres, contacts."""
-    at = ground_of(profile).values(boxes, found.signs, system)
 
     def step(tail: str, head: str) -> tuple[Number, Number]:
         first, second = (at.coordinate(head, axis) - at.coordinate(tail, axis) for axis in (FIRST, SECOND))
@@ -264,7 +262,7 @@ def _sides(profile: Profile, system: System, found: Found, boxes: Mapping[str, N
     for fact in system.facts:
         for side in fact.sides():
             words = ("outside", "inside") if isinstance(fact, TangentCircles) else ("left", "right")
-            sides[side.removesuffix(".side")] = words[0] if found.signs[side] == 1 else words[1]
+            sides[side.removesuffix(".side")] = words[0] if at.signs[side] == 1 else words[1]
     return sides
 
 

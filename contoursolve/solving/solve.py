@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from decimal import Decimal
 from itertools import combinations
-from math import asin, atan2, ceil, degrees, floor, hypot, inf, isfinite, log10
+from math import asin, atan2, degrees, hypot, inf, isfinite
 
 from contoursolve.analysis import judge
 from contoursolve.backends.angle import direction
@@ -12,7 +12,7 @@ from contoursolve.backends.inputs import COSINE, SINE
 from contoursolve.backends.numeric import inverse_norm
 from contoursolve.constraints import Coordinate, Offset, OnCircle, Radius, System, Values, assemble, headed_lines
 from contoursolve.model import FIRST, SECOND, Corner, Fact, Profile, Unit, scalar
-from contoursolve.solving.certificate import Certificate
+from contoursolve.solving.certificate import Certificate, up_to_one_digit
 from contoursolve.solving.certify import certify
 from contoursolve.solving.compile import compile_system
 from contoursolve.solving.path import check_path
@@ -342,10 +342,7 @@ class _Attempt:
         largest = max(1.0, *map(abs, coordinates))
         worst = max(abs(self.out[f"residual:{number}"]) for number in range(size))
         bound = inverse_norm(entries, size) * (worst + ROUNDING * largest) + self.split
-        if not isfinite(bound):
-            return float("inf")
-        digit = 10.0 ** floor(log10(bound))
-        return ceil(bound / digit) * digit
+        return up_to_one_digit(bound) if isfinite(bound) else inf
 
 
 def givens_of(fact: Fact, system: System) -> tuple[str, ...]:
