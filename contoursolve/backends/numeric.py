@@ -28,6 +28,11 @@ def sign(value: Any) -> Any:
     return casadi.sign(value)
 
 
+def angle(sine_part: Any, cosine_part: Any) -> Any:
+    """The angle with this sine and cosine (of any common length), -pi to pi."""
+    return casadi.atan2(sine_part, cosine_part)
+
+
 def magnitude(value: Any) -> Any:
     """Absolute value."""
     return casadi.fabs(value)

@@ -8,7 +8,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from contoursolve.constraints.circles import OnCircle, Radius
-from contoursolve.constraints.points import Coordinate, Heading, Offset
+from contoursolve.constraints.points import Collinear, Coordinate, Heading, Level, Offset
 from contoursolve.constraints.system import System, assemble, build_system
 from contoursolve.constraints.values import FLOATS, Functions, Values, headed_lines
 
@@ -34,6 +34,7 @@ __all__ = [
     "Along",
     "ArcLength",
     "ChamferLeg",
+    "Collinear",
     "Contact",
     "Coordinate",
     "Directed",
@@ -44,6 +45,7 @@ __all__ = [
     "Foot",
     "Functions",
     "Heading",
+    "Level",
     "Offset",
     "OnCircle",
     "Parallel",

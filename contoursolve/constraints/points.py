@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from math import atan2, degrees, hypot
 from typing import Any
 
-from contoursolve.constraints.equation import Equation, both, step
+from contoursolve.constraints.equation import Equation, both, cross, dot, step
 from contoursolve.model import Lookup, scalar
 
 
@@ -43,6 +43,42 @@ class Offset(Equation):
 
     def implied(self, at: Lookup) -> float | None:
         return float(at.coordinate(self.point, self.axis) - at.coordinate(self.origin, self.axis))
+
+
+@dataclass(frozen=True, slots=True)
+class Level(Equation):
+    """`point` has the same coordinate on `axis` as `origin`."""
+
+    point: str
+    origin: str
+    axis: int
+    given: str = ""
+
+    def reads(self) -> tuple[str, ...]:
+        return scalar(self.point, self.axis), scalar(self.origin, self.axis)
+
+    def residual(self, at: Lookup) -> Any:
+        return at.coordinate(self.point, self.axis) - at.coordinate(self.origin, self.axis)
+
+
+@dataclass(frozen=True, slots=True)
+class Collinear(Equation):
+    """`point` lies on the line from `tail` through `through`."""
+
+    tail: str
+    through: str
+    point: str
+    given: str = ""
+
+    def reads(self) -> tuple[str, ...]:
+        return both(self.tail, self.through, self.point)
+
+    def equation(self, at: Lookup) -> Any:
+        return cross(step(at, self.tail, self.through), step(at, self.tail, self.point))
+
+    def residual(self, at: Lookup) -> Any:
+        along = step(at, self.tail, self.through)
+        return self.equation(at) / at.root(dot(along, along))
 
 
 @dataclass(frozen=True, slots=True)

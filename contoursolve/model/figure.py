@@ -21,12 +21,14 @@ class Turn(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """A straight move; `heading` names the given angle in whose direction it must run, if any."""
+    """A straight move; `heading` names the given angle in whose direction it must run, if any, `toward` the point
+    towards which it must run from its tail."""
 
     name: str
     tail: str
     head: str
     heading: str | None = None
+    toward: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,16 +47,18 @@ class CornerShape(Enum):
     """What replaces a virtual intersection."""
 
     FILLET = "fillet"
-    """An arc tangent to both lines; its size is the radius."""
+    """An arc tangent to both elements; its size is the radius."""
     CHAMFER_AXIS_45 = "chamfer axis-45"
     """A segment at 45 degrees to the axes; its size is the extent along each axis."""
+    CHAMFER_SETBACK = "chamfer setback"
+    """A segment whose two ends are as far from the virtual intersection as its size; on an arc, along the chord."""
 
 
 @dataclass(frozen=True, slots=True)
 class Corner:
-    """A corner at the virtual intersection `at`, between the line `before` and what follows.
+    """A corner at the virtual intersection `at`, between the line or arc `before` and what follows.
 
-    `after` names the next line of the path; without it the corner lands on a line that the block itself does
+    `after` names the next element of the path; without it the corner lands on a line that the block itself does
     not cut: parallel to axis `lands_parallel_to`, or the figure's line `lands_on`.
     """
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from math import inf
 
 from contoursolve.analysis import Group, judge, order
@@ -106,12 +107,20 @@ def _alternative(profile: Profile, system: System, groups: Sequence[Group], foun
     proof, boxes = prove_found(system, groups, ground, found.scalars, found.signs)
     starts = [float(value) for value in profile.start.values if value is not None]
     scalars = {name: ball.middle(value) for name, value in boxes.items()}
-    out, points, corners = _path(profile, system, boxes, starts)
+    machine = compile_path(system)
+    values, points = _path_values(profile, system, boxes)
+    out = machine.function(values)
     at = ground.values(boxes, found.signs, system)
     refusals, remarks = _compare(profile, system, at, scalars)
     if not refusals:
-        machine = compile_path(system)
-        more, about = check_path(profile, machine.corner_residuals, points, out, _sizes(profile, scalars))
+        more, about = check_path(
+            profile,
+            machine.corner_residuals,
+            points,
+            out,
+            _sizes(profile, scalars),
+            lambda sizes: machine.function({**values, **sizes}),
+        )
         refusals += more
         remarks += about
     # A circle about the middle of two of its points is an ordinary half circle.
@@ -129,7 +138,7 @@ def _alternative(profile: Profile, system: System, groups: Sequence[Group], foun
         _status(refusals, remarks),
         points=absolute if not refusals else {},
         radii={name: scalars[name] for name in system.figure.radii} if not refusals else {},
-        corners=corners if not refusals else {},
+        corners=_corners(system, values, out, starts) if not refusals else {},
         refusals=tuple(refusals),
         remarks=tuple(remarks),
         error_bound=radius,
@@ -153,11 +162,11 @@ def _status(refusals: list[Refusal], remarks: list[Remark]) -> Status:
     return Status.OVERDETERMINED if agrees else Status.SOLVED
 
 
-def _path(
-    profile: Profile, system: System, boxes: Mapping[str, Number], starts: list[float]
-) -> tuple[dict[str, float], dict[str, Point], dict[str, CornerSolution]]:
-    """The path at these points: its outputs, the points counted from the start, and the corners."""
-    figure, machine = system.figure, compile_path(system)
+def _path_values(
+    profile: Profile, system: System, boxes: Mapping[str, Number]
+) -> tuple[dict[str, float], dict[str, Point]]:
+    """All inputs of the path at these points, and the points, counted from the start."""
+    figure = system.figure
     origin = [ball.exact(value) for value in profile.start.values if value is not None]
     relative = {
         scalar(point, axis): ball.middle(boxes[scalar(point, axis)] - origin[axis])
@@ -176,16 +185,21 @@ def _path(
         for axis in (FIRST, SECOND):
             name = scalar(place, axis)
             values[name] = ball.middle(ball.exact(profile.givens[name].value) - origin[axis])
-    out = machine.function(values)
     points = {
         name: (values[scalar(name, FIRST)], values[scalar(name, SECOND)]) for name in (figure.start, *figure.points)
     }
+    return values, points
+
+
+def _corners(
+    system: System, values: Mapping[str, float], out: Mapping[str, float], starts: list[float]
+) -> dict[str, CornerSolution]:
+    """The corners of a path in numbers."""
 
     def absolute(point: Point) -> Point:
         return point[FIRST] + starts[FIRST], point[SECOND] + starts[SECOND]
 
-    corners = {corner.name: corner_of(corner, values[corner.size], out, absolute) for corner in figure.corners}
-    return out, points, corners
+    return {corner.name: corner_of(corner, values[corner.size], out, absolute) for corner in system.figure.corners}
 
 
 def _sizes(profile: Profile, scalars: Mapping[str, float]) -> dict[str, float]:
@@ -248,11 +262,19 @@ def _sides(system: System, at: Values) -> dict[str, str]:
         for circle in circles:
             if circle.point in (line.tail, line.head) and circle.point in unknown:
                 # The sense of travel is that of the angle, or leads from end to end where no angle is stated.
-                way = at.direction(line.heading) if line.heading is not None else step(line.tail, line.head)
+                way = step(line.tail, line.toward or line.head)
+                if line.heading is not None:
+                    way = at.direction(line.heading)
                 spoke = step(circle.center, circle.point)
                 along = way[FIRST] * spoke[FIRST] + way[SECOND] * spoke[SECOND]
                 sides[circle.point] = name(along, Side.FARTHER, Side.NEARER)
-    for arc in (element for element in system.figure.path if isinstance(element, Arc)):
+    arcs = [element for element in system.figure.path if isinstance(element, Arc)]
+    for first, second in pairwise(arcs):
+        if first.head == second.tail in unknown:
+            centers, spoke = step(first.center, second.center), step(first.center, first.head)
+            left = centers[FIRST] * spoke[SECOND] - centers[SECOND] * spoke[FIRST]
+            sides[first.head] = name(left, Side.LEFT, Side.RIGHT)
+    for arc in arcs:
         on_it = [circle.point for circle in circles if circle.center == arc.center]
         others = [point for point in on_it if point != arc.tail and point not in sides]
         if arc.tail in on_it and others:

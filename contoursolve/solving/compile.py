@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from functools import lru_cache
+from math import tau
 from typing import Any
 
 from contoursolve.backends import ball
@@ -10,6 +11,7 @@ from contoursolve.backends.numeric import (
     Compiled,
     Tape,
     affine_parts,
+    angle,
     is_zero,
     jacobian_parts,
     magnitude,
@@ -19,10 +21,10 @@ from contoursolve.backends.numeric import (
     where,
 )
 from contoursolve.backends.replay import Replay
-from contoursolve.constraints import System, Values
-from contoursolve.model import FIRST, SECOND, Corner, Line, scalar
-from contoursolve.solving.corners import Pair, build_corner, unit
-from contoursolve.solving.plan import AffineStep, DistanceStep, LineCircleStep, Plan, Step, TwoPointsStep, make_plan
+from contoursolve.constraints import Heading, System, Values
+from contoursolve.model import FIRST, SECOND, Arc, Corner, Line, scalar
+from contoursolve.solving.corners import Edge, Pair, build_corner, unit
+from contoursolve.solving.plan import AffineStep, DistanceStep, LineCircleStep, Plan, Step, TwoCirclesStep, make_plan
 from contoursolve.tolerance import TOUCHING
 
 
@@ -35,7 +37,7 @@ class _Builder:
             name = scalar(system.figure.start, axis)
             self.scalars[name] = self.tape.input(name)
         self.rooms: dict[str, Any] = {}
-        """What the corners leave of each line."""
+        """What the corners leave of each element."""
         self.amounts = Inputs(self.tape, {})
         self.directions = Directions(self.tape, {})
 
@@ -57,8 +59,8 @@ class _Builder:
                 self.scalars[circle.radius] = sqrt((x - cx) ** 2 + (y - cy) ** 2)
             case LineCircleStep():
                 self._line_circle(step, number)
-            case TwoPointsStep():
-                self._two_points(step, number)
+            case TwoCirclesStep():
+                self._two_circles(step, number)
 
     def _affine(self, step: AffineStep, number: int) -> None:
         symbols = {name: symbol(name) for name in step.unknowns}
@@ -85,45 +87,49 @@ class _Builder:
 
     def _line_circle(self, step: LineCircleStep, number: int) -> None:
         """Foot of the perpendicular from the centre, then half the chord forward or back."""
-        cosine, sine = self.directions[step.heading.given]
+        through, (cosine, sine) = self._line_of(step)
         center, radius = self.point(step.circle.center), self.scalars[step.circle.radius]
-        on_line = step.heading.head if step.heading.tail == step.circle.point else step.heading.tail
-        through = self.point(on_line)
         offset = (through[0] - center[0]) * -sine + (through[1] - center[1]) * cosine
-        discriminant = (radius - offset) * (radius + offset)
-        side = self.tape.input(f"side:{step.circle.point}")
         scale = radius + sum(magnitude(value) for value in (*center, *through))
-        half = side * self._root(discriminant, offset, radius, scale)
+        root = self._root((radius - offset) * (radius + offset), offset, radius, scale, number)
+        half = self.tape.input(f"side:{step.circle.point}") * root
         self.set_point(
             step.circle.point,
             (center[0] - sine * offset + cosine * half, center[1] + cosine * offset + sine * half),
         )
+
+    def _line_of(self, step: LineCircleStep) -> tuple[Pair, Pair]:
+        """A known point of a step's line, and the line's direction."""
+        if isinstance(step.line, Heading):
+            other = step.line.tail if step.line.head == step.circle.point else step.line.head
+            cosine, sine = self.directions[step.line.given]
+            return self.point(other), (cosine, sine)
+        tail, through = self.point(step.line.tail), self.point(step.line.through)
+        return tail, unit((through[0] - tail[0], through[1] - tail[1]))
+
+    def _two_circles(self, step: TwoCirclesStep, number: int) -> None:
+        """Along the line of centres to the common chord, then along it to the left or to the right."""
+        first, second = (self.point(center) for center in step.centers)
+        one, other = (self.scalars[circle.radius] for circle in (step.first, step.second))
+        chord = second[0] - first[0], second[1] - first[1]
+        length = sqrt(chord[0] ** 2 + chord[1] ** 2)
+        # With one radius, exactly the middle.
+        offset = length / 2 if step.is_equal else (length + (one - other) * (one + other) / length) / 2
+        scale = one + other + sum(magnitude(value) for value in (*first, *second))
+        root = self._root((one - offset) * (one + offset), offset, one, scale, number)
+        along, rise = offset / length, self.tape.input(f"side:{step.point}") * root / length
+        self.set_point(
+            step.point,
+            (first[0] + along * chord[0] - rise * chord[1], first[1] + along * chord[1] + rise * chord[0]),
+        )
+        self.tape.output(f"distance:{number}", length)
+
+    def _root(self, discriminant: Any, offset: Any, radius: Any, scale: Any, number: int) -> Any:
+        """The root of a discriminant; 0 where floats cannot tell that a circle is more than touched."""
         self.tape.output(f"discriminant:{number}", discriminant)
         self.tape.output(f"offset:{number}", offset)
         self.tape.output(f"scale:{number}", scale)
         self.tape.output(f"radius:{number}", radius)
-
-    def _two_points(self, step: TwoPointsStep, number: int) -> None:
-        """Middle of the chord, then along its perpendicular to the left or to the right."""
-        first, second = self.point(step.first.point), self.point(step.second.point)
-        radius = self.scalars[step.first.radius]
-        chord = second[0] - first[0], second[1] - first[1]
-        length = sqrt(chord[0] ** 2 + chord[1] ** 2)
-        discriminant = (radius - length / 2) * (radius + length / 2)
-        scale = radius + sum(magnitude(value) for value in (*first, *second))
-        root = self._root(discriminant, length / 2, radius, scale)
-        rise = self.tape.input(f"side:{step.first.center}") * root / length
-        self.set_point(
-            step.first.center,
-            ((first[0] + second[0]) / 2 - rise * chord[1], (first[1] + second[1]) / 2 + rise * chord[0]),
-        )
-        self.tape.output(f"discriminant:{number}", discriminant)
-        self.tape.output(f"offset:{number}", length / 2)
-        self.tape.output(f"scale:{number}", scale)
-        self.tape.output(f"radius:{number}", radius)
-
-    def _root(self, discriminant: Any, offset: Any, radius: Any, scale: Any) -> Any:
-        """The root of a discriminant; 0 where floats cannot tell that a line does more than touch."""
         return where(_touches(offset, radius, scale), 0, sqrt(discriminant))
 
     def outputs(self, plan: Plan) -> tuple[tuple[int, int, str], ...]:
@@ -145,59 +151,81 @@ class _Builder:
         return slopes
 
     def path(self) -> tuple[str, ...]:
-        """Direction and length of each line, and every corner; the names of the corners' residuals."""
+        """Direction and length of each element, and every corner; the names of the corners' residuals."""
         residuals: list[str] = []
-        lines = [element for element in self.system.figure.path if isinstance(element, Line)]
-        directions = {line.name: self._direction(line) for line in lines}
+        path = self.system.figure.path
+        leaving = {element.name: self._edge(element, element.tail) for element in path}
+        arriving = {element.name: self._edge(element, element.head) for element in path}
+        for element in path:
+            self._measure(element, leaving[element.name])
+        names = [element.name for element in path]
         for corner in self.system.figure.corners:
-            index = next(number for number, line in enumerate(lines) if line.name == corner.before)
-            if corner.lands_on is not None:
-                leaving = self._direction_beside(self.system.figure.line(corner.lands_on))
-                arriving, earlier = directions[corner.before], directions[lines[index - 1].name]
-                residuals += self._corner(corner, arriving, leaving, _quadrant(arriving, earlier))
-            elif corner.after is None:
-                residuals += self._landing(corner, directions[corner.before], directions[lines[index - 1].name])
+            index = names.index(corner.before)
+            before, earlier = arriving[corner.before], arriving[names[max(index - 1, 0)]]
+            if corner.after is not None:
+                after = leaving[corner.after]
+                quadrant = _quadrant(before, after)
+                if before.spoke is None and after.spoke is None:
+                    start, end = self.point(path[index].tail), self.point(path[index + 1].head)
+                    quadrant = sign(end[FIRST] - start[FIRST]), sign(end[SECOND] - start[SECOND])
+            elif corner.lands_on is not None:
+                after = Edge(self._direction_beside(self.system.figure.line(corner.lands_on)))
+                quadrant = _quadrant(before, after)
             else:
-                start, end = self.point(lines[index].tail), self.point(lines[index + 1].head)
-                quadrant = sign(end[FIRST] - start[FIRST]), sign(end[SECOND] - start[SECOND])
-                residuals += self._corner(corner, directions[corner.before], directions[corner.after], quadrant)
-        for line in lines:
-            self.tape.output(f"room:{line.name}", self.rooms[line.name])
+                # It goes on the way its line advances on each axis, and a component that is zero is taken from the
+                # line before (YASNAC LX3, Tables 2.35 and 2.36).
+                quadrant = _quadrant(before, earlier)
+                along = FIRST if corner.lands_parallel_to == FIRST else SECOND
+                after = Edge((quadrant[FIRST], 0) if along == FIRST else (0, quadrant[SECOND]))
+                self.tape.output(f"landing:{corner.name}", quadrant[along])
+            residuals += self._corner(corner, before, after, quadrant)
+        for element in path:
+            self.tape.output(f"room:{element.name}", self.rooms[element.name])
         return tuple(residuals)
 
-    def _direction(self, line: Line) -> Pair:
-        tail, head = self.point(line.tail), self.point(line.head)
-        step = head[0] - tail[0], head[1] - tail[1]
-        if line.heading is None:
-            direction, length = unit(step), sqrt(step[0] ** 2 + step[1] ** 2)
+    def _edge(self, element: Line | Arc, at: str) -> Edge:
+        """How an element passes one of its ends."""
+        if isinstance(element, Line):
+            return Edge(self._direction(element))
+        center, point = self.point(element.center), self.point(at)
+        spoke = point[0] - center[0], point[1] - center[1]
+        outward = unit(spoke)
+        turn = element.turn.sign
+        return Edge((-turn * outward[1], turn * outward[0]), spoke, self.scalars[element.radius], turn)
+
+    def _measure(self, element: Line | Arc, edge: Edge) -> None:
+        """The length of an element; of a line along its direction, so that a reversed one is negative."""
+        tail, head = self.point(element.tail), self.point(element.head)
+        if isinstance(element, Line):
+            step = head[0] - tail[0], head[1] - tail[1]
+            length = step[0] * edge.direction[0] + step[1] * edge.direction[1]
+            if element.heading is None and element.toward is None:
+                length = sqrt(step[0] ** 2 + step[1] ** 2)
         else:
-            direction = self.directions[line.heading]
-            length = step[0] * direction[0] + step[1] * direction[1]
-        self.tape.output(f"length:{line.name}", length)
-        self.rooms[line.name] = length
-        return direction
+            (a, b), (c, d) = edge.spoke or (0, 0), self._edge(element, element.head).spoke or (0, 0)
+            swept = element.turn.sign * angle(a * d - b * c, a * c + b * d)
+            length = edge.radius * where(swept > 0, swept, swept + tau)
+        self.tape.output(f"length:{element.name}", length)
+        self.rooms[element.name] = length
+
+    def _direction(self, line: Line) -> Pair:
+        if line.heading is not None:
+            cosine, sine = self.directions[line.heading]
+            return cosine, sine
+        tail, head = self.point(line.tail), self.point(line.toward or line.head)
+        return unit((head[0] - tail[0], head[1] - tail[1]))
 
     def _direction_beside(self, line: Line) -> Pair:
         """The direction of a line beside the path, which is stated or leads to a place."""
         if line.heading is not None:
-            cosine, sine = self.directions[line.heading]
-            return cosine, sine
+            return self._direction(line)
         at = self.at(self.scalars)
         tail, head = self.point(line.tail), (at.coordinate(line.head, FIRST), at.coordinate(line.head, SECOND))
         return unit((head[FIRST] - tail[FIRST], head[SECOND] - tail[SECOND]))
 
-    def _landing(self, corner: Corner, arriving: Pair, earlier: Pair) -> list[str]:
-        """A corner onto an axis-parallel line: it goes on the way its line advances on each axis, and
-        a component that is zero is taken from the line before (YASNAC LX3, Tables 2.35 and 2.36)."""
-        quadrant = _quadrant(arriving, earlier)
-        along_first = corner.lands_parallel_to == FIRST
-        leaving = (quadrant[FIRST], 0) if along_first else (0, quadrant[SECOND])
-        self.tape.output(f"landing:{corner.name}", quadrant[FIRST if along_first else SECOND])
-        return self._corner(corner, arriving, leaving, quadrant)
-
-    def _corner(self, corner: Corner, arriving: Pair, leaving: Pair, quadrant: Pair) -> list[str]:
+    def _corner(self, corner: Corner, before: Edge, after: Edge, quadrant: Pair) -> list[str]:
         size, name = self.tape.input(corner.size), corner.name
-        built = build_corner(corner.shape, self.point(corner.at), arriving, leaving, size, quadrant)
+        built = build_corner(corner.shape, self.point(corner.at), before, after, size, quadrant)
         self.tape.output(f"setback-in:{name}", built.setback_in)
         self.tape.output(f"setback-out:{name}", built.setback_out)
         self.rooms[corner.before] -= built.setback_in
@@ -216,10 +244,11 @@ class _Builder:
         return list(residuals)
 
 
-def _quadrant(arriving: Pair, earlier: Pair) -> Pair:
-    """The way a line advances on each axis; a component that is zero is taken from the line before."""
+def _quadrant(edge: Edge, other: Edge) -> Pair:
+    """The way an edge advances on each axis; a component that is zero is taken from the other edge."""
     first, second = (
-        where(is_zero(arriving[axis]), sign(earlier[axis]), sign(arriving[axis])) for axis in (FIRST, SECOND)
+        where(is_zero(edge.direction[axis]), sign(other.direction[axis]), sign(edge.direction[axis]))
+        for axis in (FIRST, SECOND)
     )
     return first, second
 

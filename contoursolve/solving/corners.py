@@ -1,17 +1,37 @@
-"""Fillets and chamfers at a virtual intersection, in closed form, with the residuals of their definitions."""
+"""Fillets and chamfers at a virtual intersection, in closed form, with the residuals of their definitions.
+
+The elements before and after are edges: each leaves the intersection along a line or along a circle. What is
+sought on a circle follows from one quadratic equation whose root is the one that grows from 0 with the size.
+"""
 
 from dataclasses import dataclass
 from typing import Any
 
-from contoursolve.backends.numeric import magnitude, sign, sqrt
+from contoursolve.backends.numeric import angle, magnitude, sign, sqrt
 from contoursolve.model import CornerShape
 
 Pair = tuple[Any, Any]
 
 
 @dataclass(frozen=True, slots=True)
+class Edge:
+    """How an element passes the virtual intersection: its unit direction of travel there, and for an arc the
+    vector from the centre to the intersection, the radius, and +1 if it turns to the left, -1 to the right."""
+
+    direction: Pair
+    spoke: Pair | None = None
+    radius: Any = None
+    turn: int = 0
+
+    @property
+    def left(self) -> Pair:
+        """The unit vector to the left."""
+        return -self.direction[1], self.direction[0]
+
+
+@dataclass(frozen=True, slots=True)
 class CornerPath:
-    """Where a corner leaves the line before (`setback_in` from the intersection) and joins the one after.
+    """Where a corner leaves the element before (`setback_in` along it from the intersection) and joins the one after.
 
     `center` is None for a chamfer. `turn` is the sine of the turn, positive to the left; `cosine` its
     cosine. `residuals` are those of the corner's definition, mm.
@@ -27,42 +47,173 @@ class CornerPath:
     residuals: tuple[Any, ...]
 
 
-def build_corner(shape: CornerShape, at: Pair, arriving: Pair, leaving: Pair, size: Any, quadrant: Pair) -> CornerPath:
-    """The corner of `size` at the point `at` between two unit directions.
+def build_corner(shape: CornerShape, at: Pair, before: Edge, after: Edge, size: Any, quadrant: Pair) -> CornerPath:
+    """The corner of `size` at the point `at` between two edges.
 
-    `quadrant` gives the signs of the 45 degree segment of a chamfer and is not used by a fillet.
+    `quadrant` gives the signs of the 45 degree segment of a chamfer and is used by no other shape.
     """
-    turn, cosine = _cross(arriving, leaving), _dot(arriving, leaving)
+    turn, cosine = _cross(before.direction, after.direction), _dot(before.direction, after.direction)
+    center: Pair | None = None
     if shape is CornerShape.FILLET:
-        # |u - v| / |u + v| is tan(turn / 2) without cancellation at small and large turns.
-        tangent = _norm(_minus(arriving, leaving)) / _norm(_plus(arriving, leaving))
-        setback_in = setback_out = size * tangent
+        from_center, begin, end = _fillet(before, after, size, sign(turn))
+        center = _plus(at, from_center)
+    elif shape is CornerShape.CHAMFER_AXIS_45:
+        begin, end = _chamfer_axis_45(before, after, size, quadrant, turn)
     else:
-        # s * arriving + t * leaving = size * quadrant, by Cramer's rule.
-        setback_in = size * _cross(quadrant, leaving) / turn
-        setback_out = size * _cross(arriving, quadrant) / turn
-    begin, end = _minus(at, _times(setback_in, arriving)), _plus(at, _times(setback_out, leaving))
-    on_lines = (_cross(_minus(begin, at), arriving), _cross(_minus(end, at), leaving))
-    if shape is CornerShape.FILLET:
-        center = _plus(begin, _times(size * sign(turn), (-arriving[1], arriving[0])))
-        to_begin, to_end = _minus(begin, center), _minus(end, center)
-        residuals: tuple[Any, ...] = (
-            *on_lines,
-            _norm(to_begin) - size,
-            _norm(to_end) - size,
-            _dot(to_begin, arriving),
-            _dot(to_end, leaving),
-        )
-        return CornerPath(setback_in, setback_out, begin, end, center, turn, cosine, residuals)
-    extent = _minus(end, begin)
-    residuals = (*on_lines, magnitude(extent[0]) - size, magnitude(extent[1]) - size)
-    return CornerPath(setback_in, setback_out, begin, end, None, turn, cosine, residuals)
+        begin, end = _along(before, size, -1), _along(after, size, 1)
+    residuals = (_off(before, begin), _off(after, end), *_misfit(shape, before, after, size, begin, end, center, at))
+    return CornerPath(
+        setback_in=_setback(before, begin, -1),
+        setback_out=_setback(after, end, 1),
+        begin=_plus(at, begin),
+        end=_plus(at, end),
+        center=center,
+        turn=turn,
+        cosine=cosine,
+        residuals=residuals,
+    )
 
 
 def unit(vector: Pair) -> Pair:
     """The direction of a vector; NaN for the zero vector."""
     length = _norm(vector)
     return vector[0] / length, vector[1] / length
+
+
+def _fillet(before: Edge, after: Edge, size: Any, side: Any) -> tuple[Pair, Pair, Pair]:
+    """The centre and both contacts, from the intersection: the centre is at `size` to the same side of both."""
+    if before.spoke is None and after.spoke is None:
+        # |u - v| / |u + v| is tan(turn / 2) without cancellation at small and large turns.
+        u, v = before.direction, after.direction
+        setback = size * _norm(_minus(u, v)) / _norm(_plus(u, v))
+        begin = _times(-setback, u)
+        return _plus(begin, _times(size * side, before.left)), begin, _times(setback, v)
+    if before.spoke is not None and after.spoke is not None:
+        center = _beside_circles(before, after, size, side)
+    else:
+        line, arc = (before, after) if before.spoke is None else (after, before)
+        center = _beside_line_and_circle(line, arc, size, side)
+    return center, _contact(before, center, size, side), _contact(after, center, size, side)
+
+
+def _beside_line_and_circle(line: Edge, arc: Edge, size: Any, side: Any) -> Pair:
+    """`size` to the side of the line, and of the circle: |spoke + side size n + x u| = R - turn side size."""
+    spoke = _spoke(arc)
+    half = _dot(spoke, line.direction)
+    constant = 2 * side * size * (_dot(spoke, line.left) + arc.turn * arc.radius)
+    x = _small_root(half, constant)
+    return _plus(_times(side * size, line.left), _times(x, line.direction))
+
+
+def _beside_circles(before: Edge, after: Edge, size: Any, side: Any) -> Pair:
+    """`size` to the side of both circles; the difference of the two equations is a line across the centres."""
+    first, second = _spoke(before), _spoke(after)
+    between = _minus(first, second)
+    along = unit(between)
+    across = -along[1], along[0]
+    shift = side * size * (after.turn * after.radius - before.turn * before.radius) / _norm(between)
+    half = _dot(first, across)
+    constant = shift * (shift + 2 * _dot(first, along)) - size * size + 2 * before.turn * side * size * before.radius
+    return _plus(_times(shift, along), _times(_small_root(half, constant), across))
+
+
+def _small_root(half: Any, constant: Any) -> Any:
+    """The root of x**2 + 2 half x + constant that is 0 with the constant, without cancellation."""
+    return -constant / (half + sign(half) * sqrt(half * half - constant))
+
+
+def _contact(edge: Edge, center: Pair, size: Any, side: Any) -> Pair:
+    """Where an edge is touched by the circle about `center` that lies to its side."""
+    if edge.spoke is None:
+        return _times(_dot(center, edge.direction), edge.direction)
+    from_center = _plus(edge.spoke, center)
+    return _minus(_times(edge.radius / (edge.radius - edge.turn * side * size), from_center), edge.spoke)
+
+
+def _chamfer_axis_45(before: Edge, after: Edge, size: Any, quadrant: Pair, turn: Any) -> tuple[Pair, Pair]:
+    """Both ends of the segment, from the intersection: end - begin = size * quadrant."""
+    extent = _times(size, quadrant)
+    if before.spoke is None and after.spoke is None:
+        # s * before + t * after = extent, by Cramer's rule.
+        setback_in = _cross(extent, after.direction) / turn
+        setback_out = _cross(before.direction, extent) / turn
+        return _times(-setback_in, before.direction), _times(setback_out, after.direction)
+    if before.spoke is None:
+        begin = _times(_chord(before.direction, after, extent), before.direction)
+        return begin, _plus(begin, extent)
+    if after.spoke is None:
+        end = _times(_chord(after.direction, before, _times(-1, extent)), after.direction)
+        return _minus(end, extent), end
+    raise ValueError("no control makes a 45 degree chamfer between two arcs")
+
+
+def _chord(direction: Pair, arc: Edge, extent: Pair) -> Any:
+    """How far along a line `extent` begins so that it ends on the circle: |spoke + x u + extent| = R."""
+    spoke = _spoke(arc)
+    half = _dot(direction, _plus(spoke, extent))
+    constant = _dot(extent, _plus(_times(2, spoke), extent))
+    return _rooted(half, constant, sign(_dot(direction, spoke)))
+
+
+def _rooted(half: Any, constant: Any, way: Any) -> Any:
+    """The root of x**2 + 2 half x + constant that is continuous with 0, where `way` is the sign of half there."""
+    return -half + way * sqrt(half * half - constant)
+
+
+def _along(edge: Edge, distance: Any, way: int) -> Pair:
+    """The point of an edge at a distance from the intersection, after it (`way` +1) or before it (-1)."""
+    if edge.spoke is None:
+        return _times(way * distance, edge.direction)
+    half = distance / (2 * edge.radius)
+    # Turned by twice asin(half), minus the spoke itself.
+    inward = _times(-2 * half * half, edge.spoke)
+    return _plus(inward, _times(way * distance * sqrt(1 - half * half), edge.direction))
+
+
+def _setback(edge: Edge, point: Pair, way: int) -> Any:
+    """How far along an edge a point of it lies after (+1) or before (-1) the intersection, mm."""
+    if edge.spoke is None:
+        return way * _dot(point, edge.direction)
+    spoke = _plus(edge.spoke, point)
+    return way * edge.turn * edge.radius * angle(_cross(edge.spoke, spoke), _dot(edge.spoke, spoke))
+
+
+def _off(edge: Edge, point: Pair) -> Any:
+    """How far a point lies off an edge's line or circle, mm."""
+    if edge.spoke is None:
+        return _cross(point, edge.direction)
+    return _norm(_plus(edge.spoke, point)) - edge.radius
+
+
+def _misfit(
+    shape: CornerShape, before: Edge, after: Edge, size: Any, begin: Pair, end: Pair, center: Pair | None, at: Pair
+) -> tuple[Any, ...]:
+    """What the definition of a shape is off by, mm, besides that its ends lie on the edges."""
+    if shape is CornerShape.CHAMFER_SETBACK:
+        return _norm(begin) - size, _norm(end) - size
+    if center is None:
+        extent = _minus(end, begin)
+        return magnitude(extent[0]) - size, magnitude(extent[1]) - size
+    spokes = [_minus(point, _minus(center, at)) for point in (begin, end)]
+    travels = [_travel(edge, point) for edge, point in ((before, begin), (after, end))]
+    return (
+        *(_norm(spoke) - size for spoke in spokes),
+        *(_dot(spoke, travel) for spoke, travel in zip(spokes, travels, strict=True)),
+    )
+
+
+def _travel(edge: Edge, point: Pair) -> Pair:
+    """The direction of an edge at a point of it."""
+    if edge.spoke is None:
+        return edge.direction
+    spoke = _plus(edge.spoke, point)
+    return -edge.turn * spoke[1] / edge.radius, edge.turn * spoke[0] / edge.radius
+
+
+def _spoke(edge: Edge) -> Pair:
+    if edge.spoke is None:
+        raise TypeError("a line has no centre")
+    return edge.spoke
 
 
 def _cross(a: Pair, b: Pair) -> Any:

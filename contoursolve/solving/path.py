@@ -1,7 +1,7 @@
 """Can the control make the path? Direction of travel, and the room for each corner."""
 
-from collections.abc import Mapping, Sequence
-from math import hypot
+from collections.abc import Callable, Mapping, Sequence
+from math import hypot, inf
 
 from contoursolve.model import FIRST, SECOND, Arc, Corner, CornerShape, Figure, Line, Profile
 from contoursolve.solving.solution import Point, Refusal, RefusalKind, Remark, RemarkKind
@@ -16,10 +16,12 @@ def check_path(
     points: Mapping[str, Point],
     out: Outputs,
     sizes: Mapping[str, float],
+    resize: Callable[[Mapping[str, float]], Outputs],
 ) -> tuple[list[Refusal], list[Remark]]:
     """Everything that speaks against the path between points that satisfy the equations.
 
-    `out` are the outputs of a compiled path, `sizes` the sizes of its corners by the words that state them, mm.
+    `out` are the outputs of a compiled path, `sizes` the sizes of its corners by the words that state them, mm;
+    `resize` gives the outputs for other sizes.
     """
     figure = profile.figure
     refusals: list[Refusal] = []
@@ -36,7 +38,7 @@ def check_path(
         for corner in figure.corners:
             refusals += _check_corner(corner, figure, points, out, sizes[corner.size])
     if not refusals:
-        refusals += _check_room(figure, out, sizes)
+        refusals += _check_room(figure, out, sizes, resize)
     if not refusals:
         # The definitions of the corners; checked last, because a corner that does not fit may be huge.
         residuals = [abs(out[name]) for name in corner_residuals]
@@ -47,8 +49,10 @@ def check_path(
 
 def _check_direction(line: Line, out: Outputs, profile: Profile) -> list[Refusal]:
     length = out[f"length:{line.name}"]
-    if line.heading is None or length >= -LENGTH:
+    if length >= -LENGTH:
         return []
+    if line.heading is None:
+        return [Refusal(RefusalKind.LINE_BACKWARDS, line.name, (), {"off_by_mm": -length})]
     angle = float(profile.givens[line.heading].value)
     values = {"actual": angle, "expected": angle - 180 if angle > 0 else angle + 180, "off_by_mm": -length}
     return [Refusal(RefusalKind.LINE_REVERSED, line.name, (line.heading,), values)]
@@ -80,10 +84,11 @@ def _check_corner(
 
 def _outside_rectangle(corner: Corner, figure: Figure, points: Mapping[str, Point]) -> float:
     """How far the corner lies outside the rectangle spanned by the ends of its two lines, mm."""
-    if corner.after is None:
+    path = {element.name: element for element in figure.path}
+    before, after = path[corner.before], path.get(corner.after or "")
+    if not isinstance(before, Line) or not isinstance(after, Line):
         return 0.0
-    lines = {element.name: element for element in figure.path}
-    ends = points[lines[corner.before].tail], points[lines[corner.after].head]
+    ends = points[before.tail], points[after.head]
     return max(
         excess
         for axis in (FIRST, SECOND)
@@ -92,44 +97,73 @@ def _outside_rectangle(corner: Corner, figure: Figure, points: Mapping[str, Poin
     )
 
 
-def _check_room(figure: Figure, out: Outputs, sizes: Mapping[str, float]) -> list[Refusal]:
-    """Each line must be as long as the setbacks of the corners at its two ends."""
+def _check_room(
+    figure: Figure, out: Outputs, sizes: Mapping[str, float], resize: Callable[[Mapping[str, float]], Outputs]
+) -> list[Refusal]:
+    """Each element must be as long as the setbacks of the corners at its two ends."""
     refusals: list[Refusal] = []
     refused: set[str] = set()
     for corner in figure.corners:
-        setbacks = _setbacks(corner, out)
-        short = [line for line, setback in setbacks.items() if setback > out[f"length:{line}"] + LENGTH]
-        if short:
+        short = _short_of(corner, out)
+        if short is not None:
             refused.add(corner.name)
             size = sizes[corner.size]
-            values = {"limit": _largest(corner, figure, out, size), "actual": size}
-            values |= {"needed": setbacks[short[0]], "available": out[f"length:{short[0]}"]}
-            refusals.append(Refusal(RefusalKind.CORNER_TOO_LARGE, corner.name, (corner.size,), values))
-    for line in (element for element in figure.path if isinstance(element, Line)):
-        corners = [corner for corner in figure.corners if line.name in _setbacks(corner, out)]
-        room = out[f"room:{line.name}"]
+            values = {"limit": _largest(corner, figure, out, size, resize), "actual": size}
+            values |= {"needed": _setbacks(corner, out)[short], "available": out[f"length:{short}"]}
+            known = {name: value for name, value in values.items() if value == value}
+            refusals.append(Refusal(RefusalKind.CORNER_TOO_LARGE, corner.name, (corner.size,), known))
+    for element in figure.path:
+        corners = [corner for corner in figure.corners if element.name in _setbacks(corner, out)]
+        room = out[f"room:{element.name}"]
         if room < -LENGTH and not refused & {corner.name for corner in corners}:
-            length = out[f"length:{line.name}"]
+            length = out[f"length:{element.name}"]
             values = {"limit": length, "actual": length - room, "off_by_mm": -room}
             givens = tuple(corner.size for corner in corners)
-            refusals.append(Refusal(RefusalKind.CORNERS_OVERLAP, line.name, givens, values))
+            refusals.append(Refusal(RefusalKind.CORNERS_OVERLAP, element.name, givens, values))
     return refusals
 
 
-def _largest(corner: Corner, figure: Figure, out: Outputs, size: float) -> float:
-    """The largest size of a corner that fits beside its neighbours; setbacks are proportional to it."""
-    limit = float("inf")
-    for line, setback in _setbacks(corner, out).items():
-        length = out[f"length:{line}"]
-        others = sum(_setbacks(other, out).get(line, 0.0) for other in figure.corners if other is not corner)
-        room = length - others if others < length else length
-        if setback > 0:
-            limit = min(limit, size * room / setback)
-    return limit
+def _short_of(corner: Corner, out: Outputs, reserved: Mapping[str, float] | None = None) -> str | None:
+    """The element on which a corner has no room; `reserved` is what others take of the elements, mm.
+
+    A setback on an arc that is not a number belongs to a corner that cannot touch the arc at all; a negative one
+    would leave the arc beyond its end.
+    """
+    for name, setback in _setbacks(corner, out).items():
+        room = out[f"length:{name}"] - (reserved or {}).get(name, 0.0)
+        if not -LENGTH <= setback <= room + LENGTH:
+            return name
+    return None
+
+
+def _largest(
+    corner: Corner, figure: Figure, out: Outputs, size: float, resize: Callable[[Mapping[str, float]], Outputs]
+) -> float:
+    """The largest size of a corner that fits beside its neighbours."""
+    taken: dict[str, float] = {}
+    for name in _setbacks(corner, out):
+        others = sum(_setbacks(other, out).get(name, 0.0) for other in figure.corners if other is not corner)
+        taken[name] = others if others < out[f"length:{name}"] else 0.0
+    path = {element.name: element for element in figure.path}
+    if all(isinstance(path[name], Line) for name in taken):
+        # Setbacks on lines are proportional to the size.
+        setbacks = _setbacks(corner, out).items()
+        rooms = ((out[f"length:{name}"] - taken[name], setback) for name, setback in setbacks if setback > 0)
+        return min((size * room / setback for room, setback in rooms), default=inf)
+    low, high = 0.0, size
+    for _ in range(BISECTIONS):
+        middle = (low + high) / 2
+        fits = _short_of(corner, resize({corner.size: middle}), taken) is None
+        low, high = (middle, high) if fits else (low, middle)
+    return low
+
+
+BISECTIONS = 50
+"""From any size to below the rounding of a coordinate."""
 
 
 def _setbacks(corner: Corner, out: Outputs) -> dict[str, float]:
-    """The length that a corner takes of each line of the block."""
+    """The length that a corner takes of each element of the path, mm."""
     setbacks = {corner.before: out[f"setback-in:{corner.name}"]}
     if corner.after is not None:
         setbacks[corner.after] = out[f"setback-out:{corner.name}"]

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from contoursolve.analysis import Group, judge, order
-from contoursolve.constraints import Heading, OnCircle, System
+from contoursolve.constraints import Collinear, Heading, OnCircle, System
 from contoursolve.model import FIRST, SECOND, Fact, scalar
 
 
@@ -25,21 +25,36 @@ class DistanceStep:
 
 @dataclass(frozen=True, slots=True)
 class LineCircleStep:
-    """An unknown end of a line of known direction, on a circle and on the line: nearer or farther."""
+    """An unknown point on a circle and on a line that is known otherwise: nearer or farther along the line."""
 
     circle: OnCircle
-    heading: Heading
+    line: Heading | Collinear
 
 
 @dataclass(frozen=True, slots=True)
-class TwoPointsStep:
-    """The unknown centre of a circle of known radius through two known points: left or right of them."""
+class TwoCirclesStep:
+    """An unknown point of two known circles, or the unknown centre of a circle through two known points (which lies
+    on the circles of its radius about them): left or right of the way from the first centre to the second."""
 
     first: OnCircle
     second: OnCircle
+    point: str
+
+    @property
+    def centers(self) -> tuple[str, str]:
+        """The known points at known distances from which the unknown one lies."""
+        return self._other(self.first), self._other(self.second)
+
+    @property
+    def is_equal(self) -> bool:
+        """Whether both distances are the same radius."""
+        return self.first.radius == self.second.radius
+
+    def _other(self, circle: OnCircle) -> str:
+        return circle.center if circle.point == self.point else circle.point
 
 
-Step = AffineStep | DistanceStep | LineCircleStep | TwoPointsStep
+Step = AffineStep | DistanceStep | LineCircleStep | TwoCirclesStep
 
 
 class NoClosedFormError(Exception):
@@ -71,17 +86,19 @@ def make_plan(system: System) -> Plan:
 
 def _step(group: Group) -> Step:
     circles = [fact for fact in group.facts if isinstance(fact, OnCircle)]
-    headings = [fact for fact in group.facts if isinstance(fact, Heading)]
+    lines = [fact for fact in group.facts if isinstance(fact, Heading | Collinear)]
     unknowns = set(group.unknowns)
     if not circles:
         if len(group.facts) <= 2:  # noqa: PLR2004 - Cramer's rule is written out for two
             return AffineStep(group.facts, group.unknowns)
     elif len(group.facts) == 1 and unknowns == {circles[0].radius}:
         return DistanceStep(circles[0])
-    elif len(circles) == len(headings) == 1 and unknowns == _both(circles[0].point):
-        return LineCircleStep(circles[0], headings[0])
-    elif len(circles) == len(group.facts) == 2 and unknowns == _both(circles[0].center):  # noqa: PLR2004
-        return TwoPointsStep(circles[0], circles[1])
+    elif len(circles) == len(lines) == 1 and unknowns == _both(circles[0].point):
+        return LineCircleStep(circles[0], lines[0])
+    elif len(circles) == len(group.facts) == 2:  # noqa: PLR2004
+        for point in (circles[0].center, circles[0].point):
+            if unknowns == _both(point) and point in (circles[1].center, circles[1].point):
+                return TwoCirclesStep(circles[0], circles[1], point)
     raise NoClosedFormError(f"{', '.join(map(str, group.facts))} for {', '.join(group.unknowns)}")
 
 
@@ -95,6 +112,6 @@ def points_with_two_solutions(system: System) -> tuple[str, ...]:
     for step in make_plan(system).steps:
         if isinstance(step, LineCircleStep):
             points.append(step.circle.point)
-        elif isinstance(step, TwoPointsStep):
-            points.append(step.first.center)
+        elif isinstance(step, TwoCirclesStep):
+            points.append(step.point)
     return tuple(points)

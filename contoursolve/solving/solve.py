@@ -10,13 +10,23 @@ from contoursolve.analysis import judge
 from contoursolve.backends.angle import direction
 from contoursolve.backends.inputs import COSINE, SINE
 from contoursolve.backends.numeric import inverse_norm
-from contoursolve.constraints import Coordinate, Offset, OnCircle, Radius, System, Values, assemble, headed_lines
+from contoursolve.constraints import (
+    Coordinate,
+    Heading,
+    Offset,
+    OnCircle,
+    Radius,
+    System,
+    Values,
+    assemble,
+    headed_lines,
+)
 from contoursolve.model import FIRST, SECOND, Corner, Fact, Profile, Unit, scalar
 from contoursolve.solving.certificate import Certificate, up_to_one_digit
 from contoursolve.solving.certify import certify
 from contoursolve.solving.compile import compile_system
 from contoursolve.solving.path import check_path
-from contoursolve.solving.plan import AffineStep, DistanceStep, LineCircleStep, Step, TwoPointsStep
+from contoursolve.solving.plan import AffineStep, DistanceStep, LineCircleStep, Step, TwoCirclesStep
 from contoursolve.solving.solution import (
     CornerSolution,
     Point,
@@ -146,6 +156,10 @@ class _Attempt:
             inputs[f"side:{choice.point}"] = float(choice.side.sign)
         return inputs
 
+    def _resize(self, sizes: Mapping[str, float]) -> Mapping[str, float]:
+        """The outputs for other sizes of corners."""
+        return self.machine.function({**self._inputs(), **sizes})
+
     def answer(self) -> Solution:
         for number, step in enumerate(self.plan.steps):
             refusal = self._examine_step(number, step)
@@ -157,7 +171,7 @@ class _Attempt:
         points = {name: self._point(name) for name in (self.system.figure.start, *self.system.figure.points)}
         if not self.refusals:
             refusals, remarks = check_path(
-                self.profile, self.machine.corner_residuals, points, self.out, sizes_of(self.profile)
+                self.profile, self.machine.corner_residuals, points, self.out, sizes_of(self.profile), self._resize
             )
             self.refusals += refusals
             self.remarks += remarks
@@ -234,44 +248,64 @@ class _Attempt:
             return Refusal(RefusalKind.NOT_FIXED, ",".join(step.unknowns), givens)
         return _refuse(RefusalKind.LINES_PARALLEL, ",".join(step.unknowns), givens, off_by_mm=abs(off))
 
-    def _examine_discriminant(self, number: int, step: LineCircleStep | TwoPointsStep) -> Refusal | None:
+    def _examine_discriminant(self, number: int, step: LineCircleStep | TwoCirclesStep) -> Refusal | None:
         offset, radius = abs(self.out[f"offset:{number}"]), self.out[f"radius:{number}"]
+        is_center = isinstance(step, TwoCirclesStep) and step.is_equal
         if isinstance(step, LineCircleStep):
-            kind, subject, givens = RefusalKind.CIRCLE_MISSED, step.circle.point, self._givens_of(step.heading)
+            kind, subject, givens = RefusalKind.CIRCLE_MISSED, step.circle.point, self._givens_of(step.line)
             values = {"limit": radius, "actual": offset, **self._meeting_angles(step, radius)}
-        else:
-            kind, subject, givens = RefusalKind.RADIUS_TOO_SMALL, step.first.center, self._givens_of(step.first)
+        elif is_center:
+            kind, subject, givens = RefusalKind.RADIUS_TOO_SMALL, step.point, self._givens_of(step.first)
             values = {"limit": offset, "actual": radius}
-        if isinstance(step, TwoPointsStep) and offset <= LENGTH:
-            return Refusal(RefusalKind.CIRCLE_UNDEFINED, subject, givens)
+        else:
+            kind, subject = RefusalKind.CIRCLES_APART, step.point
+            givens = (*self._givens_of(step.first), *self._givens_of(step.second))
+            values = self._reach(step, self.out[f"distance:{number}"])
+        if isinstance(step, TwoCirclesStep) and not self.out[f"distance:{number}"] > LENGTH:  # true for NaN
+            if is_center:
+                return Refusal(RefusalKind.CIRCLE_UNDEFINED, subject, givens)
+            return Refusal(kind, subject, givens, values)
         if abs(offset - radius) <= TOUCHING * self.out[f"scale:{number}"]:
             self._note_double(step, radius, self.out[f"scale:{number}"])
             # A circle about the middle of two points is an ordinary half circle.
-            if isinstance(step, LineCircleStep):
+            if not is_center:
                 self.remarks.append(Remark(RemarkKind.TOUCHES, subject, givens, values))
         elif not offset < radius:  # true for NaN
-            return _refuse(kind, subject, givens, **values, off_by_mm=abs(offset - radius))
+            return Refusal(kind, subject, givens, {"off_by_mm": abs(offset - radius), **values})
         return None
 
-    def _note_double(self, step: LineCircleStep | TwoPointsStep, radius: float, scale: float) -> None:
+    def _reach(self, step: TwoCirclesStep, distance: float) -> dict[str, float]:
+        """How far apart the centres of two circles are, and the nearest distance at which they would meet, mm."""
+        one, other = self.out[step.first.radius], self.out[step.second.radius]
+        limit = one + other if distance >= max(one, other) else abs(one - other)
+        return {"limit": limit, "actual": distance, "off_by_mm": abs(distance - limit)}
+
+    def _note_double(self, step: LineCircleStep | TwoCirclesStep, radius: float, scale: float) -> None:
         """A double solution, as far as floats can tell: in the error bound, a row that holds the point where it
         is along the direction in which the two solutions part takes the place of its circle's, and how far
         apart they could be is added."""
         if isinstance(step, LineCircleStep):
             circle, point = step.circle, step.circle.point
-            first, second = direction(self.profile.givens[step.heading.given].value)
+            first, second = self._line_direction(step)
         else:
-            circle, point = step.second, step.first.center
-            begin, end = self._point(step.first.point), self._point(step.second.point)
+            circle, point = step.second, step.point
+            begin, end = (self._point(center) for center in step.centers)
             length = hypot(end[0] - begin[0], end[1] - begin[1])
             first, second = (begin[1] - end[1]) / length, (end[0] - begin[0]) / length
         row = self.plan.basis.index(circle)
         self.doubles[row] = {scalar(point, FIRST): first, scalar(point, SECOND): second}
-        if isinstance(step, LineCircleStep) or not self._is_half_circle(step):
+        if not (isinstance(step, TwoCirclesStep) and self._is_half_circle(step)):
             self.split = max(self.split, (2 * radius * TOUCHING * scale) ** 0.5)
 
-    def _is_half_circle(self, step: TwoPointsStep) -> bool:
-        """Whether the radius is exactly half the chord, in decimals."""
+    def _line_direction(self, step: LineCircleStep) -> Point:
+        if isinstance(step.line, Heading):
+            return direction(self.profile.givens[step.line.given].value)
+        tail, through = self._point(step.line.tail), self._point(step.line.through)
+        length = hypot(through[0] - tail[0], through[1] - tail[1])
+        return (through[0] - tail[0]) / length, (through[1] - tail[1]) / length
+
+    def _is_half_circle(self, step: TwoCirclesStep) -> bool:
+        """Whether the radius is exactly half the chord from the start point, in decimals."""
         values: dict[tuple[str, int], Decimal] = {}
         radius = Decimal(0)
         for fact in self.system.facts:
@@ -282,12 +316,16 @@ class _Attempt:
                 values[fact.point, fact.axis] = value - self.start[fact.axis]
             elif isinstance(fact, Offset) and fact.origin == self.system.figure.start:
                 values[fact.point, fact.axis] = value
+        if not step.is_equal or step.first.point != self.system.figure.start:
+            return False
         chord = [values.get((step.second.point, axis)) for axis in (FIRST, SECOND)]
         return None not in chord and sum(part**2 for part in chord if part is not None) == 4 * radius**2
 
     def _meeting_angles(self, step: LineCircleStep, radius: float) -> dict[str, float]:
         """Between which angles a line through the known point of the heading meets the circle, degrees."""
-        ends = {step.heading.tail, step.heading.head} - {step.circle.point}
+        if not isinstance(step.line, Heading):
+            return {}
+        ends = {step.line.tail, step.line.head} - {step.circle.point}
         through, center = self._point(ends.pop()), self._point(step.circle.center)
         first, second = through[0] - center[0], through[1] - center[1]
         distance = hypot(first, second)
