@@ -215,11 +215,11 @@ def _offences(claim: Claim, rules: tuple[Rule, ...]) -> tuple[Offence, ...]:
     """The rules that hold for the stated words. A word that is asked for may fill a gap, but it is never one too
     many: what refuses must do so without it as well, and what ignores another word must do so by itself."""
     stated = claim.stated()
-    offences = tuple(check(rules, claim.form.name, stated))
+    offences = tuple(check(rules, claim.form.roles, stated))
     asked = {name for name, word in claim.words.items() if word.is_asked}
     if not asked:
         return offences
-    without = tuple(check(rules, claim.form.name, {name: stated[name] for name in stated if name not in asked}))
+    without = tuple(check(rules, claim.form.roles, {name: stated[name] for name in stated if name not in asked}))
     codes = {offence.rule.code for offence in without}
     refusing = tuple(each for each in offences if not each.rule.ignores and each.rule.code in codes)
     return (*refusing, *(each for each in without if each.rule.ignores))
@@ -279,11 +279,6 @@ def _examine_geometry(
     A block that is refused is not solved; but if it says too much, whether its words agree is told.
     """
     is_refused = Status.REJECTED in notebook.statuses
-    if len(claim.blocks) < claim.form.length:
-        rule, missing = context.row(Trouble.UNDERDETERMINED), f"{claim.form.blocks[0]}, which is not there"
-        finding = report(context, rule, Basis.RULE, [], free=missing, completions="write it in the block before")
-        notebook.add(_secondary(finding, is_refused), Status.UNDERDETERMINED)
-        return Solution(Status.UNDERDETERMINED), None
     structure = list(_examine_system(context, claim, profile))
     for status, finding in structure:
         notebook.add(_secondary(finding, is_refused), status)

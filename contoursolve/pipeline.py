@@ -138,8 +138,12 @@ class _Examiner:
                     from contoursolve.diagnosis import diagnose  # noqa: PLC0415
 
                     answer = diagnose(answer, dialect, self.policy)
-                yield answer
-                state = _state_after(found, answer, dialect)
+                if found.form.is_contour:
+                    yield answer
+                    state = _state_after(found, answer, dialect)
+                else:
+                    self.diagnostics += answer.diagnostics if answer.start.is_known else ()
+                    state = advance(state, block, dialect.modes)
                 index += found.blocks[-1].line - block.line
             else:
                 self._check_block(block)

@@ -27,8 +27,6 @@ def list_layers(answer: Answer, policy: Policy) -> tuple[Layer, ...]:
     else:
         layers.append(_layer("rules", bool(refused), "which words may stand together"))
     blocked = "not every word could be read" if grammar else ""
-    if len(claim.blocks) < claim.form.length:
-        blocked = "a block is missing"
     if blocked:
         return (*layers, *(Layer(name, Verdict.NOT_RUN, blocked) for name in _EQUATIONS))
     system = assemble(whole)

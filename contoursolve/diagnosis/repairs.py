@@ -60,7 +60,7 @@ def find_repairs(answer: Answer, dialect: Dialect) -> Repairs:
     A repair leaves no error and no warning. None of them contains another one.
     """
     claim = answer.claim
-    if len(claim.blocks) < claim.form.length or not answer.start.is_known or answer.profile.is_extended:
+    if not answer.start.is_known or answer.profile.is_extended:
         # With further facts, what to write instead is the block with its values filled in.
         return Repairs((), is_complete=False)
     whole = _Geometry.of(claim)
@@ -203,7 +203,7 @@ def _is_same(first: Word, word: Word) -> bool:
 
 def _corrections(claim: Claim, dialect: Dialect) -> Iterator[tuple[str, list[Edit]]]:
     """Words whose value a rule refuses, with the values that mean the same or were meant."""
-    for offence in check(dialect.rules, claim.form.name, claim.stated()):
+    for offence in check(dialect.rules, claim.form.roles, claim.stated()):
         if offence.rule.when is None or not offence.rule.when.reads_values:
             continue
         for name in offence.names:
@@ -244,7 +244,7 @@ def _other_corners(claim: Claim) -> Iterator[tuple[Edit, ...]]:
 
 def is_clean(form: Form, rules: tuple[Rule, ...], names: frozenset[str], circumstances: frozenset[str]) -> bool:
     """Whether no rule refuses or ignores something in the combination of words, whatever their values."""
-    return not check(rules, form.name, dict.fromkeys(names | circumstances))
+    return not check(rules, form.roles, dict.fromkeys(names | circumstances))
 
 
 @lru_cache(maxsize=4096)

@@ -54,7 +54,7 @@ def _row(form: Form, dialect: Dialect, chosen: frozenset[str]) -> Row:
     claim = dialect.find(blocks, 0, state, dialect.modes)
     if not isinstance(claim, Claim) or claim.form is not form:
         raise ValueError(f"{lines} is no block of the form {form.name}")
-    offences = check(dialect.rules, form.name, claim.stated())
+    offences = check(dialect.rules, form.roles, claim.stated())
     ignored = tuple(offence.rule.ignores for offence in offences if offence.rule.ignores)
     profile = read(claim, frozenset(ignored))
     verdict = judge(assemble(profile))

@@ -20,7 +20,7 @@ def table() -> str:
     for dialect in DIALECTS.values():
         for form in dialect.forms:
             for stated in stated_sets(form):
-                layout = lay_out(form, stated, frozenset(), None)
+                layout = lay_out(form, stated, frozenset())
                 system = build_system(layout.figure, layout.facts)
                 rows[system.equations_key] = json.dumps(asdict(derive(system)))
     return _write(rows)
@@ -38,13 +38,13 @@ def identity_table() -> str:
 
 
 def _identities(form: Form) -> Iterator[tuple[tuple[Fact, ...], str]]:
-    layout = lay_out(form, frozenset().union(*stated_sets(form)), frozenset(), None)
+    layout = lay_out(form, frozenset().union(*stated_sets(form)), frozenset())
     if is_affine(layout.facts):
         system = build_system(layout.figure, layout.facts)
         yield from ((facts, derive_identity(system, facts)) for facts in tied_sets(system))
         return
     for stated in stated_sets(form):
-        layout = lay_out(form, stated, frozenset(), None)
+        layout = lay_out(form, stated, frozenset())
         system = build_system(layout.figure, layout.facts)
         verdict = derive(system)
         tied = tuple(layout.facts[index] for index in verdict.tied)

@@ -3,6 +3,7 @@
 from contoursolve.model.fact import Fact, Lookup, line_scalars, scalar
 from contoursolve.model.figure import FIRST, SECOND, Arc, Circle, Corner, CornerShape, Figure, Line, Turn
 from contoursolve.model.profile import Choice, Given, Layout, Length, Plane, Profile, Question, Side, Start, Unit
+from contoursolve.model.role import Role
 
 __all__ = [
     "FIRST",
@@ -22,6 +23,7 @@ __all__ = [
     "Plane",
     "Profile",
     "Question",
+    "Role",
     "Side",
     "Start",
     "Turn",

@@ -30,7 +30,7 @@ def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False)
     if alternatives is not answer.alternatives:
         # Found here once, for the construction and for the list.
         answer = replace(answer, alternatives=alternatives)
-    form = next(form for form in dialect.forms if form.name == answer.form)
+    form = answer.claim.form
     lines = [f"{result.program.name}:{answer.lines[0]}: {form.name} ({form.title}): {answer.status.value}"]
     lines += [f"  {printable(block.text.strip())[:160]}" for block in answer.profile.blocks]
     lines += ["", *columns(_given_rows(answer, form, dialect), left=(0, 3))]

@@ -5,6 +5,7 @@ from contoursolve.reading.claim import Claim, Selector, Trouble, read
 from contoursolve.reading.codes import Code, Effect
 from contoursolve.reading.form import CornerRow, FactRow, Form, Sample, lay_out, stated_sets
 from contoursolve.reading.lexicon import Address, Lexicon, NumberFormat, WithoutPoint
+from contoursolve.reading.setting import Setting
 from contoursolve.reading.state import Position, State
 
 __all__ = [
@@ -21,6 +22,7 @@ __all__ = [
     "Position",
     "Sample",
     "Selector",
+    "Setting",
     "State",
     "Trouble",
     "WithoutPoint",

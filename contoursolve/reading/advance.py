@@ -1,7 +1,7 @@
 """Follows the modal state through blocks that are not contours."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from contoursolve.reading.codes import Code, Effect
 from contoursolve.reading.lexicon import Lexicon
@@ -19,6 +19,8 @@ class Modes:
     axes: tuple[str, ...]
     calls: frozenset[int]
     """M codes that call or end a subprogram."""
+    settings: Mapping[str, str] = field(default_factory=dict)
+    """The value of each convention by its name."""
 
 
 def codes_of(block: Block, modes: Modes) -> list[Code | Word]:

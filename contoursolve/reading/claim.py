@@ -6,7 +6,7 @@ from decimal import Decimal
 from enum import Enum
 
 from contoursolve.constraints import Radius
-from contoursolve.model import Choice, Fact, Given, Profile, Question, Side, Turn
+from contoursolve.model import Choice, Fact, Given, Profile, Question, Side
 from contoursolve.reading.form import Form, lay_out
 from contoursolve.reading.lexicon import Lexicon
 from contoursolve.reading.state import State
@@ -66,9 +66,10 @@ class Claim:
     repeated: tuple[Word, ...] = ()
     circumstances: frozenset[str] = frozenset()
     choices: tuple[Choice, ...] = ()
-    turn: Turn | None = None
     selectors: tuple[Selector, ...] = ()
     """The words that would choose, whether they are stated or not."""
+    conventions: tuple[str, ...] = ()
+    """The settings of the control on which the reading rests."""
 
     @property
     def directives(self) -> tuple[Directive, ...]:
@@ -88,7 +89,7 @@ def read(claim: Claim, ignored: frozenset[str]) -> Profile:
         word for row in claim.form.corners for word in row.shapes if word in names and not claim.givens[word].value
     )
     asked = frozenset(name for name, word in claim.words.items() if word.is_asked)
-    layout = lay_out(claim.form, names - ignored, sharp, claim.turn, asked)
+    layout = lay_out(claim.form, names - ignored, sharp, asked)
     dropped = tuple(row.fact for row in claim.form.facts if row.fact.given in ignored & names)
     return Profile(
         form=claim.form.name,

@@ -1,11 +1,11 @@
 """A contour form as tables: its points, the facts that its words state, its path and its corners."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from itertools import product
 
-from contoursolve.model import Arc, Corner, CornerShape, Fact, Figure, Layout, Line, Turn
+from contoursolve.model import Arc, Corner, CornerShape, Fact, Figure, Layout, Line, Role
 
 
 @dataclass(frozen=True, slots=True)
@@ -18,8 +18,8 @@ class FactRow:
 
 @dataclass(frozen=True, slots=True)
 class CornerRow:
-    """A corner, the shape that each word gives it, and for a corner onto an axis-parallel line the
-    givens that tell which axis that line is parallel to."""
+    """A corner, the shape that each word gives it, and what it lands on if the path ends there: an axis-parallel
+    line, with the givens that tell which axis that is parallel to, or a line of the form beside the path."""
 
     name: str
     at: str
@@ -27,6 +27,7 @@ class CornerRow:
     after: str | None
     shapes: Mapping[str, CornerShape]
     landing: tuple[tuple[tuple[str, ...], int], ...] = ()
+    lands_on: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,14 +45,14 @@ class Form:
 
     `points` and `radii` are unknown as soon as some fact mentions them. `facts` are in order of
     precedence: where words say too much, the first ones are solved for. `allowed` are the addresses that
-    may stand in its blocks.
-    `blocks` says what each of its blocks is. `combinations` are slots, each with the sets of givens that
+    may stand in its blocks. `roles` tells which rules its blocks obey; `lines` are lines of given direction
+    beside the path. `combinations` are slots, each with the sets of givens that
     may fill it: their product is every combination of words that the equations can tell apart.
     """
 
     name: str
     title: str
-    blocks: tuple[str, ...]
+    roles: tuple[Role, ...]
     start: str
     points: tuple[str, ...]
     radii: tuple[str, ...]
@@ -61,16 +62,14 @@ class Form:
     intersections: tuple[str, ...]
     allowed: frozenset[str]
     combinations: tuple[tuple[tuple[str, ...], ...], ...]
-    sample: Sample
-    choices: tuple[str, ...]
+    sample: Sample | None = None
+    choices: tuple[str, ...] = ()
     """Givens whose sign alone chooses between two solutions."""
-    meanings: Mapping[str, str]
+    meanings: Mapping[str, str] = field(default_factory=dict)
     """What a given means in this form, where its address does not say it."""
-
-    @property
-    def length(self) -> int:
-        """The number of its blocks."""
-        return len(self.blocks)
+    lines: tuple[Line, ...] = ()
+    is_contour: bool = True
+    """False for what a control calculates nothing for: it is checked, and not listed."""
 
     def __hash__(self) -> int:
         return hash(self.name)
@@ -86,12 +85,10 @@ def stated_sets(form: Form) -> Iterator[frozenset[str]]:
 
 
 @lru_cache(maxsize=8192)
-def lay_out(
-    form: Form, stated: frozenset[str], sharp: frozenset[str], turn: Turn | None, asked: frozenset[str] = frozenset()
-) -> Layout:
+def lay_out(form: Form, stated: frozenset[str], sharp: frozenset[str], asked: frozenset[str] = frozenset()) -> Layout:
     """The layout that a form makes of the givens that are stated; a corner whose size is asked for is there, too.
 
-    `sharp` are the corner words of value 0, which make no corner; `turn` is the sense of the arcs.
+    `sharp` are the corner words of value 0, which make no corner.
     """
     facts = tuple(row.fact for row in form.facts if stated.issuperset(row.needs))
     mentioned = {name.partition(".")[0] for fact in facts for name in fact.reads()}
@@ -100,10 +97,10 @@ def lay_out(
     for element in form.path:
         if isinstance(element, Line):
             heading = element.heading if element.heading in stating else None
-            path.append(Line(element.name, element.tail, element.head, heading))
+            toward = element.toward if element.toward in mentioned and heading is None else None
+            path.append(replace(element, heading=heading, toward=toward))
         else:
-            sense = turn or element.turn
-            path.append(Arc(element.name, element.tail, element.head, element.center, element.radius, sense))
+            path.append(element)
     ends = {end for element in path for end in (element.tail, element.head)} - {form.start}
     figure = Figure(
         form.start,
@@ -111,6 +108,7 @@ def lay_out(
         tuple(radius for radius in form.radii if radius in mentioned),
         tuple(path),
         tuple(corner for row in form.corners for corner in _corners(row, stated, asked, sharp)),
+        lines=tuple(line for line in form.lines if line.heading in stated),
     )
     return Layout(figure, facts)
 
@@ -120,7 +118,7 @@ def _corners(row: CornerRow, stated: frozenset[str], asked: frozenset[str], shar
     landing = [axis for names, axis in row.landing if stated & set(names)]
     axis = landing[0] if len(landing) == 1 else None
     return [
-        Corner(row.name, row.at, shape, word, row.before, row.after, axis)
+        Corner(row.name, row.at, shape, word, row.before, row.after, axis, row.lands_on)
         for word, shape in row.shapes.items()
         if word in stated | asked and word not in sharp
     ]

@@ -1,11 +1,13 @@
 """A rule is a row: what it finds, in words, with its source, the control's alarm, and examples."""
 
 import re
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from functools import lru_cache
 
 from contoursolve.diagnostic import Alarm, Severity
+from contoursolve.model import Role
 from contoursolve.rules.conditions import Condition, Stated
 from contoursolve.source import Source
 
@@ -15,7 +17,7 @@ class Rule:
     """One row of the catalogue.
 
     `message` is a template; its fields are listed in `explain`. A rule finds something in one of two
-    ways: `when` holds for the words of a block of `form`; or something in the program or its geometry
+    ways: `when` holds for the words of the blocks of one of its `roles`; or something in the program or its geometry
     happens that `about` names. `ignores` names the word that the control then drops without
     a word. Each example is a program; `rejected` ones raise this code, `accepted` ones do not.
     """
@@ -26,12 +28,16 @@ class Rule:
     source: Source
     accepted: tuple[str, ...]
     rejected: tuple[str, ...]
-    form: str = ""
+    roles: tuple[str, ...] = ()
     when: Condition | None = None
     about: Enum | None = None
     ignores: str = ""
     alarm: Alarm | None = None
     severity: Severity = Severity.ERROR
+
+    def holds(self, own: Stated) -> bool:
+        """Whether it finds something in what the blocks of its role state."""
+        return self.when is not None and self.when.holds(own)
 
     @property
     def title(self) -> str:
@@ -60,36 +66,44 @@ _GAPS = {"words": "word", "off": "difference", "subject": "element", "free": "po
 
 @dataclass(frozen=True, slots=True)
 class Offence:
-    """A rule that holds for a block, and the names of the givens that it points at."""
+    """A rule that holds for the blocks of a role, and the names of the givens that it points at."""
 
     rule: Rule
     names: tuple[str, ...]
+    role: Role
 
 
-def check(rules: tuple[Rule, ...], form: str, stated: Stated) -> tuple[Offence, ...]:
-    """All rules on combinations of words that refuse or ignore something in what a block states."""
-    by_names, by_values = _rules_of(rules, form)
-    offences = _offences_by_names(by_names, frozenset(stated))
-    for rule in by_values:
-        if rule.when is not None and rule.when.holds(stated):
-            offences += (Offence(rule, rule.when.offenders(stated)),)
+def check(rules: tuple[Rule, ...], roles: Sequence[Role], stated: Stated) -> tuple[Offence, ...]:
+    """All rules on combinations of words that refuse or ignore something in what the blocks of a contour state."""
+    return tuple(offence for role in roles for offence in _check_role(rules, role, stated))
+
+
+def _check_role(rules: tuple[Rule, ...], role: Role, stated: Stated) -> tuple[Offence, ...]:
+    by_names, by_values = _rules_of(rules, role.name)
+    offences = _offences_by_names(by_names, role, frozenset(stated))
+    if by_values:
+        names = role.names(stated)
+        own = {call: stated[name] for call, name in names.items()}
+        offences += tuple(_offence(rule, role, own, names) for rule in by_values if rule.holds(own))
     return offences
 
 
-@lru_cache(maxsize=64)
-def _rules_of(rules: tuple[Rule, ...], form: str) -> tuple[tuple[Rule, ...], tuple[Rule, ...]]:
-    """The rules on combinations of a form: those on names alone, and those on values."""
-    own = [rule for rule in rules if rule.form == form and rule.when is not None]
+@lru_cache(maxsize=256)
+def _rules_of(rules: tuple[Rule, ...], role: str) -> tuple[tuple[Rule, ...], tuple[Rule, ...]]:
+    """The rules on combinations of a role: those on names alone, and those on values."""
+    own = [rule for rule in rules if role in rule.roles and rule.when is not None]
     by_values = tuple(rule for rule in own if rule.when is not None and rule.when.reads_values)
     return tuple(rule for rule in own if rule not in by_values), by_values
 
 
 @lru_cache(maxsize=8192)
-def _offences_by_names(rules: tuple[Rule, ...], names: frozenset[str]) -> tuple[Offence, ...]:
+def _offences_by_names(rules: tuple[Rule, ...], role: Role, stated: frozenset[str]) -> tuple[Offence, ...]:
     """Programs repeat few combinations of words many times."""
-    stated = dict.fromkeys(names)
-    return tuple(
-        Offence(rule, rule.when.offenders(stated))
-        for rule in rules
-        if rule.when is not None and rule.when.holds(stated)
-    )
+    names = role.names(stated)
+    own = dict.fromkeys(names)
+    return tuple(_offence(rule, role, own, names) for rule in rules if rule.holds(own))
+
+
+def _offence(rule: Rule, role: Role, own: Stated, names: Mapping[str, str]) -> Offence:
+    offenders = rule.when.offenders(own) if rule.when is not None else ()
+    return Offence(rule, tuple(names[call] for call in offenders), role)

@@ -32,7 +32,7 @@ POINT = "1:point"
 CIRCLE_LINE = Form(
     name="circle-line",
     title="circular-linear intersection",
-    blocks=("the arc", "the line"),
+    roles=(),
     start=START,
     points=(CENTER, ON_CIRCLE, CROSSING, END),
     radii=(RADIUS,),
@@ -214,7 +214,6 @@ def _claim(blocks: tuple[Block, ...], state: State, here: State, modes: Modes, i
         circumstances=frozenset(name for name, holds in circumstances.items() if holds),
         choices=tuple(_choices(givens, turn)),
         selectors=tuple(_selectors(words, turn)),
-        turn=turn,
     )
 
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 from contoursolve.constraints import Coordinate, Heading, Offset
 from contoursolve.dialects.dialect import Unresolved
 from contoursolve.dialects.yasnac_lx3.lexicon import ADDRESSES
-from contoursolve.model import FIRST, SECOND, CornerShape, Line
+from contoursolve.model import FIRST, SECOND, CornerShape, Line, Role
 from contoursolve.reading import (
     Claim,
     Code,
@@ -31,7 +31,7 @@ _PASSING = frozenset("NGF")
 G111 = Form(
     name="G111",
     title="taper multiple cornering",
-    blocks=("the block",),
+    roles=(Role("G111"),),
     start=START,
     points=(V1, V2),
     radii=(),
@@ -64,8 +64,6 @@ G111 = Form(
         "G00 X40. Z0.",
         ("G111 {A160.} {B120.} {C2.} {D2.} {I10.919} {K-30.} {P2.} {Q2.} {U60.} {W-41.016} {X100.} {Z-41.016}",),
     ),
-    choices=(),
-    meanings={},
 )
 
 OTHER_G = "other G"

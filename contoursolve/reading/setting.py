@@ -1,0 +1,18 @@
+"""Conventions of a control on which its manual is silent: settings with a name, which a user can change."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from contoursolve.source import Source
+
+
+@dataclass(frozen=True, slots=True)
+class Setting:
+    """One convention: what it decides, its values with what each means, the one in force unless told otherwise,
+    and why."""
+
+    name: str
+    meaning: str
+    values: Mapping[str, str]
+    default: str
+    source: Source
