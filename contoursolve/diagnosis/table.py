@@ -10,7 +10,7 @@ from contoursolve.constraints import assemble
 from contoursolve.dialects import Dialect
 from contoursolve.explain import unknowns_text
 from contoursolve.model import Corner, Length, Profile
-from contoursolve.reading import Claim, Form, advance, read
+from contoursolve.reading import Claim, Form, Sample, advance, read
 from contoursolve.rules import check
 from contoursolve.solving import points_with_two_solutions
 from contoursolve.syntax import parse
@@ -41,15 +41,17 @@ class Row:
 
 def tabulate(form: Form, dialect: Dialect) -> Iterator[Row]:
     """One row for every set of the optional words of a form's sample, smallest sets first."""
-    texts = [word for block in form.sample.blocks for word in _OPTIONAL.findall(block)]
+    sample = _sample(form)
+    texts = [word for block in sample.blocks for word in _OPTIONAL.findall(block)]
     for size in range(len(texts) + 1):
         for chosen in combinations(texts, size):
             yield _row(form, dialect, frozenset(chosen))
 
 
 def _row(form: Form, dialect: Dialect, chosen: frozenset[str]) -> Row:
-    lines = [_OPTIONAL.sub(lambda word: word[1] if word[1] in chosen else "", block) for block in form.sample.blocks]
-    state = advance(dialect.initial_state(Length.MM), parse(form.sample.before).blocks[0], dialect.modes)
+    sample = _sample(form)
+    lines = [_OPTIONAL.sub(lambda word: word[1] if word[1] in chosen else "", block) for block in sample.blocks]
+    state = advance(dialect.initial_state(Length.MM), parse(sample.before).blocks[0], dialect.modes)
     blocks = parse("\n".join(lines)).blocks
     claim = dialect.find(blocks, 0, state, dialect.modes)
     if not isinstance(claim, Claim) or claim.form is not form:
@@ -66,6 +68,12 @@ def _row(form: Form, dialect: Dialect, chosen: frozenset[str]) -> Row:
         faults=tuple(_faults(profile)),
         condition=verdict.condition,
     )
+
+
+def _sample(form: Form) -> Sample:
+    if form.sample is None:
+        raise ValueError(f"the form {form.name} has no sample")
+    return form.sample
 
 
 def _faults(profile: Profile) -> Iterator[str]:

@@ -12,20 +12,25 @@ from contoursolve.backends.numeric import (
     Tape,
     affine_parts,
     angle,
+    cosine,
     is_zero,
     jacobian_parts,
     magnitude,
     sign,
+    sine,
     sqrt,
     symbol,
     where,
 )
 from contoursolve.backends.replay import Replay
-from contoursolve.constraints import Heading, System, Values
+from contoursolve.constraints import Functions, Heading, System, Values
 from contoursolve.model import FIRST, SECOND, Arc, Corner, Line, scalar
 from contoursolve.solving.corners import Edge, Pair, build_corner, unit
 from contoursolve.solving.plan import AffineStep, DistanceStep, LineCircleStep, Plan, Step, TwoCirclesStep, make_plan
 from contoursolve.tolerance import TOUCHING
+
+
+_FUNCTIONS = Functions(sqrt, cosine, sine)
 
 
 class _Builder:
@@ -42,7 +47,7 @@ class _Builder:
         self.directions = Directions(self.tape, {})
 
     def at(self, scalars: dict[str, Any]) -> Values:
-        return Values(scalars, self.amounts, self.directions, self.system.headed)
+        return Values(scalars, self.amounts, self.directions, self.system.headed, functions=_FUNCTIONS)
 
     def point(self, name: str) -> Pair:
         return self.scalars[scalar(name, FIRST)], self.scalars[scalar(name, SECOND)]
@@ -87,23 +92,22 @@ class _Builder:
 
     def _line_circle(self, step: LineCircleStep, number: int) -> None:
         """Foot of the perpendicular from the centre, then half the chord forward or back."""
-        through, (cosine, sine) = self._line_of(step)
+        through, (first, second) = self._line_of(step)
         center, radius = self.point(step.circle.center), self.scalars[step.circle.radius]
-        offset = (through[0] - center[0]) * -sine + (through[1] - center[1]) * cosine
+        offset = (through[0] - center[0]) * -second + (through[1] - center[1]) * first
         scale = radius + sum(magnitude(value) for value in (*center, *through))
         root = self._root((radius - offset) * (radius + offset), offset, radius, scale, number)
         half = self.tape.input(f"side:{step.circle.point}") * root
         self.set_point(
             step.circle.point,
-            (center[0] - sine * offset + cosine * half, center[1] + cosine * offset + sine * half),
+            (center[0] - second * offset + first * half, center[1] + first * offset + second * half),
         )
 
     def _line_of(self, step: LineCircleStep) -> tuple[Pair, Pair]:
         """A known point of a step's line, and the line's direction."""
         if isinstance(step.line, Heading):
             other = step.line.tail if step.line.head == step.circle.point else step.line.head
-            cosine, sine = self.directions[step.line.given]
-            return self.point(other), (cosine, sine)
+            return self.point(other), self.directions[step.line.given]
         tail, through = self.point(step.line.tail), self.point(step.line.through)
         return tail, unit((through[0] - tail[0], through[1] - tail[1]))
 
@@ -210,8 +214,7 @@ class _Builder:
 
     def _direction(self, line: Line) -> Pair:
         if line.heading is not None:
-            cosine, sine = self.directions[line.heading]
-            return cosine, sine
+            return self.directions[line.heading]
         tail, head = self.point(line.tail), self.point(line.toward or line.head)
         return unit((head[0] - tail[0], head[1] - tail[1]))
 

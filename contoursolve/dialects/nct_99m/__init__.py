@@ -2,7 +2,9 @@
 
 from contoursolve.dialects.common import COMMON_RULES
 from contoursolve.dialects.dialect import Dialect
-from contoursolve.dialects.nct_99m.circle_line import CIRCLE_LINE, find
+from contoursolve.dialects.nct_99m.chain import FORMS
+from contoursolve.dialects.nct_99m.claim import CIRCLE_CIRCLE_Q
+from contoursolve.dialects.nct_99m.find import find
 from contoursolve.dialects.nct_99m.lexicon import MODES, XY
 from contoursolve.dialects.nct_99m.rules import COMBINATION_RULES, GEOMETRY_RULES
 from contoursolve.syntax import Block
@@ -20,8 +22,9 @@ NCT_99M = Dialect(
     title="NCT 99M and 2000M milling controls",
     modes=MODES,
     plane=XY,
-    forms=(CIRCLE_LINE,),
+    forms=FORMS,
     rules=COMMON_RULES + COMBINATION_RULES + GEOMETRY_RULES,
     find=find,
     signs=_signs,
+    settings=(CIRCLE_CIRCLE_Q,),
 )

@@ -12,14 +12,14 @@ ADDRESSES = (
     Address("X", "coordinate", Unit.MM, CHAPTER, axis="X"),
     Address("Y", "coordinate", Unit.MM, CHAPTER, axis="Y"),
     Address("Z", "coordinate", Unit.MM, CHAPTER, axis="Z"),
-    Address("I", "centre along X, from the start point", Unit.MM, CHAPTER),
-    Address("J", "centre along Y, from the start point", Unit.MM, CHAPTER),
-    Address("K", "centre along Z, from the start point", Unit.MM, CHAPTER),
+    Address("I", "centre along X, from where the arc begins", Unit.MM, CHAPTER),
+    Address("J", "centre along Y, from where the arc begins", Unit.MM, CHAPTER),
+    Address("K", "centre along Z, from where the arc begins", Unit.MM, CHAPTER),
     Address("R", "radius; negative for an arc of more than 180 deg", Unit.MM, CHAPTER),
     Address(",A", "angle of the line, from the plane's first axis, counter-clockwise", Unit.DEGREE, CHAPTER),
     Address(",C", "chamfer", Unit.MM, Source(MANUAL, "16.1", Evidence.PRINTED)),
     Address(",R", "rounding", Unit.MM, Source(MANUAL, "16.1", Evidence.PRINTED)),
-    Address("Q", "which intersection: negative the nearer, positive the farther", Unit.SIGN, CHAPTER),
+    Address("Q", "which intersection: along a line, negative the nearer, positive the farther", Unit.SIGN, CHAPTER),
 )
 
 NUMBERS = NumberFormat(WithoutPoint.AS_WRITTEN, Source(MANUAL, "examples, p. 123-130", Evidence.PRINTED))

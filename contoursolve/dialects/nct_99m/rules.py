@@ -1,87 +1,123 @@
-"""NCT 16.3.3: which words the pair of blocks may have, and what cannot be intersected."""
+"""NCT 99M, chapter 16: which words may be combined, and what has no solution."""
 
 from decimal import Decimal
 
 from contoursolve.diagnostic import Alarm, Severity
-from contoursolve.dialects.nct_99m.circle_line import ALONE, CHAINED, COMPENSATED, OTHER_PLANE, RAPID
+from contoursolve.dialects.nct_99m.element import (
+    ALONE,
+    ARC,
+    CIRCLE_CIRCLE,
+    CIRCLE_LINE,
+    COMPENSATED,
+    FOLLOWED,
+    LAST,
+    LINE,
+    LINE_CIRCLE,
+    LINE_LINE,
+    ORDINARY,
+    OTHER_PLANE,
+    OVER_CIRCLE,
+    OVER_LINE,
+    RAPID,
+)
 from contoursolve.dialects.nct_99m.lexicon import MANUAL
-from contoursolve.rules import Condition, Rule, Value, all_of, at_most, some
+from contoursolve.rules import Rule, Value, all_of, at_most, some
 from contoursolve.solving import RefusalKind, RemarkKind
 from contoursolve.source import Evidence, Source
 
-_ROLE = "circle-line"
+_ANY = (LINE, ARC, OVER_LINE, OVER_CIRCLE)
+_OVER = (OVER_LINE, OVER_CIRCLE)
+_CHOOSING = (LINE_CIRCLE, CIRCLE_LINE, CIRCLE_CIRCLE)
+
 _START = "G17 G90 G0 X90 Y0\nG42 G1 X50 D0\n"
 _ARC = "G3 X-50 Y0 R50\n"
 _LINE = "G1 X-50 Y42.857 ,A171.87 Q-1"
 _GOOD = _START + _ARC + _LINE
 _CENTERED = _START + "G3 I-50 J0\n" + _LINE
+_LINES = "G17 G90 G41 G0 X90 Y10 D0\nG1 ,A150\nG1 X10 Y20 ,A225"
+_TO_CIRCLE = "G17 G90 G42 G0 X100 Y20 D0\nG1 X-30 Y-20\nG3 X20 Y40 I20 J-10 R50 Q-1"
+_CIRCLES = _START + "G3 X-50 Y0 I-50 J0\nG3 X-40 Y60 I-40 J20 R40 Q-1"
+_CUT = "G17 G90 G0 X0 Y0\nG1 X30 ,C10\nX40 Y40"
+_ROUNDED = "G17 G90 G0 X0 Y0\nG1 X30 ,R8\nG3 X0 Y30 R30"
+_BY_ANGLE = "G17 G90 G0 X0 Y0\nG1 X30 ,A45"
 
-_CENTERS = ("1:center-first", "1:center-second")
-_POINT = ("1:first", "1:first-step", "1:second", "1:second-step")
-_PAIR: Condition = ~some(ALONE)
+_CENTERS = ("center-first", "center-second")
+_POINT = ("first", "first-step", "second", "second-step")
 
 
 def _manual(place: str, evidence: Evidence = Evidence.PRINTED) -> Source:
     return Source(MANUAL, place, evidence)
 
 
-_PAGE = _manual("16.3.3, p. 129")
-_DERIVED = _manual("16.3.3, p. 129", Evidence.DERIVED)
-_ASSUMED = _manual("16.3.3, p. 129: not described", Evidence.ASSUMED)
+_CHAPTER = _manual("16.3")
+_ASSUMED = _manual("16.3: not described", Evidence.ASSUMED)
 _CIRCLE = Alarm("3014 ERRONEOUS CIRCLE DEF.", Evidence.PRINTED)
 _CIRCLE_R = Alarm("3012 ERRONEOUS CIRCLE DEF. R", Evidence.PRINTED)
+_CORNERS = Alarm("3081 DEFINITION ERROR ,C ,R", Evidence.PRINTED)
+_TOO_HIGH = Alarm("3084 ,C ,R TOO HIGH", Evidence.PRINTED)
 
 COMBINATION_RULES = (
     Rule(
         code="nct-compensation-off",
         message="{words}: intersections are computed only with G41 or G42 active",
-        help="switch G41 or G42 on before the arc; D00 keeps the path where it is",
+        help="switch G41 or G42 on before the first element; D00 keeps the path where it is",
         source=_manual("16.3: every format and example has it", Evidence.ASSUMED),
-        roles=(_ROLE,),
-        when=some("2:,A") & ~some(COMPENSATED),
-        accepted=(_GOOD,),
-        rejected=("G17 G90 G0 X50 Y0\n" + _ARC + _LINE,),
+        roles=_OVER,
+        when=some(",A", "R") & ~some(COMPENSATED),
+        accepted=(_GOOD, _TO_CIRCLE),
+        rejected=(_GOOD.replace("G42 ", ""), _TO_CIRCLE.replace("G42 ", "")),
     ),
     Rule(
-        code="nct-line-without-arc",
-        message="{words}: this line has both coordinates and ,A, but the block before it is no arc",
-        help="put the arc (G2 or G3) right before it, or drop ,A; a line before it (16.3.1) is not resolved "
-        "by this version",
-        source=_DERIVED,
-        roles=(_ROLE,),
-        when=some("2:,A") & some(ALONE),
-        accepted=(_GOOD,),
-        rejected=(_START + "G1 X60 Y10\n" + _LINE,),
+        code="nct-nothing-before",
+        message="{words}: this block is over-defined, so it begins in an intersection; but right before it there is "
+        "no G1, G2 or G3 block",
+        help="put the element that it shall meet right before it; or drop ,A of a line, or Q and the centre of an arc",
+        source=_manual("16.3: consecutive blocks"),
+        roles=(*_OVER, LINE, ARC),
+        when=some(",A", "Q") & some(ALONE),
+        accepted=(_GOOD, _LINES),
+        rejected=(_START + "M8\n" + _LINE, "G17 G90 G41 G0 X50 Y0\n" + _LINE),
     ),
     Rule(
         code="nct-line-rapid",
         message="{words}: the over-defined line must be a G1 block, not G0",
         help="write G1",
-        source=_DERIVED,
-        roles=(_ROLE,),
-        when=some("2:,A") & some(RAPID),
+        source=_manual("16.3: the formats", Evidence.DERIVED),
+        roles=(OVER_LINE,),
+        when=some(",A") & some(RAPID),
         accepted=(_GOOD,),
         rejected=(_START + _ARC + "G0 X-50 Y42.857 ,A171.87 Q-1",),
     ),
     Rule(
         code="nct-q-missing",
-        message="Q is missing: the line meets the circle twice, and only Q's sign tells which point is meant",
-        help="add Q-1 for the nearer or Q1 for the farther point, counted along ,A",
+        message="Q is missing: the two elements meet twice, and only Q's sign tells which point is meant",
+        help="add Q-1 or Q1: along a line Q-1 is the nearer point, Q1 the farther one",
         source=_ASSUMED,
-        roles=(_ROLE,),
-        when=some("2:,A") & ~some("2:Q") & _PAIR,
-        accepted=(_GOOD,),
+        roles=_CHOOSING,
+        when=~some("2:Q"),
+        accepted=(_GOOD, _TO_CIRCLE),
         rejected=(_START + _ARC + "G1 X-50 Y42.857 ,A171.87",),
     ),
     Rule(
         code="nct-q-zero",
         message="{words} has no sign, and only Q's sign tells which point is meant",
-        help="write Q-1 for the nearer or Q1 for the farther point, counted along ,A",
+        help="write Q-1 or Q1: along a line Q-1 is the nearer point, Q1 the farther one",
         source=_ASSUMED,
-        roles=(_ROLE,),
+        roles=_CHOOSING,
         when=Value(("2:Q",), excluding=Decimal(0)),
         accepted=(_GOOD,),
-        rejected=(_START + _ARC + "G1 X-50 Y42.857 ,A171.87 Q0",),
+        rejected=(_START + _ARC + "G1 X-50 Y42.857 ,A171.87 Q0", _TO_CIRCLE.replace("Q-1", "Q0")),
+    ),
+    Rule(
+        code="nct-q-unused",
+        message="{words}: two lines meet in one point, so Q chooses nothing",
+        help="delete it",
+        source=_manual("16.3.1"),
+        severity=Severity.WARNING,
+        roles=(LINE_LINE,),
+        when=some("2:Q"),
+        accepted=(_LINES,),
+        rejected=(_LINES + " Q1",),
     ),
     Rule(
         code="nct-circle-undefined",
@@ -89,19 +125,19 @@ COMBINATION_RULES = (
         help="add the centre's two distances from the start point, or R with a point",
         source=_manual("16.3.3, p. 129; alarm 3014"),
         alarm=_CIRCLE,
-        roles=(_ROLE,),
-        when=at_most(0, _CENTERS, "1:R") & _PAIR,
+        roles=(ARC,),
+        when=at_most(0, _CENTERS, "R"),
         accepted=(_GOOD, _CENTERED),
-        rejected=(_START + "G3 X-50 Y0\n" + _LINE,),
+        rejected=(_START + "G3 X-50 Y0\n" + _LINE, _START + "G3 X-50 Y0"),
     ),
     Rule(
         code="nct-center-and-radius",
         message="{words}: the arc has both a centre and a radius",
-        help="keep one of them; an over-defined circle in a chain (16.3.5) is not resolved by this version",
-        source=_PAGE,
-        roles=(_ROLE,),
-        when=all_of(_CENTERS, "1:R"),
-        accepted=(_GOOD, _CENTERED),
+        help="keep one of them; to begin it in an intersection (16.3), give its end, its centre (absolute), R and Q",
+        source=_manual("16.3.3, p. 129"),
+        roles=(ARC,),
+        when=all_of(_CENTERS, "R"),
+        accepted=(_GOOD, _CENTERED, _TO_CIRCLE),
         rejected=(_START + "G3 X-50 Y0 I-50 J0 R50\n" + _LINE,),
     ),
     Rule(
@@ -110,18 +146,18 @@ COMBINATION_RULES = (
         help="add the coordinates of a point, or give the centre instead",
         source=_manual("16.3.3, p. 129; alarm 3012"),
         alarm=_CIRCLE_R,
-        roles=(_ROLE,),
-        when=some("1:R") & ~some(*_POINT),
+        roles=(ARC,),
+        when=some("R") & ~some(*_POINT),
         accepted=(_GOOD,),
-        rejected=(_START + "G3 R50\n" + _LINE,),
+        rejected=(_START + "G3 R50\n" + _LINE, _START + "G3 R50"),
     ),
     Rule(
         code="nct-radius-zero",
         message="{words}: a circle of radius 0 meets nothing",
         help="write the radius",
         source=_ASSUMED,
-        roles=(_ROLE,),
-        when=Value(("1:R",), excluding=Decimal(0)),
+        roles=(ARC, OVER_CIRCLE),
+        when=Value(("R",), excluding=Decimal(0)),
         accepted=(_GOOD,),
         rejected=(_START + "G3 X-50 Y0 R0\n" + _LINE,),
     ),
@@ -131,67 +167,101 @@ COMBINATION_RULES = (
         help="G17 takes I and J, G18 takes I and K, G19 takes J and K",
         source=_manual("16.3.3, p. 129; alarm 3014"),
         alarm=_CIRCLE,
-        roles=(_ROLE,),
-        when=some("1:wrong-center", "2:wrong-center"),
+        roles=(ARC, OVER_CIRCLE),
+        when=some("wrong-center"),
         accepted=(_CENTERED,),
-        rejected=(_START + "G3 I-50 K0\n" + _LINE,),
+        rejected=(_START + "G3 I-50 K0\n" + _LINE, _START + "G3 X-50 I-50 K0"),
     ),
     Rule(
         code="nct-center-on-line",
         message="{words}: a line has no centre and no radius",
         help="delete it",
-        source=_DERIVED,
-        roles=(_ROLE,),
-        when=some("2:center-first", "2:center-second", "2:R"),
+        source=_manual("16.3: the formats", Evidence.DERIVED),
+        roles=(LINE, OVER_LINE),
+        when=some(*_CENTERS, "wrong-center", "R"),
         accepted=(_GOOD,),
         rejected=(_GOOD + " R5",),
     ),
     Rule(
-        code="nct-q-on-arc",
-        message="{words}: Q and ,A belong to the line, not to this arc",
-        help="delete it; chains of over-defined blocks (16.3.5) are not resolved by this version",
-        source=_DERIVED,
-        roles=(_ROLE,),
-        when=some("1:Q", "1:,A"),
+        code="nct-q-without-intersection",
+        message="{words}: this block does not begin in a computed intersection, so Q chooses nothing",
+        help="delete it; a block begins in an intersection if it is over-defined: a line by both coordinates and ,A, "
+        "an arc by its end, its centre, R and Q",
+        source=_manual("16.3: the formats", Evidence.DERIVED),
+        roles=(LINE, ARC),
+        when=some("Q") & ~some(ALONE),
         accepted=(_GOOD,),
-        rejected=(_START + "G3 X-50 Y0 R50 Q1\n" + _LINE,),
+        rejected=(_START + "G3 X-50 Y0 R50 Q1\n" + _LINE, _BY_ANGLE + " Q1"),
+    ),
+    Rule(
+        code="nct-angle-on-arc",
+        message="{words}: an arc has no angle",
+        help="delete it",
+        source=_manual("16.3: the formats", Evidence.DERIVED),
+        roles=(ARC, OVER_CIRCLE),
+        when=some(",A"),
+        accepted=(_GOOD,),
+        rejected=(_START + "G3 X-50 Y0 R50 ,A90\n" + _LINE,),
+    ),
+    Rule(
+        code="nct-direction-twice",
+        message="{words}: an over-defined block follows, so this line ends in an intersection; its direction is "
+        "given by ,A and by a point",
+        help="keep ,A alone, or the point alone",
+        source=_manual("16.3.1: the formats of N1", Evidence.DERIVED),
+        roles=(LINE,),
+        when=all_of(",A", _POINT) & some(FOLLOWED),
+        accepted=(_LINES, _LINES.replace("G1 ,A150", "G1 X50 Y33.094")),
+        rejected=(_LINES.replace("G1 ,A150", "G1 X50 ,A150"),),
+    ),
+    Rule(
+        code="nct-two-corners",
+        message="{words}: a block takes ,C or ,R, not both",
+        help="keep one of them",
+        source=_manual("16.1; alarm 3017"),
+        alarm=Alarm("3017 ,C AND ,R IN ONE BLOCK", Evidence.PRINTED),
+        roles=_ANY,
+        when=all_of(",C", ",R"),
+        accepted=(_CUT, _ROUNDED),
+        rejected=(_CUT.replace(",C10", ",C10 ,R5"),),
+    ),
+    Rule(
+        code="nct-corner-without-next",
+        message="{words}: a corner needs an element after it, and no G1, G2 or G3 block follows",
+        help="put the next element right after it, or delete it",
+        source=_manual("16.1; alarm 3081"),
+        alarm=_CORNERS,
+        roles=_ANY,
+        when=some(",C", ",R") & some(LAST),
+        accepted=(_CUT,),
+        rejected=("G17 G90 G0 X0 Y0\nG1 X30 ,C10\nM8\nX40 Y40", "G17 G90 G0 X0 Y0\nG1 X30 ,R5\nG0 X40 Y40"),
+    ),
+    Rule(
+        code="nct-corner-negative",
+        message="{words}: a chamfer or a rounding has no sign",
+        help="delete the minus sign: the elements tell on which side the corner lies",
+        source=_manual("16.1: not described", Evidence.ASSUMED),
+        roles=_ANY,
+        when=Value((",C", ",R"), least=Decimal(0)),
+        accepted=(_CUT,),
+        rejected=(_CUT.replace(",C10", ",C-10"),),
     ),
     Rule(
         code="nct-axis-outside-plane",
-        message="{words} moves an axis outside the plane in which the intersection is computed",
+        message="{words} moves an axis outside the plane in which the contour is computed",
         help="move that axis in a block of its own",
         source=_ASSUMED,
-        roles=(_ROLE,),
-        when=some("1:off-plane", "2:off-plane"),
-        accepted=(_GOOD,),
+        roles=_ANY,
+        when=some("off-plane") & ~some(ORDINARY),
+        accepted=(_GOOD, _START + "G3 X-50 Y0 Z-5 R50"),
         rejected=(_GOOD + " Z-5",),
     ),
     Rule(
-        code="nct-corner-at-intersection",
-        message="{words}: a chamfer or rounding at a computed intersection is not resolved by this version",
-        help="the block was not solved; the control inserts the corner after it has found the intersection",
-        source=_manual("16.3.3, p. 129: the intersection first, then the corner"),
-        roles=(_ROLE,),
-        when=some("1:,C", "1:,R", "2:,C", "2:,R"),
-        accepted=(_GOOD,),
-        rejected=(_START + "G3 X-50 Y0 R50 ,R2\n" + _LINE,),
-    ),
-    Rule(
-        code="nct-chain",
-        message="the next block is over-defined, too: this is a chain (16.3.5), which this version does not resolve",
-        help="the pair was not solved: the line's end is then not its real end, but a point that it passes through",
-        source=_manual("16.3.5; the rule which coordinates are a real end"),
-        roles=(_ROLE,),
-        when=some(CHAINED),
-        accepted=(_GOOD,),
-        rejected=(_GOOD + "\nG2 X-80 Y20 I-60 J30 R20 Q1",),
-    ),
-    Rule(
         code="nct-plane-changes",
-        message="the plane changes between the arc and the line",
-        help="select the plane before the arc",
-        source=_DERIVED,
-        roles=(_ROLE,),
+        message="the plane changes inside the contour",
+        help="select the plane before its first block",
+        source=_manual("16.3: in one plane", Evidence.DERIVED),
+        roles=_ANY,
         when=some(OTHER_PLANE),
         accepted=(_GOOD,),
         rejected=(_START + _ARC + "G18 G1 X-50 Z42.857 ,A171.87 Q-1",),
@@ -202,17 +272,17 @@ GEOMETRY_RULES = (
     Rule(
         code="nct-circle-missed",
         message="the line misses the circle: it passes the centre at {actual}, the radius is {limit}, {off} too far",
-        help="change ,A or the line's end point, or make the circle larger",
-        source=_PAGE,
+        help="change the line, or make the circle larger",
+        source=_CHAPTER,
         about=RefusalKind.CIRCLE_MISSED,
         accepted=(_GOOD,),
         rejected=(_START + _ARC + "G1 X-50 Y80 ,A180 Q-1",),
     ),
     Rule(
         code="nct-circle-touched",
-        message="the line touches the circle: both intersections are one point, and Q chooses nothing",
+        message="{subject}: two elements only touch, so that both intersections are one point and Q chooses nothing",
         help="a value slightly different splits it in two or loses it: check that tangency is meant",
-        source=_DERIVED,
+        source=_manual("16.3.3, p. 129", Evidence.DERIVED),
         about=RemarkKind.TOUCHES,
         severity=Severity.WARNING,
         accepted=(_GOOD,),
@@ -241,8 +311,8 @@ GEOMETRY_RULES = (
     ),
     Rule(
         code="nct-radius-difference",
-        message="{words}: start and point differ in their distance from the centre by {off}, allowed {limit}",
-        help="correct the point or the centre; the point may be left out",
+        message="{words}: two points of the arc differ in their distance from the centre by {off}, allowed {limit}",
+        help="correct the point, the centre or the radius",
         source=_manual("alarm 3011; the allowed difference is a machine parameter", Evidence.ASSUMED),
         alarm=Alarm("3011 RADIUS DIFFERENCE", Evidence.PRINTED),
         about=RefusalKind.RADIUS_DIFFERENCE,
@@ -251,9 +321,9 @@ GEOMETRY_RULES = (
     ),
     Rule(
         code="nct-radius-differs",
-        message="{words}: start and point differ in their distance from the centre by {off}, within the "
-        "control's {limit}; the start counts",
-        help="correct the point or leave it out",
+        message="{words}: two points of the arc differ in their distance from the centre by {off}, within the "
+        "control's {limit}",
+        help="correct the point, the centre or the radius",
         source=_manual("alarm 3011; the allowed difference is a machine parameter", Evidence.ASSUMED),
         severity=Severity.INFO,
         about=RemarkKind.RADIUS_DIFFERS,
@@ -272,11 +342,85 @@ GEOMETRY_RULES = (
     ),
     Rule(
         code="nct-arc-empty",
-        message="the intersection is the start point of the arc: no arc, or a full circle, would be cut",
+        message="{subject} ends where it begins: no arc, or a full circle, would be cut",
         help="choose the other point by Q, or drop the arc",
         source=_ASSUMED,
         about=RefusalKind.ARC_EMPTY,
         accepted=(_GOOD,),
         rejected=(_START + _ARC + "G1 X90 Y0 ,A0 Q1",),
+    ),
+    Rule(
+        code="nct-circles-apart",
+        message="the two circles do not meet: their centres are {actual} apart, and they meet at {limit}",
+        help="change a centre or a radius by {off}",
+        source=_CHAPTER,
+        about=RefusalKind.CIRCLES_APART,
+        accepted=(_CIRCLES,),
+        rejected=(_CIRCLES.replace("I-40 J20 R40", "I-40 J160 R40"),),
+    ),
+    Rule(
+        code="nct-backwards",
+        message="{subject} would run backwards: the intersection lies {off} behind where it begins",
+        help="choose the other point by Q, or move the point of the line",
+        source=_manual("16.3.1: the line runs towards its point", Evidence.ASSUMED),
+        about=RefusalKind.LINE_BACKWARDS,
+        accepted=(_LINES,),
+        rejected=(_LINES.replace("G1 ,A150", "G1 X130 Y-13.094"),),
+    ),
+    Rule(
+        code="nct-parallel",
+        message="no point satisfies {words} together: the lines are parallel and {off} apart",
+        help="change an angle or a point",
+        source=_CHAPTER,
+        about=RefusalKind.LINES_PARALLEL,
+        accepted=(_LINES,),
+        rejected=(_LINES.replace(",A225", ",A150"),),
+    ),
+    Rule(
+        code="nct-not-fixed",
+        message="{words} do not fix {free}: at these values they state the same line",
+        help="replace one of them by a word that says where on the line the point is",
+        source=_manual("16.2", Evidence.DERIVED),
+        about=RefusalKind.NOT_FIXED,
+        accepted=(_BY_ANGLE,),
+        rejected=("G17 G90 G0 X0 Y0\nG1 X0 ,A90",),
+    ),
+    Rule(
+        code="nct-corner-too-large",
+        message="{subject} does not fit: {words} is {actual}, at most {limit} fits on its elements",
+        help="write at most {limit}, or make the elements longer",
+        source=_manual("16.1; alarm 3084"),
+        alarm=_TOO_HIGH,
+        about=RefusalKind.CORNER_TOO_LARGE,
+        accepted=(_CUT, _ROUNDED),
+        rejected=(_CUT.replace(",C10", ",C31"), _ROUNDED.replace(",R8", ",R40")),
+    ),
+    Rule(
+        code="nct-corners-overlap",
+        message="{words} overlap on {subject}: they need {actual}, it has {limit}",
+        help="make the corners smaller by {off} of it in all",
+        source=_manual("16.1; alarm 3084", Evidence.DERIVED),
+        alarm=_TOO_HIGH,
+        about=RefusalKind.CORNERS_OVERLAP,
+        accepted=(_CUT,),
+        rejected=("G17 G90 G0 X0 Y0\nG1 X30 ,C20\nY30 ,C20\nX60",),
+    ),
+    Rule(
+        code="nct-no-corner",
+        message="{words}: {subject} joins two elements of the same direction, so there is nothing to round or cut",
+        help="delete {words}",
+        source=_manual("16.1: not described", Evidence.ASSUMED),
+        about=RefusalKind.CORNER_STRAIGHT,
+        accepted=(_CUT,),
+        rejected=(_CUT.replace("X40 Y40", "X60"),),
+    ),
+    Rule(
+        code="nct-corner-reverses",
+        message="{words}: {subject} turns back by 180 deg, where no corner can be made",
+        help="change the direction of one element",
+        source=_manual("16.1: not described", Evidence.ASSUMED),
+        about=RefusalKind.CORNER_REVERSES,
+        accepted=(_CUT,),
+        rejected=(_CUT.replace("X40 Y40", "X10"),),
     ),
 )

@@ -1,0 +1,205 @@
+"""NCT chapter 16: what the blocks of a contour state, with what the control supplies, and what their signs choose."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from decimal import Decimal
+
+from contoursolve.dialects.nct_99m.chain import Names, compose, names_of
+from contoursolve.dialects.nct_99m.element import (
+    ALONE,
+    CIRCLE_CIRCLE,
+    COMPENSATED,
+    FOLLOWED,
+    LAST,
+    LINE_LINE,
+    ORDINARY,
+    OTHER_PLANE,
+    POINT,
+    RAPID,
+    Element,
+    pair_role,
+)
+from contoursolve.model import Choice, Given, Side, Turn, Unit
+from contoursolve.reading import Claim, Lexicon, Modes, Selector, Setting, State
+from contoursolve.source import Evidence, Source
+from contoursolve.syntax import Block, Word
+
+CIRCLE_CIRCLE_Q = Setting(
+    name="circle-circle-q",
+    meaning="which intersection of two circles Q chooses",
+    values={
+        "left-is-negative": "Q<0 the point left of the way from the first centre to the second, Q>0 the one right",
+        "right-is-negative": "Q<0 the point right of the way from the first centre to the second, Q>0 the one left",
+    },
+    default="left-is-negative",
+    source=Source("NCT 99M/2000M Programmer's Manual", "16.3.4: the page has not been seen", Evidence.ASSUMED),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Member:
+    """One block of a contour: its element, the states before and after its G codes, whether it can stand here."""
+
+    block: Block
+    element: Element
+    here: State
+    is_alone: bool = False
+    """Over-defined, but no G1, G2 or G3 block is right before it."""
+    is_last: bool = False
+    """No G1, G2 or G3 block follows."""
+
+
+def claim_of(members: Sequence[Member], before: State, modes: Modes) -> Claim:
+    """The contour of blocks in a row."""
+    elements = tuple(member.element for member in members)
+    form, names = compose(elements), names_of(elements)
+    first = members[0].here
+    words: dict[str, Word] = {}
+    repeated: list[Word] = []
+    givens: dict[str, Given] = {}
+    vocabulary: dict[str, tuple[str, int]] = {}
+    circumstances: set[str] = set()
+    for index, member in enumerate(members):
+        called = _calls(member, modes.lexicon)
+        prefix = f"{index + 1}:"
+        vocabulary |= {prefix + name: (address, index) for address, name in called.items()}
+        own: dict[str, Word] = {}
+        for word in member.block.words:
+            code = word.number if word.address == "G" else ""
+            name = called.get(word.address, f"{word.address}{code}")
+            if name in own and word.address != "M":
+                repeated.append(word)
+            own.setdefault(name, word)
+        own_givens = _givens(own, member, modes.lexicon)
+        words |= {prefix + name: word for name, word in own.items()}
+        givens |= {prefix + name: replace(given, name=prefix + name) for name, given in own_givens.items()}
+        circumstances |= {prefix + name for name in _circumstances(member, first, is_only=len(members) == 1)}
+    known = {name: word for name, word in words.items() if word.address in modes.lexicon.addresses}
+    return Claim(
+        form=form,
+        lexicon=modes.lexicon,
+        blocks=tuple(member.block for member in members),
+        before=replace(before, plane=first.plane, unit=first.unit),
+        after=members[-1].here,
+        words=known,
+        givens=givens,
+        vocabulary=vocabulary,
+        unknown=tuple(word for word in words.values() if word.address not in form.allowed),
+        repeated=tuple(repeated),
+        circumstances=frozenset(circumstances),
+        choices=tuple(_choices(elements, names, givens, modes)),
+        selectors=tuple(_selectors(elements, names, known, modes)),
+        conventions=(CIRCLE_CIRCLE_Q.name,) if any(role.name == CIRCLE_CIRCLE for role in form.roles) else (),
+    )
+
+
+def _calls(member: Member, lexicon: Lexicon) -> dict[str, str]:
+    """What a block's addresses state, without the number of the block."""
+    plane = member.here.plane
+    step = "-step" if member.here.is_incremental and not member.element.is_over else ""
+    called = {address: address for address, row in lexicon.addresses.items() if not row.axis}
+    called |= dict.fromkeys({"X", "Y", "Z"} - {*plane.axes}, "off-plane")
+    called |= dict.fromkeys({"I", "J", "K"} - {*plane.centers}, "wrong-center")
+    for addresses, what, suffix in ((plane.axes, "", step), (plane.centers, "center-", "")):
+        called |= {address: f"{what}{order}{suffix}" for address, order in zip(addresses, _ORDERS, strict=True)}
+    return called
+
+
+_ORDERS = ("first", "second")
+
+
+def _givens(words: Mapping[str, Word], member: Member, lexicon: Lexicon) -> dict[str, Given]:
+    """The values of a block's words, with those that the control supplies. R counts by its size, its sign is a
+    choice."""
+    stated = {
+        name: given
+        for name, word in words.items()
+        if word.address in lexicon.addresses
+        for given in (lexicon.given(name, word, member.here.unit),)
+        if given is not None
+    }
+    asked = {name.removesuffix("-step") for name, word in words.items() if word.is_asked}
+    element = member.element
+    if element.is_over:
+        return stated
+    if element.turn is not None:
+        stated |= _supplied("center-", "", stated, asked)
+    ends = {name.removesuffix("-step") for name in stated} & {*_ORDERS}
+    is_partial = element.turn is None and ",A" in words
+    if not is_partial and (ends or not element.is_followed):
+        stated |= _supplied("", "-step", stated, asked, is_always=not element.is_followed)
+    if ends and element.is_followed:
+        stated[POINT] = Given(POINT, Decimal(0), Unit.SIGN, None)
+    return stated
+
+
+def _supplied(
+    what: str, suffix: str, stated: Mapping[str, Given], asked: set[str], *, is_always: bool = False
+) -> dict[str, Given]:
+    """Of a pair, the missing one is no distance from where the element begins (assumed, as for every circle)."""
+    names = [what + order for order in _ORDERS]
+    present = {name.removesuffix("-step") for name in stated} | asked
+    missing = [name for name in names if name not in present]
+    if len(missing) == len(names) and not is_always:
+        return {}
+    return {name + suffix: Given(name + suffix, Decimal(0), Unit.MM, None) for name in missing}
+
+
+def _circumstances(member: Member, first: State, *, is_only: bool) -> Iterator[str]:
+    holds = {
+        COMPENSATED: member.here.compensation != 40,  # noqa: PLR2004 - G40
+        ALONE: member.is_alone,
+        OTHER_PLANE: member.here.plane != first.plane,
+        RAPID: member.here.motion == 0,
+        FOLLOWED: member.element.is_followed,
+        LAST: member.is_last,
+        ORDINARY: is_only and member.element.turn is not None,
+    }
+    return (name for name, is_true in holds.items() if is_true)
+
+
+def _choices(
+    elements: Sequence[Element], names: Sequence[Names], givens: Mapping[str, Given], modes: Modes
+) -> Iterator[Choice]:
+    """R's sign picks the centre of an ordinary arc: the shorter arc for a positive one. Q's sign picks the
+    intersection in which its block begins."""
+    previous: Element | None = None
+    for element, each in zip(elements, names, strict=True):
+        radius, sign = f"{each.prefix}R", f"{each.prefix}Q"
+        if element.turn is not None and not element.is_over and radius in givens:
+            yield Choice(each.center, _center_side(element.turn, is_short=givens[radius].value > 0), radius)
+        if previous is not None and element.is_over and sign in givens and givens[sign].value:
+            role = pair_role(previous, element)
+            if role != LINE_LINE:
+                yield Choice(each.tail, _side(role, is_negative=givens[sign].value < 0, modes=modes), sign)
+        previous = element
+
+
+def _center_side(turn: Turn, *, is_short: bool) -> Side:
+    return Side.LEFT if is_short == (turn is Turn.CCW) else Side.RIGHT
+
+
+def _side(role: str, *, is_negative: bool, modes: Modes) -> Side:
+    """The intersection that a sign of Q chooses."""
+    if role != CIRCLE_CIRCLE:
+        return Side.NEARER if is_negative else Side.FARTHER
+    is_left_negative = modes.settings.get(CIRCLE_CIRCLE_Q.name, CIRCLE_CIRCLE_Q.default) == CIRCLE_CIRCLE_Q.default
+    return Side.LEFT if is_negative == is_left_negative else Side.RIGHT
+
+
+def _selectors(
+    elements: Sequence[Element], names: Sequence[Names], words: Mapping[str, Word], modes: Modes
+) -> Iterator[Selector]:
+    """Q chooses an intersection, and the sign of a stated R a centre."""
+    previous: Element | None = None
+    for element, each in zip(elements, names, strict=True):
+        if previous is not None and element.is_over and pair_role(previous, element) != LINE_LINE:
+            for is_negative, text in ((True, "Q-1"), (False, "Q1")):
+                side = _side(pair_role(previous, element), is_negative=is_negative, modes=modes)
+                yield Selector(each.tail, side, text)
+        word = words.get(f"{each.prefix}R")
+        if element.turn is not None and not element.is_over and word is not None and word.number is not None:
+            size = word.text.lstrip("Rr +-")
+            yield Selector(each.center, _center_side(element.turn, is_short=True), f"R{size}")
+            yield Selector(each.center, _center_side(element.turn, is_short=False), f"R-{size}")
+        previous = element

@@ -1,0 +1,123 @@
+"""NCT chapter 16: which blocks in a row make a contour.
+
+Two blocks belong together where the second one is over-defined (16.3), so that they meet in an intersection that the
+control computes, and where the first one has ,C or ,R (16.1).
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from contoursolve.dialects.dialect import Unresolved
+from contoursolve.dialects.nct_99m.claim import Member, claim_of
+from contoursolve.dialects.nct_99m.element import CHAMFER, ROUNDING, Element
+from contoursolve.model import Turn
+from contoursolve.reading import Claim, Effect, Modes, State, apply_modes, codes_of
+from contoursolve.syntax import Block, Word
+
+_TURNS = {2: Turn.CW, 3: Turn.CCW}
+_OWN_USE = (Effect.SINGLE, Effect.NO_MOTION, Effect.PRESET, Effect.CYCLE, Effect.FRAME)
+
+
+def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> Claim | Unresolved | None:
+    """The contour that begins at a block: everything that is resolved together with it."""
+    block = blocks[index]
+    if not block.words or not _is_motion(block, state, modes):
+        return None
+    members = [_member(block, state, modes, is_over=False)]
+    is_alone = _is_over_defined(block, members[0].here)
+    is_tied = is_alone or _is_tied_alone(block, members[0].here)
+    position = index
+    while members[0].here.motion in (1, 2, 3):
+        last = members[-1]
+        following = _next(blocks, position)
+        if following is None or not _is_motion(blocks[following], last.here, modes):
+            break
+        here = apply_modes(last.here, blocks[following], modes)
+        is_over = _is_over_defined(blocks[following], here) or _is_stated(last, blocks[following], here)
+        is_cut = here.motion in (1, 2, 3) and _moves(blocks[following], here)
+        if not is_over and not (_has_corner(last.block) and is_cut):
+            break
+        if is_over:
+            members[-1] = replace(last, element=replace(last.element, is_followed=True))
+        members.append(_member(blocks[following], last.here, modes, is_over=is_over))
+        position = following
+        is_tied = True
+        if here.motion == 0:
+            break
+    if not is_tied:
+        return None
+    members[0] = replace(members[0], is_alone=is_alone)
+    members[-1] = replace(members[-1], is_last=_has_corner(members[-1].block))
+    return claim_of(members, state, modes)
+
+
+def _member(block: Block, before: State, modes: Modes, *, is_over: bool) -> Member:
+    here = apply_modes(before, block, modes)
+    return Member(block, Element(_TURNS.get(here.motion or 0), is_over, is_followed=False), here)
+
+
+def _next(blocks: Sequence[Block], index: int) -> int | None:
+    """The index of the next block that says something."""
+    return next((other for other in range(index + 1, len(blocks)) if _has_words(blocks[other])), None)
+
+
+def _has_words(block: Block) -> bool:
+    return bool(block.faults or block.macro) or any(word.address not in ("N", "O") for word in block.words)
+
+
+def _is_motion(block: Block, state: State, modes: Modes) -> bool:
+    """Whether the block's axis words are the end of a motion with G0 to G3."""
+    codes = codes_of(block, modes)
+    if block.macro or any(isinstance(code, Word) or code.effect in _OWN_USE for code in codes):
+        return False
+    here = apply_modes(state, block, modes)
+    return here.motion in (0, 1, 2, 3) and _moves(block, here)
+
+
+def _stated(block: Block) -> set[str]:
+    """The addresses of a block; a word that cannot be read still shows what the block was meant to be."""
+    return {word.address for word in block.words} | {fault.address for fault in block.faults}
+
+
+def _moves(block: Block, here: State) -> bool:
+    """Whether a block is a motion: it has a coordinate, an angle, a corner, or as an arc a centre or R."""
+    moving = {"X", "Y", "Z", ",A", CHAMFER, ROUNDING}
+    if here.motion in _TURNS:
+        moving |= {"I", "J", "K", "R"}
+    return bool(_stated(block) & moving)
+
+
+def _is_over_defined(block: Block, here: State) -> bool:
+    """A line with both coordinates of the plane and ,A; a circle with its end, its centre, R and Q (16.3)."""
+    if here.motion in _TURNS:
+        return _stated(block) >= {*here.plane.axes, *here.plane.centers, "R", "Q"}
+    return _stated(block) >= {*here.plane.axes, ",A"}
+
+
+def _has_corner(block: Block) -> bool:
+    return bool(_stated(block) & {CHAMFER, ROUNDING})
+
+
+def _is_tied_alone(block: Block, here: State) -> bool:
+    """Whether a block is calculated although nothing follows that belongs to it: a line by its angle (16.2), one with
+    a corner, and an arc with an end, which is checked."""
+    stated = _stated(block)
+    if _has_corner(block) or ",A" in stated:
+        return True
+    return here.motion in _TURNS and bool(stated & {*here.plane.axes, "R"})
+
+
+def _is_stated(last: Member, following: Block, here: State) -> bool:
+    """Whether further facts join two blocks in an intersection, for contoursolve alone: an arc and a line, or a line
+    whose end is not programmed and what follows it."""
+    is_extended = any(word.is_asked for word in _words(last.block, following))
+    if not (is_extended or last.block.directives or following.directives):
+        return False
+    if last.element.turn is not None:
+        return here.motion in (0, 1) and bool(_stated(following) & {*here.plane.axes, ",A"})
+    own = _stated(last.block)
+    return ",A" in own and not own & {*here.plane.axes}
+
+
+def _words(*blocks: Block) -> Iterator[Word]:
+    return (word for block in blocks for word in block.words)
