@@ -33,6 +33,7 @@ from contoursolve.solving import (
     RemarkKind,
     Solution,
     Status,
+    is_closed,
     lookup,
     points_with_two_solutions,
     scalars_of,
@@ -203,6 +204,7 @@ def list_alternatives(answer: Answer) -> Alternatives | None:
     if (
         answer.alternatives is not None
         or answer.contour is None
+        or not is_closed(assemble(answer.profile))
         or not points_with_two_solutions(assemble(answer.profile))
     ):
         return answer.alternatives
@@ -301,7 +303,7 @@ def _examine_geometry(
 
 def _solve(profile: Profile) -> tuple[Solution, Alternatives | None]:
     """The contour that the control makes, or the only one that there is."""
-    is_chosen = not profile.is_extended and not _open_points(profile)
+    is_chosen = not profile.is_extended and is_closed(assemble(profile)) and not _open_points(profile)
     solution = solve(profile) if is_chosen else None
     if solution is not None and not any(remark.kind is RemarkKind.TOUCHES for remark in solution.remarks):
         return solution, None
@@ -315,6 +317,8 @@ def _solve(profile: Profile) -> tuple[Solution, Alternatives | None]:
 
 def _open_points(profile: Profile) -> list[str]:
     """The points between whose two places nothing chooses."""
+    if not is_closed(assemble(profile)):
+        return []
     chosen = {choice.point for choice in profile.choices}
     return [point for point in points_with_two_solutions(assemble(profile)) if point not in chosen]
 

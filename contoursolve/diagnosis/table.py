@@ -12,7 +12,7 @@ from contoursolve.explain import unknowns_text
 from contoursolve.model import Corner, Length, Profile
 from contoursolve.reading import Claim, Form, Sample, advance, read
 from contoursolve.rules import check
-from contoursolve.solving import points_with_two_solutions
+from contoursolve.solving import is_closed, points_with_two_solutions
 from contoursolve.syntax import parse
 
 _OPTIONAL = re.compile(r"\{([^}]*)\}")
@@ -90,7 +90,7 @@ def _faults(profile: Profile) -> Iterator[str]:
     yield from (f"{name} given twice" for name in dict.fromkeys(names) if names.count(name) > 1)
     nowhere = {corner.name for corner in profile.figure.corners if not (corner.after or _lands(corner))}
     yield from (f"{name} lands nowhere" for name in sorted(nowhere))
-    if not verdict.free:
+    if not verdict.free and is_closed(system):
         chosen = {choice.point for choice in profile.choices}
         yield from (f"two solutions for {each}" for each in points_with_two_solutions(system) if each not in chosen)
 

@@ -1,6 +1,6 @@
 """From a system to values: plan, function, solution."""
 
-from contoursolve.solving.plan import NoClosedFormError, Plan, make_plan, points_with_two_solutions
+from contoursolve.solving.plan import NoClosedFormError, Plan, is_closed, make_plan, points_with_two_solutions
 from contoursolve.solving.solution import (
     CornerSolution,
     Point,
@@ -25,6 +25,7 @@ __all__ = [
     "Solution",
     "Status",
     "compare",
+    "is_closed",
     "lookup",
     "make_plan",
     "points_with_two_solutions",

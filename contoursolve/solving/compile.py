@@ -12,25 +12,28 @@ from contoursolve.backends.numeric import (
     Tape,
     affine_parts,
     angle,
-    cosine,
     is_zero,
     jacobian_parts,
     magnitude,
     sign,
-    sine,
     sqrt,
     symbol,
     where,
 )
+from contoursolve.backends.numeric import (
+    cosine as cosine_of,
+)
+from contoursolve.backends.numeric import (
+    sine as sine_of,
+)
 from contoursolve.backends.replay import Replay
-from contoursolve.constraints import Functions, Heading, System, Values
-from contoursolve.model import FIRST, SECOND, Arc, Corner, Line, scalar
+from contoursolve.constraints import Collinear, Functions, Heading, System, Values
+from contoursolve.model import FIRST, SECOND, Arc, Corner, Fact, Line, scalar
 from contoursolve.solving.corners import Edge, Pair, build_corner, unit
 from contoursolve.solving.plan import AffineStep, DistanceStep, LineCircleStep, Plan, Step, TwoCirclesStep, make_plan
 from contoursolve.tolerance import TOUCHING
 
-
-_FUNCTIONS = Functions(sqrt, cosine, sine)
+_FUNCTIONS = Functions(sqrt, cosine_of, sine_of)
 
 
 class _Builder:
@@ -71,7 +74,7 @@ class _Builder:
         symbols = {name: symbol(name) for name in step.unknowns}
         lookup = self.at({**self.scalars, **symbols})
         matrix, constants = affine_parts(
-            [fact.residual(lookup) for fact in step.facts], [symbols[name] for name in step.unknowns]
+            [_affine(fact, step).residual(lookup) for fact in step.facts], [symbols[name] for name in step.unknowns]
         )
         if len(step.unknowns) == 1:
             determinant = matrix[0][0]
@@ -214,7 +217,8 @@ class _Builder:
 
     def _direction(self, line: Line) -> Pair:
         if line.heading is not None:
-            return self.directions[line.heading]
+            cosine, sine = self.directions[line.heading]
+            return cosine, sine
         tail, head = self.point(line.tail), self.point(line.toward or line.head)
         return unit((head[0] - tail[0], head[1] - tail[1]))
 
@@ -245,6 +249,14 @@ class _Builder:
         for output, residual in residuals.items():
             self.tape.output(output, residual)
         return list(residuals)
+
+
+def _affine(fact: Fact, step: AffineStep) -> Fact:
+    """A fact in the form in which it is affine in the unknowns of a step."""
+    if isinstance(fact, Collinear) and {scalar(fact.through, axis) for axis in (FIRST, SECOND)} & {*step.unknowns}:
+        # The same line, through the point that is known.
+        return Collinear(fact.tail, fact.point, fact.through)
+    return fact
 
 
 def _quadrant(edge: Edge, other: Edge) -> Pair:

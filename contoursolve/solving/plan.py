@@ -102,6 +102,15 @@ def _step(group: Group) -> Step:
     raise NoClosedFormError(f"{', '.join(map(str, group.facts))} for {', '.join(group.unknowns)}")
 
 
+def is_closed(system: System) -> bool:
+    """Whether a determined system has a plan of steps in closed form."""
+    try:
+        make_plan(system)
+    except NoClosedFormError:
+        return False
+    return True
+
+
 def _both(point: str) -> set[str]:
     return {scalar(point, FIRST), scalar(point, SECOND)}
 

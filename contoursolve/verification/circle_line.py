@@ -9,7 +9,7 @@ from math import inf, sqrt
 from contoursolve.model import FIRST, SECOND
 from contoursolve.tolerance import AGREEMENT, RADIUS_DIFFERENCE
 from contoursolve.verification import circle_line_stated
-from contoursolve.verification.case import Case, Circle
+from contoursolve.verification.case import Case, Circle, turn_of
 from contoursolve.verification.circle_line_stated import ANGLE, CENTER, CHOICE, END, POINT
 from contoursolve.verification.claimed import ClaimedStatus
 from contoursolve.verification.ledger import Ledger
@@ -69,7 +69,7 @@ def _check_circle(case: Case, ledger: Ledger, circle: Circle) -> None:
     is_over = case.claimed.status is ClaimedStatus.OVERDETERMINED
     both = has_center and has_radius
     ledger.require("as many words as the status says", words, both or not is_over, "none of them is one too many")
-    turn = case.claim.turn
+    turn = turn_of(case)
     ledger.require("the arc turns as its G code says", (), circle.turn is turn, circle.turn.value)
     if has_center:
         stated = complex(*(case.amount(name) if case.states(name) else 0.0 for name in CENTER))

@@ -10,7 +10,7 @@ from math import sqrt
 from contoursolve.model import FIRST, SECOND
 from contoursolve.tolerance import LENGTH, RADIUS_DIFFERENCE
 from contoursolve.verification.asked import check_asked
-from contoursolve.verification.case import Case, Circle
+from contoursolve.verification.case import Case, Circle, turn_of
 from contoursolve.verification.determination import check_statements
 from contoursolve.verification.drawing import Drawing, Round, Straight
 from contoursolve.verification.facts import STEP, Sight, slopes, statements
@@ -61,7 +61,7 @@ def check(case: Case, ledger: Ledger) -> None:
     if not (known and made and circle):
         ledger.omit("the words of the blocks", "they are about an arc, a line and P1")
         return
-    turn = case.claim.turn
+    turn = turn_of(case)
     ledger.require("the arc turns as its G code says", (), circle.turn is turn, circle.turn.value)
     ledger.measure("the arc ends at P1", (), abs(case.moves[0].end - case.points["P1"]), case.limit)
     numbers = _Numbers(circle.center, circle.radius, case.points["P1"], case.moves[-1].end, _point(case, circle))
@@ -134,7 +134,7 @@ def _on_circle(radius: float, middle: float, off: float) -> float:
 def _draw(case: Case, numbers: _Numbers) -> Drawing:
     run = unit(numbers.end - numbers.crossing)
     along = direction(case.value(ANGLE)) if case.states(ANGLE) and not run else run
-    turn = case.claim.turn
+    turn = turn_of(case)
     if turn is None:
         raise ValueError("an arc has a turn")
     arc = Round(0j, numbers.crossing, numbers.center, numbers.radius, turn)
@@ -232,7 +232,7 @@ def _check_choices(case: Case, ledger: Ledger, numbers: _Numbers) -> None:
         ledger.require(
             "the branch is the one that Q chooses", case.texts(CHOICE), branch in allowed, f"{branch!a}"[:60]
         )
-    size, turn = case.choices.get("1:R", 0), case.claim.turn
+    size, turn = case.choices.get("1:R", 0), turn_of(case)
     # Without an answer, nothing tells at which of two places a point is whose coordinate is asked for.
     is_known = case.claimed.asked is not None or not set(case.asked) & set(POINT)
     if size and is_known and numbers.point is not None and turn is not None:

@@ -226,8 +226,8 @@ _OVER_LINE, _OVER_CIRCLE = replace(_LINE, is_over=True), replace(_ARC, is_over=T
 _FROM = "G17 G90 G41 G0 X50 Y0"
 
 _SAMPLES: dict[tuple[Element, ...], Sample] = {
-    (_LINE,): Sample(_FROM, ("G1 {X90} {Y40} ,A45",)),
-    (_LINE, _ARC): Sample(_FROM, ("G1 {X80} {Y0} {,A0} {,C2} ,R8", "G3 {X50} {Y30} {I-30} {J0} {R30}")),
+    (_LINE,): Sample(_FROM, ("G1 {X90} {Y40.0} ,A45",)),
+    (_LINE, _ARC): Sample(_FROM, ("G1 X80 {Y0} {,A0} {,C2} ,R8", "G3 X50 {Y30} {I-30} {J0} {R30}")),
     (_TO_LINE, _OVER_LINE): Sample(
         "G17 G90 G41 G0 X90 Y10", ("G1 X50 {Y33.094} {,A150} {,C2} {,R2}", "G1 X10 Y20 ,A225 {Q1}")
     ),

@@ -87,7 +87,7 @@ def claim_of(members: Sequence[Member], before: State, modes: Modes) -> Claim:
         unknown=tuple(word for word in words.values() if word.address not in form.allowed),
         repeated=tuple(repeated),
         circumstances=frozenset(circumstances),
-        choices=tuple(_choices(elements, names, givens, modes)),
+        choices=tuple(_choices(elements, names, known, modes)),
         selectors=tuple(_selectors(elements, names, known, modes)),
         conventions=(CIRCLE_CIRCLE_Q.name,) if any(role.name == CIRCLE_CIRCLE for role in form.roles) else (),
     )
@@ -109,8 +109,8 @@ _ORDERS = ("first", "second")
 
 
 def _givens(words: Mapping[str, Word], member: Member, lexicon: Lexicon) -> dict[str, Given]:
-    """The values of a block's words, with those that the control supplies. R counts by its size, its sign is a
-    choice."""
+    """The values of a block's words, with those that the control supplies. R counts by its size: its sign picks the
+    centre of an ordinary arc, and means nothing in an over-defined circle (assumed)."""
     stated = {
         name: given
         for name, word in words.items()
@@ -118,6 +118,8 @@ def _givens(words: Mapping[str, Word], member: Member, lexicon: Lexicon) -> dict
         for given in (lexicon.given(name, word, member.here.unit),)
         if given is not None
     }
+    if "R" in stated:
+        stated["R"] = replace(stated["R"], value=abs(stated["R"].value))
     asked = {name.removesuffix("-step") for name, word in words.items() if word.is_asked}
     element = member.element
     if element.is_over:
@@ -159,19 +161,21 @@ def _circumstances(member: Member, first: State, *, is_only: bool) -> Iterator[s
 
 
 def _choices(
-    elements: Sequence[Element], names: Sequence[Names], givens: Mapping[str, Given], modes: Modes
+    elements: Sequence[Element], names: Sequence[Names], words: Mapping[str, Word], modes: Modes
 ) -> Iterator[Choice]:
     """R's sign picks the centre of an ordinary arc: the shorter arc for a positive one. Q's sign picks the
     intersection in which its block begins."""
     previous: Element | None = None
     for element, each in zip(elements, names, strict=True):
         radius, sign = f"{each.prefix}R", f"{each.prefix}Q"
-        if element.turn is not None and not element.is_over and radius in givens:
-            yield Choice(each.center, _center_side(element.turn, is_short=givens[radius].value > 0), radius)
-        if previous is not None and element.is_over and sign in givens and givens[sign].value:
+        size = words[radius].number if radius in words else None
+        if element.turn is not None and not element.is_over and size is not None:
+            yield Choice(each.center, _center_side(element.turn, is_short=size > 0), radius)
+        chosen = words[sign].number if sign in words else None
+        if previous is not None and element.is_over and chosen:
             role = pair_role(previous, element)
             if role != LINE_LINE:
-                yield Choice(each.tail, _side(role, is_negative=givens[sign].value < 0, modes=modes), sign)
+                yield Choice(each.tail, _side(role, is_negative=chosen < 0, modes=modes), sign)
         previous = element
 
 

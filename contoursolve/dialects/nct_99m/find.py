@@ -80,11 +80,11 @@ def _stated(block: Block) -> set[str]:
 
 
 def _moves(block: Block, here: State) -> bool:
-    """Whether a block is a motion: it has a coordinate, an angle, a corner, or as an arc a centre or R."""
+    """Whether a block is a motion: it has a coordinate, an angle, a corner; an arc a centre, R, or just its G code."""
     moving = {"X", "Y", "Z", ",A", CHAMFER, ROUNDING}
     if here.motion in _TURNS:
         moving |= {"I", "J", "K", "R"}
-    return bool(_stated(block) & moving)
+    return bool(_stated(block) & moving) or any(word.address == "G" and word.number in _TURNS for word in block.words)
 
 
 def _is_over_defined(block: Block, here: State) -> bool:

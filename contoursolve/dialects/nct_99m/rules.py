@@ -253,7 +253,7 @@ COMBINATION_RULES = (
         source=_ASSUMED,
         roles=_ANY,
         when=some("off-plane") & ~some(ORDINARY),
-        accepted=(_GOOD, _START + "G3 X-50 Y0 Z-5 R50"),
+        accepted=(_GOOD,),
         rejected=(_GOOD + " Z-5",),
     ),
     Rule(
