@@ -129,8 +129,9 @@ def _fix(answer: Answer, repair: Repair) -> Fix:
     if repair.contour:
         profile, contour = answer.profile, repair.contour
         name, at = "the contour ends", contour.end
-        if answer.contour is None and len(answer.lines) > 1:
-            point = profile.intersections[0]
+        point = next(iter(profile.intersections), "")
+        # The changed blocks may be of another form.
+        if answer.contour is None and len(answer.lines) > 1 and point in contour.points:
             name, at = f"{point} is", contour.points[point]
         place = place_text(profile, scalars_of({"": at}))
         description += f" -> {name} at {place}"
