@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -14,6 +14,7 @@ from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.examine import Depth, Policy
 from contoursolve.model import Length
 from contoursolve.pipeline import Result, UnknownControlError, recognise, run
+from contoursolve.project import configure
 from contoursolve.reading import Trouble
 from contoursolve.syntax import Directive, Program
 
@@ -50,6 +51,7 @@ def solve(
     rules: str = "enforce",
     depth: str = "full",
     facts: Iterable[str | Statement] = (),
+    settings: Mapping[str, str] | None = None,
     name: str = "<program>",
 ) -> Result:
     """Solve every contour of a program, or of a single block.
@@ -62,6 +64,7 @@ def solve(
         rules: `enforce`, `warn` or `off` (see `Policy`).
         depth: `full`, or `verdict` for findings without reasons and repairs (see `Depth`).
         facts: further facts about the only contour, as text (see `contoursolve facts`) or as statements.
+        settings: conventions of the controls by `control.name` (see `contoursolve rules`); the default ones without.
         name: what findings call the program.
 
     Returns:
@@ -71,6 +74,7 @@ def solve(
     Raises:
         UnknownControlError: the control is unknown, or the program does not tell it.
         FactPlaceError: facts for a program of several contours.
+        SettingError: there is no such setting, or it has no such value.
         ValueError: units, rules or depth is none of its choices.
 
     >>> answer = solve("G111 X100. A180. K-30. B120. P5. Q5.", start="X40. Z0.").answers[0]
@@ -85,7 +89,16 @@ def solve(
     '8.038'
     """
     program = syntax.parse(text, name)
-    return solve_program(program, control=control, start=start, units=units, rules=rules, depth=depth, facts=facts)
+    return solve_program(
+        program,
+        control=control,
+        start=start,
+        units=units,
+        rules=rules,
+        depth=depth,
+        facts=facts,
+        settings=settings,
+    )
 
 
 def check(
@@ -128,9 +141,13 @@ def solve_program(
     rules: str = "enforce",
     depth: str = "full",
     facts: Iterable[str | Statement] = (),
+    settings: Mapping[str, str] | None = None,
 ) -> Result:
     """Solve every contour of a program that was parsed or read before; as `solve`."""
     dialect = find_dialect(control) if control else recognise(program)
+    configured = configure(settings) if settings else {}
+    if dialect is not None:
+        dialect = configured.get(dialect.name, dialect)
     beginning = syntax.parse(start, program.name, first_line=0) if start is not None else None
     stated = [_fact(fact, -number) for number, fact in enumerate(facts, 1)]
     return run(program, dialect, Length(units), Policy(rules), Depth(depth), beginning, stated)

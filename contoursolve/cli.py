@@ -11,6 +11,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
 from itertools import islice
+from pathlib import Path
 from typing import Any
 
 import click
@@ -26,6 +27,7 @@ from contoursolve.output.document import findings_to_json, to_json
 from contoursolve.output.findings import Style, finding_lines, plain
 from contoursolve.output.layout import count
 from contoursolve.pipeline import FactPlaceError, Result, UnknownControlError
+from contoursolve.project import SettingError, find_settings, read_setting
 from contoursolve.rules import Rule
 from contoursolve.solving import Status
 from contoursolve.syntax import Program
@@ -54,6 +56,16 @@ _units = click.option(
     default="mm",
     show_default=True,
     help="Unit of the program's numbers before any G20 or G21.",
+)
+
+
+_settings = click.option(
+    "--set",
+    "assignments",
+    multiple=True,
+    metavar="CONTROL.NAME=VALUE",
+    help="Change a convention on which the manual is silent; may be repeated. 'contoursolve rules' lists them. "
+    "The file contoursolve.toml holds them for a whole folder.",
 )
 
 
@@ -91,6 +103,7 @@ def _common(command: Callable[..., None]) -> Callable[..., None]:
                 help="Rules of the control's manual: refuse what they refuse; only warn; or let the geometry "
                 "alone decide. A block with ? or further facts is not for the control yet: they only warn.",
             ),
+            _settings,
         )
     ):
         command = option(command)
@@ -102,7 +115,8 @@ def _common(command: Callable[..., None]) -> Callable[..., None]:
 def main() -> None:
     """Solve CNC contour blocks, or say why they cannot be solved.
 
-    Reads YASNAC LX3 G111 blocks and NCT 99M circular-linear intersections, with any further facts.
+    Reads the contour blocks of the YASNAC LX3 (G111, G112, G11, G12) and of the NCT 99M (chapter 16), with any
+    further facts.
 
     Exit status: 0 no error found, 1 at least one error found, 2 could not run.
     """
@@ -135,6 +149,7 @@ def solve(
     start: str | None,
     format_: str,
     is_explained: bool,
+    assignments: tuple[str, ...],
     **options: Any,
 ) -> None:
     """Solve every contour block of PROGRAM (a file, or - for standard input).
@@ -147,7 +162,7 @@ def solve(
     contoursolve solve --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0."
     contoursolve solve --start "X40. Z0." --fact "length of line 1 = 30" --block "G111 X100. A180. B120. K?"
     """
-    result = _examine(_load([program] if program else [], blocks, start)[0](), start, options)
+    result = _examine(_load([program] if program else [], blocks, start)[0](), start, assignments, options)
     if format_ == "json":
         click.echo(to_json(result))
     else:
@@ -183,6 +198,7 @@ def check(
     start: str | None,
     format_: str,
     fail_on: str,
+    assignments: tuple[str, ...],
     **options: Any,
 ) -> None:
     """Report the findings about each PROGRAM (files, or - for standard input), and nothing else.
@@ -198,7 +214,7 @@ def check(
     ) as loaded:
         for load in loaded:
             try:
-                results.append(only_findings(_examine(load(), start, options)))
+                results.append(only_findings(_examine(load(), start, assignments, options)))
             except CouldNotRunError as error:
                 failures.append(error)
     for failure in failures:
@@ -349,13 +365,21 @@ def _read(path: str) -> Program:
         raise CouldNotRunError(str(error)) from None
 
 
-def _examine(program: Program, start: str | None, options: dict[str, Any]) -> Result:
+def _examine(program: Program, start: str | None, assignments: Sequence[str], options: dict[str, Any]) -> Result:
     try:
-        return solve_program(program, start=start, **options)
+        settings = find_settings(_folder(program)) | dict(map(read_setting, assignments))
+        return solve_program(program, start=start, settings=settings, **options)
+    except SettingError as error:
+        raise CouldNotRunError(str(error)) from None
     except UnknownControlError as error:
         raise CouldNotRunError(f"{program.name}: {error}; say which with --control {'|'.join(DIALECTS)}") from None
     except FactPlaceError as error:
         raise CouldNotRunError(f"{program.name}: {error}") from None
+
+
+def _folder(program: Program) -> Path:
+    """Where the search for a project file begins: beside the program, or here for what is no file."""
+    return Path() if program.name.startswith("<") else Path(program.name).parent
 
 
 def _style() -> Style:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from enum import Enum
@@ -89,8 +89,8 @@ class Filled:
 class Answer:
     """What became of one contour of a program.
 
-    `contour` is None unless the status is solved or overdetermined. `side` is the solution that the
-    block chose where two exist. `diagnostics` are the findings about this contour alone.
+    `contour` is None unless the status is solved or overdetermined. `sides` are the solutions that the
+    block chose where two exist, by the point. `diagnostics` are the findings about this contour alone.
     """
 
     form: str
@@ -102,7 +102,7 @@ class Answer:
     start: Start
     profile: Profile
     contour: Contour | None
-    side: Side | None
+    sides: Mapping[str, Side]
     error_bound: float
     diagnostics: tuple[Diagnostic, ...]
     diagnosis: Diagnosis | None = None
@@ -177,8 +177,10 @@ def examine(
 
     is_path = bool(solution.points) and notebook.status in (Status.SOLVED, Status.OVERDETERMINED)
     contour = trace(profile, solution) if is_path else None
-    is_double = any(remark.kind is RemarkKind.TOUCHES for remark in solution.remarks)
-    side = next((choice.side for choice in profile.choices if choice.point in profile.intersections), None)
+    touching = {remark.subject for remark in solution.remarks if remark.kind is RemarkKind.TOUCHES}
+    sides = {
+        choice.point: choice.side for choice in profile.choices if choice.point in {*profile.intersections} - touching
+    }
     return Answer(
         form=claim.form.name,
         lines=tuple(block.line for block in claim.blocks),
@@ -189,7 +191,7 @@ def examine(
         start=profile.start,
         profile=profile,
         contour=contour,
-        side=side if contour and not is_double else None,
+        sides=sides if contour else {},
         error_bound=solution.error_bound,
         diagnostics=tuple(sorted(notebook.findings, key=rank)),
         certificate=solution.certificate if contour else None,

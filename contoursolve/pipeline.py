@@ -1,7 +1,7 @@
 """The order of the stages: from the text of a program to its contours and findings."""
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from decimal import Decimal
 
 from contoursolve.diagnostic import Basis, Diagnostic, Severity
@@ -25,6 +25,8 @@ class Result:
     """What stated the start point apart from the program; its line is line 0."""
     facts: tuple[Directive, ...] = ()
     """What was stated apart from the program; their lines are -1, -2, ..."""
+    settings: Mapping[str, str] = field(default_factory=dict)
+    """The settings of the control that are not the default ones, by name."""
 
     @property
     def has_errors(self) -> bool:
@@ -95,8 +97,8 @@ def run(
         examiner.nothing_to_solve()
     everything = [*examiner.diagnostics, *(each for answer in answers for each in answer.diagnostics)]
     everything.sort(key=rank)
-    control = dialect.name if dialect else None
-    return Result(program, control, tuple(answers), tuple(everything), start, tuple(facts))
+    control, settings = (dialect.name, dialect.modes.settings) if dialect else (None, {})
+    return Result(program, control, tuple(answers), tuple(everything), start, tuple(facts), settings)
 
 
 _FAULTS_OF_NO_CONSEQUENCE = (FaultKind.STRAY_CHARACTER,)

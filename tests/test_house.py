@@ -27,7 +27,7 @@ FLOORS = (
     "dialects",
     "diagnosis",
     "fill",
-    "pipeline verification",
+    "pipeline project verification",
     "output api",
     "trial",
     "__init__",

@@ -18,7 +18,21 @@ def catalogue_lines(dialects: Iterable[Dialect]) -> list[str]:
         ]
         header = ("code", "severity", "evidence", "alarm", "message")
         lines += [f"{dialect.name}: {dialect.title}", *columns([header, *rows], left=(0, 1, 2, 3, 4)), ""]
+        lines += _setting_lines(dialect)
     return lines
+
+
+def _setting_lines(dialect: Dialect) -> Iterator[str]:
+    """What the manual does not say: each setting with its values, the default one marked."""
+    for setting in dialect.settings:
+        name = f"{dialect.name}.{setting.name}"
+        yield f"setting {name}: {setting.meaning} ({setting.source})"
+        rows = [
+            (f"--set {name}={value}", "default" if value == setting.default else "", meaning)
+            for value, meaning in setting.values.items()
+        ]
+        yield from columns(rows, left=(0, 1, 2))
+        yield ""
 
 
 def table_lines(dialects: Iterable[Dialect]) -> Iterator[str]:

@@ -11,7 +11,7 @@ from contoursolve.model import Length, Turn, Unit
 from contoursolve.output.layout import columns, printable
 from contoursolve.output.solutions import list_solutions, printed_certificate
 from contoursolve.pipeline import Result
-from contoursolve.reading import Form, Lexicon
+from contoursolve.reading import Convention, Form, Lexicon
 from contoursolve.solving import Point
 from contoursolve.syntax import FACT, Word
 
@@ -40,6 +40,8 @@ def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False)
         lines += ["", *construction_lines(answer)]
     if answer.contour:
         lines += ["", *columns(_path_rows(answer), left=(0, 1))]
+    if answer.contour:
+        lines += [line for each in answer.claim.conventions for line in _convention_lines(each, result.control or "")]
     if answer.filled:
         lines += ["", f"  filled in (the contour moves by {_small(answer.filled.deviation)}):"]
         lines += [f"    {printable(text.strip())}" for text in answer.filled.blocks]
@@ -47,6 +49,13 @@ def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False)
     if answer.contour is None and answer.diagnosis:
         lines += ["", *_check_lines(answer)]
     return [*lines, ""]
+
+
+def _convention_lines(convention: Convention, control: str) -> list[str]:
+    """What the manual does not say and this contour rests on."""
+    setting = convention.setting
+    evidence = setting.source.evidence.value
+    return ["", f"  {evidence}: {convention.meaning} (--set {control}.{setting.name}={convention.value})"]
 
 
 def _check_lines(answer: Answer) -> list[str]:
@@ -137,9 +146,9 @@ def _given_rows(answer: Answer, form: Form, dialect: Dialect) -> list[tuple[str,
         else:
             rows.append((word.text, *_value(word, dialect.modes.lexicon, answer.unit), meaning))
     rows += [_asked_row(each, answer, form, dialect) for each in answer.answers]
-    if answer.side:
-        choice = next(choice for choice in answer.profile.choices if choice.side is answer.side)
-        rows.append(("choice", answer.side.value, "", f"of two intersections, by {words[choice.given].text}"))
+    by_point = {choice.point: words[choice.given].text for choice in answer.profile.choices}
+    for point, side in answer.sides.items():
+        rows.append((f"choice {point}", side.value, "", f"of two intersections, by {by_point[point]}"))
     return rows
 
 

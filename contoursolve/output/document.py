@@ -20,6 +20,7 @@ def to_json(result: Result) -> str:
             "schema": "contoursolve/solve/1",
             "program": result.program.name,
             "control": result.control,
+            "settings": {f"{result.control}.{name}": value for name, value in sorted(result.settings.items())},
             "contours": [_contour(answer) for answer in result.answers],
             "diagnostics": [finding_data(each) for each in result.diagnostics],
         }
@@ -99,8 +100,18 @@ def _contour(answer: Answer) -> dict[str, Any]:
         "plane": list(answer.plane.axes),
         "start": [None if value is None else _number(float(value)) for value in answer.start.values],
         **_path(contour, decimals),
-        "branch": answer.side.value if answer.side else None,
+        "branch": ", ".join(side.value for side in answer.sides.values()) or None,
+        "branches": {point: side.value for point, side in answer.sides.items()},
         "certificate": _certificate(certificate),
+        "conventions": [
+            {
+                "setting": each.setting.name,
+                "value": each.value,
+                "meaning": each.meaning,
+                "evidence": each.setting.source.evidence.value,
+            }
+            for each in answer.claim.conventions
+        ],
         "facts": [directive.text for directive in answer.claim.directives],
         "asked": [_asked(each, answer) for each in answer.answers],
         "filled": {"blocks": list(answer.filled.blocks), "deviation_mm": _number(answer.filled.deviation)}

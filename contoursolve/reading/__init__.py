@@ -5,13 +5,14 @@ from contoursolve.reading.claim import Claim, Selector, Trouble, read
 from contoursolve.reading.codes import Code, Effect
 from contoursolve.reading.form import CornerRow, FactRow, Form, Sample, lay_out, stated_sets
 from contoursolve.reading.lexicon import Address, Lexicon, NumberFormat, WithoutPoint
-from contoursolve.reading.setting import Setting
+from contoursolve.reading.setting import Convention, Setting
 from contoursolve.reading.state import Position, State
 
 __all__ = [
     "Address",
     "Claim",
     "Code",
+    "Convention",
     "CornerRow",
     "Effect",
     "FactRow",

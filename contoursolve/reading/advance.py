@@ -5,6 +5,7 @@ from dataclasses import dataclass, field, replace
 
 from contoursolve.reading.codes import Code, Effect
 from contoursolve.reading.lexicon import Lexicon
+from contoursolve.reading.setting import Convention, Setting
 from contoursolve.reading.state import Position, State
 from contoursolve.source import Span
 from contoursolve.syntax import Block, FaultKind, Macro, Word
@@ -20,7 +21,11 @@ class Modes:
     calls: frozenset[int]
     """M codes that call or end a subprogram."""
     settings: Mapping[str, str] = field(default_factory=dict)
-    """The value of each convention by its name."""
+    """The values of settings that are not the default ones, by name."""
+
+    def convention(self, setting: Setting) -> Convention:
+        """A setting with its value."""
+        return Convention(setting, self.settings.get(setting.name, setting.default))
 
 
 def codes_of(block: Block, modes: Modes) -> list[Code | Word]:

@@ -9,6 +9,7 @@ from contoursolve.constraints import Radius
 from contoursolve.model import Choice, Fact, Given, Profile, Question, Side
 from contoursolve.reading.form import Form, lay_out
 from contoursolve.reading.lexicon import Lexicon
+from contoursolve.reading.setting import Convention
 from contoursolve.reading.state import State
 from contoursolve.syntax import Block, Directive, Word
 
@@ -68,8 +69,8 @@ class Claim:
     choices: tuple[Choice, ...] = ()
     selectors: tuple[Selector, ...] = ()
     """The words that would choose, whether they are stated or not."""
-    conventions: tuple[str, ...] = ()
-    """The settings of the control on which the reading rests."""
+    conventions: tuple[Convention, ...] = ()
+    """What the manual does not say and the reading rests on."""
 
     @property
     def directives(self) -> tuple[Directive, ...]:

@@ -16,3 +16,16 @@ class Setting:
     values: Mapping[str, str]
     default: str
     source: Source
+
+
+@dataclass(frozen=True, slots=True)
+class Convention:
+    """A setting with the value that was used."""
+
+    setting: Setting
+    value: str
+
+    @property
+    def meaning(self) -> str:
+        """What the value means."""
+        return self.setting.values[self.value]

@@ -10,7 +10,7 @@ from contoursolve.backends import ball
 from contoursolve.backends.angle import direction
 from contoursolve.backends.ball import Number
 from contoursolve.backends.inputs import COSINE, SINE
-from contoursolve.constraints import OnCircle, System, TangentCircles, Values, assemble
+from contoursolve.constraints import Coordinate, Offset, OnCircle, System, TangentCircles, Values, assemble
 from contoursolve.model import FIRST, SECOND, Arc, Choice, Line, Profile, Side, Unit, scalar
 from contoursolve.solving.certificate import Certificate, Proof
 from contoursolve.solving.compile import compile_path
@@ -274,10 +274,14 @@ def _sides(system: System, at: Values) -> dict[str, str]:
             centers, spoke = step(first.center, second.center), step(first.center, first.head)
             left = centers[FIRST] * spoke[SECOND] - centers[SECOND] * spoke[FIRST]
             sides[first.head] = name(left, Side.LEFT, Side.RIGHT)
+    ends = {element.head for element in system.figure.path}
+    stated = {fact.point for fact in system.facts if isinstance(fact, Coordinate | Offset)}
     for arc in arcs:
         on_it = [circle.point for circle in circles if circle.center == arc.center]
         others = [point for point in on_it if point != arc.tail and point not in sides]
-        if arc.tail in on_it and others:
+        # The end that an arc is stated by, and not an intersection in which it ends instead.
+        others.sort(key=lambda point: point in ends and point not in stated)
+        if arc.tail in on_it and others and arc.center not in stated:
             chord, spoke = step(arc.tail, others[0]), step(arc.tail, arc.center)
             twice = chord[FIRST] * spoke[SECOND] - chord[SECOND] * spoke[FIRST]
             sides[arc.center] = name(twice, Side.LEFT, Side.RIGHT)

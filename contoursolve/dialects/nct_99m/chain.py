@@ -38,6 +38,15 @@ _TITLES = {
 }
 
 
+_SIGNS = {
+    LINE_LINE: "chooses nothing",
+    LINE_CIRCLE: "which intersection along the line before: negative the nearer, positive the farther",
+    CIRCLE_LINE: "which intersection along the line: negative the nearer, positive the farther",
+    CIRCLE_CIRCLE: "which intersection of the two circles",
+}
+"""What the sign of Q chooses."""
+
+
 @dataclass(frozen=True, slots=True)
 class Names:
     """The names of one element and of its points: where it begins, the point that its own coordinates state, where
@@ -212,12 +221,18 @@ def _ways(order: str, element: Element) -> tuple[str, ...]:
 def _meanings(elements: Sequence[Element], names: Sequence[Names]) -> Iterator[tuple[str, str]]:
     for element, each in zip(elements, names, strict=True):
         thing = "line" if element.turn is None else "circle"
-        what = f"a point of the {thing}" if element.is_followed else f"end of the {each.element}"
+        numbered = each.element if each.element[-1].isdigit() else f"the {each.element}"
+        what = f"a point of the {thing}" if element.is_followed else f"end of {numbered}"
         for order, _ in _ORDERS:
             yield f"{each.prefix}{order}", what + (", absolute" if element.is_over else "")
             yield f"{each.prefix}{order}-step", what + ", from the start point"
             if element.is_over:
                 yield f"{each.prefix}center-{order}", "centre, absolute"
+        if element.turn is not None and element.is_over:
+            yield f"{each.prefix}R", "radius"
+    for (before, after), (_, each) in zip(pairwise(elements), pairwise(names), strict=True):
+        if after.is_over:
+            yield f"{each.prefix}Q", _SIGNS[pair_role(before, after)]
 
 
 _LINE, _ARC = Element(None, False, False), Element(Turn.CCW, False, False)

@@ -89,7 +89,7 @@ def claim_of(members: Sequence[Member], before: State, modes: Modes) -> Claim:
         circumstances=frozenset(circumstances),
         choices=tuple(_choices(elements, names, known, modes)),
         selectors=tuple(_selectors(elements, names, known, modes)),
-        conventions=(CIRCLE_CIRCLE_Q.name,) if any(role.name == CIRCLE_CIRCLE for role in form.roles) else (),
+        conventions=(modes.convention(CIRCLE_CIRCLE_Q),) if CIRCLE_CIRCLE in {role.name for role in form.roles} else (),
     )
 
 
@@ -187,7 +187,7 @@ def _side(role: str, *, is_negative: bool, modes: Modes) -> Side:
     """The intersection that a sign of Q chooses."""
     if role != CIRCLE_CIRCLE:
         return Side.NEARER if is_negative else Side.FARTHER
-    is_left_negative = modes.settings.get(CIRCLE_CIRCLE_Q.name, CIRCLE_CIRCLE_Q.default) == CIRCLE_CIRCLE_Q.default
+    is_left_negative = modes.convention(CIRCLE_CIRCLE_Q).value == "left-is-negative"
     return Side.LEFT if is_negative == is_left_negative else Side.RIGHT
 
 

@@ -1,0 +1,96 @@
+"""The project file: settings of the controls for all programs of a folder and the folders in it.
+
+`contoursolve.toml`, or the table `tool.contoursolve` of `pyproject.toml`, with one table a control:
+
+    [nct-99m]
+    circle-circle-q = "right-is-negative"
+"""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from contoursolve.dialects import DIALECTS, Dialect
+
+OWN, SHARED = "contoursolve.toml", "pyproject.toml"
+
+
+class SettingError(ValueError):
+    """A setting that there is not, or a project file that cannot be read; the message says what there is."""
+
+
+def find_settings(folder: Path) -> dict[str, str]:
+    """The settings, by `control.name`, of the first project file in a folder or the folders above it.
+
+    Raises SettingError, naming the file.
+    """
+    for place in (folder, *folder.resolve().parents):
+        for name in (OWN, SHARED):
+            file = place / name
+            table = _table(file) if file.is_file() else None
+            if table is not None:
+                return _settings(table, file)
+    return {}
+
+
+def read_setting(text: str) -> tuple[str, str]:
+    """`control.name=value` as name and value. Raises SettingError."""
+    name, equals, value = text.partition("=")
+    if not equals or not name.strip() or not value.strip():
+        raise SettingError(f"{text!r} is no setting; write CONTROL.NAME=VALUE, such as {_example()}")
+    return name.strip(), value.strip()
+
+
+def configure(settings: Mapping[str, str]) -> dict[str, Dialect]:
+    """The controls that settings by `control.name` are about, with these values.
+
+    Raises SettingError, naming what there is.
+    """
+    values: dict[str, dict[str, str]] = {}
+    for full, value in settings.items():
+        control, _, name = full.partition(".")
+        if control not in DIALECTS or not name:
+            raise SettingError(f"there is no setting {full!r}; write CONTROL.NAME, such as {_example()}")
+        values.setdefault(control, {})[name] = value
+    try:
+        return {control: DIALECTS[control].configure(own) for control, own in values.items()}
+    except ValueError as error:
+        raise SettingError(str(error)) from None
+
+
+def _example() -> str:
+    names = (
+        f"{dialect.name}.{setting.name}={setting.default}"
+        for dialect in DIALECTS.values()
+        for setting in dialect.settings
+    )
+    return next(names, "")
+
+
+def _table(file: Path) -> dict[str, Any] | None:
+    """What a file says about contoursolve; None if nothing."""
+    import tomllib  # noqa: PLC0415 - most folders have no such file
+
+    try:
+        data = tomllib.loads(file.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        if file.name == SHARED:
+            return None  # another tool's business
+        raise SettingError(f"{file} cannot be read: {error}") from None
+    if file.name == OWN:
+        return data
+    tool = data.get("tool", {}).get("contoursolve")
+    return tool if isinstance(tool, dict) else None
+
+
+def _settings(table: Mapping[str, Any], file: Path) -> dict[str, str]:
+    settings = {
+        f"{control}.{name}": str(value)
+        for control, own in table.items()
+        for name, value in (own.items() if isinstance(own, dict) else [("", own)])
+    }
+    try:
+        configure(settings)
+    except SettingError as error:
+        raise SettingError(f"{file}: {error}") from None
+    return settings
