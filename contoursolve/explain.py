@@ -169,7 +169,7 @@ def explain_missing(context: Context, profile: Profile, verdict: Verdict, claim:
         for row in claim.form.facts
         if row.fact.given and row.fact.given not in stated and free & set(row.fact.reads())
     ]
-    addresses = dict.fromkeys(name for name in able if name in claim.form.allowed)
+    addresses = dict.fromkeys(_address(name, claim) for name in able if name in claim.vocabulary)
     completions = "add a word for it, or state a fact about it with --fact; 'contoursolve facts' lists them"
     if addresses and not profile.is_extended:
         completions = f"words that say something about it: {', '.join(addresses)}"
@@ -181,6 +181,12 @@ def explain_missing(context: Context, profile: Profile, verdict: Verdict, claim:
         free=unknowns_text(verdict.free, profile),
         completions=completions,
     )
+
+
+def _address(name: str, claim: Claim) -> str:
+    """The address that would state something, with the line of its block where there are several."""
+    address, index = claim.vocabulary[name]
+    return address if len(claim.blocks) == 1 else f"{address} in line {claim.blocks[index].line}"
 
 
 _IN_DEGREES = {RefusalKind.LINE_REVERSED}
