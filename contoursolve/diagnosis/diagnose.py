@@ -8,12 +8,12 @@ from contoursolve.constraints import OnCircle, assemble
 from contoursolve.diagnosis.affine import AffineFacts, Circuit, affine_facts
 from contoursolve.diagnosis.identities import identity
 from contoursolve.diagnosis.layers import list_layers
-from contoursolve.diagnosis.reasons import conflict_reasons, freedom_reasons, path_reasons, place_text
+from contoursolve.diagnosis.reasons import conflict_reasons, freedom_reasons, path_reasons
 from contoursolve.diagnosis.repairs import Repair, find_repairs
 from contoursolve.diagnostic import Diagnosis, Diagnostic, Fix, Label, Severity, Tie
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer, Policy
-from contoursolve.explain import length_text
+from contoursolve.explain import length_text, place_text
 from contoursolve.reading import Trouble
 from contoursolve.solving import RefusalKind, RemarkKind, scalars_of
 from contoursolve.source import Span

@@ -71,10 +71,12 @@ def apply_statements(
         except StatementError as error:
             faults.append(Fault(Flaw.IMPOSSIBLE, str(error), word))
             continue
-        if name not in draft.givens and fact.given == name:
+        axis = stated.axis if isinstance(stated, PointIs) else None
+        is_diameter = axis is not None and profile.plane.diameters[axis]
+        if name in draft.givens:
+            draft.givens[name] = replace(draft.givens[name], is_diameter=is_diameter)
+        elif fact.given == name:
             is_angle = isinstance(stated, DirectionIs | TurnIs)
-            axis = stated.axis if isinstance(stated, PointIs) else None
-            is_diameter = axis is not None and profile.plane.diameters[axis]
             questions.append(Question(name, fact, Unit.DEGREE if is_angle else Unit.MM, word, is_diameter))
     draft.word = None
     for question in profile.questions:
