@@ -177,6 +177,9 @@ def explain_missing(context: Context, profile: Profile, verdict: Verdict, claim:
         for row in claim.form.facts
         if row.fact.given and row.fact.given not in stated and free & set(row.fact.reads())
     ]
+    # Of a corner whose size is not determined, nothing is.
+    corners = tuple(f"{corner.name}." for corner in profile.figure.corners if f"{corner.name}.radius" in free)
+    shown = [name for name in verdict.free if not name.startswith(corners) or name.endswith(".radius")]
     addresses = dict.fromkeys(name for name in able if name in claim.form.allowed)
     ways = [f"words that say something about it: {', '.join(addresses)}"] if addresses else []
     if profile.is_extended:
@@ -193,7 +196,7 @@ def explain_missing(context: Context, profile: Profile, verdict: Verdict, claim:
         context.row(Trouble.UNDERDETERMINED),
         Basis.SYMBOLIC,
         [],
-        free=unknowns_text(verdict.free, profile),
+        free=unknowns_text(shown, profile),
         completions=completions,
     )
 
@@ -239,7 +242,23 @@ def explain_result(
         notes = tuple(_search_notes(profile, alternatives))
     labels = _labels(event, fields)
     finding = report(context, context.row(event.kind), Basis.NUMERICAL, words, values, labels, **fields)
+    if asked and isinstance(event, Refusal):
+        causes = list(dict.fromkeys(text for word in asked for text in _causes(word, profile)))
+        advice = f"change what that follows from: {join(causes)}" if causes else "change what that follows from"
+        finding = replace(finding, help=advice, labels=tuple(replace(each, text="") for each in finding.labels))
     return replace(finding, notes=notes)
+
+
+def _causes(asked: Word, profile: Profile) -> Iterator[str]:
+    """The words and facts that determine the size of a corner that is asked for."""
+    from contoursolve.settling import settled_by  # noqa: PLC0415 - few blocks ask for anything
+
+    for question in profile.questions:
+        if question.word is asked and isinstance(question.fact, Radius):
+            for name in settled_by(profile, question.fact.radius):
+                word = profile.givens[name].word
+                if word is not None:
+                    yield word.text
 
 
 _AGAINST_OTHERS = (*_OF_A_WORD, RefusalKind.FACT_DISAGREES)
@@ -295,7 +314,7 @@ def explain_beyond(context: Context, profile: Profile, solution: Solution, conto
         word = profile.givens[given].word
         whole = "line" if isinstance(element, LineSegment) else "circle"
         place = place_text(profile, scalars_of({"": at}))
-        fields = {"element": element.name, "whole": whole, "place": place}
+        fields: dict[str, Any] = {"element": element.name, "whole": whole, "place": place}
         yield report(context, context.row(Trouble.FACT_BEYOND), Basis.NUMERICAL, [word] if word else [], **fields)
 
 
@@ -328,9 +347,7 @@ _PARTS = {"cos": "direction", "sin": "direction", "off": "place", "radius": "rad
 def unknowns_text(names: Sequence[str], profile: Profile) -> str:
     """Unknown scalars in the user's words: `V1 (Z and X)`, `line 2 (direction)`."""
     things: dict[str, dict[str, None]] = {}
-    # A corner whose size is unknown has nothing that is known.
-    corners = tuple(f"{corner.name}." for corner in profile.figure.corners if f"{corner.name}.radius" in names)
-    for name in (name for name in names if not name.startswith(corners) or name.endswith(".radius")):
+    for name in names:
         thing, _, part = name.rpartition(".")
         shown = profile.plane.axes[int(part)] if part.isdigit() else _PARTS.get(part, "")
         things.setdefault(thing if shown else name, {}).update({shown: None} if shown else {})

@@ -12,7 +12,13 @@ from contoursolve.explain import Context, report
 from contoursolve.model import Length, Plane
 from contoursolve.reading import Claim, Position, State, Trouble, advance, apply_modes, positions
 from contoursolve.source import Span
-from contoursolve.spelling import explain_fault, explain_unmarked, explain_words
+from contoursolve.spelling import (
+    explain_asked_outside,
+    explain_fault,
+    explain_start_units,
+    explain_unmarked,
+    explain_words,
+)
 from contoursolve.syntax import Block, Directive, FaultKind, Program, Word
 
 
@@ -152,12 +158,17 @@ class _Examiner:
         for block in start.blocks if start else ():
             self._check_block(block)
             state = advance(state, block, dialect.modes)
+        start_unit = state.unit
         index = 0
         while index < len(blocks):
             block = blocks[index]
             found = dialect.find(blocks, index, state, dialect.modes)
             if isinstance(found, Claim):
                 answer = self._examine(found, index, state)
+                if start and found.after.unit is not start_unit:
+                    place = Context(self.rules, start_unit, place=start.blocks[0].span)
+                    self.diagnostics.append(explain_start_units(place, found.after.unit, start.blocks[0]))
+                    start_unit = found.after.unit
                 has_findings = any(each.severity is not Severity.INFO for each in answer.diagnostics)
                 if has_findings and self.depth is Depth.FULL:
                     # Most programs need no diagnosis, and none should wait for its import.
@@ -211,6 +222,7 @@ class _Examiner:
         for directive in block.directives:
             place = Context(self.rules, self.unit, place=directive.span)
             self.diagnostics.append(report(place, place.row(Trouble.FACT_NOWHERE), Basis.RULE, []))
+        self.diagnostics += explain_asked_outside(context, block) if self.dialect else ()
         if self.dialect:
             lexicon = self.dialect.modes.lexicon
             addresses = lexicon.addresses

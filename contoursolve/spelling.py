@@ -6,6 +6,7 @@ from decimal import Decimal
 
 from contoursolve.diagnostic import Basis, Diagnostic, Label
 from contoursolve.explain import Context, length_text, report
+from contoursolve.model import Length
 from contoursolve.reading import Claim, Lexicon, Trouble
 from contoursolve.source import Span
 from contoursolve.syntax import Block, Fault, Word
@@ -28,9 +29,24 @@ def explain_unmarked(context: Context, block: Block) -> Iterator[Diagnostic]:
         yield report(replace(context, place=directive.span), rule, Basis.RULE, [], fact=directive.text)
 
 
+def explain_asked_outside(context: Context, block: Block) -> Iterator[Diagnostic]:
+    """Words that ask for something in a block that is no contour."""
+    for word in (word for word in block.words if word.is_asked):
+        yield report(context, context.row(Trouble.ASKED_NOTHING), Basis.RULE, [word], allowed="words of contour blocks")
+
+
+def explain_start_units(context: Context, unit: Length, block: Block) -> Diagnostic:
+    """A start point in another unit than that of the contour."""
+    rule, units = context.row(Trouble.START_UNITS), {Length.MM: "mm", Length.INCH: "inches"}
+    codes = {Length.MM: "G21", Length.INCH: "G20"}
+    fields = {"was": units[context.unit], "unit": units[unit], "code": codes[unit], "start": block.text.strip()}
+    return report(context, rule, Basis.RULE, [], None, (), **fields)
+
+
 def _explain_asked(context: Context, claim: Claim) -> Iterator[Diagnostic]:
     """Words that ask for something that is not part of a contour."""
     names = {row.fact.given for row in claim.form.facts} | {name for row in claim.form.corners for name in row.shapes}
+    names |= set(claim.form.choices)
     answered = [claim.words[name] for name in names if name in claim.words]
     allowed = dict.fromkeys(claim.vocabulary[name][0] for name in claim.vocabulary if name in names)
     for word in (word for block in claim.blocks for word in block.words):

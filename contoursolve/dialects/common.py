@@ -212,7 +212,7 @@ SYSTEM_RULES = (
     Rule(
         code="several-contours",
         message="{count} contours satisfy the block, and nothing chooses between them",
-        help="add the word or the fact that chooses: `contoursolve solve` lists the contours, each with what selects it",
+        help="add the word or the fact that chooses: `contoursolve solve` lists them, each with what selects it",
         source=_GEOMETRY,
         about=RemarkKind.SEVERAL,
         accepted=("G17 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q-1",),
@@ -253,7 +253,7 @@ SYSTEM_RULES = (
         source=_GEOMETRY,
         about=Trouble.FACTS_SINGULAR,
         accepted=(_GOOD,),
-        rejected=(),
+        rejected=(_START + "G111 I0 B120. X100. (contoursolve: direction of line 1 = 180)",),
     ),
     Rule(
         code="asked-nothing",
@@ -263,6 +263,16 @@ SYSTEM_RULES = (
         about=Trouble.ASKED_NOTHING,
         accepted=(_START + "G111 A180. K-30. B120. X100. P? (contoursolve: straight part of line 1 = 25)",),
         rejected=(_START + "G111 A180. K-30. B120. X100. F?", _START + "G111 A180. K-30. B120. X100. M?"),
+    ),
+    Rule(
+        code="start-units",
+        message="the start point was read in {was}, the contour is in {unit}",
+        help='if the start point is in {unit}, too, write --start "{code} {start}"',
+        source=_READING,
+        about=Trouble.START_UNITS,
+        severity=Severity.INFO,
+        accepted=("G20 G00 X2. Z0.\nG111 A180. K-1. B120. X4.",),
+        rejected=(),
     ),
     Rule(
         code="fact-unmarked",

@@ -36,6 +36,7 @@ class Trouble(Enum):
     FACT_UNMARKED = "fact-unmarked"
     FACT_BEYOND = "fact-beyond"
     FACTS_SINGULAR = "facts-singular"
+    START_UNITS = "start-units"
     ASKED_NOTHING = "asked-nothing"
 
 

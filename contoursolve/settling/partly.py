@@ -21,13 +21,13 @@ def said_twice(profile: Profile) -> tuple[Refusal | Remark, ...]:
     if len(part.facts) <= len(assemble(part).unknowns) or not judge(assemble(part)).is_determined:
         return ()
     items = find_alternatives(part).items
-    events = [[event for event in _events(item) if event.kind in _COMPARED] for item in items]
-    return tuple(min(events, key=_disagreements, default=()))
+    compared = [tuple(event for event in _events(item) if event.kind in _COMPARED) for item in items]
+    return min(compared, key=_disagreements) if compared else ()
 
 
 def _events(item: Alternative) -> tuple[Refusal | Remark, ...]:
     return (*item.solution.refusals, *item.solution.remarks)
 
 
-def _disagreements(events: list[Refusal | Remark]) -> int:
+def _disagreements(events: tuple[Refusal | Remark, ...]) -> int:
     return sum(isinstance(event, Refusal) for event in events)

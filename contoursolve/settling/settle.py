@@ -48,17 +48,24 @@ def settle(profile: Profile) -> Settlement:
     groups = _groups(system)
     if RefusalKind.NO_POINT in kinds:
         dead = _dead(profile, groups)
-        return Settlement(_affine(profile, groups, dead) or _blame(solution, dead, system), alternatives)
+        return Settlement(_affine(profile, groups, dead) or _blame(solution, dead, groups, system), alternatives)
     unknowns = {name for doubt in alternatives.doubts for name in doubt.unknowns}
     doubtful = [group for group in groups if not unknowns.isdisjoint(group.unknowns)]
     singular = _singular(alternatives)
     if not singular:
-        return Settlement(_blame(solution, doubtful, system), alternatives)
+        return Settlement(_blame(solution, doubtful, groups, system), alternatives)
     found = _affine(profile, groups, doubtful)
     if found is not None:
         return Settlement(found, alternatives)
     solution = Solution(Status.UNDERDETERMINED)
-    return Settlement(solution, alternatives, _givens(doubtful, system), tuple(singular))
+    return Settlement(solution, alternatives, _givens(doubtful, groups, system), tuple(singular))
+
+
+def settled_by(profile: Profile, unknown: str) -> tuple[str, ...]:
+    """The givens of the facts that determine an unknown together."""
+    system = assemble(profile)
+    groups = _groups(system)
+    return _givens([group for group in groups if unknown in group.unknowns], groups, system)
 
 
 def _singular(alternatives: Alternatives) -> list[str]:
@@ -104,16 +111,24 @@ def _first(profile: Profile, groups: tuple[Group, ...]) -> Profile:
     return restrict(profile, names.difference(*half))
 
 
-def _blame(solution: Solution, groups: list[Group], system: System) -> Solution:
+def _blame(solution: Solution, blamed: list[Group], groups: tuple[Group, ...], system: System) -> Solution:
     """The solution whose refusal names the facts of some groups."""
-    subject = ",".join(name for group in groups for name in group.unknowns)
-    refusals = (replace(each, subject=subject, givens=_givens(groups, system)) for each in solution.refusals)
+    subject = ",".join(name for group in blamed for name in group.unknowns)
+    givens = _givens(blamed, groups, system)
+    refusals = (replace(each, subject=subject, givens=givens) for each in solution.refusals)
     return replace(solution, refusals=tuple(refusals))
 
 
-def _givens(groups: list[Group], system: System) -> tuple[str, ...]:
-    facts = [fact for group in groups for fact in group.facts]
-    return tuple(dict.fromkeys(name for fact in facts for name in (fact.given, *headings_of(fact, system)) if name))
+def _givens(blamed: list[Group], groups: tuple[Group, ...], system: System) -> tuple[str, ...]:
+    """What states the facts of some groups; for a fact that nothing states, what it builds on."""
+    names: dict[str, None] = {}
+    for fact in (fact for group in blamed for fact in group.facts):
+        names |= dict.fromkeys(name for name in (fact.given, *headings_of(fact, system)) if name)
+        if not fact.given:
+            used = set(system.unknowns_of(fact)).difference(*(group.unknowns for group in blamed))
+            earlier = [group for group in groups if not used.isdisjoint(group.unknowns)]
+            names |= dict.fromkeys(_givens(earlier, groups, system))
+    return tuple(names)
 
 
 def _affine(profile: Profile, groups: tuple[Group, ...], doubtful: list[Group]) -> Solution | None:

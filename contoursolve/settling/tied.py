@@ -1,14 +1,11 @@
 """Which facts a fact that is one too many follows from."""
 
-from functools import lru_cache
-
 from contoursolve.analysis import judge
 from contoursolve.analysis.verdict import survey
 from contoursolve.constraints import System
 from contoursolve.model import Fact
 
 
-@lru_cache(maxsize=1024)
 def tied_with(system: System, fact: Fact) -> tuple[str, ...]:
     """The givens of a smallest set of facts from which a fact of the system follows, with its own, in the order of
     the facts.

@@ -61,7 +61,10 @@ def apply_statements(
             statement = directive.statement or read_statement(directive.text, words)
             read.append((f"fact {number}", cast("Statement", statement), word_of(directive)))
         except GrammarError as error:
-            faults.append(Fault(Flaw.UNREADABLE, str(error), word_of(directive, error.begin, error.end)))
+            # A comment ends with the first ), wherever that stands.
+            is_cut = "(" in directive.text and directive.span.line > 0
+            hint = "; inside a comment write [ ] for ( )" if is_cut else ""
+            faults.append(Fault(Flaw.UNREADABLE, f"{error}{hint}", word_of(directive, error.begin, error.end)))
     questions = list(profile.questions)
     for name, statement, word in sorted(read, key=lambda each: rank(each[1])):
         draft.word = word

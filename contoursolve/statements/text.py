@@ -1,6 +1,5 @@
 """Statements as the text that the grammar reads."""
 
-from dataclasses import fields
 from decimal import Decimal
 
 from contoursolve.model import Length, Plane
@@ -22,7 +21,13 @@ from contoursolve.statements.statement import (
     TurnIs,
 )
 
-_OF = {LengthIs: "length of", StraightIs: "straight part of", DirectionIs: "direction of", RadiusIs: "radius of"}
+_OF = {
+    LengthIs: ("length of", "element"),
+    StraightIs: ("straight part of", "line"),
+    DirectionIs: ("direction of", "line"),
+    RadiusIs: ("radius of", "element"),
+}
+"""What each is called, and the field that names what it is of."""
 _EQUAL = {EqualLengths: "length of", EqualSizes: "radius of"}
 _ANGLES = (DirectionIs, TurnIs)
 
@@ -46,10 +51,8 @@ def write_statement(statement: Statement, plane: Plane, unit: Length) -> str:
     shown = "?" if value is None else _number(value) if isinstance(statement, _ANGLES) else _length(value, unit)
     if isinstance(statement, TurnIs):
         return f"angle from {statement.first} to {statement.second} = {shown}"
-    if type(statement) not in _OF:
-        return str(statement)
-    element = getattr(statement, fields(statement)[0].name)  # type: ignore[arg-type]
-    return f"{_OF[type(statement)]} {element} = {shown}"  # type: ignore[index]
+    what, field = _OF[type(statement)]
+    return f"{what} {getattr(statement, field)} = {shown}"
 
 
 def _other(other: str | CircleAt | LineAt, plane: Plane, unit: Length) -> str:
