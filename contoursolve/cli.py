@@ -80,14 +80,18 @@ def _common(command: Callable[..., None]) -> Callable[..., None]:
                 metavar="TEXT",
                 help="A block to examine instead of a file; may be repeated, one block each.",
             ),
-            click.option("--start", metavar="WORDS", help='Start point for --block, such as "X40. Z0.".'),
+            click.option(
+                "--start",
+                metavar="WORDS",
+                help='Start point for --block, such as "X40. Z0.", in --units unless it says "G20 X2. Z0.".',
+            ),
             click.option(
                 "--fact",
                 "facts",
                 multiple=True,
                 metavar="FACT",
-                help='A further fact about the only contour, such as "length of line 1 = 30"; may be repeated. '
-                "'contoursolve facts' lists them all.",
+                help='A fact besides the words, such as "length of line 1 = 30", for a program with one contour; may be '
+                "repeated. 'contoursolve facts' lists every kind.",
             ),
             click.option(
                 "--control",
@@ -100,8 +104,8 @@ def _common(command: Callable[..., None]) -> Callable[..., None]:
                 type=click.Choice([policy.value for policy in Policy]),
                 default="enforce",
                 show_default=True,
-                help="Rules of the control's manual: refuse what they refuse; only warn; or let the geometry "
-                "alone decide. A block with ? or further facts is not for the control yet: they only warn.",
+                help="Rules of the control's manual: enforce refuses what they refuse, warn only says so, off lets the "
+                "geometry alone decide. About a block with ? or facts, which no control reads, they only warn.",
             ),
             _settings,
         )
@@ -155,7 +159,8 @@ def solve(
     """Solve every contour block of PROGRAM (a file, or - for standard input).
 
     Prints what was given, the virtual intersections, and every element of the path, with what is proven of it; where
-    several contours satisfy a block, all of them. A word with ? for its value is asked for.
+    several contours satisfy a block, all of them. A word with ? for its value, such as P?, is worked out from the
+    other words and from facts.
 
     \b
     contoursolve solve shaft.nc
@@ -201,7 +206,7 @@ def check(
     assignments: tuple[str, ...],
     **options: Any,
 ) -> None:
-    """Report the findings about each PROGRAM (files, or - for standard input), and nothing else.
+    """Report the findings about each PROGRAM (files, or - for standard input), without the contours.
 
     \b
     contoursolve check shaft.nc flange.nc

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from enum import Enum
@@ -11,20 +11,21 @@ from typing import TYPE_CHECKING
 from contoursolve.analysis import judge
 from contoursolve.constraints import assemble
 from contoursolve.contour import Contour, trace
-from contoursolve.diagnostic import Basis, Diagnosis, Diagnostic, Label, Severity
+from contoursolve.diagnostic import Basis, Diagnosis, Diagnostic, Severity
 from contoursolve.explain import (
     Context,
     context_of,
+    explain_beyond,
     explain_ignored,
     explain_missing,
     explain_offence,
     explain_result,
-    length_text,
+    explain_singular,
     report,
     without_point,
 )
 from contoursolve.model import Length, Plane, Profile, Question, Side, Start
-from contoursolve.reading import Claim, Lexicon, Trouble, read
+from contoursolve.reading import Claim, Trouble, read
 from contoursolve.rules import Offence, Rule, check
 from contoursolve.solving import (
     Refusal,
@@ -44,8 +45,7 @@ from contoursolve.solving.certificate import Certificate
 if TYPE_CHECKING:
     from contoursolve.solving.alternatives import Alternatives
 from contoursolve.source import Span
-from contoursolve.syntax import Fault, Word
-from contoursolve.tolerance import LARGEST
+from contoursolve.spelling import explain_skippable, explain_spelling, explain_start, explain_unmarked
 
 
 class Policy(Enum):
@@ -166,8 +166,9 @@ def examine(
     )
     is_readable = is_readable and is_stated
     if not profile.start.is_known:
-        notebook.add(_explain_start(context, claim), Status.UNDERDETERMINED)
-    for finding in (*_explain_skippable(context, claim), *without_point(context, claim)):
+        notebook.add(explain_start(context, claim), Status.UNDERDETERMINED)
+    unmarked = (finding for block in claim.blocks for finding in explain_unmarked(context, block))
+    for finding in (*explain_skippable(context, claim), *without_point(context, claim), *unmarked):
         notebook.add(finding)
     solution, alternatives = Solution(Status.REJECTED), None
     if is_readable:
@@ -177,6 +178,9 @@ def examine(
 
     is_path = bool(solution.points) and notebook.status in (Status.SOLVED, Status.OVERDETERMINED)
     contour = trace(profile, solution) if is_path else None
+    if contour is not None and claim.directives:
+        for finding in explain_beyond(context, profile, solution, contour):
+            notebook.add(finding)
     touching = {remark.subject for remark in solution.remarks if remark.kind is RemarkKind.TOUCHES}
     sides = {
         choice.point: choice.side for choice in profile.choices if choice.point in {*profile.intersections} - touching
@@ -264,11 +268,7 @@ def answer_question(question: Question, profile: Profile, solution: Solution) ->
 
 def _examine_words(context: Context, claim: Claim, notebook: _Notebook) -> None:
     """Characters, addresses and values, before any of them is given a meaning."""
-    words = [word for block in claim.blocks for word in block.words]
-    for block in claim.blocks:
-        for fault in block.faults:
-            notebook.add(explain_fault(context, fault), Status.REJECTED)
-    for finding in (*explain_words(context, claim.lexicon, claim.repeated, words), *_explain_unknown(context, claim)):
+    for finding in explain_spelling(context, claim):
         notebook.add(finding, Status.REJECTED)
     variables = [word for word in claim.words.values() if word.number is None and not word.is_asked]
     if variables:
@@ -289,40 +289,45 @@ def _examine_geometry(
     system = assemble(profile)
     says_too_much = len(system.facts) > len(system.unknowns)
     is_solvable = not structure and profile.start.is_known
-    if is_solvable and is_refused and not profile.is_extended and _open_points(profile):
+    if is_solvable and is_refused and not profile.is_extended and _has_choice(profile):
         # Which contours the missing word could choose is worth knowing.
-        return Solution(Status.UNDERDETERMINED), _solve(profile)[1]
+        return Solution(Status.UNDERDETERMINED), _solve(profile, context, notebook)[1]
+    if structure and not is_refused and profile.is_extended and profile.start.is_known:
+        from contoursolve.settling import said_twice  # noqa: PLC0415 - few blocks state more than their words
+
+        for event in said_twice(profile):
+            notebook.add(explain_result(context, event, profile), Status.CONFLICTING)
     if not is_solvable or (is_refused and not says_too_much):
         return Solution(Status.UNDERDETERMINED), None
-    solution, alternatives = _solve(profile)
+    solution, alternatives = _solve(profile, context, notebook)
     events: list[Refusal | Remark] = [*solution.refusals, *solution.remarks]
     for event in events:
         if not is_refused or event.kind in _ABOUT_WORDS:
-            notebook.add(explain_result(context, event, profile))
+            notebook.add(explain_result(context, event, profile, alternatives))
             notebook.statuses.add(solution.status)
     return (Solution(solution.status), None) if is_refused else (solution, alternatives)
 
 
-def _solve(profile: Profile) -> tuple[Solution, Alternatives | None]:
+def _solve(profile: Profile, context: Context, notebook: _Notebook) -> tuple[Solution, Alternatives | None]:
     """The contour that the control makes, or the only one that there is."""
-    is_chosen = not profile.is_extended and is_closed(assemble(profile)) and not _open_points(profile)
+    is_chosen = not profile.is_extended and not _has_choice(profile)
     solution = solve(profile) if is_chosen else None
     if solution is not None and not any(remark.kind is RemarkKind.TOUCHES for remark in solution.remarks):
         return solution, None
     # Unusual combinations, open choices, and lines that touch as far as floats can tell.
-    from contoursolve.solving.alternatives import find_alternatives  # noqa: PLC0415
-    from contoursolve.solving.decide import decide  # noqa: PLC0415
+    from contoursolve.settling import settle  # noqa: PLC0415
 
-    alternatives = find_alternatives(profile)
-    return decide(alternatives, profile), alternatives
+    settlement = settle(profile)
+    if settlement.singular and Status.REJECTED not in notebook.statuses:
+        finding = explain_singular(context, settlement.singular, settlement.loose, profile)
+        notebook.add(finding, Status.UNDERDETERMINED)
+    return settlement.solution, settlement.alternatives
 
 
-def _open_points(profile: Profile) -> list[str]:
-    """The points between whose two places nothing chooses."""
-    if not is_closed(assemble(profile)):
-        return []
-    chosen = {choice.point for choice in profile.choices}
-    return [point for point in points_with_two_solutions(assemble(profile)) if point not in chosen]
+def _has_choice(profile: Profile) -> bool:
+    """Whether there are points between whose two places nothing chooses; what has no closed form may have several."""
+    system, chosen = assemble(profile), {choice.point for choice in profile.choices}
+    return not is_closed(system) or any(point not in chosen for point in points_with_two_solutions(system))
 
 
 _ABOUT_WORDS = (RefusalKind.WORDS_DISAGREE, RefusalKind.FACT_DISAGREES, RemarkKind.WORDS_AGREE)
@@ -354,63 +359,6 @@ def _examine_system(context: Context, claim: Claim, profile: Profile) -> Iterato
             words = [context.words[size] for size in sizes]
             rule = context.row(Trouble.CORNER_TWICE)
             yield Status.CONFLICTING, report(context, rule, Basis.STRUCTURAL, words, subject=name)
-
-
-def explain_fault(context: Context, fault: Fault) -> Diagnostic:
-    """Characters that are not a word."""
-    shown = Word(fault.text[:1], None, False, fault.text.strip(), fault.span)
-    rule = context.row(fault.kind)
-    return replace(report(context, rule, Basis.RULE, [shown]), addresses=(fault.address,) if fault.address else ())
-
-
-def explain_words(
-    context: Context, lexicon: Lexicon, repeated: Sequence[Word], words: Sequence[Word]
-) -> Iterator[Diagnostic]:
-    """Addresses given twice, and values beyond all travel."""
-    for address, line in dict.fromkeys((word.address, word.span.line) for word in repeated):
-        same = [word for word in words if word.address == address and word.span.line == line]
-        if address == "G":
-            same = [word for word in same if word.number in {each.number for each in repeated}]
-        yield report(context, context.row(Trouble.REPEATED_ADDRESS), Basis.RULE, same)
-    for word in words:
-        value = lexicon.value(word, context.unit) if word.address in lexicon.addresses else None
-        if value is not None and abs(value) > Decimal(LARGEST):
-            limit = length_text(LARGEST, context.unit)
-            yield report(context, context.row(Trouble.VALUE_TOO_LARGE), Basis.RULE, [word], limit=limit)
-
-
-def _explain_unknown(context: Context, claim: Claim) -> Iterator[Diagnostic]:
-    allowed = ", ".join(sorted(claim.form.allowed - {"N", "G"}))
-    for word in claim.unknown:
-        rule = context.row(Trouble.UNKNOWN_ADDRESS)
-        yield report(context, rule, Basis.RULE, [word], form=claim.form.name, allowed=allowed)
-
-
-def _explain_start(context: Context, claim: Claim) -> Diagnostic:
-    """Which axes of the start point are unknown, and which line made them so."""
-    unknown = [axis for axis in claim.before.plane.axes if claim.before.axes[axis].value is None]
-    places = [claim.before.axes[axis] for axis in unknown]
-    reasons = dict.fromkeys(f"{each.reason}{_on_line(each.span)}" for each in places)
-    finding = report(
-        context,
-        context.row(Trouble.POSITION_UNKNOWN),
-        Basis.RULE,
-        [],
-        axes=" and ".join(unknown),
-        reason="; ".join(reasons),
-    )
-    labels = (Label(each.span, "the position is lost here") for each in places if each.span)
-    return replace(finding, labels=finding.labels + tuple(dict.fromkeys(labels)), addresses=tuple(unknown))
-
-
-def _on_line(span: Span | None) -> str:
-    return f" (line {span.line})" if span else ""
-
-
-def _explain_skippable(context: Context, claim: Claim) -> Iterator[Diagnostic]:
-    skippable = {block.is_skippable for block in claim.blocks}
-    if len(skippable) > 1 or any(claim.before.axes[axis].is_skippable for axis in claim.before.plane.axes):
-        yield report(context, context.row(Trouble.SKIPPABLE_START), Basis.RULE, [])
 
 
 def rank(finding: Diagnostic) -> tuple[int, int, Span, str]:

@@ -1,19 +1,27 @@
 """Puts findings into words: a row of the catalogue, the words of the block, and the values compared."""
 
+from __future__ import annotations
+
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import Enum
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from contoursolve.analysis import Verdict
+from contoursolve.constraints import Radius, assemble
+from contoursolve.contour import Contour, LineSegment
 from contoursolve.diagnostic import Basis, Diagnostic, Label
 from contoursolve.model import Length, Profile, Unit
 from contoursolve.reading import Claim, Trouble
 from contoursolve.rules import Offence, Rule
 from contoursolve.solving import Refusal, RefusalKind, Remark, RemarkKind, Solution, compare, lookup, scalars_of
+from contoursolve.solving.elimination import Obstacle
 from contoursolve.source import Span
-from contoursolve.syntax import Word
+from contoursolve.syntax import FACT, Word
 from contoursolve.tolerance import AGREEMENT
+
+if TYPE_CHECKING:
+    from contoursolve.solving.alternatives import Alternatives
 
 _BEGINNING = Span(1, 1, 2)
 
@@ -169,16 +177,26 @@ def explain_missing(context: Context, profile: Profile, verdict: Verdict, claim:
         for row in claim.form.facts
         if row.fact.given and row.fact.given not in stated and free & set(row.fact.reads())
     ]
+    # Of a corner whose size is not determined, nothing is.
+    corners = tuple(f"{corner.name}." for corner in profile.figure.corners if f"{corner.name}.radius" in free)
+    shown = [name for name in verdict.free if not name.startswith(corners) or name.endswith(".radius")]
     addresses = dict.fromkeys(_address(name, claim) for name in able if name in claim.vocabulary)
-    completions = "add a word for it, or state a fact about it with --fact; 'contoursolve facts' lists them"
-    if addresses and not profile.is_extended:
-        completions = f"words that say something about it: {', '.join(addresses)}"
+    ways = [f"words that say something about it: {', '.join(addresses)}"] if addresses else []
+    if profile.is_extended:
+        open_sizes = [
+            question.word.text
+            for question in profile.questions
+            if isinstance(question.fact, Radius) and question.fact.radius in free
+        ]
+        ways += [f"give {' or '.join(open_sizes)} a value"] if open_sizes else []
+        ways.append("state a fact about it ('contoursolve facts' lists them)")
+    completions = "; or ".join(ways) or "add a word for it"
     return report(
         context,
         context.row(Trouble.UNDERDETERMINED),
         Basis.SYMBOLIC,
         [],
-        free=unknowns_text(verdict.free, profile),
+        free=unknowns_text(shown, profile),
         completions=completions,
     )
 
@@ -193,13 +211,21 @@ _IN_DEGREES = {RefusalKind.LINE_REVERSED}
 _OF_A_WORD = {RefusalKind.WORDS_DISAGREE, RemarkKind.WORDS_AGREE}
 
 
-def explain_result(context: Context, event: Refusal | Remark, profile: Profile) -> Diagnostic:
-    """A refusal or a remark of the solver."""
+def explain_result(
+    context: Context, event: Refusal | Remark, profile: Profile, alternatives: Alternatives | None = None
+) -> Diagnostic:
+    """A refusal or a remark of the solver; `alternatives` is what a search found."""
     givens = [profile.givens[name] for name in event.givens if name in profile.givens]
     asked = [question.word for question in profile.questions if question.name in event.givens]
     words = [given.word for given in givens if given.word] + asked
     values = dict(event.values)
-    fields: dict[str, Any] = {"subject": event.subject, "free": unknowns_text(event.subject.split(","), profile)}
+    things = (name.rpartition(".")[0] or name for name in event.subject.split(","))
+    fields: dict[str, Any] = {
+        "subject": event.subject,
+        "free": unknowns_text(event.subject.split(","), profile),
+        "things": join(list(dict.fromkeys(things))),
+        "together": " together" if len(words) > 1 else "",
+    }
     is_word = event.kind in _OF_A_WORD
     for name in ("limit", "expected", "actual"):
         if name in values:
@@ -210,10 +236,92 @@ def explain_result(context: Context, event: Refusal | Remark, profile: Profile) 
             fields[name] = text
     if "off_by_mm" in values:
         fields["off"] = length_text(values["off_by_mm"], context.unit)
+        if is_word and givens[0].unit is Unit.DEGREE and words and words[0].address == FACT and "expected" in values:
+            fields["off"] = angle_text(abs(values["expected"] - values["actual"]))
     if event.kind is RemarkKind.SEVERAL:
         fields["count"] = f"{event.values['actual']:.0f}"
+    notes: tuple[str, ...] = ()
+    if event.kind in _AGAINST_OTHERS:
+        fields |= _others(event, profile)
+    if event.kind is RefusalKind.SEARCH_UNFINISHED and alternatives is not None:
+        fields["advice"] = _ADVICE[alternatives.doubts[0].obstacle]
+        notes = tuple(_search_notes(profile, alternatives))
     labels = _labels(event, fields)
-    return report(context, context.row(event.kind), Basis.NUMERICAL, words, values, labels, **fields)
+    finding = report(context, context.row(event.kind), Basis.NUMERICAL, words, values, labels, **fields)
+    if asked and isinstance(event, Refusal):
+        causes = list(dict.fromkeys(text for word in asked for text in _causes(word, profile)))
+        advice = f"change what that follows from: {join(causes)}" if causes else "change what that follows from"
+        finding = replace(finding, help=advice, labels=tuple(replace(each, text="") for each in finding.labels))
+    return replace(finding, notes=notes)
+
+
+def _causes(asked: Word, profile: Profile) -> Iterator[str]:
+    """The words and facts that determine the size of a corner that is asked for."""
+    from contoursolve.settling import settled_by  # noqa: PLC0415 - few blocks ask for anything
+
+    for question in profile.questions:
+        if question.word is asked and isinstance(question.fact, Radius):
+            for name in settled_by(profile, question.fact.radius):
+                word = profile.givens[name].word
+                if word is not None:
+                    yield word.text
+
+
+_AGAINST_OTHERS = (*_OF_A_WORD, RefusalKind.FACT_DISAGREES)
+
+
+def _others(event: Refusal | Remark, profile: Profile) -> dict[str, str]:
+    """What a word or a fact is held against, by name where facts are stated besides words, and its verbs."""
+    words: list[Word] = []
+    if profile.is_extended:
+        from contoursolve.settling import tied_with  # noqa: PLC0415 - few blocks state more than their words
+
+        system = assemble(profile)
+        facts = [fact for fact in profile.facts if fact.given == event.subject]
+        names = [name for fact in facts for name in tied_with(system, fact) if name != event.subject]
+        words = [word for word in (profile.givens[name].word for name in dict.fromkeys(names)) if word]
+    if len(words) == 1:
+        return {"others": words[0].text, "they": words[0].text, "give": "gives", "say": "says"}
+    text = join([word.text for word in words]) or "the other words"
+    return {"others": text, "they": "they", "give": "give", "say": "say"}
+
+
+_ADVICE = {
+    Obstacle.SINGULAR: "state another fact in place of one of them",
+    Obstacle.UNDECIDED: "change a value a little: the case is too close to a limit to be decided",
+    Obstacle.TOUCHING: "change a value a little: two places are one, or none, as far as numbers can tell",
+    Obstacle.NO_CLOSED_FORM: "state a simpler fact in place of one of them, such as a coordinate or a direction",
+    Obstacle.UNFINISHED: "state a simpler fact in place of one of them, such as a coordinate or a direction",
+}
+
+
+def _search_notes(profile: Profile, alternatives: Alternatives) -> Iterator[str]:
+    """What was tried, and what is not decided."""
+    way = "in closed form"
+    if alternatives.reach is not None:
+        way = f"by a search within {length_text(alternatives.reach, profile.unit)} of the start point"
+    yield f"tried: every combination of sides, {way}"
+    for doubt in alternatives.doubts:
+        yield f"not decided: {unknowns_text(doubt.unknowns, profile)}: {doubt.obstacle.value}"
+
+
+def explain_singular(context: Context, names: Sequence[str], loose: Sequence[str], profile: Profile) -> Diagnostic:
+    """Facts that do not fix what they are about at their values, though they would at others."""
+    words = [word for word in (profile.givens[name].word for name in names) if word]
+    rule, free = context.row(Trouble.FACTS_SINGULAR), unknowns_text(loose, profile)
+    return report(context, rule, Basis.NUMERICAL, words, free=free, do="do" if len(words) > 1 else "does")
+
+
+def explain_beyond(context: Context, profile: Profile, solution: Solution, contour: Contour) -> Iterator[Diagnostic]:
+    """Facts about a whole line or circle that hold where the path does not reach."""
+    from contoursolve.beyond import facts_beyond  # noqa: PLC0415 - few blocks state more than their words
+
+    for given, element, at in facts_beyond(profile, solution, contour):
+        word = profile.givens[given].word
+        whole = "line" if isinstance(element, LineSegment) else "circle"
+        place = place_text(profile, scalars_of({"": at}))
+        fields: dict[str, Any] = {"element": element.name, "whole": whole, "place": place}
+        yield report(context, context.row(Trouble.FACT_BEYOND), Basis.NUMERICAL, [word] if word else [], **fields)
 
 
 def without_point(context: Context, claim: Claim) -> Iterator[Diagnostic]:
@@ -250,6 +358,16 @@ def unknowns_text(names: Sequence[str], profile: Profile) -> str:
         shown = profile.plane.axes[int(part)] if part.isdigit() else _PARTS.get(part, "")
         things.setdefault(thing if shown else name, {}).update({shown: None} if shown else {})
     return join([f"{thing} ({join(list(parts))})" if parts else thing for thing, parts in things.items()])
+
+
+def place_text(profile: Profile, scalars: dict[str, float]) -> str:
+    """Coordinates in the user's terms: `Z-10.000 X60.000` (mm or inches, X of a lathe as diameter)."""
+    texts = []
+    for name, value in sorted(scalars.items(), key=lambda item: item[0].partition(".")[2]):
+        axis = int(name.partition(".")[2])
+        shown = value * (2 if profile.plane.diameters[axis] else 1)
+        texts.append(f"{profile.plane.axes[axis]}{length_text(shown, profile.unit)}")
+    return " ".join(texts)
 
 
 def join(texts: Sequence[str]) -> str:

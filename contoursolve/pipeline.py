@@ -3,13 +3,22 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from decimal import Decimal
+from typing import cast
 
 from contoursolve.diagnostic import Basis, Diagnostic, Severity
 from contoursolve.dialects import DIALECTS, Dialect, Unresolved
-from contoursolve.examine import Answer, Depth, Policy, examine, explain_fault, explain_words, rank
+from contoursolve.examine import Answer, Depth, Policy, examine, rank
 from contoursolve.explain import Context, report
-from contoursolve.model import Length
+from contoursolve.model import Length, Plane
 from contoursolve.reading import Claim, Position, State, Trouble, advance, apply_modes, positions
+from contoursolve.source import Span
+from contoursolve.spelling import (
+    explain_asked_outside,
+    explain_fault,
+    explain_start_units,
+    explain_unmarked,
+    explain_words,
+)
 from contoursolve.syntax import Block, Directive, FaultKind, Program, Word
 
 
@@ -33,6 +42,15 @@ class Result:
         """Whether any finding is an error."""
         return any(each.severity is Severity.ERROR for each in self.diagnostics)
 
+    def place(self, span: Span) -> Span:
+        """The place itself, or for a fact stated apart from the program the block that it is about."""
+        if span.line >= 0:
+            return span
+        lines = [answer.lines[-1] for answer in self.answers]
+        blocks = [block for block in self.program.blocks if block.words or block.line in lines]
+        block = next((block for block in blocks if block.line in lines), blocks[-1] if blocks else None)
+        return block.span if block else Span(1, 1, 2)
+
 
 class UnknownControlError(ValueError):
     """The program does not tell which control it is for; the message lists the choices."""
@@ -44,8 +62,9 @@ class FactPlaceError(ValueError):
 
 def _attach(
     program: Program, dialect: Dialect, unit: Length, start: Program | None, facts: Sequence[Directive]
-) -> Program:
-    """The program with further facts in the last block of its only contour, or else of its last block."""
+) -> tuple[Program, tuple[Directive, ...]]:
+    """The program with further facts in the last block of its only contour, or else of its last block; and the facts,
+    those that are no texts in words."""
     answers = list(_Examiner(program, dialect, unit, Policy.OFF, Depth.VERDICT).walk(start))
     if len(answers) > 1:
         lines = ", ".join(str(answer.lines[0]) for answer in answers)
@@ -53,13 +72,26 @@ def _attach(
             f"the program has {len(answers)} contours (lines {lines}); write the fact into the block that it is about, "
             "as a comment (contoursolve: ...)"
         )
+    before = dialect.initial_state(unit)
+    plane, length = (answers[0].plane, answers[0].unit) if answers else (before.plane, before.unit)
+    worded = tuple(_in_words(fact, plane, length) for fact in facts)
     lines_with_words = [block.line for block in program.blocks if block.words]
     last = answers[0].lines[-1] if answers else max(lines_with_words, default=0)
     blocks = tuple(
-        replace(block, directives=(*block.directives, *facts)) if block.line == last else block
+        replace(block, directives=(*block.directives, *worded)) if block.line == last else block
         for block in program.blocks
     )
-    return replace(program, blocks=blocks)
+    return replace(program, blocks=blocks), worded
+
+
+def _in_words(fact: Directive, plane: Plane, unit: Length) -> Directive:
+    """A fact with the text that states it."""
+    if fact.statement is None:
+        return fact
+    from contoursolve.statements import Statement, write_statement  # noqa: PLC0415 - few programs need it
+
+    text = write_statement(cast("Statement", fact.statement), plane, unit)
+    return replace(fact, text=text, span=Span(fact.span.line, 1, len(text) + 1))
 
 
 def recognise(program: Program) -> Dialect | None:
@@ -90,7 +122,7 @@ def run(
     examined.
     """
     if facts and dialect is not None:
-        program = _attach(program, dialect, unit, start, facts)
+        program, facts = _attach(program, dialect, unit, start, facts)
     examiner = _Examiner(program, dialect, unit, policy, depth)
     answers = list(examiner.walk(start))
     if not answers and not any(each.severity is Severity.ERROR for each in examiner.diagnostics):
@@ -128,12 +160,17 @@ class _Examiner:
         for block in start.blocks if start else ():
             self._check_block(block)
             state = advance(state, block, dialect.modes)
+        start_unit = state.unit
         index = 0
         while index < len(blocks):
             block = blocks[index]
             found = dialect.find(blocks, index, state, dialect.modes)
             if isinstance(found, Claim):
                 answer = self._examine(found, index, state)
+                if start and found.after.unit is not start_unit:
+                    place = Context(self.rules, start_unit, place=start.blocks[0].span)
+                    self.diagnostics.append(explain_start_units(place, found.after.unit, start.blocks[0]))
+                    start_unit = found.after.unit
                 has_findings = any(each.severity is not Severity.INFO for each in answer.diagnostics)
                 if has_findings and self.depth is Depth.FULL:
                     # Most programs need no diagnosis, and none should wait for its import.
@@ -187,9 +224,11 @@ class _Examiner:
             if fault.kind in _FAULTS_OF_NO_CONSEQUENCE:
                 finding = replace(finding, severity=Severity.WARNING)
             self.diagnostics.append(finding)
+        self.diagnostics += explain_unmarked(context, block)
         for directive in block.directives:
             place = Context(self.rules, self.unit, place=directive.span)
             self.diagnostics.append(report(place, place.row(Trouble.FACT_NOWHERE), Basis.RULE, []))
+        self.diagnostics += explain_asked_outside(context, block) if self.dialect else ()
         if self.dialect:
             lexicon = self.dialect.modes.lexicon
             addresses = lexicon.addresses

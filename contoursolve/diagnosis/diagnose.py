@@ -6,14 +6,15 @@ from dataclasses import replace
 from contoursolve.analysis import judge
 from contoursolve.constraints import OnCircle, assemble
 from contoursolve.diagnosis.affine import AffineFacts, Circuit, affine_facts
+from contoursolve.diagnosis.attempt import Repair
 from contoursolve.diagnosis.identities import identity
 from contoursolve.diagnosis.layers import list_layers
-from contoursolve.diagnosis.reasons import conflict_reasons, freedom_reasons, path_reasons, place_text
-from contoursolve.diagnosis.repairs import Repair, find_repairs
+from contoursolve.diagnosis.reasons import conflict_reasons, freedom_reasons, path_reasons
+from contoursolve.diagnosis.repairs import find_repairs
 from contoursolve.diagnostic import Diagnosis, Diagnostic, Fix, Label, Severity, Tie
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer, Policy
-from contoursolve.explain import length_text
+from contoursolve.explain import length_text, place_text
 from contoursolve.reading import Trouble
 from contoursolve.solving import RefusalKind, RemarkKind, scalars_of
 from contoursolve.source import Span
@@ -40,11 +41,22 @@ def diagnose(answer: Answer, dialect: Dialect, policy: Policy) -> Answer:
         reasons = tuple(_reasons(answer, affine, circuits, diagnosis, finding))
         labels = _start_labels(answer) if reasons and finding.about in _FROM_START else ()
         findings.append(replace(finding, notes=finding.notes + reasons, labels=finding.labels + labels))
-    main = next((index for index, finding in enumerate(findings) if finding.severity is not Severity.INFO), None)
+    main = _main(findings, is_extended=profile.is_extended)
     if main is not None:
         fixes = tuple(_fix(answer, repair) for repair in repairs.repairs)
         findings[main] = replace(findings[main], fixes=fixes)
     return replace(answer, diagnostics=tuple(findings), diagnosis=diagnosis)
+
+
+def _main(findings: list[Diagnostic], *, is_extended: bool) -> int | None:
+    """The index of the finding that the repairs go with: the first one; with further facts the worst one, because
+    the rules only warn there."""
+    severities = [Severity.ERROR, Severity.WARNING]
+    for group in [[each] for each in severities] if is_extended else [severities]:
+        for index, finding in enumerate(findings):
+            if finding.severity in group and not (is_extended and finding.about is None):
+                return index
+    return None
 
 
 _FROM_START = (Trouble.WORD_IGNORED, RefusalKind.WORDS_DISAGREE, RefusalKind.LINE_REVERSED)

@@ -1,5 +1,6 @@
 """Edits of a block's text: words dropped, added, or written with another value."""
 
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from decimal import ROUND_DOWN, ROUND_HALF_EVEN, Decimal
@@ -9,7 +10,10 @@ from contoursolve.explain import shorten
 from contoursolve.model import Length, Unit
 from contoursolve.reading import Lexicon, WithoutPoint
 from contoursolve.source import Span
-from contoursolve.syntax import Block
+from contoursolve.syntax import FACT, Block, Directive, read_directive
+
+PLACEHOLDER = "?"
+"""Stands for a number that the block does not give."""
 
 
 class EditKind(Enum):
@@ -33,13 +37,23 @@ class Edit:
     """Line of the block that an added word goes to."""
 
     def __str__(self) -> str:
+        old, text = (self._shown(each) for each in (self.old, self.text))
         if self.kind is EditKind.CHANGE:
-            return f"write {shorten(self.text)} for {shorten(self.old)}"
-        return f"{self.kind.value} {shorten(self.text or self.old)}"
+            return f"write {text} for {old}"
+        return f"{self.kind.value} {text if self.text else old}"
 
+    def _shown(self, text: str) -> str:
+        return shorten(text) if self.is_in_block else f'--fact "{shorten(text)}"'
 
-PLACEHOLDER = "?"
-"""Stands for a number that the block does not give."""
+    @property
+    def is_in_block(self) -> bool:
+        """Whether it is about the text of the block, not about a fact that is stated apart from it."""
+        return self.span is None or self.span.line > 0
+
+    @property
+    def is_placeholder(self) -> bool:
+        """Whether it adds a word whose number is still to be chosen."""
+        return self.kind is EditKind.ADD and self.text.endswith(PLACEHOLDER)
 
 
 def apply_edits(blocks: Iterable[Block], edits: Iterable[Edit]) -> tuple[str, ...]:
@@ -59,8 +73,29 @@ def apply_edits(blocks: Iterable[Block], edits: Iterable[Edit]) -> tuple[str, ..
         for edit in edits:
             if edit.kind is EditKind.ADD and edit.line == block.line:
                 text = _insert(text, edit.text)
-        texts.append(text)
+        is_fact_dropped = any(edit.address == FACT and not edit.text for edit in own)
+        texts.append(_tidy(text) if is_fact_dropped else text)
     return tuple(texts)
+
+
+def edit_facts(facts: Iterable[Directive], edits: Iterable[Edit]) -> tuple[Directive, ...]:
+    """The facts that are stated apart from the blocks, with the edits made."""
+    by_place = {edit.span: edit for edit in edits if edit.address == FACT}
+    found = []
+    for fact in facts:
+        edit = by_place.get(fact.span)
+        if edit is None:
+            found.append(fact)
+        elif edit.text:
+            found.append(read_directive(edit.text, fact.span.line))
+    return tuple(found)
+
+
+def _tidy(text: str) -> str:
+    """Comments without the separators that a dropped fact leaves, or without the comment that it leaves empty."""
+    text = re.sub(r"(\(\s*contoursolve\s*:)\s*(?:;\s*)+", r"\1 ", text, flags=re.IGNORECASE)
+    text = re.sub(r"\s*\(\s*contoursolve\s*:\s*\)", "", text, flags=re.IGNORECASE)
+    return re.sub(r"\s*;(?:\s*;)*(\s*[);])", r"\1", text)
 
 
 def _insert(text: str, word: str) -> str:

@@ -6,7 +6,7 @@ from contoursolve.constraints import Heading
 from contoursolve.diagnosis.affine import AffineFacts, Circuit
 from contoursolve.diagnosis.identities import identity
 from contoursolve.diagnostic import Diagnostic, Freedom
-from contoursolve.explain import angle_text, join, length_text
+from contoursolve.explain import angle_text, join, length_text, place_text
 from contoursolve.model import FIRST, SECOND, Fact, Line, Profile, scalar
 from contoursolve.solving import RefusalKind, lookup
 from contoursolve.tolerance import AGREEMENT, REGULAR
@@ -99,16 +99,6 @@ def path_reasons(profile: Profile, affine: AffineFacts | None, finding: Diagnost
 def _known(profile: Profile, fixed: dict[str, float], point: str) -> dict[str, float]:
     at = lookup(profile, fixed)
     return {scalar(point, axis): at.coordinate(point, axis) for axis in (FIRST, SECOND)}
-
-
-def place_text(profile: Profile, scalars: dict[str, float]) -> str:
-    """Coordinates in the user's terms: `Z-10.000 X60.000` (mm or inches, X of a lathe as diameter)."""
-    texts = []
-    for name, value in sorted(scalars.items(), key=lambda item: item[0].partition(".")[2]):
-        axis = int(name.partition(".")[2])
-        shown = value * (2 if profile.plane.diameters[axis] else 1)
-        texts.append(f"{profile.plane.axes[axis]}{length_text(shown, profile.unit)}")
-    return " ".join(texts)
 
 
 def _words(profile: Profile, facts: Sequence[Fact]) -> str:

@@ -6,52 +6,24 @@ from dataclasses import dataclass
 from decimal import Decimal
 from functools import lru_cache
 from itertools import combinations, product
-from math import hypot
 
-from contoursolve.contour import Contour
 from contoursolve.diagnosis.affine import AffineFacts, Circuit, affine_facts
-from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, apply_edits, write_word
-from contoursolve.diagnostic import Applicability, Diagnostic, Severity
+from contoursolve.diagnosis.attempt import Before, Repairs, choose_repairs
+from contoursolve.diagnosis.drafts import change, drop, has_faults, marked, missing_points, unreadable, variants
+from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, write_word
+from contoursolve.diagnosis.further import further_drafts, next_place_of
+from contoursolve.diagnostic import Diagnostic, Severity
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer, Policy, examine
-from contoursolve.model import Given, Length, Profile, Unit
-from contoursolve.reading import Claim, Form, Lexicon, Trouble, read
+from contoursolve.model import Given, Profile, Unit
+from contoursolve.reading import Claim, Form, read
 from contoursolve.rules import Rule, check
 from contoursolve.solving import Status, lookup
-from contoursolve.syntax import FaultKind, Word, parse_block
+from contoursolve.syntax import Word
 from contoursolve.tolerance import AGREEMENT
 
 MOST_EDITS = 4
 """Words that a repair may touch; more is a new block."""
-
-MOST_TRIED = 60
-"""Changed blocks that are considered for one contour; beyond it the list is not called complete."""
-
-
-@dataclass(frozen=True, slots=True)
-class Repair:
-    """A change of a block that the control accepts, with the block that it makes.
-
-    `contour` is the path then (None for a placeholder, whose number is missing), `deviation` the largest
-    distance (mm) of its named points and its end from those of the refused block, where that has any.
-    """
-
-    edits: tuple[Edit, ...]
-    replacement: str
-    applicability: Applicability
-    contour: Contour | None
-    deviation: float
-
-
-@dataclass(frozen=True, slots=True)
-class Repairs:
-    """Repairs, best first: fewest edits, smallest change of the contour.
-
-    `is_complete` tells that all smallest sets of words to drop and add, up to `MOST_EDITS`, were tried.
-    """
-
-    repairs: tuple[Repair, ...]
-    is_complete: bool
 
 
 def find_repairs(answer: Answer, dialect: Dialect) -> Repairs:
@@ -60,24 +32,17 @@ def find_repairs(answer: Answer, dialect: Dialect) -> Repairs:
     A repair leaves no error and no warning. None of them contains another one.
     """
     claim = answer.claim
-    if not answer.start.is_known or answer.profile.is_extended:
-        # With further facts, what to write instead is the block with its values filled in.
+    if not answer.start.is_known:
         return Repairs((), is_complete=False)
+    codes = frozenset(each.code for each in answer.diagnostics)
+    if answer.profile.is_extended:
+        before = Before(codes, answer.contour, next_place_of(answer.profile))
+        repairs = choose_repairs(claim, dialect, further_drafts(answer, dialect, before), before)
+        return Repairs(repairs.repairs, is_complete=False)
     whole = _Geometry.of(claim)
     reference = answer.contour or examine(claim, dialect.rules, Policy.OFF).contour
-    codes = {each.code for each in answer.diagnostics}
-    found: list[Repair] = []
-    tried: set[tuple[Edit, ...]] = set()
-    stages = (_points, _sets, _values, _slips)
-    for drafts in (stage(answer, dialect, whole) for stage in stages):
-        for edits in drafts:
-            if len(tried) < MOST_TRIED and not any(set(other.edits) <= set(edits) for other in found):
-                repair = _try(claim, dialect, edits, codes, reference) if edits not in tried else None
-                found += [repair] if repair else []
-            tried.add(edits)
-    found = [repair for repair in found if not any(set(other.edits) < set(repair.edits) for other in found)]
-    found.sort(key=lambda each: (each.applicability is Applicability.PLACEHOLDER, len(each.edits), each.deviation))
-    return Repairs(tuple(found), is_complete=len(tried) <= MOST_TRIED)
+    stages = (stage(answer, dialect, whole) for stage in (_sets, _values, _slips))
+    return choose_repairs(claim, dialect, (missing_points(answer), marked(answer), *stages), Before(codes, reference))
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,21 +79,11 @@ class _Geometry:
         return None
 
 
-def _points(answer: Answer, _dialect: Dialect, _whole: _Geometry) -> Iterator[tuple[Edit, ...]]:
-    """Decimal points added to the words that lack them, where others of the block have one: each alone, and all."""
-    missing = [each for each in answer.diagnostics if each.about is Trouble.POINT_MISSING]
-    spans = {finding.span for finding in missing}
-    edits = [_change(word, word.text + ".") for word in answer.claim.words.values() if word.span in spans]
-    yield from ((edit,) for edit in edits)
-    if len(edits) > 1:
-        yield tuple(edits)
-
-
 def _sets(answer: Answer, dialect: Dialect, whole: _Geometry) -> Iterator[tuple[Edit, ...]]:
     """Words to drop and to add: every smallest set that makes the combination legal, and for a legal one
     what may be dropped or exchanged."""
     claim = answer.claim
-    for forced in _unreadable(claim):
+    for forced in unreadable(claim):
         yield from _legal_sets(claim, dialect, whole, forced)
 
 
@@ -137,7 +92,7 @@ def _legal_sets(
 ) -> Iterator[tuple[Edit, ...]]:
     if forced:
         yield forced
-    if _has_faults(claim):
+    if has_faults(claim):
         return
     present, names = frozenset(claim.words), frozenset(claim.vocabulary)
     extra = {row.fact.given for row in claim.form.facts} | set(claim.form.choices)
@@ -145,60 +100,24 @@ def _legal_sets(
         extra -= present ^ extra if _is_clean_set(claim, dialect.rules) else set()
     changes = smallest_changes(claim.form, dialect.rules, present, names & frozenset(extra), claim.circumstances)
     bases: list[tuple[Edit, ...]] = []
-    for change in changes:
-        drops = tuple(_drop(claim.words[name]) for name in sorted(change & present))
-        kept = _Geometry.of(claim, present - change) if change - present else whole
-        added = [_additions(claim, dialect, name, (whole, kept)) for name in sorted(change - present)]
-        corrected = [options for name, options in _corrections(claim, dialect) if name not in change]
+    for swap in changes:
+        drops = tuple(drop(claim.words[name]) for name in sorted(swap & present))
+        kept = _Geometry.of(claim, present - swap) if swap - present else whole
+        added = [_additions(claim, dialect, name, (whole, kept)) for name in sorted(swap - present)]
+        corrected = [options for name, options in _corrections(claim, dialect) if name not in swap]
         bases += [(*forced, *drops, *edits) for edits in product(*added, *corrected)]
     yield from bases
     # A legal block may still have corners that cannot be made.
     sizes = _sizes(claim) & present
     for base in bases:
         touched = {edit.span for edit in base}
-        corners = [_drop(claim.words[name]) for name in sorted(sizes) if claim.words[name].span not in touched]
+        corners = [drop(claim.words[name]) for name in sorted(sizes) if claim.words[name].span not in touched]
         if not any(edit.text.endswith(PLACEHOLDER) for edit in base):
             yield from (
                 (*base, *dropped) for size in range(1, len(corners) + 1) for dropped in combinations(corners, size)
             )
     if frozenset() in changes:
         yield from ((*forced, *edits) for edits in _other_corners(claim))
-
-
-def _drop(word: Word) -> Edit:
-    return Edit(EditKind.DROP, word.address, word.span, word.text)
-
-
-def _change(word: Word, text: str) -> Edit:
-    return Edit(EditKind.CHANGE, word.address, word.span, word.text, text)
-
-
-def _has_faults(claim: Claim) -> bool:
-    """Whether some characters are no word, so that it is not known which words the block has."""
-    return any(fault.kind is not FaultKind.COMMENT_NOT_CLOSED for block in claim.blocks for fault in block.faults)
-
-
-def _unreadable(claim: Claim) -> Iterator[tuple[Edit, ...]]:
-    """What every repair must take out or correct: characters, addresses without a meaning, repetitions. Of an
-    address that is given twice, either word may be the one that is meant."""
-    edits = [_drop(word) for word in claim.unknown]
-    for block in claim.blocks:
-        for fault in block.faults:
-            if fault.kind is FaultKind.COMMENT_NOT_CLOSED:
-                continue
-            text = fault.text.replace(",", ".") if fault.address and fault.text.count(",") == 1 else ""
-            kind = EditKind.CHANGE if text else EditKind.DROP
-            edits.append(Edit(kind, fault.address, fault.span, fault.text, text))
-    either = [
-        [_drop(word), *(_drop(first) for first in claim.words.values() if _is_same(first, word))]
-        for word in claim.repeated
-    ]
-    for choice in product(*either):
-        yield (*edits, *choice)
-
-
-def _is_same(first: Word, word: Word) -> bool:
-    return first.address == word.address and first.span.line == word.span.line and first.number != word.number
 
 
 def _corrections(claim: Claim, dialect: Dialect) -> Iterator[tuple[str, list[Edit]]]:
@@ -209,10 +128,10 @@ def _corrections(claim: Claim, dialect: Dialect) -> Iterator[tuple[str, list[Edi
         for name in offence.names:
             word, given = claim.words[name], claim.givens[name]
             if given.unit is Unit.SIGN:
-                yield name, [_change(word, f"{word.address}-1"), _change(word, f"{word.address}1")]
+                yield name, [change(word, f"{word.address}-1"), change(word, f"{word.address}1")]
             elif given.value:
                 value = float(given.value % 360 if given.unit is Unit.DEGREE else abs(given.value))
-                yield name, [_change(word, write_word(word.address, value, dialect.modes.lexicon, claim.after.unit))]
+                yield name, [change(word, write_word(word.address, value, dialect.modes.lexicon, claim.after.unit))]
 
 
 def _additions(claim: Claim, dialect: Dialect, name: str, geometries: Iterable[_Geometry]) -> list[Edit]:
@@ -234,8 +153,8 @@ def _other_corners(claim: Claim) -> Iterator[tuple[Edit, ...]]:
         for name in (name for name in row.shapes if name in claim.words):
             word = claim.words[name]
             texts = (word.text.upper().replace(word.address, other, 1) for other in row.shapes if other != name)
-            others = [_change(word, text) for text in texts]
-            options.append([(), (_drop(word),), *((other,) for other in others)])
+            others = [change(word, text) for text in texts]
+            options.append([(), (drop(word),), *((other,) for other in others)])
     for choice in product(*options):
         edits = tuple(edit for part in choice for edit in part)
         if edits:
@@ -283,9 +202,9 @@ def _is_clean_set(claim: Claim, rules: tuple[Rule, ...]) -> bool:
 def _values(answer: Answer, dialect: Dialect, whole: _Geometry) -> Iterator[tuple[Edit, ...]]:
     """One word with another value: what a finding or the other words ask for."""
     claim, unit, lexicon = answer.claim, answer.claim.after.unit, dialect.modes.lexicon
-    if _has_faults(claim):
+    if has_faults(claim):
         return
-    forced = next(_unreadable(claim))
+    forced = next(unreadable(claim))
     tied = {fact.given for circuit in whole.circuits if max(circuit.off) > AGREEMENT for fact in circuit.facts}
     asked_together: list[Edit] = []
     for name, word in claim.words.items():
@@ -296,14 +215,14 @@ def _values(answer: Answer, dialect: Dialect, whole: _Geometry) -> Iterator[tupl
             write_word(word.address, value, lexicon, unit, is_limit="limit" in key)
             for key, value in _asked(answer, word, given)
         ]
-        asked_together += [_change(word, texts[0])] if texts and texts[0] != word.text else []
+        asked_together += [change(word, texts[0])] if texts and texts[0] != word.text else []
         if name in tied and answer.status is not Status.OVERDETERMINED:
             value = _Geometry.of(claim, frozenset(claim.givens) - {name}).implied(claim, name)
             if value is not None and given.unit is Unit.DEGREE:
                 value += 360 * round((float(given.value) - value) / 360)
             texts += [write_word(word.address, value, lexicon, unit)] if value is not None else []
         new = (text for text in dict.fromkeys(texts) if Decimal(text.removeprefix(word.address)) != word.number)
-        yield from ((*forced, _change(word, text)) for text in new)
+        yield from ((*forced, change(word, text)) for text in new)
     if len(asked_together) > 1:
         yield (*forced, *asked_together)
 
@@ -316,8 +235,8 @@ def _slips(answer: Answer, dialect: Dialect, whole: _Geometry) -> Iterator[tuple
         for name, word in claim.words.items():
             given = claim.givens.get(name)
             if given is not None and given.unit is not Unit.SIGN and name not in _sizes(claim):
-                texts = _variants(word, given, lexicon, unit)
-                yield from ((_change(word, text),) for text in dict.fromkeys(texts) if text != word.text)
+                texts = variants(word, given, lexicon, unit)
+                yield from ((change(word, text),) for text in dict.fromkeys(texts) if text != word.text)
 
 
 def _sizes(claim: Claim) -> set[str]:
@@ -347,70 +266,3 @@ def _meeting(finding: Diagnostic, given: Given) -> Iterator[float]:
 
 _INSIDE = 0.002
 """Degrees. Two least increments, so that a rounded angle still meets the circle."""
-
-
-def _variants(word: Word, given: Given, lexicon: Lexicon, unit: Length) -> Iterator[str]:
-    """The word as it may have been meant: opposite or mirrored angle, other sign."""
-    value, row = float(given.value), lexicon.addresses[word.address]
-    if given.unit is Unit.DEGREE:
-        for angle in (value - 180 if value > 0 else value + 180, 180 - value, -value):
-            yield write_word(word.address, angle, lexicon, unit)
-    elif value and (row.is_increment or not row.axis):  # the sign of a coordinate depends on the origin
-        yield write_word(word.address, -value, lexicon, unit)
-
-
-def _try(
-    claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], codes: set[str], reference: Contour | None
-) -> Repair | None:
-    """The repair, if the changed block is read as the same form, accepted, and solved without a finding."""
-    texts = apply_edits(claim.blocks, edits)
-    if texts == tuple(block.text for block in claim.blocks):
-        return None
-    replacement = "\n".join(texts)
-    if any(edit.text.endswith(PLACEHOLDER) for edit in edits):
-        is_fixed = _is_fixed_by_a_number(claim, dialect, texts)
-        return Repair(edits, replacement, Applicability.PLACEHOLDER, None, 0.0) if is_fixed else None
-    answer = _examine_again(claim, dialect, texts)
-    if answer is None or answer.status is not Status.SOLVED or answer.contour is None:
-        return None
-    if any(each.severity is not Severity.INFO and not _now_agrees(each, codes) for each in answer.diagnostics):
-        return None
-    deviation = _deviation(answer.contour, reference) if reference else float("inf")
-    is_same = deviation <= AGREEMENT and len(answer.contour.elements) == len(reference.elements if reference else ())
-    applicability = Applicability.SAFE if is_same else Applicability.CHANGES_CONTOUR
-    return Repair(edits, replacement, applicability, answer.contour, deviation)
-
-
-def _now_agrees(finding: Diagnostic, codes: set[str]) -> bool:
-    """Whether a finding that the block did not have before says only that an ignored word now agrees."""
-    is_new = finding.code not in codes and finding.severity is Severity.WARNING
-    return is_new and finding.values.get("off_by_mm", float("inf")) <= AGREEMENT
-
-
-def _examine_again(claim: Claim, dialect: Dialect, texts: tuple[str, ...]) -> Answer | None:
-    blocks = [parse_block(text, block.line) for text, block in zip(texts, claim.blocks, strict=True)]
-    found = dialect.find(blocks, 0, claim.before, dialect.modes)
-    if not isinstance(found, Claim) or len(found.blocks) != len(blocks):
-        return None
-    return examine(found, dialect.rules, Policy.ENFORCE)
-
-
-_SAMPLE = "37.123"
-"""Stands for any number where only the words matter."""
-
-
-def _is_fixed_by_a_number(claim: Claim, dialect: Dialect, texts: tuple[str, ...]) -> bool:
-    """Whether the words determine the drawing at these values, whatever number the placeholder becomes."""
-    blocks = [parse_block(text.replace(PLACEHOLDER, _SAMPLE), 1) for text in texts]
-    found = dialect.find(blocks, 0, claim.before, dialect.modes)
-    if not isinstance(found, Claim) or len(found.blocks) != len(blocks):
-        return False
-    profile = read(found, frozenset())
-    affine = affine_facts(profile, profile.facts)
-    return affine is None or not affine.freedoms()
-
-
-def _deviation(contour: Contour, reference: Contour) -> float:
-    pairs = [(contour.end, reference.end)]
-    pairs += [(contour.points[name], at) for name, at in reference.points.items() if name in contour.points]
-    return max(hypot(a[0] - b[0], a[1] - b[1]) for a, b in pairs)

@@ -11,6 +11,7 @@ from contoursolve.output.solutions import DECIMALS, decimals_of, list_solutions,
 from contoursolve.pipeline import Result
 from contoursolve.solving import Point
 from contoursolve.solving.certificate import Certificate, Proof
+from contoursolve.source import Span
 
 
 def to_json(result: Result) -> str:
@@ -22,7 +23,7 @@ def to_json(result: Result) -> str:
             "control": result.control,
             "settings": {f"{result.control}.{name}": value for name, value in sorted(result.settings.items())},
             "contours": [_contour(answer) for answer in result.answers],
-            "diagnostics": [finding_data(each) for each in result.diagnostics],
+            "diagnostics": [finding_data(each, result) for each in result.diagnostics],
         }
     )
 
@@ -37,7 +38,7 @@ def findings_to_json(results: Sequence[Result]) -> str:
                 for each in results
             ],
             "diagnostics": [
-                {"program": result.program.name, **finding_data(each)}
+                {"program": result.program.name, **finding_data(each, result)}
                 for result in results
                 for each in result.diagnostics
             ],
@@ -49,26 +50,16 @@ def _dump(document: dict[str, Any]) -> str:
     return json.dumps(document, indent=1, ensure_ascii=True, allow_nan=False)
 
 
-def finding_data(finding: Diagnostic) -> dict[str, Any]:
-    """One finding as plain data."""
+def finding_data(finding: Diagnostic, result: Result) -> dict[str, Any]:
+    """One finding as plain data. What is about a fact stated apart stands at the block, with the fact's number."""
     return {
         "code": finding.code,
         "severity": finding.severity.value,
-        "line": finding.span.line,
-        "column": finding.span.column,
-        "end_column": finding.span.end_column,
+        **_place(finding.span, result),
         "message": finding.message,
         "help": finding.help,
         "notes": list(finding.notes),
-        "labels": [
-            {
-                "line": label.span.line,
-                "column": label.span.column,
-                "end_column": label.span.end_column,
-                "text": label.text,
-            }
-            for label in finding.labels
-        ],
+        "labels": [{**_place(label.span, result), "text": label.text} for label in finding.labels],
         "addresses": list(finding.addresses),
         "basis": finding.basis.value,
         "source": {
@@ -87,6 +78,12 @@ def finding_data(finding: Diagnostic) -> dict[str, Any]:
             for fix in finding.fixes
         ],
     }
+
+
+def _place(span: Span, result: Result) -> dict[str, int]:
+    shown = result.place(span)
+    number = {"fact": -span.line} if span.line < 0 else {}
+    return {"line": shown.line, "column": shown.column, "end_column": shown.end_column, **number}
 
 
 def _contour(answer: Answer) -> dict[str, Any]:

@@ -48,7 +48,7 @@ def _results(result: Result, index: dict[str, int]) -> Iterable[dict[str, Any]]:
     seen: dict[str, int] = {}
     lines = {block.line: block.text for block in result.program.blocks}
     for finding in result.diagnostics:
-        subject = f"{finding.code}\n{lines.get(finding.span.line, '').strip()}"
+        subject = f"{finding.code}\n{lines.get(result.place(finding.span).line, '').strip()}"
         seen[subject] = seen.get(subject, 0) + 1
         fingerprint = hashlib.sha256(f"{subject}\n{seen[subject]}".encode()).hexdigest()
         data: dict[str, Any] = {
@@ -81,16 +81,13 @@ def _uri(result: Result) -> dict[str, str]:
 
 
 def _location(result: Result, finding: Diagnostic) -> dict[str, Any]:
-    region = {
-        "startLine": max(finding.span.line, 1),
-        "startColumn": finding.span.column,
-        "endColumn": finding.span.end_column,
-    }
+    span = result.place(finding.span)
+    region = {"startLine": max(span.line, 1), "startColumn": span.column, "endColumn": span.end_column}
     return {"physicalLocation": {"artifactLocation": _uri(result), "region": region}}
 
 
 def _fix(result: Result, finding: Diagnostic, fix: Fix) -> dict[str, Any]:
-    block = next(block for block in result.program.blocks if block.line == finding.span.line)
+    block = next(block for block in result.program.blocks if block.line == result.place(finding.span).line)
     region = {"startLine": block.line, "startColumn": 1, "endColumn": len(block.text) + 1}
     change = {"deletedRegion": region, "insertedContent": {"text": fix.replacement}}
     return {
@@ -104,11 +101,12 @@ def to_github(results: Iterable[Result]) -> str:
     lines = []
     for result in results:
         for finding in result.diagnostics:
+            span = result.place(finding.span)
             place = {
                 "file": PurePath(result.program.name).as_posix(),
-                "line": max(finding.span.line, 1),
-                "col": finding.span.column,
-                "endColumn": finding.span.end_column,
+                "line": max(span.line, 1),
+                "col": span.column,
+                "endColumn": span.end_column,
                 "title": finding.code,
             }
             properties = ",".join(f"{name}={_escape(str(value), ':,')}" for name, value in place.items())

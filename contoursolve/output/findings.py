@@ -30,18 +30,18 @@ def finding_lines(finding: Diagnostic, name: str, sources: Mapping[int, str], st
     """The lines of one finding; `sources` are the texts of the program's lines by number."""
     role = finding.severity.value
     title = style(f"{role}[{finding.code}]", role) + style(f": {finding.message}", "bold")
-    gutter = max(len(str(label.span.line)) for label in finding.labels) if finding.labels else 1
+    gutter = max((len(_margin(label.span.line)) for label in finding.labels), default=1)
     bar = " " * (gutter + 1) + style("|", "frame")
     place = f"{name}:{finding.span.line}:{finding.span.column}"
     if finding.span.line <= 0:
-        place = "--fact" if finding.span.line else "--start"
+        place = f"{_margin(finding.span.line)}:{finding.span.column}"
     lines = [title, " " * gutter + style("-->", "frame") + f" {place}", bar]
     by_line: dict[int, list[Label]] = {}
     for label in finding.labels:
         by_line.setdefault(label.span.line, []).append(label)
     for number in sorted(by_line):
         text, labels, shift = _window(sources.get(number, ""), by_line[number])
-        lines.append(style(f"{number:>{gutter}} |", "frame") + f" {text}")
+        lines.append(style(f"{_margin(number):>{gutter}} |", "frame") + f" {text}")
         primary = finding.labels[0]
         lines += [f"{bar} {line}" for line in _marks(labels, shift, primary, len(text), style, role)]
     foot = " " * (gutter + 1) + style("=", "frame")
@@ -58,6 +58,13 @@ def finding_lines(finding: Diagnostic, name: str, sources: Mapping[int, str], st
     if finding.alarm:
         lines.append(f"{foot} control: alarm {finding.alarm.number} ({finding.alarm.evidence.value})")
     return [*lines, ""]
+
+
+def _margin(line: int) -> str:
+    """A line of the program, or what was stated apart from it."""
+    if line > 0:
+        return str(line)
+    return f"--fact {-line}" if line else "--start"
 
 
 def _window(text: str, labels: list[Label]) -> tuple[str, list[Label], int]:

@@ -34,6 +34,11 @@ class Trouble(Enum):
     FACT_UNREADABLE = "fact-unreadable"
     FACT_IMPOSSIBLE = "fact-impossible"
     FACT_NOWHERE = "fact-nowhere"
+    FACT_UNMARKED = "fact-unmarked"
+    FACT_BEYOND = "fact-beyond"
+    FACTS_SINGULAR = "facts-singular"
+    START_UNITS = "start-units"
+    ASKED_NOTHING = "asked-nothing"
 
 
 @dataclass(frozen=True, slots=True)

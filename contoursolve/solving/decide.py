@@ -47,4 +47,4 @@ def _refused(items: tuple[Alternative, ...], alternatives: Alternatives) -> Solu
     if items:
         return items[0].solution
     kind = RefusalKind.NO_POINT if alternatives.is_complete else RefusalKind.SEARCH_UNFINISHED
-    return Solution(Status.NO_SOLUTION, refusals=(Refusal(kind, ""),))
+    return Solution(kind.status, refusals=(Refusal(kind, ""),))

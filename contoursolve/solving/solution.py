@@ -22,6 +22,8 @@ class Status(Enum):
     """Several contours satisfy it, and nothing chooses: add the word or the fact that does."""
     NO_SOLUTION = "no-solution"
     """Determined, but the geometry does not exist or the control cannot make it: change a value."""
+    UNDECIDED = "undecided"
+    """Determined, but no contour was found, and that there is none is not proven: state simpler facts."""
     SOLVED = "solved"
 
 
@@ -57,6 +59,8 @@ class RefusalKind(Enum):
         """The status that this refusal gives a contour."""
         if self is RefusalKind.NOT_FIXED:
             return Status.UNDERDETERMINED
+        if self is RefusalKind.SEARCH_UNFINISHED:
+            return Status.UNDECIDED
         if self in (RefusalKind.WORDS_DISAGREE, RefusalKind.FACT_DISAGREES, RefusalKind.RADIUS_DIFFERENCE):
             return Status.CONFLICTING
         return Status.NO_SOLUTION

@@ -19,6 +19,7 @@ from contoursolve.statements.statement import (
     Touches,
     TurnIs,
 )
+from contoursolve.statements.text import write_statement
 
 __all__ = [
     "CircleAt",
@@ -44,4 +45,5 @@ __all__ = [
     "Vocabulary",
     "apply_statements",
     "read_statement",
+    "write_statement",
 ]

@@ -61,7 +61,10 @@ def apply_statements(
             statement = directive.statement or read_statement(directive.text, words)
             read.append((f"fact {number}", cast("Statement", statement), word_of(directive)))
         except GrammarError as error:
-            faults.append(Fault(Flaw.UNREADABLE, str(error), word_of(directive, error.begin, error.end)))
+            # A comment ends with the first ), wherever that stands.
+            is_cut = "(" in directive.text and directive.span.line > 0
+            hint = "; inside a comment write [ ] for ( )" if is_cut else ""
+            faults.append(Fault(Flaw.UNREADABLE, f"{error}{hint}", word_of(directive, error.begin, error.end)))
     questions = list(profile.questions)
     for name, statement, word in sorted(read, key=lambda each: rank(each[1])):
         draft.word = word
@@ -71,10 +74,12 @@ def apply_statements(
         except StatementError as error:
             faults.append(Fault(Flaw.IMPOSSIBLE, str(error), word))
             continue
-        if name not in draft.givens and fact.given == name:
+        axis = stated.axis if isinstance(stated, PointIs) else None
+        is_diameter = axis is not None and profile.plane.diameters[axis]
+        if name in draft.givens:
+            draft.givens[name] = replace(draft.givens[name], is_diameter=is_diameter)
+        elif fact.given == name:
             is_angle = isinstance(stated, DirectionIs | TurnIs)
-            axis = stated.axis if isinstance(stated, PointIs) else None
-            is_diameter = axis is not None and profile.plane.diameters[axis]
             questions.append(Question(name, fact, Unit.DEGREE if is_angle else Unit.MM, word, is_diameter))
     draft.word = None
     for question in profile.questions:

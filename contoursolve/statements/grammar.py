@@ -40,6 +40,9 @@ from contoursolve.tolerance import LARGEST
 
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?(?![\w.])")
 _PARTS = {"begin": ("begin of", "start of"), "end": ("end of",), "center": ("center of", "centre of")}
+_TOKEN = re.compile(r"[^\s(),=]+|.", re.DOTALL)
+_NAME = re.compile(r"[^\s(),=]+(?:\s+\d+)?|.", re.DOTALL)
+"""What stands where an element is expected: `line 3` is one name."""
 _BLANK = re.compile(r"[\s,]*")
 LONGEST_NUMBER = 40
 """Characters of a number; 17 digits are all that a double holds."""
@@ -232,7 +235,7 @@ class _Reader:
         for name in sorted(names, key=len, reverse=True):
             if self._accept(name):
                 return name
-        raise self._error(f"{expected} ({', '.join(names)})")
+        raise self._error(f"{expected} ({', '.join(names)})", _NAME)
 
     def _number(self) -> Decimal:
         self._skip()
@@ -267,8 +270,8 @@ class _Reader:
             self.at = match.end()
         return self.at
 
-    def _error(self, expected: str) -> GrammarError:
+    def _error(self, expected: str, found_as: re.Pattern[str] = _TOKEN) -> GrammarError:
         self._skip()
-        rest = re.compile(r"[^\s(),=]+|.", re.DOTALL).match(self.text, self.at)
+        rest = found_as.match(self.text, self.at)
         found = f"`{rest[0]}`" if rest else "the end"
         return GrammarError(f"expected {expected}, found {found}", self.at, rest.end() if rest else self.at)

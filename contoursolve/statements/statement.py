@@ -19,7 +19,6 @@ from contoursolve.constraints import (
     EqualRadii,
     Extent,
     Foot,
-    Heading,
     OnCircle,
     Radius,
     TangentCircles,
@@ -136,9 +135,9 @@ class DirectionIs:
 
     def state(self, draft: Draft, name: str) -> Fact:
         line = draft.element(self.line)
-        if isinstance(line, Line) and line.heading is not None:
-            return _stated(draft, Heading(name, line.tail, line.head), self.value, Unit.DEGREE)
-        draft.line(self.line)
+        if not isinstance(line, Line) or line.heading is None:
+            draft.line(self.line)
+        # Of a line whose word states its direction, this says something about the word and nothing about points.
         return _stated(draft, Directed(name, self.line), self.value, Unit.DEGREE)
 
 

@@ -61,11 +61,13 @@ def parse_block(text: str, line: int) -> Block:
     words: list[Word] = []
     faults: list[Fault] = []
     directives: list[Directive] = []
+    unmarked: list[Directive] = []
     skip = _SKIP.match(text)
     for token in _TOKEN.finditer(text, skip.end() if skip else 0):
         kind = token.lastgroup
         if kind == "comment":
             directives += _directives(token[0], line, token.start())
+            unmarked += _unmarked(token[0], line, token.start())
         if kind == "blank" or kind == "comment":
             continue
         span = Span(line, token.start() + 1, token.end() + 1)
@@ -79,7 +81,15 @@ def parse_block(text: str, line: int) -> Block:
             words.append(Word(address, value, "." in (number or ""), token[0], span, token["asked"] is not None))
         else:
             faults.append(Fault(_FAULTS[kind or ""], token[0], span))
-    return Block(line, text, tuple(words), tuple(faults), directives=tuple(directives), is_skippable=skip is not None)
+    return Block(
+        line,
+        text,
+        tuple(words),
+        tuple(faults),
+        directives=tuple(directives),
+        unmarked=tuple(unmarked),
+        is_skippable=skip is not None,
+    )
 
 
 def read_directive(text: str, line: int, column: int = 1) -> Directive:
@@ -102,6 +112,19 @@ def _directives(comment: str, line: int, offset: int) -> list[Directive]:
 
 
 _DIRECTIVE = re.compile(r"\(\s*contoursolve\s*:", re.IGNORECASE)
+_UNMARKED = re.compile(
+    r"[(;]\s*c\w*tour[\s_-]*sol\w*\b[\s:;.,=-]*(?P<fact>[^)]*(?:=|passes\s+through|tangent\s+to|meets)[^)]*)",
+    re.IGNORECASE,
+)
+
+
+def _unmarked(comment: str, line: int, offset: int) -> list[Directive]:
+    """A comment that begins almost like one that states facts, as it would have to be written."""
+    match = _UNMARKED.match(comment)
+    if match is None or _DIRECTIVE.match(comment):
+        return []
+    text = f"(contoursolve: {match['fact'].strip()})"
+    return [Directive(text, Span(line, offset + 1, offset + 1 + len(comment)))]
 
 
 _FAULTS = {

@@ -89,6 +89,8 @@ class Block:
     faults: tuple[Fault, ...] = ()
     macro: Macro | None = None
     directives: tuple[Directive, ...] = ()
+    unmarked: tuple[Directive, ...] = ()
+    """Comments that look like facts, but lack the mark: what would have to be written."""
     is_skippable: bool = False
     """The block begins with `/`: a switch at the machine decides whether it runs."""
 

@@ -18,6 +18,7 @@ class ClaimedStatus(Enum):
     CONFLICTING = "conflicting"
     AMBIGUOUS = "ambiguous"
     NO_SOLUTION = "no-solution"
+    UNDECIDED = "undecided"
 
 
 class ElementKind(Enum):

@@ -1,0 +1,165 @@
+"""A repair that is tried: the edits are applied to the text, and what comes out is read, checked and solved."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from decimal import Decimal
+from math import hypot
+
+from contoursolve.analysis import judge
+from contoursolve.constraints import assemble
+from contoursolve.contour import Contour
+from contoursolve.diagnosis.affine import affine_facts
+from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, apply_edits, edit_facts
+from contoursolve.diagnostic import Applicability, Diagnostic, Severity
+from contoursolve.dialects import Dialect
+from contoursolve.examine import Answer, Policy, examine
+from contoursolve.reading import Claim, read
+from contoursolve.solving import Status
+from contoursolve.statements import apply_statements
+from contoursolve.syntax import parse_block
+from contoursolve.tolerance import AGREEMENT
+
+MOST_TRIED = 60
+"""Changed blocks that are considered for one contour; beyond it the list is not called complete."""
+
+
+@dataclass(frozen=True, slots=True)
+class Before:
+    """The contour before its repair: its codes, its path if there is one, and where the next block's line ends."""
+
+    codes: frozenset[str]
+    contour: Contour | None
+    next_place: tuple[Decimal, Decimal] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Repair:
+    """A change of a block that the control accepts, with the block that it makes.
+
+    `contour` is the path then (None for a placeholder, whose number is missing), `deviation` the largest
+    distance (mm) of its named points and its end from those of the refused block, where that has any.
+    """
+
+    edits: tuple[Edit, ...]
+    replacement: str
+    applicability: Applicability
+    contour: Contour | None
+    deviation: float
+    warnings: int = 0
+    """Rules that warn about the changed block and did not before."""
+
+
+@dataclass(frozen=True, slots=True)
+class Repairs:
+    """Repairs, best first: fewest edits, smallest change of the contour.
+
+    `is_complete` tells that all smallest sets of words to drop and add, up to `MOST_EDITS`, were tried.
+    """
+
+    repairs: tuple[Repair, ...]
+    is_complete: bool
+
+
+def choose_repairs(
+    claim: Claim, dialect: Dialect, stages: Iterable[Iterable[tuple[Edit, ...]]], before: Before
+) -> Repairs:
+    """The drafts that are repairs, none of which contains another one; of each stage after what came before."""
+    found: list[Repair] = []
+    tried: set[tuple[Edit, ...]] = set()
+    for drafts in stages:
+        for edits in drafts:
+            if len(tried) < MOST_TRIED and not any(set(other.edits) <= set(edits) for other in found):
+                repair = _try(claim, dialect, edits, before) if edits not in tried else None
+                found += [repair] if repair else []
+            tried.add(edits)
+    found = [repair for repair in found if not any(set(other.edits) < set(repair.edits) for other in found)]
+    found.sort(key=_order)
+    return Repairs(tuple(found), is_complete=len(tried) <= MOST_TRIED)
+
+
+def _order(repair: Repair) -> tuple[bool, int, int, float]:
+    is_placeholder = repair.applicability is Applicability.PLACEHOLDER
+    return is_placeholder, len(repair.edits), repair.warnings, repair.deviation
+
+
+def _try(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> Repair | None:
+    """The repair, if the changed block is read as the same form, accepted, and solved without a finding."""
+    texts = apply_edits(claim.blocks, edits)
+    if texts == tuple(block.text for block in claim.blocks) and all(edit.is_in_block for edit in edits):
+        return None
+    replacement = "\n".join(texts)
+    if any(edit.is_placeholder for edit in edits):
+        is_fixed = _is_fixed_by_a_number(claim, dialect, edits)
+        return Repair(edits, replacement, Applicability.PLACEHOLDER, None, 0.0) if is_fixed else None
+    answer = examine_edited(claim, dialect, edits, before)
+    if answer is None or answer.contour is None or not _is_settled(answer, edits):
+        return None
+    findings = [each for each in answer.diagnostics if each.severity is not Severity.INFO]
+    rules = [each for each in findings if answer.profile.is_extended and _is_rule(each)]
+    if not all(each in rules or _now_agrees(each, before) for each in findings):
+        return None
+    reference = before.contour
+    deviation = _deviation(answer.contour, reference) if reference else float("inf")
+    is_same = deviation <= AGREEMENT and len(answer.contour.elements) == len(reference.elements if reference else ())
+    applicability = Applicability.SAFE if is_same else Applicability.CHANGES_CONTOUR
+    warnings = sum(each.code not in before.codes for each in rules)
+    return Repair(edits, replacement, applicability, answer.contour, deviation, warnings)
+
+
+def _is_settled(answer: Answer, edits: tuple[Edit, ...]) -> bool:
+    """Whether it is solved. A value that was corrected may then say what the others say."""
+    if answer.status is Status.OVERDETERMINED:
+        return answer.profile.is_extended and any(edit.kind is EditKind.CHANGE for edit in edits)
+    return answer.status is Status.SOLVED
+
+
+def _is_rule(finding: Diagnostic) -> bool:
+    """Whether it is a rule of the manual, which only warns where more is stated or asked than the control reads."""
+    return finding.about is None and finding.severity is Severity.WARNING
+
+
+def _now_agrees(finding: Diagnostic, before: Before) -> bool:
+    """Whether a finding that the block did not have before says only that a word now agrees."""
+    is_new = finding.code not in before.codes and finding.severity is Severity.WARNING
+    return is_new and finding.values.get("off_by_mm", float("inf")) <= AGREEMENT
+
+
+def examine_edited(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> Answer | None:
+    """The answer to the edited blocks; None where they are not read as the same contour any more."""
+    found = _find(claim, dialect, edits)
+    return examine(found, dialect.rules, Policy.ENFORCE, lambda: before.next_place) if found else None
+
+
+def _find(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...]) -> Claim | None:
+    texts = apply_edits(claim.blocks, edits)
+    blocks = [parse_block(text, block.line) for text, block in zip(texts, claim.blocks, strict=True)]
+    apart = edit_facts([each for each in claim.directives if each.span.line < 0], edits)
+    blocks[-1] = replace(blocks[-1], directives=(*blocks[-1].directives, *apart))
+    found = dialect.find(blocks, 0, claim.before, dialect.modes)
+    return found if isinstance(found, Claim) and len(found.blocks) == len(blocks) else None
+
+
+_SAMPLE = "37.123"
+"""Stands for any number where only the words matter."""
+
+
+def _is_fixed_by_a_number(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...]) -> bool:
+    """Whether the words determine the drawing at these values, whatever number the placeholder becomes."""
+    sample = (
+        replace(edit, text=edit.text.replace(PLACEHOLDER, _SAMPLE)) if edit.is_placeholder else edit for edit in edits
+    )
+    found = _find(claim, dialect, tuple(sample))
+    if found is None:
+        return False
+    profile = read(found, frozenset())
+    if profile.is_extended:
+        profile, faults = apply_statements(profile, found.directives, lambda: None)
+        return not faults and judge(assemble(profile)).is_determined
+    affine = affine_facts(profile, profile.facts)
+    return affine is None or not affine.freedoms()
+
+
+def _deviation(contour: Contour, reference: Contour) -> float:
+    pairs = [(contour.end, reference.end)]
+    pairs += [(contour.points[name], at) for name, at in reference.points.items() if name in contour.points]
+    return max(hypot(a[0] - b[0], a[1] - b[1]) for a, b in pairs)

@@ -1,0 +1,76 @@
+"""Edits that repairs of every kind are made of: words dropped and changed, characters corrected, points added."""
+
+from collections.abc import Iterator
+from itertools import product
+
+from contoursolve.diagnosis.edits import Edit, EditKind, write_word
+from contoursolve.examine import Answer
+from contoursolve.model import Given, Length, Unit
+from contoursolve.reading import Claim, Lexicon, Trouble
+from contoursolve.syntax import FACT, FaultKind, Word
+
+
+def missing_points(answer: Answer) -> Iterator[tuple[Edit, ...]]:
+    """Decimal points added to the words that lack them, where others of the block have one: each alone, and all."""
+    missing = [each for each in answer.diagnostics if each.about is Trouble.POINT_MISSING]
+    spans = {finding.span for finding in missing}
+    edits = [change(word, word.text + ".") for word in answer.claim.words.values() if word.span in spans]
+    yield from ((edit,) for edit in edits)
+    if len(edits) > 1:
+        yield tuple(edits)
+
+
+def marked(answer: Answer) -> Iterator[tuple[Edit, ...]]:
+    """Comments that look like facts with the mark that they lack."""
+    for block in answer.claim.blocks:
+        for each in block.unmarked:
+            old = block.text[each.span.column - 1 : each.span.end_column - 1]
+            yield (change(Word(FACT, None, False, old, each.span), each.text),)
+
+
+def drop(word: Word) -> Edit:
+    """A word, or a fact as a word, taken out."""
+    return Edit(EditKind.DROP, word.address, word.span, word.text)
+
+
+def change(word: Word, text: str) -> Edit:
+    """A word, or a fact as a word, written with another text."""
+    return Edit(EditKind.CHANGE, word.address, word.span, word.text, text)
+
+
+def has_faults(claim: Claim) -> bool:
+    """Whether some characters are no word, so that it is not known which words the block has."""
+    return any(fault.kind is not FaultKind.COMMENT_NOT_CLOSED for block in claim.blocks for fault in block.faults)
+
+
+def unreadable(claim: Claim) -> Iterator[tuple[Edit, ...]]:
+    """What every repair must take out or correct: characters, addresses without a meaning, repetitions. Of an
+    address that is given twice, either word may be the one that is meant."""
+    edits = [drop(word) for word in claim.unknown]
+    for block in claim.blocks:
+        for fault in block.faults:
+            if fault.kind is FaultKind.COMMENT_NOT_CLOSED:
+                continue
+            text = fault.text.replace(",", ".") if fault.address and fault.text.count(",") == 1 else ""
+            kind = EditKind.CHANGE if text else EditKind.DROP
+            edits.append(Edit(kind, fault.address, fault.span, fault.text, text))
+    either = [
+        [drop(word), *(drop(first) for first in claim.words.values() if _is_same(first, word))]
+        for word in claim.repeated
+    ]
+    for choice in product(*either):
+        yield (*edits, *choice)
+
+
+def _is_same(first: Word, word: Word) -> bool:
+    return first.address == word.address and first.span.line == word.span.line and first.number != word.number
+
+
+def variants(word: Word, given: Given, lexicon: Lexicon, unit: Length) -> Iterator[str]:
+    """The word as it may have been meant: opposite or mirrored angle, other sign."""
+    value, row = float(given.value), lexicon.addresses[word.address]
+    if given.unit is Unit.DEGREE:
+        for angle in (value - 180 if value > 0 else value + 180, 180 - value, -value):
+            yield write_word(word.address, angle, lexicon, unit)
+    elif value and (row.is_increment or not row.axis):  # the sign of a coordinate depends on the origin
+        yield write_word(word.address, -value, lexicon, unit)

@@ -1,0 +1,113 @@
+"""Findings about characters, words and positions, before the equations are looked at."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from decimal import Decimal
+
+from contoursolve.diagnostic import Basis, Diagnostic, Label
+from contoursolve.explain import Context, length_text, report
+from contoursolve.model import Length
+from contoursolve.reading import Claim, Lexicon, Trouble
+from contoursolve.source import Span
+from contoursolve.syntax import Block, Fault, Word
+from contoursolve.tolerance import LARGEST
+
+
+def explain_spelling(context: Context, claim: Claim) -> Iterator[Diagnostic]:
+    """What keeps the words of a contour from being read: nothing can be said of what they mean then."""
+    words = [word for block in claim.blocks for word in block.words]
+    yield from (explain_fault(context, fault) for block in claim.blocks for fault in block.faults)
+    yield from explain_words(context, claim.lexicon, claim.repeated, words)
+    yield from _explain_unknown(context, claim)
+    yield from _explain_asked(context, claim)
+
+
+def explain_unmarked(context: Context, block: Block) -> Iterator[Diagnostic]:
+    """Comments that look like facts and are not read as such."""
+    for directive in block.unmarked:
+        rule = context.row(Trouble.FACT_UNMARKED)
+        yield report(replace(context, place=directive.span), rule, Basis.RULE, [], fact=directive.text)
+
+
+def explain_asked_outside(context: Context, block: Block) -> Iterator[Diagnostic]:
+    """Words that ask for something in a block that is no contour."""
+    for word in (word for word in block.words if word.is_asked):
+        yield report(context, context.row(Trouble.ASKED_NOTHING), Basis.RULE, [word], allowed="words of contour blocks")
+
+
+def explain_start_units(context: Context, unit: Length, block: Block) -> Diagnostic:
+    """A start point in another unit than that of the contour."""
+    rule, units = context.row(Trouble.START_UNITS), {Length.MM: "mm", Length.INCH: "inches"}
+    codes = {Length.MM: "G21", Length.INCH: "G20"}
+    fields = {"was": units[context.unit], "unit": units[unit], "code": codes[unit], "start": block.text.strip()}
+    return report(context, rule, Basis.RULE, [], None, (), **fields)
+
+
+def _explain_asked(context: Context, claim: Claim) -> Iterator[Diagnostic]:
+    """Words that ask for something that is not part of a contour."""
+    names = {row.fact.given for row in claim.form.facts} | {name for row in claim.form.corners for name in row.shapes}
+    names |= set(claim.form.choices)
+    answered = [claim.words[name] for name in names if name in claim.words]
+    allowed = dict.fromkeys(claim.vocabulary[name][0] for name in claim.vocabulary if name in names)
+    for word in (word for block in claim.blocks for word in block.words):
+        if word.is_asked and word not in answered and word not in claim.unknown:
+            rule = context.row(Trouble.ASKED_NOTHING)
+            yield report(context, rule, Basis.RULE, [word], form=claim.form.name, allowed=", ".join(allowed))
+
+
+def explain_fault(context: Context, fault: Fault) -> Diagnostic:
+    """Characters that are not a word."""
+    shown = Word(fault.text[:1], None, False, fault.text.strip(), fault.span)
+    rule = context.row(fault.kind)
+    return replace(report(context, rule, Basis.RULE, [shown]), addresses=(fault.address,) if fault.address else ())
+
+
+def explain_words(
+    context: Context, lexicon: Lexicon, repeated: Sequence[Word], words: Sequence[Word]
+) -> Iterator[Diagnostic]:
+    """Addresses given twice, and values beyond all travel."""
+    for address, line in dict.fromkeys((word.address, word.span.line) for word in repeated):
+        same = [word for word in words if word.address == address and word.span.line == line]
+        if address == "G":
+            same = [word for word in same if word.number in {each.number for each in repeated}]
+        yield report(context, context.row(Trouble.REPEATED_ADDRESS), Basis.RULE, same)
+    for word in words:
+        value = lexicon.value(word, context.unit) if word.address in lexicon.addresses else None
+        if value is not None and abs(value) > Decimal(LARGEST):
+            limit = length_text(LARGEST, context.unit)
+            yield report(context, context.row(Trouble.VALUE_TOO_LARGE), Basis.RULE, [word], limit=limit)
+
+
+def _explain_unknown(context: Context, claim: Claim) -> Iterator[Diagnostic]:
+    allowed = ", ".join(sorted(claim.form.allowed - {"N", "G"}))
+    for word in claim.unknown:
+        rule = context.row(Trouble.UNKNOWN_ADDRESS)
+        yield report(context, rule, Basis.RULE, [word], form=claim.form.name, allowed=allowed)
+
+
+def explain_start(context: Context, claim: Claim) -> Diagnostic:
+    """Which axes of the start point are unknown, and which line made them so."""
+    unknown = [axis for axis in claim.before.plane.axes if claim.before.axes[axis].value is None]
+    places = [claim.before.axes[axis] for axis in unknown]
+    reasons = dict.fromkeys(f"{each.reason}{_on_line(each.span)}" for each in places)
+    finding = report(
+        context,
+        context.row(Trouble.POSITION_UNKNOWN),
+        Basis.RULE,
+        [],
+        axes=" and ".join(unknown),
+        reason="; ".join(reasons),
+    )
+    labels = (Label(each.span, "the position is lost here") for each in places if each.span)
+    return replace(finding, labels=finding.labels + tuple(dict.fromkeys(labels)), addresses=tuple(unknown))
+
+
+def _on_line(span: Span | None) -> str:
+    return f" (line {span.line})" if span else ""
+
+
+def explain_skippable(context: Context, claim: Claim) -> Iterator[Diagnostic]:
+    """A contour that depends on whether a block is skipped."""
+    skippable = {block.is_skippable for block in claim.blocks}
+    if len(skippable) > 1 or any(claim.before.axes[axis].is_skippable for axis in claim.before.plane.axes):
+        yield report(context, context.row(Trouble.SKIPPABLE_START), Basis.RULE, [])
