@@ -23,7 +23,7 @@ from contoursolve.constraints import System, Values
 from contoursolve.model import FIRST, SECOND, Corner, Line, scalar
 from contoursolve.solving.corners import Pair, build_corner, unit
 from contoursolve.solving.plan import AffineStep, DistanceStep, LineCircleStep, Plan, Step, TwoPointsStep, make_plan
-from contoursolve.tolerance import TOUCHING
+from contoursolve.tolerance import REGULAR, TOUCHING
 
 
 class _Builder:
@@ -153,8 +153,8 @@ class _Builder:
             index = next(number for number, line in enumerate(lines) if line.name == corner.before)
             if corner.lands_on is not None:
                 leaving = self._direction_beside(self.system.figure.line(corner.lands_on))
-                arriving, earlier = directions[corner.before], directions[lines[index - 1].name]
-                residuals += self._corner(corner, arriving, leaving, _quadrant(arriving, earlier))
+                arriving = directions[corner.before]
+                residuals += self._corner(corner, arriving, leaving, _quadrant_between(arriving, leaving))
             elif corner.after is None:
                 residuals += self._landing(corner, directions[corner.before], directions[lines[index - 1].name])
             else:
@@ -184,7 +184,9 @@ class _Builder:
             return cosine, sine
         at = self.at(self.scalars)
         tail, head = self.point(line.tail), (at.coordinate(line.head, FIRST), at.coordinate(line.head, SECOND))
-        return unit((head[FIRST] - tail[FIRST], head[SECOND] - tail[SECOND]))
+        step = head[FIRST] - tail[FIRST], head[SECOND] - tail[SECOND]
+        self.tape.output(f"length:{line.name}", sqrt(step[0] ** 2 + step[1] ** 2))
+        return unit(step)
 
     def _landing(self, corner: Corner, arriving: Pair, earlier: Pair) -> list[str]:
         """A corner onto an axis-parallel line: it goes on the way its line advances on each axis, and
@@ -220,6 +222,16 @@ def _quadrant(arriving: Pair, earlier: Pair) -> Pair:
     """The way a line advances on each axis; a component that is zero is taken from the line before."""
     first, second = (
         where(is_zero(arriving[axis]), sign(earlier[axis]), sign(arriving[axis])) for axis in (FIRST, SECOND)
+    )
+    return first, second
+
+
+def _quadrant_between(arriving: Pair, leaving: Pair) -> Pair:
+    """The way between two directions on each axis, as `MeetsLine` says; where they cancel, that of the first."""
+    between = arriving[FIRST] + leaving[FIRST], arriving[SECOND] + leaving[SECOND]
+    first, second = (
+        where(magnitude(between[axis]) <= REGULAR, sign(arriving[axis]), sign(between[axis]))
+        for axis in (FIRST, SECOND)
     )
     return first, second
 

@@ -60,7 +60,7 @@ def _check_corner(
     def refuse(kind: RefusalKind, **values: float) -> list[Refusal]:
         return [Refusal(kind, corner.name, (corner.size,), values)]
 
-    for name in filter(None, (corner.before, corner.after)):
+    for name in _lines(corner, out):
         if out[f"length:{name}"] <= LENGTH:
             return refuse(RefusalKind.CORNER_TOO_LARGE, limit=0.0, actual=size)
     if out.get(f"landing:{corner.name}") == 0:
@@ -129,11 +129,15 @@ def _largest(corner: Corner, figure: Figure, out: Outputs, size: float) -> float
 
 
 def _setbacks(corner: Corner, out: Outputs) -> dict[str, float]:
-    """The length that a corner takes of each line of the block."""
-    setbacks = {corner.before: out[f"setback-in:{corner.name}"]}
-    if corner.after is not None:
-        setbacks[corner.after] = out[f"setback-out:{corner.name}"]
-    return setbacks
+    """The length that a corner takes of each line that has two ends."""
+    setbacks = out[f"setback-in:{corner.name}"], out[f"setback-out:{corner.name}"]
+    return dict(zip(_lines(corner, out), setbacks, strict=False))
+
+
+def _lines(corner: Corner, out: Outputs) -> list[str]:
+    """The lines that a corner joins, as far as they have two ends."""
+    after = corner.after or corner.lands_on
+    return [corner.before, *([after] if after and f"length:{after}" in out else [])]
 
 
 def _difference(a: Point, b: Point) -> Point:
