@@ -57,8 +57,8 @@ _units = click.option(
 )
 
 
-def _common(command: Callable[..., None]) -> Callable[..., None]:
-    """The options that `solve` and `check` share."""
+def _apart(command: Callable[..., None]) -> Callable[..., None]:
+    """The options for what is stated apart from a program file."""
     for option in reversed(
         (
             click.option(
@@ -77,6 +77,17 @@ def _common(command: Callable[..., None]) -> Callable[..., None]:
                 help='A further fact about the only contour, such as "length of line 1 = 30"; may be repeated. '
                 "'contoursolve facts' lists them all.",
             ),
+        )
+    ):
+        command = option(command)
+    return command
+
+
+def _common(command: Callable[..., None]) -> Callable[..., None]:
+    """The options that `solve` and `check` share."""
+    for option in reversed(
+        (
+            _apart,
             click.option(
                 "--control",
                 type=click.Choice(list(DIALECTS)),
@@ -275,8 +286,8 @@ def explain(code: str) -> None:
 
 
 @main.command(short_help="Check a claimed answer, independently.")
-@click.argument("program")
-@click.argument("result", metavar="RESULT.json")
+@click.argument("inputs", nargs=-1, metavar="PROGRAM RESULT.json")
+@_apart
 @click.option(
     "--control",
     type=click.Choice(list(DIALECTS)),
@@ -295,11 +306,11 @@ def explain(code: str) -> None:
 def verify(
     context: click.Context,
     /,
-    program: str,
-    result: str,
-    control: str | None,
-    units: str,
+    inputs: tuple[str, ...],
+    blocks: tuple[str, ...],
+    start: str | None,
     format_: str,
+    **options: Any,
 ) -> None:
     """Check every element of RESULT.json against the words of PROGRAM (one of them may be -).
 
@@ -312,14 +323,21 @@ def verify(
     \b
     contoursolve solve shaft.nc --format json > shaft.json
     contoursolve verify shaft.nc shaft.json
+    contoursolve verify --block "G111 X100. A180. K-30. B120." --start "X40. Z0." block.json
     """
     from contoursolve import verification  # noqa: PLC0415 - only here
 
-    if program == result == "-":
+    if inputs.count("-") > 1:
         raise click.UsageError("only one of PROGRAM and RESULT.json can be standard input")
+    if start is not None and not blocks:
+        raise click.UsageError("--start goes with --block; a PROGRAM states its own positions")
+    if blocks and len(inputs) != 1:
+        raise click.UsageError("with --block, name RESULT.json and no PROGRAM")
+    if not blocks and len(inputs) != 2:  # noqa: PLR2004 - the two that the usage names
+        raise click.UsageError("name PROGRAM and RESULT.json, or --block and RESULT.json")
     try:
-        inputs = verification.read_document(program), verification.read_document(result)
-        receipt = verification.verify(*inputs, control=control, units=units)
+        program = verification.document_of_blocks(blocks) if blocks else verification.read_document(inputs[0])
+        receipt = verification.verify(program, verification.read_document(inputs[-1]), start=start, **options)
     except verification.CannotVerifyError as error:
         raise CouldNotRunError(str(error)) from None
     if format_ == "json":

@@ -25,6 +25,7 @@ class Result:
     """What stated the start point apart from the program; its line is line 0."""
     facts: tuple[Directive, ...] = ()
     """What was stated apart from the program; their lines are -1, -2, ..."""
+    policy: Policy = Policy.ENFORCE
 
     @property
     def has_errors(self) -> bool:
@@ -96,7 +97,7 @@ def run(
     everything = [*examiner.diagnostics, *(each for answer in answers for each in answer.diagnostics)]
     everything.sort(key=rank)
     control = dialect.name if dialect else None
-    return Result(program, control, tuple(answers), tuple(everything), start, tuple(facts))
+    return Result(program, control, tuple(answers), tuple(everything), start, tuple(facts), policy)
 
 
 _FAULTS_OF_NO_CONSEQUENCE = (FaultKind.STRAY_CHARACTER,)

@@ -20,6 +20,7 @@ def to_json(result: Result) -> str:
             "schema": "contoursolve/solve/1",
             "program": result.program.name,
             "control": result.control,
+            "rules": result.policy.value,
             "contours": [_contour(answer) for answer in result.answers],
             "diagnostics": [finding_data(each) for each in result.diagnostics],
         }

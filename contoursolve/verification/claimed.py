@@ -20,6 +20,15 @@ class ClaimedStatus(Enum):
     NO_SOLUTION = "no-solution"
 
 
+class Rules(Enum):
+    """What the rules of the manual did to a block that they refuse: it was not solved; it was, with a warning; they
+    were not applied."""
+
+    ENFORCE = "enforce"
+    WARN = "warn"
+    OFF = "off"
+
+
 class ElementKind(Enum):
     """What an element of a path is."""
 
@@ -149,7 +158,9 @@ class ClaimedContour:
 
 @dataclass(frozen=True, slots=True)
 class ClaimedResult:
-    """Everything of a result that can be checked; `control` is None where it names none."""
+    """Everything of a result that can be checked; `control` is None where it names none, `rules` where it does not
+    say under which policy it was made."""
 
     control: str | None
+    rules: Rules | None
     contours: tuple[ClaimedContour, ...]

@@ -1,6 +1,7 @@
 """The two inputs of a verification as bytes: their names, their checksums, and the text of a program."""
 
 import sys
+from collections.abc import Sequence
 from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
@@ -45,6 +46,11 @@ def read_document(path: str) -> Document:
             raise CannotVerifyError(f"{path} is a directory, not a file") from None
         reason = error.strerror if isinstance(error, OSError) else str(error)
         raise CannotVerifyError(f"{path} cannot be read: {reason}") from None
+
+
+def document_of_blocks(blocks: Sequence[str]) -> Document:
+    """Blocks that were given apart from any file, one a line."""
+    return Document("<block>", "\n".join(blocks).encode("utf-8", "replace"))
 
 
 def _is_folder(path: str) -> bool:

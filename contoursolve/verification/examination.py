@@ -33,11 +33,12 @@ def examine(found: Found, claimed: ClaimedContour, ledger: Ledger, selected: Map
     case = make_case(claim, claimed, (first, second), found.start_error)
     case = replace(
         case,
-        facts=read_facts(claim, checker.elements, checker.points),
+        facts=read_facts(claim, checker.elements, checker.points, found.apart),
         choices=signs_of(claim, checker.choosing) if selected is None else selected,
         is_listed=selected is not None,
         is_selected=_is_selected(claimed),
         next_end=case.place(found.next_end) if found.next_end else None,
+        rules=found.rules,
     )
     check_path(case, ledger)
     check_certificate(case, ledger)

@@ -11,7 +11,7 @@ from contoursolve.model import FIRST, SECOND
 from contoursolve.statements import MeetsLine
 from contoursolve.verification.asked import check_asked
 from contoursolve.verification.case import Case
-from contoursolve.verification.claimed import ClaimedStatus
+from contoursolve.verification.claimed import ClaimedStatus, Rules
 from contoursolve.verification.determination import check_statements
 from contoursolve.verification.drawing import Drawing
 from contoursolve.verification.facts import Sight, statements
@@ -35,8 +35,8 @@ READ = frozenset((*LINE_1, *LINE_2, *_SIZES))
 def check(case: Case, ledger: Ledger) -> None:
     """Everything that the words and facts of the block say about the path.
 
-    A contour that is claimed overdetermined may have been solved with the notes of the manual or without them:
-    the result does not say it.
+    Where the result does not say under which rules it was made, a contour that is claimed overdetermined may have
+    been solved with the notes of the manual or without them.
     """
     names = ", ".join(sorted(map(ascii, case.points))) or "none"
     if not ledger.require("the points are V1 and V2", (), case.points.keys() == {"V1", "V2"}, names):
@@ -45,13 +45,16 @@ def check(case: Case, ledger: Ledger) -> None:
     ledger.require("there is no choice of branch", (), case.claimed.branch is None, f"{case.claimed.branch!a}")
     ignored = _ignored(case)
     readings = [ignored]
-    if ignored and case.claimed.status is ClaimedStatus.OVERDETERMINED:
+    if case.rules is None and ignored and case.claimed.status is ClaimedStatus.OVERDETERMINED:
         readings = [{}, ignored] if case.is_extended else [{}]
     ledger.add(fewest(partial(_reading, case, each) for each in readings))
 
 
 def _ignored(case: Case) -> dict[str, str]:
-    """The words that the control ignores (supplementary notes v and vi), and why."""
+    """The words that the control ignores (supplementary notes v and vi), and why; none where the result was made
+    without the rules of the manual."""
+    if case.rules is Rules.OFF:
+        return {}
     stated = set(case.states(*LINE_1, *LINE_2))
     ignored: dict[str, str] = {}
     has_whole_end = bool(stated & set(END_X)) and bool(stated & set(END_Z))

@@ -14,6 +14,7 @@ from contoursolve.verification.claimed import (
     ClaimedSolution,
     ClaimedStatus,
     ElementKind,
+    Rules,
 )
 from contoursolve.verification.document import Document
 from contoursolve.verification.node import Node, read_json, shown
@@ -30,9 +31,10 @@ def read_result(document: Document) -> ClaimedResult:
     schema = root.field("schema").text()
     if schema != SCHEMA:
         root.field("schema").refuse(f"{shown(schema)} where {SCHEMA!r} is read: write it by 'solve --format json'")
-    control = root.field("control").optional()
+    control, rules = root.field("control").optional(), root.maybe("rules")
     return ClaimedResult(
         control.text() if control else None,
+        Rules(rules.choice(tuple(each.value for each in Rules))) if rules else None,
         tuple(_contour(node) for node in root.field("contours").items()),
     )
 
