@@ -9,6 +9,7 @@ from contoursolve.verification.examination import examine
 from contoursolve.verification.ledger import Ledger
 from contoursolve.verification.measure import ROUNDING
 from contoursolve.verification.solutions import check_solutions
+from contoursolve.verification.status import check_status
 from contoursolve.verification.walk import Found
 
 
@@ -24,10 +25,10 @@ def check_contour(found: Found, claimed: ClaimedContour) -> tuple[Ledger, bool]:
         is_checked, status = False, claimed.status.value
         ledger.require("a contour with this status has no path", (), claimed.path.is_empty, f"{status}, with a path")
         ledger.omit("the path", f"claimed {status}: there is none to check")
-        ledger.omit("the status", "whether the block can be solved was not examined")
         values = [each.word for each in claimed.asked or () if each.value is not None]
         ledger.require("without a path no value is known", values, not values, "the result answers what is asked for")
         ledger.require("without a path nothing is filled in", (), claimed.filled is None, "there are filled blocks")
+    is_checked |= check_status(found, claimed, ledger)
     return ledger, check_solutions(found, claimed, ledger) or is_checked
 
 

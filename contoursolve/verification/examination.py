@@ -4,7 +4,6 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from contoursolve.reading import Claim
-from contoursolve.syntax import FaultKind
 from contoursolve.tolerance import LARGEST
 from contoursolve.verification.case import Case, make_case
 from contoursolve.verification.claimed import ClaimedContour
@@ -13,6 +12,7 @@ from contoursolve.verification.filled import check_filled
 from contoursolve.verification.forms import CHECKERS
 from contoursolve.verification.ledger import Ledger
 from contoursolve.verification.path import check_certificate, check_path
+from contoursolve.verification.refusals import HARMLESS
 from contoursolve.verification.walk import Found
 
 
@@ -63,7 +63,7 @@ def signs_of(claim: Claim, names: tuple[str, ...]) -> dict[str, int]:
 def _check_words(case: Case, ledger: Ledger, reads: frozenset[str]) -> bool:
     """Whether the blocks can be read at all; words that the form's checker does not look at are listed."""
     claim = case.claim
-    faults = [fault.text for block in claim.blocks for fault in block.faults if fault.kind not in _HARMLESS]
+    faults = [fault.text for block in claim.blocks for fault in block.faults if fault.kind not in HARMLESS]
     variables = [word.text for word in claim.words.values() if word.number is None and not word.is_asked]
     # Beyond all travel, and beyond what decimals of 28 digits can reduce to one turn.
     large = [given.word.text for given in claim.givens.values() if given.word and abs(given.value) > LARGEST]
@@ -73,6 +73,3 @@ def _check_words(case: Case, ledger: Ledger, reads: frozenset[str]) -> bool:
             ledger.omit(word.text, "what it does to a contour of this form is not checked")
     remark = "they have no value or no meaning, or are too large"
     return ledger.require("every word can be read", unreadable, not unreadable, remark)
-
-
-_HARMLESS = (FaultKind.COMMENT_NOT_CLOSED,)

@@ -17,11 +17,11 @@ class Verdict(Enum):
     """The answer; that nothing was checked is not the same as that nothing is wrong."""
 
     VERIFIED = "verified"
-    """A path was checked, and everything that was checked is right."""
+    """A path was checked, or why there is none, and everything that was checked is right."""
     FAILED = "failed"
     """Something is wrong."""
     NOTHING_CHECKED = "nothing-checked"
-    """Nothing is wrong, but there was no path to check."""
+    """Nothing is wrong, but there was no path to check, and why there is none was not worked out."""
 
 
 @dataclass(frozen=True, slots=True)

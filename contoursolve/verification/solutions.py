@@ -97,7 +97,6 @@ def _check_count(claimed: ClaimedContour, listed: tuple[ClaimedSolution, ...], l
     ledger.require(
         "the list is complete unless there is a doubt", (), count.is_complete != bool(count.doubts), "it is both"
     )
-    ledger.omit("whether these are all solutions", "their number was not worked out")
 
 
 def _check_chosen(found: Found, claimed: ClaimedContour, listed: tuple[ClaimedSolution, ...], ledger: Ledger) -> None:
