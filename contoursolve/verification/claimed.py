@@ -64,13 +64,14 @@ class ClaimedCertificate:
     """How well the result says its points are known: `radius` in mm, None where it names none.
 
     `reason` says why there is no better one. `double` tells that two solutions have become one; None where the
-    result does not tell.
+    result does not tell. `gap` (mm) is then how far they are from that.
     """
 
     kind: str
     radius: float | None
     reason: str | None = None
     double: bool | None = None
+    gap: float | None = None
 
 
 @dataclass(frozen=True, slots=True)

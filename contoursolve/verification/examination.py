@@ -41,7 +41,7 @@ def examine(found: Found, claimed: ClaimedContour, ledger: Ledger, selected: Map
         rules=found.rules,
     )
     check_path(case, ledger)
-    check_certificate(case, ledger)
+    check_certificate(claimed.certificate, case.limit, ledger)
     if _check_words(case, ledger, checker.reads) and check_readable(case.facts, ledger):
         checker.check(case, ledger)
         check_filled(case, ledger, checker, found.dialect)

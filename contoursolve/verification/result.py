@@ -75,13 +75,12 @@ def _certificate(node: Node) -> ClaimedCertificate:
     radius, reason = node.field("radius").optional(), node.maybe("reason")
     double = node.maybe("double")
     gap = double.field("gap_mm").optional() if double else None
-    if gap:
-        gap.number()
     return ClaimedCertificate(
         kind=node.field("kind").text(),
         radius=radius.number() if radius else None,
         reason=reason.text() if reason else None,
         double=double is not None if "double" in node.fields() else None,
+        gap=gap.number() if gap else None,
     )
 
 
