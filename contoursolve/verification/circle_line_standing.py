@@ -2,10 +2,12 @@
 
 from collections.abc import Iterator
 
-from contoursolve.tolerance import RADIUS_DIFFERENCE
+from contoursolve.tolerance import AGREEMENT, RADIUS_DIFFERENCE
 from contoursolve.verification.case import Case, Circle
 from contoursolve.verification.circle_line import crossings, given_point, leg
 from contoursolve.verification.circle_line_stated import ANGLE, CENTER, CHOICE, END, POINT
+from contoursolve.verification.claimed import ClaimedDiagnosis
+from contoursolve.verification.ledger import Ledger
 from contoursolve.verification.measure import ROUNDING, direction
 from contoursolve.verification.standing import Candidate, Leg, Standing, path_of
 
@@ -37,6 +39,25 @@ def stand(case: Case) -> Standing | None:
     if off > (1 + _NEAR) * RADIUS_DIFFERENCE:
         return Standing(disagrees=" ".join(case.texts(*CENTER, "1:R", *POINT)), candidates=None)
     return standings[0] if not has_radius and off < (1 - _NEAR) * RADIUS_DIFFERENCE else None
+
+
+def check_ties(case: Case, diagnosis: ClaimedDiagnosis, ledger: Ledger) -> None:
+    """A centre and a point say the same; nothing is worked out of what can still move."""
+    ledger.require("nothing is said to move", (), not diagnosis.freedoms, "freedoms of a circle are not worked out")
+    point = given_point(case)
+    if not diagnosis.ties or case.states("1:R") or point is None:
+        return
+    center = complex(*(case.amount(name) if case.states(name) else 0.0 for name in CENTER))
+    off = abs(abs(point - center) - abs(center)) if center else 0.0
+    (tie, *more) = diagnosis.ties
+    ledger.require("there is one tie", tie.addresses, not more)
+    # The least increment is not worth mentioning; where nothing is solved, nothing is compared.
+    if off <= AGREEMENT or (not tie.off_by_mm and not case.claimed.has_path):
+        ledger.measure("they disagree by as much", tie.addresses, tie.off_by_mm, 0.0)
+    else:
+        ledger.measure("they disagree by as much", tie.addresses, tie.off_by_mm - off, case.limit)
+    is_right = tie.is_conflict == (tie.off_by_mm > RADIUS_DIFFERENCE)
+    ledger.require("they conflict if that is more than the control allows", tie.addresses, is_right)
 
 
 Found = tuple[Circle, dict[str, int]]

@@ -132,6 +132,33 @@ class ClaimedCount:
 
 
 @dataclass(frozen=True, slots=True)
+class ClaimedFreedom:
+    """A point that can move: along a unit vector and at an angle in degrees, or anywhere if both are None."""
+
+    point: str
+    direction: Coordinates | None
+    angle: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class ClaimedTie:
+    """Words that say the same, by their addresses, and by how much they disagree, mm."""
+
+    addresses: tuple[str, ...]
+    off_by_mm: float
+    is_conflict: bool
+
+
+@dataclass(frozen=True, slots=True)
+class ClaimedDiagnosis:
+    """What can still move, and which words say the same; `ties_complete` tells that all of these are named."""
+
+    freedoms: tuple[ClaimedFreedom, ...]
+    ties: tuple[ClaimedTie, ...]
+    ties_complete: bool
+
+
+@dataclass(frozen=True, slots=True)
 class ClaimedContour:
     """One contour of the result; the coordinates of `start` are None where the result does not know them."""
 
@@ -149,6 +176,7 @@ class ClaimedContour:
     filled: ClaimedFilled | None = None
     solutions: tuple[ClaimedSolution, ...] | None = None
     count: ClaimedCount | None = None
+    diagnosis: ClaimedDiagnosis | None = None
 
     @property
     def has_path(self) -> bool:

@@ -10,7 +10,7 @@ from contoursolve.verification.examination import examine
 from contoursolve.verification.ledger import Ledger
 from contoursolve.verification.measure import ROUNDING
 from contoursolve.verification.solutions import check_solutions
-from contoursolve.verification.status import check_status
+from contoursolve.verification.status import check_diagnosis, check_status
 from contoursolve.verification.walk import Found
 
 
@@ -35,6 +35,7 @@ def check_contour(found: Found, claimed: ClaimedContour) -> tuple[Ledger, bool]:
     for asked in (claimed.asked, *(each.asked for each in claimed.solutions or ())):
         _check_questions(claim, asked or (), ledger)
     is_checked |= check_status(found, claimed, ledger)
+    check_diagnosis(found, claimed, ledger)
     return ledger, check_solutions(found, claimed, ledger) or is_checked
 
 

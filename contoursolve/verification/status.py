@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from decimal import Decimal
 
-from contoursolve.verification.case import make_case
+from contoursolve.verification.case import Case, make_case
 from contoursolve.verification.claimed import (
     ClaimedCertificate,
     ClaimedContour,
@@ -74,17 +74,38 @@ def _check_rejected(found: Found, claimed: ClaimedContour, ledger: Ledger) -> bo
     return None
 
 
+def check_diagnosis(found: Found, claimed: ClaimedContour, ledger: Ledger) -> None:
+    """What the diagnosis says of the equations, where they are those of words alone."""
+    claim, diagnosis = found.claim, claimed.diagnosis
+    checker = CHECKERS.get(claim.form.name)
+    if diagnosis is None or checker is None:
+        return
+    is_known = None not in claim.before.start().values and not any(block.faults for block in claim.blocks)
+    ledger.require("ties are complete where the block can be read", (), diagnosis.ties_complete == is_known, "")
+    if claim.directives:
+        ledger.omit("the ties and freedoms of the diagnosis", "with further facts they were not worked out")
+    elif is_known:
+        checker.diagnose(_nowhere(found, claimed, checker), diagnosis, ledger)
+    else:
+        ledger.omit(
+            "the ties and freedoms of the diagnosis", "without a start, or with errors, they were not worked out"
+        )
+
+
+def _nowhere(found: Found, claimed: ClaimedContour, checker: FormChecker) -> Case:
+    """The contour without a path, from where it starts; from zero if that is not known."""
+    first, second = found.claim.before.start().values
+    at = (first or Decimal(0), second or Decimal(0))
+    case = make_case(found.claim, replace(claimed, path=ClaimedPath(None, {}, ())), at, 0.0)
+    return replace(case, rules=found.rules, choices=signs_of(found.claim, checker.choosing))
+
+
 def _stand(found: Found, claimed: ClaimedContour, checker: FormChecker) -> Standing | None:
     claim = found.claim
-    first, second = claim.before.start().values
     if any(word.number is None for word in claim.words.values()):
         return Standing(is_loose=True)  # a variable
-    nowhere = replace(claimed, path=ClaimedPath(None, {}, ()))
-    at = (first, second) if first is not None and second is not None else (Decimal(0), Decimal(0))
-    chosen = signs_of(claim, checker.choosing)
-    case = replace(make_case(claim, nowhere, at, 0.0), rules=found.rules, choices=chosen)
-    standing = checker.stand(case)
-    if first is not None and second is not None:
+    standing = checker.stand(_nowhere(found, claimed, checker))
+    if None not in claim.before.start().values:
         return standing
     return Standing(disagrees=standing.disagrees if standing and standing.is_twice else "", is_loose=True)
 

@@ -7,7 +7,7 @@ from decimal import Decimal
 from contoursolve import syntax
 from contoursolve.dialects import Dialect, Unresolved
 from contoursolve.model import Length
-from contoursolve.reading import Claim, Position, State, advance, apply_modes, positions
+from contoursolve.reading import Claim, advance, leave, next_place
 from contoursolve.syntax import Block, Directive, Program
 from contoursolve.verification.claimed import ClaimedContour, Rules
 from contoursolve.verification.document import CannotVerifyError
@@ -58,9 +58,16 @@ def follow(
             claimed = claims.get(blocks[index].line)
             after = index + found.blocks[-1].line - blocks[index].line
             yield Found(
-                found, claimed, start_error, dialect, _next_end(blocks[after + 1 :], found, dialect), rules, apart
+                found,
+                claimed,
+                start_error,
+                dialect,
+                next_place(blocks[after + 1 :], found, dialect.modes),
+                rules,
+                apart,
             )
-            state = _state_after(found, claimed, dialect)
+            end = claimed.path.end if claimed and claimed.has_path else None
+            state = leave(found, end, dialect.modes, "the contour before has no path")
             if claimed and claimed.path.end is not None:
                 start_error = PRINTED
             index = after
@@ -110,35 +117,3 @@ def _with_facts(blocks: tuple[Block, ...], claims: Mapping[int, ClaimedContour])
         replace(block, directives=(*block.directives, *added[block.line])) if block.line in added else block
         for block in blocks
     )
-
-
-def _next_end(blocks: Sequence[Block], claim: Claim, dialect: Dialect) -> tuple[Decimal, Decimal] | None:
-    """Where the next block with words ends, if it is a line and states both coordinates."""
-    block = next((each for each in blocks if each.words), None)
-    if block is None or block.faults:
-        return None
-    modes, state = dialect.modes, apply_modes(claim.after, block, dialect.modes)
-    if state.motion not in (0, 1, None):
-        return None
-    state = state.lose(modes.axes, "the contour before it decides", block.span)
-    addresses = modes.lexicon.addresses
-    words = [word for word in block.words if word.address in addresses and addresses[word.address].axis]
-    found = positions(state, words, modes, block.is_skippable)
-    first, second = (found[axis].value if axis in found else None for axis in state.plane.axes)
-    return None if first is None or second is None else (first, second)
-
-
-def _state_after(claim: Claim, claimed: ClaimedContour | None, dialect: Dialect) -> State:
-    """The modes of the contour's blocks, and where it is claimed to end.
-
-    Without a claimed path, an axis that the last block programs is still known.
-    """
-    state, last = claim.after, claim.blocks[-1]
-    if claimed and claimed.has_path and claimed.path.end is not None:
-        ends = zip(state.plane.axes, claimed.path.end, strict=True)
-        return state.move({axis: Position(Decimal(value), "the claimed end", last.span) for axis, value in ends})
-    addresses = dialect.modes.lexicon.addresses
-    words = [word for word in last.words if word.address in addresses and addresses[word.address].axis]
-    programmed = positions(replace(state, is_incremental=False), words, dialect.modes, last.is_skippable)
-    lost = state.lose(state.plane.axes, "the contour before has no path", last.span)
-    return lost if last.faults else lost.move(programmed)
