@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -16,21 +15,23 @@ from contoursolve.model import Length
 from contoursolve.pipeline import Result, UnknownControlError, recognise, run
 from contoursolve.project import configure
 from contoursolve.reading import Trouble
-from contoursolve.syntax import Directive, Program
+from contoursolve.syntax import STANDARD_INPUT, Directive, Program, UnreadableProgramError
 
 if TYPE_CHECKING:
     from contoursolve.statements import Statement
 
-STANDARD_INPUT = "-"
-_TAPE_CODES = bytes([0x02, 0x03, 0x11, 0x12, 0x13, 0x14, 0x1A])
-"""STX, ETX, DC1 to DC4 and SUB: left in a program by a reader of paper tape or by DOS."""
-
-_BINARY = frozenset(range(0x20)) - frozenset(b"\t\n\v\f\r" + _TAPE_CODES)
-"""Bytes that no program holds; a file in UTF-16 holds NUL."""
-
-
-class UnreadableProgramError(ValueError):
-    """A file that is missing, is no file, or is not text; the message says which."""
+__all__ = [
+    "UnreadableProgramError",
+    "check",
+    "check_file",
+    "find_dialect",
+    "only_findings",
+    "parse",
+    "read_program",
+    "solve",
+    "solve_file",
+    "solve_program",
+]
 
 
 def parse(text: str, *, name: str = "<program>") -> Program:
@@ -173,25 +174,7 @@ def read_program(path: str | Path) -> Program:
     Raises UnreadableProgramError if there is no such file, or it is not text.
     """
     name = str(path)
-    try:
-        data = sys.stdin.buffer.read() if name == STANDARD_INPUT else Path(path).read_bytes()
-    except IsADirectoryError:
-        raise UnreadableProgramError(f"{name} is a directory, not a program file") from None
-    except FileNotFoundError:
-        raise UnreadableProgramError(f"{name}: no such file") from None
-    except (OSError, ValueError) as error:
-        if Path(name).is_dir():  # Windows answers "permission denied" for a directory
-            raise UnreadableProgramError(f"{name} is a directory, not a program file") from None
-        reason = error.strerror if isinstance(error, OSError) else str(error)
-        raise UnreadableProgramError(f"{name} cannot be read: {reason}") from None
-    if not _BINARY.isdisjoint(data):
-        raise UnreadableProgramError(
-            f"{name} is not a text file (it holds control bytes); save it as UTF-8 or Latin-1 text"
-        )
-    try:
-        text = data.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        text = data.decode("latin-1")
+    text = syntax.decode(syntax.read_bytes(name, "a program file"), name)
     return syntax.parse(text, "<standard input>" if name == STANDARD_INPUT else name)
 
 

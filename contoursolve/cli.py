@@ -69,8 +69,8 @@ _settings = click.option(
 )
 
 
-def _common(command: Callable[..., None]) -> Callable[..., None]:
-    """The options that `solve` and `check` share."""
+def _apart(command: Callable[..., None]) -> Callable[..., None]:
+    """The options for what is stated apart from a program file."""
     for option in reversed(
         (
             click.option(
@@ -90,9 +90,20 @@ def _common(command: Callable[..., None]) -> Callable[..., None]:
                 "facts",
                 multiple=True,
                 metavar="FACT",
-                help='A fact besides the words, such as "length of line 1 = 30", for a program with one contour; may be '
-                "repeated. 'contoursolve facts' lists every kind.",
+                help='A fact besides the words, such as "length of line 1 = 30", for a program with one contour; may '
+                "be repeated. 'contoursolve facts' lists every kind.",
             ),
+        )
+    ):
+        command = option(command)
+    return command
+
+
+def _common(command: Callable[..., None]) -> Callable[..., None]:
+    """The options that `solve` and `check` share."""
+    for option in reversed(
+        (
+            _apart,
             click.option(
                 "--control",
                 type=click.Choice(list(DIALECTS)),
@@ -296,8 +307,8 @@ def explain(code: str) -> None:
 
 
 @main.command(short_help="Check a claimed answer, independently.")
-@click.argument("program")
-@click.argument("result", metavar="RESULT.json")
+@click.argument("inputs", nargs=-1, metavar="PROGRAM RESULT.json")
+@_apart
 @click.option(
     "--control",
     type=click.Choice(list(DIALECTS)),
@@ -316,11 +327,11 @@ def explain(code: str) -> None:
 def verify(
     context: click.Context,
     /,
-    program: str,
-    result: str,
-    control: str | None,
-    units: str,
+    inputs: tuple[str, ...],
+    blocks: tuple[str, ...],
+    start: str | None,
     format_: str,
+    **options: Any,
 ) -> None:
     """Check every element of RESULT.json against the words of PROGRAM (one of them may be -).
 
@@ -333,14 +344,21 @@ def verify(
     \b
     contoursolve solve shaft.nc --format json > shaft.json
     contoursolve verify shaft.nc shaft.json
+    contoursolve verify --block "G111 X100. A180. K-30. B120." --start "X40. Z0." block.json
     """
     from contoursolve import verification  # noqa: PLC0415 - only here
 
-    if program == result == "-":
+    if inputs.count("-") > 1:
         raise click.UsageError("only one of PROGRAM and RESULT.json can be standard input")
+    if start is not None and not blocks:
+        raise click.UsageError("--start goes with --block; a PROGRAM states its own positions")
+    if blocks and len(inputs) != 1:
+        raise click.UsageError("with --block, name RESULT.json and no PROGRAM")
+    if not blocks and len(inputs) != 2:  # noqa: PLR2004 - the two that the usage names
+        raise click.UsageError("name PROGRAM and RESULT.json, or --block and RESULT.json")
     try:
-        inputs = verification.read_document(program), verification.read_document(result)
-        receipt = verification.verify(*inputs, control=control, units=units)
+        program = verification.document_of_blocks(blocks) if blocks else verification.read_document(inputs[0])
+        receipt = verification.verify(program, verification.read_document(inputs[-1]), start=start, **options)
     except verification.CannotVerifyError as error:
         raise CouldNotRunError(str(error)) from None
     if format_ == "json":

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from decimal import Decimal
 from typing import cast
 
 from contoursolve.diagnostic import Basis, Diagnostic, Severity
@@ -10,7 +9,7 @@ from contoursolve.dialects import DIALECTS, Dialect, Unresolved
 from contoursolve.examine import Answer, Depth, Policy, examine, rank
 from contoursolve.explain import Context, report
 from contoursolve.model import Length, Plane
-from contoursolve.reading import Claim, Position, State, Trouble, advance, apply_modes, positions
+from contoursolve.reading import Claim, State, Trouble, advance, leave, next_place
 from contoursolve.source import Span
 from contoursolve.spelling import (
     explain_asked_outside,
@@ -36,6 +35,7 @@ class Result:
     """What was stated apart from the program; their lines are -1, -2, ..."""
     settings: Mapping[str, str] = field(default_factory=dict)
     """The settings of the control that are not the default ones, by name."""
+    policy: Policy = Policy.ENFORCE
 
     @property
     def has_errors(self) -> bool:
@@ -88,7 +88,7 @@ def _in_words(fact: Directive, plane: Plane, unit: Length) -> Directive:
     """A fact with the text that states it."""
     if fact.statement is None:
         return fact
-    from contoursolve.statements import Statement, write_statement  # noqa: PLC0415 - few programs need it
+    from contoursolve.statements import write_statement  # noqa: PLC0415 - few programs need it
 
     text = write_statement(cast("Statement", fact.statement), plane, unit)
     return replace(fact, text=text, span=Span(fact.span.line, 1, len(text) + 1))
@@ -130,7 +130,7 @@ def run(
     everything = [*examiner.diagnostics, *(each for answer in answers for each in answer.diagnostics)]
     everything.sort(key=rank)
     control, settings = (dialect.name, dialect.modes.settings) if dialect else (None, {})
-    return Result(program, control, tuple(answers), tuple(everything), start, tuple(facts), settings)
+    return Result(program, control, tuple(answers), tuple(everything), start, tuple(facts), settings, policy)
 
 
 _FAULTS_OF_NO_CONSEQUENCE = (FaultKind.STRAY_CHARACTER,)
@@ -179,7 +179,9 @@ class _Examiner:
                     answer = diagnose(answer, dialect, self.policy)
                 if found.form.is_contour:
                     yield answer
-                    state = _state_after(found, answer, dialect)
+                    lines = " and ".join(str(line) for line in answer.lines)
+                    reason = f"the contour of line {lines} before it is not solved"
+                    state = leave(found, answer.contour.end if answer.contour else None, dialect.modes, reason)
                 else:
                     self.diagnostics += answer.diagnostics if answer.start.is_known else ()
                     state = advance(state, block, dialect.modes)
@@ -198,7 +200,7 @@ class _Examiner:
         if dialect is None:
             raise ValueError("without a control there is no contour")
         after = index + found.blocks[-1].line - found.blocks[0].line + 1
-        answer = examine(found, self.rules, self.policy, lambda: _next_place(blocks[after:], found, dialect))
+        answer = examine(found, self.rules, self.policy, lambda: next_place(blocks[after:], found, dialect.modes))
         if answer.contour is None or not any(value.value is not None for value in answer.answers):
             return answer
         from contoursolve.fill import fill_in  # noqa: PLC0415 - few blocks ask for a value
@@ -239,46 +241,6 @@ class _Examiner:
         context = Context(self.rules, self.unit, place=found.block.span)
         rule = context.row(Trouble.FORM_UNRESOLVED)
         self.diagnostics.append(report(context, rule, Basis.RULE, [found.word], form=found.form))
-
-
-def _state_after(claim: Claim, answer: Answer, dialect: Dialect) -> State:
-    """The modes of the contour's blocks, and the position where it ends.
-
-    Where a contour was not solved, an axis that its last block programs is still known.
-    """
-    state, last = claim.after, claim.blocks[-1]
-    if answer.contour:
-        is_skippable = any(block.is_skippable for block in claim.blocks)
-        is_skippable |= any(claim.before.axes[axis].is_skippable for axis in state.plane.axes)
-        ends = zip(state.plane.axes, map(Decimal, answer.contour.end), strict=True)
-        return state.move(
-            {axis: Position(value, "the end of this contour", last.span, is_skippable) for axis, value in ends}
-        )
-    addresses = dialect.modes.lexicon.addresses
-    words = [word for word in last.words if word.address in addresses and addresses[word.address].axis]
-    programmed = positions(replace(state, is_incremental=False), words, dialect.modes, last.is_skippable)
-    if last.faults:
-        programmed = {}
-    lines = " and ".join(str(line) for line in answer.lines)
-    reason = f"the contour of line {lines} before it is not solved"
-    return state.lose(state.plane.axes, reason, last.span).move(programmed)
-
-
-def _next_place(blocks: Sequence[Block], claim: Claim, dialect: Dialect) -> tuple[Decimal, Decimal] | None:
-    """Where the line of the next block ends, if it is a line and both its coordinates are known."""
-    block = next((block for block in blocks if block.words), None)
-    if block is None or block.faults:
-        return None
-    modes, state = dialect.modes, apply_modes(claim.after, block, dialect.modes)
-    addresses = modes.lexicon.addresses
-    words = [word for word in block.words if word.address in addresses and addresses[word.address].axis]
-    if state.motion not in (0, 1, None):
-        return None
-    unknown = state.lose(modes.axes, "the contour before it is not solved yet", block.span)
-    first, second = (positions(unknown, words, modes, False).get(axis) for axis in state.plane.axes)
-    if first is None or second is None or first.value is None or second.value is None:
-        return None
-    return first.value, second.value
 
 
 def _repeated(words: Sequence[Word]) -> list[Word]:

@@ -484,6 +484,62 @@ def test_the_last_corner_meets_the_line_that_is_stated(word: str, how: str, land
         assert (abs(across.real), abs(across.imag)) == pytest.approx((2, 2))
 
 
+def setbacks(before: complex, after: complex, diagonal: complex) -> tuple[float, float]:
+    """By how much a segment takes of the lines before and after it: s * before + t * after = diagonal."""
+    turn = (before.conjugate() * after).imag
+    return (diagonal.conjugate() * after).imag / turn, (before.conjugate() * diagonal).imag / turn
+
+
+@pytest.mark.parametrize("lands", [*range(-170, 181, 10), -167, 29, 31, 97, 163])
+@pytest.mark.parametrize("asks", [False, True])
+@pytest.mark.parametrize("way", [120, 160])
+def test_a_bevel_onto_a_line_is_the_one_with_the_most_equal_setbacks(lands: int, asks: bool, way: int) -> None:
+    """Of the four segments at 45 degrees, those that fit take a length of both lines that is not negative."""
+    before, after = rect(1, radians(way)), rect(1, radians(lands))
+    v2 = -30 + 30 / before.imag * before + 20j
+    if abs((before.conjugate() * after).imag) < 1e-9:
+        return
+    fitting = {}
+    for diagonal in (2 * complex(z, x) for z in (1, -1) for x in (1, -1)):
+        first, second = setbacks(before, after, diagonal)
+        if min(first, second) > 1e-9:
+            fitting[diagonal] = abs(first - second)
+    facts = [f"corner 2 meets line at {lands}", *(["radius of corner 2 = 2"] if asks else [])]
+    block = f"G111 A180. K-30. B{way}. X100. {'D?' if asks else 'D2.'}"
+    (answer,) = solve(block, start="X40. Z0.", facts=facts, depth="verdict").answers
+    is_even = len({round(each, 9) for each in fitting.values()}) < len(fitting)
+    if not fitting or (asks and is_even):
+        # A direction that is a sum of sines is not known to be zero where the size is an unknown, too.
+        assert answer.contour is None
+        return
+    assert answer.status is Status.SOLVED, [each.message for each in answer.diagnostics]
+    assert answer.contour is not None
+    corner = drawing_of(answer.contour).parts["corner 2"]
+    # Where two are equally near, it goes on along line 2.
+    wanted = min(fitting, key=lambda each: (round(fitting[each], 9), -(each.conjugate() * before).real))
+    assert corner.end - corner.start == pytest.approx(wanted, abs=1e-9)
+    assert corner.start == pytest.approx(v2 - setbacks(before, after, wanted)[0] * before, abs=1e-9)
+
+
+@pytest.mark.parametrize("word", ["Q5.", "D5."])
+@pytest.mark.parametrize("how", ["to", "next"])
+def test_a_corner_that_ends_beyond_the_line_that_it_meets_is_refused(word: str, how: str) -> None:
+    v2, lands = complex(-30 - 30 / 3**0.5, 50), 170
+    needed = 5 * tan(radians(25))
+    if word[0] == "D":
+        needed = setbacks(rect(1, radians(120)), rect(1, radians(lands)), complex(-5, 5))[1]
+    for length, fits in ((needed + 1e-6, True), (needed - 1e-6, False), (needed / 2, False), (0.0, False)):
+        place = v2 + rect(length, radians(lands))
+        at = f"Z{place.real:.12f} X{2 * place.imag:.12f}"
+        fact = {"to": f"line to ({at})", "next": "next line"}[how]
+        program = f"G111 A180. K-30. B120. X100. {word}\nG01 {at} F0.2"
+        (answer,) = solve(program, start="X40. Z0.", facts=[f"corner 2 meets {fact}"], depth="verdict").answers
+        assert answer.status is (Status.SOLVED if fits else Status.NO_SOLUTION)
+        if not fits:
+            (finding,) = [each for each in answer.diagnostics if each.code == "g111-corner-too-large"]
+            assert finding.values["limit"] == pytest.approx(5 * length / needed, abs=1e-6)
+
+
 # NCT ------------------------------------------------------------------------------------------------------
 
 

@@ -161,7 +161,8 @@ class Extent(Equation):
 class ChamferLeg(Equation):
     """A 45 degree chamfer from `begin` to `end` extends as far as its size along `axis`, to one side.
 
-    The side is the way in which a path advances, see `Parallel`.
+    The side is the way in which a path advances, see `Parallel`; or the way between the directions of the two lines
+    `between`, where these are given.
     """
 
     begin: str
@@ -170,6 +171,7 @@ class ChamferLeg(Equation):
     side: str
     axis: int
     advance: tuple[tuple[str, str], ...]
+    between: tuple[str, ...] = ()
     given: str = ""
 
     def reads(self) -> tuple[str, ...]:
@@ -183,10 +185,13 @@ class ChamferLeg(Equation):
         return extent - at.side(self.side) * at.radius(self.size)
 
     def senses(self, at: Lookup) -> tuple[Any, ...]:
+        if self.between:
+            return (at.side(self.side) * sum(at.bearing(line)[self.axis] for line in self.between),)
         return (at.side(self.side) * way(at, self.advance, self.axis),)
 
     def sense_reads(self) -> tuple[str, ...]:
-        return *self.reads(), *(scalar(point, self.axis) for ends in self.advance for point in ends)
+        lines = (name for line in self.between for name in line_scalars(line)[:2])
+        return *self.reads(), *lines, *(scalar(point, self.axis) for ends in self.advance for point in ends)
 
 
 @dataclass(frozen=True, slots=True)

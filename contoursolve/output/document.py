@@ -21,6 +21,7 @@ def to_json(result: Result) -> str:
             "schema": "contoursolve/solve/1",
             "program": result.program.name,
             "control": result.control,
+            "rules": result.policy.value,
             "settings": {f"{result.control}.{name}": value for name, value in sorted(result.settings.items())},
             "contours": [_contour(answer) for answer in result.answers],
             "diagnostics": [finding_data(each, result) for each in result.diagnostics],

@@ -1,6 +1,7 @@
 """Modal state, and the way from blocks to profiles."""
 
 from contoursolve.reading.advance import Modes, advance, apply_modes, codes_of, positions
+from contoursolve.reading.beyond import leave, next_place
 from contoursolve.reading.claim import Claim, Selector, Trouble, read
 from contoursolve.reading.codes import Code, Effect
 from contoursolve.reading.form import CornerRow, FactRow, Form, Sample, lay_out, stated_sets
@@ -31,6 +32,8 @@ __all__ = [
     "apply_modes",
     "codes_of",
     "lay_out",
+    "leave",
+    "next_place",
     "positions",
     "read",
     "stated_sets",

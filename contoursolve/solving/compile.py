@@ -31,7 +31,7 @@ from contoursolve.constraints import Collinear, Functions, Heading, System, Valu
 from contoursolve.model import FIRST, SECOND, Arc, Corner, Fact, Line, scalar
 from contoursolve.solving.corners import Edge, Pair, build_corner, unit
 from contoursolve.solving.plan import AffineStep, DistanceStep, LineCircleStep, Plan, Step, TwoCirclesStep, make_plan
-from contoursolve.tolerance import TOUCHING
+from contoursolve.tolerance import REGULAR, TOUCHING
 
 _FUNCTIONS = Functions(sqrt, cosine_of, sine_of)
 
@@ -171,13 +171,13 @@ class _Builder:
             before, earlier = arriving[corner.before], arriving[names[max(index - 1, 0)]]
             if corner.after is not None:
                 after = leaving[corner.after]
-                quadrant = _quadrant(before, after)
+                quadrant = _quadrant_between(before.direction, after.direction)
                 if before.spoke is None and after.spoke is None:
                     start, end = self.point(path[index].tail), self.point(path[index + 1].head)
                     quadrant = sign(end[FIRST] - start[FIRST]), sign(end[SECOND] - start[SECOND])
             elif corner.lands_on is not None:
                 after = Edge(self._direction_beside(self.system.figure.line(corner.lands_on)))
-                quadrant = _quadrant(before, after)
+                quadrant = _quadrant_between(before.direction, after.direction)
             else:
                 # It goes on the way its line advances on each axis, and a component that is zero is taken from the
                 # line before (YASNAC LX3, Tables 2.35 and 2.36).
@@ -228,7 +228,9 @@ class _Builder:
             return self._direction(line)
         at = self.at(self.scalars)
         tail, head = self.point(line.tail), (at.coordinate(line.head, FIRST), at.coordinate(line.head, SECOND))
-        return unit((head[FIRST] - tail[FIRST], head[SECOND] - tail[SECOND]))
+        step = head[FIRST] - tail[FIRST], head[SECOND] - tail[SECOND]
+        self.tape.output(f"length:{line.name}", sqrt(step[0] ** 2 + step[1] ** 2))
+        return unit(step)
 
     def _corner(self, corner: Corner, before: Edge, after: Edge, quadrant: Pair) -> list[str]:
         size, name = self.tape.input(corner.size), corner.name
@@ -263,6 +265,16 @@ def _quadrant(edge: Edge, other: Edge) -> Pair:
     """The way an edge advances on each axis; a component that is zero is taken from the other edge."""
     first, second = (
         where(is_zero(edge.direction[axis]), sign(other.direction[axis]), sign(edge.direction[axis]))
+        for axis in (FIRST, SECOND)
+    )
+    return first, second
+
+
+def _quadrant_between(arriving: Pair, leaving: Pair) -> Pair:
+    """The way between two directions on each axis, as `MeetsLine` says; where they cancel, that of the first."""
+    between = arriving[FIRST] + leaving[FIRST], arriving[SECOND] + leaving[SECOND]
+    first, second = (
+        where(magnitude(between[axis]) <= REGULAR, sign(arriving[axis]), sign(between[axis]))
         for axis in (FIRST, SECOND)
     )
     return first, second

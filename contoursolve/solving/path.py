@@ -64,7 +64,7 @@ def _check_corner(
     def refuse(kind: RefusalKind, **values: float) -> list[Refusal]:
         return [Refusal(kind, corner.name, (corner.size,), values)]
 
-    for name in filter(None, (corner.before, corner.after)):
+    for name in _elements(corner, out):
         if out[f"length:{name}"] <= LENGTH:
             return refuse(RefusalKind.CORNER_TOO_LARGE, limit=0.0, actual=size)
     if out.get(f"landing:{corner.name}") == 0:
@@ -144,8 +144,8 @@ def _largest(
     for name in _setbacks(corner, out):
         others = sum(_setbacks(other, out).get(name, 0.0) for other in figure.corners if other is not corner)
         taken[name] = others if others < out[f"length:{name}"] else 0.0
-    path = {element.name: element for element in figure.path}
-    if all(isinstance(path[name], Line) for name in taken):
+    arcs = {element.name for element in figure.path if isinstance(element, Arc)}
+    if not arcs & taken.keys():
         # Setbacks on lines are proportional to the size.
         setbacks = _setbacks(corner, out).items()
         rooms = ((out[f"length:{name}"] - taken[name], setback) for name, setback in setbacks if setback > 0)
@@ -163,11 +163,15 @@ BISECTIONS = 50
 
 
 def _setbacks(corner: Corner, out: Outputs) -> dict[str, float]:
-    """The length that a corner takes of each element of the path, mm."""
-    setbacks = {corner.before: out[f"setback-in:{corner.name}"]}
-    if corner.after is not None:
-        setbacks[corner.after] = out[f"setback-out:{corner.name}"]
-    return setbacks
+    """The length that a corner takes of each element that has two ends, mm."""
+    setbacks = out[f"setback-in:{corner.name}"], out[f"setback-out:{corner.name}"]
+    return dict(zip(_elements(corner, out), setbacks, strict=False))
+
+
+def _elements(corner: Corner, out: Outputs) -> list[str]:
+    """The elements that a corner joins, as far as they have two ends."""
+    after = corner.after or corner.lands_on
+    return [corner.before, *([after] if after and f"length:{after}" in out else [])]
 
 
 def _difference(a: Point, b: Point) -> Point:

@@ -394,6 +394,9 @@ def givens_of(fact: Fact, system: System) -> tuple[str, ...]:
 def compare_fact(fact: Fact, off: float, profile: Profile, system: System, at: Values) -> Refusal | Remark | None:
     """What to say of a fact that was not needed and is off by so much (mm) at the points that the others give."""
     if isinstance(fact, OnCircle) and not fact.given:
+        # The residual is the difference of the radii to first order only.
+        away = (float(at.coordinate(fact.point, axis) - at.coordinate(fact.center, axis)) for axis in (FIRST, SECOND))
+        off = abs(hypot(*away) - float(at.radius(fact.radius)))
         values = {"limit": RADIUS_DIFFERENCE, "actual": off, "off_by_mm": off}
         if not off <= RADIUS_DIFFERENCE:
             return Refusal(RefusalKind.RADIUS_DIFFERENCE, fact.point, givens_of(fact, system), values)

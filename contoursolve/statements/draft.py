@@ -197,12 +197,11 @@ class Draft:
                 Foot(after, end, center, corner=corner.at, way=-1),
             )
         else:
+            advance = () if corner.lands_on else self._advance(corner)
+            between = (before, after) if corner.lands_on else ()
             self.add(Through(before, begin), Through(after, end))
             self.add(
-                *(
-                    ChamferLeg(begin, end, size, f"{name}.{axis}", axis, self._advance(corner))
-                    for axis in (FIRST, SECOND)
-                )
+                *(ChamferLeg(begin, end, size, f"{name}.{axis}", axis, advance, between) for axis in (FIRST, SECOND))
             )
         self.figure = replace(self.figure, points=(*self.figure.points, *points), radii=(*self.figure.radii, size))
 

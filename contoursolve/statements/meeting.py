@@ -18,7 +18,15 @@ class Meeting:
 
 @dataclass(frozen=True, slots=True)
 class MeetsLine:
-    """A last corner joins its line to this one."""
+    """A last corner joins its line to this one.
+
+    A 45 degree chamfer runs in the quadrant of the direction midway between the two lines: of the four, the one
+    that is nearest to equal setbacks, and the only one that fits unless the path turns by more than 90 degrees. For a
+    line parallel to an axis this is what the manual's tables say. Where the two directions cancel along an axis, so
+    that two quadrants are equally near, it goes on there as the line before it; if the size is asked for, that stays
+    undecided. A line to a place must be long
+    enough for the corner.
+    """
 
     corner: str
     line: Meeting

@@ -3,7 +3,7 @@
 It reads programs with the same tables as the solver, and shares none of its equations and formulas.
 """
 
-from contoursolve.verification.document import CannotVerifyError, Document, read_document
+from contoursolve.verification.document import CannotVerifyError, Document, document_of_blocks, read_document
 from contoursolve.verification.receipt import ContourReceipt, Receipt, Verdict, to_json
 from contoursolve.verification.report import report_lines
 from contoursolve.verification.verify import verify
@@ -14,6 +14,7 @@ __all__ = [
     "Document",
     "Receipt",
     "Verdict",
+    "document_of_blocks",
     "read_document",
     "report_lines",
     "to_json",

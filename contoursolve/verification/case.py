@@ -8,7 +8,7 @@ from math import floor, log10
 from contoursolve.model import FIRST, SECOND, Arc, Turn
 from contoursolve.reading import Claim
 from contoursolve.tolerance import ERROR_BOUND_WARNING, RESIDUAL
-from contoursolve.verification.claimed import ClaimedContour, ClaimedElement
+from contoursolve.verification.claimed import ClaimedContour, ClaimedElement, Rules
 from contoursolve.verification.facts import StatedFact
 from contoursolve.verification.ledger import Ledger
 from contoursolve.verification.measure import EPSILON, PRINTED, ROUNDING
@@ -50,7 +50,7 @@ class Case:
     contour has those that select it, and tells no branch (`is_listed`). `is_selected` tells that words
     that are not needed to fix the points select them from other solutions. `grain` (mm) is what the numbers lost
     when they were written with as many decimals as the certificate's radius leaves a meaning. `next_end` is where
-    the line of the next block ends, if the program tells it.
+    the line of the next block ends, if the program tells it. `rules` is the policy that the result names, if it does.
     """
 
     claim: Claim
@@ -68,6 +68,7 @@ class Case:
     is_selected: bool = False
     grain: float = 0.0
     next_end: complex | None = None
+    rules: Rules | None = None
 
     @property
     def limit(self) -> float:

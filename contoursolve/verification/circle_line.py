@@ -11,7 +11,7 @@ from contoursolve.tolerance import AGREEMENT, RADIUS_DIFFERENCE
 from contoursolve.verification import circle_line_stated
 from contoursolve.verification.case import Case, Circle, turn_of
 from contoursolve.verification.circle_line_stated import ANGLE, CENTER, CHOICE, END, POINT
-from contoursolve.verification.claimed import ClaimedStatus
+from contoursolve.verification.claimed import ClaimedStatus, Rules
 from contoursolve.verification.ledger import Ledger
 from contoursolve.verification.measure import ROUNDING, cross, direction, dot
 
@@ -19,7 +19,7 @@ READ = frozenset((*CENTER, *POINT, *END, ANGLE, CHOICE, "1:R", "1:point"))
 
 
 @dataclass(frozen=True, slots=True)
-class _Crossings:
+class Crossings:
     """Where the line meets the circle, worked out here.
 
     `foot` is the point of the line that is closest to the centre, `half` (mm) how far each intersection is
@@ -49,7 +49,7 @@ def check(case: Case, ledger: Ledger) -> None:
     known = ledger.require("the point is P1", (), case.points.keys() == {"P1"}, names)
     made = ledger.require("the elements are an arc and a line", (), shapes in ([True, False], [True]), found)
     missing = [name for name in (*END, ANGLE) if not case.states(name)]
-    missing += [CHOICE] if not case.states(CHOICE) and CHOICE not in case.choices else []
+    missing += [] if case.states(CHOICE) or case.is_listed or not needs_sign(case) else [CHOICE]
     stated = ledger.require("the line has its words", (), not missing, f"{len(missing)} missing")
     circle = case.moves[0].circle if case.moves else None
     if not (known and made and stated and circle):
@@ -79,7 +79,7 @@ def _check_circle(case: Case, ledger: Ledger, circle: Circle) -> None:
     if has_radius:
         limit = AGREEMENT if both else case.limit
         ledger.measure("the radius is the one given", case.texts("1:R"), circle.radius - case.amount("1:R"), limit)
-    point = _point(case)
+    point = given_point(case)
     if point is None:
         ledger.require("a radius comes with a point", words, has_center, "R alone")
     elif has_center:
@@ -90,7 +90,7 @@ def _check_circle(case: Case, ledger: Ledger, circle: Circle) -> None:
         _check_center_by_radius(case, ledger, circle, point)
 
 
-def _point(case: Case) -> complex | None:
+def given_point(case: Case) -> complex | None:
     """The point of the circle that the arc's block gives, if any."""
     found = []
     for axis, absolute, step in ((FIRST, *POINT[:2]), (SECOND, *POINT[2:])):
@@ -108,7 +108,7 @@ def _check_center_by_radius(case: Case, ledger: Ledger, circle: Circle, point: c
     name = "the circle passes through start and point"
     if not ledger.require(name, words, 0 < chord <= 2 * radius + case.limit, f"{chord:g} mm apart"):
         return
-    rise, unsure = _leg(radius, chord / 2, ROUNDING * (radius + chord) + case.start_error)
+    rise, unsure = leg(radius, chord / 2, ROUNDING * (radius + chord) + case.start_error)
     left = (case.choices.get("1:R", -1) > 0) == (circle.turn.sign > 0)
     center = point / 2 + rise * point / chord * (1j if left else -1j)
     if rise <= unsure:
@@ -117,7 +117,7 @@ def _check_center_by_radius(case: Case, ledger: Ledger, circle: Circle, point: c
     case.compare(ledger, "the centre is where the words put it", words, abs(circle.center - center), unsure)
 
 
-def _leg(hypotenuse: float, leg: float, unsure: float) -> tuple[float, float]:
+def leg(hypotenuse: float, leg: float, unsure: float) -> tuple[float, float]:
     """The other leg of a right-angled triangle, mm, and what an error of the first two does to it."""
     rest = (hypotenuse - leg) * (hypotenuse + leg)
     found = sqrt(max(0.0, rest))
@@ -141,12 +141,17 @@ def _check_crossing(case: Case, ledger: Ledger, circle: Circle) -> None:
     crossing, branch = case.points["P1"], case.claimed.branch
     ledger.measure("P1 lies on the circle", (), abs(crossing - circle.center) - circle.radius, case.limit)
     words, choice = case.texts(CHOICE), case.choices.get(CHOICE, 0)
-    if not ledger.require("Q has a sign", words, bool(choice), "Q is zero"):
-        return
-    meant = "nearer" if choice < 0 else "farther"
-    meeting = _crossings(case, circle)
+    meeting = crossings(case, circle)
     if not ledger.require("the line meets the circle", case.texts(ANGLE, *END), meeting is not None) or not meeting:
         return
+    # A line that touches leaves nothing to choose to a solution that is listed.
+    is_chosen = bool(choice) or not needs_sign(case) or (case.is_listed and meeting.touches is True)
+    if not ledger.require("Q has a sign", words, is_chosen, "Q is zero or missing"):
+        return
+    if not choice:
+        _check_unchosen(case, ledger, meeting)
+        return
+    meant = "nearer" if choice < 0 else "farther"
     if case.is_listed:
         branch = None if meeting.touches else meant
     allowed = {True: (None,), False: (meant,), None: (None, meant)}[meeting.touches]
@@ -167,7 +172,20 @@ def _check_crossing(case: Case, ledger: Ledger, circle: Circle) -> None:
         ledger.measure("the other intersection is on the other side", words, max(0.0, -ahead), case.limit)
 
 
-def _crossings(case: Case, circle: Circle) -> _Crossings | None:
+def needs_sign(case: Case) -> bool:
+    """Whether Q must choose: where the rules are not enforced, the other crossing may be none of a path."""
+    return case.rules not in (Rules.WARN, Rules.OFF)
+
+
+def _check_unchosen(case: Case, ledger: Ledger, meeting: Crossings) -> None:
+    """Without Q, P1 is either of the intersections; that there is no other path is looked at apart."""
+    along, crossing = direction(case.value(ANGLE)), case.points["P1"]
+    ledger.require("no branch is chosen without Q", (), case.claimed.branch is None, f"{case.claimed.branch!a}"[:60])
+    gaps = [abs(crossing - meeting.foot - sense * meeting.half * along) for sense in (1, -1)]
+    case.compare(ledger, "P1 is an intersection", case.texts(ANGLE, *END), min(gaps), meeting.unsure)
+
+
+def crossings(case: Case, circle: Circle) -> Crossings | None:
     """The two intersections, counted from the line's end; None where the line misses the circle."""
     along = direction(case.value(ANGLE))
     end = complex(*(case.coordinate(name, axis) for axis, name in enumerate(END)))
@@ -183,5 +201,5 @@ def _crossings(case: Case, circle: Circle) -> _Crossings | None:
         touches = False
         if gap < 0:
             return None
-    half, unsure = _leg(circle.radius, abs(distance), band + case.start_error)
-    return _Crossings(foot, half, unsure, touches)
+    half, unsure = leg(circle.radius, abs(distance), band + case.start_error)
+    return Crossings(foot, half, unsure, touches)

@@ -21,6 +21,15 @@ class ClaimedStatus(Enum):
     UNDECIDED = "undecided"
 
 
+class Rules(Enum):
+    """What the rules of the manual did to a block that they refuse: it was not solved; it was, with a warning; they
+    were not applied."""
+
+    ENFORCE = "enforce"
+    WARN = "warn"
+    OFF = "off"
+
+
 class ElementKind(Enum):
     """What an element of a path is."""
 
@@ -56,13 +65,14 @@ class ClaimedCertificate:
     """How well the result says its points are known: `radius` in mm, None where it names none.
 
     `reason` says why there is no better one. `double` tells that two solutions have become one; None where the
-    result does not tell.
+    result does not tell. `gap` (mm) is then how far they are from that.
     """
 
     kind: str
     radius: float | None
     reason: str | None = None
     double: bool | None = None
+    gap: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,6 +133,33 @@ class ClaimedCount:
 
 
 @dataclass(frozen=True, slots=True)
+class ClaimedFreedom:
+    """A point that can move: along a unit vector and at an angle in degrees, or anywhere if both are None."""
+
+    point: str
+    direction: Coordinates | None
+    angle: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class ClaimedTie:
+    """Words that say the same, by their addresses, and by how much they disagree, mm."""
+
+    addresses: tuple[str, ...]
+    off_by_mm: float
+    is_conflict: bool
+
+
+@dataclass(frozen=True, slots=True)
+class ClaimedDiagnosis:
+    """What can still move, and which words say the same; `ties_complete` tells that all of these are named."""
+
+    freedoms: tuple[ClaimedFreedom, ...]
+    ties: tuple[ClaimedTie, ...]
+    ties_complete: bool
+
+
+@dataclass(frozen=True, slots=True)
 class ClaimedContour:
     """One contour of the result; the coordinates of `start` are None where the result does not know them."""
 
@@ -140,6 +177,7 @@ class ClaimedContour:
     filled: ClaimedFilled | None = None
     solutions: tuple[ClaimedSolution, ...] | None = None
     count: ClaimedCount | None = None
+    diagnosis: ClaimedDiagnosis | None = None
 
     @property
     def has_path(self) -> bool:
@@ -150,7 +188,9 @@ class ClaimedContour:
 
 @dataclass(frozen=True, slots=True)
 class ClaimedResult:
-    """Everything of a result that can be checked; `control` is None where it names none."""
+    """Everything of a result that can be checked; `control` is None where it names none, `rules` where it does not
+    say under which policy it was made."""
 
     control: str | None
+    rules: Rules | None
     contours: tuple[ClaimedContour, ...]

@@ -1,14 +1,16 @@
 """One contour of a result against its block: where it stands, its path if it claims one, and all its solutions."""
 
 from collections import Counter
+from collections.abc import Sequence
 
 from contoursolve.reading import Claim
 from contoursolve.tolerance import RESIDUAL
-from contoursolve.verification.claimed import ClaimedContour
+from contoursolve.verification.claimed import ClaimedAsked, ClaimedContour
 from contoursolve.verification.examination import examine
 from contoursolve.verification.ledger import Ledger
 from contoursolve.verification.measure import ROUNDING
 from contoursolve.verification.solutions import check_solutions
+from contoursolve.verification.status import check_diagnosis, check_status
 from contoursolve.verification.walk import Found
 
 
@@ -24,10 +26,16 @@ def check_contour(found: Found, claimed: ClaimedContour) -> tuple[Ledger, bool]:
         is_checked, status = False, claimed.status.value
         ledger.require("a contour with this status has no path", (), claimed.path.is_empty, f"{status}, with a path")
         ledger.omit("the path", f"claimed {status}: there is none to check")
-        ledger.omit("the status", "whether the block can be solved was not examined")
+        given = (claimed.certificate.radius, claimed.certificate.gap, claimed.branch)
+        is_bare = all(each is None for each in given)
+        ledger.require("without a path nothing is certified or chosen", (), is_bare, "something is")
         values = [each.word for each in claimed.asked or () if each.value is not None]
         ledger.require("without a path no value is known", values, not values, "the result answers what is asked for")
         ledger.require("without a path nothing is filled in", (), claimed.filled is None, "there are filled blocks")
+    for asked in (claimed.asked, *(each.asked for each in claimed.solutions or ())):
+        _check_questions(claim, asked or (), ledger)
+    is_checked |= check_status(found, claimed, ledger)
+    check_diagnosis(found, claimed, ledger)
     return ledger, check_solutions(found, claimed, ledger) or is_checked
 
 
@@ -51,6 +59,15 @@ def _check_start(claim: Claim, claimed: ClaimedContour, ledger: Ledger) -> None:
         else:
             limit = RESIDUAL + ROUNDING * abs(float(known))
             ledger.measure(name, (), value - float(known), limit)
+
+
+def _check_questions(claim: Claim, asked: Sequence[ClaimedAsked], ledger: Ledger) -> None:
+    """Every answer is to a question that the program asks there."""
+    places = [(word.text, word.span.line) for word in claim.words.values() if word.is_asked]
+    places += [(each.text, each.span.line) for each in claim.directives]
+    for each in asked:
+        is_known = (each.word, each.line) in places
+        ledger.require("what is answered is asked there", [each.word], is_known, f"not on line {each.line}")
 
 
 def _check_facts(claim: Claim, claimed: ClaimedContour, ledger: Ledger) -> None:

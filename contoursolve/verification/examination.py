@@ -4,7 +4,6 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from contoursolve.reading import Claim
-from contoursolve.syntax import FaultKind
 from contoursolve.tolerance import LARGEST
 from contoursolve.verification.case import Case, make_case
 from contoursolve.verification.claimed import ClaimedContour
@@ -13,6 +12,7 @@ from contoursolve.verification.filled import check_filled
 from contoursolve.verification.forms import CHECKERS
 from contoursolve.verification.ledger import Ledger
 from contoursolve.verification.path import check_certificate, check_path
+from contoursolve.verification.refusals import HARMLESS
 from contoursolve.verification.walk import Found
 
 
@@ -33,14 +33,15 @@ def examine(found: Found, claimed: ClaimedContour, ledger: Ledger, selected: Map
     case = make_case(claim, claimed, (first, second), found.start_error)
     case = replace(
         case,
-        facts=read_facts(claim, checker.elements, checker.points),
+        facts=read_facts(claim, checker.elements, checker.points, found.apart),
         choices=signs_of(claim, checker.choosing) if selected is None else selected,
         is_listed=selected is not None,
         is_selected=_is_selected(claimed),
         next_end=case.place(found.next_end) if found.next_end else None,
+        rules=found.rules,
     )
     check_path(case, ledger)
-    check_certificate(case, ledger)
+    check_certificate(claimed.certificate, case.limit, ledger)
     if _check_words(case, ledger, checker.reads) and check_readable(case.facts, ledger):
         checker.check(case, ledger)
         check_filled(case, ledger, checker, found.dialect)
@@ -62,7 +63,7 @@ def signs_of(claim: Claim, names: tuple[str, ...]) -> dict[str, int]:
 def _check_words(case: Case, ledger: Ledger, reads: frozenset[str]) -> bool:
     """Whether the blocks can be read at all; words that the form's checker does not look at are listed."""
     claim = case.claim
-    faults = [fault.text for block in claim.blocks for fault in block.faults if fault.kind not in _HARMLESS]
+    faults = [fault.text for block in claim.blocks for fault in block.faults if fault.kind not in HARMLESS]
     variables = [word.text for word in claim.words.values() if word.number is None and not word.is_asked]
     # Beyond all travel, and beyond what decimals of 28 digits can reduce to one turn.
     large = [given.word.text for given in claim.givens.values() if given.word and abs(given.value) > LARGEST]
@@ -72,6 +73,3 @@ def _check_words(case: Case, ledger: Ledger, reads: frozenset[str]) -> bool:
             ledger.omit(word.text, "what it does to a contour of this form is not checked")
     remark = "they have no value or no meaning, or are too large"
     return ledger.require("every word can be read", unreadable, not unreadable, remark)
-
-
-_HARMLESS = (FaultKind.COMMENT_NOT_CLOSED,)

@@ -21,23 +21,20 @@ of a difference, and far enough below the radius of any curve."""
 class StatedFact:
     """A fact of a contour. `fact` is None if it cannot be read; `problem` then says why.
 
-    A fact that only the result states has a line below zero.
+    `is_known` tells that the program states it, or that it was given with the program; otherwise only the result
+    states it. What is not in the program itself has a line below zero.
     """
 
     text: str
     line: int
     fact: Fact | None
+    is_known: bool
     problem: str = ""
-
-    @property
-    def is_in_program(self) -> bool:
-        """Whether the program states it; otherwise it was given apart, and only the result knows it."""
-        return self.line > 0
 
     @property
     def label(self) -> str:
         """What checks call it."""
-        return self.text if self.is_in_program else f"{self.text} (stated in the result only)"
+        return self.text if self.is_known else f"{self.text} (stated in the result only)"
 
     @property
     def is_asked(self) -> bool:
@@ -50,8 +47,8 @@ class StatedFact:
         return self.fact is not None and not self.is_asked and not isinstance(self.fact, MeetsLine)
 
 
-def read_facts(claim: Claim, elements: Sequence[str], points: Sequence[str]) -> tuple[StatedFact, ...]:
-    """The facts of a contour whose elements and points have these names."""
+def read_facts(claim: Claim, elements: Sequence[str], points: Sequence[str], apart: int) -> tuple[StatedFact, ...]:
+    """The facts of a contour whose elements and points have these names; so many were given apart."""
     words = Vocabulary(elements, points, claim.after.plane, claim.after.unit)
     found = []
     for directive in claim.directives:
@@ -62,14 +59,15 @@ def read_facts(claim: Claim, elements: Sequence[str], points: Sequence[str]) -> 
             problem = str(error)
         if fact and any(abs(value) > LARGEST for value in numbers(fact)):
             fact, problem = None, "a number is too large"
-        found.append(StatedFact(directive.text, directive.span.line, fact, problem))
+        line = directive.span.line
+        found.append(StatedFact(directive.text, line, fact, line >= -apart, problem))
     return tuple(found)
 
 
 def check_readable(facts: Sequence[StatedFact], ledger: Ledger) -> bool:
-    """Every fact can be read; those that the program does not have are listed."""
+    """Every fact can be read; those that nothing but the result has are listed."""
     for each in facts:
-        if not each.is_in_program:
+        if not each.is_known:
             ledger.omit(f"the fact {each.text}", "stated in the result only: checked, but not known from the program")
     unreadable = [each for each in facts if each.fact is None]
     remark = "; ".join(f"{each.text}: {each.problem}" for each in unreadable)

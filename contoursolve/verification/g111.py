@@ -11,7 +11,7 @@ from contoursolve.model import FIRST, SECOND
 from contoursolve.statements import MeetsLine
 from contoursolve.verification.asked import check_asked
 from contoursolve.verification.case import Case
-from contoursolve.verification.claimed import ClaimedStatus
+from contoursolve.verification.claimed import ClaimedStatus, Rules
 from contoursolve.verification.determination import check_statements
 from contoursolve.verification.drawing import Drawing
 from contoursolve.verification.facts import Sight, statements
@@ -35,23 +35,26 @@ READ = frozenset((*LINE_1, *LINE_2, *_SIZES))
 def check(case: Case, ledger: Ledger) -> None:
     """Everything that the words and facts of the block say about the path.
 
-    A contour that is claimed overdetermined may have been solved with the notes of the manual or without them:
-    the result does not say it.
+    Where the result does not say under which rules it was made, a contour that is claimed overdetermined may have
+    been solved with the notes of the manual or without them.
     """
     names = ", ".join(sorted(map(ascii, case.points))) or "none"
     if not ledger.require("the points are V1 and V2", (), case.points.keys() == {"V1", "V2"}, names):
         ledger.omit("the words of the block", "they are about V1 and V2")
         return
     ledger.require("there is no choice of branch", (), case.claimed.branch is None, f"{case.claimed.branch!a}")
-    ignored = _ignored(case)
+    ignored = ignored_words(case)
     readings = [ignored]
-    if ignored and case.claimed.status is ClaimedStatus.OVERDETERMINED:
+    if case.rules is None and ignored and case.claimed.status is ClaimedStatus.OVERDETERMINED:
         readings = [{}, ignored] if case.is_extended else [{}]
     ledger.add(fewest(partial(_reading, case, each) for each in readings))
 
 
-def _ignored(case: Case) -> dict[str, str]:
-    """The words that the control ignores (supplementary notes v and vi), and why."""
+def ignored_words(case: Case) -> dict[str, str]:
+    """The words that the control ignores (supplementary notes v and vi), and why; none where the result was made
+    without the rules of the manual."""
+    if case.rules is Rules.OFF:
+        return {}
     stated = set(case.states(*LINE_1, *LINE_2))
     ignored: dict[str, str] = {}
     has_whole_end = bool(stated & set(END_X)) and bool(stated & set(END_Z))
@@ -119,15 +122,19 @@ def _values(case: Case, lines: Lines, sizes: Sizes) -> dict[str, Quantity]:
 
 def redo(case: Case) -> Drawing | None:
     """The contour of the words alone, near the claimed one; None if they do not fix it."""
-    used = tuple(name for name in case.states(*LINE_1, *LINE_2) if name not in _ignored(case))
+    used = tuple(name for name in case.states(*LINE_1, *LINE_2) if name not in ignored_words(case))
     lines = _lines(case, used, (case.points["V1"], case.points["V2"]))
     stated = list(_statements(case, used, lines))
     moved = displacement(stated, UNKNOWNS)
     if moved.rank < UNKNOWNS:
         return None
-    first, second = complex(*moved.moves[:2]), complex(*moved.moves[2:])
+    return drawn_at(case, used, lines.v1 - complex(*moved.moves[:2]), lines.v2 - complex(*moved.moves[2:]))
+
+
+def drawn_at(case: Case, used: tuple[str, ...], v1: complex, v2: complex) -> Drawing:
+    """The drawing with V1 and V2 there. Raises UnmeasurableError for a corner that does not exist."""
     sizes = {name: case.amount(name) for name in case.states(*_SIZES) if case.value(name)}
-    return draw(_lines(case, used, (lines.v1 - first, lines.v2 - second)), sizes)
+    return draw(_lines(case, used, (v1, v2)), sizes)
 
 
 def _lines(case: Case, used: tuple[str, ...], points: tuple[complex, complex]) -> Lines:
@@ -162,11 +169,12 @@ def _meeting(case: Case, v2: complex) -> Meeting | None:
 def _statements(case: Case, used: tuple[str, ...], lines: Lines) -> Iterator[Statement]:
     """What each word says about Z and X of V1 and V2; sizes that are asked for change nothing of it."""
     v1, v2 = lines.v1, lines.v2
-    for each in _of_points(case, used, v1, v2):
+    for each in statements_at(case, used, v1, v2):
         yield replace(each, gradient=(*each.gradient, *(0.0 for name in _SIZES if name in case.asked)))
 
 
-def _of_points(case: Case, used: tuple[str, ...], v1: complex, v2: complex) -> Iterator[Statement]:
+def statements_at(case: Case, used: tuple[str, ...], v1: complex, v2: complex) -> Iterator[Statement]:
+    """What each word says about Z and X of V1 and V2 there."""
     for name in used:
         (word,) = case.texts(name)
         match name:

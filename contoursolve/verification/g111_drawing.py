@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from math import atan2, tan
 
 from contoursolve.model import Turn
+from contoursolve.tolerance import REGULAR
 from contoursolve.verification.case import Move
 from contoursolve.verification.drawing import Bevel, Drawing, Round, Shape, Straight, UnmeasurableError
 from contoursolve.verification.measure import cross, dot, sign
@@ -52,7 +53,14 @@ class Lines:
     @property
     def onward(self) -> complex:
         """The signs with which a path goes on after V2: Tables 2.35 and 2.36, a component that line 2 lacks is
-        taken from line 1."""
+        taken from line 1. To a line that a fact states: those midway between line 2 and that line; a component in
+        which the two cancel is taken from line 2."""
+        if self.meeting is not None:
+            middle = self.second + self.meeting.along
+            return complex(
+                sign(middle.real, REGULAR) or sign(self.second.real),
+                sign(middle.imag, REGULAR) or sign(self.second.imag),
+            )
         return complex(
             sign(self.second.real) or sign(self.first.real, self.zero),
             sign(self.second.imag) or sign(self.first.imag, self.zero),

@@ -1,7 +1,10 @@
 """What holds for every path, whatever its form: no gaps, nothing without length, arcs on their circles."""
 
+from math import floor, log10
+
 from contoursolve.tolerance import LENGTH
 from contoursolve.verification.case import Case
+from contoursolve.verification.claimed import ClaimedCertificate
 from contoursolve.verification.ledger import Ledger
 from contoursolve.verification.measure import PRINTED
 
@@ -29,14 +32,28 @@ def check_path(case: Case, ledger: Ledger) -> None:
         ledger.measure(f"the contour ends at {name}", (), abs((case.end or 0j) - here), case.limit)
 
 
-def check_certificate(case: Case, ledger: Ledger) -> None:
-    """What can be said of the certificate alone; its radius is held against every point that is worked out."""
-    certificate = case.claimed.certificate
-    named = certificate.kind in CERTIFICATE_KINDS
-    ledger.require("the certificate is of a known kind", (), named, f"{ascii(certificate.kind)[:60]}")
-    if certificate.kind == "unknown" and certificate.reason is not None:
+def check_certificate(certificate: ClaimedCertificate, limit: float, ledger: Ledger) -> None:
+    """What can be said of a certificate alone; its radius is held against every point that is worked out.
+
+    `limit` (mm) is how much is next to nothing.
+    """
+    kind, radius = certificate.kind, certificate.radius
+    named = kind in CERTIFICATE_KINDS
+    ledger.require("the certificate is of a known kind", (), named, ascii(kind)[:60])
+    if kind == "unknown" and certificate.reason is not None:
         ledger.require("the certificate says why it proves nothing", (), bool(certificate.reason), "there is no reason")
-    if certificate.radius is None:
+    if certificate.gap is not None:
+        ledger.measure("the certificate calls double what just touches", (), certificate.gap, limit)
+    if radius is None:
         ledger.omit("the certificate", "it names no radius")
-    else:
-        ledger.require("the certificate's radius is not negative", (), certificate.radius >= 0, "it is")
+        return
+    ledger.require("the certificate's radius is not negative", (), radius >= 0, "it is")
+    is_exact = (radius == 0) == (kind == "exact")
+    ledger.require("the certificate is exact if its radius is 0, and only then", (), is_exact, f"{radius:g} mm")
+    if radius > 0:
+        digit = radius / 10.0 ** floor(log10(radius))
+        ledger.require("the certificate's radius has one digit", (), abs(digit - round(digit)) < DIGIT, repr(radius))
+
+
+DIGIT = 1e-12
+"""1. The rounding of a number of one digit."""

@@ -6,6 +6,7 @@ from enum import Enum
 from typing import Any
 
 from contoursolve.model import Length
+from contoursolve.verification.claimed import Rules
 from contoursolve.verification.document import Document
 from contoursolve.verification.ledger import Check, Omission
 
@@ -16,11 +17,11 @@ class Verdict(Enum):
     """The answer; that nothing was checked is not the same as that nothing is wrong."""
 
     VERIFIED = "verified"
-    """A path was checked, and everything that was checked is right."""
+    """A path was checked, or why there is none, and everything that was checked is right."""
     FAILED = "failed"
     """Something is wrong."""
     NOTHING_CHECKED = "nothing-checked"
-    """Nothing is wrong, but there was no path to check."""
+    """Nothing is wrong, but there was no path to check, and why there is none was not worked out."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,7 +39,10 @@ class ContourReceipt:
 
 @dataclass(frozen=True, slots=True)
 class Receipt:
-    """The verdict on a result, with the bytes that it is about; `control` is None where neither input tells."""
+    """The verdict on a result, with the bytes that it is about; `control` is None where neither input tells.
+
+    `rules` is the policy that the result names; `start` and `facts` are what was given apart from the program.
+    """
 
     program: Document
     result: Document
@@ -46,6 +50,9 @@ class Receipt:
     unit: Length
     contours: tuple[ContourReceipt, ...]
     omissions: tuple[Omission, ...]
+    rules: Rules | None = None
+    start: str | None = None
+    facts: tuple[str, ...] = ()
 
     @property
     def verdict(self) -> Verdict:
@@ -66,6 +73,9 @@ def to_json(receipt: Receipt) -> str:
         "result": _document(receipt.result),
         "control": receipt.control,
         "units": receipt.unit.value,
+        "rules": receipt.rules.value if receipt.rules else None,
+        "start": receipt.start,
+        "facts": list(receipt.facts),
         "contours": [_contour(each) for each in receipt.contours],
         "not_checked": [_omission(each) for each in receipt.omissions],
     }

@@ -9,7 +9,7 @@ from contoursolve.verification.receipt import ContourReceipt, Receipt, Verdict
 _VERDICTS = {
     Verdict.VERIFIED: "verified",
     Verdict.FAILED: "WRONG",
-    Verdict.NOTHING_CHECKED: "no path checked",
+    Verdict.NOTHING_CHECKED: "not checked",
 }
 
 
@@ -58,9 +58,9 @@ def _summary(receipt: Receipt) -> str:
     counts = ", ".join(f"{verdicts.count(each)} {_VERDICTS[each]}" for each in Verdict if each in verdicts)
     examined = f"{_count(len(verdicts), 'contour')} ({counts})" if verdicts else "no contour"
     meaning = {
-        Verdict.VERIFIED: "every claimed path is right",
+        Verdict.VERIFIED: "every claim that was checked is right",
         Verdict.FAILED: "the result is not right",
-        Verdict.NOTHING_CHECKED: "checked nothing: the result claims no path that could be checked",
+        Verdict.NOTHING_CHECKED: "checked nothing: the result claims nothing that could be checked",
     }
     return f"{examined}; {meaning[receipt.verdict]}"
 

@@ -7,13 +7,17 @@ from contoursolve.verification.claimed import (
     ClaimedCertificate,
     ClaimedContour,
     ClaimedCount,
+    ClaimedDiagnosis,
     ClaimedElement,
     ClaimedFilled,
+    ClaimedFreedom,
     ClaimedPath,
     ClaimedResult,
     ClaimedSolution,
     ClaimedStatus,
+    ClaimedTie,
     ElementKind,
+    Rules,
 )
 from contoursolve.verification.document import Document
 from contoursolve.verification.node import Node, read_json, shown
@@ -30,9 +34,10 @@ def read_result(document: Document) -> ClaimedResult:
     schema = root.field("schema").text()
     if schema != SCHEMA:
         root.field("schema").refuse(f"{shown(schema)} where {SCHEMA!r} is read: write it by 'solve --format json'")
-    control = root.field("control").optional()
+    control, rules = root.field("control").optional(), root.maybe("rules")
     return ClaimedResult(
         control.text() if control else None,
+        Rules(rules.choice(tuple(each.value for each in Rules))) if rules else None,
         tuple(_contour(node) for node in root.field("contours").items()),
     )
 
@@ -41,7 +46,7 @@ def _contour(node: Node) -> ClaimedContour:
     branch = node.field("branch").optional()
     starts = (each.optional() for each in node.field("start").pair())
     facts, asked, filled = node.maybe("facts"), node.maybe("asked"), node.maybe("filled")
-    solutions, count = node.maybe("solutions"), node.maybe("count")
+    solutions, count, diagnosis = node.maybe("solutions"), node.maybe("count"), node.maybe("diagnosis")
     return ClaimedContour(
         line=node.field("line").integer(),
         lines=tuple(each.integer() for each in node.field("lines").items()),
@@ -57,6 +62,31 @@ def _contour(node: Node) -> ClaimedContour:
         filled=_filled(filled) if filled else None,
         solutions=tuple(_solution(each) for each in solutions.items()) if solutions else None,
         count=_count(count) if count else None,
+        diagnosis=_diagnosis(diagnosis) if diagnosis else None,
+    )
+
+
+def _diagnosis(node: Node) -> ClaimedDiagnosis:
+    return ClaimedDiagnosis(
+        freedoms=tuple(_freedom(each) for each in node.field("freedoms").items()),
+        ties=tuple(
+            ClaimedTie(
+                _texts(each.field("addresses")),
+                each.field("off_by_mm").number(),
+                each.field("is_conflict").boolean(),
+            )
+            for each in node.field("ties").items()
+        ),
+        ties_complete=node.field("ties_complete").boolean(),
+    )
+
+
+def _freedom(node: Node) -> ClaimedFreedom:
+    direction, angle = node.field("direction").optional(), node.field("angle").optional()
+    return ClaimedFreedom(
+        point=node.field("point").text(),
+        direction=direction.coordinates() if direction else None,
+        angle=angle.number() if angle else None,
     )
 
 
@@ -73,13 +103,12 @@ def _certificate(node: Node) -> ClaimedCertificate:
     radius, reason = node.field("radius").optional(), node.maybe("reason")
     double = node.maybe("double")
     gap = double.field("gap_mm").optional() if double else None
-    if gap:
-        gap.number()
     return ClaimedCertificate(
         kind=node.field("kind").text(),
         radius=radius.number() if radius else None,
         reason=reason.text() if reason else None,
         double=double is not None if "double" in node.fields() else None,
+        gap=gap.number() if gap else None,
     )
 
 

@@ -22,6 +22,7 @@ from contoursolve.verification.filled import half_increment
 from contoursolve.verification.forms import CHECKERS
 from contoursolve.verification.ledger import Ledger, fewest
 from contoursolve.verification.measure import ROUNDING
+from contoursolve.verification.path import check_certificate
 from contoursolve.verification.walk import Found
 
 SHOWN = 0.5e-3
@@ -38,6 +39,10 @@ def check_solutions(found: Found, claimed: ClaimedContour, ledger: Ledger) -> bo
     numbered = list(enumerate(listed, 1))
     for number, each in numbered:
         own = f"solution {number}"
+        if each.is_chosen or not each.is_path:  # the others are looked at as a whole
+            certificate = Ledger()
+            check_certificate(each.certificate, _limit(each.path), certificate)
+            ledger.checks += [replace(check, name=f"{own}: {check.name}") for check in certificate.checks]
         if each.is_path:
             remark = "it claims to be one"
             ledger.require(f"{own} has a path", (), not each.path.is_empty, remark)
@@ -97,7 +102,6 @@ def _check_count(claimed: ClaimedContour, listed: tuple[ClaimedSolution, ...], l
     ledger.require(
         "the list is complete unless there is a doubt", (), count.is_complete != bool(count.doubts), "it is both"
     )
-    ledger.omit("whether these are all solutions", "their number was not worked out")
 
 
 def _check_chosen(found: Found, claimed: ClaimedContour, listed: tuple[ClaimedSolution, ...], ledger: Ledger) -> None:

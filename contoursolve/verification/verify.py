@@ -1,8 +1,9 @@
 """The order of a verification: read both inputs, follow the program, check every contour that either of them has."""
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
+from contoursolve import syntax
 from contoursolve.dialects import DIALECTS, Dialect, Unresolved
 from contoursolve.model import Length
 from contoursolve.syntax import Program
@@ -12,14 +13,19 @@ from contoursolve.verification.document import CannotVerifyError, Document, pars
 from contoursolve.verification.ledger import Ledger, Omission
 from contoursolve.verification.receipt import ContourReceipt, Receipt, Verdict
 from contoursolve.verification.result import read_result
-from contoursolve.verification.walk import Found, follow
+from contoursolve.verification.walk import Found, follow, with_facts
 
-_RULES = Omission(
-    "the rules of the manual", "only those that decide the path are; a result does not say which it was solved under"
-)
+_RULES = Omission("the rules of the manual", "the result does not say under which it was made")
 
 
-def verify(program: Document, result: Document, control: str | None = None, units: str = "mm") -> Receipt:
+def verify(
+    program: Document,
+    result: Document,
+    control: str | None = None,
+    units: str = "mm",
+    start: str | None = None,
+    facts: Sequence[str] = (),
+) -> Receipt:
     """Check every element of a claimed result against the words of the program.
 
     Args:
@@ -27,17 +33,23 @@ def verify(program: Document, result: Document, control: str | None = None, unit
         result: what `contoursolve solve PROGRAM --format json` printed for it.
         control: the control; without it the one that the result names.
         units: `mm` or `inch`, for numbers before any G20 or G21.
+        start: words that give the start point apart from the program, such as `X40. Z0.`.
+        facts: further facts about the only contour, as they were given to solve.
 
     Raises:
-        CannotVerifyError: an input is not what it should be, or the control is unknown.
+        CannotVerifyError: an input is not what it should be, the control is unknown, or facts are for several
+            contours.
     """
     blocks, claims, unit = parse_program(program), read_result(result), Length(units)
+    beginning = syntax.parse(start, program.name, first_line=0) if start is not None else None
     dialect = _dialect(blocks, claims, control)
+    if dialect and facts:
+        blocks = with_facts(blocks, dialect, unit, beginning, facts)
     contours: list[ContourReceipt] = []
     omissions: list[Omission] = []
     lines: set[int] = set()
     by_line = {contour.line: contour for contour in claims.contours}
-    for found in follow(blocks, dialect, unit, by_line) if dialect else ():
+    for found in follow(blocks, dialect, unit, by_line, claims.rules, beginning) if dialect else ():
         if isinstance(found, Unresolved):
             omissions.append(Omission(f"line {found.block.line}", f"{found.form} is not resolved by this version"))
         else:
@@ -45,9 +57,10 @@ def verify(program: Document, result: Document, control: str | None = None, unit
             contours.append(_examined(found))
     contours += _surplus(claims, lines)
     contours.sort(key=lambda each: each.line)
-    if any(contour.verdict is Verdict.VERIFIED for contour in contours):
+    if contours and claims.rules is None:
         omissions.append(_RULES)
-    return Receipt(program, result, dialect.name if dialect else None, unit, tuple(contours), tuple(omissions))
+    name, rules = dialect.name if dialect else None, claims.rules
+    return Receipt(program, result, name, unit, tuple(contours), tuple(omissions), rules, start, tuple(facts))
 
 
 def _dialect(program: Program, claims: ClaimedResult, control: str | None) -> Dialect | None:

@@ -1,0 +1,49 @@
+"""What lies behind a contour: where it leaves the tool, and where the line of the next block ends."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from decimal import Decimal
+
+from contoursolve.reading.advance import Modes, apply_modes, positions
+from contoursolve.reading.claim import Claim
+from contoursolve.reading.state import Position, State
+from contoursolve.syntax import Block, Word
+
+
+def leave(claim: Claim, end: tuple[float, float] | None, modes: Modes, reason: str) -> State:
+    """The modes of a contour's blocks, and the position where it ends, mm.
+
+    Where it has no end, for this reason, an axis that its last block programs is still known.
+    """
+    state, last = claim.after, claim.blocks[-1]
+    if end is not None:
+        is_skippable = any(block.is_skippable for block in claim.blocks)
+        is_skippable |= any(claim.before.axes[axis].is_skippable for axis in state.plane.axes)
+        ends = zip(state.plane.axes, map(Decimal, end), strict=True)
+        return state.move(
+            {axis: Position(value, "the end of this contour", last.span, is_skippable) for axis, value in ends}
+        )
+    lost = state.lose(state.plane.axes, reason, last.span)
+    if last.faults:
+        return lost
+    absolute = replace(state, is_incremental=False)
+    return lost.move(positions(absolute, _axis_words(last, modes), modes, last.is_skippable))
+
+
+def next_place(blocks: Sequence[Block], claim: Claim, modes: Modes) -> tuple[Decimal, Decimal] | None:
+    """Where the next block with words ends, mm, if it is a line and both its coordinates are known."""
+    block = next((block for block in blocks if block.words), None)
+    if block is None or block.faults:
+        return None
+    state = apply_modes(claim.after, block, modes)
+    if state.motion not in (0, 1, None):
+        return None
+    unknown = state.lose(modes.axes, "the contour before it is not solved yet", block.span)
+    found = positions(unknown, _axis_words(block, modes), modes, is_skippable=False)
+    first, second = (found[axis].value if axis in found else None for axis in state.plane.axes)
+    return None if first is None or second is None else (first, second)
+
+
+def _axis_words(block: Block, modes: Modes) -> list[Word]:
+    addresses = modes.lexicon.addresses
+    return [word for word in block.words if word.address in addresses and addresses[word.address].axis]

@@ -1,0 +1,48 @@
+"""The text of programs: files and bytes as they come from controls, tapes and DOS."""
+
+import sys
+from pathlib import Path
+
+STANDARD_INPUT = "-"
+
+_TAPE_CODES = bytes([0x02, 0x03, 0x11, 0x12, 0x13, 0x14, 0x1A])
+"""STX, ETX, DC1 to DC4 and SUB: left in a program by a reader of paper tape or by DOS."""
+
+_BINARY = frozenset(range(0x20)) - frozenset(b"\t\n\v\f\r" + _TAPE_CODES)
+"""Bytes that no program holds; a file in UTF-16 holds NUL."""
+
+
+class UnreadableProgramError(ValueError):
+    """A file that is missing, is no file, or is not text; the message says which."""
+
+
+def read_bytes(path: str, wanted: str = "a file") -> bytes:
+    """The bytes of a file; `-` is standard input. Raises UnreadableProgramError; `wanted` is what should be there."""
+    try:
+        return sys.stdin.buffer.read() if path == STANDARD_INPUT else Path(path).read_bytes()
+    except FileNotFoundError:
+        raise UnreadableProgramError(f"{path}: no such file") from None
+    except (OSError, ValueError) as error:
+        if _is_folder(path):  # Windows answers "permission denied" for a directory
+            raise UnreadableProgramError(f"{path} is a directory, not {wanted}") from None
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        raise UnreadableProgramError(f"{path} cannot be read: {reason}") from None
+
+
+def _is_folder(path: str) -> bool:
+    try:
+        return Path(path).is_dir()
+    except ValueError:  # a name with a NUL
+        return False
+
+
+def decode(data: bytes, name: str) -> str:
+    """Text in UTF-8 or Latin-1. Raises UnreadableProgramError for bytes that are none."""
+    if not _BINARY.isdisjoint(data):
+        raise UnreadableProgramError(
+            f"{name} is not a text file (it holds control bytes); save it as UTF-8 or Latin-1 text"
+        )
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return data.decode("latin-1")
