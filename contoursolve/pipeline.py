@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import cast
+from typing import TYPE_CHECKING, cast
 
 from contoursolve.diagnostic import Basis, Diagnostic, Severity
 from contoursolve.dialects import DIALECTS, Dialect, Unresolved
@@ -19,6 +19,9 @@ from contoursolve.spelling import (
     explain_words,
 )
 from contoursolve.syntax import Block, Directive, FaultKind, Program, Word
+
+if TYPE_CHECKING:
+    from contoursolve.statements import Statement
 
 
 @dataclass(frozen=True, slots=True)

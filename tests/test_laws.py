@@ -157,7 +157,7 @@ OTHER_WAY = {"cw": "ccw", "ccw": "cw", "G2": "G3", "G3": "G2", "G41": "G42", "G4
 def describe(answer: Answer, is_mirrored: bool = False, shift: float = 0.0) -> tuple[list[Any], list[float]]:
     """What must be equal, and the lengths that must be equal to the tolerance; after moving the contour."""
     codes = Counter(each.code for each in answer.diagnostics)
-    facts: list[Any] = [answer.status, answer.side, codes]
+    facts: list[Any] = [answer.status, dict(answer.sides), codes]
     if answer.contour is None:
         return facts, []
     points = [answer.contour.start, answer.contour.end, *answer.contour.points.values()]

@@ -524,7 +524,7 @@ def test_a_contour_follows_a_value_that_moves_without_a_jump_or_says_why_it_ends
             continue
         assert before.contour is not None
         assert after.contour is not None
-        assert before.side == after.side
+        assert before.sides == after.sides
         assert len(before.contour.elements) == len(after.contour.elements)
         room = family.slope * abs(step) + sqrt(family.root * abs(step))
         assert jump(before.contour, after.contour) <= room

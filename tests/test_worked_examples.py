@@ -97,8 +97,7 @@ def test_the_pairs_of_the_nct_sheet_come_out_to_its_digits(name: str) -> None:
     assert result.control == "nct-99m"
     (answer,) = result.answers
     assert answer.lines == (3, 4)
-    assert answer.side is not None
-    assert answer.side.value == ("nearer" if "Q-" in name else "farther")
+    assert answer.sides["P1"].value == ("nearer" if "Q-" in name else "farther")
     assert answer.contour.points["P1"] == answer.contour.elements[0].end
     assert_matches(answer, PAIRS[name])
 
