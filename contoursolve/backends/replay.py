@@ -44,7 +44,8 @@ class Replay:
         self._count = function.nnz_out(0)
         self._steps: list[tuple[Callable[..., Any], int, int, int]] = []
         """Operation, first and second operand (-1 for none), result."""
-        self._constants: list[tuple[int, Any]] = []
+        self._constants: list[Any] = [None] * function.n_instructions()
+        """The places of all values, with those that are known beforehand."""
         # CasADi reuses places of its work vector; every value gets a place of its own here.
         place: dict[int, int] = {}
         for number in range(function.n_instructions()):
@@ -59,20 +60,17 @@ class Replay:
             if kind == casadi.OP_INPUT:
                 self._inputs.append((read[1], number))
             elif kind == casadi.OP_CONST:
-                self._constants.append((number, constant(function.instruction_constant(number))))
+                self._constants[number] = constant(function.instruction_constant(number))
             else:
                 first, second = place[read[0]], place[read[1]] if len(read) > 1 else -1
                 self._steps.append((_operation(kind, functions), first, second, number))
             place[target] = number
-        self._places = function.n_instructions()
 
     def __call__(self, inputs: Sequence[Any]) -> list[Any]:
         """The outputs at these inputs; an output that is always zero is the constant 0."""
-        work: list[Any] = [None] * self._places
+        work = self._constants.copy()
         for source, target in self._inputs:
             work[target] = inputs[source]
-        for target, value in self._constants:
-            work[target] = value
         for operation, first, second, target in self._steps:
             work[target] = operation(work[first], work[second]) if second >= 0 else operation(work[first])
         results = [self._zero] * self._count

@@ -28,8 +28,8 @@ def codes_of(block: Block, modes: Modes) -> list[Code | Word]:
     found: list[Code | Word] = []
     for word in block.words:
         if word.address == "G":
-            is_whole = word.number is not None and word.number == word.number.to_integral_value()
-            row = modes.codes.get(int(word.number)) if is_whole and word.number is not None else None
+            number = None if word.number is None else int(word.number)
+            row = modes.codes.get(number) if number is not None and number == word.number else None
             found.append(row or word)
     return found
 
