@@ -9,7 +9,6 @@ from contoursolve.model.fact import Fact
 from contoursolve.model.figure import Figure
 from contoursolve.syntax import Block, Word
 
-
 _MM, _INCH = Decimal(1), Decimal("25.4")
 
 
