@@ -53,6 +53,12 @@ class Expression:
     def __le__(self, other: Any) -> "Expression":
         return _binary(casadi.OP_LE, self, other)
 
+    def __lt__(self, other: Any) -> "Expression":
+        return _binary(casadi.OP_LT, self, other)
+
+    def __gt__(self, other: Any) -> "Expression":
+        return _binary(casadi.OP_LT, other, self)
+
 
 def _sx(value: Any) -> Any:
     """CasADi's matrix behind an expression; a number is its own."""
