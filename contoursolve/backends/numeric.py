@@ -255,7 +255,8 @@ def inverse_norm(entries: Mapping[tuple[int, int], float], size: int) -> float:
     for (row, column), value in entries.items():
         matrix[row, column] = value
     try:
-        return float(numpy.abs(numpy.linalg.inv(matrix)).sum(axis=1).max())
+        # The ufuncs themselves, for a matrix is as small as their wrappers are slow.
+        return float(numpy.maximum.reduce(numpy.add.reduce(numpy.abs(numpy.linalg.inv(matrix)), axis=1)))
     except numpy.linalg.LinAlgError:
         return float("inf")
 

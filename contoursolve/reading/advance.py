@@ -41,7 +41,7 @@ def apply_modes(state: State, block: Block, modes: Modes) -> State:
             continue
         match code.effect:
             case Effect.MOTION | Effect.CYCLE:
-                state = replace(state, motion=code.number)
+                state = state if state.motion == code.number else replace(state, motion=code.number)
             case Effect.CANCEL:
                 state = replace(state, motion=None)
             case Effect.PLANE:
