@@ -14,11 +14,14 @@ _BINARY: Mapping[int, Callable[[Any, Any], Any]] = {
 }
 _UNARY: Mapping[int, Callable[[Any], Any]] = {
     casadi.OP_NEG: operator.neg,
-    casadi.OP_SQ: lambda value: value * value,  # a power of a ball about 0 is no number
-    casadi.OP_TWICE: lambda value: value + value,
     casadi.OP_INV: lambda value: 1 / value,
     casadi.OP_ASSIGN: lambda value: value,
 }
+_OF_ITSELF: Mapping[int, Callable[[Any, Any], Any]] = {
+    casadi.OP_SQ: operator.mul,  # a power of a ball about 0 is no number
+    casadi.OP_TWICE: operator.add,
+}
+"""One operand that is both."""
 _CHOICES = (casadi.OP_EQ, casadi.OP_LE, casadi.OP_NOT, casadi.OP_IF_ELSE_ZERO)
 _POWERS = (casadi.OP_POW, casadi.OP_CONSTPOW)
 _FUNCTIONS: Mapping[int, str] = {
@@ -63,6 +66,8 @@ class Replay:
                 self._constants[number] = constant(function.instruction_constant(number))
             else:
                 first, second = place[read[0]], place[read[1]] if len(read) > 1 else -1
+                if kind in _OF_ITSELF:
+                    second = first
                 self._steps.append((_operation(kind, functions), first, second, number))
             place[target] = number
 
@@ -82,6 +87,8 @@ class Replay:
 def _operation(kind: int, functions: Any) -> Callable[..., Any]:
     if kind in _BINARY:
         return _BINARY[kind]
+    if kind in _OF_ITSELF:
+        return _OF_ITSELF[kind]
     if kind in _UNARY:
         return _UNARY[kind]
     if kind in _FUNCTIONS:
