@@ -3,7 +3,6 @@
 What only some commands need, they import themselves, so that the others start sooner.
 """
 
-import gc
 import io
 import os
 import sys
@@ -135,8 +134,6 @@ def main() -> None:
 
     Exit status: 0 no error found, 1 at least one error found, 2 could not run.
     """
-    # A run makes no reference cycles to speak of and then ends; collecting takes a third of its time.
-    gc.disable()
     for stream in (sys.stdout, sys.stderr):
         # A console may lack a character that a program's comment has.
         if isinstance(stream, io.TextIOWrapper):

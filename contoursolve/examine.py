@@ -130,7 +130,9 @@ class _Notebook:
 
     @property
     def status(self) -> Status:
-        return next((status for status in Status if status in self.statuses), Status.SOLVED)
+        if not self.statuses:
+            return Status.SOLVED
+        return next(status for status in Status if status in self.statuses)
 
 
 def _no_place() -> None:

@@ -4,8 +4,8 @@ A number here is either exact (`fmpq`) or a ball (`arb`); arithmetic mixes them,
 stays exact. Balls have the precision of the innermost `precision` block.
 """
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Iterable, Sequence
+from contextlib import AbstractContextManager
 from decimal import Decimal
 from functools import lru_cache
 from math import inf, nextafter
@@ -21,11 +21,10 @@ WORKING, HIGHEST = 212, 848
 """Bits of a ball's midpoint: four and sixteen times those of a double."""
 
 
-@contextmanager
-def precision(bits: int) -> Iterator[None]:
+def precision(bits: int) -> AbstractContextManager[None]:
     """Balls made inside have midpoints of this many bits."""
-    with flint.ctx.workprec(bits):
-        yield
+    block: AbstractContextManager[None] = flint.ctx.workprec(bits)
+    return block
 
 
 def exact(value: Decimal | float) -> Number:
@@ -127,7 +126,12 @@ def width(value: Number) -> float:
 
 def distance(value: Number, at: float) -> float:
     """The largest distance of a number from a float, rounded up."""
-    return _up(abs(arb(value) - arb(at)).upper())
+    return largest_distance(((value, at),))
+
+
+def largest_distance(pairs: Iterable[tuple[Number, float]]) -> float:
+    """The largest distance of any of some numbers from its float, rounded up; 0 for none."""
+    return _up(max((float((arb(value) - at).abs_upper()) for value, at in pairs), default=0.0))
 
 
 def contains(outer: Number, inner: Number) -> bool:

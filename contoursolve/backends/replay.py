@@ -14,11 +14,14 @@ _BINARY: Mapping[int, Callable[[Any, Any], Any]] = {
 }
 _UNARY: Mapping[int, Callable[[Any], Any]] = {
     casadi.OP_NEG: operator.neg,
-    casadi.OP_SQ: lambda value: value * value,  # a power of a ball about 0 is no number
-    casadi.OP_TWICE: lambda value: value + value,
     casadi.OP_INV: lambda value: 1 / value,
     casadi.OP_ASSIGN: lambda value: value,
 }
+_OF_ITSELF: Mapping[int, Callable[[Any, Any], Any]] = {
+    casadi.OP_SQ: operator.mul,  # a power of a ball about 0 is no number
+    casadi.OP_TWICE: operator.add,
+}
+"""One operand that is both."""
 _CHOICES = (casadi.OP_EQ, casadi.OP_LE, casadi.OP_NOT, casadi.OP_IF_ELSE_ZERO)
 _POWERS = (casadi.OP_POW, casadi.OP_CONSTPOW)
 _FUNCTIONS: Mapping[int, str] = {
@@ -44,7 +47,8 @@ class Replay:
         self._count = function.nnz_out(0)
         self._steps: list[tuple[Callable[..., Any], int, int, int]] = []
         """Operation, first and second operand (-1 for none), result."""
-        self._constants: list[tuple[int, Any]] = []
+        self._constants: list[Any] = [None] * function.n_instructions()
+        """The places of all values, with those that are known beforehand."""
         # CasADi reuses places of its work vector; every value gets a place of its own here.
         place: dict[int, int] = {}
         for number in range(function.n_instructions()):
@@ -59,20 +63,19 @@ class Replay:
             if kind == casadi.OP_INPUT:
                 self._inputs.append((read[1], number))
             elif kind == casadi.OP_CONST:
-                self._constants.append((number, constant(function.instruction_constant(number))))
+                self._constants[number] = constant(function.instruction_constant(number))
             else:
                 first, second = place[read[0]], place[read[1]] if len(read) > 1 else -1
+                if kind in _OF_ITSELF:
+                    second = first
                 self._steps.append((_operation(kind, functions), first, second, number))
             place[target] = number
-        self._places = function.n_instructions()
 
     def __call__(self, inputs: Sequence[Any]) -> list[Any]:
         """The outputs at these inputs; an output that is always zero is the constant 0."""
-        work: list[Any] = [None] * self._places
+        work = self._constants.copy()
         for source, target in self._inputs:
             work[target] = inputs[source]
-        for target, value in self._constants:
-            work[target] = value
         for operation, first, second, target in self._steps:
             work[target] = operation(work[first], work[second]) if second >= 0 else operation(work[first])
         results = [self._zero] * self._count
@@ -84,6 +87,8 @@ class Replay:
 def _operation(kind: int, functions: Any) -> Callable[..., Any]:
     if kind in _BINARY:
         return _BINARY[kind]
+    if kind in _OF_ITSELF:
+        return _OF_ITSELF[kind]
     if kind in _UNARY:
         return _UNARY[kind]
     if kind in _FUNCTIONS:

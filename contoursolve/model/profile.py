@@ -9,6 +9,8 @@ from contoursolve.model.fact import Fact
 from contoursolve.model.figure import Figure
 from contoursolve.syntax import Block, Word
 
+_MM, _INCH = Decimal(1), Decimal("25.4")
+
 
 class Unit(Enum):
     """What a value measures."""
@@ -28,7 +30,7 @@ class Length(Enum):
     @property
     def in_mm(self) -> Decimal:
         """Millimetres in one unit."""
-        return Decimal("25.4") if self is Length.INCH else Decimal(1)
+        return _INCH if self is Length.INCH else _MM
 
 
 @dataclass(frozen=True, slots=True)

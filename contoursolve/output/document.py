@@ -1,7 +1,7 @@
 """Results as plain data for JSON: schema contoursolve/solve/1."""
 
 import json
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from contoursolve.contour import ArcSegment, Contour, Segment
@@ -16,39 +16,49 @@ from contoursolve.source import Span
 
 def to_json(result: Result) -> str:
     """The contours and findings of one program; lengths in mm, X of a lathe as radius, angles in degrees."""
-    return _dump(
+    return _document(
         {
             "schema": "contoursolve/solve/1",
             "program": result.program.name,
             "control": result.control,
             "rules": result.policy.value,
             "settings": {f"{result.control}.{name}": value for name, value in sorted(result.settings.items())},
-            "contours": [_contour(answer) for answer in result.answers],
-            "diagnostics": [finding_data(each, result) for each in result.diagnostics],
-        }
+        },
+        contours=map(_contour, result.answers),
+        diagnostics=(finding_data(each, result) for each in result.diagnostics),
     )
 
 
 def findings_to_json(results: Sequence[Result]) -> str:
     """The findings of several programs; each finding names its program."""
-    return _dump(
-        {
-            "schema": "contoursolve/check/1",
-            "programs": [
-                {"program": each.program.name, "control": each.control, "contours": len(each.answers)}
-                for each in results
-            ],
-            "diagnostics": [
-                {"program": result.program.name, **finding_data(each, result)}
-                for result in results
-                for each in result.diagnostics
-            ],
-        }
+    return _document(
+        {"schema": "contoursolve/check/1"},
+        programs=(
+            {"program": each.program.name, "control": each.control, "contours": len(each.answers)} for each in results
+        ),
+        diagnostics=(
+            {"program": result.program.name, **finding_data(each, result)}
+            for result in results
+            for each in result.diagnostics
+        ),
     )
 
 
-def _dump(document: dict[str, Any]) -> str:
-    return json.dumps(document, indent=1, ensure_ascii=True, allow_nan=False)
+def _document(head: Mapping[str, Any], **lists: Iterable[Any]) -> str:
+    """An object of texts and lists; each row becomes text by itself, for the data of all would fill the memory."""
+    members = [f"{_text(name)}: {_indented(value)}" for name, value in head.items()]
+    for name, values in lists.items():
+        rows = ",\n  ".join(_indented(value, 2) for value in values)
+        members.append(f"{_text(name)}: " + (f"[\n  {rows}\n ]" if rows else "[]"))
+    return "{\n " + ",\n ".join(members) + "\n}"
+
+
+def _indented(data: Any, depth: int = 1) -> str:
+    return _text(data).replace("\n", "\n" + " " * depth)
+
+
+def _text(data: Any) -> str:
+    return json.dumps(data, indent=1, ensure_ascii=True, allow_nan=False)
 
 
 def finding_data(finding: Diagnostic, result: Result) -> dict[str, Any]:

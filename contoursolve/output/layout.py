@@ -6,9 +6,8 @@ from collections.abc import Sequence
 def columns(rows: Sequence[Sequence[str]], left: Sequence[int] = (0,), indent: str = "  ") -> list[str]:
     """Lines with aligned cells, two blanks apart; the columns named in `left` are aligned left."""
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    cells = (f"{{:{'<' if number in left else '>'}{width}}}" for number, width in enumerate(widths))
-    template = indent + "  ".join(cells)
-    return [template.format(*row).rstrip() for row in rows]
+    template = indent + "  ".join(f"%{'-' if number in left else ''}{width}s" for number, width in enumerate(widths))
+    return [(template % tuple(row)).rstrip() for row in rows]
 
 
 def printable(text: str) -> str:

@@ -33,8 +33,8 @@ def codes_of(block: Block, modes: Modes) -> list[Code | Word]:
     found: list[Code | Word] = []
     for word in block.words:
         if word.address == "G":
-            is_whole = word.number is not None and word.number == word.number.to_integral_value()
-            row = modes.codes.get(int(word.number)) if is_whole and word.number is not None else None
+            number = None if word.number is None else int(word.number)
+            row = modes.codes.get(number) if number is not None and number == word.number else None
             found.append(row or word)
     return found
 
@@ -46,7 +46,7 @@ def apply_modes(state: State, block: Block, modes: Modes) -> State:
             continue
         match code.effect:
             case Effect.MOTION | Effect.CYCLE:
-                state = replace(state, motion=code.number)
+                state = state if state.motion == code.number else replace(state, motion=code.number)
             case Effect.CANCEL:
                 state = replace(state, motion=None)
             case Effect.PLANE:

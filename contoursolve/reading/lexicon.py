@@ -24,6 +24,9 @@ class Address:
     is_diameter: bool = False
 
 
+_HALF, _ONE = Decimal("0.5"), Decimal(1)
+
+
 class WithoutPoint(Enum):
     """What a number without a decimal point means."""
 
@@ -60,7 +63,7 @@ class Lexicon:
         return None if value is None else Given(name, value, row.unit, word, row.is_diameter)
 
     def _factor(self, row: Address, has_point: bool, unit: Length) -> Decimal:
-        factor = Decimal("0.5") if row.is_diameter else Decimal(1)
+        factor = _HALF if row.is_diameter else _ONE
         if row.unit is Unit.MM:
             factor *= unit.in_mm
         if has_point or self.numbers.without_point is WithoutPoint.AS_WRITTEN or row.unit is Unit.SIGN:

@@ -50,4 +50,4 @@ def up_to_one_digit(value: float) -> float:
     if not 0 < value < inf:
         return value
     digit = 10.0 ** floor(log10(value))
-    return min(number * digit for number in range(1, 11) if number * digit >= value)
+    return next(number * digit for number in range(1, 11) if number * digit >= value)

@@ -1,6 +1,8 @@
 """Certifies a contour that was solved in closed form: the same steps once more, in exact numbers and balls."""
 
 from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
 
 from contoursolve.backends import ball
 from contoursolve.backends.ball import Number
@@ -8,7 +10,7 @@ from contoursolve.backends.inputs import COSINE, SINE
 from contoursolve.constraints import Coordinate, System
 from contoursolve.model import FIRST, SECOND, Profile, Unit, scalar
 from contoursolve.solving.certificate import Certificate, Proof, up_to_one_digit
-from contoursolve.solving.compile import compile_proof
+from contoursolve.solving.compile import ProofMachine, compile_proof
 
 BITS = 128
 """Bits of the balls: enough for a radius far below the rounding of the floats that are certified."""
@@ -17,39 +19,64 @@ _SIGNS = {"determinant": (-1, 1), "discriminant": (0, 1), "radius": (1,)}
 """A discriminant that is exactly zero leaves one solution, too."""
 
 
-def certify(profile: Profile, system: System, values: Mapping[str, float], bound: float) -> Certificate:
-    """The certificate of values (mm; unknowns and corner points by name).
+def certify(profile: Profile, system: System, out: Mapping[str, float], bound: float) -> Certificate:
+    """The certificate of the points, radii and corners among the outputs of a compiled system, as they are printed.
 
     Every step has one solution on the branch that its side names, if its determinant is not zero and its
     discriminant is positive; the ball about it is computed with outward rounding, and the equations are tried on it.
     `bound` is what is known of the error otherwise, mm.
     """
-    machine = compile_proof(system)
+    proof = _proof_of(system)
     with ball.precision(BITS):
-        start = [ball.exact(each) for each in profile.start.values if each is not None]
         inputs = _inputs(profile, system)
         try:
-            results = machine.replay([inputs[name] for name in machine.inputs])
+            results = proof.machine.replay([inputs[name] for name in proof.machine.inputs])
         except (ArithmeticError, ValueError):
             return Certificate(Proof.VERIFIED, bound, "a step cannot be decided in interval arithmetic")
-        radius, is_exact = 0.0, True
-        for name, value in zip(machine.outputs, results, strict=True):
-            kind = name.partition(":")[0]
-            if kind in _SIGNS:
-                if ball.sign(value) not in _SIGNS[kind]:
-                    return Certificate(Proof.VERIFIED, bound, "two solutions are too close to be told apart")
-            elif kind == "residual":
-                if ball.sign(value):
-                    # A fact that was not needed agrees as well as words do; another has been compared before.
-                    is_exact = False
-            elif name in values:
-                axis = name.rpartition(".")[2]
-                value = value + start[int(axis)] if axis.isdigit() else value  # noqa: PLW2901 - from the start
-                radius = max(radius, ball.distance(value, values[name]))
-                is_exact = is_exact and ball.is_exact(value)
-    if is_exact and radius == 0:
-        return Certificate(Proof.EXACT, 0.0)
+        if any(ball.sign(results[index]) not in signs for index, signs in proof.signs):
+            return Certificate(Proof.VERIFIED, bound, "two solutions are too close to be told apart")
+        start = [(ball.exact(value), float(value)) for value in profile.start.values if value is not None]
+        places = [(results[index], out[name]) for index, name in proof.radii]
+        for index, name, axis in proof.coordinates:
+            exact, rounded = start[axis]
+            places.append((results[index] + exact, out[name] + rounded))
+        radius = ball.largest_distance(places)
+        # A fact that was not needed agrees as well as words do; another has been compared before.
+        if (
+            radius == 0
+            and all(ball.is_exact(value) for value, _ in places)
+            and not any(ball.sign(results[index]) for index in proof.residuals)
+        ):
+            return Certificate(Proof.EXACT, 0.0)
     return Certificate(Proof.UNIQUE, up_to_one_digit(radius))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Proof:
+    """What the outputs of a machine are, by index."""
+
+    machine: ProofMachine
+    signs: tuple[tuple[int, tuple[int, ...]], ...]
+    """Steps, and the signs that leave one solution."""
+    residuals: tuple[int, ...]
+    radii: tuple[tuple[int, str], ...]
+    coordinates: tuple[tuple[int, str, int], ...]
+    """With their axis: they are counted from the start point."""
+
+
+@lru_cache(maxsize=4096)
+def _proof_of(system: System) -> _Proof:
+    machine = compile_proof(system)
+    kinds = [name.partition(":")[0] for name in machine.outputs]
+    names = list(enumerate(machine.outputs))
+    axes = [name.rpartition(".")[2] for name in machine.outputs]
+    return _Proof(
+        machine,
+        signs=tuple((index, _SIGNS[kind]) for index, kind in enumerate(kinds) if kind in _SIGNS),
+        residuals=tuple(index for index, kind in enumerate(kinds) if kind == "residual"),
+        radii=tuple((index, name) for index, name in names if name in system.figure.radii),
+        coordinates=tuple((index, name, int(axes[index])) for index, name in names if axes[index].isdigit()),
+    )
 
 
 def _inputs(profile: Profile, system: System) -> dict[str, Number]:

@@ -115,6 +115,7 @@ def _both(point: str) -> set[str]:
     return {scalar(point, FIRST), scalar(point, SECOND)}
 
 
+@lru_cache(maxsize=8192)
 def points_with_two_solutions(system: System) -> tuple[str, ...]:
     """The points of a determined system for which somebody must choose between two solutions."""
     points = []

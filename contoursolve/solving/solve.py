@@ -130,6 +130,7 @@ class _Attempt:
         if first is None or second is None:
             raise ValueError("the start point is not known")
         self.start = first, second
+        self.origin = float(first), float(second)
         self.profile = profile
         self.system = system
         self.machine = compile_system(system)
@@ -188,17 +189,12 @@ class _Attempt:
             corners={corner.name: self._corner(corner) for corner in self.system.figure.corners},
             remarks=tuple(self.remarks),
             error_bound=bound,
-            certificate=self._certificate(points, bound),
+            certificate=self._certificate(bound),
         )
 
-    def _certificate(self, points: Mapping[str, Point], bound: float) -> Certificate:
+    def _certificate(self, bound: float) -> Certificate:
         """What is proven of the points and the corners, as they are printed."""
-        absolute = {name: self._absolute(point) for name, point in points.items()}
-        values = {**scalars_of(absolute), **{name: self.out[name] for name in self.system.figure.radii}}
-        for name, value in self.out.items():
-            if name.startswith(("begin:", "end:", "center:")):
-                values[name] = float(self.start[int(name.rpartition(".")[2])]) + value
-        certificate = certify(self.profile, self.system, values, bound)
+        certificate = certify(self.profile, self.system, self.out, bound)
         touches = any(remark.kind is RemarkKind.TOUCHES for remark in self.remarks)
         return replace(certificate, gap=0.0) if touches else certificate
 
@@ -215,7 +211,7 @@ class _Attempt:
         return self.out[scalar(name, FIRST)], self.out[scalar(name, SECOND)]
 
     def _absolute(self, point: Point) -> Point:
-        return float(self.start[FIRST]) + point[FIRST], float(self.start[SECOND]) + point[SECOND]
+        return self.origin[FIRST] + point[FIRST], self.origin[SECOND] + point[SECOND]
 
     def _corner(self, corner: Corner) -> CornerSolution:
         size = float(self.profile.givens[corner.size].value)

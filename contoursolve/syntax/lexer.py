@@ -72,13 +72,13 @@ def parse_block(text: str, line: int) -> Block:
             continue
         span = Span(line, token.start() + 1, token.end() + 1)
         if kind == "word":
-            number = token["number"]
+            comma, letter, number, asked = token.group("comma", "letter", "number", "asked")
             if number and len(number) > LONGEST_NUMBER:
                 faults.append(Fault(FaultKind.NUMBER_TOO_LONG, token[0], span))
                 continue
-            address = (token["comma"] + token["letter"]).upper()
+            address = (comma + letter).upper()
             value = Decimal(number) if number else None
-            words.append(Word(address, value, "." in (number or ""), token[0], span, token["asked"] is not None))
+            words.append(Word(address, value, "." in (number or ""), token[0], span, asked is not None))
         else:
             faults.append(Fault(_FAULTS[kind or ""], token[0], span))
     return Block(

@@ -69,6 +69,8 @@ G111 = Form(
 OTHER_G = "other G"
 _REFUSED = frozenset({"M", "S", "T", OTHER_G})
 """Names that a rule refuses."""
+_EXPECTED = G111.allowed | _REFUSED
+_VOCABULARY = {row.address: (row.address, 0) for row in ADDRESSES}
 
 _AXIS_EFFECTS = (
     Effect.MOTION,
@@ -103,7 +105,9 @@ def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> Cla
 
 def _claim(block: Block, codes: list[Code], state: State, modes: Modes) -> Claim:
     # G111 is not modal: what it stands with applies, and the motion before it stays in force.
-    after = replace(apply_modes(state, block, modes), motion=state.motion)
+    after = apply_modes(state, block, modes)
+    if after.motion != state.motion:
+        after = replace(after, motion=state.motion)
     others = {code.number for code in codes if code.effect in _AXIS_EFFECTS}
     words: dict[str, Word] = {}
     repeated: list[Word] = []
@@ -121,11 +125,11 @@ def _claim(block: Block, codes: list[Code], state: State, modes: Modes) -> Claim
         form=G111,
         lexicon=lexicon,
         blocks=(block,),
-        before=replace(state, unit=after.unit),
+        before=state if state.unit is after.unit else replace(state, unit=after.unit),
         after=after,
         words=stated,
         givens={name: given for name, given in givens.items() if given is not None},
-        vocabulary={address: (address, 0) for address in lexicon.addresses},
-        unknown=tuple(word for word in words.values() if word.address not in G111.allowed | _REFUSED),
+        vocabulary=_VOCABULARY,
+        unknown=tuple(word for word in words.values() if word.address not in _EXPECTED),
         repeated=tuple(repeated),
     )
