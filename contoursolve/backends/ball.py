@@ -125,6 +125,13 @@ def width(value: Number) -> float:
     return 0.0 if isinstance(value, fmpq) else _up(value.rad())
 
 
+def bounds(value: Number) -> tuple[float, float]:
+    """Floats that enclose a number; the number itself twice if it is one."""
+    if isinstance(value, fmpq) and exact(middle(value)) == value:
+        return middle(value), middle(value)
+    return nextafter(float(arb(value).lower()), -inf), nextafter(float(arb(value).upper()), inf)
+
+
 def distance(value: Number, at: float) -> float:
     """The largest distance of a number from a float, rounded up."""
     return _up(abs(arb(value) - arb(at)).upper())

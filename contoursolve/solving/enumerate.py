@@ -11,12 +11,19 @@ from contoursolve.backends.ball import Number
 from contoursolve.backends.residue import draw
 from contoursolve.constraints import System
 from contoursolve.model import Line, Profile, scalar
-from contoursolve.solving.driven import EVALUATIONS, LEAST, find_drive, follow
+from contoursolve.solving.division import conditions_of, divide
 from contoursolve.solving.elimination import Close, Limits, Obstacle, ObstacleError, Root, solve_step
 from contoursolve.solving.ground import Ground, ground_of
 from contoursolve.solving.kernel import ORIGIN, Kernel, make_kernel
 from contoursolve.solving.polynomial import Coefficient
-from contoursolve.solving.search import search_everywhere
+from contoursolve.solving.search import settle
+
+
+BOXES = 60_000
+"""How many boxes are looked at for one drawing before the search is given up as undecided; a second or two."""
+
+LEAST = 5_000
+"""How many boxes every step may look at, however many the ones before it used."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,7 +87,7 @@ class _Search:
         self.close = close
         self.doubts: list[Doubt] = []
         self.is_searched = False
-        self.budget = EVALUATIONS
+        self.budget = BOXES
         self.reach = ground.reach(system)
         lines = [line for line in (*system.figure.path, *system.figure.lines) if isinstance(line, Line)]
         carriers = [line for line in lines if line.name in system.figure.carriers]
@@ -140,31 +147,18 @@ class _Search:
                 if any(not ball.is_exact(each) for each in doubles):
                     self.doubts.append(Doubt(kernel.unknowns, Obstacle.TOUCHING))
                 return roots
-        return self._follow(group, kernel, scalars, signs)
+        return self._divide(group, kernel, scalars, signs)
 
-    def _follow(
+    def _divide(
         self, group: Group, kernel: Kernel, scalars: Mapping[str, Number], signs: Mapping[str, int]
     ) -> list[Root]:
-        drive = find_drive(self.system, group)
         self.is_searched = True
-        reach = {name: self.reach[name] for name in kernel.unknowns}
-
-        def inputs(step: Kernel, found: Mapping[str, Number]) -> dict[str, Number]:
-            names = step.arguments[len(step.unknowns) :]
-            return {name: self.ground.number(name, {**scalars, **found}, signs) for name in names}
-
-        if drive is None:
-            self.doubts.append(Doubt(kernel.unknowns, Obstacle.NO_CLOSED_FORM))
-            return search_everywhere(kernel, inputs(kernel, {}), reach)
-        roots, is_complete, used = follow(
-            drive,
-            kernel,
-            lambda step, found, origin: self._coefficients(step, {**scalars, **found}, signs, origin),
-            inputs,
-            reach,
-            max(self.budget, LEAST),
-        )
-        self.budget -= used
+        conditions = conditions_of(self.system, group)
+        names = (*conditions.narrowed_by, *conditions.arguments)[0:]
+        inputs = {name: self.ground.number(name, scalars, signs) for name in names if name not in kernel.unknowns}
+        division = divide(conditions, inputs, self.reach, max(self.budget, LEAST))
+        self.budget -= division.looked_at
+        roots, is_complete = settle(kernel, division, inputs)
         if not is_complete:
             self.doubts.append(Doubt(kernel.unknowns, Obstacle.UNFINISHED))
         return roots

@@ -1,0 +1,164 @@
+"""Steps without a closed form: all solutions in a range, by dividing it into boxes until each holds one or none.
+
+A box is narrowed to what each equation allows, then by all equations together. What is left is divided where it
+matters most. Boxes are looked at in batches, in doubles rounded outwards (Kearfott 1996, Rigorous Global Search).
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy
+
+from contoursolve.analysis import Group
+from contoursolve.backends import ball, intervals, numeric
+from contoursolve.backends.ball import Number
+from contoursolve.backends.contraction import Boxes, contract, stacked
+from contoursolve.backends.inputs import lookup
+from contoursolve.backends.intervals import Intervals, constant
+from contoursolve.backends.narrow import Narrower
+from contoursolve.backends.numeric import Tape
+from contoursolve.backends.replay import Replay
+from contoursolve.constraints import System
+
+BATCH = 1024
+"""How many boxes are looked at together."""
+
+DIVISION = 0.487
+"""Boxes are divided away from the middle, where drawings like to have their solutions."""
+
+NARROWEST = 2.0**-36
+"""A box this small in every direction, as a share of the whole range, is given up as undecided."""
+
+PASSES, WORTHWHILE = 3, 0.8
+"""How often boxes are narrowed by each equation before they are by all, and the share of an unknown's range that must
+be left after a pass for another one not to be worthwhile."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Conditions:
+    """What a group's unknowns must satisfy, for intervals.
+
+    `narrower` has the equations, what follows from them, and what must not be negative; `equations` the equations
+    and their derivatives, row by row.
+    """
+
+    unknowns: tuple[str, ...]
+    narrower: Narrower
+    narrowed_by: tuple[str, ...]
+    equations: Replay
+    arguments: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Division:
+    """Boxes that are proven to hold exactly one solution, those that remain undecided, and how many were looked at."""
+
+    proven: Boxes
+    undecided: Boxes
+    looked_at: int
+
+
+@lru_cache(maxsize=1024)
+def conditions_of(system: System, group: Group) -> Conditions:
+    """The conditions of a group of facts of a system."""
+    tape = Tape()
+    for name in group.unknowns:
+        tape.input(name)
+    at = lookup(system, tape, {})
+    zeros = [fact.equation(at) for fact in group.facts]
+    # Only facts whose sense is about what they read: that of the others depends on other groups.
+    senses = [sense for fact in group.facts if fact.sense_reads() == fact.reads() for sense in fact.senses(at)]
+    for number, expression in enumerate((*zeros, *senses)):
+        tape.output(str(number), expression)
+    slopes = Tape()
+    unknowns = [slopes.input(name) for name in group.unknowns]
+    equations = [fact.equation(lookup(system, slopes, {})) for fact in group.facts]
+    for number, expression in enumerate((*equations, *numeric.derivatives(equations, unknowns))):
+        slopes.output(str(number), expression)
+    return Conditions(
+        group.unknowns,
+        Narrower(tape.function(), len(zeros)),
+        tape.inputs,
+        Replay(slopes.function(), intervals, constant),
+        slopes.inputs,
+    )
+
+
+def divide(
+    conditions: Conditions, inputs: Mapping[str, Number], reach: Mapping[str, tuple[float, float]], budget: int
+) -> Division:
+    """All solutions within reach, at the values of a group's other inputs; `budget` is how many boxes are looked at."""
+    size = len(conditions.unknowns)
+    known = {name: Intervals(*map(numpy.array, ball.bounds(value))) for name, value in inputs.items()}
+    before = [known[name] for name in conditions.narrowed_by[size:]]
+    others = [known[name] for name in conditions.arguments[size:]]
+    low, high = numpy.array([reach[name] for name in conditions.unknowns]).T
+    pending = [Boxes(low[None], high[None])]
+    none = pending[0][:0]
+    proven, undecided = [none], [none]
+    looked_at = 0
+    with numpy.errstate(all="ignore"):
+        while pending and looked_at < budget:
+            boxes, pending = _batch(pending)
+            looked_at += len(boxes)
+            boxes = _narrowed(conditions.narrower, boxes, before)
+            if not len(boxes):
+                continue
+            found = contract(conditions.equations, boxes, others)
+            proven.append(found.boxes[found.is_proven])
+            boxes, slopes = found.boxes[~found.is_proven], found.slopes[~found.is_proven]
+            widths = boxes.high - boxes.low
+            is_small = (widths <= NARROWEST * (high - low)).all(axis=1)
+            undecided.append(boxes[is_small])
+            boxes, slopes, widths = boxes[~is_small], slopes[~is_small], widths[~is_small]
+            if len(boxes):
+                pending.append(_halves(boxes, _where(slopes, widths, high - low)))
+    return Division(_joined(proven), _joined([*undecided, *pending]), looked_at)
+
+
+def _joined(parts: list[Boxes]) -> Boxes:
+    return Boxes(numpy.concatenate([each.low for each in parts]), numpy.concatenate([each.high for each in parts]))
+
+
+def _batch(pending: list[Boxes]) -> tuple[Boxes, list[Boxes]]:
+    """The boxes that were divided last, and the others."""
+    taken = [pending.pop()]
+    while pending and sum(map(len, taken)) < BATCH:
+        taken.append(pending.pop())
+    boxes = _joined(taken)
+    rest = [boxes[BATCH:]] if len(boxes) > BATCH else []
+    return boxes[:BATCH], pending + rest
+
+
+def _narrowed(narrower: Narrower, boxes: Boxes, others: list[Intervals]) -> Boxes:
+    """The boxes narrowed by each condition, for as long as that helps most of them."""
+    for _ in range(PASSES):
+        columns, is_possible = narrower.narrowed([*boxes.columns, *others], len(boxes))
+        widths = (boxes.high - boxes.low)[is_possible]
+        boxes = stacked(columns[: boxes.low.shape[1]], len(boxes))[is_possible]
+        if not len(boxes):
+            break
+        left = numpy.min((boxes.high - boxes.low) / numpy.maximum(widths, 1e-300), axis=1)
+        if numpy.median(left) > WORTHWHILE:
+            break
+    return boxes
+
+
+def _where(slopes: intervals.Array, widths: intervals.Array, ranges: intervals.Array) -> intervals.Array:
+    """The unknown to divide of each box: the one whose width moves the equations most, each by its share.
+
+    The smear of Kearfott (1987), relative and summed as by Trombettoni, Araya and others (2011), AAAI.
+    """
+    smear = numpy.minimum(slopes, 1e100) * widths[:, None, :]
+    share = smear / numpy.maximum(smear.sum(axis=2, keepdims=True), 1e-300)
+    found: intervals.Array = numpy.where(widths <= NARROWEST * ranges, 0.0, share.sum(axis=1)).argmax(axis=1)
+    return found
+
+
+def _halves(boxes: Boxes, where: intervals.Array) -> Boxes:
+    every = numpy.arange(len(boxes))
+    begin, end = boxes.low[every, where], boxes.high[every, where]
+    low, high = boxes.low.copy(), boxes.high.copy()
+    low[every, where] = high[every, where] = begin + DIVISION * (end - begin)
+    return Boxes(numpy.concatenate([boxes.low, low]), numpy.concatenate([high, boxes.high]))
