@@ -26,6 +26,12 @@ edge of a box, where it was divided, is inside then."""
 TILT = 2.0**-30
 """1. By how much a singular matrix is changed before it is inverted."""
 
+ARRIVED = 2.0**-30
+"""1. Newton's method has arrived where its last step is a smaller share of the coordinates."""
+
+FAR, PLACES = 1e9, 6
+"""mm, and the decimals to which two places where it arrived are the same."""
+
 
 @dataclass(frozen=True, slots=True)
 class Boxes:
@@ -98,6 +104,22 @@ def contract(equations: Replay, boxes: Boxes, others: Sequence[Intervals]) -> Co
     meets = ((kept[0] <= kept[1]) & (low <= boxes.high) & (high >= boxes.low)).all(axis=1)
     sizes = numpy.maximum(numpy.abs(slopes.low), numpy.abs(slopes.high)).reshape(count, size, size)
     return Contraction(Boxes(low, high)[meets], is_proven[meets], sizes[meets])
+
+
+def approach(equations: Replay, points: Array, others: Sequence[Intervals], steps: int) -> Array:
+    """Where Newton's method leads from many points at once, as far as it ends: each such place once, nothing proven."""
+    size = points.shape[1]
+    moved = numpy.full_like(points, numpy.inf)
+    for _ in range(steps):
+        found = stacked(equations([*Boxes(points, points).columns, *others]), len(points))
+        values = numpy.where(numpy.isfinite(found.low), found.low, 0.0)
+        inverses = _inverses(values[:, size:].reshape(-1, size, size))
+        moved = (inverses @ values[:, :size, None])[:, :, 0]
+        points = points - moved
+    largest = numpy.maximum(1.0, numpy.abs(points))
+    arrived: Array = points[(numpy.abs(moved) < ARRIVED * largest).all(axis=1) & (numpy.abs(points) < FAR).all(axis=1)]
+    _, first = numpy.unique(numpy.round(arrived, PLACES), axis=0, return_index=True)
+    return arrived[numpy.sort(first)]
 
 
 def _swept(boxes: Boxes, middle: Array, matrix: tuple[Array, Array], shift: tuple[Array, Array]) -> Boxes:

@@ -10,16 +10,17 @@ from functools import lru_cache
 
 import numpy
 
-from contoursolve.analysis import Group
+from contoursolve.analysis import Group, judge
 from contoursolve.backends import ball, intervals, numeric
 from contoursolve.backends.ball import Number
-from contoursolve.backends.contraction import Boxes, contract, stacked
+from contoursolve.backends.contraction import Boxes, approach, contract, stacked
 from contoursolve.backends.inputs import lookup
 from contoursolve.backends.intervals import Intervals, constant
 from contoursolve.backends.narrow import Narrower
 from contoursolve.backends.numeric import Tape
 from contoursolve.backends.replay import Replay
 from contoursolve.constraints import System
+from contoursolve.solving.consequences import consequences
 
 BATCH = 1024
 """How many boxes are looked at together."""
@@ -29,6 +30,9 @@ DIVISION = 0.487
 
 NARROWEST = 2.0**-36
 """A box this small in every direction, as a share of the whole range, is given up as undecided."""
+
+STARTS, STEPS = 2000, 25
+"""How many of the boxes that remain undecided Newton's method starts from, and how many steps it takes."""
 
 PASSES, WORTHWHILE = 3, 0.8
 """How often boxes are narrowed by each equation before they are by all, and the share of an unknown's range that must
@@ -52,10 +56,14 @@ class Conditions:
 
 @dataclass(frozen=True, slots=True)
 class Division:
-    """Boxes that are proven to hold exactly one solution, those that remain undecided, and how many were looked at."""
+    """Boxes that are proven to hold exactly one solution, whether they hold all, and how many were looked at.
+
+    `likely` are points near which there may be others, in the boxes that remain undecided.
+    """
 
     proven: Boxes
-    undecided: Boxes
+    likely: list[list[float]]
+    is_complete: bool
     looked_at: int
 
 
@@ -66,7 +74,8 @@ def conditions_of(system: System, group: Group) -> Conditions:
     for name in group.unknowns:
         tape.input(name)
     at = lookup(system, tape, {})
-    zeros = [fact.equation(at) for fact in group.facts]
+    true = [system.facts[index] for index in judge(system).basis]
+    zeros = [*(fact.equation(at) for fact in group.facts), *consequences(group.facts, true, at)]
     # Only facts whose sense is about what they read: that of the others depends on other groups.
     senses = [sense for fact in group.facts if fact.sense_reads() == fact.reads() for sense in fact.senses(at)]
     for number, expression in enumerate((*zeros, *senses)):
@@ -114,7 +123,10 @@ def divide(
             boxes, slopes, widths = boxes[~is_small], slopes[~is_small], widths[~is_small]
             if len(boxes):
                 pending.append(_halves(boxes, _where(slopes, widths, high - low)))
-    return Division(_joined(proven), _joined([*undecided, *pending]), looked_at)
+        rest = _joined([*undecided, *pending])
+        starts = rest[:: max(1, len(rest) // STARTS)]
+        likely = approach(conditions.equations, starts.low / 2 + starts.high / 2, others, STEPS) if len(rest) else []
+    return Division(_joined(proven), [point.tolist() for point in likely], not len(rest), looked_at)
 
 
 def _joined(parts: list[Boxes]) -> Boxes:
@@ -122,13 +134,15 @@ def _joined(parts: list[Boxes]) -> Boxes:
 
 
 def _batch(pending: list[Boxes]) -> tuple[Boxes, list[Boxes]]:
-    """The boxes that were divided last, and the others."""
-    taken = [pending.pop()]
-    while pending and sum(map(len, taken)) < BATCH:
-        taken.append(pending.pop())
-    boxes = _joined(taken)
-    rest = [boxes[BATCH:]] if len(boxes) > BATCH else []
-    return boxes[:BATCH], pending + rest
+    """The boxes that have waited longest, and the others: no cluster of boxes uses up what others need."""
+    count = 0
+    for number, each in enumerate(pending, 1):
+        count += len(each)
+        if count >= BATCH:
+            break
+    boxes = _joined(pending[:number])
+    rest = [boxes[BATCH:]] if count > BATCH else []
+    return boxes[:BATCH], rest + pending[number:]
 
 
 def _narrowed(narrower: Narrower, boxes: Boxes, others: list[Intervals]) -> Boxes:

@@ -154,14 +154,13 @@ class _Search:
     ) -> list[Root]:
         self.is_searched = True
         conditions = conditions_of(self.system, group)
-        names = (*conditions.narrowed_by, *conditions.arguments)[0:]
+        names = (*conditions.narrowed_by, *conditions.arguments)
         inputs = {name: self.ground.number(name, scalars, signs) for name in names if name not in kernel.unknowns}
         division = divide(conditions, inputs, self.reach, max(self.budget, LEAST))
         self.budget -= division.looked_at
-        roots, is_complete = settle(kernel, division, inputs)
-        if not is_complete:
+        if not division.is_complete:
             self.doubts.append(Doubt(kernel.unknowns, Obstacle.UNFINISHED))
-        return roots
+        return settle(kernel, division, inputs)
 
     def _coefficients(
         self, kernel: Kernel, scalars: Mapping[str, Number], signs: Mapping[str, int], origin: Mapping[str, Number]

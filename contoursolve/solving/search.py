@@ -11,29 +11,31 @@ from contoursolve.solving.elimination import Root
 from contoursolve.solving.kernel import Kernel
 from contoursolve.solving.krawczyk import keep, prove, refine
 
-STARTS = 400
-"""How many of the undecided boxes are used as starts for CasADi's root finder."""
-
-
-def settle(kernel: Kernel, division: Division, inputs: Mapping[str, Number]) -> tuple[list[Root], bool]:
-    """All solutions that are proven, and whether there are no others within reach."""
+def settle(kernel: Kernel, division: Division, inputs: Mapping[str, Number]) -> list[Root]:
+    """All solutions that are proven."""
     found: list[list[Number]] = []
     for low, high in zip(division.proven.low.tolist(), division.proven.high.tolist(), strict=True):
-        keep(refine(kernel, [ball.between(*ends) for ends in zip(low, high, strict=True)], inputs), found)
-    middles = (division.undecided.low / 2 + division.undecided.high / 2).tolist()
-    for middle in middles[:: max(1, len(middles) // STARTS)]:
-        _search(kernel, middle, inputs, found)
-    return [Root(dict(enumerate(box))) for box in found], not middles
-
-
-def _search(kernel: Kernel, guess: Sequence[float], inputs: Mapping[str, Number], found: list[list[Number]]) -> None:
-    """Add the solution that a guess leads to, if it can be proven to be one."""
-    names = kernel.arguments[len(kernel.unknowns) :]
-    root = _finder(kernel).quick(guess, [ball.middle(inputs[name]) for name in names])
-    if root.is_found and root.is_regular:
-        box = prove(kernel, root.values, inputs)
+        keep(_pinned(kernel, [ball.between(*ends) for ends in zip(low, high, strict=True)], inputs), found)
+    for point in division.likely:
+        box = _search(kernel, point, inputs)
         if box is not None:
             keep(box, found)
+    return [Root(dict(enumerate(box))) for box in found]
+
+
+def _pinned(kernel: Kernel, box: list[Number], inputs: Mapping[str, Number]) -> list[Number]:
+    """The solution in a box that is proven to hold exactly one, as narrowly as it can be enclosed."""
+    near = _search(kernel, [ball.middle(each) for each in box], inputs)
+    if near is not None and all(ball.contains(outer, inner) for outer, inner in zip(box, near, strict=True)):
+        return near
+    return refine(kernel, box, inputs)
+
+
+def _search(kernel: Kernel, guess: Sequence[float], inputs: Mapping[str, Number]) -> list[Number] | None:
+    """A box about the solution that a guess leads to, if it can be proven to be one."""
+    names = kernel.arguments[len(kernel.unknowns) :]
+    root = _finder(kernel).quick(guess, [ball.middle(inputs[name]) for name in names])
+    return prove(kernel, root.values, inputs) if root.is_found and root.is_regular else None
 
 
 @lru_cache(maxsize=256)
