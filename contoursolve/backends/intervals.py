@@ -30,16 +30,16 @@ def up(value: Array) -> Array:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Intervals:
-    """Lower and upper bounds. A bound that is not a number stands for no bound."""
+    """Lower and upper bounds."""
 
     low: Array
     high: Array
 
     def __add__(self, other: "Intervals") -> "Intervals":
-        return rounded(self.low + other.low, self.high + other.high)
+        return Intervals(down(self.low + other.low), up(self.high + other.high))
 
     def __sub__(self, other: "Intervals") -> "Intervals":
-        return rounded(self.low - other.high, self.high - other.low)
+        return Intervals(down(self.low - other.high), up(self.high - other.low))
 
     def __neg__(self) -> "Intervals":
         return Intervals(-self.high, -self.low)
@@ -59,9 +59,6 @@ class Intervals:
 
     def __pow__(self, exponent: "Intervals") -> "Intervals":
         raise ValueError("powers other than squares are not needed")
-
-    def __and__(self, other: "Intervals") -> "Intervals":
-        return Intervals(numpy.maximum(self.low, other.low), numpy.minimum(self.high, other.high))
 
 
 def constant(value: float) -> Intervals:

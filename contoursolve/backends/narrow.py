@@ -33,12 +33,12 @@ class Narrower(Replay):
             work[target] = value
         for operation, first, second, target in self._steps:
             work[target] = operation(work[first], work[second]) if second >= 0 else operation(work[first])
-        alive = numpy.ones(count, dtype=bool)
+        is_empty = numpy.zeros(count, dtype=bool)
         for source, number in self._outputs:
             value = work[source]
             high = numpy.minimum(value.high, 0.0) if number < self._zeros else value.high
             work[source] = Intervals(numpy.maximum(value.low, 0.0), high)
-            alive &= work[source].low <= work[source].high
+            is_empty |= work[source].low > work[source].high
         for (_, first, second, target), backwards in zip(
             reversed(self._steps), reversed(self._backwards), strict=True
         ):
@@ -51,12 +51,13 @@ class Narrower(Replay):
         found = list(inputs)
         for source, target in self._inputs:
             found[source] = work[target]
-            alive &= found[source].low <= found[source].high
-        return found, alive
+            is_empty |= found[source].low > found[source].high
+        return found, ~is_empty
 
 
 def _meet(a: Intervals, b: Intervals) -> Intervals:
-    return Intervals(numpy.maximum(a.low, b.low), numpy.minimum(a.high, b.high))
+    """What both allow; a bound that is not a number is none."""
+    return Intervals(numpy.fmax(a.low, b.low), numpy.fmin(a.high, b.high))
 
 
 def _add(z: Intervals, x: Intervals, y: Intervals) -> tuple[Intervals, Intervals]:
@@ -77,24 +78,23 @@ def _divide(z: Intervals, x: Intervals, y: Intervals) -> tuple[Intervals, Interv
 
 def _quotient(x: Intervals, z: Intervals, y: Intervals) -> Intervals:
     """The part of x for which x * y = z may hold."""
-    divided = z * intervals.inverse(y)
-    holds = (y.low < 0) & (y.high > 0)
-    apart = holds & ((z.low > 0) | (z.high < 0))
+    found = _meet(x, z * intervals.inverse(y))
+    apart = (y.low < 0) & (y.high > 0) & ((z.low > 0) | (z.high < 0))
+    if not apart.any():
+        return found
     # Two half lines: from the larger of the negative quotients down, from the smaller of the positive ones up.
     nearest: Array = numpy.where(z.low > 0, z.low, z.high)
     below, above = nearest / y.low, nearest / y.high
     left, right = up(numpy.minimum(below, above)), down(numpy.maximum(below, above))
-    low = numpy.where(apart & (x.low > left), numpy.maximum(x.low, right), numpy.maximum(x.low, divided.low))
-    high = numpy.where(apart & (x.high < right), numpy.minimum(x.high, left), numpy.minimum(x.high, divided.high))
-    # Zero times anything is zero.
-    free = (y.low <= 0) & (y.high >= 0) & (z.low <= 0) & (z.high >= 0)
-    return Intervals(numpy.where(free, x.low, low), numpy.where(free, x.high, high))
+    low = numpy.where(apart & (x.low > left), numpy.fmax(x.low, right), found.low)
+    high = numpy.where(apart & (x.high < right), numpy.fmin(x.high, left), found.high)
+    return Intervals(low, high)
 
 
 def _square(z: Intervals, x: Intervals) -> Intervals:
     outer, inner = up(numpy.sqrt(z.high)), numpy.maximum(down(numpy.sqrt(numpy.maximum(z.low, 0.0))), 0.0)
-    low = numpy.where(x.low > -inner, numpy.maximum(x.low, inner), numpy.maximum(x.low, -outer))
-    high = numpy.where(x.high < inner, numpy.minimum(x.high, -inner), numpy.minimum(x.high, outer))
+    low = numpy.fmax(x.low, numpy.where(x.low > -inner, inner, -outer))
+    high = numpy.fmin(x.high, numpy.where(x.high < inner, -inner, outer))
     return Intervals(low, high)
 
 
@@ -103,7 +103,7 @@ def _negate(z: Intervals, x: Intervals) -> Intervals:
 
 
 def _twice(z: Intervals, x: Intervals) -> Intervals:
-    return Intervals(numpy.maximum(x.low, z.low / 2), numpy.minimum(x.high, z.high / 2))
+    return _meet(x, Intervals(z.low / 2, z.high / 2))
 
 
 def _invert(z: Intervals, x: Intervals) -> Intervals:

@@ -71,6 +71,12 @@ class Tape:
         outputs = casadi.densify(casadi.vertcat(*self._outputs.values()))
         return casadi.Function("contour", [inputs], [outputs])
 
+    def shared(self) -> Any:
+        """The same function, in which what several outputs have in common is computed once."""
+        inputs = casadi.vertcat(*self._inputs.values())
+        outputs = casadi.densify(casadi.vertcat(*self._outputs.values()))
+        return casadi.Function("contour", [inputs], [casadi.cse(outputs)])
+
     def keep(self, prefixes: tuple[str, ...], names: Sequence[str]) -> "Tape":
         """The same tape with only the outputs of these names, or that begin so."""
         kept = Tape()

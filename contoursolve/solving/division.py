@@ -25,6 +25,9 @@ from contoursolve.solving.consequences import consequences
 BATCH = 1024
 """How many boxes are looked at together."""
 
+FEW = 32
+"""Fewer boxes than these are divided further before they are looked at."""
+
 DIVISION = 0.487
 """Boxes are divided away from the middle, where drawings like to have their solutions."""
 
@@ -87,9 +90,9 @@ def conditions_of(system: System, group: Group) -> Conditions:
         slopes.output(str(number), expression)
     return Conditions(
         group.unknowns,
-        Narrower(tape.function(), len(zeros)),
+        Narrower(tape.shared(), len(zeros)),
         tape.inputs,
-        Replay(slopes.function(), intervals, constant),
+        Replay(slopes.shared(), intervals, constant),
         slopes.inputs,
     )
 
@@ -122,7 +125,7 @@ def divide(
             undecided.append(boxes[is_small])
             boxes, slopes, widths = boxes[~is_small], slopes[~is_small], widths[~is_small]
             if len(boxes):
-                pending.append(_halves(boxes, _where(slopes, widths, high - low)))
+                pending.append(_divided(boxes, slopes, high - low))
         rest = _joined([*undecided, *pending])
         starts = rest[:: max(1, len(rest) // STARTS)]
         likely = approach(conditions.equations, starts.low / 2 + starts.high / 2, others, STEPS) if len(rest) else []
@@ -170,9 +173,16 @@ def _where(slopes: intervals.Array, widths: intervals.Array, ranges: intervals.A
     return found
 
 
-def _halves(boxes: Boxes, where: intervals.Array) -> Boxes:
-    every = numpy.arange(len(boxes))
-    begin, end = boxes.low[every, where], boxes.high[every, where]
-    low, high = boxes.low.copy(), boxes.high.copy()
-    low[every, where] = high[every, where] = begin + DIVISION * (end - begin)
-    return Boxes(numpy.concatenate([boxes.low, low]), numpy.concatenate([high, boxes.high]))
+def _divided(boxes: Boxes, slopes: intervals.Array, ranges: intervals.Array) -> Boxes:
+    """Two parts of each box, or more where there are few boxes: a batch of a few takes as long as one of many."""
+    parts = boxes
+    while True:
+        where = _where(slopes, parts.high - parts.low, ranges)
+        every = numpy.arange(len(parts))
+        begin, end = parts.low[every, where], parts.high[every, where]
+        low, high = parts.low.copy(), parts.high.copy()
+        low[every, where] = high[every, where] = begin + DIVISION * (end - begin)
+        parts = Boxes(numpy.concatenate([parts.low, low]), numpy.concatenate([high, parts.high]))
+        if len(parts) >= FEW:
+            return parts
+        slopes = numpy.concatenate([slopes, slopes])

@@ -19,8 +19,8 @@ from contoursolve.solving.polynomial import Coefficient
 from contoursolve.solving.search import settle
 
 
-BOXES = 60_000
-"""How many boxes are looked at for one drawing before the search is given up as undecided; a second or two."""
+BOXES = 30_000
+"""How many boxes are looked at for one drawing before the search is given up as undecided; about two seconds."""
 
 LEAST = 5_000
 """How many boxes every step may look at, however many the ones before it used."""
