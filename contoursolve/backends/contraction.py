@@ -84,7 +84,7 @@ def contract(equations: Replay, boxes: Boxes, others: Sequence[Intervals]) -> Co
     at, off = _middle_and_radius(slopes.low, slopes.high)
     at, off = at.reshape(count, size, size), off.reshape(count, size, size)
     value, error = _middle_and_radius(residuals.low, residuals.high)
-    usable = numpy.isfinite(at + off).all(axis=(1, 2)) & numpy.isfinite(value + error).all(axis=1)
+    usable: Any = numpy.isfinite(at + off).all(axis=(1, 2)) & numpy.isfinite(value + error).all(axis=1)
     at, off = numpy.where(usable[:, None, None], at, 0.0), numpy.where(usable[:, None, None], off, 0.0)
     value, error = numpy.where(usable[:, None], value, 0.0), numpy.where(usable[:, None], error, 0.0)
     weights = _inverses(at)
@@ -96,12 +96,15 @@ def contract(equations: Replay, boxes: Boxes, others: Sequence[Intervals]) -> Co
     radius = ((defect @ reach[:, :, None])[:, :, 0] + doubt) * (1 + 8 * size * EPSILON)
     radius += 8 * EPSILON * (numpy.abs(shift) + numpy.abs(middle)) + TINY
     image = Boxes(middle - shift - radius, middle - shift + radius)
-    is_proven = usable & ((image.low > outer.low) & (image.high < outer.high)).all(axis=1)
+    is_proven: Any = usable & ((image.low > outer.low) & (image.high < outer.high)).all(axis=1)
     narrowed = _swept(boxes, middle, (matrix, spread), (shift, doubt))
-    kept = numpy.where(usable[:, None], narrowed.low, boxes.low), numpy.where(usable[:, None], narrowed.high, boxes.high)
+    kept = (
+        numpy.where(usable[:, None], narrowed.low, boxes.low),
+        numpy.where(usable[:, None], narrowed.high, boxes.high),
+    )
     low = numpy.where(is_proven[:, None], image.low, kept[0])
     high = numpy.where(is_proven[:, None], image.high, kept[1])
-    meets = ((kept[0] <= kept[1]) & (low <= boxes.high) & (high >= boxes.low)).all(axis=1)
+    meets: Any = ((kept[0] <= kept[1]) & (low <= boxes.high) & (high >= boxes.low)).all(axis=1)
     sizes = numpy.maximum(numpy.abs(slopes.low), numpy.abs(slopes.high)).reshape(count, size, size)
     return Contraction(Boxes(low, high)[meets], is_proven[meets], sizes[meets])
 

@@ -20,9 +20,7 @@ class Narrower(Replay):
     def __init__(self, function: Any, zeros: int) -> None:
         super().__init__(function, intervals, constant)
         self._zeros = zeros
-        self._backwards = [
-            _BACKWARDS.get(function.instruction_id(target)) for *_, target in self._steps
-        ]
+        self._backwards = [_BACKWARDS.get(function.instruction_id(target)) for *_, target in self._steps]
 
     def narrowed(self, inputs: Sequence[Intervals], count: int) -> tuple[list[Intervals], Any]:
         """The inputs narrowed to what may satisfy the equations, and which of the boxes are not proven to be empty."""
@@ -39,9 +37,7 @@ class Narrower(Replay):
             high = numpy.minimum(value.high, 0.0) if number < self._zeros else value.high
             work[source] = Intervals(numpy.maximum(value.low, 0.0), high)
             is_empty |= work[source].low > work[source].high
-        for (_, first, second, target), backwards in zip(
-            reversed(self._steps), reversed(self._backwards), strict=True
-        ):
+        for (_, first, second, target), backwards in zip(reversed(self._steps), reversed(self._backwards), strict=True):
             if backwards is None:
                 continue
             if second >= 0:

@@ -124,16 +124,13 @@ def derivatives(residuals: Sequence[Any], unknowns: Sequence[Any]) -> list[Any]:
     return [jacobian[row, column] for row in range(len(residuals)) for column in range(len(unknowns))]
 
 
-def quadratic_parts(
-    residuals: Sequence[Any], unknowns: Sequence[Any], origin: Sequence[Any]
-) -> dict[tuple[int, tuple[int, ...]], Any] | None:
+def quadratic_parts(residuals: Sequence[Any], unknowns: Sequence[Any]) -> dict[tuple[int, tuple[int, ...]], Any] | None:
     """The coefficients of polynomials of degree 2 by (residual, monomial); None if one is of another kind.
 
-    The polynomials are in what the unknowns are more than at the origin. A monomial names the unknowns that are
-    multiplied, by their index in order: `(0, 0)`, `(1,)`, `()`.
+    A monomial names the unknowns that are multiplied, by their index in order: `(0, 0)`, `(1,)`, `()`.
     """
     symbols = casadi.vertcat(*unknowns)
-    zero = casadi.vertcat(*origin)
+    zero = casadi.SX.zeros(len(unknowns))
     parts: dict[tuple[int, tuple[int, ...]], Any] = {}
     for number, residual in enumerate(residuals):
         hessian, gradient = casadi.hessian(residual, symbols)

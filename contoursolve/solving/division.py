@@ -128,8 +128,8 @@ def divide(
                 pending.append(_divided(boxes, slopes, high - low))
         rest = _joined([*undecided, *pending])
         starts = rest[:: max(1, len(rest) // STARTS)]
-        likely = approach(conditions.equations, starts.low / 2 + starts.high / 2, others, STEPS) if len(rest) else []
-    return Division(_joined(proven), [point.tolist() for point in likely], not len(rest), looked_at)
+        likely = approach(conditions.equations, starts.low / 2 + starts.high / 2, others, STEPS)
+    return Division(_joined(proven), likely.tolist(), not len(rest), looked_at)
 
 
 def _joined(parts: list[Boxes]) -> Boxes:
@@ -138,11 +138,10 @@ def _joined(parts: list[Boxes]) -> Boxes:
 
 def _batch(pending: list[Boxes]) -> tuple[Boxes, list[Boxes]]:
     """The boxes that have waited longest, and the others: no cluster of boxes uses up what others need."""
-    count = 0
-    for number, each in enumerate(pending, 1):
-        count += len(each)
-        if count >= BATCH:
-            break
+    number, count = 0, 0
+    while number < len(pending) and count < BATCH:
+        count += len(pending[number])
+        number += 1
     boxes = _joined(pending[:number])
     rest = [boxes[BATCH:]] if count > BATCH else []
     return boxes[:BATCH], rest + pending[number:]

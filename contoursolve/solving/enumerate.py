@@ -8,16 +8,14 @@ from contoursolve.analysis import Group, judge, order
 from contoursolve.analysis.generic import witness_of
 from contoursolve.backends import ball
 from contoursolve.backends.ball import Number
-from contoursolve.backends.residue import draw
 from contoursolve.constraints import System
 from contoursolve.model import Line, Profile, scalar
 from contoursolve.solving.division import conditions_of, divide
-from contoursolve.solving.elimination import Close, Limits, Obstacle, ObstacleError, Root, solve_step
+from contoursolve.solving.elimination import Close, Obstacle, ObstacleError, Root, solve_step
 from contoursolve.solving.ground import Ground, ground_of
-from contoursolve.solving.kernel import ORIGIN, Kernel, make_kernel
+from contoursolve.solving.kernel import Kernel, make_kernel
 from contoursolve.solving.polynomial import Coefficient
 from contoursolve.solving.search import settle
-
 
 BOXES = 30_000
 """How many boxes are looked at for one drawing before the search is given up as undecided; about two seconds."""
@@ -138,7 +136,7 @@ class _Search:
     ) -> list[Root]:
         if kernel.coefficients is not None:
             try:
-                roots = solve_step(kernel, self._coefficients(kernel, scalars, signs, {}), Limits(close=self.close))
+                roots = solve_step(kernel, self._coefficients(kernel, scalars, signs), self.close)
             except ObstacleError as error:
                 if error.obstacle is not Obstacle.NO_CLOSED_FORM:
                     raise
@@ -163,15 +161,10 @@ class _Search:
         return settle(kernel, division, inputs)
 
     def _coefficients(
-        self, kernel: Kernel, scalars: Mapping[str, Number], signs: Mapping[str, int], origin: Mapping[str, Number]
+        self, kernel: Kernel, scalars: Mapping[str, Number], signs: Mapping[str, int]
     ) -> list[Coefficient]:
-        """The parameters of a step; the origin is zero unless told otherwise."""
-        zero = Coefficient(ball.exact(0), 0)
         return [
-            (Coefficient(origin[name.removeprefix(ORIGIN)], draw(name)) if origin else zero)
-            if name.startswith(ORIGIN)
-            else Coefficient(self.ground.number(name, scalars, signs), witness_of(name, signs))
-            for name in kernel.parameters
+            Coefficient(self.ground.number(name, scalars, signs), witness_of(name, signs)) for name in kernel.parameters
         ]
 
     def _is_possible(self, state: Found, kernel: Kernel) -> bool:

@@ -35,7 +35,8 @@ class Ground:
     def reach(self, system: System) -> dict[str, tuple[float, float]]:
         """The range of every unknown in which solutions are searched for where there is no closed form.
 
-        Lengths and coordinates go `REACH` times as far from the start point as anything that is given; radii are at least `SMALLEST`.
+        Lengths and coordinates go `REACH` times as far from the start point as anything that is given; radii are at
+        least `SMALLEST`.
         """
         starts = [ball.middle(self.scalars.get(scalar(system.figure.start, axis), ball.exact(0.0))) for axis in (0, 1)]
         absolute = {fact.given: fact.axis for fact in system.facts if isinstance(fact, Coordinate)}

@@ -11,6 +11,7 @@ from contoursolve.solving.elimination import Root
 from contoursolve.solving.kernel import Kernel
 from contoursolve.solving.krawczyk import keep, prove, refine
 
+
 def settle(kernel: Kernel, division: Division, inputs: Mapping[str, Number]) -> list[Root]:
     """All solutions that are proven."""
     found: list[list[Number]] = []
