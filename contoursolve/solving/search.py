@@ -18,25 +18,25 @@ def settle(kernel: Kernel, division: Division, inputs: Mapping[str, Number]) -> 
     for low, high in zip(division.proven.low.tolist(), division.proven.high.tolist(), strict=True):
         keep(_pinned(kernel, [ball.between(*ends) for ends in zip(low, high, strict=True)], inputs), found)
     for point in division.likely:
-        box = _search(kernel, point, inputs)
+        box = search(kernel, point, inputs)
         if box is not None:
             keep(box, found)
     return [Root(dict(enumerate(box))) for box in found]
 
 
-def _pinned(kernel: Kernel, box: list[Number], inputs: Mapping[str, Number]) -> list[Number]:
-    """The solution in a box that is proven to hold exactly one, as narrowly as it can be enclosed."""
-    near = _search(kernel, [ball.middle(each) for each in box], inputs)
-    if near is not None and all(ball.contains(outer, inner) for outer, inner in zip(box, near, strict=True)):
-        return near
-    return refine(kernel, box, inputs)
-
-
-def _search(kernel: Kernel, guess: Sequence[float], inputs: Mapping[str, Number]) -> list[Number] | None:
+def search(kernel: Kernel, guess: Sequence[float], inputs: Mapping[str, Number]) -> list[Number] | None:
     """A box about the solution that a guess leads to, if it can be proven to be one."""
     names = kernel.arguments[len(kernel.unknowns) :]
     root = _finder(kernel).quick(guess, [ball.middle(inputs[name]) for name in names])
     return prove(kernel, root.values, inputs) if root.is_found and root.is_regular else None
+
+
+def _pinned(kernel: Kernel, box: list[Number], inputs: Mapping[str, Number]) -> list[Number]:
+    """The solution in a box that is proven to hold exactly one, as narrowly as it can be enclosed."""
+    near = search(kernel, [ball.middle(each) for each in box], inputs)
+    if near is not None and all(ball.contains(outer, inner) for outer, inner in zip(box, near, strict=True)):
+        return near
+    return refine(kernel, box, inputs)
 
 
 @lru_cache(maxsize=256)
