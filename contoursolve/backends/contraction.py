@@ -19,9 +19,9 @@ EPSILON = 2.0**-52
 TINY = 1e-290
 """What is lost to underflow is less."""
 
-OUTWARD, LEAST = 2.0**-7, 2.0**-43
-"""By how much a box is inflated before the test, as shares of its width and of its coordinates: a solution on the
-edge of a box, where it was divided, is inside then."""
+OUTWARD = 2.0**-7
+"""1. By how much of its width a box is inflated before the test: a solution on its edge, where it was divided, is
+inside then."""
 
 TILT = 2.0**-30
 """1. By how much a singular matrix is changed before it is inverted."""
@@ -69,15 +69,16 @@ def stacked(columns: Sequence[Intervals], count: int) -> Boxes:
     return Boxes(numpy.stack(low, axis=1), numpy.stack(high, axis=1))
 
 
-def contract(equations: Replay, boxes: Boxes, others: Sequence[Intervals]) -> Contraction:
+def contract(equations: Replay, boxes: Boxes, others: Sequence[Intervals], margin: float) -> Contraction:
     """The boxes narrowed; those without a solution are left out.
 
-    `equations` gives the equations and their derivatives row by row, at the unknowns and then the `others`.
+    `equations` gives the equations and their derivatives row by row, at the unknowns and then the `others`. The test
+    is made with boxes that are larger by `margin`, a share of the coordinates.
     """
     count, size = boxes.low.shape
-    margin = OUTWARD * (boxes.high - boxes.low)
-    margin += LEAST * numpy.maximum(1.0, numpy.maximum(numpy.abs(boxes.low), numpy.abs(boxes.high)))
-    outer = Boxes(boxes.low - margin, boxes.high + margin)
+    size_of = numpy.maximum(1.0, numpy.maximum(numpy.abs(boxes.low), numpy.abs(boxes.high)))
+    wider = OUTWARD * (boxes.high - boxes.low) + margin * size_of
+    outer = Boxes(boxes.low - wider, boxes.high + wider)
     middle = outer.low + (outer.high - outer.low) / 2
     slopes = stacked(equations([*outer.columns, *others])[size:], count)
     residuals = stacked(equations([*Boxes(middle, middle).columns, *others])[:size], count)

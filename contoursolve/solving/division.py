@@ -34,6 +34,10 @@ DIVISION = 0.487
 NARROWEST = 2.0**-36
 """A box this small in every direction, as a share of the whole range, is given up as undecided."""
 
+MARGINS = (2.0**-43, 2.0**-37, 2.0**-31)
+"""By how much of its coordinates a box is inflated before it is tested; the larger ones for the smallest boxes, in
+which rounding hides the solution."""
+
 STARTS, STEPS = 2000, 25
 """How many of the boxes that remain undecided Newton's method starts from, and how many steps it takes."""
 
@@ -117,13 +121,16 @@ def divide(
             boxes = _narrowed(conditions.narrower, boxes, before)
             if not len(boxes):
                 continue
-            found = contract(conditions.equations, boxes, others)
+            found = contract(conditions.equations, boxes, others, MARGINS[0])
             proven.append(found.boxes[found.is_proven])
             boxes, slopes = found.boxes[~found.is_proven], found.slopes[~found.is_proven]
-            widths = boxes.high - boxes.low
-            is_small = (widths <= NARROWEST * (high - low)).all(axis=1)
-            undecided.append(boxes[is_small])
-            boxes, slopes, widths = boxes[~is_small], slopes[~is_small], widths[~is_small]
+            is_small = (boxes.high - boxes.low <= NARROWEST * (high - low)).all(axis=1)
+            small, boxes, slopes = boxes[is_small], boxes[~is_small], slopes[~is_small]
+            for margin in MARGINS[1:]:
+                found = contract(conditions.equations, small, others, margin)
+                proven.append(found.boxes[found.is_proven])
+                small = found.boxes[~found.is_proven]
+            undecided.append(small)
             if len(boxes):
                 pending.append(_divided(boxes, slopes, high - low))
         rest = _joined([*undecided, *pending])
