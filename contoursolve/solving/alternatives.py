@@ -114,11 +114,14 @@ def _alternative(profile: Profile, system: System, groups: Sequence[Group], foun
         more, about = check_path(profile, machine.corner_residuals, points, out, _sizes(profile, scalars))
         refusals += more
         remarks += about
+    sides = _sides(system, at)
     # A circle about the middle of two of its points is an ordinary half circle.
     centers = {element.center for element in system.figure.path if isinstance(element, Arc)}
     gap = 0.0 if any(name.rpartition(".")[0] not in centers for name in found.doubles) else None
     if gap is not None:
-        remarks.append(Remark(RemarkKind.TOUCHES, _touching(system, found), (), {}))
+        subject = _touching(system, found)
+        kind = RemarkKind.TOUCHES if sides.get(subject) == BOTH else RemarkKind.DOUBLE
+        remarks.append(Remark(kind, subject, (), {}))
     radius = radius_of(boxes, scalars) if proof is not Proof.UNKNOWN or found.doubles else inf
     certificate = Certificate(proof, radius, "", gap)
     if proof is Proof.UNKNOWN:
@@ -136,7 +139,7 @@ def _alternative(profile: Profile, system: System, groups: Sequence[Group], foun
         certificate=certificate,
         scalars=scalars if not refusals else {},
     )
-    return Alternative(solution, scalars, _sides(system, at), certificate)
+    return Alternative(solution, scalars, sides, certificate)
 
 
 def _doubtful(found: Found, radius: float, gap: float | None) -> Certificate:
@@ -227,8 +230,11 @@ def _compare(
 
 
 def _touching(system: System, found: Found) -> str:
+    """The point at which two solutions have become one; a centre only if there is no other."""
     points = {name.rpartition(".")[0] for name in found.doubles}
-    return next((point for point in system.figure.points if point in points), "the contour")
+    centers = {fact.center for fact in system.facts if isinstance(fact, OnCircle)}
+    touching = [point for point in system.figure.points if point in points]
+    return next(iter(sorted(touching, key=centers.__contains__)), "the contour")
 
 
 def _sides(system: System, at: Values) -> dict[str, str]:
