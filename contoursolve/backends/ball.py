@@ -176,7 +176,7 @@ HALVINGS = 64
 
 
 def _sharpened(polynomial: Any, root: Number) -> Number:
-    """The ball about a simple root, shrunk by Newton's method as far as it goes; isolated roots may be in wide balls."""
+    """The ball about a root that is isolated, which may be wide, shrunk by Newton's method as far as it goes."""
     for _ in range(HALVINGS):
         at = root.mid()
         # About the middle of the ball the powers do not cancel.
