@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy
+from numpy.typing import NDArray
 
 from contoursolve.backends.intervals import Array, Intervals, down, up
 from contoursolve.backends.replay import Replay
@@ -35,21 +36,29 @@ FAR, PLACES = 1e9, 6
 
 @dataclass(frozen=True, slots=True)
 class Boxes:
-    """Lower and upper bounds by box and unknown."""
+    """Lower and upper bounds by box and unknown, and for each box the number of the case that it belongs to: systems
+    of the same equations with other values for what is known."""
 
     low: Array
     high: Array
+    case: NDArray[numpy.intp]
 
     def __len__(self) -> int:
         return len(self.low)
 
     def __getitem__(self, chosen: Any) -> "Boxes":
-        return Boxes(self.low[chosen], self.high[chosen])
+        return Boxes(self.low[chosen], self.high[chosen], self.case[chosen])
 
     @property
-    def columns(self) -> list[Intervals]:
-        """The bounds of all boxes for each unknown."""
-        return [Intervals(low, high) for low, high in zip(self.low.T, self.high.T, strict=True)]
+    def middle(self) -> "Boxes":
+        """The points in the middle."""
+        points = self.low / 2 + self.high / 2
+        return Boxes(points, points, self.case)
+
+    def inputs(self, known: Sequence[Intervals]) -> list[Intervals]:
+        """The bounds of all boxes for each unknown, and then of what is known, which is given by case."""
+        unknown = [Intervals(low, high) for low, high in zip(self.low.T, self.high.T, strict=True)]
+        return unknown + [Intervals(each.low[self.case], each.high[self.case]) for each in known]
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,26 +71,31 @@ class Contraction:
     slopes: Array
 
 
-def stacked(columns: Sequence[Intervals], count: int) -> Boxes:
+def stacked(columns: Sequence[Intervals], case: NDArray[numpy.intp]) -> Boxes:
     """Boxes from the bounds for each unknown."""
-    low = [numpy.broadcast_to(each.low, count) for each in columns]
-    high = [numpy.broadcast_to(each.high, count) for each in columns]
-    return Boxes(numpy.stack(low, axis=1), numpy.stack(high, axis=1))
+    low = [numpy.broadcast_to(each.low, len(case)) for each in columns]
+    high = [numpy.broadcast_to(each.high, len(case)) for each in columns]
+    return Boxes(numpy.stack(low, axis=1), numpy.stack(high, axis=1), case)
 
 
-def contract(equations: Replay, boxes: Boxes, others: Sequence[Intervals], margin: float) -> Contraction:
+def joined(parts: Sequence[Boxes]) -> Boxes:
+    """All boxes together."""
+    return Boxes(*(numpy.concatenate([getattr(each, name) for each in parts]) for name in ("low", "high", "case")))
+
+
+def contract(equations: Replay, boxes: Boxes, known: Sequence[Intervals], margin: float) -> Contraction:
     """The boxes narrowed; those without a solution are left out.
 
-    `equations` gives the equations and their derivatives row by row, at the unknowns and then the `others`. The test
-    is made with boxes that are larger by `margin`, a share of the coordinates.
+    `equations` gives the equations and their derivatives row by row, at the unknowns and then what is `known`,
+    each by case. The test is made with boxes that are larger by `margin`, a share of the coordinates.
     """
     count, size = boxes.low.shape
     size_of = numpy.maximum(1.0, numpy.maximum(numpy.abs(boxes.low), numpy.abs(boxes.high)))
     wider = OUTWARD * (boxes.high - boxes.low) + margin * size_of
-    outer = Boxes(boxes.low - wider, boxes.high + wider)
-    middle = outer.low + (outer.high - outer.low) / 2
-    slopes = stacked(equations([*outer.columns, *others])[size:], count)
-    residuals = stacked(equations([*Boxes(middle, middle).columns, *others])[:size], count)
+    outer = Boxes(boxes.low - wider, boxes.high + wider, boxes.case)
+    middle = outer.middle.low
+    slopes = stacked(equations(outer.inputs(known))[size:], boxes.case)
+    residuals = stacked(equations(outer.middle.inputs(known))[:size], boxes.case)
     at, off = _middle_and_radius(slopes.low, slopes.high)
     at, off = at.reshape(count, size, size), off.reshape(count, size, size)
     value, error = _middle_and_radius(residuals.low, residuals.high)
@@ -96,7 +110,7 @@ def contract(equations: Replay, boxes: Boxes, others: Sequence[Intervals], margi
     defect = numpy.abs(numpy.eye(size) - matrix) * (1 + 4 * EPSILON) + spread
     radius = ((defect @ reach[:, :, None])[:, :, 0] + doubt) * (1 + 8 * size * EPSILON)
     radius += 8 * EPSILON * (numpy.abs(shift) + numpy.abs(middle)) + TINY
-    image = Boxes(middle - shift - radius, middle - shift + radius)
+    image = Boxes(middle - shift - radius, middle - shift + radius, boxes.case)
     is_proven: Any = usable & ((image.low > outer.low) & (image.high < outer.high)).all(axis=1)
     narrowed = _swept(boxes, middle, (matrix, spread), (shift, doubt))
     kept = (
@@ -107,23 +121,24 @@ def contract(equations: Replay, boxes: Boxes, others: Sequence[Intervals], margi
     high = numpy.where(is_proven[:, None], image.high, kept[1])
     meets: Any = ((kept[0] <= kept[1]) & (low <= boxes.high) & (high >= boxes.low)).all(axis=1)
     sizes = numpy.maximum(numpy.abs(slopes.low), numpy.abs(slopes.high)).reshape(count, size, size)
-    return Contraction(Boxes(low, high)[meets], is_proven[meets], sizes[meets])
+    return Contraction(Boxes(low, high, boxes.case)[meets], is_proven[meets], sizes[meets])
 
 
-def approach(equations: Replay, points: Array, others: Sequence[Intervals], steps: int) -> Array:
+def approach(equations: Replay, starts: Boxes, known: Sequence[Intervals], steps: int) -> Boxes:
     """Where Newton's method leads from many points at once, as far as it ends: each such place once, nothing proven."""
-    size = points.shape[1]
-    moved = numpy.full_like(points, numpy.inf)
+    size = starts.low.shape[1]
+    points, moved = starts.low, numpy.full_like(starts.low, numpy.inf)
     for _ in range(steps):
-        found = stacked(equations([*Boxes(points, points).columns, *others]), len(points))
+        found = stacked(equations(Boxes(points, points, starts.case).inputs(known)), starts.case)
         values = numpy.where(numpy.isfinite(found.low), found.low, 0.0)
         inverses = _inverses(values[:, size:].reshape(-1, size, size))
         moved = (inverses @ values[:, :size, None])[:, :, 0]
         points = points - moved
-    largest = numpy.maximum(1.0, numpy.abs(points))
-    arrived: Array = points[(numpy.abs(moved) < ARRIVED * largest).all(axis=1) & (numpy.abs(points) < FAR).all(axis=1)]
-    _, first = numpy.unique(numpy.round(arrived, PLACES), axis=0, return_index=True)
-    return arrived[numpy.sort(first)]
+    has_arrived: Any = numpy.abs(moved) < ARRIVED * numpy.maximum(1.0, numpy.abs(points))
+    has_arrived = has_arrived.all(axis=1) & (numpy.abs(points) < FAR).all(axis=1)
+    ends = Boxes(points, points, starts.case)[has_arrived]
+    places = numpy.column_stack([numpy.round(ends.low, PLACES), ends.case])
+    return ends[numpy.sort(numpy.unique(places, axis=0, return_index=True)[1])]
 
 
 def _swept(boxes: Boxes, middle: Array, matrix: tuple[Array, Array], shift: tuple[Array, Array]) -> Boxes:
@@ -143,7 +158,7 @@ def _swept(boxes: Boxes, middle: Array, matrix: tuple[Array, Array], shift: tupl
         there = Intervals(middle[:, number], middle[:, number]) - step
         low[:, number] = numpy.maximum(low[:, number], there.low)
         high[:, number] = numpy.minimum(high[:, number], there.high)
-    return Boxes(low, high)
+    return Boxes(low, high, boxes.case)
 
 
 def _middle_and_radius(low: Array, high: Array) -> tuple[Array, Array]:

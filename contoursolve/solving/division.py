@@ -4,7 +4,7 @@ A box is narrowed to what each equation allows, then by all equations together. 
 matters most. Boxes are looked at in batches, in doubles rounded outwards (Kearfott 1996, Rigorous Global Search).
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -13,7 +13,7 @@ import numpy
 from contoursolve.analysis import Group, judge
 from contoursolve.backends import ball, intervals, numeric
 from contoursolve.backends.ball import Number
-from contoursolve.backends.contraction import Boxes, approach, contract, stacked
+from contoursolve.backends.contraction import Boxes, approach, contract, joined, stacked
 from contoursolve.backends.inputs import lookup
 from contoursolve.backends.intervals import Intervals, constant
 from contoursolve.backends.narrow import Narrower
@@ -63,7 +63,7 @@ class Conditions:
 
 @dataclass(frozen=True, slots=True)
 class Division:
-    """Boxes that are proven to hold exactly one solution, whether they hold all, and how many were looked at.
+    """Boxes that are proven to hold exactly one solution, and whether they hold all of them.
 
     `likely` are points near which there may be others, in the boxes that remain undecided.
     """
@@ -71,7 +71,6 @@ class Division:
     proven: Boxes
     likely: list[list[float]]
     is_complete: bool
-    looked_at: int
 
 
 @lru_cache(maxsize=1024)
@@ -102,45 +101,54 @@ def conditions_of(system: System, group: Group) -> Conditions:
 
 
 def divide(
-    conditions: Conditions, inputs: Mapping[str, Number], reach: Mapping[str, tuple[float, float]], budget: int
-) -> Division:
-    """All solutions within reach, at the values of a group's other inputs; `budget` is how many boxes are looked at."""
+    conditions: Conditions,
+    cases: Sequence[Mapping[str, Number]],
+    reach: Mapping[str, tuple[float, float]],
+    budget: int,
+) -> tuple[list[Division], int]:
+    """All solutions within reach for each case, which gives the values of a group's other inputs; and how many boxes
+    were looked at, of which `budget` is the number for all cases together."""
     size = len(conditions.unknowns)
-    known = {name: Intervals(*map(numpy.array, ball.bounds(value))) for name, value in inputs.items()}
-    before = [known[name] for name in conditions.narrowed_by[size:]]
-    others = [known[name] for name in conditions.arguments[size:]]
+    narrowed_at, known = (
+        [_by_case(name, cases) for name in names[size:]] for names in (conditions.narrowed_by, conditions.arguments)
+    )
     low, high = numpy.array([reach[name] for name in conditions.unknowns]).T
-    pending = [Boxes(low[None], high[None])]
-    none = pending[0][:0]
-    proven, undecided = [none], [none]
+    every = numpy.arange(len(cases))
+    pending = [Boxes(numpy.tile(low, (len(cases), 1)), numpy.tile(high, (len(cases), 1)), every)]
+    proven, undecided = [pending[0][:0]], [pending[0][:0]]
     looked_at = 0
     with numpy.errstate(all="ignore"):
         while pending and looked_at < budget:
             boxes, pending = _batch(pending)
             looked_at += len(boxes)
-            boxes = _narrowed(conditions.narrower, boxes, before)
+            boxes = _narrowed(conditions.narrower, boxes, narrowed_at)
             if not len(boxes):
                 continue
-            found = contract(conditions.equations, boxes, others, MARGINS[0])
+            found = contract(conditions.equations, boxes, known, MARGINS[0])
             proven.append(found.boxes[found.is_proven])
             boxes, slopes = found.boxes[~found.is_proven], found.slopes[~found.is_proven]
             is_small = (boxes.high - boxes.low <= NARROWEST * (high - low)).all(axis=1)
             small, boxes, slopes = boxes[is_small], boxes[~is_small], slopes[~is_small]
             for margin in MARGINS[1:]:
-                found = contract(conditions.equations, small, others, margin)
+                found = contract(conditions.equations, small, known, margin)
                 proven.append(found.boxes[found.is_proven])
                 small = found.boxes[~found.is_proven]
             undecided.append(small)
             if len(boxes):
                 pending.append(_divided(boxes, slopes, high - low))
-        rest = _joined([*undecided, *pending])
-        starts = rest[:: max(1, len(rest) // STARTS)]
-        likely = approach(conditions.equations, starts.low / 2 + starts.high / 2, others, STEPS)
-    return Division(_joined(proven), likely.tolist(), not len(rest), looked_at)
+        rest, alone = joined([*undecided, *pending]), joined(proven)
+        likely = approach(conditions.equations, rest[:: max(1, len(rest) // STARTS)].middle, known, STEPS)
+    divisions = [
+        Division(alone[alone.case == case], likely.low[likely.case == case].tolist(), case not in rest.case)
+        for case in range(len(cases))
+    ]
+    return divisions, looked_at
 
 
-def _joined(parts: list[Boxes]) -> Boxes:
-    return Boxes(numpy.concatenate([each.low for each in parts]), numpy.concatenate([each.high for each in parts]))
+def _by_case(name: str, cases: Sequence[Mapping[str, Number]]) -> Intervals:
+    """The bounds of an input in every case."""
+    bounds = [ball.bounds(case[name]) for case in cases]
+    return Intervals(numpy.array([low for low, _ in bounds]), numpy.array([high for _, high in bounds]))
 
 
 def _batch(pending: list[Boxes]) -> tuple[Boxes, list[Boxes]]:
@@ -149,17 +157,17 @@ def _batch(pending: list[Boxes]) -> tuple[Boxes, list[Boxes]]:
     while number < len(pending) and count < BATCH:
         count += len(pending[number])
         number += 1
-    boxes = _joined(pending[:number])
+    boxes = joined(pending[:number])
     rest = [boxes[BATCH:]] if count > BATCH else []
     return boxes[:BATCH], rest + pending[number:]
 
 
-def _narrowed(narrower: Narrower, boxes: Boxes, others: list[Intervals]) -> Boxes:
+def _narrowed(narrower: Narrower, boxes: Boxes, known: list[Intervals]) -> Boxes:
     """The boxes narrowed by each condition, for as long as that helps most of them."""
     for _ in range(PASSES):
-        columns, is_possible = narrower.narrowed([*boxes.columns, *others], len(boxes))
+        columns, is_possible = narrower.narrowed(boxes.inputs(known), len(boxes))
         widths = (boxes.high - boxes.low)[is_possible]
-        boxes = stacked(columns[: boxes.low.shape[1]], len(boxes))[is_possible]
+        boxes = stacked(columns[: boxes.low.shape[1]], boxes.case)[is_possible]
         if not len(boxes):
             break
         left = numpy.min((boxes.high - boxes.low) / numpy.maximum(widths, 1e-300), axis=1)
@@ -188,7 +196,7 @@ def _divided(boxes: Boxes, slopes: intervals.Array, ranges: intervals.Array) -> 
         begin, end = parts.low[every, where], parts.high[every, where]
         low, high = parts.low.copy(), parts.high.copy()
         low[every, where] = high[every, where] = begin + DIVISION * (end - begin)
-        parts = Boxes(numpy.concatenate([parts.low, low]), numpy.concatenate([high, parts.high]))
+        parts = joined([Boxes(parts.low, high, parts.case), Boxes(low, parts.high, parts.case)])
         if len(parts) >= FEW:
             return parts
         slopes = numpy.concatenate([slopes, slopes])
