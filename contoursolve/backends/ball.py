@@ -12,7 +12,7 @@ from math import inf, nextafter
 from typing import Any
 
 import flint
-from flint import acb_poly, arb, fmpq
+from flint import acb_poly, arb, arb_poly, fmpq
 
 Number = Any
 """fmpq or arb; python-flint has no types of its own for checkers."""
@@ -124,6 +124,13 @@ def width(value: Number) -> float:
     return 0.0 if isinstance(value, fmpq) else _up(value.rad())
 
 
+def bounds(value: Number) -> tuple[float, float]:
+    """Floats that enclose a number; the number itself twice if it is one."""
+    if isinstance(value, fmpq) and exact(middle(value)) == value:
+        return middle(value), middle(value)
+    return nextafter(float(arb(value).lower()), -inf), nextafter(float(arb(value).upper()), inf)
+
+
 def distance(value: Number, at: float) -> float:
     """The largest distance of a number from a float, rounded up."""
     return largest_distance(((value, at),))
@@ -164,7 +171,25 @@ def real_roots(coefficients: Sequence[Number]) -> list[Number] | None:
     except ValueError:
         return None
     # The roots are isolated: one whose ball meets the real line is its own conjugate.
-    return [each.real for each in roots if each.imag.contains(0)]
+    polynomial = arb_poly([arb(each) for each in coefficients])
+    return [_sharpened(polynomial, each.real) for each in roots if each.imag.contains(0)]
+
+
+HALVINGS = 64
+"""How often the ball about a root is made smaller; each time doubles its digits, once it is small."""
+
+
+def _sharpened(polynomial: Any, root: Number) -> Number:
+    """The ball about a root that is isolated, which may be wide, shrunk by Newton's method as far as it goes."""
+    for _ in range(HALVINGS):
+        at = root.mid()
+        # About the middle of the ball the powers do not cancel.
+        shifted = polynomial(arb_poly([at, 1]))
+        smaller = common(root, at - shifted[0] / shifted.derivative()(root - at))
+        if smaller is None or not smaller.rad() < root.rad() / 2:
+            break
+        root = smaller
+    return root
 
 
 def _up(value: Any) -> float:

@@ -146,6 +146,11 @@ class Tape:
         outputs = casadi.densify(_stack(self._outputs.values()))
         return casadi.Function("contour", [inputs], [outputs])
 
+    def shared(self) -> Any:
+        """The same function, in which what several outputs have in common is computed once."""
+        outputs = casadi.densify(_stack(self._outputs.values()))
+        return casadi.Function("contour", [_stack(self._inputs.values())], [casadi.cse(outputs)])
+
     def keep(self, prefixes: tuple[str, ...], names: Sequence[str]) -> "Tape":
         """The same tape with only the outputs of these names, or that begin so."""
         kept = Tape()
@@ -199,14 +204,13 @@ def derivatives(residuals: Sequence[Any], unknowns: Sequence[Any]) -> list[Expre
 
 
 def quadratic_parts(
-    residuals: Sequence[Any], unknowns: Sequence[Any], origin: Sequence[Any]
+    residuals: Sequence[Any], unknowns: Sequence[Any]
 ) -> dict[tuple[int, tuple[int, ...]], Expression] | None:
     """The coefficients of polynomials of degree 2 by (residual, monomial); None if one is of another kind.
 
-    The polynomials are in what the unknowns are more than at the origin. A monomial names the unknowns that are
-    multiplied, by their index in order: `(0, 0)`, `(1,)`, `()`.
+    A monomial names the unknowns that are multiplied, by their index in order: `(0, 0)`, `(1,)`, `()`.
     """
-    symbols, zero = _stack(unknowns), _stack(origin)
+    symbols, zero = _stack(unknowns), casadi.SX.zeros(len(unknowns))
     parts: dict[tuple[int, tuple[int, ...]], Expression] = {}
     for number, residual in enumerate(map(_sx, residuals)):
         hessian, gradient = casadi.hessian(residual, symbols)

@@ -22,8 +22,8 @@ from contoursolve.explain import angle_text, join, length_text, unknowns_text
 from contoursolve.model import Fact, Profile
 from contoursolve.output.layout import printable
 from contoursolve.solving import scalars_of, solve
-from contoursolve.solving.alternatives import Alternatives, choose
-from contoursolve.solving.elimination import remaining
+from contoursolve.solving.alternatives import ARCS, Alternatives, choose
+from contoursolve.solving.elimination import has_closed_form
 from contoursolve.solving.kernel import make_kernel
 from contoursolve.syntax import FACT
 
@@ -134,9 +134,11 @@ def _phrase(fact: Fact, group: Group, profile: Profile) -> str:
 def _choice(group: Group, system: System, sides: Mapping[str, str]) -> str:
     """Which of several places is meant, and that a step has no closed form."""
     names = _names(group)
-    chosen = [f"the one {side}" if name in names else f"{name} {side}" for name, side in sides.items() if name in names]
+    chosen = [f"the {side}" if side in ARCS else f"the one {side}" for name, side in sides.items() if name in names]
     kernel = make_kernel(system, group)
-    numeric = "; no closed form: searched, and proven" if len(group.unknowns) > 1 and remaining(kernel) is None else ""
+    numeric = (
+        "; no closed form: searched, and proven" if len(group.unknowns) > 1 and not has_closed_form(kernel) else ""
+    )
     return (f"; {join(chosen)}" if chosen else "") + numeric
 
 

@@ -1,6 +1,6 @@
 """Every contour that satisfies a profile: solutions of the equations, made into paths, named and certified."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import inf
@@ -101,6 +101,9 @@ def choose(alternatives: Alternatives, choices: tuple[Choice, ...]) -> tuple[Alt
 BOTH = "touches"
 """The side of a double solution."""
 
+ARCS = ("short arc", "long arc")
+"""The two arcs of one radius and sense between two points: less and more than half a circle."""
+
 
 def _alternative(profile: Profile, system: System, groups: Sequence[Group], found: Found) -> Alternative:
     ground = ground_of(profile)
@@ -123,11 +126,14 @@ def _alternative(profile: Profile, system: System, groups: Sequence[Group], foun
         )
         refusals += more
         remarks += about
+    sides = _sides(system, at, {choice.point for choice in profile.choices})
     # A circle about the middle of two of its points is an ordinary half circle.
     centers = {element.center for element in system.figure.path if isinstance(element, Arc)}
     gap = 0.0 if any(name.rpartition(".")[0] not in centers for name in found.doubles) else None
     if gap is not None:
-        remarks.append(Remark(RemarkKind.TOUCHES, _touching(system, found), (), {}))
+        subject = _touching(system, found)
+        kind = RemarkKind.TOUCHES if sides.get(subject) == BOTH else RemarkKind.DOUBLE
+        remarks.append(Remark(kind, subject, (), {}))
     radius = radius_of(boxes, scalars) if proof is not Proof.UNKNOWN or found.doubles else inf
     certificate = Certificate(proof, radius, "", gap)
     if proof is Proof.UNKNOWN:
@@ -145,7 +151,7 @@ def _alternative(profile: Profile, system: System, groups: Sequence[Group], foun
         certificate=certificate,
         scalars=scalars if not refusals else {},
     )
-    return Alternative(solution, scalars, _sides(system, at), certificate)
+    return Alternative(solution, scalars, sides, certificate)
 
 
 def _doubtful(found: Found, radius: float, gap: float | None) -> Certificate:
@@ -241,19 +247,25 @@ def _compare(
 
 
 def _touching(system: System, found: Found) -> str:
+    """The point at which two solutions have become one; a centre only if there is no other."""
     points = {name.rpartition(".")[0] for name in found.doubles}
-    return next((point for point in system.figure.points if point in points), "the contour")
+    centers = {fact.center for fact in system.facts if isinstance(fact, OnCircle)}
+    touching = [point for point in system.figure.points if point in points]
+    return next(iter(sorted(touching, key=centers.__contains__)), "the contour")
 
 
-def _sides(system: System, at: Values) -> dict[str, str]:
-    """On which side everything lies for which there is another: points on lines and circles, centres, contacts."""
+def _sides(system: System, at: Values, chosen: Set[str]) -> dict[str, str]:
+    """On which side everything lies for which there is another: points on lines and circles, centres, contacts.
+
+    `chosen` are the points whose side the control chooses.
+    """
 
     def step(tail: str, head: str) -> tuple[Number, Number]:
         first, second = (at.coordinate(head, axis) - at.coordinate(tail, axis) for axis in (FIRST, SECOND))
         return first, second
 
-    def name(value: Number, positive: Side, negative: Side) -> str:
-        return {1: positive.value, -1: negative.value}.get(ball.sign(value) or 0, BOTH)
+    def name(value: Number, positive: str, negative: str) -> str:
+        return {1: positive, -1: negative}.get(ball.sign(value) or 0, BOTH)
 
     sides: dict[str, str] = {}
     circles = [fact for fact in system.facts if isinstance(fact, OnCircle)]
@@ -267,13 +279,13 @@ def _sides(system: System, at: Values) -> dict[str, str]:
                     way = at.direction(line.heading)
                 spoke = step(circle.center, circle.point)
                 along = way[FIRST] * spoke[FIRST] + way[SECOND] * spoke[SECOND]
-                sides[circle.point] = name(along, Side.FARTHER, Side.NEARER)
+                sides[circle.point] = name(along, Side.FARTHER.value, Side.NEARER.value)
     arcs = [element for element in system.figure.path if isinstance(element, Arc)]
     for first, second in pairwise(arcs):
         if first.head == second.tail in unknown:
             centers, spoke = step(first.center, second.center), step(first.center, first.head)
             left = centers[FIRST] * spoke[SECOND] - centers[SECOND] * spoke[FIRST]
-            sides[first.head] = name(left, Side.LEFT, Side.RIGHT)
+            sides[first.head] = name(left, Side.LEFT.value, Side.RIGHT.value)
     ends = {element.head for element in system.figure.path}
     stated = {fact.point for fact in system.facts if isinstance(fact, Coordinate | Offset)}
     for arc in arcs:
@@ -281,10 +293,16 @@ def _sides(system: System, at: Values) -> dict[str, str]:
         others = [point for point in on_it if point != arc.tail and point not in sides]
         # The end that an arc is stated by, and not an intersection in which it ends instead.
         others.sort(key=lambda point: point in ends and point not in stated)
-        if arc.tail in on_it and others and arc.center not in stated:
-            chord, spoke = step(arc.tail, others[0]), step(arc.tail, arc.center)
-            twice = chord[FIRST] * spoke[SECOND] - chord[SECOND] * spoke[FIRST]
-            sides[arc.center] = name(twice, Side.LEFT, Side.RIGHT)
+        is_chosen = arc.center in chosen
+        if is_chosen and not (arc.tail in on_it and others):
+            continue
+        chord, spoke = step(arc.tail, others[0] if is_chosen else arc.head), step(arc.tail, arc.center)
+        twice = chord[FIRST] * spoke[SECOND] - chord[SECOND] * spoke[FIRST]
+        if is_chosen:
+            sides[arc.center] = name(twice, Side.LEFT.value, Side.RIGHT.value)
+        else:
+            # Turning left, the shorter way about a centre is the one that has it to the left of the chord.
+            sides[arc.name] = name(arc.turn.sign * twice, *ARCS)
     for fact in system.facts:
         for side in fact.sides():
             words = ("outside", "inside") if isinstance(fact, TangentCircles) else ("left", "right")
@@ -294,16 +312,27 @@ def _sides(system: System, at: Values) -> dict[str, str]:
 
 def _named(items: list[Alternative], profile: Profile) -> Iterator[Alternative]:
     """Every solution with a name made of the sides in which it differs from the others."""
+    centers = {arc.name: arc.center for arc in profile.figure.path if isinstance(arc, Arc)}
     differing = [
         key
         for key in dict.fromkeys(key for item in items for key in item.sides)
-        if len({item.sides.get(key) for item in items}) > 1
+        if len({item.sides.get(key) for item in items}) > 1 and not _is_fixed(centers.get(key, key), items)
     ]
     shown = [", ".join(f"{key} {item.sides[key]}" for key in differing if key in item.sides) for item in items]
     for number, item in enumerate(items):
         same = [other for other, name in zip(items, shown, strict=True) if name == shown[number]]
         place = _place(item, same, profile) if len(same) > 1 else ""
         yield replace(item, name=", ".join(filter(None, (shown[number], place))))
+
+
+def _is_fixed(key: str, items: list[Alternative]) -> bool:
+    """Whether a key is that of a point that lies in the same place in all solutions."""
+    names = [scalar(key, axis) for axis in (FIRST, SECOND)]
+    return all(
+        name in item.scalars and abs(item.scalars[name] - items[0].scalars[name]) <= LENGTH
+        for item in items
+        for name in names
+    )
 
 
 _RANKS = ("lowest", "second lowest", "third lowest", "fourth lowest")

@@ -9,7 +9,7 @@ from contoursolve.analysis.generic import witness_of
 from contoursolve.backends import ball
 from contoursolve.backends.ball import Number
 from contoursolve.backends.residue import PRIME
-from contoursolve.solving.kernel import ORIGIN, Kernel
+from contoursolve.solving.kernel import Kernel
 from contoursolve.solving.polynomial import Coefficient, Monomial, Polynomial, known, polynomial, rational
 
 SHEAR = 0.4140625
@@ -52,40 +52,18 @@ class Close(Enum):
     """What to do with two solutions that cannot be told apart, or from none."""
 
     REFUSE = "raise an error"
-    TOGETHER = "enclose both in one ball, for a search that looks closer afterwards"
     DOUBLE = "take them for one double solution"
 
 
-@dataclass(frozen=True, slots=True)
-class Limits:
-    """How large each unknown may be (by index; `FARTHEST` unless told otherwise; solutions beyond are of no interest),
-    and what is done with two solutions that are too close."""
-
-    sizes: Mapping[int, float] | None = None
-    close: Close = Close.REFUSE
-
-
-UNLIMITED = Limits()
-
-
-def solve_step(kernel: Kernel, parameters: Sequence[Coefficient], limits: Limits = UNLIMITED) -> list[Root]:
+def solve_step(kernel: Kernel, parameters: Sequence[Coefficient], close: Close = Close.REFUSE) -> list[Root]:
     """All real solutions of a step at the values of its parameters. Raises ObstacleError where they cannot be told."""
-    origin = {
-        name.removeprefix(ORIGIN): value.value
-        for name, value in zip(kernel.parameters, parameters, strict=True)
-        if name.startswith(ORIGIN)
-    }
-    unknowns = frozenset(range(len(kernel.unknowns)))
-    return [
-        Root({index: value + origin[kernel.unknowns[index]] for index, value in root.values.items()}, root.is_double)
-        for root in _solve(equations_of(kernel, parameters), unknowns, limits)
-    ]
+    return list(_solve(equations_of(kernel, parameters), frozenset(range(len(kernel.unknowns))), close))
 
 
-def _solve(equations: list[Polynomial], unknowns: frozenset[int], limits: Limits) -> Iterator[Root]:
+def _solve(equations: list[Polynomial], unknowns: frozenset[int], close: Close) -> Iterator[Root]:
     pending: list[tuple[int, Polynomial]] = []
     """Unknowns as polynomials in those that are eliminated later."""
-    equations, unknowns = _eliminate(equations, unknowns, pending, limits)
+    equations, unknowns = _eliminate(equations, unknowns, pending)
     if not unknowns:
         if _is_consistent(equations):
             yield _back(pending, {}, is_double=False)
@@ -97,9 +75,9 @@ def _solve(equations: list[Polynomial], unknowns: frozenset[int], limits: Limits
     if single is not None:
         (unknown,) = single.unknowns
         rest = [each for each in equations if each is not single]
-        for value, is_double in _roots(single, unknown, limits):
+        for value, is_double in _roots(single, unknown, close):
             replacement = known(value)
-            for root in _solve([each.substitute(unknown, replacement) for each in rest], unknowns - {unknown}, limits):
+            for root in _solve([each.substitute(unknown, replacement) for each in rest], unknowns - {unknown}, close):
                 yield _back(pending, {**root.values, unknown: value}, is_double or root.is_double)
         return
     pairs = combinations(equations, 2)
@@ -113,12 +91,12 @@ def _solve(equations: list[Polynomial], unknowns: frozenset[int], limits: Limits
         replaced = rest
         for unknown, value in values.items():
             replaced = [each.substitute(unknown, known(value)) for each in replaced]
-        for root in _solve(replaced, unknowns - used, limits):
+        for root in _solve(replaced, unknowns - used, close):
             yield _back(pending, {**root.values, **values}, root.is_double)
 
 
 def _eliminate(
-    equations: list[Polynomial], unknowns: frozenset[int], pending: list[tuple[int, Polynomial]], limits: Limits
+    equations: list[Polynomial], unknowns: frozenset[int], pending: list[tuple[int, Polynomial]]
 ) -> tuple[list[Polynomial], frozenset[int]]:
     """Solve affine equations one after the other, and make affine ones by combining the others."""
     while True:
@@ -137,8 +115,7 @@ def _eliminate(
             for monomial in each.terms
             if monomial and ball.sign(each.terms[monomial].value)
         ]
-        # A quotient by a ball next to zero holds far too much; whether it is out of reach is asked before.
-        if (not found or limits.close is Close.TOGETHER) and any(_is_beyond(each, limits) for each in linear):
+        if not found and any(map(_is_beyond, linear)):
             return [polynomial({(): Coefficient(ball.exact(1.0), 1)})], unknowns
         if not found:
             raise ObstacleError(Obstacle.UNDECIDED)
@@ -207,61 +184,51 @@ def equations_of(kernel: Kernel, inputs: Sequence[Coefficient]) -> list[Polynomi
     return [polynomial(row) for row in rows]
 
 
-def remaining(kernel: Kernel) -> int | None:
-    """How many unknowns of a step are left when its affine equations are solved; None if it has no closed form.
+def has_closed_form(kernel: Kernel) -> bool:
+    """Whether a step has a closed form, apart from special values.
 
     Found at random values, which are the same for all drawings.
     """
     if kernel.coefficients is None:
-        return None
-    inputs = [
-        Coefficient(ball.exact(0.0), 0)
-        if name.startswith(ORIGIN)
-        else Coefficient(ball.around(witness_of(name) / PRIME, 0.0), witness_of(name))
-        for name in kernel.parameters
-    ]
+        return False
+    inputs = [Coefficient(ball.around(witness_of(name) / PRIME, 0.0), witness_of(name)) for name in kernel.parameters]
     try:
-        equations, unknowns = _eliminate(
-            equations_of(kernel, inputs), frozenset(range(len(kernel.facts))), [], UNLIMITED
-        )
+        equations, unknowns = _eliminate(equations_of(kernel, inputs), frozenset(range(len(kernel.facts))), [])
     except ObstacleError:
-        return None
+        return False
     singles = {unknown for each in equations if len(each.unknowns) == 1 for unknown in each.unknowns}
     others = unknowns - singles
     pairs = any(each.unknowns == others for each in equations)
-    return len(unknowns) if not others or (len(others) == 2 and pairs) else None  # noqa: PLR2004 - a pair
+    return not others or (len(others) == 2 and pairs)  # noqa: PLR2004 - a pair
 
 
-def _is_beyond(equation: Polynomial, limits: Limits) -> bool:
-    """Whether an equation can hold only if an unknown is larger than its limit."""
+def _is_beyond(equation: Polynomial) -> bool:
+    """Whether an equation can hold only if an unknown is larger than `FARTHEST`."""
     if equation.constant is None:
         return False
     most: Number = ball.exact(0.0)
     for monomial, each in equation.terms.items():
-        size = 1.0
-        for index in monomial:
-            size *= limits.sizes[index] if limits.sizes is not None else FARTHEST
         if monomial:
-            most = most + ball.magnitude(each.value) * ball.exact(size)
+            most = most + ball.magnitude(each.value) * ball.exact(FARTHEST ** len(monomial))
     return ball.sign(ball.magnitude(equation.constant.value) - most) == 1
 
 
-def _roots(equation: Polynomial, unknown: int, limits: Limits) -> list[tuple[Number, bool]]:
+def _roots(equation: Polynomial, unknown: int, close: Close) -> list[tuple[Number, bool]]:
     """The real roots of a polynomial of degree 2 in one unknown, each with whether it is double."""
     zero = ball.exact(0.0)
     a, b, c = (
         equation.terms[monomial].value if monomial in equation.terms else zero
         for monomial in ((unknown, unknown), (unknown,), ())
     )
-    if (ball.sign(a) is None or limits.close is Close.TOGETHER) and _is_beyond(equation, limits):
+    if ball.sign(a) is None and _is_beyond(equation):
         return []
     if ball.sign(a) is None:
         raise ObstacleError(Obstacle.UNDECIDED)
     discriminant = b * b - 4 * a * c
     match ball.sign(discriminant):
         case None:
-            if limits.close is not Close.REFUSE:
-                return [((-b + ball.both_roots(discriminant)) / (2 * a), limits.close is Close.DOUBLE)]
+            if close is Close.DOUBLE:
+                return [((-b + ball.both_roots(discriminant)) / (2 * a), True)]
             raise ObstacleError(Obstacle.TOUCHING)
         case -1:
             return []

@@ -1,6 +1,6 @@
 """All solutions of a determined system, step by step, with proof of their number or an honest doubt."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
 
@@ -8,15 +8,20 @@ from contoursolve.analysis import Group, judge, order
 from contoursolve.analysis.generic import witness_of
 from contoursolve.backends import ball
 from contoursolve.backends.ball import Number
-from contoursolve.backends.residue import draw
 from contoursolve.constraints import System
 from contoursolve.model import Line, Profile, scalar
-from contoursolve.solving.driven import EVALUATIONS, LEAST, find_drive, follow
-from contoursolve.solving.elimination import Close, Limits, Obstacle, ObstacleError, Root, solve_step
+from contoursolve.solving.division import conditions_of, divide
+from contoursolve.solving.elimination import Close, Obstacle, ObstacleError, Root, solve_step
 from contoursolve.solving.ground import Ground, ground_of
-from contoursolve.solving.kernel import ORIGIN, Kernel, make_kernel
+from contoursolve.solving.kernel import Kernel, make_kernel
 from contoursolve.solving.polynomial import Coefficient
-from contoursolve.solving.search import search_everywhere
+from contoursolve.solving.search import settle
+
+BOXES = 30_000
+"""How many boxes are looked at for one drawing before the search is given up as undecided; about two seconds."""
+
+LEAST = 5_000
+"""How many boxes every step may look at, however many the ones before it used."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,7 +85,7 @@ class _Search:
         self.close = close
         self.doubts: list[Doubt] = []
         self.is_searched = False
-        self.budget = EVALUATIONS
+        self.budget = BOXES
         self.reach = ground.reach(system)
         lines = [line for line in (*system.figure.path, *system.figure.lines) if isinstance(line, Line)]
         carriers = [line for line in lines if line.name in system.figure.carriers]
@@ -90,7 +95,7 @@ class _Search:
     def run(self) -> Enumeration:
         states = [Found({}, {})]
         for group in self.groups:
-            states = [after for state in states for after in self._advance(state, group)]
+            states = self._advance(states, group)
         states = [self._with_sides(state) for state in states]
         return Enumeration(tuple(states), tuple(dict.fromkeys(self.doubts)), self.is_searched)
 
@@ -109,76 +114,59 @@ class _Search:
                     signs[side] = 1 if off[1] <= off[-1] else -1
         return Found(state.scalars, signs, state.doubles)
 
-    def _advance(self, state: Found, group: Group) -> Iterator[Found]:
+    def _advance(self, states: Sequence[Found], group: Group) -> list[Found]:
         kernel = make_kernel(self.system, group)
-        open_sides = [side for side in kernel.sides if side not in state.signs]
-        for values in product((1, -1), repeat=len(open_sides)):
-            signs = {**state.signs, **dict(zip(open_sides, values, strict=True))}
-            try:
-                roots = self._solve(group, kernel, state.scalars, signs)
-            except ObstacleError as error:
-                self.doubts.append(Doubt(kernel.unknowns, error.obstacle))
-                continue
-            for root in roots:
-                scalars = {**state.scalars, **{kernel.unknowns[index]: each for index, each in root.values.items()}}
-                doubles = state.doubles + (kernel.unknowns if root.is_double else ())
-                after = Found(scalars, signs, doubles)
-                if self._is_possible(after, kernel):
-                    yield after
-
-    def _solve(
-        self, group: Group, kernel: Kernel, scalars: Mapping[str, Number], signs: Mapping[str, int]
-    ) -> list[Root]:
-        if kernel.coefficients is not None:
-            try:
-                roots = solve_step(kernel, self._coefficients(kernel, scalars, signs, {}), Limits(close=self.close))
-            except ObstacleError as error:
-                if error.obstacle is not Obstacle.NO_CLOSED_FORM:
-                    raise
-            else:
-                doubles = [each for root in roots if root.is_double for each in root.values.values()]
-                if any(not ball.is_exact(each) for each in doubles):
-                    self.doubts.append(Doubt(kernel.unknowns, Obstacle.TOUCHING))
-                return roots
-        return self._follow(group, kernel, scalars, signs)
-
-    def _follow(
-        self, group: Group, kernel: Kernel, scalars: Mapping[str, Number], signs: Mapping[str, int]
-    ) -> list[Root]:
-        drive = find_drive(self.system, group)
-        self.is_searched = True
-        reach = {name: self.reach[name] for name in kernel.unknowns}
-
-        def inputs(step: Kernel, found: Mapping[str, Number]) -> dict[str, Number]:
-            names = step.arguments[len(step.unknowns) :]
-            return {name: self.ground.number(name, {**scalars, **found}, signs) for name in names}
-
-        if drive is None:
-            self.doubts.append(Doubt(kernel.unknowns, Obstacle.NO_CLOSED_FORM))
-            return search_everywhere(kernel, inputs(kernel, {}), reach)
-        roots, is_complete, used = follow(
-            drive,
-            kernel,
-            lambda step, found, origin: self._coefficients(step, {**scalars, **found}, signs, origin),
-            inputs,
-            reach,
-            max(self.budget, LEAST),
+        cases = [Found(state.scalars, signs, state.doubles) for state in states for signs in _choices(state, kernel)]
+        solved = [self._solve(kernel, case) for case in cases]
+        searched = iter(
+            self._search(group, kernel, [case for case, roots in zip(cases, solved, strict=True) if roots is None])
         )
-        self.budget -= used
-        if not is_complete:
-            self.doubts.append(Doubt(kernel.unknowns, Obstacle.UNFINISHED))
+        found: list[Found] = []
+        for case, roots in zip(cases, solved, strict=True):
+            for root in next(searched) if roots is None else roots:
+                values = {kernel.unknowns[index]: each for index, each in root.values.items()}
+                doubles = case.doubles + (kernel.unknowns if root.is_double else ())
+                after = Found({**case.scalars, **values}, case.signs, doubles)
+                if self._is_possible(after, kernel):
+                    found.append(after)
+        return found
+
+    def _solve(self, kernel: Kernel, case: Found) -> list[Root] | None:
+        """All solutions of a step; None if it has no closed form."""
+        if kernel.coefficients is None:
+            return None
+        try:
+            roots = solve_step(kernel, self._coefficients(kernel, case.scalars, case.signs), self.close)
+        except ObstacleError as error:
+            if error.obstacle is Obstacle.NO_CLOSED_FORM:
+                return None
+            self.doubts.append(Doubt(kernel.unknowns, error.obstacle))
+            return []
+        doubles = [each for root in roots if root.is_double for each in root.values.values()]
+        if any(not ball.is_exact(each) for each in doubles):
+            self.doubts.append(Doubt(kernel.unknowns, Obstacle.TOUCHING))
         return roots
 
+    def _search(self, group: Group, kernel: Kernel, cases: Sequence[Found]) -> Iterator[list[Root]]:
+        """All solutions of a step without a closed form, for each case; all cases are searched together."""
+        if not cases:
+            return
+        self.is_searched = True
+        conditions = conditions_of(self.system, group)
+        names = {*conditions.narrowed_by, *conditions.arguments} - {*kernel.unknowns}
+        inputs = [{name: self.ground.number(name, case.scalars, case.signs) for name in names} for case in cases]
+        divisions, looked_at = divide(conditions, inputs, self.reach, max(self.budget, LEAST))
+        self.budget -= looked_at
+        for division, at in zip(divisions, inputs, strict=True):
+            if not division.is_complete:
+                self.doubts.append(Doubt(kernel.unknowns, Obstacle.UNFINISHED))
+            yield settle(kernel, division, at)
+
     def _coefficients(
-        self, kernel: Kernel, scalars: Mapping[str, Number], signs: Mapping[str, int], origin: Mapping[str, Number]
+        self, kernel: Kernel, scalars: Mapping[str, Number], signs: Mapping[str, int]
     ) -> list[Coefficient]:
-        """The parameters of a step; the origin is zero unless told otherwise."""
-        zero = Coefficient(ball.exact(0), 0)
         return [
-            (Coefficient(origin[name.removeprefix(ORIGIN)], draw(name)) if origin else zero)
-            if name.startswith(ORIGIN)
-            else Coefficient(self.ground.number(name, scalars, signs), witness_of(name, signs))
-            for name in kernel.parameters
+            Coefficient(self.ground.number(name, scalars, signs), witness_of(name, signs)) for name in kernel.parameters
         ]
 
     def _is_possible(self, state: Found, kernel: Kernel) -> bool:
@@ -220,3 +208,10 @@ class _Search:
             yield (at.coordinate(line.head, 0) - at.coordinate(line.tail, 0)) * cosine + (
                 at.coordinate(line.head, 1) - at.coordinate(line.tail, 1)
             ) * sine
+
+
+def _choices(state: Found, kernel: Kernel) -> Iterator[dict[str, int]]:
+    """The sides of a state with those that a step leaves open, chosen in every way."""
+    open_sides = [side for side in kernel.sides if side not in state.signs]
+    for values in product((1, -1), repeat=len(open_sides)):
+        yield {**state.signs, **dict(zip(open_sides, values, strict=True))}

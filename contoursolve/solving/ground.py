@@ -12,6 +12,10 @@ from contoursolve.model import FIRST, SECOND, Given, Profile, Unit, scalar
 REACH = 4.0
 """How many times as far as anything that is given a search goes."""
 
+SMALLEST = 1e-4
+"""mm. The smallest radius that a search looks at, a tenth of the controls' least increment: a circle without radius
+is a point, which touches and meets whatever passes through it."""
+
 BALLS = Functions(ball.root, ball.cosine, ball.sine)
 
 
@@ -31,7 +35,8 @@ class Ground:
     def reach(self, system: System) -> dict[str, tuple[float, float]]:
         """The range of every unknown in which solutions are searched for where there is no closed form.
 
-        Lengths and coordinates go `REACH` times as far from the start point as anything that is given.
+        Lengths and coordinates go `REACH` times as far from the start point as anything that is given; radii are at
+        least `SMALLEST`.
         """
         starts = [ball.middle(self.scalars.get(scalar(system.figure.start, axis), ball.exact(0.0))) for axis in (0, 1)]
         absolute = {fact.given: fact.axis for fact in system.facts if isinstance(fact, Coordinate)}
@@ -47,7 +52,7 @@ class Ground:
             if part in ("cos", "sin"):
                 ranges[name] = (-1.0, 1.0)
             elif name in system.figure.radii:
-                ranges[name] = (0.0, far)
+                ranges[name] = (min(SMALLEST, far), far)
             elif part == "off":
                 ranges[name] = (-far - sum(map(abs, starts)), far + sum(map(abs, starts)))
             else:

@@ -13,16 +13,13 @@ from contoursolve.constraints import System
 from contoursolve.model import Fact
 from contoursolve.solving.polynomial import COEFFICIENTS, Monomial, rational
 
-ORIGIN = "origin:"
-"""What the inputs for the point begin with about which polynomials are written."""
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Kernel:
     """Equations and unknowns of one step.
 
-    `coefficients` gives the coefficients of the equations as polynomials in the unknowns, counted from an origin, in
-    the order of `terms` (equation, monomial), at the values of `parameters`; it is None if an equation is no
+    `coefficients` gives the coefficients of the equations as polynomials in the unknowns, in the order of `terms`
+    (equation, monomial), at the values of `parameters`; it is None if an equation is no
     polynomial of degree 2. `equations` gives the equations and then their derivatives, row by row, at the values of
     `arguments`, which are the unknowns and then other inputs. `function` is the same in CasADi.
     """
@@ -47,7 +44,6 @@ def make_kernel(system: System, group: Group) -> Kernel:
     parts = numeric.quadratic_parts(
         [fact.equation(lookup(system, tape, symbols)) for fact in group.facts],
         list(symbols.values()),
-        [tape.input(ORIGIN + name) for name in group.unknowns],
     )
     coefficients = None
     if parts is not None:
@@ -71,22 +67,3 @@ def make_kernel(system: System, group: Group) -> Kernel:
         equations=Replay(function, ball, ball.exact),
         function=function,
     )
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Slopes:
-    """Derivatives of facts' equations by `names`, row by row, at the values of `arguments`."""
-
-    names: tuple[str, ...]
-    arguments: tuple[str, ...]
-    replay: Replay
-
-
-def make_slopes(system: System, facts: tuple[Fact, ...], names: tuple[str, ...]) -> Slopes:
-    """The derivatives of facts by some unknowns."""
-    tape = Tape()
-    unknowns = [tape.input(name) for name in names]
-    equations = [fact.equation(lookup(system, tape, {})) for fact in facts]
-    for number, expression in enumerate(numeric.derivatives(equations, unknowns)):
-        tape.output(str(number), expression)
-    return Slopes(names, tape.inputs, Replay(tape.function(), ball, ball.exact))

@@ -3,7 +3,7 @@
 Krawczyk (1969), Computing 4, 187-201; Moore, Kearfott and Cloud (2009), Introduction to Interval Analysis, 8.2.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from enum import Enum
 
 from contoursolve.backends import ball, numeric
@@ -92,36 +92,3 @@ def keep(box: list[Number], found: list[list[Number]]) -> None:
         if all(ball.intersects(one, two) for one, two in zip(box, other, strict=True)):
             return
     found.append(box)
-
-
-def solve_linear(matrix: Sequence[Sequence[Number]], right: Sequence[Number]) -> list[Number] | None:
-    """A box that holds the solutions of all linear systems in balls; None if one of them may be singular.
-
-    With an approximate inverse Y and E = I - Y A, every solution x = Y b + E x is no larger than
-    |Y b| / (1 - |E|) (Rump 2010, Acta Numerica 19, 287-449, 10.5).
-    """
-    size = len(right)
-    inverse = numeric.inverse([[ball.middle(each) for each in row] for row in matrix])
-    if inverse is None:
-        return None
-    weights = [[ball.exact(weight) for weight in row] for row in inverse]
-    first = [_sum(weights[i][j] * right[j] for j in range(size)) for i in range(size)]
-    defect = [
-        [
-            ball.exact(1.0 if i == k else 0.0) - _sum(weights[i][j] * matrix[j][k] for j in range(size))
-            for k in range(size)
-        ]
-        for i in range(size)
-    ]
-    norm = max(sum(ball.distance(each, 0.0) for each in row) for row in defect)
-    if not norm < 1:
-        return None
-    largest = max(ball.distance(each, 0.0) for each in first) / (1 - norm)
-    return [each + ball.around(0.0, norm * largest * 1.001) for each in first]
-
-
-def _sum(terms: Iterable[Number]) -> Number:
-    total: Number = ball.exact(0.0)
-    for term in terms:
-        total = total + term
-    return total

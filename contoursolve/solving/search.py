@@ -1,39 +1,42 @@
-"""Steps without a closed form: solutions by CasADi's root finder, each proven by the Krawczyk test."""
+"""Steps without a closed form: what a division into boxes has proven, and solutions found from where it has not."""
 
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
-from random import Random
 
 from contoursolve.backends import ball
 from contoursolve.backends.ball import Number
 from contoursolve.backends.rootfinder import RootFinder, finder_of
+from contoursolve.solving.division import Division
 from contoursolve.solving.elimination import Root
 from contoursolve.solving.kernel import Kernel
-from contoursolve.solving.krawczyk import keep, prove
-
-STARTS = 200
-"""How many points are tried where nothing tells where solutions are."""
+from contoursolve.solving.krawczyk import keep, prove, refine
 
 
-def search(kernel: Kernel, guess: Sequence[float], inputs: Mapping[str, Number], found: list[list[Number]]) -> None:
-    """Add the solution that a guess leads to, if it can be proven to be one."""
-    names = kernel.arguments[len(kernel.unknowns) :]
-    root = _finder(kernel).quick(guess, [ball.middle(inputs[name]) for name in names])
-    if root.is_found and root.is_regular:
-        box = prove(kernel, root.values, inputs)
+def settle(kernel: Kernel, division: Division, inputs: Mapping[str, Number]) -> list[Root]:
+    """All solutions that are proven."""
+    found: list[list[Number]] = []
+    for low, high in zip(division.proven.low.tolist(), division.proven.high.tolist(), strict=True):
+        keep(_pinned(kernel, [ball.between(*ends) for ends in zip(low, high, strict=True)], inputs), found)
+    for point in division.likely:
+        box = search(kernel, point, inputs)
         if box is not None:
             keep(box, found)
-
-
-def search_everywhere(
-    kernel: Kernel, inputs: Mapping[str, Number], reach: Mapping[str, tuple[float, float]]
-) -> list[Root]:
-    """Solutions from points drawn all over the range of the unknowns; there may be others."""
-    draw = Random(1)
-    found: list[list[Number]] = []
-    for _ in range(STARTS):
-        search(kernel, [draw.uniform(*reach[name]) for name in kernel.unknowns], inputs, found)
     return [Root(dict(enumerate(box))) for box in found]
+
+
+def search(kernel: Kernel, guess: Sequence[float], inputs: Mapping[str, Number]) -> list[Number] | None:
+    """A box about the solution that a guess leads to, if it can be proven to be one."""
+    names = kernel.arguments[len(kernel.unknowns) :]
+    root = _finder(kernel).quick(guess, [ball.middle(inputs[name]) for name in names])
+    return prove(kernel, root.values, inputs) if root.is_found and root.is_regular else None
+
+
+def _pinned(kernel: Kernel, box: list[Number], inputs: Mapping[str, Number]) -> list[Number]:
+    """The solution in a box that is proven to hold exactly one, as narrowly as it can be enclosed."""
+    near = search(kernel, [ball.middle(each) for each in box], inputs)
+    if near is not None and all(ball.contains(outer, inner) for outer, inner in zip(box, near, strict=True)):
+        return near
+    return refine(kernel, box, inputs)
 
 
 @lru_cache(maxsize=256)

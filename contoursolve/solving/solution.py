@@ -71,6 +71,8 @@ class RemarkKind(Enum):
 
     TOUCHES = "touches"
     """The line touches the circle: both solutions are one."""
+    DOUBLE = "double"
+    """Two solutions have become one, and not because a line of the path touches a circle."""
     SEVERAL = "several"
     """More than one contour satisfies the block."""
     COUNT_OPEN = "count-open"

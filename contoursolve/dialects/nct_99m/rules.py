@@ -289,6 +289,16 @@ GEOMETRY_RULES = (
         rejected=(_START + _ARC + "G1 X-50 Y50 ,A180 Q-1",),
     ),
     Rule(
+        code="nct-double",
+        message="{subject}: two contours have become one, because an element just touches; a small change parts them",
+        help="check that it is meant to touch",
+        source=Source("contoursolve", "further facts", Evidence.ASSUMED),
+        about=RemarkKind.DOUBLE,
+        severity=Severity.WARNING,
+        accepted=(_GOOD,),
+        rejected=(_START + "G3 X? Y50 R50 (contoursolve: X of C = 0)\n" + _LINE,),
+    ),
+    Rule(
         code="nct-radius-too-small",
         message="{words}: the radius of {actual} is less than half the distance from the start to the "
         "point, {limit}: no circle passes through both",

@@ -197,7 +197,7 @@ GEOMETRY_RULES = (
         message="{subject}: two contours have become one, because an element just touches; a small change parts them",
         help="check that it is meant to touch",
         source=_TOUCHING,
-        about=RemarkKind.TOUCHES,
+        about=RemarkKind.DOUBLE,
         severity=Severity.WARNING,
         accepted=(_GOOD,),
         rejected=("G00 X40. Z0.\nG111 A180. K-30. X100. (contoursolve: length of line 2 = 30)",),

@@ -1,0 +1,202 @@
+"""Steps without a closed form: all solutions in a range, by dividing it into boxes until each holds one or none.
+
+A box is narrowed to what each equation allows, then by all equations together. What is left is divided where it
+matters most. Boxes are looked at in batches, in doubles rounded outwards (Kearfott 1996, Rigorous Global Search).
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy
+
+from contoursolve.analysis import Group, judge
+from contoursolve.backends import ball, intervals, numeric
+from contoursolve.backends.ball import Number
+from contoursolve.backends.contraction import Boxes, approach, contract, joined, stacked
+from contoursolve.backends.inputs import lookup
+from contoursolve.backends.intervals import Intervals, constant
+from contoursolve.backends.narrow import Narrower
+from contoursolve.backends.numeric import Tape
+from contoursolve.backends.replay import Replay
+from contoursolve.constraints import System
+from contoursolve.solving.consequences import consequences
+
+BATCH = 1024
+"""How many boxes are looked at together."""
+
+FEW = 32
+"""Fewer boxes than these are divided further before they are looked at."""
+
+DIVISION = 0.487
+"""Boxes are divided away from the middle, where drawings like to have their solutions."""
+
+NARROWEST = 2.0**-36
+"""A box this small in every direction, as a share of the whole range, is given up as undecided."""
+
+MARGINS = (2.0**-43, 2.0**-37, 2.0**-31)
+"""By how much of its coordinates a box is inflated before it is tested; the larger ones for the smallest boxes, in
+which rounding hides the solution."""
+
+STARTS, STEPS = 2000, 25
+"""How many of the boxes that remain undecided Newton's method starts from, and how many steps it takes."""
+
+PASSES, WORTHWHILE = 3, 0.8
+"""How often boxes are narrowed by each equation before they are by all, and the share of an unknown's range that must
+be left after a pass for another one not to be worthwhile."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Conditions:
+    """What a group's unknowns must satisfy, for intervals.
+
+    `narrower` has the equations, what follows from them, and what must not be negative; `equations` the equations
+    and their derivatives, row by row.
+    """
+
+    unknowns: tuple[str, ...]
+    narrower: Narrower
+    narrowed_by: tuple[str, ...]
+    equations: Replay
+    arguments: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Division:
+    """Boxes that are proven to hold exactly one solution, and whether they hold all of them.
+
+    `likely` are points near which there may be others, in the boxes that remain undecided.
+    """
+
+    proven: Boxes
+    likely: list[list[float]]
+    is_complete: bool
+
+
+@lru_cache(maxsize=1024)
+def conditions_of(system: System, group: Group) -> Conditions:
+    """The conditions of a group of facts of a system."""
+    tape = Tape()
+    for name in group.unknowns:
+        tape.input(name)
+    at = lookup(system, tape, {})
+    true = [system.facts[index] for index in judge(system).basis]
+    zeros = [*(fact.equation(at) for fact in group.facts), *consequences(group.facts, true, at)]
+    # Only facts whose sense is about what they read: that of the others depends on other groups.
+    senses = [sense for fact in group.facts if fact.sense_reads() == fact.reads() for sense in fact.senses(at)]
+    for number, expression in enumerate((*zeros, *senses)):
+        tape.output(str(number), expression)
+    slopes = Tape()
+    unknowns = [slopes.input(name) for name in group.unknowns]
+    equations = [fact.equation(lookup(system, slopes, {})) for fact in group.facts]
+    for number, expression in enumerate((*equations, *numeric.derivatives(equations, unknowns))):
+        slopes.output(str(number), expression)
+    return Conditions(
+        group.unknowns,
+        Narrower(tape.shared(), len(zeros)),
+        tape.inputs,
+        Replay(slopes.shared(), intervals, constant),
+        slopes.inputs,
+    )
+
+
+def divide(
+    conditions: Conditions,
+    cases: Sequence[Mapping[str, Number]],
+    reach: Mapping[str, tuple[float, float]],
+    budget: int,
+) -> tuple[list[Division], int]:
+    """All solutions within reach for each case, which gives the values of a group's other inputs; and how many boxes
+    were looked at, of which `budget` is the number for all cases together."""
+    size = len(conditions.unknowns)
+    narrowed_at, known = (
+        [_by_case(name, cases) for name in names[size:]] for names in (conditions.narrowed_by, conditions.arguments)
+    )
+    low, high = numpy.array([reach[name] for name in conditions.unknowns]).T
+    every = numpy.arange(len(cases))
+    pending = [Boxes(numpy.tile(low, (len(cases), 1)), numpy.tile(high, (len(cases), 1)), every)]
+    proven, undecided = [pending[0][:0]], [pending[0][:0]]
+    looked_at = 0
+    with numpy.errstate(all="ignore"):
+        while pending and looked_at < budget:
+            boxes, pending = _batch(pending)
+            looked_at += len(boxes)
+            boxes = _narrowed(conditions.narrower, boxes, narrowed_at)
+            if not len(boxes):
+                continue
+            found = contract(conditions.equations, boxes, known, MARGINS[0])
+            proven.append(found.boxes[found.is_proven])
+            boxes, slopes = found.boxes[~found.is_proven], found.slopes[~found.is_proven]
+            is_small = (boxes.high - boxes.low <= NARROWEST * (high - low)).all(axis=1)
+            small, boxes, slopes = boxes[is_small], boxes[~is_small], slopes[~is_small]
+            for margin in MARGINS[1:]:
+                found = contract(conditions.equations, small, known, margin)
+                proven.append(found.boxes[found.is_proven])
+                small = found.boxes[~found.is_proven]
+            undecided.append(small)
+            if len(boxes):
+                pending.append(_divided(boxes, slopes, high - low))
+        rest, alone = joined([*undecided, *pending]), joined(proven)
+        likely = approach(conditions.equations, rest[:: max(1, len(rest) // STARTS)].middle, known, STEPS)
+    divisions = [
+        Division(alone[alone.case == case], likely.low[likely.case == case].tolist(), case not in rest.case)
+        for case in range(len(cases))
+    ]
+    return divisions, looked_at
+
+
+def _by_case(name: str, cases: Sequence[Mapping[str, Number]]) -> Intervals:
+    """The bounds of an input in every case."""
+    bounds = [ball.bounds(case[name]) for case in cases]
+    return Intervals(numpy.array([low for low, _ in bounds]), numpy.array([high for _, high in bounds]))
+
+
+def _batch(pending: list[Boxes]) -> tuple[Boxes, list[Boxes]]:
+    """The boxes that have waited longest, and the others: no cluster of boxes uses up what others need."""
+    number, count = 0, 0
+    while number < len(pending) and count < BATCH:
+        count += len(pending[number])
+        number += 1
+    boxes = joined(pending[:number])
+    rest = [boxes[BATCH:]] if count > BATCH else []
+    return boxes[:BATCH], rest + pending[number:]
+
+
+def _narrowed(narrower: Narrower, boxes: Boxes, known: list[Intervals]) -> Boxes:
+    """The boxes narrowed by each condition, for as long as that helps most of them."""
+    for _ in range(PASSES):
+        columns, is_possible = narrower.narrowed(boxes.inputs(known), len(boxes))
+        widths = (boxes.high - boxes.low)[is_possible]
+        boxes = stacked(columns[: boxes.low.shape[1]], boxes.case)[is_possible]
+        if not len(boxes):
+            break
+        left = numpy.min((boxes.high - boxes.low) / numpy.maximum(widths, 1e-300), axis=1)
+        if numpy.median(left) > WORTHWHILE:
+            break
+    return boxes
+
+
+def _where(slopes: intervals.Array, widths: intervals.Array, ranges: intervals.Array) -> intervals.Array:
+    """The unknown to divide of each box: the one whose width moves the equations most, each by its share.
+
+    The smear of Kearfott (1987), relative and summed as by Trombettoni, Araya and others (2011), AAAI.
+    """
+    smear = numpy.minimum(slopes, 1e100) * widths[:, None, :]
+    share = smear / numpy.maximum(smear.sum(axis=2, keepdims=True), 1e-300)
+    found: intervals.Array = numpy.where(widths <= NARROWEST * ranges, 0.0, share.sum(axis=1)).argmax(axis=1)
+    return found
+
+
+def _divided(boxes: Boxes, slopes: intervals.Array, ranges: intervals.Array) -> Boxes:
+    """Two parts of each box, or more where there are few boxes: a batch of a few takes as long as one of many."""
+    parts = boxes
+    while True:
+        where = _where(slopes, parts.high - parts.low, ranges)
+        every = numpy.arange(len(parts))
+        begin, end = parts.low[every, where], parts.high[every, where]
+        low, high = parts.low.copy(), parts.high.copy()
+        low[every, where] = high[every, where] = begin + DIVISION * (end - begin)
+        parts = joined([Boxes(parts.low, high, parts.case), Boxes(low, parts.high, parts.case)])
+        if len(parts) >= FEW:
+            return parts
+        slopes = numpy.concatenate([slopes, slopes])
