@@ -28,6 +28,7 @@ from contoursolve.constraints import (
     Along,
     ArcLength,
     ChamferLeg,
+    Collinear,
     Contact,
     Coordinate,
     Directed,
@@ -38,6 +39,7 @@ from contoursolve.constraints import (
     Foot,
     Functions,
     Heading,
+    Level,
     Offset,
     OnCircle,
     Parallel,
@@ -74,6 +76,8 @@ ALONG, AROUND = Along("L"), Tangent("P", "C", "r", CCW)
 FACTS: tuple[Any, ...] = (
     *(Coordinate("length", "P", axis) for axis in (0, 1)),
     *(Offset("length", "P", "Q", axis) for axis in (0, 1)),
+    *(Level("P", "Q", axis) for axis in (0, 1)),
+    Collinear("P", "Q", "R"),
     Heading("angle", "P", "Q"),
     Distance("length", "P", "Q"),
     EqualDistances("", ("P", "Q"), ("R", "S")),
@@ -98,7 +102,7 @@ FACTS: tuple[Any, ...] = (
     TurnBetween("angle", AROUND, ALONG),
     TurnBetween("angle", AROUND, Tangent("P", "D", "s", CW)),
 )
-OF_AN_AXIS = (Coordinate, Offset, Parallel, ChamferLeg)
+OF_AN_AXIS = (Coordinate, Offset, Level, Parallel, ChamferLeg)
 WITHOUT_LENGTH = (UnitDirection, Directed, Parallel, TurnBetween)
 """Their residual is a sine, or close to one; all others' are in mm."""
 

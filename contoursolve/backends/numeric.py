@@ -75,7 +75,7 @@ def _binary(operation: int, first: Any, second: Any) -> Expression:
 
 def _stack(values: Iterable[Any]) -> Any:
     """Scalars as one vector."""
-    return casadi.vertcat(*map(_sx, values))
+    return casadi.SX(casadi.vertcat(*map(_sx, values)))  # of numbers alone it would be another kind of matrix
 
 
 def sqrt(value: Any) -> Expression:
