@@ -141,9 +141,9 @@ def explain_offence(context: Context, offence: Offence, comparison: str = "") ->
 
 def explain_ignored(context: Context, offence: Offence, profile: Profile, solution: Solution) -> Diagnostic:
     """A word that the control ignores: what it would have had to say, and how far off it is."""
-    fact = next(fact for fact in profile.ignored if fact.given == offence.rule.ignores)
-    word = context.words[fact.given]
-    if not solution.points:
+    fact = next((fact for fact in profile.ignored if fact.given == offence.rule.ignores), None)
+    word = context.words[offence.rule.ignores]
+    if fact is None or not solution.points:  # a variable states no fact
         return report(context, offence.rule, Basis.RULE, [word], comparison="")
     values = compare(fact, profile, lookup(profile, scalars_of(solution.points)))
     expected = values.get("expected")

@@ -539,6 +539,7 @@ STANDINGS = {
     "a word twice": ("G111 A180. K-30. B120. X100. X100.", "rejected", "rejected"),
     "an M word": ("G111 A180. K-30. B120. X100. M08", "rejected", "solved"),
     "a variable": ("G111 A180. K-30. B120. X#1", "underdetermined", "underdetermined"),
+    "a variable that is ignored": ("G111 A#1 I5. K-30. B120. X100.", "underdetermined", "underdetermined"),
     "the same line twice": ("G111 A180. I0 B120. X100.", "underdetermined", "underdetermined"),
     "parallel lines": ("G111 A180. B180. X100. Z-50.", "no-solution", "no-solution"),
     "reversed": ("G111 X100. A0 K-30. B120.", "no-solution", "no-solution"),

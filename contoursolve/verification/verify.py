@@ -15,7 +15,9 @@ from contoursolve.verification.receipt import ContourReceipt, Receipt, Verdict
 from contoursolve.verification.result import read_result
 from contoursolve.verification.walk import Found, follow, with_facts
 
-_FINDINGS = Omission("the findings", "neither their words and values, nor the repairs that they offer")
+_FINDINGS = Omission(
+    "the findings", "their words and values, the repairs that they offer, and the layers of a diagnosis"
+)
 _RULES = Omission("the rules of the manual", "the result does not say under which it was made")
 
 
