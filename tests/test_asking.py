@@ -854,8 +854,8 @@ def test_a_fact_that_contradicts_the_words_is_named(fact: str, value: str) -> No
     assert contour["elements"] == []
     assert fact in found["words-conflict"]["message"]
     assert value in found["words-conflict"]["message"]
-    assert (found["words-conflict"]["line"], found["words-conflict"]["fact"]) == (1, 1)
-    assert found["words-conflict"]["end_column"] == len(ONE) + 1
+    assert (found["words-conflict"]["line"], found["words-conflict"]["end_column"]) == (1, len(ONE) + 1)
+    assert found["words-conflict"]["fact"] == {"number": 1, "column": 1, "end_column": len(fact) + 1}
 
 
 VALUELESS = [
@@ -1061,7 +1061,7 @@ def test_a_search_that_is_given_up_is_undecided_and_says_what_was_tried() -> Non
     contour, found = contour_of(block, fact, "corner 1 tangent to line [Z-70. X30. A90.]")
     assert contour["status"] == "undecided"
     assert found["search-unfinished"]["message"].startswith("undecided: ")
-    assert fact in found["search-unfinished"]["message"]
+    assert "corner 1 tangent to line [Z-70. X30. A90.]" in found["search-unfinished"]["message"]
     tried, open_part, *_ = found["search-unfinished"]["notes"]
     assert tried.startswith("tried: every combination of sides, by a search within")
     assert open_part.startswith("not decided: ")
@@ -1132,7 +1132,6 @@ def test_a_question_about_what_is_no_part_of_the_contour_is_refused(word: str) -
         ("G111 A180. K-30. B120. X100. P?", "corner 1 tangent to line [Z0. X46. A180.]", True),
         ("G111 A180. K-30. B120. X100. P?", "corner 1 passes through [Z-28. X40.5]", False),
         ("G111 A180. K-30. X100.", "line 2 tangent to circle [Z-40. X120. R10.]", False),
-        ("G111 A180. K-30. X100.", "line 2 tangent to circle [Z-90. X220. R10.]", True),
     ],
 )
 def test_a_fact_that_holds_where_nothing_is_cut_is_pointed_out(block: str, fact: str, is_beyond: bool) -> None:

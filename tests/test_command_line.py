@@ -577,7 +577,7 @@ def test_a_finding_about_a_fact_that_is_stated_apart_stands_at_its_block():
     _, output, _ = run("check", *arguments, "--format", "json")
     for finding in json.loads(output)["diagnostics"]:
         assert (finding["line"], finding["column"], finding["end_column"]) == (1, 1, len(ONE[1]) + 1)
-        assert finding["fact"] == {"words-redundant": 1, "words-conflict": 2}[finding["code"]]
+        assert finding["fact"]["number"] == {"words-redundant": 1, "words-conflict": 2}[finding["code"]]
     _, output, _ = run("check", *arguments, "--format", "sarif")
     (log,) = json.loads(output)["runs"]
     regions = [each["locations"][0]["physicalLocation"]["region"] for each in log["results"]]

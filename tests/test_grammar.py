@@ -182,8 +182,8 @@ def test_the_columns_of_a_finding_underline_the_mistake_inside_the_comment(
 @pytest.mark.parametrize(("fact", "marked", "expected"), [case for case in MISTAKES if case[1]])
 def test_a_fact_apart_from_the_program_has_columns_of_its_own(fact: str, marked: str, expected: str) -> None:
     (found,) = [each for each in findings(WHOLE, "X of V1 = 40", fact) if each["code"] == "fact-unreadable"]
-    assert found["line"] == -2
-    assert fact[found["column"] - 1 : found["end_column"] - 1] == marked
+    assert (found["line"], found["fact"]["number"]) == (1, 2)
+    assert fact[found["fact"]["column"] - 1 : found["fact"]["end_column"] - 1] == marked
 
 
 def test_the_listing_underlines_a_fact_that_is_stated_apart() -> None:
