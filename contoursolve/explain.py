@@ -25,6 +25,9 @@ if TYPE_CHECKING:
 
 _BEGINNING = Span(1, 1, 2)
 
+MOST_THINGS = 2
+"""Points and lines that a message names as missing; beyond it, all of the contour is."""
+
 SHOWN = 60
 """Characters of a word or a list of words in a message; the listing shows the rest."""
 
@@ -149,9 +152,9 @@ def explain_offence(context: Context, offence: Offence, comparison: str = "") ->
 
 def explain_ignored(context: Context, offence: Offence, profile: Profile, solution: Solution) -> Diagnostic:
     """A word that the control ignores: what it would have had to say, and how far off it is."""
-    fact = next(fact for fact in profile.ignored if fact.given == offence.rule.ignores)
-    word = context.words[fact.given]
-    if not solution.points:
+    fact = next((fact for fact in profile.ignored if fact.given == offence.rule.ignores), None)
+    word = context.words[offence.rule.ignores]
+    if fact is None or not solution.points:  # a variable states no fact
         return report(context, offence.rule, Basis.RULE, [word], comparison="")
     values = compare(fact, profile, lookup(profile, scalars_of(solution.points)))
     expected = values.get("expected")
@@ -217,13 +220,13 @@ def explain_result(
     """A refusal or a remark of the solver; `alternatives` is what a search found."""
     givens = [profile.givens[name] for name in event.givens if name in profile.givens]
     asked = [question.word for question in profile.questions if question.name in event.givens]
-    words = [given.word for given in givens if given.word] + asked
+    words = list({word.span: word for word in (*(given.word for given in givens), *asked) if word}.values())
     values = dict(event.values)
-    things = (name.rpartition(".")[0] or name for name in event.subject.split(","))
+    things = list(dict.fromkeys(name.rpartition(".")[0] or name for name in event.subject.split(",")))
     fields: dict[str, Any] = {
         "subject": event.subject,
         "free": unknowns_text(event.subject.split(","), profile),
-        "things": join(list(dict.fromkeys(things))),
+        "things": join(things) if len(things) <= MOST_THINGS else "contour",
         "together": " together" if len(words) > 1 else "",
     }
     is_word = event.kind in _OF_A_WORD

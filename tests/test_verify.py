@@ -18,7 +18,7 @@ from hypothesis import strategies as st
 import contoursolve
 from contoursolve.cli import main
 from contoursolve.syntax import parse
-from contoursolve.verification import Document, Verdict, verify
+from contoursolve.verification import CannotVerifyError, Document, Verdict, verify
 
 PROGRAMS = Path(__file__).parent.parent / "notebooks" / "programs"
 ROOM = Path(contoursolve.__file__).parent / "verification"
@@ -102,6 +102,13 @@ class Desk:
         """The same without the command line, which takes longer than the verification."""
         documents = Document("program", self.program.read_bytes()), Document("result", json.dumps(result).encode())
         return verify(*documents).verdict is Verdict.FAILED
+
+    def is_refused(self, result: object) -> bool:
+        """Whether it is wrong, or no result at all."""
+        try:
+            return self.is_wrong(result)
+        except CannotVerifyError:
+            return True
 
     def receipt(self, result: object, *options: str) -> dict[str, Any]:
         status, output, _ = self.verify(result, "--format", "json", *options)
@@ -264,6 +271,56 @@ def test_a_number_of_a_whole_program_that_is_off_is_found(desk, name):
         assert desk.is_wrong(changed(result, place, wrong)), place
 
 
+def leaves(value: Any, place: Place = ()) -> Iterator[tuple[Place, Any]]:
+    """Everything below a value that holds nothing else."""
+    if isinstance(value, (dict, list)):
+        for name, each in value.items() if isinstance(value, dict) else enumerate(value):
+            yield from leaves(each, (*place, name))
+    else:
+        yield place, value
+
+
+def mutants(result: dict[str, Any]) -> Iterator[tuple[Place, dict[str, Any]]]:
+    """The result with one number off or with its other sign, or one truth turned round, for all of its contours.
+
+    That repairs are all there are is not checked, and neither are findings.
+    """
+    for place, value in leaves(result["contours"], ("contours",)):
+        if isinstance(value, bool):
+            values = [not value] if place[-1] != "repairs_complete" else []
+        elif isinstance(value, (int, float)):
+            values = [value + (1 if isinstance(value, int) else NUDGE), *([-value] if value else [])]
+        else:
+            values = []
+        for each in values:
+            if abs(each - value) > NUDGE / 2 or isinstance(value, bool):  # the other sign of a rounding is no change
+                yield place, changed(result, place, each)
+
+
+MUTATED = {
+    **{path.name: path.read_text(encoding="utf-8") for path in sorted(PROGRAMS.glob("*.nc"))},
+    **{name: SAMPLES[name] for name in ("two bevels", "far from zero", "a long arc", "a line that touches")},
+    "freedoms": LATHE + "G111 A180. B120. X100.",
+    "a tie": LATHE + "G111 A180. K-30. B120. X100. U61.",
+    "a tie of a circle": MILL + "G3 X-50 Y2 I-50 J0\n" + LINE,
+    "ambiguous": MILL + "G3 X-30 Y40 R50\nG1 X-50 Y42.857 ,A171.87",
+}
+
+
+@pytest.mark.parametrize("name", MUTATED)
+def test_nothing_that_a_contour_claims_can_be_changed(desk, name):
+    result = desk.solve(MUTATED[name])
+    receipt = desk.receipt(result)
+    assert failures(receipt) == []
+    count = 0
+    for number, (place, wrong) in enumerate(mutants(result)):
+        # Long programs repeat themselves.
+        if number % 3 == 0 or len(result["contours"]) < 3:
+            count += 1
+            assert desk.is_refused(wrong), place
+    assert count > 3
+
+
 def tampered(contour: dict[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
     """Changes of one contour that are no changes of a number."""
     elements = contour["elements"]
@@ -419,12 +476,15 @@ def test_a_program_that_was_changed_afterwards_is_found(desk, text, other):
 # --- Nothing to check ------------------------------------------------------------------------------
 
 
+DIAGNOSED = ("the ties and freedoms of the diagnosis",)
+
+
 def test_checking_nothing_is_not_finding_nothing_wrong(desk):
     loose = desk.solve(LATHE + "G111 A180. B120. X100. (contoursolve: length of line 1 = ?)")
     assert loose["contours"][0]["status"] == "underdetermined"
     receipt = desk.receipt(loose)
     assert receipt["verdict"] == "nothing-checked"
-    open_questions = ["the path", "the status", "whether these are all solutions"]
+    open_questions = ["the path", "the status", "whether these are all solutions", *DIAGNOSED]
     assert [each["what"] for each in receipt["contours"][0]["not_checked"]] == open_questions
     status, output, _ = desk.verify(loose)
     assert status == 0
@@ -442,7 +502,7 @@ def test_a_program_without_a_contour_has_nothing_to_check(desk, text, control):
 def test_forms_that_are_not_resolved_are_listed(desk):
     receipt = desk.receipt(desk.solve(LATHE + "G112 U0 I10. K-50. P5. Q5. R30."))
     assert receipt["verdict"] == "nothing-checked"
-    assert [each["what"] for each in receipt["not_checked"]] == ["line 2"]
+    assert [each["what"] for each in receipt["not_checked"]] == ["line 2", "the findings"]
 
 
 def test_ignored_and_unread_words_are_listed(desk):
@@ -479,6 +539,7 @@ STANDINGS = {
     "a word twice": ("G111 A180. K-30. B120. X100. X100.", "rejected", "rejected"),
     "an M word": ("G111 A180. K-30. B120. X100. M08", "rejected", "solved"),
     "a variable": ("G111 A180. K-30. B120. X#1", "underdetermined", "underdetermined"),
+    "a variable that is ignored": ("G111 A#1 I5. K-30. B120. X100.", "underdetermined", "underdetermined"),
     "the same line twice": ("G111 A180. I0 B120. X100.", "underdetermined", "underdetermined"),
     "parallel lines": ("G111 A180. B180. X100. Z-50.", "no-solution", "no-solution"),
     "reversed": ("G111 X100. A0 K-30. B120.", "no-solution", "no-solution"),
@@ -581,7 +642,7 @@ def test_a_result_that_does_not_tell_its_rules_is_checked_under_either(desk):
     del result["rules"]
     receipt = desk.receipt(result)
     assert (receipt["verdict"], receipt["rules"]) == ("verified", None)
-    assert [each["what"] for each in receipt["not_checked"]] == ["the rules of the manual"]
+    assert [each["what"] for each in receipt["not_checked"]] == ["the rules of the manual", "the findings"]
 
 
 # --- Further facts, values that are asked for, several solutions -------------------------------------

@@ -189,8 +189,9 @@ class ClaimedContour:
 @dataclass(frozen=True, slots=True)
 class ClaimedResult:
     """Everything of a result that can be checked; `control` is None where it names none, `rules` where it does not
-    say under which policy it was made."""
+    say under which policy it was made. `findings` is how many findings it has, which are not looked at."""
 
     control: str | None
     rules: Rules | None
+    findings: int
     contours: tuple[ClaimedContour, ...]

@@ -48,8 +48,9 @@ def check_certificate(certificate: ClaimedCertificate, limit: float, ledger: Led
         ledger.omit("the certificate", "it names no radius")
         return
     ledger.require("the certificate's radius is not negative", (), radius >= 0, "it is")
-    is_exact = (radius == 0) == (kind == "exact")
-    ledger.require("the certificate is exact if its radius is 0, and only then", (), is_exact, f"{radius:g} mm")
+    # An exact number may have no double, or no twelve decimals, that are exactly it.
+    is_exact = radius <= PRINTED if kind == "exact" else radius != 0
+    ledger.require("the certificate is exact if its radius is next to nothing", (), is_exact, f"{radius:g} mm")
     if radius > 0:
         digit = radius / 10.0 ** floor(log10(radius))
         ledger.require("the certificate's radius has one digit", (), abs(digit - round(digit)) < DIGIT, repr(radius))

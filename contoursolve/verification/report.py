@@ -38,10 +38,15 @@ def _contour_lines(receipt: Receipt, contour: ContourReceipt) -> Iterator[str]:
 
 
 def _largest(contour: ContourReceipt) -> str:
-    """The largest residual, if the path was checked; what the control lets differ is no error of the result."""
-    measured = (check for check in contour.checks if check.limit is not None and check.limit < AGREEMENT)
+    """The largest residual, if the path was checked; what the control lets differ, or a word rounds, is no error of
+    the result."""
+    measured = (check for check in contour.checks if check.limit is not None and check.limit < AGREEMENT / 10)
     found = [check.residual for check in measured if check.residual is not None]
-    return f", off by at most {max(found):.1e} mm" if found and contour.verdict is Verdict.VERIFIED else ""
+    is_path = contour.verdict is Verdict.VERIFIED and contour.status in _WITH_PATH
+    return f", off by at most {max(found):.1e} mm" if found and is_path else ""
+
+
+_WITH_PATH = ("solved", "overdetermined")
 
 
 def _check_text(check: Check) -> str:

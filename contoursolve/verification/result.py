@@ -34,10 +34,11 @@ def read_result(document: Document) -> ClaimedResult:
     schema = root.field("schema").text()
     if schema != SCHEMA:
         root.field("schema").refuse(f"{shown(schema)} where {SCHEMA!r} is read: write it by 'solve --format json'")
-    control, rules = root.field("control").optional(), root.maybe("rules")
+    control, rules, findings = root.field("control").optional(), root.maybe("rules"), root.maybe("diagnostics")
     return ClaimedResult(
         control.text() if control else None,
         Rules(rules.choice(tuple(each.value for each in Rules))) if rules else None,
+        len(list(findings.items())) if findings else 0,
         tuple(_contour(node) for node in root.field("contours").items()),
     )
 

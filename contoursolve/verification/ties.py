@@ -16,6 +16,9 @@ POINTS = ("V1", "V2")
 
 Row = Sequence[float]
 
+HALF_TURN = 180.0
+"""Degrees."""
+
 
 def check_linear(case: Case, diagnosis: ClaimedDiagnosis, ledger: Ledger) -> None:
     """The freedoms and ties of a G111 block, whose words are linear in Z and X of V1 and V2."""
@@ -56,7 +59,8 @@ def _check_freedoms(rows: Sequence[Row], freedoms: Sequence[ClaimedFreedom], led
         is_ahead = max(claimed, key=abs) > 0 or abs(abs(first) - abs(second)) <= RESIDUAL
         ledger.require(f"{own}, its larger part positive", (), is_ahead)
         off = (each.angle or 0.0) - degrees(atan2(second, first))
-        ledger.measure(f"{own}, by its angle", (), (off + 90) % 180 - 90, RESIDUAL, "deg")
+        ledger.require(f"{own}, its angle up to half a turn", (), 0 <= (each.angle or 0.0) <= HALF_TURN)
+        ledger.measure(f"{own}, by its angle", (), (off + HALF_TURN / 2) % HALF_TURN - HALF_TURN / 2, RESIDUAL, "deg")
 
 
 def _null_space(rows: Sequence[Row]) -> list[list[float]]:

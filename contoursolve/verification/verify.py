@@ -15,6 +15,9 @@ from contoursolve.verification.receipt import ContourReceipt, Receipt, Verdict
 from contoursolve.verification.result import read_result
 from contoursolve.verification.walk import Found, follow, with_facts
 
+_FINDINGS = Omission(
+    "the findings", "their words and values, the repairs that they offer, and the layers of a diagnosis"
+)
 _RULES = Omission("the rules of the manual", "the result does not say under which it was made")
 
 
@@ -59,6 +62,8 @@ def verify(
     contours.sort(key=lambda each: each.line)
     if contours and claims.rules is None:
         omissions.append(_RULES)
+    if claims.findings:
+        omissions.append(_FINDINGS)
     name, rules = dialect.name if dialect else None, claims.rules
     return Receipt(program, result, name, unit, tuple(contours), tuple(omissions), rules, start, tuple(facts))
 
