@@ -367,6 +367,8 @@ class _Attempt:
         """
         unknowns = self.system.unknowns
         size = len(unknowns)
+        if not size:
+            return self.split
         entries = {
             (row, column): self.out[name] for row, column, name in self.machine.slopes if row not in self.doubles
         }
