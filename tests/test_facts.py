@@ -26,8 +26,10 @@ from sketches import chain_of, sketch_of
 from contoursolve import Sketch, solve
 from contoursolve.constraints import (
     Along,
+    ArcContact,
     ArcLength,
     ChamferLeg,
+    ChordSetback,
     Collinear,
     Contact,
     Coordinate,
@@ -44,7 +46,9 @@ from contoursolve.constraints import (
     OnCircle,
     Parallel,
     Radius,
+    Setback,
     Tangent,
+    TangentArc,
     TangentCircles,
     TangentLine,
     Through,
@@ -99,6 +103,10 @@ FACTS: tuple[Any, ...] = (
     *(Foot("L", "P", "C", corner="Q", way=way) for way in (1, -1)),
     *(TangentLine("L", "C", "r", side) for side in (1, -1, "side")),
     Extent("length", "L", "P", "Q"),
+    *(TangentArc(("D", "s"), turn, "C", "r", side) for turn in Turn for side in (1, -1, "side")),
+    *(ArcContact("P", ("D", "s"), turn, "C", "r", 1, "Q", way) for turn in Turn for way in (1, -1)),
+    *(Setback("L", "P", "Q", "r", way) for way in (1, -1)),
+    *(ChordSetback("C", turn, "P", "Q", "r", way) for turn in Turn for way in (1, -1)),
     *(ChamferLeg("P", "Q", "r", "side", axis, (("R", "S"),)) for axis in (0, 1)),
     TurnBetween("angle", ALONG, Along("M")),
     TurnBetween("angle", ALONG, AROUND),
@@ -280,10 +288,12 @@ def rotated(place: Place, fact: Any, by: float) -> Place:
 
 def mirrored(place: Place, fact: Any) -> tuple[Place, Any]:
     """The second axis the other way round; what lies on the left is then on the right, and turns are swapped."""
-    swaps_side = isinstance(fact, TangentLine) or (isinstance(fact, ChamferLeg) and fact.axis == 1)
+    swaps_side = isinstance(fact, TangentLine | TangentArc | ArcContact) or (
+        isinstance(fact, ChamferLeg) and fact.axis == 1
+    )
     if swaps_side and isinstance(fact.side, int):
         fact = replace(fact, side=-fact.side)
-    if isinstance(fact, ArcLength):
+    if isinstance(fact, ArcLength | TangentArc | ArcContact | ChordSetback):
         fact = replace(fact, turn=CW if fact.turn is CCW else CCW)
     if isinstance(fact, TurnBetween):
         fact = replace(fact, first=other_way(fact.first), second=other_way(fact.second))

@@ -13,6 +13,7 @@ from contoursolve.constraints.system import System, assemble, build_system
 from contoursolve.constraints.values import FLOATS, Functions, Values, headed_lines
 
 if TYPE_CHECKING:
+    from contoursolve.constraints.corners import ArcContact, ChordSetback, Setback, TangentArc
     from contoursolve.constraints.distances import Distance, EqualDistances
     from contoursolve.constraints.lines import (
         Along,
@@ -32,8 +33,10 @@ if TYPE_CHECKING:
 __all__ = [
     "FLOATS",
     "Along",
+    "ArcContact",
     "ArcLength",
     "ChamferLeg",
+    "ChordSetback",
     "Collinear",
     "Contact",
     "Coordinate",
@@ -50,8 +53,10 @@ __all__ = [
     "OnCircle",
     "Parallel",
     "Radius",
+    "Setback",
     "System",
     "Tangent",
+    "TangentArc",
     "TangentCircles",
     "TangentLine",
     "Through",
@@ -64,6 +69,7 @@ __all__ = [
 ]
 
 _ROOMS = {
+    "corners": ("ArcContact", "ChordSetback", "Setback", "TangentArc"),
     "distances": ("Distance", "EqualDistances"),
     "touching": ("ArcLength", "Contact", "EqualRadii", "TangentCircles"),
 }

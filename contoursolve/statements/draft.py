@@ -6,12 +6,16 @@ from decimal import Decimal
 
 from contoursolve.constraints import (
     Along,
+    ArcContact,
     ChamferLeg,
+    ChordSetback,
     Foot,
     OnCircle,
     Parallel,
     Radius,
+    Setback,
     Tangent,
+    TangentArc,
     TangentLine,
     Through,
     UnitDirection,
@@ -178,32 +182,60 @@ class Draft:
         corner = self.element(name)
         if not isinstance(corner, Corner) or f"{name}.begin" in self.figure.points:
             return
-        before, after = corner.before, corner.after or self._landing(corner)
-        self.line(before)
-        self.line(after)
         begin, end, size = f"{name}.begin", f"{name}.end", f"{name}.radius"
-        points: tuple[str, ...] = (begin, end)
+        meeting = [
+            (self.element(corner.before), begin, 1),
+            (self.element(corner.after or self._landing(corner)), end, -1),
+        ]
         if corner.size in self.givens:
             self.add(Radius(corner.size, size))
-        if corner.shape is CornerShape.FILLET:
-            center, side = f"{name}.center", f"{name}.side"
-            points = (center, begin, end)
-            self.add(
-                TangentLine(before, center, size, side),
-                TangentLine(after, center, size, side),
-                Through(before, begin),
-                Foot(before, begin, center, corner=corner.at, way=1),
-                Through(after, end),
-                Foot(after, end, center, corner=corner.at, way=-1),
-            )
-        else:
+        points = (begin, end) if corner.shape is not CornerShape.FILLET else (f"{name}.center", begin, end)
+        for element, point, way in meeting:
+            self._pass_through(element, point)
+            if corner.shape is CornerShape.FILLET:
+                self._touch(element, corner, point, way)
+            elif corner.shape is CornerShape.CHAMFER_SETBACK:
+                self._set_back(element, corner, point, way)
+        if corner.shape is CornerShape.CHAMFER_AXIS_45:
+            if any(isinstance(element, Arc) for element, *_ in meeting):
+                raise StatementError(f"{name} is a bevel beside an arc: its size must be a number")
             advance = () if corner.lands_on else self._advance(corner)
-            between = (before, after) if corner.lands_on else ()
-            self.add(Through(before, begin), Through(after, end))
+            between = tuple(element.name for element, *_ in meeting) if corner.lands_on else ()
             self.add(
                 *(ChamferLeg(begin, end, size, f"{name}.{axis}", axis, advance, between) for axis in (FIRST, SECOND))
             )
         self.figure = replace(self.figure, points=(*self.figure.points, *points), radii=(*self.figure.radii, size))
+
+    def _pass_through(self, element: Line | Arc | Corner | Circle, point: str) -> None:
+        """A point of an element of the path."""
+        if isinstance(element, Arc):
+            self.add(OnCircle(point, element.center, element.radius))
+        else:
+            self.line(element.name)
+            self.add(Through(element.name, point))
+
+    def _touch(self, element: Line | Arc | Corner | Circle, corner: Corner, point: str, way: int) -> None:
+        """A rounding touches an element in a point before its corner (`way` +1) or after it (-1)."""
+        center, size, side = f"{corner.name}.center", f"{corner.name}.radius", f"{corner.name}.side"
+        if isinstance(element, Arc):
+            circle = (element.center, element.radius)
+            self.add(
+                TangentArc(circle, element.turn, center, size, side),
+                ArcContact(point, circle, element.turn, center, size, side, corner.at, way),
+            )
+        else:
+            self.add(
+                TangentLine(element.name, center, size, side),
+                Foot(element.name, point, center, corner=corner.at, way=way),
+            )
+
+    def _set_back(self, element: Line | Arc | Corner | Circle, corner: Corner, point: str, way: int) -> None:
+        """A chamfer ends on an element, its size before its corner (`way` +1) or after it (-1)."""
+        size = f"{corner.name}.radius"
+        if isinstance(element, Arc):
+            self.add(ChordSetback(element.center, element.turn, point, corner.at, size, way))
+        else:
+            self.add(Setback(element.name, point, corner.at, size, way))
 
     def _advance(self, corner: Corner) -> tuple[tuple[str, str], ...]:
         """The pairs of points whose way along an axis is that of a 45 degree chamfer; the first that moves counts."""
