@@ -385,4 +385,5 @@ def shorten(text: str) -> str:
 
 def _number(value: float, decimals: int) -> str:
     smallest = 0.5 * 10.0**-decimals
+    value += 0.0  # -0.0 is 0
     return f"{value:.{decimals}f}" if abs(value) >= smallest or value == 0 else f"{value:.1e}"

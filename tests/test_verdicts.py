@@ -14,7 +14,9 @@ from contoursolve.dialects import verdicts
 
 TEXT = pkgutil.get_data("contoursolve.analysis", "verdicts.json").decode()
 TABLE = json.loads(TEXT)
-FACTS = {name: getattr(constraints, name) for name in ("Coordinate", "Heading", "Offset", "OnCircle", "Radius")}
+FACTS = {
+    name: getattr(constraints, name) for name in ("Collinear", "Coordinate", "Heading", "Offset", "OnCircle", "Radius")
+}
 STEP = 1e-6
 ZERO = 1e-6
 """Singular values below this are zero: the derivatives are of size 1 and known to 1e-9."""

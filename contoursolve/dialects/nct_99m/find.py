@@ -25,7 +25,7 @@ def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> Cla
         return None
     members = [_member(block, state, modes, is_over=False)]
     is_alone = _is_over_defined(block, members[0].here)
-    is_tied = is_alone or _is_tied_alone(block, members[0].here)
+    is_tied = is_alone or _is_tied_alone(block, members[0].here, modes)
     position = index
     while members[0].here.motion in (1, 2, 3):
         last = members[-1]
@@ -98,13 +98,25 @@ def _has_corner(block: Block) -> bool:
     return bool(_stated(block) & {CHAMFER, ROUNDING})
 
 
-def _is_tied_alone(block: Block, here: State) -> bool:
+def _is_tied_alone(block: Block, here: State, modes: Modes) -> bool:
     """Whether a block is calculated although nothing follows that belongs to it: a line by its angle (16.2), one with
-    a corner, and an arc with an end, which is checked."""
+    a corner, and an arc with an end, which is checked; about its centre, it is a full circle if that is where it
+    begins (assumed)."""
     stated = _stated(block)
     if _has_corner(block) or ",A" in stated:
         return True
-    return here.motion in _TURNS and bool(stated & {*here.plane.axes, "R"})
+    if here.motion not in _TURNS or not stated & {*here.plane.axes, "R"}:
+        return False
+    return "R" in stated or not stated & {*here.plane.centers} or not _ends_where_it_begins(block, here, modes)
+
+
+def _ends_where_it_begins(block: Block, here: State, modes: Modes) -> bool:
+    ends = {word.address: word for word in block.words if word.address in here.plane.axes}
+    return all(
+        word.number is not None
+        and modes.lexicon.value(word, here.unit) == (0 if here.is_incremental else here.axes[axis].value)
+        for axis, word in ends.items()
+    )
 
 
 def _is_stated(last: Member, following: Block, here: State) -> bool:
