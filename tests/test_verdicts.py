@@ -4,7 +4,7 @@ import json
 import pkgutil
 import random
 import re
-from math import cos, radians, sin
+from math import cos, radians, sin, sqrt
 
 import numpy as np
 import pytest
@@ -61,6 +61,7 @@ class _Point:
         return self._value(f"{point}.{axis}")
 
     radius = amount = _value
+    root = staticmethod(sqrt)
 
     def direction(self, given: str) -> tuple[float, float]:
         angle = radians(self._value(f"angle {given}") * 40)

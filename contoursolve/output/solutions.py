@@ -64,7 +64,9 @@ def list_solutions(answer: Answer) -> Listing | None:
     ]
     method = "closed form"
     if alternatives.reach is not None:
-        method = f"search within {alternatives.reach:.0f} mm of the start point"
+        from contoursolve.solving.ground import SMALLEST  # noqa: PLC0415 - most contours need no search
+
+        method = f"search within {alternatives.reach:.0f} mm of the start point, for elements of at least {SMALLEST} mm"
     return Listing(
         solutions=tuple(_listed(item, item is chosen, alternatives, answer) for item in alternatives.items),
         is_complete=alternatives.is_complete,

@@ -17,11 +17,12 @@ from contoursolve.solving.kernel import Kernel, make_kernel
 from contoursolve.solving.polynomial import Coefficient
 from contoursolve.solving.search import settle
 
-BOXES = 30_000
-"""How many boxes are looked at for one drawing before the search is given up as undecided; about two seconds."""
+INTERVALS = 200_000
+"""How many intervals, one for each unknown of a box, are looked at for one drawing before the search is given up as
+undecided; about two seconds."""
 
-LEAST = 5_000
-"""How many boxes every step may look at, however many the ones before it used."""
+LEAST = 30_000
+"""How many intervals every step may look at, however many the ones before it used."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,7 +86,7 @@ class _Search:
         self.close = close
         self.doubts: list[Doubt] = []
         self.is_searched = False
-        self.budget = BOXES
+        self.budget = INTERVALS
         self.reach = ground.reach(system)
         lines = [line for line in (*system.figure.path, *system.figure.lines) if isinstance(line, Line)]
         carriers = [line for line in lines if line.name in system.figure.carriers]
