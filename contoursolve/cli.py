@@ -78,8 +78,8 @@ def _common(command: Callable[..., None]) -> Callable[..., None]:
                 "facts",
                 multiple=True,
                 metavar="FACT",
-                help='A fact besides the words, such as "length of line 1 = 30", for a program with one contour; may be '
-                "repeated. 'contoursolve facts' lists every kind.",
+                help='A fact besides the words, such as "length of line 1 = 30", for a program with one contour; may '
+                "be repeated. 'contoursolve facts' lists every kind.",
             ),
             click.option(
                 "--control",

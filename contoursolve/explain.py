@@ -15,7 +15,6 @@ from contoursolve.model import Length, Profile, Unit
 from contoursolve.reading import Claim, Trouble
 from contoursolve.rules import Offence, Rule
 from contoursolve.solving import Refusal, RefusalKind, Remark, RemarkKind, Solution, compare, lookup, scalars_of
-from contoursolve.solving.elimination import Obstacle
 from contoursolve.source import Span
 from contoursolve.syntax import FACT, Word
 from contoursolve.tolerance import AGREEMENT
@@ -24,6 +23,9 @@ if TYPE_CHECKING:
     from contoursolve.solving.alternatives import Alternatives
 
 _BEGINNING = Span(1, 1, 2)
+
+MOST_THINGS = 2
+"""Points and lines that a message names as missing; beyond it, all of the contour is."""
 
 SHOWN = 60
 """Characters of a word or a list of words in a message; the listing shows the rest."""
@@ -211,13 +213,13 @@ def explain_result(
     """A refusal or a remark of the solver; `alternatives` is what a search found."""
     givens = [profile.givens[name] for name in event.givens if name in profile.givens]
     asked = [question.word for question in profile.questions if question.name in event.givens]
-    words = [given.word for given in givens if given.word] + asked
+    words = list({word.span: word for word in (*(given.word for given in givens), *asked) if word}.values())
     values = dict(event.values)
-    things = (name.rpartition(".")[0] or name for name in event.subject.split(","))
+    things = list(dict.fromkeys(name.rpartition(".")[0] or name for name in event.subject.split(",")))
     fields: dict[str, Any] = {
         "subject": event.subject,
         "free": unknowns_text(event.subject.split(","), profile),
-        "things": join(list(dict.fromkeys(things))),
+        "things": join(things) if len(things) <= MOST_THINGS else "contour",
         "together": " together" if len(words) > 1 else "",
     }
     is_word = event.kind in _OF_A_WORD
@@ -238,7 +240,7 @@ def explain_result(
     if event.kind in _AGAINST_OTHERS:
         fields |= _others(event, profile)
     if event.kind is RefusalKind.SEARCH_UNFINISHED and alternatives is not None:
-        fields["advice"] = _ADVICE[alternatives.doubts[0].obstacle]
+        fields["advice"] = _ADVICE[alternatives.doubts[0].obstacle.name]
         notes = tuple(_search_notes(profile, alternatives))
     labels = _labels(event, fields)
     finding = report(context, context.row(event.kind), Basis.NUMERICAL, words, values, labels, **fields)
@@ -280,12 +282,13 @@ def _others(event: Refusal | Remark, profile: Profile) -> dict[str, str]:
     return {"others": text, "they": "they", "give": "give", "say": "say"}
 
 
+# By name: the obstacles belong to the search, which few blocks need.
 _ADVICE = {
-    Obstacle.SINGULAR: "state another fact in place of one of them",
-    Obstacle.UNDECIDED: "change a value a little: the case is too close to a limit to be decided",
-    Obstacle.TOUCHING: "change a value a little: two places are one, or none, as far as numbers can tell",
-    Obstacle.NO_CLOSED_FORM: "state a simpler fact in place of one of them, such as a coordinate or a direction",
-    Obstacle.UNFINISHED: "state a simpler fact in place of one of them, such as a coordinate or a direction",
+    "SINGULAR": "state another fact in place of one of them",
+    "UNDECIDED": "change a value a little: the case is too close to a limit to be decided",
+    "TOUCHING": "change a value a little: two places are one, or none, as far as numbers can tell",
+    "NO_CLOSED_FORM": "state a simpler fact in place of one of them, such as a coordinate or a direction",
+    "UNFINISHED": "state a simpler fact in place of one of them, such as a coordinate or a direction",
 }
 
 

@@ -44,15 +44,23 @@ def explain_start_units(context: Context, unit: Length, block: Block) -> Diagnos
 
 
 def _explain_asked(context: Context, claim: Claim) -> Iterator[Diagnostic]:
+    names = _answerable(claim)
+    allowed = ", ".join(dict.fromkeys(claim.vocabulary[name][0] for name in claim.vocabulary if name in names))
+    for word in unanswerable(claim):
+        yield report(context, context.row(Trouble.ASKED_NOTHING), Basis.RULE, [word], allowed=allowed)
+
+
+def unanswerable(claim: Claim) -> list[Word]:
     """Words that ask for something that is not part of a contour."""
-    names = {row.fact.given for row in claim.form.facts} | {name for row in claim.form.corners for name in row.shapes}
-    names |= set(claim.form.choices)
-    answered = [claim.words[name] for name in names if name in claim.words]
-    allowed = dict.fromkeys(claim.vocabulary[name][0] for name in claim.vocabulary if name in names)
-    for word in (word for block in claim.blocks for word in block.words):
-        if word.is_asked and word not in answered and word not in claim.unknown:
-            rule = context.row(Trouble.ASKED_NOTHING)
-            yield report(context, rule, Basis.RULE, [word], form=claim.form.name, allowed=", ".join(allowed))
+    answered = [claim.words[name] for name in _answerable(claim) if name in claim.words]
+    asking = [word for block in claim.blocks for word in block.words if word.is_asked]
+    return [word for word in asking if word not in answered and word not in claim.unknown]
+
+
+def _answerable(claim: Claim) -> set[str]:
+    """The names that state facts, sizes or choices."""
+    sizes = {name for row in claim.form.corners for name in row.shapes}
+    return {row.fact.given for row in claim.form.facts} | sizes | set(claim.form.choices)
 
 
 def explain_fault(context: Context, fault: Fault) -> Diagnostic:

@@ -854,8 +854,8 @@ def test_a_fact_that_contradicts_the_words_is_named(fact: str, value: str) -> No
     assert contour["elements"] == []
     assert fact in found["words-conflict"]["message"]
     assert value in found["words-conflict"]["message"]
-    assert (found["words-conflict"]["line"], found["words-conflict"]["fact"]) == (1, 1)
-    assert found["words-conflict"]["end_column"] == len(ONE) + 1
+    assert (found["words-conflict"]["line"], found["words-conflict"]["end_column"]) == (1, len(ONE) + 1)
+    assert found["words-conflict"]["fact"] == {"number": 1, "column": 1, "end_column": len(fact) + 1}
 
 
 VALUELESS = [
@@ -1010,3 +1010,130 @@ def test_a_turn_of_nothing_between_neighbours_is_a_tangent() -> None:
     smooth, _ = contour_of(program, "angle from arc to line = 0")
     assert [each["is_path"] for each in smooth["solutions"]] == [each["is_path"] for each in tangent["solutions"]]
     assert smooth["status"] == tangent["status"]
+
+
+# What is said twice, what cannot be, and what to write instead ----------------------------------------------
+
+TWICE = [
+    # block, fact, finding, what it is held against, by how much, what is missing elsewhere
+    ("G111 A180. K-30. B120. X100.", "direction of line 2 = 120", "words-redundant", "B120.", "", ""),
+    ("G111 A180. K-30. B120. X100.", "direction of line 2 = 121.5", "words-conflict", "B120.", "1.500 deg", ""),
+    ("G111 A180. K-30. B120.", "direction of line 2 = 121.5", "words-conflict", "B120.", "1.500 deg", "V2"),
+    ("G111 A180. B120. X100.", "direction of line 1 = 180", "words-redundant", "A180.", "", "V1"),
+    ("G111 A180. K-30. B120.", "length of line 1 = 31", "words-conflict", "K-30. and A180.", "1.000 mm", "V2"),
+    ("G111 A180. K-30. B120.", "angle from line 1 to line 2 = -60", "words-redundant", "A180. and B120.", "", "V2"),
+    ("G111 A180. B120. X100.", "X of V2 = 102", "words-conflict", "X100.", "1.000 mm", "V1"),
+    ("G111 A180. I0 B120. X100.", "length of line 1 = 30", "words-redundant", "I0 and length of line 1", "", ""),
+]
+
+
+@pytest.mark.parametrize(("block", "fact", "code", "others", "off", "missing"), TWICE)
+def test_a_fact_that_says_again_what_words_say_is_held_against_just_these(
+    block: str, fact: str, code: str, others: str, off: str, missing: str
+) -> None:
+    contour, found = contour_of(block, fact)
+    status = {"words-redundant": "overdetermined", "words-conflict": "conflicting"}[code]
+    assert contour["status"] == ("underdetermined" if missing and code == "words-redundant" else status)
+    assert others in found[code]["message"]
+    assert off in found[code]["message"]
+    assert missing in found.get("words-missing", {"message": ""})["message"]
+    assert not {"search-unfinished", "no-point", "line-vanishes"} & found.keys()
+
+
+@pytest.mark.parametrize(
+    ("block", "fact", "code", "named"),
+    [
+        ("G111 X100. Z-47. B120.", "length of line 1 = 3", "no-point", ["B120.", "length of line 1 = 3"]),
+        ("G111 A180. K-30. B120. X100. P?", "corner 1 passes through [Z-10. X30.]", "no-point", ["Z-10. X30."]),
+        ("G111 I0 B120. X100.", "direction of line 1 = 180", "facts-singular", ["I0", "direction of line 1 = 180"]),
+        ("G111 A180. B180. X100. Z-50. P?", "straight part of line 1 = 2", "g111-parallel", ["A180.", "B180."]),
+        ("G111 A180. I0 B120. X100. P?", "straight part of line 1 = 2", "g111-not-fixed", ["A180.", "I0"]),
+    ],
+)
+def test_words_and_facts_that_do_not_go_together_are_named(block: str, fact: str, code: str, named: list[str]) -> None:
+    _, found = contour_of(block, fact)
+    assert all(each in found[code]["message"] for each in named), found[code]["message"]
+    assert found[code]["fixes"]
+
+
+def test_a_search_that_is_given_up_is_undecided_and_says_what_was_tried() -> None:
+    block, fact = "G111 X100. K-30. B120. P? Q5.", "straight part of line 2 = 5"
+    contour, found = contour_of(block, fact, "corner 1 tangent to line [Z-70. X30. A90.]")
+    assert contour["status"] == "undecided"
+    assert found["search-unfinished"]["message"].startswith("undecided: ")
+    assert "corner 1 tangent to line [Z-70. X30. A90.]" in found["search-unfinished"]["message"]
+    tried, open_part, *_ = found["search-unfinished"]["notes"]
+    assert tried.startswith("tried: every combination of sides, by a search within")
+    assert open_part.startswith("not decided: ")
+    assert found["search-unfinished"]["help"].startswith("state a simpler fact")
+
+
+FACT_FIXES = [
+    ("G111 A180. K-30. B120. X100. (contoursolve: length of line 1 = 31)", "delete length of line 1 = 31"),
+    ("G111 A180. K-30. B120. X100. (contoursolve: length of line 1 = 31)", "write length of line 1 = 30 for"),
+    ("G111 A180. K-30. B120. X100. (contoursolve: length of line 1 = 31)", "write K-31. for K-30."),
+    ("G111 A180. K-30. B120. X100. (contoursolve: X of V2 = 100; X of V1 = 40)", "delete X of V2 = 100; delete X of"),
+    ("G111 A180. K-30. B120. (contoursolve: X of V2 = 100; X of V1 = 40)", "delete X of V1 = 40"),
+    ("G111 A180. K-30. X100. (contoursolve: line 2 passes through (Z-40. X80.))", "write [Z-40. X80.] for"),
+    ("G111 A180. K-30. B120. (contoursolve X of V2 = 100)", "write (contoursolve: X of V2 = 100) for"),
+    ("G111 A180. K-30. B120. X100. F?", "delete F?"),
+    ("G111 A180. K-30. B120. X100. (contoursolve: length of line 3 = 1)", "delete length of line 3 = 1"),
+]
+
+
+@pytest.mark.parametrize(("block", "wanted"), FACT_FIXES)
+def test_a_fix_of_a_block_with_facts_is_solved_as_it_is_shown(block: str, wanted: str) -> None:
+    found = document(block)
+    fixes = [fix for each in found["diagnostics"] for fix in each["fixes"]]
+    (fix,) = [each for each in fixes if each["description"].startswith(wanted)]
+    for each in (each for each in fixes if each["applicability"] != "placeholder"):
+        after = document(each["replacement"])
+        assert [contour["status"] in ("solved", "overdetermined") for contour in after["contours"]] == [True]
+    after = document(fix["replacement"])
+    assert not any(each["severity"] == "error" for each in after["diagnostics"])
+    z, x = after["contours"][0]["end"]
+    assert fix["description"].endswith(f"the contour ends at Z{z:.3f} mm X{2 * x:.3f} mm")
+
+
+def test_a_word_that_is_missing_besides_facts_is_offered_and_settles_the_block() -> None:
+    found = document("G111 A180. B120. X100. P?", "straight part of line 1 = 20")
+    fixes = [fix for each in found["diagnostics"] for fix in each["fixes"]]
+    assert {each["description"] for each in fixes} == {"add I?", "add K?", "add Z?", "add W?"}
+    after = document(fixes[1]["replacement"].replace("K?", "K-30."), "straight part of line 1 = 20")
+    assert [each["status"] for each in after["contours"]] == ["solved"]
+
+
+def test_a_size_that_is_asked_for_has_no_limit_to_write_but_what_it_follows_from() -> None:
+    _, found = contour_of("G111 A180. K-30. B120. X100. P?", "radius of corner 1 = 80")
+    assert found["g111-corner-too-large"]["help"].endswith("radius of corner 1 = 80")
+    assert [each["text"] for each in found["g111-corner-too-large"]["labels"]] == [""]
+
+
+def test_a_coordinate_that_is_asked_for_tells_where_the_last_corner_lands() -> None:
+    asked, _ = contour_of("G111 X? A180. K-30. B120. Q5.", "Z of V2 = -47.")
+    stated, _ = contour_of(f"G111 X{2 * asked['points']['V2'][1]:.9f} A180. K-30. B120. Q5.")
+    assert asked["status"] == stated["status"] == "solved"
+    assert asked["end"] == pytest.approx(stated["end"], abs=1e-6)
+
+
+@pytest.mark.parametrize("word", ["F?", "N?", "M?", "S?", "T?"])
+def test_a_question_about_what_is_no_part_of_the_contour_is_refused(word: str) -> None:
+    contour, found = contour_of(f"G111 A180. K-30. B120. X100. {word}")
+    assert contour["status"] == "rejected"
+    assert word in found.get("asked-nothing", found.get("address-unknown"))["message"]
+
+
+@pytest.mark.parametrize(
+    ("block", "fact", "is_beyond"),
+    [
+        ("G111 A180. K-30. X100.", "line 2 passes through [Z-60. X160.]", True),
+        ("G111 A180. K-30. X100.", "line 2 passes through [Z-40. X80.]", False),
+        ("G111 A180. K-30. X100.", "line 2 passes through [Z-45. X100.]", False),
+        ("G111 A180. K-30. B120. X100. P?", "corner 1 tangent to line [Z0. X46. A180.]", True),
+        ("G111 A180. K-30. B120. X100. P?", "corner 1 passes through [Z-28. X40.5]", False),
+        ("G111 A180. K-30. X100.", "line 2 tangent to circle [Z-40. X120. R10.]", False),
+    ],
+)
+def test_a_fact_that_holds_where_nothing_is_cut_is_pointed_out(block: str, fact: str, is_beyond: bool) -> None:
+    found = document(block, fact)
+    assert ("fact-beyond" in {each["code"] for each in found["diagnostics"]}) is is_beyond, found["contours"]

@@ -567,3 +567,31 @@ def test_rules_choose_whether_a_determined_block_that_the_manual_refuses_is_solv
     assert found["warn"][0] == "overdetermined"
     assert found["warn"][1]["g111-x-and-u"] == "warning"
     assert found["off"] == ("overdetermined", {"words-redundant": "warning"})
+
+
+def test_a_finding_about_a_fact_that_is_stated_apart_stands_at_its_block():
+    arguments = (*ONE, "--fact", "X of V2 = 100", "--fact", "X of V1 = 42")
+    _, output, _ = run("solve", *arguments)
+    assert "--> --fact 2:1\n" in output
+    assert "--fact 2 | X of V1 = 42\n" in output
+    _, output, _ = run("check", *arguments, "--format", "json")
+    for finding in json.loads(output)["diagnostics"]:
+        assert (finding["line"], finding["column"], finding["end_column"]) == (1, 1, len(ONE[1]) + 1)
+        assert finding["fact"]["number"] == {"words-redundant": 1, "words-conflict": 2}[finding["code"]]
+    _, output, _ = run("check", *arguments, "--format", "sarif")
+    (log,) = json.loads(output)["runs"]
+    regions = [each["locations"][0]["physicalLocation"]["region"] for each in log["results"]]
+    assert regions == [{"startLine": 1, "startColumn": 1, "endColumn": len(ONE[1]) + 1}] * 2
+    fixes = [fix for each in log["results"] for fix in each.get("fixes", ())]
+    assert 'delete --fact "X of V1 = 42"; delete --fact "X of V2 = 100"' in fixes[0]["description"]["text"]
+
+
+def test_a_start_point_in_another_unit_than_the_contour_is_pointed_out():
+    inches = ("--block", "G20 G111 X4. A180. K-1. B120.")
+    _, output, _ = run("solve", *inches, "--start", "X2. Z0.")
+    assert "info[start-units]: the start point was read in mm, the contour is in inches" in output
+    assert '--start "G20 X2. Z0."' in output
+    for arguments in (("--start", "G20 X2. Z0."), ("--start", "X2. Z0.", "--units", "inch")):
+        _, output, _ = run("solve", *inches, *arguments)
+        assert "start-units" not in output
+        assert "start X   2.00000" in output

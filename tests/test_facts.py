@@ -50,7 +50,7 @@ from contoursolve.constraints import (
     UnitDirection,
     Values,
 )
-from contoursolve.model import Turn
+from contoursolve.model import Length, Turn
 from contoursolve.output.document import to_json
 from contoursolve.statements import (
     DirectionIs,
@@ -62,7 +62,10 @@ from contoursolve.statements import (
     PointIs,
     RadiusIs,
     StraightIs,
+    read_statement,
+    write_statement,
 )
+from contoursolve.statements.apply import vocabulary_of
 
 # Laws of equations ----------------------------------------------------------------------------------------
 
@@ -519,6 +522,18 @@ STATEMENTS: Mapping[str, Any] = {
 }
 
 
+MORE_STATEMENTS = (
+    "angle from line 1 to line 2 = -60.5",
+    "X of begin of corner 1 = 44",
+    "length of line 1 = length of line 2",
+    "line 1 tangent to line 2",
+    "line 2 tangent to circle [Z-40. X120. R10.]",
+    "corner 1 tangent to line [Z0. X30. A180.]",
+    "corner 2 meets next line",
+    "corner 2 meets line to [Z-60. X130.]",
+)
+
+
 def essence(program: str, *facts: Any, start: str = START) -> dict[str, Any]:
     """The document without what tells where and in which words something was stated."""
     document = json.loads(to_json(solve(program, start=start, facts=facts)))
@@ -553,9 +568,6 @@ def test_facts_mean_the_same_in_a_comment_apart_and_as_objects(block: str, facts
 
 @pytest.mark.parametrize(("fact", "statement"), [*STATEMENTS.items()])
 def test_a_statement_is_what_its_text_says(fact: str, statement: Any) -> None:
-    from contoursolve.statements import read_statement  # noqa: PLC0415
-    from contoursolve.statements.apply import vocabulary_of  # noqa: PLC0415
-
     profile = solve("G111 A180. K-30. B120. X100. P5. Q5.", start=START).answers[0].profile
     assert read_statement(fact, vocabulary_of(profile)) == statement
 
@@ -578,3 +590,21 @@ def test_a_shift_of_everything_shifts_the_contour(block: str, facts: tuple[str, 
             assert other["end"] == pytest.approx([one["end"][0] + 7, one["end"][1] + 3], abs=1e-9)
             assert one["kind"] == other["kind"]
             assert one.get("turn") == other.get("turn")
+
+
+@pytest.mark.parametrize("unit", Length)
+@pytest.mark.parametrize("fact", [*STATEMENTS, *MORE_STATEMENTS])
+def test_a_statement_is_written_as_a_text_that_reads_as_itself(fact: str, unit: Length) -> None:
+    profile = solve("G111 A180. K-30. B120. X100. P5. Q5.", start=START).answers[0].profile
+    words = replace(vocabulary_of(profile), unit=unit)
+    statement = read_statement(fact, words)
+    text = write_statement(statement, words.plane, unit)
+    assert read_statement(text, words) == statement
+    assert not set("()") & set(text)
+
+
+def test_statements_as_objects_are_shown_as_text() -> None:
+    facts = [STATEMENTS["X of V2 = 100"], STATEMENTS["length of line 1 = 31"]]
+    result = solve("G111 A180. K-30. B120.", start=START, facts=facts)
+    assert [each.text for each in result.facts] == ["X of V2 = 100", "length of line 1 = 31"]
+    assert "length of line 1 = 31 disagrees with" in result.diagnostics[0].message

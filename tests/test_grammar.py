@@ -129,7 +129,7 @@ def test_other_comments_state_nothing(comment: str) -> None:
 # Mistakes, and where they are marked ----------------------------------------------------------------------
 
 MISTAKES = [
-    ("length of line 9 = 20", "line", "(line 1, line 2, corner 1, corner 2)"),
+    ("length of line 9 = 20", "line 9", "(line 1, line 2, corner 1, corner 2)"),
     ("lenght of line 1 = 20", "lenght", "(line 1, line 2, corner 1, corner 2)"),
     ("length of line 1 = 2O", "2O", "a number"),
     ("length of line 1 = 1.2.3", "1.2.3", "a number"),
@@ -182,8 +182,8 @@ def test_the_columns_of_a_finding_underline_the_mistake_inside_the_comment(
 @pytest.mark.parametrize(("fact", "marked", "expected"), [case for case in MISTAKES if case[1]])
 def test_a_fact_apart_from_the_program_has_columns_of_its_own(fact: str, marked: str, expected: str) -> None:
     (found,) = [each for each in findings(WHOLE, "X of V1 = 40", fact) if each["code"] == "fact-unreadable"]
-    assert found["line"] == -2
-    assert fact[found["column"] - 1 : found["end_column"] - 1] == marked
+    assert (found["line"], found["fact"]["number"]) == (1, 2)
+    assert fact[found["fact"]["column"] - 1 : found["fact"]["end_column"] - 1] == marked
 
 
 def test_the_listing_underlines_a_fact_that_is_stated_apart() -> None:
@@ -361,3 +361,34 @@ def test_a_question_mark_may_stand_in_any_word_of_a_pair(rng: Any) -> None:
     kept = [[word for word in words if rng.random() < 0.9] for words in MILL_WORDS]
     lines = [" ".join(asked(word) if rng.random() < 0.25 else word for word in words) for words in kept]
     answered(["solve", *(part for line in lines for part in ("--block", line)), "--control", "nct-99m"])
+
+
+@pytest.mark.parametrize(
+    ("comment", "written"),
+    [
+        ("(contoursolve length of line 1 = 5)", "(contoursolve: length of line 1 = 5)"),
+        ("(Contour-Solve: X of V1 = 40)", "(contoursolve: X of V1 = 40)"),
+        ("(contoursolver = line 1 passes through [Z-1. X40.])", "(contoursolve: line 1 passes through [Z-1. X40.])"),
+        (";contoursolve: length of line 1 = 5", "(contoursolve: length of line 1 = 5)"),
+    ],
+)
+def test_a_comment_that_is_almost_a_fact_is_warned_about_with_what_to_write(comment: str, written: str) -> None:
+    (found,) = [each for each in findings(f"{WHOLE} {comment}") if each["code"] == "fact-unmarked"]
+    assert found["severity"] == "warning"
+    assert found["help"] == f"write {written}"
+
+
+@pytest.mark.parametrize("comment", ["(CONTOUR: OUTSIDE)", "(contoursolve 1.0)", "(made by contoursolve: A = B)"])
+def test_comments_that_only_mention_a_contour_are_comments(comment: str) -> None:
+    assert findings(f"{WHOLE} {comment}") == []
+
+
+def test_round_brackets_in_a_comment_are_refused_with_the_hint_that_square_ones_work() -> None:
+    found = findings(f"{WHOLE} (contoursolve: line 2 passes through (Z-40. X80.))")
+    (unreadable,) = [each for each in found if each["code"] == "fact-unreadable"]
+    assert unreadable["message"].endswith("inside a comment write [ ] for ( )")
+
+
+def test_an_element_that_is_not_there_is_named_as_a_whole() -> None:
+    (found,) = findings(f"{WHOLE} (contoursolve: straight part of line 3 = 1)")
+    assert found["message"].endswith("expected a line (line 1, line 2, corner 1, corner 2), found `line 3`")

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from decimal import Decimal
 from math import hypot
 
-from contoursolve.analysis import judge
+from contoursolve.analysis import judge, order
 from contoursolve.constraints import assemble
 from contoursolve.contour import Contour
 from contoursolve.diagnosis.affine import affine_facts
@@ -13,14 +13,22 @@ from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, apply_edit
 from contoursolve.diagnostic import Applicability, Diagnostic, Severity
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer, Policy, examine
+from contoursolve.model import Profile
 from contoursolve.reading import Claim, read
 from contoursolve.solving import Status
-from contoursolve.statements import apply_statements
 from contoursolve.syntax import parse_block
 from contoursolve.tolerance import AGREEMENT
 
 MOST_TRIED = 60
 """Changed blocks that are considered for one contour; beyond it the list is not called complete."""
+
+
+EASY_STEP, LARGEST_STEP = 4, 12
+"""Unknowns of one step: up to the first it takes milliseconds; beyond the second a search can take a minute, and a
+draft is not tried."""
+
+SLOW = 15
+"""Drafts that one with a step between these counts for; it can take a second."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,15 +74,17 @@ def choose_repairs(
     """The drafts that are repairs, none of which contains another one; of each stage after what came before."""
     found: list[Repair] = []
     tried: set[tuple[Edit, ...]] = set()
+    spent = 0
     for drafts in stages:
         for edits in drafts:
-            if len(tried) < MOST_TRIED and not any(set(other.edits) <= set(edits) for other in found):
+            if len(tried) + spent < MOST_TRIED and not any(set(other.edits) <= set(edits) for other in found):
                 repair = _try(claim, dialect, edits, before) if edits not in tried else None
                 found += [repair] if repair else []
+                spent += _extra(claim, dialect, edits, before)
             tried.add(edits)
     found = [repair for repair in found if not any(set(other.edits) < set(repair.edits) for other in found)]
     found.sort(key=_order)
-    return Repairs(tuple(found), is_complete=len(tried) <= MOST_TRIED)
+    return Repairs(tuple(found), is_complete=len(tried) + spent <= MOST_TRIED)
 
 
 def _order(repair: Repair) -> tuple[bool, int, int, float]:
@@ -89,7 +99,7 @@ def _try(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], before: Before
         return None
     replacement = "\n".join(texts)
     if any(edit.is_placeholder for edit in edits):
-        is_fixed = _is_fixed_by_a_number(claim, dialect, edits)
+        is_fixed = _is_fixed_by_a_number(claim, dialect, edits, before.next_place)
         return Repair(edits, replacement, Applicability.PLACEHOLDER, None, 0.0) if is_fixed else None
     answer = examine_edited(claim, dialect, edits, before)
     if answer is None or answer.contour is None or not _is_settled(answer, edits):
@@ -127,7 +137,36 @@ def _now_agrees(finding: Diagnostic, before: Before) -> bool:
 def examine_edited(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> Answer | None:
     """The answer to the edited blocks; None where they are not read as the same contour any more."""
     found = _find(claim, dialect, edits)
-    return examine(found, dialect.rules, Policy.ENFORCE, lambda: before.next_place) if found else None
+    if found is None or _largest_step(found, before) > LARGEST_STEP:
+        return None
+    return examine(found, dialect.rules, Policy.ENFORCE, lambda: before.next_place)
+
+
+def _extra(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> int:
+    """How many more drafts trying these edits counts for."""
+    found = _find(claim, dialect, edits) if claim.directives else None
+    return SLOW - 1 if found and EASY_STEP < _largest_step(found, before) <= LARGEST_STEP else 0
+
+
+def _largest_step(found: Claim, before: Before) -> int:
+    """The number of unknowns that further facts make one step determine together; 0 for ordinary words."""
+    profile = read(found, frozenset())
+    if not profile.is_extended:
+        return 0
+    profile, _ = _with_facts(profile, found, before.next_place)
+    system = assemble(profile)
+    verdict = judge(system)
+    if not verdict.is_determined:
+        return 0
+    return max(len(group.unknowns) for group in order(system, [system.facts[index] for index in verdict.basis]))
+
+
+def _with_facts(profile: Profile, claim: Claim, next_place: tuple[Decimal, Decimal] | None) -> tuple[Profile, bool]:
+    """The profile with the further facts, and whether all of them could be used."""
+    from contoursolve.statements import apply_statements  # noqa: PLC0415 - few blocks state more than their words
+
+    extended, faults = apply_statements(profile, claim.directives, lambda: next_place)
+    return extended, not faults
 
 
 def _find(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...]) -> Claim | None:
@@ -143,7 +182,9 @@ _SAMPLE = "37.123"
 """Stands for any number where only the words matter."""
 
 
-def _is_fixed_by_a_number(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...]) -> bool:
+def _is_fixed_by_a_number(
+    claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], next_place: tuple[Decimal, Decimal] | None
+) -> bool:
     """Whether the words determine the drawing at these values, whatever number the placeholder becomes."""
     sample = (
         replace(edit, text=edit.text.replace(PLACEHOLDER, _SAMPLE)) if edit.is_placeholder else edit for edit in edits
@@ -153,8 +194,8 @@ def _is_fixed_by_a_number(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...
         return False
     profile = read(found, frozenset())
     if profile.is_extended:
-        profile, faults = apply_statements(profile, found.directives, lambda: None)
-        return not faults and judge(assemble(profile)).is_determined
+        profile, is_stated = _with_facts(profile, found, next_place)
+        return is_stated and judge(assemble(profile)).is_determined
     affine = affine_facts(profile, profile.facts)
     return affine is None or not affine.freedoms()
 

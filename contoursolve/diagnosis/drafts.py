@@ -7,6 +7,7 @@ from contoursolve.diagnosis.edits import Edit, EditKind, write_word
 from contoursolve.examine import Answer
 from contoursolve.model import Given, Length, Unit
 from contoursolve.reading import Claim, Lexicon, Trouble
+from contoursolve.spelling import unanswerable
 from contoursolve.syntax import FACT, FaultKind, Word
 
 
@@ -46,7 +47,7 @@ def has_faults(claim: Claim) -> bool:
 def unreadable(claim: Claim) -> Iterator[tuple[Edit, ...]]:
     """What every repair must take out or correct: characters, addresses without a meaning, repetitions. Of an
     address that is given twice, either word may be the one that is meant."""
-    edits = [drop(word) for word in claim.unknown]
+    edits = [drop(word) for word in (*claim.unknown, *unanswerable(claim))]
     for block in claim.blocks:
         for fault in block.faults:
             if fault.kind is FaultKind.COMMENT_NOT_CLOSED:

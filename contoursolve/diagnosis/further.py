@@ -31,7 +31,7 @@ _NOT_TOGETHER = (
     RefusalKind.NOT_FIXED,
     Trouble.FACTS_SINGULAR,
 )
-_USELESS = (Trouble.ASKED_NOTHING, Trouble.FACT_UNREADABLE, Trouble.FACT_IMPOSSIBLE)
+_USELESS = (Trouble.FACT_UNREADABLE, Trouble.FACT_IMPOSSIBLE)
 _VALUE = re.compile(r"=\s*(?P<number>[+-]?(?:\d+\.?\d*|\.\d+))\s*$")
 
 
@@ -77,9 +77,8 @@ def _brackets(answer: Answer) -> Iterator[tuple[Edit, ...]]:
 def _useless(answer: Answer, findings: list[Diagnostic]) -> Iterator[tuple[Edit, ...]]:
     """What cannot be read or says nothing, taken out."""
     spans = [each.span for each in findings if each.about in _USELESS]
-    words = [word for block in answer.claim.blocks for word in block.words if word.span in spans]
     facts = [word for word in map(word_of, answer.claim.directives) if any(_holds(word.span, span) for span in spans)]
-    dropped = tuple(drop(word) for word in (*words, *facts))
+    dropped = tuple(drop(word) for word in facts)
     for forced in unreadable(answer.claim):
         if forced or dropped:
             yield (*forced, *dropped)

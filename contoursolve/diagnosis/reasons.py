@@ -9,6 +9,7 @@ from contoursolve.diagnostic import Diagnostic, Freedom
 from contoursolve.explain import angle_text, join, length_text, place_text
 from contoursolve.model import FIRST, SECOND, Fact, Line, Profile, scalar
 from contoursolve.solving import RefusalKind, lookup
+from contoursolve.syntax import FACT
 from contoursolve.tolerance import AGREEMENT, REGULAR
 
 
@@ -55,9 +56,10 @@ def _agreeing(profile: Profile, affine: AffineFacts, circuit: Circuit, fact: Fac
     value, given = fact.implied(at), profile.givens[fact.given]
     if value is None:
         return ""
+    name = given.word.text.partition("=")[0].strip() if given.word and given.word.address == FACT else given.name
     if isinstance(fact, Heading):
-        return f"{given.name} {angle_text(value)}"
-    return f"{given.name} {length_text(value * (2 if given.is_diameter else 1), profile.unit)}"
+        return f"{name} {angle_text(value)}"
+    return f"{name} {length_text(value * (2 if given.is_diameter else 1), profile.unit)}"
 
 
 def freedom_reasons(profile: Profile, freedoms: Sequence[Freedom]) -> Iterator[str]:

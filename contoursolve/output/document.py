@@ -50,7 +50,7 @@ def _dump(document: dict[str, Any]) -> str:
 
 
 def finding_data(finding: Diagnostic, result: Result) -> dict[str, Any]:
-    """One finding as plain data. What is about a fact stated apart stands at the block, with the fact's number."""
+    """One finding as plain data. What is about a fact stated apart stands at the block, with the place in the fact."""
     return {
         "code": finding.code,
         "severity": finding.severity.value,
@@ -79,10 +79,11 @@ def finding_data(finding: Diagnostic, result: Result) -> dict[str, Any]:
     }
 
 
-def _place(span: Span, result: Result) -> dict[str, int]:
-    shown = result.place(span)
-    number = {"fact": -span.line} if span.line < 0 else {}
-    return {"line": shown.line, "column": shown.column, "end_column": shown.end_column, **number}
+def _place(span: Span, result: Result) -> dict[str, Any]:
+    shown, fact = result.place(span), {}
+    if span.line < 0:
+        fact = {"fact": {"number": -span.line, "column": span.column, "end_column": span.end_column}}
+    return {"line": shown.line, "column": shown.column, "end_column": shown.end_column, **fact}
 
 
 def _contour(answer: Answer) -> dict[str, Any]:

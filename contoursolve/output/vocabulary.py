@@ -37,5 +37,5 @@ def vocabulary_lines() -> Iterator[str]:
     yield "A line begins and ends at its virtual intersections; where corners cut it off, it is the corner that begins"
     yield "or ends: `end of line 1` is V1, and `begin of corner 1` is where the rounding leaves line 1."
     yield "Numbers are in the unit of the program and mean what they say, with or without a decimal point; X is a"
-    yield "diameter on a lathe. Capitals do not matter. Inside a comment write places with [ ], because the first ) ends"
-    yield "the comment, and separate facts by semicolons."
+    yield "diameter on a lathe. Capitals do not matter. Inside a comment write places with [ ], because the first )"
+    yield "ends the comment, and separate facts by semicolons."

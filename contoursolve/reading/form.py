@@ -117,7 +117,8 @@ def lay_out(
 
 def _corners(row: CornerRow, stated: frozenset[str], asked: frozenset[str], sharp: frozenset[str]) -> list[Corner]:
     """The corner of a row: none without its word, several if several words are stated."""
-    landing = [axis for names, axis in row.landing if (stated | asked) & set(names)]
+    told = [[axis for names, axis in row.landing if which & set(names)] for which in (stated, asked)]
+    landing = told[0] or told[1]
     axis = landing[0] if len(landing) == 1 else None
     return [
         Corner(row.name, row.at, shape, word, row.before, row.after, axis)

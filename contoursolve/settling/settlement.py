@@ -1,5 +1,6 @@
 """Looks for every contour of a profile, and says which of its facts are to blame where there is none."""
 
+from bisect import bisect_left
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
@@ -93,13 +94,18 @@ def _groups(system: System) -> tuple[Group, ...]:
 
 
 def _dead(profile: Profile, groups: tuple[Group, ...]) -> list[Group]:
-    """The first group that has no solution after the groups before it, or all groups if none is found."""
-    for number, group in enumerate(groups, 1):
-        part = _first(profile, groups[:number])
+    """The first group that has no solution after the groups before it; found by halving."""
+
+    def is_dead(number: int) -> bool:
+        part = _first(profile, groups[: number + 1])
         system = assemble(part)
-        if system.unknowns and judge(system).is_determined and not enumerate_solutions(part, system).found:
-            return [group]
-    return list(groups)
+        if not system.unknowns or not judge(system).is_determined:
+            return False
+        return not enumerate_solutions(part, system).found
+
+    # Of all groups together it is known.
+    number = bisect_left(range(len(groups) - 1), True, key=is_dead)
+    return [groups[number]]
 
 
 def _first(profile: Profile, groups: tuple[Group, ...]) -> Profile:
