@@ -15,7 +15,6 @@ from contoursolve.model import Length, Profile, Unit
 from contoursolve.reading import Claim, Trouble
 from contoursolve.rules import Offence, Rule
 from contoursolve.solving import Refusal, RefusalKind, Remark, RemarkKind, Solution, compare, lookup, scalars_of
-from contoursolve.solving.elimination import Obstacle
 from contoursolve.source import Span
 from contoursolve.syntax import FACT, Word
 from contoursolve.tolerance import AGREEMENT
@@ -247,7 +246,7 @@ def explain_result(
     if event.kind in _AGAINST_OTHERS:
         fields |= _others(event, profile)
     if event.kind is RefusalKind.SEARCH_UNFINISHED and alternatives is not None:
-        fields["advice"] = _ADVICE[alternatives.doubts[0].obstacle]
+        fields["advice"] = _ADVICE[alternatives.doubts[0].obstacle.name]
         notes = tuple(_search_notes(profile, alternatives))
     labels = _labels(event, fields)
     finding = report(context, context.row(event.kind), Basis.NUMERICAL, words, values, labels, **fields)
@@ -289,12 +288,13 @@ def _others(event: Refusal | Remark, profile: Profile) -> dict[str, str]:
     return {"others": text, "they": "they", "give": "give", "say": "say"}
 
 
+# By name: the obstacles belong to the search, which few blocks need.
 _ADVICE = {
-    Obstacle.SINGULAR: "state another fact in place of one of them",
-    Obstacle.UNDECIDED: "change a value a little: the case is too close to a limit to be decided",
-    Obstacle.TOUCHING: "change a value a little: two places are one, or none, as far as numbers can tell",
-    Obstacle.NO_CLOSED_FORM: "state a simpler fact in place of one of them, such as a coordinate or a direction",
-    Obstacle.UNFINISHED: "state a simpler fact in place of one of them, such as a coordinate or a direction",
+    "SINGULAR": "state another fact in place of one of them",
+    "UNDECIDED": "change a value a little: the case is too close to a limit to be decided",
+    "TOUCHING": "change a value a little: two places are one, or none, as far as numbers can tell",
+    "NO_CLOSED_FORM": "state a simpler fact in place of one of them, such as a coordinate or a direction",
+    "UNFINISHED": "state a simpler fact in place of one of them, such as a coordinate or a direction",
 }
 
 

@@ -40,6 +40,7 @@ _GRAMMAR = (
     Trouble.VARIABLE,
     Trouble.FACT_UNREADABLE,
     Trouble.FACT_IMPOSSIBLE,
+    Trouble.ASKED_NOTHING,
     Trouble.VALUE_TOO_LARGE,
 )
 _EQUATIONS = ("structure", "generic rank", "values", "geometry")
@@ -81,6 +82,7 @@ def _equations(answer: Answer, profile: Profile, system: System) -> list[Layer]:
 _AT_VALUES = (
     RefusalKind.LINES_PARALLEL,
     RefusalKind.NOT_FIXED,
+    Trouble.FACTS_SINGULAR,
     RefusalKind.WORDS_DISAGREE,
     RefusalKind.FACT_DISAGREES,
     RefusalKind.RADIUS_DIFFERENCE,

@@ -9,6 +9,7 @@ from contoursolve.diagnostic import Diagnostic, Freedom
 from contoursolve.explain import angle_text, join, length_text, place_text
 from contoursolve.model import FIRST, SECOND, Arc, Fact, Line, Profile, scalar
 from contoursolve.solving import RefusalKind, lookup
+from contoursolve.syntax import FACT
 from contoursolve.tolerance import AGREEMENT, REGULAR
 
 
@@ -55,9 +56,12 @@ def _agreeing(profile: Profile, affine: AffineFacts, circuit: Circuit, fact: Fac
     value, given = fact.implied(at), profile.givens[fact.given]
     if value is None or given.word is None:
         return ""
-    name = given.word.address
-    if len({each.word.span.line for each in profile.givens.values() if each.word}) > 1:
-        name += f" (line {given.word.span.line})"
+    if given.word.address == FACT:
+        name = given.word.text.partition("=")[0].strip()
+    else:
+        name = given.word.address
+        if len({each.word.span.line for each in profile.givens.values() if each.word}) > 1:
+            name += f" (line {given.word.span.line})"
     if isinstance(fact, Heading):
         return f"{name} {angle_text(value)}"
     return f"{name} {length_text(value * (2 if given.is_diameter else 1), profile.unit)}"

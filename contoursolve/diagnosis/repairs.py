@@ -11,7 +11,6 @@ from contoursolve.diagnosis.affine import AffineFacts, Circuit, affine_facts
 from contoursolve.diagnosis.attempt import Before, Repairs, choose_repairs
 from contoursolve.diagnosis.drafts import change, drop, has_faults, marked, missing_points, unreadable, variants
 from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, write_word
-from contoursolve.diagnosis.further import further_drafts, next_place_of
 from contoursolve.diagnostic import Diagnostic, Severity
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer, Policy, examine
@@ -36,6 +35,9 @@ def find_repairs(answer: Answer, dialect: Dialect) -> Repairs:
         return Repairs((), is_complete=False)
     codes = frozenset(each.code for each in answer.diagnostics)
     if answer.profile.is_extended:
+        # Few blocks state more than their words.
+        from contoursolve.diagnosis.further import further_drafts, next_place_of  # noqa: PLC0415
+
         before = Before(codes, answer.contour, next_place_of(answer.profile))
         repairs = choose_repairs(claim, dialect, further_drafts(answer, dialect, before), before)
         return Repairs(repairs.repairs, is_complete=False)
