@@ -168,11 +168,11 @@ class _Examiner:
 
     def nothing_to_solve(self) -> None:
         """The finding that a program has no contour block."""
-        forms = (
+        forms = dict.fromkeys(
             f"{form.name} ({form.title}, {dialect.name})"
             for dialect in DIALECTS.values()
             for form in dialect.forms
-            if self.dialect in (None, dialect)
+            if self.dialect in (None, dialect) and form.is_contour
         )
         context = Context(self.rules, self.unit)
         rule = context.row(Trouble.NO_CONTOUR)
