@@ -178,7 +178,9 @@ def examine(
     is_path = bool(solution.points) and notebook.status in (Status.SOLVED, Status.OVERDETERMINED)
     contour = trace(profile, solution) if is_path else None
     is_double = any(remark.kind is RemarkKind.TOUCHES for remark in solution.remarks)
-    side = next((choice.side for choice in profile.choices if choice.given and choice.point in profile.intersections), None)
+    side = next(
+        (choice.side for choice in profile.choices if choice.given and choice.point in profile.intersections), None
+    )
     return Answer(
         form=claim.form.name,
         lines=tuple(block.line for block in claim.blocks),

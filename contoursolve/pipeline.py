@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from decimal import Decimal
 
 from contoursolve.diagnostic import Basis, Diagnostic, Severity
-from contoursolve.dialects import DIALECTS, Dialect, Unresolved
+from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.examine import Answer, Depth, Policy, examine, explain_fault, explain_words, rank
 from contoursolve.explain import Context, report
 from contoursolve.model import Length
@@ -130,7 +130,7 @@ class _Examiner:
         while index < len(blocks):
             block = blocks[index]
             found = dialect.find(blocks, index, state, dialect.modes)
-            if isinstance(found, Claim):
+            if found is not None:
                 answer = self._examine(found, index, state)
                 has_findings = any(each.severity is not Severity.INFO for each in answer.diagnostics)
                 if has_findings and self.depth is Depth.FULL:
@@ -148,9 +148,6 @@ class _Examiner:
             else:
                 self._check_block(block)
                 state = advance(state, block, dialect.modes)
-                if found:
-                    self._unresolved(found)
-                    state = state.lose(state.plane.axes, f"{found.form} is not resolved", found.word.span)
             index += 1
 
     def _examine(self, found: Claim, index: int, state: State) -> Answer:
@@ -193,11 +190,6 @@ class _Examiner:
             addresses = lexicon.addresses
             axis_words = [word for word in block.words if word.address in addresses and addresses[word.address].axis]
             self.diagnostics += explain_words(context, lexicon, _repeated(axis_words), axis_words)
-
-    def _unresolved(self, found: Unresolved) -> None:
-        context = Context(self.rules, self.unit, place=found.block.span)
-        rule = context.row(Trouble.FORM_UNRESOLVED)
-        self.diagnostics.append(report(context, rule, Basis.RULE, [found.word], form=found.form))
 
 
 def _state_after(claim: Claim, answer: Answer, dialect: Dialect) -> State:

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from decimal import Decimal
 
 from contoursolve import syntax
-from contoursolve.dialects import Dialect, Unresolved
+from contoursolve.dialects import Dialect
 from contoursolve.model import Length
 from contoursolve.reading import Claim, Position, State, advance, apply_modes, positions
 from contoursolve.syntax import Block, Directive, Program
@@ -29,9 +29,7 @@ class Found:
     next_end: tuple[Decimal, Decimal] | None
 
 
-def follow(
-    program: Program, dialect: Dialect, unit: Length, claims: Mapping[int, ClaimedContour]
-) -> Iterator[Found | Unresolved]:
+def follow(program: Program, dialect: Dialect, unit: Length, claims: Mapping[int, ClaimedContour]) -> Iterator[Found]:
     """Every contour block of a program, in order; `claims` are those of the result by their line.
 
     Facts that only the result states are taken as stated in the last block of their contour.
@@ -40,7 +38,7 @@ def follow(
     index = 0
     while index < len(blocks):
         found = dialect.find(blocks, index, state, dialect.modes)
-        if isinstance(found, Claim):
+        if found is not None and found.form.is_contour:
             claimed = claims.get(blocks[index].line)
             after = index + found.blocks[-1].line - blocks[index].line
             yield Found(found, claimed, start_error, dialect, _next_end(blocks[after + 1 :], found, dialect))
@@ -50,9 +48,6 @@ def follow(
             index = after
         else:
             state = advance(state, blocks[index], dialect.modes)
-            if found:
-                yield found
-                state = state.lose(state.plane.axes, f"{found.form} is not resolved", found.word.span)
         index += 1
 
 

@@ -189,6 +189,7 @@ _WAY_RULES = (
     ),
 )
 
+# The two corners cannot overlap: each of them stays on its side of the arc's lowest or highest point.
 _GEOMETRY_RULES = (
     Rule(
         code="g112-missed",
@@ -244,17 +245,6 @@ _GEOMETRY_RULES = (
         about=RefusalKind.CORNER_TOO_LARGE,
         accepted=(_GOOD + " P5. Q5.", _GOOD + " C5. D5."),
         rejected=(_GOOD + " P60.", _GOOD + " D40."),
-    ),
-    Rule(
-        code="g112-corners-overlap",
-        message="{words} overlap on {subject}: they need {actual}, it has {limit}",
-        help="make the corners smaller, by {off} of {subject} in all",
-        source=_FITS,
-        alarm=_GEOMETRY,
-        roles=(_ROLE,),
-        about=RefusalKind.CORNERS_OVERLAP,
-        accepted=(_GOOD + " P5. Q5.",),
-        rejected=(_START + "G112 U0 I10. K-120. R30. P40. Q40.",),
     ),
     Rule(
         code="g112-no-corner",

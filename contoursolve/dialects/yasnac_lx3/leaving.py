@@ -13,10 +13,10 @@ from contoursolve.reading import Claim, CornerRow, FactRow, Form, Modes, Sample,
 from contoursolve.syntax import Block
 
 ALONG_Z, ALONG_X = "leaving Z", "leaving X"
-SIZE, ASIDE = "corner", "aside"
-"""The size of the corner, which has no sign, and the point beside V1 towards which the tool leaves."""
+SIZE, END = "corner", "end"
+"""The size of the corner, which has no sign, and where the tool has left V1 by that much."""
 
-_TITLES = {11: "bevelling", 12: "rounding", 1: "bevelling with G01"}
+_TITLES = {11: "bevelling", 12: "rounding", 1: "bevelling"}
 _SHAPES = {11: CornerShape.CHAMFER_AXIS_45, 12: CornerShape.FILLET, 1: CornerShape.CHAMFER_AXIS_45}
 _WORDS = ((("Z", "W"), "I", "X"), (("X", "U"), "K", "Z"))
 """By the axis along which a block moves: its words, the letter of its corner, and the axis that this is along."""
@@ -31,17 +31,17 @@ def leaving(code: int, along: int) -> Form:
         title=_TITLES[code],
         roles=(Role("leaving"), Role((ALONG_Z, ALONG_X)[along])),
         start=START,
-        points=(V1, ASIDE),
+        points=(V1, END),
         radii=(),
         facts=(
             FactRow(Coordinate(absolute, V1, along), (absolute,)),
             FactRow(Offset(increment, V1, START, along), (increment,)),
             FactRow(Level(V1, START, 1 - along), ()),
-            FactRow(Offset(letter, ASIDE, V1, 1 - along), (letter,)),
-            FactRow(Level(ASIDE, V1, along), ()),
+            FactRow(Offset(letter, END, V1, 1 - along), (letter,)),
+            FactRow(Level(END, V1, along), ()),
         ),
         path=(Line("line 1", START, V1),),
-        lines=(Line("line 2", V1, ASIDE),),
+        lines=(Line("line 2", V1, END),),
         corners=(CornerRow("corner 1", V1, "line 1", None, {SIZE: _SHAPES[code]}, lands_on="line 2"),),
         intersections=(V1,),
         allowed=frozenset("XUZWIKNGFMST"),

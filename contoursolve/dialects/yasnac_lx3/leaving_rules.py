@@ -2,7 +2,7 @@
 
 from decimal import Decimal
 
-from contoursolve.diagnostic import Alarm, Severity
+from contoursolve.diagnostic import Alarm
 from contoursolve.dialects.yasnac_lx3.claim import OTHER_G
 from contoursolve.dialects.yasnac_lx3.leaving import ALONG_X, ALONG_Z
 from contoursolve.dialects.yasnac_lx3.manual import manual
@@ -69,9 +69,9 @@ LEAVING_RULES = (
         help="add I, or write G00 or G01 for a move without a corner",
         source=_PAGE,
         roles=(ALONG_Z,),
-        when=some(*_Z) & ~some(*_X) & at_most(0, "I"),
+        when=some(*_Z) & ~some(*_X) & at_most(0, "I", "K"),
         accepted=(_GOOD, _ROUND + "\nG01 Z-50."),
-        rejected=(_BEVEL + "\nZ-50.", _START + "G12 Z-20. K8."),
+        rejected=(_BEVEL + "\nZ-50.", _START + "G12 W-20."),
     ),
     Rule(
         code="g11-corner-missing-x",
@@ -79,13 +79,13 @@ LEAVING_RULES = (
         help="add K, or write G00 or G01 for a move without a corner",
         source=_PAGE,
         roles=(ALONG_X,),
-        when=some(*_X) & ~some(*_Z) & at_most(0, "K"),
+        when=some(*_X) & ~some(*_Z) & at_most(0, "I", "K"),
         accepted=(_GOOD, _ROUND + "\nG01 X90."),
-        rejected=(_BEVEL + "\nX80.", _START + "G12 X80. I8."),
+        rejected=(_BEVEL + "\nX80.", _START + "G12 U50."),
     ),
     Rule(
         code="g11-corner-letter",
-        message="{words:I} leaves along X, and so does the block: a corner that leaves a move along X is written with K",
+        message="{words:I} is along X, and so is the move: the corner that leaves it is written with K",
         help="write K for {words:I}",
         source=_PAGE,
         roles=(ALONG_X,),
@@ -95,7 +95,7 @@ LEAVING_RULES = (
     ),
     Rule(
         code="g11-corner-letter-z",
-        message="{words:K} leaves along Z, and so does the block: a corner that leaves a move along Z is written with I",
+        message="{words:K} is along Z, and so is the move: the corner that leaves it is written with I",
         help="write I for {words:K}",
         source=_PAGE,
         roles=(ALONG_Z,),
