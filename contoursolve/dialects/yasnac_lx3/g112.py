@@ -69,8 +69,8 @@ def g112(along: int, turn: Turn, bevel: CornerShape) -> Form:
         ),
         sample=_SAMPLES[along],
         meanings={
-            absolute: f"absolute {absolute} of the line along {axis} on which corner 2 lands",
-            increment: f"the same, from the start point in {other}",
+            absolute: f"absolute {other} of the line along {axis} on which corner 2 lands",
+            increment: f"{other} increment from the start point to the line along {axis} on which corner 2 lands",
             "I": "X distance from start to the centre of the arc (radius value)",
             "K": "Z distance from start to the centre of the arc",
         },
