@@ -7,11 +7,13 @@ from itertools import product
 from math import cos, radians, sin
 
 import pytest
+from click.testing import CliRunner
 from generate_lx3 import FORMS, random_g11, random_g112
 from generate_nct import disturbed
 from oracle_lx3 import WORD, contours
 
 import contoursolve
+from contoursolve.cli import main
 from contoursolve.dialects import YASNAC_LX3
 from contoursolve.examine import Policy
 from contoursolve.model import Length
@@ -200,7 +202,7 @@ def test_what_cannot_be_made_is_refused_by_name(block, status, code):
 @pytest.mark.parametrize(
     ("block", "line"),
     [
-        ("G112 U0 I10. K-50. R30. D25.", "G112 U0 I10. K-50. R30. D20."),
+        ("G112 U0 I10. K-50. R30. D25.", "G112 U0 I10. K-50. R30. D18.284"),
         ("G11 U10. K-7.", "G11 U10. K-5."),
         ("G12 W-5. I-6.", "G12 W-5. I-5."),
     ],
@@ -283,3 +285,38 @@ def test_settings_have_names_and_a_contour_tells_on_which_it_rests():
     assert configured({}, "G11 Z-20. I5.").claim.conventions == ()
     with pytest.raises(ValueError, match="values are: axis-45, setback"):
         YASNAC_LX3.configure({"bevel": "45"})
+
+
+def table(form):
+    """{letters: (legality, determinacy)} of a form's part of the printed table."""
+    outcome = CliRunner().invoke(main, ["rules", "--table", "--control", "yasnac-lx3"])
+    (part,) = (part for part in outcome.output.split("\n\n") if part.startswith(f"yasnac-lx3 {form}:"))
+    rows = [line.split(" | ") for line in part.splitlines()[1:]]
+    return {frozenset(words.split()) - {"-"}: (legality, rest) for words, legality, rest in rows}
+
+
+@pytest.mark.parametrize(
+    ("form", "letters", "needed", "either"),
+    [
+        ("G112, circular-arc multiple cornering, turning", "XUIKRPQCD", "IKR", "XU"),
+        ("G112, circular-arc multiple cornering, facing", "WIKRPQCD", "IKR", ""),
+        ("G11, bevelling, along Z", "XUWIK", "I", ""),
+        ("G11, bevelling, along X", "UIK", "K", ""),
+        ("G12, rounding, along Z", "XUWIK", "I", ""),
+        ("G12, rounding, along X", "UIK", "K", ""),
+    ],
+)
+def test_table_says_which_sets_of_words_are_legal_and_that_each_of_them_is_determined(form, letters, needed, either):
+    """A row of a facing form or of G11 has its axis word besides, which may not be given twice."""
+    rows = table(form)
+    pairs = [set("CP"), set("DQ"), *([set(either)] if either else [])]
+    assert len(rows) == 2 ** len(letters)
+    for words, (legality, determinacy) in rows.items():
+        is_legal = (
+            words >= set(needed)
+            and (not either or bool(words & set(either)))
+            and not any(words >= pair for pair in pairs)
+            and words <= {*needed, *either, *("PQCD" if "R" in letters else "")}
+        )
+        assert (legality == "legal") == is_legal, sorted(words)
+        assert not is_legal or determinacy.startswith("determined"), sorted(words)

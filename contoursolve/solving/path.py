@@ -156,7 +156,8 @@ def _largest(
     low, high = 0.0, size
     for _ in range(BISECTIONS):
         middle = (low + high) / 2
-        fits = _short_of(corner, resize({corner.size: middle}), taken) is None
+        changed = resize({corner.size: middle})
+        fits = _short_of(corner, changed, taken) is None and changed[f"setback-out:{corner.name}"] >= -LENGTH
         low, high = (middle, high) if fits else (low, middle)
     return low
 

@@ -1,8 +1,10 @@
 """YASNAC LX3 arcs, G02 and G03: nothing is calculated for them, but whether an arc can run as stated is checked."""
 
+from collections.abc import Mapping
 from dataclasses import replace
 from decimal import Decimal
 from functools import lru_cache
+from itertools import chain
 from math import hypot
 from string import ascii_uppercase
 
@@ -62,47 +64,48 @@ def claim_arc(block: Block, code: int, state: State, modes: Modes) -> Claim | No
 
     Most arcs can, and this tells it in a few operations; what is wrong with the others is found out by their form.
     """
-    addresses = {word.address for word in block.words}
-    if None in state.start().values or not addresses & {"X", "U", "Z", "W", *CENTERS, "R", *WRONG_CENTER}:
-        return None
     after = apply_modes(state, block, modes)
+    words = [word for word in block.words if word.address in _READ]
+    values = {word.address: modes.lexicon.value(word, after.unit) for word in words if word.address not in WRONG_CENTER}
+    is_doubtful = any(values.keys() >= {*names} for names in (*_ENDS, ("R", "I"), ("R", "K")))
+    if is_doubtful or not words or block.faults or None in (*values.values(), *state.start().values):
+        return None
+    known = {address: value for address, value in values.items() if value is not None}
+    has_center = not known.keys().isdisjoint((*CENTERS, "R"))
+    if len(words) == len(known) and has_center and _runs(known, state):
+        return None
     claim = claim_of(block, arc(code), code, state, after, modes, WRONG_CENTER)
-    is_doubtful = any(claim.words.keys() >= {*names} for names in (*_ENDS, ("R", "I"), ("R", "K")))
-    is_variable = any(word.number is None for word in claim.words.values())
-    if is_doubtful or is_variable or block.faults or claim.repeated:
-        return None
-    steps = [_step(claim, axis) for axis in (FIRST, SECOND)]
-    center = [claim.givens[name].value if name in claim.givens else Decimal(0) for name in CENTERS]
-    radius = claim.givens["R"].value if "R" in claim.givens else None
-    is_centered = any(name in claim.givens for name in CENTERS)
-    if not addresses & WRONG_CENTER and (radius or is_centered) and _runs(steps, center, radius):
-        return None
-    supplied = [Given(names[1], Decimal(0), Unit.MM, None) for names in _ENDS if not addresses & {*names}]
+    supplied = [Given(names[1], Decimal(0), Unit.MM, None) for names in _ENDS if known.keys().isdisjoint(names)]
     choices = []
-    if radius is not None:
-        supplied.append(replace(claim.givens["R"], value=abs(radius)))
-        is_left = (radius > 0) == (_TURNS[code] is Turn.CCW)
+    if "R" in known:
+        supplied.append(replace(claim.givens["R"], value=abs(known["R"])))
+        is_left = (known["R"] > 0) == (_TURNS[code] is Turn.CCW)
         choices.append(Choice(CENTER, Side.LEFT if is_left else Side.RIGHT, "R"))
-    elif is_centered:
+    elif has_center:
         # Of the two distances to the centre, one that is not written is 0 (assumed, as on other controls).
-        supplied += [Given(name, Decimal(0), Unit.MM, None) for name in CENTERS if name not in addresses]
-    return claim_of(block, arc(code), code, state, after, modes, WRONG_CENTER, supplied, choices)
+        supplied += [Given(name, Decimal(0), Unit.MM, None) for name in CENTERS if name not in known]
+    givens = {**claim.givens, **{given.name: given for given in supplied}}
+    return replace(claim, givens=givens, choices=tuple(choices))
 
 
-def _step(claim: Claim, axis: int) -> Decimal:
+_READ = frozenset({*chain(*_ENDS), *CENTERS, "R", *WRONG_CENTER})
+
+
+def _runs(values: Mapping[str, Decimal], state: State) -> bool:
+    """Whether an arc can run from the start to the end, as far as a control looks."""
+    first, second = (_step(values, state, axis) for axis in (FIRST, SECOND))
+    chord = hypot(first, second)
+    if "R" in values:
+        return 0 < chord <= 2 * (abs(float(values["R"])) + RADIUS_DIFFERENCE)
+    along, across = (float(values.get(name, 0)) for name in CENTERS)
+    distance = hypot(along, across)
+    return distance > 0 and abs(hypot(first - along, second - across) - distance) <= RADIUS_DIFFERENCE
+
+
+def _step(values: Mapping[str, Decimal], state: State, axis: int) -> float:
     """From start to end along an axis, mm."""
     absolute, increment = _ENDS[axis]
-    start = claim.before.start().values[axis]
-    if absolute in claim.givens and start is not None:
-        return claim.givens[absolute].value - start
-    return claim.givens[increment].value if increment in claim.givens else Decimal(0)
-
-
-def _runs(steps: list[Decimal], center: list[Decimal], radius: Decimal | None) -> bool:
-    """Whether an arc can run from the start to the end, as far as a control looks."""
-    (first, second), (center_first, center_second) = map(float, steps), map(float, center)
-    chord = hypot(first, second)
-    if radius is not None:
-        return 0 < chord <= 2 * (abs(float(radius)) + RADIUS_DIFFERENCE)
-    distance = hypot(center_first, center_second)
-    return distance > 0 and abs(hypot(first - center_first, second - center_second) - distance) <= RADIUS_DIFFERENCE
+    start = state.start().values[axis]
+    if absolute in values and start is not None:
+        return float(values[absolute] - start)
+    return float(values.get(increment, 0))

@@ -38,7 +38,7 @@ def g112(along: int, turn: Turn, bevel: CornerShape) -> Form:
     axis, other = ("Z", "X") if along == FIRST else ("X", "Z")
     return Form(
         name="G112",
-        title="circular-arc multiple cornering",
+        title=f"circular-arc multiple cornering, {'turning' if along == FIRST else 'facing'}",
         roles=(Role("G112"), Role(TURNING if along == FIRST else FACING)),
         start=START,
         points=(CENTER, V1, LANDING, V2),

@@ -16,6 +16,7 @@ ALONG_Z, ALONG_X = "leaving Z", "leaving X"
 SIZE, END = "corner", "end"
 """The size of the corner, which has no sign, and where the tool has left V1 by that much."""
 
+_LINE = 1
 _TITLES = {11: "bevelling", 12: "rounding", 1: "bevelling"}
 _SHAPES = {11: CornerShape.CHAMFER_AXIS_45, 12: CornerShape.FILLET, 1: CornerShape.CHAMFER_AXIS_45}
 _WORDS = ((("Z", "W"), "I", "X"), (("X", "U"), "K", "Z"))
@@ -28,7 +29,7 @@ def leaving(code: int, along: int) -> Form:
     (absolute, increment), letter, other = _WORDS[along]
     return Form(
         name=f"G{code:02}",
-        title=_TITLES[code],
+        title=f"{_TITLES[code]}, along {'ZX'[along]}",
         roles=(Role("leaving"), Role((ALONG_Z, ALONG_X)[along])),
         start=START,
         points=(V1, END),
@@ -46,7 +47,8 @@ def leaving(code: int, along: int) -> Form:
         intersections=(V1,),
         allowed=frozenset("XUZWIKNGFMST"),
         combinations=tuple(((), (name,)) for name in (absolute, increment, letter)),
-        sample=Sample("G00 X30. Z0.", (f"G{code:02} {_SAMPLES[along]}",)),
+        # A block with G01 and neither I nor K is a line; all others say what they say with G11.
+        sample=None if code == _LINE else Sample("G00 X30. Z0.", (f"G{code:02} {_SAMPLES[along]}",)),
         meanings={
             absolute: f"absolute {absolute} of the virtual intersection",
             increment: f"{absolute} increment from start to virtual intersection",
