@@ -161,7 +161,8 @@ def examine(
             weaker = replace(finding, severity=Severity.WARNING)
             # What states or asks more than the control reads is not a block for the control yet.
             is_strict = policy is Policy.ENFORCE and not _is_extended(claim)
-            notebook.add(finding if is_strict else weaker, Status.REJECTED)
+            status = Status.NO_SOLUTION if offence.rule.is_about_geometry else Status.REJECTED
+            notebook.add(finding if is_strict else weaker, status)
     ignoring = [offence for offence in offences if offence.rule.ignores]
     profile, is_stated = _state_more(
         context, claim, read(claim, frozenset(offence.rule.ignores for offence in ignoring)), next_place, notebook
@@ -184,9 +185,8 @@ def examine(
         for finding in explain_beyond(context, profile, solution, contour):
             notebook.add(finding)
     touching = {remark.subject for remark in solution.remarks if remark.kind is RemarkKind.TOUCHES}
-    sides = {
-        choice.point: choice.side for choice in profile.choices if choice.point in {*profile.intersections} - touching
-    }
+    shown = {*profile.intersections} - touching
+    sides = {choice.point: choice.side for choice in profile.choices if choice.given and choice.point in shown}
     return Answer(
         form=claim.form.name,
         lines=tuple(block.line for block in claim.blocks),
@@ -209,13 +209,11 @@ def examine(
 def list_alternatives(answer: Answer) -> Alternatives | None:
     """Every solution of a contour, the control's choice among them; None where nothing was solved, or where the
     equations are solved one after the other without a choice, so that there is one."""
-    if (
-        answer.alternatives is not None
-        or answer.contour is None
-        or not is_closed(assemble(answer.profile))
-        or not points_with_two_solutions(assemble(answer.profile))
-    ):
+    if answer.alternatives is not None or answer.contour is None or not is_closed(assemble(answer.profile)):
         return answer.alternatives
+    decided = {choice.point for choice in answer.profile.choices if not choice.given}
+    if decided.issuperset(points_with_two_solutions(assemble(answer.profile))):
+        return None
     from contoursolve.solving.alternatives import find_alternatives  # noqa: PLC0415 - see _solve
 
     return find_alternatives(answer.profile)
@@ -284,7 +282,7 @@ def _examine_geometry(
 
     A block that is refused is not solved; but if it says too much, whether its words agree is told.
     """
-    is_refused = Status.REJECTED in notebook.statuses
+    is_refused = bool(notebook.statuses & {Status.REJECTED, Status.NO_SOLUTION})
     structure = list(_examine_system(context, claim, profile))
     for status, finding in structure:
         notebook.add(_secondary(finding, is_refused), status)

@@ -84,8 +84,10 @@ class Context:
 
 
 def context_of(claim: Claim, rules: Sequence[Rule]) -> Context:
-    """The context of a contour; it begins where its first block does."""
-    return Context(rules, claim.after.unit, claim.words, claim.blocks[0].span)
+    """The context of a contour; it begins where its first block does, and rows of its own roles come first."""
+    own = {role.name for role in claim.form.roles}
+    ordered = sorted(rules, key=lambda rule: own.isdisjoint(rule.roles))
+    return Context(ordered, claim.after.unit, claim.words, claim.blocks[0].span)
 
 
 def length_text(value: float, unit: Length) -> str:

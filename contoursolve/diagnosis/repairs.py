@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from decimal import Decimal
 from functools import lru_cache
 from itertools import combinations, product
+from math import copysign
 
 from contoursolve.diagnosis.affine import AffineFacts, Circuit, affine_facts
 from contoursolve.diagnosis.attempt import Before, Repairs, choose_repairs
@@ -254,7 +255,9 @@ def _asked(answer: Answer, word: Word, given: Given) -> Iterator[tuple[str, floa
                 if given.unit is Unit.DEGREE and key == "limit":
                     yield from (("expected", angle) for angle in _meeting(finding, given))
                 elif key in finding.values and abs(finding.values[key]) < float("inf"):
-                    yield key, finding.values[key] * (0.5 if given.is_diameter else 1.0)
+                    value = finding.values[key] * (0.5 if given.is_diameter else 1.0)
+                    # A limit is a size; what the sign of the word says is not in question.
+                    yield key, copysign(value, given.value) if key == "limit" else value
 
 
 def _meeting(finding: Diagnostic, given: Given) -> Iterator[float]:

@@ -103,4 +103,4 @@ def _faults(profile: Profile) -> Iterator[str]:
 
 
 def _lands(corner: Corner) -> bool:
-    return corner.lands_parallel_to is not None
+    return corner.lands_parallel_to is not None or corner.lands_on is not None

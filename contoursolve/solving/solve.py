@@ -11,6 +11,7 @@ from contoursolve.backends.angle import direction
 from contoursolve.backends.inputs import COSINE, SINE
 from contoursolve.backends.numeric import inverse_norm
 from contoursolve.constraints import (
+    Collinear,
     Coordinate,
     Heading,
     Offset,
@@ -257,8 +258,11 @@ class _Attempt:
         offset, radius = abs(self.out[f"offset:{number}"]), self.out[f"radius:{number}"]
         is_center = isinstance(step, TwoCirclesStep) and step.is_equal
         if isinstance(step, LineCircleStep):
-            kind, subject, givens = RefusalKind.CIRCLE_MISSED, step.circle.point, self._givens_of(step.line)
-            values = {"limit": radius, "actual": offset, **self._meeting_angles(step, radius)}
+            kind, subject = RefusalKind.CIRCLE_MISSED, step.circle.point
+            is_stated = bool(self.profile.words_of([step.line])) or isinstance(step.line, Collinear)
+            givens = self._givens_of(step.line if is_stated else step.circle)
+            values = {"limit": radius, "actual": offset}
+            values |= self._meeting_angles(step, radius) if is_stated else {}
         elif is_center:
             kind, subject, givens = RefusalKind.RADIUS_TOO_SMALL, step.point, self._givens_of(step.first)
             values = {"limit": offset, "actual": radius}

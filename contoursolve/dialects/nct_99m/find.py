@@ -7,7 +7,6 @@ control computes, and where the first one has ,C or ,R (16.1).
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from contoursolve.dialects.dialect import Unresolved
 from contoursolve.dialects.nct_99m.claim import Member, claim_of
 from contoursolve.dialects.nct_99m.element import CHAMFER, ROUNDING, Element
 from contoursolve.model import Turn
@@ -18,7 +17,7 @@ _TURNS = {2: Turn.CW, 3: Turn.CCW}
 _OWN_USE = (Effect.SINGLE, Effect.NO_MOTION, Effect.PRESET, Effect.CYCLE, Effect.FRAME)
 
 
-def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> Claim | Unresolved | None:
+def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> Claim | None:
     """The contour that begins at a block: everything that is resolved together with it."""
     block = blocks[index]
     if not block.words or not _is_motion(block, state, modes):
