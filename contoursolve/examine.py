@@ -206,10 +206,25 @@ def examine(
     )
 
 
+MOST_CHOICES = 5
+"""Points of which each may lie in two places; each doubles the number of solutions. Of more, in a long chain, only
+the one that the words choose is worked out."""
+
+
+def count_choices(profile: Profile) -> int:
+    """The points that may lie in two places each; 0 where the system has no closed form."""
+    system = assemble(profile)
+    return len(points_with_two_solutions(system)) if is_closed(system) else 0
+
+
 def list_alternatives(answer: Answer) -> Alternatives | None:
-    """Every solution of a contour, the control's choice among them; None where nothing was solved, or where the
-    equations are solved one after the other without a choice, so that there is one."""
-    if answer.alternatives is not None or answer.contour is None or not is_closed(assemble(answer.profile)):
+    """Every solution of a contour, the control's choice among them; None where nothing was solved, where the
+    equations are solved one after the other without a choice, so that there is one, or where there are too many."""
+    if (
+        answer.alternatives is not None
+        or answer.contour is None
+        or not 0 < count_choices(answer.profile) <= MOST_CHOICES
+    ):
         return answer.alternatives
     decided = {choice.point for choice in answer.profile.choices if not choice.given}
     if decided.issuperset(points_with_two_solutions(assemble(answer.profile))):
@@ -289,7 +304,8 @@ def _examine_geometry(
     system = assemble(profile)
     says_too_much = len(system.facts) > len(system.unknowns)
     is_solvable = not structure and profile.start.is_known
-    if is_solvable and is_refused and not profile.is_extended and _has_choice(profile):
+    is_short = is_solvable and count_choices(profile) <= MOST_CHOICES
+    if is_short and is_refused and not profile.is_extended and _has_choice(profile):
         # Which contours the missing word could choose is worth knowing.
         return Solution(Status.UNDERDETERMINED), _solve(profile, context, notebook)[1]
     if structure and not is_refused and profile.is_extended and profile.start.is_known:
@@ -312,7 +328,8 @@ def _solve(profile: Profile, context: Context, notebook: _Notebook) -> tuple[Sol
     """The contour that the control makes, or the only one that there is."""
     is_chosen = not profile.is_extended and not _has_choice(profile)
     solution = solve(profile) if is_chosen else None
-    if solution is not None and not any(remark.kind is RemarkKind.TOUCHES for remark in solution.remarks):
+    touches = solution is not None and any(remark.kind is RemarkKind.TOUCHES for remark in solution.remarks)
+    if solution is not None and not (touches and count_choices(profile) <= MOST_CHOICES):
         return solution, None
     # Unusual combinations, open choices, and lines that touch as far as floats can tell.
     from contoursolve.settling import settle  # noqa: PLC0415

@@ -78,6 +78,10 @@ def enumerate_solutions(profile: Profile, system: System) -> Enumeration:
     return enumeration
 
 
+MOST_SOLUTIONS = 512
+"""Solutions that are followed; each point that may lie in two places doubles their number."""
+
+
 class _Search:
     def __init__(self, system: System, groups: tuple[Group, ...], ground: Ground, close: Close) -> None:
         self.system = system
@@ -97,6 +101,9 @@ class _Search:
         states = [Found({}, {})]
         for group in self.groups:
             states = self._advance(states, group)
+            if len(states) > MOST_SOLUTIONS:
+                self.doubts.append(Doubt(group.unknowns, Obstacle.UNFINISHED))
+                states = states[:MOST_SOLUTIONS]
         states = [self._with_sides(state) for state in states]
         return Enumeration(tuple(states), tuple(dict.fromkeys(self.doubts)), self.is_searched)
 
