@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import Enum
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 from contoursolve.analysis import Verdict
 from contoursolve.constraints import Radius, assemble
 from contoursolve.contour import Contour, LineSegment
 from contoursolve.diagnostic import Basis, Diagnostic, Label
-from contoursolve.model import Length, Profile, Unit
+from contoursolve.model import Length, Profile, Role, Unit
 from contoursolve.reading import Claim, Trouble
 from contoursolve.rules import Offence, Rule
 from contoursolve.solving import Refusal, RefusalKind, Remark, RemarkKind, Solution, compare, lookup, scalars_of
@@ -83,11 +84,15 @@ class Context:
         return {name: word.text for name, word in self.words.items()}
 
 
-def context_of(claim: Claim, rules: Sequence[Rule]) -> Context:
+def context_of(claim: Claim, rules: tuple[Rule, ...]) -> Context:
     """The context of a contour; it begins where its first block does, and rows of its own roles come first."""
-    own = {role.name for role in claim.form.roles}
-    ordered = sorted(rules, key=lambda rule: own.isdisjoint(rule.roles))
-    return Context(ordered, claim.after.unit, claim.words, claim.blocks[0].span)
+    return Context(_own_first(rules, claim.form.roles), claim.after.unit, claim.words, claim.blocks[0].span)
+
+
+@lru_cache(maxsize=256)
+def _own_first(rules: tuple[Rule, ...], roles: tuple[Role, ...]) -> tuple[Rule, ...]:
+    own = {role.name for role in roles}
+    return tuple(sorted(rules, key=lambda rule: own.isdisjoint(rule.roles)))
 
 
 def length_text(value: float, unit: Length) -> str:

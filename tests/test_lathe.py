@@ -84,6 +84,11 @@ def test_the_manuals_example_of_g11_has_the_dimensions_of_its_drawing():
     assert codes(result) == []
 
 
+def test_forms_of_this_control_show_that_a_program_is_for_it():
+    for block in ("G112 U0 I10. K-50. R30.", "G11 Z-80. I8.", "G12 U20. K-2."):
+        assert contoursolve.solve(MANUAL + block).control == "yasnac-lx3"
+
+
 def test_g112_is_the_drawing_it_was_written_from():
     rng = random.Random(112)
     for form, one, two in product(FORMS, ("", "P", "C"), ("", "Q", "D")):

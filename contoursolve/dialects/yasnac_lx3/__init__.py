@@ -16,7 +16,10 @@ from contoursolve.syntax import Block
 
 
 def _signs(block: Block) -> bool:
-    return any(word.address == "G" and word.number in (111, 112) for word in block.words)
+    codes = {word.number for word in block.words if word.address == "G"}
+    addresses = {word.address for word in block.words}
+    is_leaving = bool(codes & {11, 12} and addresses & {*"XUZW"} and addresses & {*"IK"})
+    return bool(codes & {111, 112}) or is_leaving
 
 
 YASNAC_LX3 = Dialect(
