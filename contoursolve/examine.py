@@ -212,9 +212,9 @@ the one that the words choose is worked out."""
 
 
 def count_choices(profile: Profile) -> int:
-    """The points that may lie in two places each; 0 where the system has no closed form."""
-    system = assemble(profile)
-    return len(points_with_two_solutions(system)) if is_closed(system) else 0
+    """The points that may lie in two places each, for all that the form says of it; 0 where there is no closed form."""
+    system, decided = assemble(profile), {choice.point for choice in profile.choices if not choice.given}
+    return len({*points_with_two_solutions(system)} - decided) if is_closed(system) else 0
 
 
 def list_alternatives(answer: Answer) -> Alternatives | None:
@@ -226,9 +226,6 @@ def list_alternatives(answer: Answer) -> Alternatives | None:
         or not 0 < count_choices(answer.profile) <= MOST_CHOICES
     ):
         return answer.alternatives
-    decided = {choice.point for choice in answer.profile.choices if not choice.given}
-    if decided.issuperset(points_with_two_solutions(assemble(answer.profile))):
-        return None
     from contoursolve.solving.alternatives import find_alternatives  # noqa: PLC0415 - see _solve
 
     return find_alternatives(answer.profile)

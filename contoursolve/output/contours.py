@@ -146,7 +146,7 @@ def _given_rows(answer: Answer, form: Form, dialect: Dialect) -> list[tuple[str,
         else:
             rows.append((word.text, *_value(word, dialect.modes.lexicon, answer.unit), meaning))
     rows += [_asked_row(each, answer, form, dialect) for each in answer.answers]
-    by_point = {choice.point: words[choice.given].text for choice in answer.profile.choices}
+    by_point = {choice.point: words[choice.given].text for choice in answer.profile.choices if choice.given in words}
     for point, side in answer.sides.items():
         rows.append((f"choice {point}", side.value, "", f"of two intersections, by {by_point[point]}"))
     return rows
