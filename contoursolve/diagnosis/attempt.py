@@ -153,7 +153,9 @@ def _largest_step(found: Claim, before: Before) -> int:
     profile = read(found, frozenset())
     if not profile.is_extended:
         return 0
-    profile, _ = _with_facts(profile, found, before.next_place)
+    profile, is_usable = _with_facts(profile, found, before.next_place)
+    if not is_usable:
+        return 0
     system = assemble(profile)
     verdict = judge(system)
     if not verdict.is_determined:
