@@ -262,12 +262,13 @@ def _state_more(
     # Few blocks state more than their words.
     from contoursolve.statements import Flaw, apply_statements  # noqa: PLC0415
 
-    profile, faults = apply_statements(profile, claim.directives, next_place)
+    extended, faults = apply_statements(profile, claim.directives, next_place)
     kinds = {Flaw.UNREADABLE: Trouble.FACT_UNREADABLE, Flaw.IMPOSSIBLE: Trouble.FACT_IMPOSSIBLE}
     for fault in faults:
         rule = context.row(kinds[fault.flaw])
         notebook.add(report(context, rule, Basis.RULE, [fault.word], reason=fault.message), Status.REJECTED)
-    return profile, not faults
+    # With a fact that cannot be used, the others may speak of what is not drawn.
+    return profile if faults else extended, not faults
 
 
 def answer_question(question: Question, profile: Profile, solution: Solution) -> AskedValue:
