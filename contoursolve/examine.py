@@ -297,11 +297,12 @@ def _examine_geometry(
     system = assemble(profile)
     says_too_much = len(system.facts) > len(system.unknowns)
     is_solvable = not structure and profile.start.is_known
-    is_short = is_solvable and count_choices(profile) <= MOST_CHOICES
-    if is_short and is_refused and not profile.is_extended and _open_points(profile):
+    is_open = is_solvable and is_refused and not profile.is_extended and bool(_open_points(profile))
+    is_long = is_open and count_choices(profile) > MOST_CHOICES
+    if is_open and not is_long:
         # Which contours the missing word could choose is worth knowing.
         return Solution(Status.UNDERDETERMINED), _solve(profile)[1]
-    if not is_solvable or (is_refused and not says_too_much):
+    if not is_solvable or is_long or (is_refused and not says_too_much):
         return Solution(Status.UNDERDETERMINED), None
     solution, alternatives = _solve(profile)
     events: list[Refusal | Remark] = [*solution.refusals, *solution.remarks]
