@@ -204,9 +204,10 @@ the one that the words choose is worked out."""
 
 
 def count_choices(profile: Profile) -> int:
-    """The points that may lie in two places each; 0 where the system has no closed form."""
+    """The points that may lie in two places each; 0 where the system is not determined or has no closed form."""
     system = assemble(profile)
-    return len(points_with_two_solutions(system)) if is_closed(system) else 0
+    is_ordered = judge(system).is_determined and is_closed(system)
+    return len(points_with_two_solutions(system)) if is_ordered else 0
 
 
 def list_alternatives(answer: Answer) -> Alternatives | None:
