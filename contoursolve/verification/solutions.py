@@ -81,7 +81,7 @@ def check_solutions(found: Found, claimed: ClaimedContour, ledger: Ledger) -> bo
 def _is_eligible(found: Found, claimed: ClaimedContour, solution: ClaimedSolution) -> bool:
     """Whether a solution, right in all else, agrees with the words of the program that choose, too."""
     checker = CHECKERS.get(found.claim.form.name)
-    signs = signs_of(found.claim, checker.choosing if checker else ())
+    signs = signs_of(found.claim, checker.choosing(found.claim) if checker else ())
     if not signs:
         return True
     statuses = (ClaimedStatus.SOLVED, ClaimedStatus.OVERDETERMINED)
@@ -167,7 +167,7 @@ def _readings(found: Found, solution: ClaimedSolution) -> Iterator[tuple[Claimed
     """
     checker = CHECKERS.get(found.claim.form.name)
     named, words = _signs(found, solution), found.claim.words
-    choosing = checker.choosing if checker else ()
+    choosing = checker.choosing(found.claim) if checker else ()
     names = [name for name in choosing if name in named or (name in words and words[name].number)]
     signs = [((named[name],) if name in named else (1, -1)) for name in names]
     for status in (ClaimedStatus.SOLVED, ClaimedStatus.OVERDETERMINED):
@@ -222,7 +222,8 @@ def _check_selects(
 def _check_fact(
     found: Found, solution: ClaimedSolution, others: list[ClaimedSolution], text: str, own: str, ledger: Ledger
 ) -> None:
-    plane, unit, points = found.claim.after.plane, found.claim.after.unit, CHECKERS[found.claim.form.name].points
+    plane, unit = found.claim.after.plane, found.claim.after.unit
+    points = CHECKERS[found.claim.form.name].points(found.claim)
     try:
         fact = read_statement(text, Vocabulary((), points, plane, unit))
     except GrammarError as error:

@@ -55,8 +55,13 @@ def follow(
     while index < len(blocks):
         found = dialect.find(blocks, index, state, dialect.modes)
         if isinstance(found, Claim):
-            claimed = claims.get(blocks[index].line)
             after = index + found.blocks[-1].line - blocks[index].line
+            if not found.form.is_contour:
+                # The control calculates nothing for it.
+                state = advance(state, blocks[index], dialect.modes)
+                index = after + 1
+                continue
+            claimed = claims.get(blocks[index].line)
             yield Found(
                 found,
                 claimed,
