@@ -161,7 +161,8 @@ def examine(
             weaker = replace(finding, severity=Severity.WARNING)
             # What states or asks more than the control reads is not a block for the control yet.
             is_strict = policy is Policy.ENFORCE and not _is_extended(claim)
-            notebook.add(finding if is_strict else weaker, Status.REJECTED)
+            status = Status.NO_SOLUTION if offence.rule.is_about_geometry else Status.REJECTED
+            notebook.add(finding if is_strict else weaker, status)
     ignoring = [offence for offence in offences if offence.rule.ignores]
     profile, is_stated = _state_more(
         context, claim, read(claim, frozenset(offence.rule.ignores for offence in ignoring)), next_place, notebook
@@ -184,9 +185,8 @@ def examine(
         for finding in explain_beyond(context, profile, solution, contour):
             notebook.add(finding)
     touching = {remark.subject for remark in solution.remarks if remark.kind is RemarkKind.TOUCHES}
-    sides = {
-        choice.point: choice.side for choice in profile.choices if choice.point in {*profile.intersections} - touching
-    }
+    shown = {*profile.intersections} - touching
+    sides = {choice.point: choice.side for choice in profile.choices if choice.given and choice.point in shown}
     return Answer(
         form=claim.form.name,
         lines=tuple(block.line for block in claim.blocks),
@@ -206,14 +206,24 @@ def examine(
     )
 
 
+MOST_CHOICES = 5
+"""Points of which each may lie in two places; each doubles the number of solutions. Of more, in a long chain, only
+the one that the words choose is worked out."""
+
+
+def count_choices(profile: Profile) -> int:
+    """The points that may lie in two places each, for all that the form says of it; 0 where there is no closed form."""
+    system, decided = assemble(profile), {choice.point for choice in profile.choices if not choice.given}
+    return len({*points_with_two_solutions(system)} - decided) if is_closed(system) else 0
+
+
 def list_alternatives(answer: Answer) -> Alternatives | None:
-    """Every solution of a contour, the control's choice among them; None where nothing was solved, or where the
-    equations are solved one after the other without a choice, so that there is one."""
+    """Every solution of a contour, the control's choice among them; None where nothing was solved, where the
+    equations are solved one after the other without a choice, so that there is one, or where there are too many."""
     if (
         answer.alternatives is not None
         or answer.contour is None
-        or not is_closed(assemble(answer.profile))
-        or not points_with_two_solutions(assemble(answer.profile))
+        or not 0 < count_choices(answer.profile) <= MOST_CHOICES
     ):
         return answer.alternatives
     from contoursolve.solving.alternatives import find_alternatives  # noqa: PLC0415 - see _solve
@@ -284,14 +294,15 @@ def _examine_geometry(
 
     A block that is refused is not solved; but if it says too much, whether its words agree is told.
     """
-    is_refused = Status.REJECTED in notebook.statuses
+    is_refused = bool(notebook.statuses & {Status.REJECTED, Status.NO_SOLUTION})
     structure = list(_examine_system(context, claim, profile))
     for status, finding in structure:
         notebook.add(_secondary(finding, is_refused), status)
     system = assemble(profile)
     says_too_much = len(system.facts) > len(system.unknowns)
     is_solvable = not structure and profile.start.is_known
-    if is_solvable and is_refused and not profile.is_extended and _has_choice(profile):
+    is_short = is_solvable and count_choices(profile) <= MOST_CHOICES
+    if is_short and is_refused and not profile.is_extended and _has_choice(profile):
         # Which contours the missing word could choose is worth knowing.
         return Solution(Status.UNDERDETERMINED), _solve(profile, context, notebook)[1]
     if structure and not is_refused and profile.is_extended and profile.start.is_known:
@@ -314,7 +325,8 @@ def _solve(profile: Profile, context: Context, notebook: _Notebook) -> tuple[Sol
     """The contour that the control makes, or the only one that there is."""
     is_chosen = not profile.is_extended and not _has_choice(profile)
     solution = solve(profile) if is_chosen else None
-    if solution is not None and not any(remark.kind is RemarkKind.TOUCHES for remark in solution.remarks):
+    touches = solution is not None and any(remark.kind is RemarkKind.TOUCHES for remark in solution.remarks)
+    if solution is not None and not (touches and count_choices(profile) <= MOST_CHOICES):
         return solution, None
     # Unusual combinations, open choices, and lines that touch as far as floats can tell.
     from contoursolve.settling import settle  # noqa: PLC0415

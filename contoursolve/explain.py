@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import Enum
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 from contoursolve.analysis import Verdict
 from contoursolve.constraints import Radius, assemble
 from contoursolve.contour import Contour, LineSegment
 from contoursolve.diagnostic import Basis, Diagnostic, Label
-from contoursolve.model import Length, Profile, Unit
+from contoursolve.model import Length, Profile, Role, Unit
 from contoursolve.reading import Claim, Trouble
 from contoursolve.rules import Offence, Rule
 from contoursolve.solving import Refusal, RefusalKind, Remark, RemarkKind, Solution, compare, lookup, scalars_of
-from contoursolve.solving.elimination import Obstacle
 from contoursolve.source import Span
 from contoursolve.syntax import FACT, Word
 from contoursolve.tolerance import AGREEMENT
@@ -84,9 +84,15 @@ class Context:
         return {name: word.text for name, word in self.words.items()}
 
 
-def context_of(claim: Claim, rules: Sequence[Rule]) -> Context:
-    """The context of a contour; it begins where its first block does."""
-    return Context(rules, claim.after.unit, claim.words, claim.blocks[0].span)
+def context_of(claim: Claim, rules: tuple[Rule, ...]) -> Context:
+    """The context of a contour; it begins where its first block does, and rows of its own roles come first."""
+    return Context(_own_first(rules, claim.form.roles), claim.after.unit, claim.words, claim.blocks[0].span)
+
+
+@lru_cache(maxsize=256)
+def _own_first(rules: tuple[Rule, ...], roles: tuple[Role, ...]) -> tuple[Rule, ...]:
+    own = {role.name for role in roles}
+    return tuple(sorted(rules, key=lambda rule: own.isdisjoint(rule.roles)))
 
 
 def length_text(value: float, unit: Length) -> str:
@@ -247,7 +253,7 @@ def explain_result(
     if event.kind in _AGAINST_OTHERS:
         fields |= _others(event, profile)
     if event.kind is RefusalKind.SEARCH_UNFINISHED and alternatives is not None:
-        fields["advice"] = _ADVICE[alternatives.doubts[0].obstacle]
+        fields["advice"] = _ADVICE[alternatives.doubts[0].obstacle.name]
         notes = tuple(_search_notes(profile, alternatives))
     labels = _labels(event, fields)
     finding = report(context, context.row(event.kind), Basis.NUMERICAL, words, values, labels, **fields)
@@ -289,12 +295,13 @@ def _others(event: Refusal | Remark, profile: Profile) -> dict[str, str]:
     return {"others": text, "they": "they", "give": "give", "say": "say"}
 
 
+# By name: the obstacles belong to the search, which few blocks need.
 _ADVICE = {
-    Obstacle.SINGULAR: "state another fact in place of one of them",
-    Obstacle.UNDECIDED: "change a value a little: the case is too close to a limit to be decided",
-    Obstacle.TOUCHING: "change a value a little: two places are one, or none, as far as numbers can tell",
-    Obstacle.NO_CLOSED_FORM: "state a simpler fact in place of one of them, such as a coordinate or a direction",
-    Obstacle.UNFINISHED: "state a simpler fact in place of one of them, such as a coordinate or a direction",
+    "SINGULAR": "state another fact in place of one of them",
+    "UNDECIDED": "change a value a little: the case is too close to a limit to be decided",
+    "TOUCHING": "change a value a little: two places are one, or none, as far as numbers can tell",
+    "NO_CLOSED_FORM": "state a simpler fact in place of one of them, such as a coordinate or a direction",
+    "UNFINISHED": "state a simpler fact in place of one of them, such as a coordinate or a direction",
 }
 
 
@@ -385,4 +392,5 @@ def shorten(text: str) -> str:
 
 def _number(value: float, decimals: int) -> str:
     smallest = 0.5 * 10.0**-decimals
+    value += 0.0  # -0.0 is 0
     return f"{value:.{decimals}f}" if abs(value) >= smallest or value == 0 else f"{value:.1e}"

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, cast
 
 from contoursolve.diagnostic import Basis, Diagnostic, Severity
-from contoursolve.dialects import DIALECTS, Dialect, Unresolved
+from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.examine import Answer, Depth, Policy, examine, rank
 from contoursolve.explain import Context, report
 from contoursolve.model import Length, Plane
@@ -168,7 +168,7 @@ class _Examiner:
         while index < len(blocks):
             block = blocks[index]
             found = dialect.find(blocks, index, state, dialect.modes)
-            if isinstance(found, Claim):
+            if found is not None:
                 answer = self._examine(found, index, state)
                 if start and found.after.unit is not start_unit:
                     place = Context(self.rules, start_unit, place=start.blocks[0].span)
@@ -192,9 +192,6 @@ class _Examiner:
             else:
                 self._check_block(block)
                 state = advance(state, block, dialect.modes)
-                if found:
-                    self._unresolved(found)
-                    state = state.lose(state.plane.axes, f"{found.form} is not resolved", found.word.span)
             index += 1
 
     def _examine(self, found: Claim, index: int, state: State) -> Answer:
@@ -212,11 +209,11 @@ class _Examiner:
 
     def nothing_to_solve(self) -> None:
         """The finding that a program has no contour block."""
-        forms = (
+        forms = dict.fromkeys(
             f"{form.name} ({form.title}, {dialect.name})"
             for dialect in DIALECTS.values()
             for form in dialect.forms
-            if self.dialect in (None, dialect)
+            if self.dialect in (None, dialect) and form.is_contour
         )
         context = Context(self.rules, self.unit)
         rule = context.row(Trouble.NO_CONTOUR)
@@ -239,11 +236,6 @@ class _Examiner:
             addresses = lexicon.addresses
             axis_words = [word for word in block.words if word.address in addresses and addresses[word.address].axis]
             self.diagnostics += explain_words(context, lexicon, _repeated(axis_words), axis_words)
-
-    def _unresolved(self, found: Unresolved) -> None:
-        context = Context(self.rules, self.unit, place=found.block.span)
-        rule = context.row(Trouble.FORM_UNRESOLVED)
-        self.diagnostics.append(report(context, rule, Basis.RULE, [found.word], form=found.form))
 
 
 def _repeated(words: Sequence[Word]) -> list[Word]:

@@ -393,12 +393,23 @@ BAD = {
     "no start point": ("G111 X100. A180. K-30. B120.", "position-unknown"),
     "line over-defined without G41 or G42": (PAIR.replace("G42 ", ""), "nct-compensation-off"),
     "line over-defined after G40": (PAIR.replace("G3", "G40 G3"), "nct-compensation-off"),
-    "line over-defined after a line": (MILL + "G1 X60 Y10\nG1 X-50 Y42.857 ,A171.87 Q-1", "nct-line-without-arc"),
+    "line over-defined after positioning": (
+        MILL + "G0 X60 Y10\nG1 X-50 Y42.857 ,A171.87",
+        "nct-nothing-before words-conflict",
+    ),
+    "lines that are parallel": (MILL + "G1 ,A171.87\nG1 X-50 Y42.857 ,A171.87", "nct-parallel"),
+    "a line by its angle and no coordinate": (MILL + "G1 ,A30", "nct-coordinate-missing"),
+    "a corner before positioning": (MILL + "G1 X60 ,C2\nG0 X70", "nct-corner-without-next"),
+    "a chamfer and a rounding": (MILL + "G1 X60 ,C2 ,R2\nY20", "nct-two-corners"),
+    "an ordinary arc off its centre": (MILL + "G3 X-50 Y2 I-50 J0", "nct-radius-difference"),
     "line over-defined at the beginning": (
         "G17 G41\nG1 X-50 Y42.857 ,A171.87 Q-1",
-        "nct-line-without-arc position-unknown",
+        "nct-nothing-before position-unknown",
     ),
-    "an M block between the arc and the line": (PAIR.replace("\nG1 X-50", "\nM8\nG1 X-50"), "nct-line-without-arc"),
+    "an M block between the arc and the line": (
+        PAIR.replace("\nG1 X-50", "\nM8\nG1 X-50"),
+        "nct-nothing-before words-conflict",
+    ),
     "centre of another plane": (PAIR.replace("R50", "I-50 K0"), "nct-center-outside-plane"),
     "centre of another plane only": (
         PAIR.replace("X-50 Y0 R50", "K-50"),

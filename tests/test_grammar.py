@@ -129,7 +129,7 @@ def test_other_comments_state_nothing(comment: str) -> None:
 # Mistakes, and where they are marked ----------------------------------------------------------------------
 
 MISTAKES = [
-    ("length of line 9 = 20", "line", "(line 1, line 2, corner 1, corner 2)"),
+    ("length of line 9 = 20", "line 9", "(line 1, line 2, corner 1, corner 2)"),
     ("lenght of line 1 = 20", "lenght", "(line 1, line 2, corner 1, corner 2)"),
     ("length of line 1 = 2O", "2O", "a number"),
     ("length of line 1 = 1.2.3", "1.2.3", "a number"),

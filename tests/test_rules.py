@@ -13,7 +13,7 @@ WITHOUT_REJECTED_EXAMPLE = {
 }
 
 ALARMS = {
-    "yasnac-lx3": {"144", "145", "146"},
+    "yasnac-lx3": {"050", "144", "145", "146"},
     "nct-99m": {"3011", "3012", "3014", "3017", "3081", "3084"},
 }
 """The alarm numbers on the pages that we have; no other may be invented."""

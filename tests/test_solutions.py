@@ -331,6 +331,22 @@ def test_two_circles_near_a_contact_have_as_many_common_tangents_as_there_are() 
         assert assert_count(inside, 2 if step > 0 else 0)
 
 
+def test_two_rods_near_their_farthest_reach_have_two_places_or_none() -> None:
+    """There is no closed form: the second rod, 30 long, touches a circle, and the first, 40 long, turns to lead far."""
+
+    def reach(turn: Any) -> Any:
+        end = 40 * mp.expj(turn)
+        to_center = mp.mpc(50, 10) - end
+        return (end + 30 * mp.expj(mp.arg(to_center) - mp.asin(15 / abs(to_center)))).real
+
+    with mp.workdps(50):
+        turn = mp.findroot(lambda each: mp.diff(reach, each), -0.116)
+        farthest = Decimal(mp.nstr(reach(turn), 40))
+    for step in LADDER:
+        is_known = assert_count(two_rods(farthest - step).solve(), 2 if step > 0 else 0)
+        assert is_known or abs(step) < Decimal("1e-10")
+
+
 @pytest.mark.parametrize(
     "things",
     [
@@ -425,7 +441,7 @@ def three_circles() -> Sketch:
     return sketch
 
 
-def two_rods() -> Sketch:
+def two_rods(x: Decimal = Decimal(60)) -> Sketch:
     """Two lines of known length, of which one touches a circle; there is no closed form."""
     sketch = Sketch()
     sketch.line("E1")
@@ -434,7 +450,7 @@ def two_rods() -> Sketch:
         "length of E1 = 40",
         "E2 tangent to circle (X50 Y10 R15)",
         "length of E2 = 30",
-        "X of P2 = 60",
+        f"X of P2 = {x:f}",
     ):
         sketch.state(fact)
     return sketch

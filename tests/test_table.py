@@ -1,5 +1,6 @@
 """The table of all sets of words: kept as reviewed files, and G111's part restated by linear algebra of our own."""
 
+import re
 from functools import lru_cache
 from itertools import chain, combinations
 from math import cos, radians, sin
@@ -23,9 +24,7 @@ def tables() -> dict[str, str]:
     outcome = CliRunner().invoke(main, ["rules", "--table"])
     assert outcome.exit_code == 0
     parts = outcome.output.rstrip("\n").split("\n\n")
-    names = ("g111", "circle-line")
-    assert len(parts) == len(names)
-    return {name: part.strip("\n") + "\n" for name, part in zip(names, parts, strict=True)}
+    return {part.split()[1].rstrip(",").lower(): part.strip("\n") + "\n" for part in parts}
 
 
 @lru_cache(maxsize=1)
@@ -85,9 +84,82 @@ def free_and_tied(letters: frozenset[str]) -> tuple[frozenset[str], frozenset[st
     return frozenset(free), frozenset(tied)
 
 
-@pytest.mark.parametrize("name", ["g111", "circle-line"])
-def test_table_is_the_reviewed_one(name):
-    assert tables()[name] == (TABLES / f"{name}.txt").read_text(encoding="utf-8")
+def test_tables_are_the_reviewed_ones():
+    assert tables() == {path.stem: path.read_text(encoding="utf-8") for path in TABLES.glob("*.txt")}
+
+
+def mill_rows(form: str) -> dict[frozenset[str], tuple[frozenset[str], frozenset[str], str]]:
+    """By set of words (`1:X` is X of block 1): the rules that refuse it, those that warn, its determinacy."""
+    rows = {}
+    for line in tables()[form].splitlines()[1:]:
+        words, legality, rest = line.split(" | ")
+        warned = re.search(r" \(warns (.*)\)", legality)
+        refused = legality.partition("refused: ")[2].partition(" (")[0]
+        found = frozenset(refused.split(", ")) - {""}, frozenset(warned[1].split(", ") if warned else ()), rest
+        assert rows.setdefault(frozenset(words.split()) - {"-"}, found) is found
+    return rows
+
+
+def _arc(words: set[str], has_end: bool) -> set[str]:
+    """What the sheet says of an ordinary arc."""
+    has_center, has_radius = bool(words & {"I", "J"}), "R" in words
+    return {
+        code
+        for code, is_so in {
+            "nct-circle-undefined": not has_center and not has_radius,
+            "nct-center-and-radius": has_center and has_radius,
+            "nct-radius-without-point": has_radius and not has_end,
+        }.items()
+        if is_so
+    }
+
+
+def _line_before(words: set[str]) -> set[str]:
+    """What the sheet says of a line with X that ends in an intersection: its direction is stated once."""
+    codes = {"nct-direction-twice"} if ",A" in words else set()
+    return codes | ({"nct-nothing-before"} if {"Y", ",A"} <= words else set())
+
+
+MILL = {
+    # By form: how many optional words its sample has, and what the sheet refuses.
+    "line-angle": (2, lambda one, _: {"nct-coordinate-missing"} if not one else _BOTH if len(one) == 2 else set()),
+    "corners": (7, lambda one, two: (_BOTH if {"Y", ",A"} <= one else set()) | _arc(two, has_end=True)),
+    "line-line": (5, lambda one, _: _line_before(one)),
+    "line-circle": (4, lambda one, _: _line_before(one)),
+    "circle-line": (7, lambda one, two: _arc(one, bool(one & {"X", "Y"})) | ({"nct-q-missing"} - _q(two))),
+    "circle-circle": (6, lambda one, _: _arc(one, bool(one & {"X", "Y"}))),
+    "chain": (3, lambda *_: set()),
+}
+_BOTH = {"nct-nothing-before"}
+
+
+def _q(words: set[str]) -> set[str]:
+    return {"nct-q-missing"} if "Q" in words else set()
+
+
+@pytest.mark.parametrize("form", MILL)
+def test_sets_of_words_of_the_mill_are_refused_as_the_sheet_says(form):
+    count, expected = MILL[form]
+    rows = mill_rows(form)
+    assert len(rows) == 2**count
+    for words, (refused, warned, _) in rows.items():
+        one = {word.removeprefix("1:") for word in words if not word.startswith("2:")}
+        two = {word.removeprefix("2:") for word in words if word.startswith("2:")}
+        corners = {"nct-two-corners"} if one >= {",C", ",R"} or (form == "corners" and ",C" in one) else set()
+        assert refused == expected(one, two) | corners, sorted(words)
+        assert warned == ({"nct-q-unused"} if form in ("line-line", "chain") and "Q" in two else set()), sorted(words)
+
+
+@pytest.mark.parametrize("form", MILL)
+def test_a_legal_set_of_words_of_the_mill_leaves_nothing_free(form):
+    """It may say something twice, where that must agree: a point of a circle that has a centre and another point."""
+    for words, (refused, _, rest) in mill_rows(form).items():
+        circles = [word for word in ("1:I", "1:J", "2:I", "2:J", "I", "J") if word in words]
+        if not refused:
+            assert rest.startswith("determined") or (rest.startswith("tied") and "two" not in rest), sorted(words)
+        if rest.startswith("determined"):
+            assert not (circles and words & {"1:X", "1:Y"} and form == "circle-line"), sorted(words)
+            assert form not in ("line-circle", "circle-circle")
 
 
 def test_table_has_every_set_of_letters_once():

@@ -13,9 +13,9 @@ from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, apply_edit
 from contoursolve.diagnostic import Applicability, Diagnostic, Severity
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer, Policy, examine
+from contoursolve.model import Profile
 from contoursolve.reading import Claim, read
 from contoursolve.solving import Status
-from contoursolve.statements import apply_statements
 from contoursolve.syntax import parse_block
 from contoursolve.tolerance import AGREEMENT
 
@@ -99,7 +99,7 @@ def _try(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], before: Before
         return None
     replacement = "\n".join(texts)
     if any(edit.is_placeholder for edit in edits):
-        is_fixed = _is_fixed_by_a_number(claim, dialect, edits)
+        is_fixed = _is_fixed_by_a_number(claim, dialect, edits, before.next_place)
         return Repair(edits, replacement, Applicability.PLACEHOLDER, None, 0.0) if is_fixed else None
     answer = examine_edited(claim, dialect, edits, before)
     if answer is None or answer.contour is None or not _is_settled(answer, edits):
@@ -153,12 +153,20 @@ def _largest_step(found: Claim, before: Before) -> int:
     profile = read(found, frozenset())
     if not profile.is_extended:
         return 0
-    profile, _ = apply_statements(profile, found.directives, lambda: before.next_place)
+    profile, _ = _with_facts(profile, found, before.next_place)
     system = assemble(profile)
     verdict = judge(system)
     if not verdict.is_determined:
         return 0
     return max(len(group.unknowns) for group in order(system, [system.facts[index] for index in verdict.basis]))
+
+
+def _with_facts(profile: Profile, claim: Claim, next_place: tuple[Decimal, Decimal] | None) -> tuple[Profile, bool]:
+    """The profile with the further facts, and whether all of them could be used."""
+    from contoursolve.statements import apply_statements  # noqa: PLC0415 - few blocks state more than their words
+
+    extended, faults = apply_statements(profile, claim.directives, lambda: next_place)
+    return extended, not faults
 
 
 def _find(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...]) -> Claim | None:
@@ -174,7 +182,9 @@ _SAMPLE = "37.123"
 """Stands for any number where only the words matter."""
 
 
-def _is_fixed_by_a_number(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...]) -> bool:
+def _is_fixed_by_a_number(
+    claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], next_place: tuple[Decimal, Decimal] | None
+) -> bool:
     """Whether the words determine the drawing at these values, whatever number the placeholder becomes."""
     sample = (
         replace(edit, text=edit.text.replace(PLACEHOLDER, _SAMPLE)) if edit.is_placeholder else edit for edit in edits
@@ -184,8 +194,8 @@ def _is_fixed_by_a_number(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...
         return False
     profile = read(found, frozenset())
     if profile.is_extended:
-        profile, faults = apply_statements(profile, found.directives, lambda: None)
-        return not faults and judge(assemble(profile)).is_determined
+        profile, is_stated = _with_facts(profile, found, next_place)
+        return is_stated and judge(assemble(profile)).is_determined
     affine = affine_facts(profile, profile.facts)
     return affine is None or not affine.freedoms()
 

@@ -18,6 +18,7 @@ from contoursolve.explain import length_text, place_text
 from contoursolve.reading import Trouble
 from contoursolve.solving import RefusalKind, RemarkKind, scalars_of
 from contoursolve.source import Span
+from contoursolve.syntax import FACT, Word
 from contoursolve.tolerance import AGREEMENT, RADIUS_DIFFERENCE
 
 
@@ -32,8 +33,8 @@ def diagnose(answer: Answer, dialect: Dialect, policy: Policy) -> Answer:
     diagnosis = Diagnosis(
         layers=list_layers(answer, policy),
         freedoms=freedoms,
-        ties=tuple(_tie(answer, circuit) for circuit in circuits) or tuple(_circle_ties(answer)),
-        ties_complete=is_readable and answer.start.is_known,
+        ties=tuple(_tie(answer, circuit) for circuit in circuits) or tuple(_other_ties(answer)),
+        ties_complete=is_readable and answer.start.is_known and not profile.is_extended,
         repairs_complete=repairs.is_complete,
     )
     findings = []
@@ -78,11 +79,42 @@ def _start_labels(answer: Answer) -> tuple[Label, ...]:
 
 def _tie(answer: Answer, circuit: Circuit) -> Tie:
     return Tie(
-        addresses=tuple(word.address for word in answer.profile.words_of(circuit.facts)),
+        addresses=tuple(_address(word) for word in answer.profile.words_of(circuit.facts)),
         identity=identity(answer.profile, circuit.facts),
         off_by_mm=max(circuit.off),
         is_conflict=max(circuit.off) > AGREEMENT,
     )
+
+
+def _address(word: Word) -> str:
+    """What tells a word from the others; a fact is told by its text."""
+    return word.text if word.address == FACT else word.address
+
+
+def _other_ties(answer: Answer) -> Iterator[Tie]:
+    """What findings show of ties between facts that are not all about lines between points."""
+    return _further_ties(answer) if answer.profile.is_extended else _circle_ties(answer)
+
+
+def _further_ties(answer: Answer) -> Iterator[Tie]:
+    """For each word or fact that says again what others say, those others and itself."""
+    from contoursolve.settling import tied_with  # noqa: PLC0415 - few blocks state more than their words
+
+    profile = answer.profile
+    system = assemble(profile)
+    for finding in answer.diagnostics:
+        for fact in profile.facts if finding.about in _SAID_AGAIN else ():
+            word = profile.givens[fact.given].word if fact.given else None
+            if word is None or word.span != finding.span:
+                continue
+            words = (profile.givens[name].word for name in tied_with(system, fact))
+            addresses = (_address(each) for each in words if each)
+            is_conflict = finding.severity is Severity.ERROR
+            yield Tie(tuple(dict.fromkeys(addresses)), "", finding.values.get("off_by_mm", 0.0), is_conflict)
+            break
+
+
+_SAID_AGAIN = (RefusalKind.WORDS_DISAGREE, RefusalKind.FACT_DISAGREES, RemarkKind.WORDS_AGREE)
 
 
 def _circle_ties(answer: Answer) -> Iterator[Tie]:

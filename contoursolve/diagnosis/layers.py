@@ -40,6 +40,7 @@ _GRAMMAR = (
     Trouble.VARIABLE,
     Trouble.FACT_UNREADABLE,
     Trouble.FACT_IMPOSSIBLE,
+    Trouble.ASKED_NOTHING,
     Trouble.VALUE_TOO_LARGE,
 )
 _EQUATIONS = ("structure", "generic rank", "values", "geometry")
@@ -55,7 +56,8 @@ def _equations(answer: Answer, profile: Profile, system: System) -> list[Layer]:
         size += f", {_count(tuple(spare), 'check')}"
     layers = [_layer("structure", bool(parts.under_unknowns or (parts.over_facts and is_over)), size)]
     rank = f"rank {verdict.rank} of {len(system.unknowns)}, exact"
-    if verdict.condition and verdict.condition != "1":
+    # A condition on points and not on words says nothing to a reader.
+    if verdict.condition and verdict.condition != "1" and "." not in verdict.condition:
         rank += f"; determined unless {verdict.condition} = 0"
     layers.append(_layer("generic rank", bool(verdict.free or is_over), rank))
     blocked = ""
@@ -81,6 +83,7 @@ def _equations(answer: Answer, profile: Profile, system: System) -> list[Layer]:
 _AT_VALUES = (
     RefusalKind.LINES_PARALLEL,
     RefusalKind.NOT_FIXED,
+    Trouble.FACTS_SINGULAR,
     RefusalKind.WORDS_DISAGREE,
     RefusalKind.FACT_DISAGREES,
     RefusalKind.RADIUS_DIFFERENCE,

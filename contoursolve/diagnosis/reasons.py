@@ -7,8 +7,9 @@ from contoursolve.diagnosis.affine import AffineFacts, Circuit
 from contoursolve.diagnosis.identities import identity
 from contoursolve.diagnostic import Diagnostic, Freedom
 from contoursolve.explain import angle_text, join, length_text, place_text
-from contoursolve.model import FIRST, SECOND, Fact, Line, Profile, scalar
+from contoursolve.model import FIRST, SECOND, Arc, Fact, Line, Profile, scalar
 from contoursolve.solving import RefusalKind, lookup
+from contoursolve.syntax import FACT
 from contoursolve.tolerance import AGREEMENT, REGULAR
 
 
@@ -34,7 +35,7 @@ def conflict_reasons(profile: Profile, affine: AffineFacts, circuit: Circuit) ->
         verb = "put" if len(others) > 1 else "puts"
         yield (
             f"because {_words(profile, others)} {verb} {point} at {place_text(profile, known)}, "
-            f"and {given.word.text if given.word else given.name} puts it at "
+            f"and {given.word.text if given.word else 'what is not written'} puts it at "
             f"{place_text(profile, {scalar(point, axis): own})}: {ending}"
         )
     formula = identity(profile, circuit.facts)
@@ -53,11 +54,17 @@ def _agreeing(profile: Profile, affine: AffineFacts, circuit: Circuit, fact: Fac
     if not fact.given or not all(name in at.scalars for name in fact.reads()):
         return ""
     value, given = fact.implied(at), profile.givens[fact.given]
-    if value is None:
+    if value is None or given.word is None:
         return ""
+    if given.word.address == FACT:
+        name = given.word.text.partition("=")[0].strip()
+    else:
+        name = given.word.address
+        if len({each.word.span.line for each in profile.givens.values() if each.word}) > 1:
+            name += f" (line {given.word.span.line})"
     if isinstance(fact, Heading):
-        return f"{given.name} {angle_text(value)}"
-    return f"{given.name} {length_text(value * (2 if given.is_diameter else 1), profile.unit)}"
+        return f"{name} {angle_text(value)}"
+    return f"{name} {length_text(value * (2 if given.is_diameter else 1), profile.unit)}"
 
 
 def freedom_reasons(profile: Profile, freedoms: Sequence[Freedom]) -> Iterator[str]:
@@ -74,9 +81,11 @@ def freedom_reasons(profile: Profile, freedoms: Sequence[Freedom]) -> Iterator[s
 def path_reasons(profile: Profile, affine: AffineFacts | None, finding: Diagnostic) -> Iterator[str]:
     """What the numbers of a finding about the path come from."""
     values = finding.values
-    if "needed" in values:
+    # A negative length says that a corner would leave an arc beyond its end.
+    if values.get("needed", -1.0) >= 0:
+        element = "element" if any(isinstance(each, Arc) for each in profile.figure.path) else "line"
         yield (
-            f"because the line has {length_text(values['available'], profile.unit)}, and the corner takes "
+            f"because the {element} has {length_text(values['available'], profile.unit)}, and the corner takes "
             f"{length_text(values['needed'], profile.unit)} of it"
         )
     if "angle_from" in values:

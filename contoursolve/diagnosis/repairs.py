@@ -6,12 +6,12 @@ from dataclasses import dataclass
 from decimal import Decimal
 from functools import lru_cache
 from itertools import combinations, product
+from math import copysign
 
 from contoursolve.diagnosis.affine import AffineFacts, Circuit, affine_facts
 from contoursolve.diagnosis.attempt import Before, Repairs, choose_repairs
 from contoursolve.diagnosis.drafts import change, drop, has_faults, marked, missing_points, unreadable, variants
 from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, write_word
-from contoursolve.diagnosis.further import further_drafts, next_place_of
 from contoursolve.diagnostic import Diagnostic, Severity
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer, Policy, examine
@@ -36,6 +36,9 @@ def find_repairs(answer: Answer, dialect: Dialect) -> Repairs:
         return Repairs((), is_complete=False)
     codes = frozenset(each.code for each in answer.diagnostics)
     if answer.profile.is_extended:
+        # Few blocks state more than their words.
+        from contoursolve.diagnosis.further import further_drafts, next_place_of  # noqa: PLC0415
+
         before = Before(codes, answer.contour, next_place_of(answer.profile))
         repairs = choose_repairs(claim, dialect, further_drafts(answer, dialect, before), before)
         return Repairs(repairs.repairs, is_complete=False)
@@ -252,7 +255,9 @@ def _asked(answer: Answer, word: Word, given: Given) -> Iterator[tuple[str, floa
                 if given.unit is Unit.DEGREE and key == "limit":
                     yield from (("expected", angle) for angle in _meeting(finding, given))
                 elif key in finding.values and abs(finding.values[key]) < float("inf"):
-                    yield key, finding.values[key] * (0.5 if given.is_diameter else 1.0)
+                    value = finding.values[key] * (0.5 if given.is_diameter else 1.0)
+                    # A limit is a size; what the sign of the word says is not in question.
+                    yield key, copysign(value, given.value) if key == "limit" else value
 
 
 def _meeting(finding: Diagnostic, given: Given) -> Iterator[float]:

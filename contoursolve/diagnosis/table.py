@@ -7,6 +7,7 @@ from itertools import combinations
 
 from contoursolve.analysis import judge
 from contoursolve.constraints import assemble
+from contoursolve.diagnostic import Severity
 from contoursolve.dialects import Dialect
 from contoursolve.explain import unknowns_text
 from contoursolve.model import Corner, Length, Profile
@@ -20,21 +21,24 @@ _OPTIONAL = re.compile(r"\{([^}]*)\}")
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """One set of words: the rules that refuse it, the words that the control ignores, what the words that
-    remain leave free or say twice, and the condition under which they determine the contour."""
+    """One set of words: the rules that refuse it, those that warn, the words that the control ignores, what the words
+    that remain leave free or say twice, and the condition under which they determine the contour."""
 
     addresses: tuple[str, ...]
     refusals: tuple[str, ...]
+    warnings: tuple[str, ...]
     ignored: tuple[str, ...]
     faults: tuple[str, ...]
     condition: str
 
     def __str__(self) -> str:
         legality = f"refused: {', '.join(self.refusals)}" if self.refusals else "legal"
+        if self.warnings:
+            legality += f" (warns {', '.join(self.warnings)})"
         if self.ignored:
             legality += f" (ignores {', '.join(self.ignored)})"
         determinacy = "; ".join(self.faults) or "determined"
-        if not self.faults and self.condition != "1":
+        if not self.faults and self.condition not in ("", "1"):
             determinacy += f" unless {self.condition} = 0"
         return f"{' '.join(self.addresses) or '-'} | {legality} | {determinacy}"
 
@@ -60,10 +64,13 @@ def _row(form: Form, dialect: Dialect, chosen: frozenset[str]) -> Row:
     ignored = tuple(offence.rule.ignores for offence in offences if offence.rule.ignores)
     profile = read(claim, frozenset(ignored))
     verdict = judge(assemble(profile))
-    optional = (word for block in blocks for word in block.words if word.text in chosen)
+    optional = [(number, word) for number, block in enumerate(blocks, 1) for word in block.words if word.text in chosen]
+    has_choice = [bool(_OPTIONAL.search(block)) for block in sample.blocks]
+    refusing = [offence.rule for offence in offences if not offence.rule.ignores]
     return Row(
-        addresses=tuple(word.address for word in optional),
-        refusals=tuple(offence.rule.code for offence in offences if not offence.rule.ignores),
+        addresses=tuple(f"{number}:" * (sum(has_choice) > 1) + word.address for number, word in optional),
+        refusals=tuple(rule.code for rule in refusing if rule.severity is Severity.ERROR),
+        warnings=tuple(rule.code for rule in refusing if rule.severity is not Severity.ERROR),
         ignored=ignored,
         faults=tuple(_faults(profile)),
         condition=verdict.condition,
@@ -96,4 +103,4 @@ def _faults(profile: Profile) -> Iterator[str]:
 
 
 def _lands(corner: Corner) -> bool:
-    return corner.lands_parallel_to is not None
+    return corner.lands_parallel_to is not None or corner.lands_on is not None

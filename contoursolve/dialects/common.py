@@ -153,15 +153,6 @@ READING_RULES = (
         rejected=("G00 X40. Z0.\n/G01 X50.\nG111 A180. K-30. B120. X100.",),
     ),
     Rule(
-        code="form-unresolved",
-        message="{form} is a contour form that this version of contoursolve does not resolve",
-        help="the block was not checked, and the position after it is taken as unknown",
-        source=_own("forms resolved: see the README"),
-        about=Trouble.FORM_UNRESOLVED,
-        accepted=(_GOOD,),
-        rejected=(_START + "G112 U0 I10. K-50. P5. Q5. R30.",),
-    ),
-    Rule(
         code="no-contour",
         message="nothing to solve: the program has no contour block",
         help="contour blocks are {triggers}",

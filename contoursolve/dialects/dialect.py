@@ -6,19 +6,9 @@ from dataclasses import dataclass, replace
 from contoursolve.model import Length, Plane
 from contoursolve.reading import Claim, Form, Modes, Position, Setting, State
 from contoursolve.rules import Rule
-from contoursolve.syntax import Block, Word
+from contoursolve.syntax import Block
 
-
-@dataclass(frozen=True, slots=True)
-class Unresolved:
-    """A contour block of a form that this version does not resolve, and the word that shows it."""
-
-    block: Block
-    word: Word
-    form: str
-
-
-Finder = Callable[[Sequence[Block], int, State, Modes], Claim | Unresolved | None]
+Finder = Callable[[Sequence[Block], int, State, Modes], Claim | None]
 """(blocks, index, state before the block, modes) to the contour that begins at this block, if any."""
 
 

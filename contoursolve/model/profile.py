@@ -97,7 +97,8 @@ class Side(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """The control's choice between two solutions for `point`, and the given that makes it."""
+    """The control's choice between two solutions for `point`, and the given that makes it; empty for one that the
+    form itself makes, so that no block has the other solution."""
 
     point: str
     side: Side

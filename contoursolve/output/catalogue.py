@@ -38,7 +38,7 @@ def _setting_lines(dialect: Dialect) -> Iterator[str]:
 def table_lines(dialects: Iterable[Dialect]) -> Iterator[str]:
     """Legality and determinacy of every set of words of every form."""
     for dialect in dialects:
-        for form in dialect.forms:
+        for form in (form for form in dialect.forms if form.sample is not None):
             yield f"{dialect.name} {form.name}, {form.title}: words | the manual's rules | the equations"
             yield from (str(row) for row in tabulate(form, dialect))
             yield ""

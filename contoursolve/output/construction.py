@@ -58,7 +58,8 @@ def _found(answer: Answer) -> tuple[Mapping[str, float], Mapping[str, str]]:
     alternatives = list_alternatives(answer)
     if alternatives is None:
         solution = solve(answer.profile)
-        return {**scalars_of(solution.points), **solution.radii}, {}
+        sides = {choice.point: choice.side.value for choice in answer.profile.choices}
+        return {**scalars_of(solution.points), **solution.radii}, sides
     return _of_chosen(alternatives, answer.profile)
 
 

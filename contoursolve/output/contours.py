@@ -133,11 +133,11 @@ def _given_rows(answer: Answer, form: Form, dialect: Dialect) -> list[tuple[str,
         )
     ignored = {fact.given for fact in answer.profile.ignored}
     words = {given.name: given.word for given in answer.profile.givens.values() if given.word}
-    shown_facts: set[int] = set()
+    seen: set[int] = set()
     for name, word in sorted(words.items(), key=lambda item: item[1].span):
-        if word.address == FACT and id(word) in shown_facts:
+        if id(word) in seen:
             continue
-        shown_facts.add(id(word))
+        seen.add(id(word))
         row = dialect.modes.lexicon.addresses.get(word.address)
         meaning = form.meanings.get(name) or (row.meaning if row else "")
         meaning += " - ignored" if name in ignored else ""
@@ -146,7 +146,7 @@ def _given_rows(answer: Answer, form: Form, dialect: Dialect) -> list[tuple[str,
         else:
             rows.append((word.text, *_value(word, dialect.modes.lexicon, answer.unit), meaning))
     rows += [_asked_row(each, answer, form, dialect) for each in answer.answers]
-    by_point = {choice.point: words[choice.given].text for choice in answer.profile.choices}
+    by_point = {choice.point: words[choice.given].text for choice in answer.profile.choices if choice.given in words}
     for point, side in answer.sides.items():
         rows.append((f"choice {point}", side.value, "", f"of two intersections, by {by_point[point]}"))
     return rows

@@ -8,7 +8,7 @@ from math import floor, inf, log10
 from typing import TYPE_CHECKING
 
 from contoursolve.contour import Contour, trace
-from contoursolve.examine import Answer, AskedValue, answer_question, list_alternatives
+from contoursolve.examine import Answer, AskedValue, answer_question, count_choices, list_alternatives
 from contoursolve.model import Length
 from contoursolve.solving.certificate import Certificate, Proof, up_to_one_digit
 from contoursolve.syntax import FACT
@@ -53,7 +53,9 @@ def list_solutions(answer: Answer) -> Listing | None:
         if answer.contour is None or answer.certificate is None:
             return None
         only = Listed("", answer.contour, answer.answers, (), (), is_chosen=True, certificate=answer.certificate)
-        return Listing((only,), is_complete=True, method="closed form", doubts=(), chosen_by="")
+        choices = count_choices(answer.profile)
+        doubts = (f"the other sides of {choices} points: too many to list",) if choices else ()
+        return Listing((only,), is_complete=not doubts, method="closed form", doubts=doubts, chosen_by="")
     from contoursolve.solving.alternatives import choose  # noqa: PLC0415 - most contours need no choice
 
     eligible = choose(alternatives, answer.profile.choices)
@@ -64,7 +66,9 @@ def list_solutions(answer: Answer) -> Listing | None:
     ]
     method = "closed form"
     if alternatives.reach is not None:
-        method = f"search within {alternatives.reach:.0f} mm of the start point"
+        from contoursolve.solving.ground import SMALLEST  # noqa: PLC0415 - most contours need no search
+
+        method = f"search within {alternatives.reach:.0f} mm of the start point, for elements of at least {SMALLEST} mm"
     return Listing(
         solutions=tuple(_listed(item, item is chosen, alternatives, answer) for item in alternatives.items),
         is_complete=alternatives.is_complete,

@@ -120,7 +120,7 @@ def _effect(state: State, block: Block, modes: Modes) -> tuple[Effect, str]:
     for code in codes_of(block, modes):
         if isinstance(code, Word):
             return Effect.SINGLE, f"{code.text} is not known to contoursolve"
-        if code.effect in (Effect.SINGLE, Effect.UNRESOLVED):
+        if code.effect is Effect.SINGLE:
             return Effect.SINGLE, f"the end of G{code.number} ({code.meaning}) is not followed"
         if code.effect in (Effect.NO_MOTION, Effect.FRAME):
             return Effect.NO_MOTION, ""

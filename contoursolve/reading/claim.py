@@ -25,7 +25,6 @@ class Trouble(Enum):
     VALUE_TOO_LARGE = "value-too-large"
     POSITION_UNKNOWN = "position-unknown"
     SKIPPABLE_START = "skippable-start"
-    FORM_UNRESOLVED = "form-unresolved"
     NO_CONTOUR = "no-contour"
     UNDERDETERMINED = "underdetermined"
     CORNER_TWICE = "corner-twice"

@@ -33,8 +33,6 @@ class Effect(Enum):
     COMPENSATION = "compensation"
     CONTOUR = "contour"
     """Begins a contour block."""
-    UNRESOLVED = "unresolved"
-    """A contour form that this version does not resolve."""
     CANCEL = "cancel"
     """Ends a cycle."""
 

@@ -108,7 +108,7 @@ def lay_out(form: Form, stated: frozenset[str], sharp: frozenset[str], asked: fr
         tuple(radius for radius in form.radii if radius in mentioned),
         tuple(path),
         tuple(corner for row in form.corners for corner in _corners(row, stated, asked, sharp)),
-        lines=tuple(line for line in form.lines if line.heading in stated),
+        lines=tuple(line for line in form.lines if line.heading is None or line.heading in stated),
     )
     return Layout(figure, facts)
 

@@ -34,6 +34,8 @@ class Rule:
     ignores: str = ""
     alarm: Alarm | None = None
     severity: Severity = Severity.ERROR
+    is_about_geometry: bool = False
+    """What it refuses could be written, but cannot be made."""
 
     def holds(self, own: Stated) -> bool:
         """Whether it finds something in what the blocks of its role state."""

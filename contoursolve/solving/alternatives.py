@@ -270,7 +270,8 @@ def _sides(system: System, at: Values, chosen: Set[str]) -> dict[str, str]:
     sides: dict[str, str] = {}
     circles = [fact for fact in system.facts if isinstance(fact, OnCircle)]
     unknown = set(system.figure.points)
-    for line in (element for element in system.figure.path if isinstance(element, Line)):
+    beside = (line for line in system.figure.lines if line.heading is not None)
+    for line in (*(element for element in system.figure.path if isinstance(element, Line)), *beside):
         for circle in circles:
             if circle.point in (line.tail, line.head) and circle.point in unknown:
                 # The sense of travel is that of the angle, or leads from end to end where no angle is stated.

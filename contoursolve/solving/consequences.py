@@ -4,10 +4,22 @@ from collections.abc import Iterator, Sequence
 from itertools import combinations
 from typing import Any
 
-from contoursolve.constraints import ArcLength, Contact, OnCircle, Tangent, TangentCircles, TurnBetween
-from contoursolve.constraints.equation import dot, rotate, step
+from contoursolve.constraints import (
+    ArcLength,
+    Contact,
+    Extent,
+    Foot,
+    OnCircle,
+    Tangent,
+    TangentCircles,
+    TangentLine,
+    Through,
+    TurnBetween,
+)
+from contoursolve.constraints.equation import both, dot, rotate, step
 from contoursolve.constraints.touching import side_of
-from contoursolve.model import FIRST, SECOND, Fact, Lookup
+from contoursolve.model import FIRST, SECOND, Fact, Figure, Line, Lookup, line_scalars
+from contoursolve.solving.ground import SMALLEST
 
 
 def consequences(facts: Sequence[Fact], true: Sequence[Fact], at: Lookup) -> Iterator[Any]:
@@ -17,6 +29,11 @@ def consequences(facts: Sequence[Fact], true: Sequence[Fact], at: Lookup) -> Ite
     """
     circles = [fact for fact in true if isinstance(fact, OnCircle)]
     radius_of = {(fact.point, fact.center): fact.radius for fact in circles}
+    on_line = {(fact.line, fact.point) for fact in true if isinstance(fact, Through)}
+    feet: dict[tuple[str, str], list[str]] = {}
+    for fact in true:
+        if isinstance(fact, Foot):
+            feet.setdefault((fact.line, fact.center), []).append(fact.point)
     read = {name for fact in facts for name in fact.reads()}
     for fact in facts:
         match fact:
@@ -27,6 +44,13 @@ def consequences(facts: Sequence[Fact], true: Sequence[Fact], at: Lookup) -> Ite
                 ends = [each for each in (first, second) if isinstance(each, Tangent)]
                 if all(radius_of.get((each.point, each.center)) == each.radius for each in ends):
                     yield from _turn(fact, at)
+            case Extent(line=line, tail=tail, head=head):
+                if {(line, tail), (line, head)} <= on_line:
+                    yield from _span(fact, at)
+            case TangentLine(line=line, center=center):
+                for point in feet.get((line, center), ()):
+                    if (line, point) in on_line and set(both(point)) <= read:
+                        yield from _spoke(fact, point, at)
             case TangentCircles(first=(one, size), second=(other, other_size)):
                 between = step(at, one, other)
                 reach = at.radius(size) + side_of(fact.side, at) * at.radius(other_size)
@@ -60,8 +84,43 @@ def _arc(fact: ArcLength, at: Lookup) -> Iterator[Any]:
     yield dot(chord, chord) - half * half
 
 
+def _span(fact: Extent, at: Lookup) -> Iterator[Any]:
+    """From end to end of a line is its length along its direction."""
+    way, bearing = step(at, fact.tail, fact.head), at.bearing(fact.line)
+    for axis in (FIRST, SECOND):
+        yield way[axis] - at.amount(fact.given) * bearing[axis]
+
+
+def _spoke(fact: TangentLine, point: str, at: Lookup) -> Iterator[Any]:
+    """From where a line touches a circle to its centre is the radius, square to the line."""
+    cosine, sine = at.bearing(fact.line)
+    spoke, radius = step(at, point, fact.center), side_of(fact.side, at) * at.radius(fact.radius)
+    yield spoke[FIRST] + radius * sine
+    yield spoke[SECOND] - radius * cosine
+
+
 def _turn(fact: TurnBetween, at: Lookup) -> Iterator[Any]:
     """The second direction is the first one turned, both of the length 1."""
     first, second = rotate(fact.first.vector(at), at.direction(fact.given)), fact.second.vector(at)
     for axis in (FIRST, SECOND):
         yield first[axis] * fact.second.length(at) - second[axis] * fact.first.length(at)
+
+
+def necessities(figure: Figure, facts: Sequence[Fact], at: Lookup) -> Iterator[Any]:
+    """Expressions that no contour makes negative, of what the facts read: how far each line runs along its direction,
+    and how far apart the centres of neighbours that touch are, from the least that is searched for on."""
+    read = {name for fact in facts for name in fact.reads()}
+    # Only facts whose sense is about what they read: that of the others depends on other groups.
+    yield from (sense for fact in facts if fact.sense_reads() == fact.reads() for sense in fact.senses(at))
+    for line in (*figure.path, *figure.lines):
+        if not isinstance(line, Line) or line.name not in figure.carriers:
+            continue
+        if not line.tail:
+            if line_scalars(line.name)[0] in read:
+                yield at.bearing(line.name)[FIRST]
+        elif {*line_scalars(line.name)[:2], *both(line.tail, line.head)} - {*both(figure.start)} <= read:
+            yield dot(step(at, line.tail, line.head), at.bearing(line.name)) - SMALLEST
+    for fact in facts:
+        if isinstance(fact, Contact):
+            between = step(at, fact.first, fact.second)
+            yield dot(between, between) - SMALLEST * SMALLEST

@@ -20,7 +20,7 @@ from contoursolve.backends.narrow import Narrower
 from contoursolve.backends.numeric import Tape
 from contoursolve.backends.replay import Replay
 from contoursolve.constraints import System
-from contoursolve.solving.consequences import consequences
+from contoursolve.solving.consequences import consequences, necessities
 
 BATCH = 1024
 """How many boxes are looked at together."""
@@ -82,9 +82,8 @@ def conditions_of(system: System, group: Group) -> Conditions:
     at = lookup(system, tape, {})
     true = [system.facts[index] for index in judge(system).basis]
     zeros = [*(fact.equation(at) for fact in group.facts), *consequences(group.facts, true, at)]
-    # Only facts whose sense is about what they read: that of the others depends on other groups.
-    senses = [sense for fact in group.facts if fact.sense_reads() == fact.reads() for sense in fact.senses(at)]
-    for number, expression in enumerate((*zeros, *senses)):
+    signs = necessities(system.figure, group.facts, at)
+    for number, expression in enumerate((*zeros, *signs)):
         tape.output(str(number), expression)
     slopes = Tape()
     unknowns = [slopes.input(name) for name in group.unknowns]
@@ -106,8 +105,8 @@ def divide(
     reach: Mapping[str, tuple[float, float]],
     budget: int,
 ) -> tuple[list[Division], int]:
-    """All solutions within reach for each case, which gives the values of a group's other inputs; and how many boxes
-    were looked at, of which `budget` is the number for all cases together."""
+    """All solutions within reach for each case, which gives the values of a group's other inputs; and how many
+    intervals were looked at, of which `budget` is the number for all cases together."""
     size = len(conditions.unknowns)
     narrowed_at, known = (
         [_by_case(name, cases) for name in names[size:]] for names in (conditions.narrowed_by, conditions.arguments)
@@ -118,7 +117,7 @@ def divide(
     proven, undecided = [pending[0][:0]], [pending[0][:0]]
     looked_at = 0
     with numpy.errstate(all="ignore"):
-        while pending and looked_at < budget:
+        while pending and looked_at * size < budget:
             boxes, pending = _batch(pending)
             looked_at += len(boxes)
             boxes = _narrowed(conditions.narrower, boxes, narrowed_at)
@@ -142,7 +141,7 @@ def divide(
         Division(alone[alone.case == case], likely.low[likely.case == case].tolist(), case not in rest.case)
         for case in range(len(cases))
     ]
-    return divisions, looked_at
+    return divisions, looked_at * size
 
 
 def _by_case(name: str, cases: Sequence[Mapping[str, Number]]) -> Intervals:

@@ -17,11 +17,12 @@ from contoursolve.solving.kernel import Kernel, make_kernel
 from contoursolve.solving.polynomial import Coefficient
 from contoursolve.solving.search import settle
 
-BOXES = 30_000
-"""How many boxes are looked at for one drawing before the search is given up as undecided; about two seconds."""
+INTERVALS = 200_000
+"""How many intervals, one for each unknown of a box, are looked at for one drawing before the search is given up as
+undecided; about two seconds."""
 
-LEAST = 5_000
-"""How many boxes every step may look at, however many the ones before it used."""
+LEAST = 30_000
+"""How many intervals every step may look at, however many the ones before it used."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,6 +78,10 @@ def enumerate_solutions(profile: Profile, system: System) -> Enumeration:
     return enumeration
 
 
+MOST_SOLUTIONS = 512
+"""Solutions that are followed; each point that may lie in two places doubles their number."""
+
+
 class _Search:
     def __init__(self, system: System, groups: tuple[Group, ...], ground: Ground, close: Close) -> None:
         self.system = system
@@ -85,7 +90,7 @@ class _Search:
         self.close = close
         self.doubts: list[Doubt] = []
         self.is_searched = False
-        self.budget = BOXES
+        self.budget = INTERVALS
         self.reach = ground.reach(system)
         lines = [line for line in (*system.figure.path, *system.figure.lines) if isinstance(line, Line)]
         carriers = [line for line in lines if line.name in system.figure.carriers]
@@ -96,6 +101,9 @@ class _Search:
         states = [Found({}, {})]
         for group in self.groups:
             states = self._advance(states, group)
+            if len(states) > MOST_SOLUTIONS:
+                self.doubts.append(Doubt(group.unknowns, Obstacle.UNFINISHED))
+                states = states[:MOST_SOLUTIONS]
         states = [self._with_sides(state) for state in states]
         return Enumeration(tuple(states), tuple(dict.fromkeys(self.doubts)), self.is_searched)
 

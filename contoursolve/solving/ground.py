@@ -13,8 +13,9 @@ REACH = 4.0
 """How many times as far as anything that is given a search goes."""
 
 SMALLEST = 1e-4
-"""mm. The smallest radius that a search looks at, a tenth of the controls' least increment: a circle without radius
-is a point, which touches and meets whatever passes through it."""
+"""mm. The least radius or length of a line, and distance of the centres of circles that go on smoothly into each other,
+that a search looks at: a tenth of the controls' least increment. A circle without a radius is a point, which touches
+and meets whatever passes through it, and a line without a length has any direction."""
 
 BALLS = Functions(ball.root, ball.cosine, ball.sine)
 

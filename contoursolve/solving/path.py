@@ -53,6 +53,8 @@ def _check_direction(line: Line, out: Outputs, profile: Profile) -> list[Refusal
         return []
     if line.heading is None:
         return [Refusal(RefusalKind.LINE_BACKWARDS, line.name, (), {"off_by_mm": -length})]
+    if profile.givens[line.heading].word is None:
+        return [Refusal(RefusalKind.LINE_REVERSED, line.name, (), {"off_by_mm": -length})]
     angle = float(profile.givens[line.heading].value)
     values = {"actual": angle, "expected": angle - 180 if angle > 0 else angle + 180, "off_by_mm": -length}
     return [Refusal(RefusalKind.LINE_REVERSED, line.name, (line.heading,), values)]
@@ -76,9 +78,10 @@ def _check_corner(
         outside = _outside_rectangle(corner, figure, points)
         if outside > LENGTH:
             return refuse(RefusalKind.BEVEL_OUTSIDE, off_by_mm=outside)
-        setback = min(out[f"setback-in:{corner.name}"], out[f"setback-out:{corner.name}"])
-        if not setback >= -LENGTH:  # true for NaN
-            return refuse(RefusalKind.BEVEL_IN_BAND, actual=setback)
+        # Not a number is a bevel that is too large for its arc.
+        negative = [each for way in ("in", "out") if (each := out[f"setback-{way}:{corner.name}"]) < -LENGTH]
+        if negative:
+            return refuse(RefusalKind.BEVEL_IN_BAND, actual=min(negative))
     return []
 
 
@@ -153,7 +156,8 @@ def _largest(
     low, high = 0.0, size
     for _ in range(BISECTIONS):
         middle = (low + high) / 2
-        fits = _short_of(corner, resize({corner.size: middle}), taken) is None
+        changed = resize({corner.size: middle})
+        fits = _short_of(corner, changed, taken) is None and changed[f"setback-out:{corner.name}"] >= -LENGTH
         low, high = (middle, high) if fits else (low, middle)
     return low
 

@@ -11,6 +11,7 @@ from contoursolve.backends.angle import direction
 from contoursolve.backends.inputs import COSINE, SINE
 from contoursolve.backends.numeric import inverse_norm
 from contoursolve.constraints import (
+    Collinear,
     Coordinate,
     Heading,
     Offset,
@@ -26,7 +27,7 @@ from contoursolve.solving.certificate import Certificate, up_to_one_digit
 from contoursolve.solving.certify import certify
 from contoursolve.solving.compile import compile_system
 from contoursolve.solving.path import check_path
-from contoursolve.solving.plan import AffineStep, DistanceStep, LineCircleStep, Step, TwoCirclesStep
+from contoursolve.solving.plan import AffineStep, DistanceStep, LineCircleStep, Step, TwoCirclesStep, is_closed
 from contoursolve.solving.solution import (
     CornerSolution,
     Point,
@@ -58,26 +59,32 @@ def solve(profile: Profile) -> Solution:
     solved, and the remaining facts must agree with it. Raises ValueError if nothing is determined.
     """
     system = assemble(profile)
-    answer: Solution | None = None
-    for candidate in _orders(system):
-        answer = _Attempt(profile, candidate).answer()
-        singular = (RefusalKind.LINES_PARALLEL, RefusalKind.NOT_FIXED)
-        if not any(refusal.kind in singular for refusal in answer.refusals):
-            return answer
-    if answer is None:
-        raise ValueError(f"not determined: {', '.join(judge(system).free)}")
+    verdict = judge(system)
+    if not verdict.is_determined:
+        raise ValueError(f"not determined: {', '.join(verdict.free)}")
+    tied = frozenset(system.facts[index] for index in verdict.tied)
+    attempt = _Attempt(profile, system)
+    answer = attempt.answer()
+    if not attempt.stuck & tied:
+        # Where it is singular nothing is said twice, and so nothing can stand in for it.
+        return answer
+    for candidate in _orders(system, tied):
+        attempt = _Attempt(profile, candidate)
+        answer = attempt.answer()
+        if not attempt.stuck:
+            break
     return answer
 
 
-def _orders(system: System) -> Iterator[System]:
-    """The system, then the same with its facts reordered, so that another basis is solved."""
-    if not judge(system).is_determined:
-        return
-    yield system
-    if len(system.facts) > len(system.unknowns):
-        for first in combinations(system.facts, len(system.unknowns)):
-            if judge(system.keep(first)).is_determined:
-                yield system.keep(first + tuple(fact for fact in system.facts if fact not in first))
+def _orders(system: System, tied: frozenset[Fact]) -> Iterator[System]:
+    """The system with its facts reordered, so that another basis is solved, in closed form. Whatever is not tied is in
+    every basis."""
+    needed = len(system.unknowns) - (len(system.facts) - len(tied))
+    for chosen in combinations([fact for fact in system.facts if fact in tied], needed):
+        first = tuple(fact for fact in system.facts if fact not in tied or fact in chosen)
+        basis = system.keep(first)
+        if judge(basis).is_determined and is_closed(basis):
+            yield system.keep(first + tuple(fact for fact in system.facts if fact not in first))
 
 
 def lookup(profile: Profile, scalars: dict[str, float]) -> Values:
@@ -140,6 +147,8 @@ class _Attempt:
         self.remarks: list[Remark] = []
         self.doubles: dict[int, dict[str, float]] = {}
         self.split = 0.0
+        self.stuck: frozenset[Fact] = frozenset()
+        """The facts of the step that is singular at these values, if one is."""
 
     def _inputs(self) -> dict[str, float]:
         """All inputs of the function. Coordinates are counted from the start point, and the difference is
@@ -229,6 +238,7 @@ class _Attempt:
     def _examine_determinant(self, number: int, step: AffineStep) -> Refusal | None:
         if abs(self.out[f"determinant:{number}"]) > REGULAR:
             return None
+        self.stuck = frozenset(step.facts)
         size = range(len(step.unknowns))
         rows = [[self.out[f"entry:{number}:{row}:{column}"] for column in size] for row in size]
         off = _contradiction(rows, [self.out[f"constant:{number}:{row}"] for row in size])
@@ -248,8 +258,11 @@ class _Attempt:
         offset, radius = abs(self.out[f"offset:{number}"]), self.out[f"radius:{number}"]
         is_center = isinstance(step, TwoCirclesStep) and step.is_equal
         if isinstance(step, LineCircleStep):
-            kind, subject, givens = RefusalKind.CIRCLE_MISSED, step.circle.point, self._givens_of(step.line)
-            values = {"limit": radius, "actual": offset, **self._meeting_angles(step, radius)}
+            kind, subject = RefusalKind.CIRCLE_MISSED, step.circle.point
+            is_stated = bool(self.profile.words_of([step.line])) or isinstance(step.line, Collinear)
+            givens = self._givens_of(step.line if is_stated else step.circle)
+            values = {"limit": radius, "actual": offset}
+            values |= self._meeting_angles(step, radius) if is_stated else {}
         elif is_center:
             kind, subject, givens = RefusalKind.RADIUS_TOO_SMALL, step.point, self._givens_of(step.first)
             values = {"limit": offset, "actual": radius}

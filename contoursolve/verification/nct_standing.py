@@ -7,7 +7,8 @@ from contoursolve.verification.case import Case
 from contoursolve.verification.claimed import ClaimedDiagnosis
 from contoursolve.verification.course import Course, Trace, trace
 from contoursolve.verification.ledger import Ledger
-from contoursolve.verification.nct_words import choosing, course_of, is_plain, lacks_words
+from contoursolve.verification.nct_words import (
+    CENTERS, ENDS, choosing, course_of, elements_of, is_plain, lacks_words, own_point)
 from contoursolve.verification.rails import UnmakeableError
 from contoursolve.verification.standing import Candidate, Leg, Standing, path_of
 
@@ -41,6 +42,8 @@ def stand(case: Case) -> Standing | None:
             return None
         key = tuple((name, sign) for name, sign in signs.items() if name not in course.moot)
         found.setdefault(key, course)
+    if not found:
+        return _nowhere(case)
     gaps = [max(map(abs, course.gaps.values()), default=0.0) for course in found.values()]
     if any(abs(gap - RADIUS_DIFFERENCE) <= _NEAR * RADIUS_DIFFERENCE for gap in gaps):
         return None
@@ -52,6 +55,27 @@ def stand(case: Case) -> Standing | None:
         return None  # whether words are compared where nothing chooses is open
     candidates = tuple(_candidate(case, course, dict(key)) for key, course in found.items())
     return Standing(candidates=candidates, is_all=is_all)
+
+
+def _nowhere(case: Case) -> Standing | None:
+    """Where no contour has its intersections: whether a point is off its circle all the same."""
+    is_known = True
+    for each in elements_of(case.claim):
+        own = [names for names in ENDS for name in names[:1] if case.states(each.given(name))]
+        center = [case.amount(each.given(name)) if case.states(each.given(name)) else 0.0 for name in CENTERS]
+        if each.turn is None or not (each.is_over or case.states(*map(each.given, CENTERS))):
+            continue
+        if own and each.number > 1 and not each.is_over:
+            is_known = False
+            continue
+        point = own_point(case, each, 0j)
+        at = complex(*center)
+        if each.is_over:
+            at = complex(*(case.coordinate(each.given(name), axis) for axis, name in enumerate(CENTERS)))
+        radius = case.amount(each.given("R")) if each.is_over else abs(at)
+        if point is not None and abs(abs(point - at) - radius) > RADIUS_DIFFERENCE:
+            return Standing(disagrees="a point is not on its circle", candidates=None)
+    return Standing() if is_known else None
 
 
 def _candidate(case: Case, course: Course, signs: dict[str, int]) -> Candidate:

@@ -131,9 +131,8 @@ def lacks_words(case: Case) -> bool:
         if each.turn is not None and not each.is_over:
             if not (case.states(*map(each.given, CENTERS)) or (has_radius and all(coordinates))):
                 return True
-        elif each.turn is None and not each.is_over:
-            if has_angle + sum(coordinates) < (1 if each.is_followed else 2):
-                return True
+        elif each.turn is None and not each.is_over and has_angle + sum(coordinates) < (1 if each.is_followed else 2):
+            return True
     return False
 
 

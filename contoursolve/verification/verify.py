@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 
 from contoursolve import syntax
-from contoursolve.dialects import DIALECTS, Dialect, Unresolved
+from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.model import Length
 from contoursolve.syntax import Program
 from contoursolve.verification.claimed import ClaimedContour, ClaimedResult
@@ -53,11 +53,8 @@ def verify(
     lines: set[int] = set()
     by_line = {contour.line: contour for contour in claims.contours}
     for found in follow(blocks, dialect, unit, by_line, claims.rules, beginning) if dialect else ():
-        if isinstance(found, Unresolved):
-            omissions.append(Omission(f"line {found.block.line}", f"{found.form} is not resolved by this version"))
-        else:
-            lines.add(found.claim.blocks[0].line)
-            contours.append(_examined(found))
+        lines.add(found.claim.blocks[0].line)
+        contours.append(_examined(found))
     contours += _surplus(claims, lines)
     contours.sort(key=lambda each: each.line)
     if contours and claims.rules is None:

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from decimal import Decimal
 
 from contoursolve import syntax
-from contoursolve.dialects import Dialect, Unresolved
+from contoursolve.dialects import Dialect
 from contoursolve.model import Length
 from contoursolve.reading import Claim, advance, leave, next_place
 from contoursolve.syntax import Block, Directive, Program
@@ -41,7 +41,7 @@ def follow(
     claims: Mapping[int, ClaimedContour],
     rules: Rules | None = None,
     start: Program | None = None,
-) -> Iterator[Found | Unresolved]:
+) -> Iterator[Found]:
     """Every contour block of a program, in order; `claims` are those of the result by their line.
 
     `start` are blocks that state the start point apart from the program. Facts that only the result states are taken
@@ -54,14 +54,9 @@ def follow(
     index = 0
     while index < len(blocks):
         found = dialect.find(blocks, index, state, dialect.modes)
-        if isinstance(found, Claim):
-            after = index + found.blocks[-1].line - blocks[index].line
-            if not found.form.is_contour:
-                # The control calculates nothing for it.
-                state = advance(state, blocks[index], dialect.modes)
-                index = after + 1
-                continue
+        if found is not None and found.form.is_contour:
             claimed = claims.get(blocks[index].line)
+            after = index + found.blocks[-1].line - blocks[index].line
             yield Found(
                 found,
                 claimed,
@@ -78,9 +73,6 @@ def follow(
             index = after
         else:
             state = advance(state, blocks[index], dialect.modes)
-            if found:
-                yield found
-                state = state.lose(state.plane.axes, f"{found.form} is not resolved", found.word.span)
         index += 1
 
 

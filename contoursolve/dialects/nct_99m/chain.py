@@ -7,6 +7,7 @@ from itertools import pairwise
 
 from contoursolve.constraints import Collinear, Coordinate, Heading, Offset, OnCircle, Radius
 from contoursolve.dialects.nct_99m.element import (
+    AIMED,
     CHAMFER,
     CIRCLE_CIRCLE,
     CIRCLE_LINE,
@@ -194,6 +195,7 @@ def _own_facts(element: Element, names: Names) -> Iterator[FactRow]:
         else:
             yield FactRow(Heading(angle, names.tail, names.head), (angle,))
             if element.is_followed:
+                yield FactRow(Heading(angle, names.tail, names.own), (angle, q + AIMED))
                 yield FactRow(Collinear(names.tail, names.own, names.head), (q + POINT,))
 
 
@@ -202,8 +204,9 @@ def _combinations(element: Element, prefix: str) -> tuple[tuple[str, ...], ...]:
     point = (POINT,) if element.is_followed and not element.is_over else ()
     ends = tuple((first, second, *point) for first in _ways("first", element) for second in _ways("second", element))
     if element.turn is None:
-        one = ((*ways,) for ways in ((name, ",A") for order, _ in _ORDERS for name in _ways(order, element)))
-        options = (*ends, (",A",), *(() if element.is_followed else one))
+        one = ((name, ",A") for order, _ in _ORDERS for name in _ways(order, element))
+        aimed = (AIMED,) if element.is_followed else ()
+        options = (*ends, (",A",), *((*ways, *aimed) for ways in one))
         if element.is_over:
             options = (("first", "second", ",A"),)
     elif element.is_over:
@@ -256,7 +259,7 @@ _SAMPLES: dict[tuple[Element, ...], Sample] = {
         _FROM, ("G3 {X-50} {Y0} {I-50} {J0} {R50} {,R2}", "G3 X-40 Y60 I-40.0 J20 R40 Q-1")
     ),
     (_TO_LINE, replace(_OVER_LINE, is_followed=True), _OVER_CIRCLE): Sample(
-        "G17 G90 G41 G0 X90 Y10", ("G1 ,A150 {,R2}", "G1 X10 Y20 ,A225 {Q1} {,C2}", "G3 X-40 Y-20 I-20 J-20 R20 Q1")
+        "G17 G90 G41 G0 X90 Y10", ("G1 ,A150 {,R2}", "G1 X10 Y20 ,A225 {Q1.0} {,C2}", "G3 X-40 Y-20 I-20 J-20 R20 Q1")
     ),
 }
 """Programs for the tables of words, one for each kind of form."""

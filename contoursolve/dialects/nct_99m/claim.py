@@ -6,6 +6,7 @@ from decimal import Decimal
 
 from contoursolve.dialects.nct_99m.chain import Names, compose, names_of
 from contoursolve.dialects.nct_99m.element import (
+    AIMED,
     ALONE,
     CIRCLE_CIRCLE,
     COMPENSATED,
@@ -131,7 +132,8 @@ def _givens(words: Mapping[str, Word], member: Member, lexicon: Lexicon) -> dict
     if not is_partial and (ends or not element.is_followed):
         stated |= _supplied("", "-step", stated, asked, is_always=not element.is_followed)
     if ends and element.is_followed:
-        stated[POINT] = Given(POINT, Decimal(0), Unit.SIGN, None)
+        name = AIMED if element.turn is None and ",A" in stated else POINT
+        stated[name] = Given(name, Decimal(0), Unit.SIGN, None)
     return stated
 
 

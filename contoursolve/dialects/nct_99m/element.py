@@ -25,6 +25,9 @@ ORDINARY = "@ordinary"
 POINT = "point"
 """Stated as soon as a block that ends in an intersection has a coordinate: then it states a point of its element."""
 
+AIMED = "aimed"
+"""Stated instead of it if the same line has an angle, too: both then say where it runs."""
+
 CHAMFER, ROUNDING = ",C", ",R"
 
 

@@ -7,7 +7,6 @@ control computes, and where the first one has ,C or ,R (16.1).
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from contoursolve.dialects.dialect import Unresolved
 from contoursolve.dialects.nct_99m.claim import Member, claim_of
 from contoursolve.dialects.nct_99m.element import CHAMFER, ROUNDING, Element
 from contoursolve.model import Turn
@@ -18,14 +17,14 @@ _TURNS = {2: Turn.CW, 3: Turn.CCW}
 _OWN_USE = (Effect.SINGLE, Effect.NO_MOTION, Effect.PRESET, Effect.CYCLE, Effect.FRAME)
 
 
-def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> Claim | Unresolved | None:
+def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> Claim | None:
     """The contour that begins at a block: everything that is resolved together with it."""
     block = blocks[index]
     if not block.words or not _is_motion(block, state, modes):
         return None
     members = [_member(block, state, modes, is_over=False)]
     is_alone = _is_over_defined(block, members[0].here)
-    is_tied = is_alone or _is_tied_alone(block, members[0].here)
+    is_tied = is_alone or _is_tied_alone(block, members[0].here, modes)
     position = index
     while members[0].here.motion in (1, 2, 3):
         last = members[-1]
@@ -98,13 +97,25 @@ def _has_corner(block: Block) -> bool:
     return bool(_stated(block) & {CHAMFER, ROUNDING})
 
 
-def _is_tied_alone(block: Block, here: State) -> bool:
+def _is_tied_alone(block: Block, here: State, modes: Modes) -> bool:
     """Whether a block is calculated although nothing follows that belongs to it: a line by its angle (16.2), one with
-    a corner, and an arc with an end, which is checked."""
+    a corner, and an arc with an end, which is checked; about its centre, it is a full circle if that is where it
+    begins (assumed)."""
     stated = _stated(block)
     if _has_corner(block) or ",A" in stated:
         return True
-    return here.motion in _TURNS and bool(stated & {*here.plane.axes, "R"})
+    if here.motion not in _TURNS or not stated & {*here.plane.axes, "R"}:
+        return False
+    return "R" in stated or not stated & {*here.plane.centers} or not _ends_where_it_begins(block, here, modes)
+
+
+def _ends_where_it_begins(block: Block, here: State, modes: Modes) -> bool:
+    ends = {word.address: word for word in block.words if word.address in here.plane.axes}
+    return all(
+        word.number is not None
+        and modes.lexicon.value(word, here.unit) == (0 if here.is_incremental else here.axes[axis].value)
+        for axis, word in ends.items()
+    )
 
 
 def _is_stated(last: Member, following: Block, here: State) -> bool:

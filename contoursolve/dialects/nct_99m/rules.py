@@ -215,6 +215,17 @@ COMBINATION_RULES = (
         rejected=(_LINES.replace("G1 ,A150", "G1 X50 ,A150"),),
     ),
     Rule(
+        code="nct-coordinate-missing",
+        message="{words} alone does not say where the line ends",
+        help="add one coordinate of its end; or, if it shall end in an intersection, over-define the next block: a "
+        "line by both coordinates and ,A, an arc by its end, its centre, R and Q",
+        source=_manual("16.2"),
+        roles=(LINE,),
+        when=some(",A") & ~some(*_POINT) & ~some(FOLLOWED),
+        accepted=(_BY_ANGLE, _LINES),
+        rejected=("G17 G90 G0 X0 Y0\nG1 ,A45", _LINES.replace("Y20 ", "")),
+    ),
+    Rule(
         code="nct-two-corners",
         message="{words}: a block takes ,C or ,R, not both",
         help="keep one of them",
@@ -322,7 +333,8 @@ GEOMETRY_RULES = (
     Rule(
         code="nct-radius-difference",
         message="{words}: two points of the arc differ in their distance from the centre by {off}, allowed {limit}",
-        help="correct the point, the centre or the radius",
+        help="correct the point, the centre or the radius; a centre counts from where the arc begins, but that of an "
+        "over-defined circle is absolute",
         source=_manual("alarm 3011; the allowed difference is a machine parameter", Evidence.ASSUMED),
         alarm=Alarm("3011 RADIUS DIFFERENCE", Evidence.PRINTED),
         about=RefusalKind.RADIUS_DIFFERENCE,
@@ -342,9 +354,10 @@ GEOMETRY_RULES = (
     ),
     Rule(
         code="nct-reversed",
-        message="the line would run against {words}: its end lies {off} behind the intersection; the control "
+        message="the line would run against {words}: it would end {off} behind where it begins; the control "
         "gives no alarm and makes the wrong motion",
-        help="write {expected} at ,A, which also exchanges the meanings of Q, or move the end point",
+        help="write {expected} at ,A, or move the end point; next to a circle the other angle also exchanges the "
+        "meanings of Q",
         source=_manual("16.3.3, p. 129: movements contrary to programmer's needs"),
         about=RefusalKind.LINE_REVERSED,
         accepted=(_GOOD,),

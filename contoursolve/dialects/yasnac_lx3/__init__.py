@@ -1,15 +1,25 @@
-"""The YASNAC LX3 lathe control, from section 2.8.30 of its Instruction Manual."""
+"""The YASNAC LX3 lathe control, from section 2.8.30 and pages 31-32 of its Instruction Manual."""
 
 from contoursolve.dialects.common import COMMON_RULES
 from contoursolve.dialects.dialect import Dialect
-from contoursolve.dialects.yasnac_lx3.g111 import G111, find
-from contoursolve.dialects.yasnac_lx3.lexicon import LATHE, MODES
-from contoursolve.dialects.yasnac_lx3.rules import COMBINATION_RULES, GEOMETRY_RULES
+from contoursolve.dialects.yasnac_lx3.arc import ARC_FORMS
+from contoursolve.dialects.yasnac_lx3.arc_rules import ARC_RULES
+from contoursolve.dialects.yasnac_lx3.find import find
+from contoursolve.dialects.yasnac_lx3.g111 import G111
+from contoursolve.dialects.yasnac_lx3.g111_rules import G111_RULES
+from contoursolve.dialects.yasnac_lx3.g112 import G112_FORMS
+from contoursolve.dialects.yasnac_lx3.g112_rules import G112_RULES
+from contoursolve.dialects.yasnac_lx3.leaving import LEAVING_FORMS
+from contoursolve.dialects.yasnac_lx3.leaving_rules import LEAVING_RULES
+from contoursolve.dialects.yasnac_lx3.lexicon import BEVEL, LATHE, MODES
 from contoursolve.syntax import Block
 
 
 def _signs(block: Block) -> bool:
-    return any(word.address == "G" and word.number in (111, 112) for word in block.words)
+    codes = {word.number for word in block.words if word.address == "G"}
+    addresses = {word.address for word in block.words}
+    is_leaving = bool(codes & {11, 12} and addresses & {*"XUZW"} and addresses & {*"IK"})
+    return bool(codes & {111, 112}) or is_leaving
 
 
 YASNAC_LX3 = Dialect(
@@ -17,8 +27,9 @@ YASNAC_LX3 = Dialect(
     title="YASNAC LX3 lathe control",
     modes=MODES,
     plane=LATHE,
-    forms=(G111,),
-    rules=COMMON_RULES + COMBINATION_RULES + GEOMETRY_RULES,
+    forms=(G111, *G112_FORMS, *LEAVING_FORMS, *ARC_FORMS),
+    rules=COMMON_RULES + G111_RULES + G112_RULES + LEAVING_RULES + ARC_RULES,
     find=find,
     signs=_signs,
+    settings=(BEVEL,),
 )

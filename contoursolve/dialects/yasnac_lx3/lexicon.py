@@ -1,13 +1,13 @@
 """YASNAC LX3: addresses, numbers, G codes (Instruction Manual, section 2.8.30, Table 2.33, unless noted)."""
 
+from contoursolve.dialects.yasnac_lx3.manual import manual
 from contoursolve.model import Length, Plane, Unit
-from contoursolve.reading import Address, Code, Effect, Lexicon, Modes, NumberFormat, WithoutPoint
+from contoursolve.reading import Address, Code, Effect, Lexicon, Modes, NumberFormat, Setting, WithoutPoint
 from contoursolve.source import Evidence, Source
 
-MANUAL = "YASNAC LX3 Instruction Manual"
-TABLE = Source(MANUAL, "2.8.30, Table 2.33", Evidence.PRINTED)
-DIAMETER = Source(MANUAL, "2.8.30, Table 2.33; diameter from G11 and the G112 example", Evidence.DERIVED)
-LATHE_CODES = Source(MANUAL, "list of G codes of the LX3 family", Evidence.ASSUMED)
+TABLE = manual("2.8.30, Table 2.33")
+DIAMETER = manual("2.8.30, Table 2.33; diameter from G11 and the G112 example", Evidence.DERIVED)
+LATHE_CODES = manual("list of G codes of the LX3 family", Evidence.ASSUMED)
 
 ADDRESSES = (
     Address("X", "absolute X of the end point (diameter)", Unit.MM, DIAMETER, axis="X", is_diameter=True),
@@ -24,6 +24,7 @@ ADDRESSES = (
     Address("Q", "radius of the second rounding", Unit.MM, TABLE),
     Address("C", "amount of the first bevel", Unit.MM, TABLE),
     Address("D", "amount of the second bevel", Unit.MM, TABLE),
+    Address("R", "radius of the arc", Unit.MM, manual("2.8.30, p. 144")),
 )
 
 NUMBERS = NumberFormat(WithoutPoint.LEAST_INCREMENTS, TABLE)
@@ -70,12 +71,21 @@ CODES = (
     ),
     *_codes(Effect.NONE, {18: "plane Z X"}),
     *_codes(Effect.CONTOUR, {111: "taper multiple cornering"}, TABLE),
-    *_codes(
-        Effect.UNRESOLVED,
-        {112: "circular-arc multiple cornering"},
-        Source(MANUAL, "2.8.30, p. 144", Evidence.PRINTED),
-    ),
-    *_codes(Effect.CYCLE, {11: "bevelling", 12: "rounding"}, Source(MANUAL, "p. 31-32", Evidence.PRINTED)),
+    *_codes(Effect.CONTOUR, {112: "circular-arc multiple cornering"}, manual("2.8.30, p. 144")),
+    *_codes(Effect.CYCLE, {11: "bevelling", 12: "rounding"}, manual("p. 31-32")),
+)
+
+AXIS_45, SETBACK = "axis-45", "setback"
+
+BEVEL = Setting(
+    name="bevel",
+    meaning="what the amount of a bevel C or D measures",
+    values={
+        AXIS_45: "a segment at 45 degrees to the axes; the amount is its extent along Z and along X as radius",
+        SETBACK: "a segment between two points that are both as far from the virtual intersection as the amount",
+    },
+    default=AXIS_45,
+    source=manual("2.8.30, p. 137-138: the note on the 45 degree lines, and the quadrants", Evidence.DERIVED),
 )
 
 MODES = Modes(

@@ -2,9 +2,9 @@
 
 from decimal import Decimal
 
-from contoursolve.diagnostic import Alarm, Severity
-from contoursolve.dialects.yasnac_lx3.g111 import OTHER_G
-from contoursolve.dialects.yasnac_lx3.lexicon import MANUAL
+from contoursolve.diagnostic import Severity
+from contoursolve.dialects.yasnac_lx3.claim import OTHER_G
+from contoursolve.dialects.yasnac_lx3.manual import alarms, manual
 from contoursolve.reading import Trouble
 from contoursolve.rules import Rule, Value, all_of, at_least, at_most, some
 from contoursolve.solving import RefusalKind, RemarkKind
@@ -17,18 +17,11 @@ _WHOLE_LINE_2 = all_of(*_LINE_2)
 _START = "G00 X40. Z0.\n"
 _GOOD = _START + "G111 X100. A180. K-30. B120."
 
+_TABLE_234 = manual("2.8.30, Table 2.34")
+_FITS = manual("2.8.30; the family's alarms", Evidence.DERIVED)
+_WORDS_IN_BLOCK, _COMBINATION, _GEOMETRY = alarms(Evidence.ASSUMED)
 
-def _manual(place: str, evidence: Evidence = Evidence.PRINTED) -> Source:
-    return Source(MANUAL, place, evidence)
-
-
-_TABLE_234 = _manual("2.8.30, Table 2.34")
-_FITS = _manual("2.8.30; the family's alarms", Evidence.DERIVED)
-_WORDS_IN_BLOCK = Alarm("144", Evidence.ASSUMED)
-_COMBINATION = Alarm("145", Evidence.ASSUMED)
-_GEOMETRY = Alarm("146", Evidence.ASSUMED)
-
-COMBINATION_RULES = (
+_COMBINATION_RULES = (
     Rule(
         code="g111-line-1",
         message="line 1 needs two of A, I and K; the block gives {present:A I K}",
@@ -99,7 +92,7 @@ COMBINATION_RULES = (
         code="g111-corner-2-without-angle",
         message="{words:D Q}: corner 2 is not available when X(U) and Z(W) give line 2",
         help="delete {words:D Q}, or give line 2 by B and one of X(U), Z(W)",
-        source=_manual("2.8.30, supplementary note iii"),
+        source=manual("2.8.30, supplementary note iii"),
         alarm=_COMBINATION,
         roles=(_ROLE,),
         when=some("D", "Q") & all_of(_END_X, _END_Z) & ~_WHOLE_LINE_2,
@@ -110,7 +103,7 @@ COMBINATION_RULES = (
         code="g111-corner-2-with-three",
         message="{words:D Q}: corner 2 is not available when B, X(U) and Z(W) are all given",
         help="delete {words:D Q}, or one of X(U) and Z(W)",
-        source=_manual("2.8.30, supplementary notes i and iii", Evidence.ASSUMED),
+        source=manual("2.8.30, supplementary notes i and iii", Evidence.ASSUMED),
         alarm=_COMBINATION,
         roles=(_ROLE,),
         when=some("D", "Q") & _WHOLE_LINE_2,
@@ -121,7 +114,7 @@ COMBINATION_RULES = (
         code="g111-a-ignored",
         message="{words:A} is ignored, because I and K are given, too{comparison}",
         help="delete {words:A}, or one of I and K if the angle is what you mean",
-        source=_manual("2.8.30, supplementary note v"),
+        source=manual("2.8.30, supplementary note v"),
         severity=Severity.WARNING,
         roles=(_ROLE,),
         when=all_of("A", "I", "K"),
@@ -134,7 +127,7 @@ COMBINATION_RULES = (
         code="g111-b-ignored",
         message="{words:B} is ignored, because X(U) and Z(W) and two of A, I, K are given, too{comparison}",
         help="delete {words:B}, or one word more if the angle is what you mean",
-        source=_manual("2.8.30, supplementary note vi"),
+        source=manual("2.8.30, supplementary note vi"),
         severity=Severity.WARNING,
         roles=(_ROLE,),
         when=_WHOLE_LINE_2 & at_least(2, "A", "I", "K"),
@@ -147,7 +140,7 @@ COMBINATION_RULES = (
         code="g111-angle-range",
         message="{words} is outside -360 to 360 deg",
         help="write the same direction within one turn",
-        source=_manual("2.8.30, p. 140"),
+        source=manual("2.8.30, p. 140"),
         alarm=_COMBINATION,
         roles=(_ROLE,),
         when=Value(("A", "B"), least=Decimal(-360), most=Decimal(360)),
@@ -158,7 +151,7 @@ COMBINATION_RULES = (
         code="g111-corner-sign",
         message="{words} is negative; C, P, D and Q are written without sign",
         help="delete the minus sign: the lines tell on which side the corner lies",
-        source=_manual("2.8.30, Table 2.33: without sign; that it is an error", Evidence.ASSUMED),
+        source=manual("2.8.30, Table 2.33: without sign; that it is an error", Evidence.ASSUMED),
         alarm=_COMBINATION,
         roles=(_ROLE,),
         when=Value(("C", "P", "D", "Q"), least=Decimal(0)),
@@ -169,7 +162,7 @@ COMBINATION_RULES = (
         code="g111-m-s-t",
         message="{words:M S T}: a G111 block takes no M, S or T word",
         help="write it in a block of its own",
-        source=_manual("2.8.30"),
+        source=manual("2.8.30"),
         alarm=_WORDS_IN_BLOCK,
         roles=(_ROLE,),
         when=some("M", "S", "T"),
@@ -180,7 +173,7 @@ COMBINATION_RULES = (
         code="g111-other-g",
         message="{words:other G} uses the axis words of the block itself, and so does G111",
         help="write it in a block of its own; G111 needs no G01",
-        source=_manual("2.8.30: G111 is not modal; two codes of one group", Evidence.ASSUMED),
+        source=manual("2.8.30: G111 is not modal; two codes of one group", Evidence.ASSUMED),
         alarm=_COMBINATION,
         roles=(_ROLE,),
         when=some(OTHER_G),
@@ -191,12 +184,13 @@ COMBINATION_RULES = (
 
 _TOUCHING = Source("contoursolve", "further facts", Evidence.ASSUMED)
 
-GEOMETRY_RULES = (
+_GEOMETRY_RULES = (
     Rule(
         code="g111-touches",
         message="{subject}: two contours have become one, because an element just touches; a small change parts them",
         help="check that it is meant to touch",
         source=_TOUCHING,
+        roles=(_ROLE,),
         about=RemarkKind.DOUBLE,
         severity=Severity.WARNING,
         accepted=(_GOOD,),
@@ -206,8 +200,9 @@ GEOMETRY_RULES = (
         code="g111-parallel",
         message="no point satisfies {words} together: the lines are parallel and {off} apart",
         help="change an angle, or give the point by its distances I and K",
-        source=_manual("2.8.30, p. 146: no intersection"),
+        source=manual("2.8.30, p. 146: no intersection"),
         alarm=_GEOMETRY,
+        roles=(_ROLE,),
         about=RefusalKind.LINES_PARALLEL,
         accepted=(_GOOD,),
         rejected=(_START + "G111 A180. B180. X100. Z-50.", _START + "G111 A180. I5. B120. X100."),
@@ -216,8 +211,9 @@ GEOMETRY_RULES = (
         code="g111-not-fixed",
         message="{words} do not fix {free}: at these values they state the same line",
         help="replace one of them by a word that says where on the line the point is",
-        source=_manual("2.8.30, p. 146: no intersection", Evidence.DERIVED),
+        source=manual("2.8.30, p. 146: no intersection", Evidence.DERIVED),
         alarm=_GEOMETRY,
+        roles=(_ROLE,),
         about=RefusalKind.NOT_FIXED,
         accepted=(_GOOD,),
         rejected=(_START + "G111 A180. I0 B120. X100.",),
@@ -226,8 +222,9 @@ GEOMETRY_RULES = (
         code="g111-reversed",
         message="{subject} would run against {words}: its end lies {off} behind its start",
         help="write {expected}, or move the end to the other side",
-        source=_manual("2.8.30, p. 146: moves away"),
+        source=manual("2.8.30, p. 146: moves away"),
         alarm=_GEOMETRY,
+        roles=(_ROLE,),
         about=RefusalKind.LINE_REVERSED,
         accepted=(_GOOD,),
         rejected=(_START + "G111 X100. A0 K-30. B120.", _START + "G111 X100. A180. K-30. B-60."),
@@ -238,6 +235,7 @@ GEOMETRY_RULES = (
         help="write at most {limit}, or make the lines longer",
         source=_FITS,
         alarm=_GEOMETRY,
+        roles=(_ROLE,),
         about=RefusalKind.CORNER_TOO_LARGE,
         accepted=(_GOOD + " P5. Q5.",),
         rejected=(_GOOD + " P60.", _GOOD + " D40."),
@@ -248,6 +246,7 @@ GEOMETRY_RULES = (
         help="make the corners smaller by {off} of line in all",
         source=_FITS,
         alarm=_GEOMETRY,
+        roles=(_ROLE,),
         about=RefusalKind.CORNERS_OVERLAP,
         accepted=(_GOOD + " P5. Q5.",),
         rejected=(_GOOD + " P35. Q35.",),
@@ -256,8 +255,9 @@ GEOMETRY_RULES = (
         code="g111-no-corner",
         message="{words}: {subject} joins two lines of the same direction, so there is nothing to round or bevel",
         help="delete {words}",
-        source=_manual("2.8.30, p. 146: no intersection", Evidence.DERIVED),
+        source=manual("2.8.30, p. 146: no intersection", Evidence.DERIVED),
         alarm=_GEOMETRY,
+        roles=(_ROLE,),
         about=RefusalKind.CORNER_STRAIGHT,
         accepted=(_GOOD + " P5.",),
         rejected=(_START + "G111 A135. K-30. B135. X120. P2.",),
@@ -266,8 +266,9 @@ GEOMETRY_RULES = (
         code="g111-corner-reverses",
         message="{words}: {subject} turns back by 180 deg, where no corner can be made",
         help="change an angle",
-        source=_manual("2.8.30, p. 146: no intersection", Evidence.DERIVED),
+        source=manual("2.8.30, p. 146: no intersection", Evidence.DERIVED),
         alarm=_GEOMETRY,
+        roles=(_ROLE,),
         about=RefusalKind.CORNER_REVERSES,
         accepted=(_GOOD + " P5.",),
         rejected=(_START + "G111 A135. K-30. B-45. X60. P2.",),
@@ -276,8 +277,9 @@ GEOMETRY_RULES = (
         code="g111-bevel-outside",
         message="{words}: the virtual intersection lies {off} outside the rectangle between start and end of line 2",
         help="use a rounding P, or a sharp corner",
-        source=_manual("2.8.30, p. 138"),
+        source=manual("2.8.30, p. 138"),
         alarm=_GEOMETRY,
+        roles=(_ROLE,),
         about=RefusalKind.BEVEL_OUTSIDE,
         accepted=(_GOOD + " C5.",),
         rejected=(_START + "G111 X100. A180. K-30. B60. C5.",),
@@ -286,8 +288,9 @@ GEOMETRY_RULES = (
         code="g111-bevel-band",
         message="{words}: no 45 deg segment joins the two lines of {subject}",
         help="use a rounding, or a sharp corner: the virtual intersection lies in the band between the 45 deg lines",
-        source=_manual("2.8.30, p. 138: printed for C, the same for D by symmetry", Evidence.DERIVED),
+        source=manual("2.8.30, p. 138: printed for C, the same for D by symmetry", Evidence.DERIVED),
         alarm=_GEOMETRY,
+        roles=(_ROLE,),
         about=RefusalKind.BEVEL_IN_BAND,
         accepted=(_GOOD + " C5. D5.",),
         rejected=(_START + "G111 X60. A180. K-30. B160. C2.", _START + "G111 X60. A180. K-30. B160. D2."),
@@ -296,10 +299,13 @@ GEOMETRY_RULES = (
         code="g111-landing-unknown",
         message="{words}: neither line advances along the line that {subject} would land on",
         help="delete {words}",
-        source=_manual("2.8.30, Tables 2.35 and 2.36", Evidence.DERIVED),
+        source=manual("2.8.30, Tables 2.35 and 2.36", Evidence.DERIVED),
         alarm=_GEOMETRY,
+        roles=(_ROLE,),
         about=RefusalKind.LANDING_UNKNOWN,
         accepted=(_GOOD + " Q5.",),
         rejected=(_START + "G111 A90. I10. B90. X100. Q2.",),
     ),
 )
+
+G111_RULES = _COMBINATION_RULES + _GEOMETRY_RULES

@@ -1,0 +1,111 @@
+"""YASNAC LX3 arcs, G02 and G03: nothing is calculated for them, but whether an arc can run as stated is checked."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from decimal import Decimal
+from functools import lru_cache
+from itertools import chain
+from math import hypot
+from string import ascii_uppercase
+
+from contoursolve.constraints import Coordinate, Offset, OnCircle, Radius
+from contoursolve.dialects.yasnac_lx3.claim import claim_of
+from contoursolve.dialects.yasnac_lx3.g111 import START
+from contoursolve.model import FIRST, SECOND, Arc, Choice, Given, Role, Side, Turn, Unit
+from contoursolve.reading import Claim, FactRow, Form, Modes, State, apply_modes
+from contoursolve.syntax import Block
+from contoursolve.tolerance import RADIUS_DIFFERENCE
+
+CENTER, END, RADIUS = "C", "E", "r"
+WRONG_CENTER = frozenset("J")
+"""The centre word of an axis that a lathe does not have."""
+
+_TURNS = {2: Turn.CW, 3: Turn.CCW}
+_ENDS, CENTERS = (("Z", "W"), ("X", "U")), ("K", "I")
+"""The words of the end and of the centre, by axis."""
+
+
+@lru_cache(maxsize=2)
+def arc(code: int) -> Form:
+    """The form of an arc with G02 or G03."""
+    return Form(
+        name=f"G{code:02}",
+        title="arc",
+        roles=(Role("arc"),),
+        start=START,
+        points=(CENTER, END),
+        radii=(RADIUS,),
+        facts=(
+            FactRow(Offset("I", CENTER, START, SECOND), ("I",)),
+            FactRow(Offset("K", CENTER, START, FIRST), ("K",)),
+            FactRow(Radius("R", RADIUS), ("R",)),
+            FactRow(Coordinate("X", END, SECOND), ("X",)),
+            FactRow(Offset("U", END, START, SECOND), ("U",)),
+            FactRow(Coordinate("Z", END, FIRST), ("Z",)),
+            FactRow(Offset("W", END, START, FIRST), ("W",)),
+            FactRow(OnCircle(START, CENTER, RADIUS), ()),
+            FactRow(OnCircle(END, CENTER, RADIUS), ()),
+        ),
+        path=(Arc("arc", START, END, CENTER, RADIUS, _TURNS[code]),),
+        corners=(),
+        intersections=(),
+        allowed=frozenset(ascii_uppercase) - WRONG_CENTER,
+        combinations=((("X",), ("U",)), (("Z",), ("W",)), (("I", "K"), ("R",))),
+        meanings={"I": "X distance from start to centre (radius value)", "K": "Z distance from start to centre"},
+        is_contour=False,
+    )
+
+
+ARC_FORMS = tuple(arc(code) for code in _TURNS)
+
+
+def claim_arc(block: Block, code: int, state: State, modes: Modes) -> Claim | None:
+    """The arc of a block, if it cannot run as stated; None if it can, or if that cannot be known.
+
+    Most arcs can, and this tells it in a few operations; what is wrong with the others is found out by their form.
+    """
+    after = apply_modes(state, block, modes)
+    words = [word for word in block.words if word.address in _READ]
+    values = {word.address: modes.lexicon.value(word, after.unit) for word in words if word.address not in WRONG_CENTER}
+    is_doubtful = any(values.keys() >= {*names} for names in (*_ENDS, ("R", "I"), ("R", "K")))
+    if is_doubtful or not words or block.faults or None in (*values.values(), *state.start().values):
+        return None
+    known = {address: value for address, value in values.items() if value is not None}
+    has_center = not known.keys().isdisjoint((*CENTERS, "R"))
+    if len(words) == len(known) and has_center and _runs(known, state):
+        return None
+    claim = claim_of(block, arc(code), code, state, after, modes, WRONG_CENTER)
+    supplied = [Given(names[1], Decimal(0), Unit.MM, None) for names in _ENDS if known.keys().isdisjoint(names)]
+    choices = []
+    if "R" in known:
+        supplied.append(replace(claim.givens["R"], value=abs(known["R"])))
+        is_left = (known["R"] > 0) == (_TURNS[code] is Turn.CCW)
+        choices.append(Choice(CENTER, Side.LEFT if is_left else Side.RIGHT, "R"))
+    elif has_center:
+        # Of the two distances to the centre, one that is not written is 0 (assumed, as on other controls).
+        supplied += [Given(name, Decimal(0), Unit.MM, None) for name in CENTERS if name not in known]
+    givens = {**claim.givens, **{given.name: given for given in supplied}}
+    return replace(claim, givens=givens, choices=tuple(choices))
+
+
+_READ = frozenset({*chain(*_ENDS), *CENTERS, "R", *WRONG_CENTER})
+
+
+def _runs(values: Mapping[str, Decimal], state: State) -> bool:
+    """Whether an arc can run from the start to the end, as far as a control looks."""
+    first, second = (_step(values, state, axis) for axis in (FIRST, SECOND))
+    chord = hypot(first, second)
+    if "R" in values:
+        return 0 < chord <= 2 * (abs(float(values["R"])) + RADIUS_DIFFERENCE)
+    along, across = (float(values.get(name, 0)) for name in CENTERS)
+    distance = hypot(along, across)
+    return distance > 0 and abs(hypot(first - along, second - across) - distance) <= RADIUS_DIFFERENCE
+
+
+def _step(values: Mapping[str, Decimal], state: State, axis: int) -> float:
+    """From start to end along an axis, mm."""
+    absolute, increment = _ENDS[axis]
+    start = state.start().values[axis]
+    if absolute in values and start is not None:
+        return float(values[absolute] - start)
+    return float(values.get(increment, 0))

@@ -1,0 +1,77 @@
+"""YASNAC LX3: a block as a contour of some form, with every word by the name of the given that it states."""
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+from contoursolve.dialects.yasnac_lx3.lexicon import AXIS_45, BEVEL, SETBACK
+from contoursolve.model import Choice, CornerShape, Given
+from contoursolve.reading import Claim, Code, Effect, Form, Modes, State, codes_of
+from contoursolve.syntax import Block, Word
+
+OTHER_G = "other G"
+"""States that the block has a G code that uses the axis words itself."""
+
+AXIS_EFFECTS = (Effect.MOTION, Effect.CYCLE, Effect.SINGLE, Effect.NO_MOTION, Effect.PRESET, Effect.CONTOUR)
+"""G codes that use axis words themselves."""
+
+_SHAPES = {AXIS_45: CornerShape.CHAMFER_AXIS_45, SETBACK: CornerShape.CHAMFER_SETBACK}
+
+
+def bevel_of(modes: Modes) -> CornerShape:
+    """What a bevel is, by the setting."""
+    return _SHAPES[modes.convention(BEVEL).value]
+
+
+def claim_of(
+    block: Block,
+    form: Form,
+    own: int | None,
+    before: State,
+    after: State,
+    modes: Modes,
+    refused: frozenset[str] = frozenset(),
+    supplied: Iterable[Given] = (),
+    choices: Iterable[Choice] = (),
+    circumstances: Iterable[str] = (),
+) -> Claim:
+    """The block as a contour of a form whose G code is `own`.
+
+    `refused` are addresses that a rule refuses; `supplied` are givens that the control derives from the words.
+    """
+    codes = (code for code in codes_of(block, modes) if isinstance(code, Code))
+    others = {code.number for code in codes if code.effect in AXIS_EFFECTS and code.number != own}
+    words: dict[str, Word] = {}
+    repeated: list[Word] = []
+    for word in block.words:
+        name = word.address
+        if name == "G":
+            name = OTHER_G if word.number in others else f"G{word.number}"
+        if name in words and name != "M":
+            repeated.append(word)
+        words.setdefault(name, word)
+    lexicon = modes.lexicon
+    known = {name: word for name, word in words.items() if name in lexicon.addresses and name in form.allowed}
+    givens = {name: lexicon.given(name, word, after.unit) for name, word in known.items()}
+    named = refused | {OTHER_G}
+    bevels = (word for row in form.corners for word, shape in row.shapes.items() if shape in _CONVENTIONAL)
+    return Claim(
+        form=form,
+        lexicon=lexicon,
+        blocks=(block,),
+        before=replace(before, unit=after.unit),
+        after=after,
+        words={**known, **{name: word for name, word in words.items() if name in named}},
+        givens={
+            **{name: given for name, given in givens.items() if given is not None},
+            **{given.name: given for given in supplied},
+        },
+        vocabulary={address: (address, 0) for address in sorted(form.allowed & lexicon.addresses.keys())},
+        unknown=tuple(word for word in words.values() if word.address not in form.allowed | named | {"G"}),
+        repeated=tuple(repeated),
+        circumstances=frozenset(circumstances),
+        choices=tuple(choices),
+        conventions=(modes.convention(BEVEL),) if any(word in known for word in bevels) else (),
+    )
+
+
+_CONVENTIONAL = (CornerShape.CHAMFER_AXIS_45, CornerShape.CHAMFER_SETBACK)

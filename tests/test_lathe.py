@@ -1,0 +1,327 @@
+"""YASNAC LX3 G112, G11, G12, G01 with a bevel and arcs: worked numbers, drawings, the oracle, laws, refusals."""
+
+import random
+from collections import Counter
+from decimal import Decimal
+from itertools import product
+from math import cos, radians, sin
+
+import pytest
+from click.testing import CliRunner
+from generate_lx3 import FORMS, random_g11, random_g112
+from generate_nct import disturbed
+from oracle_lx3 import WORD, contours
+
+import contoursolve
+from contoursolve.cli import main
+from contoursolve.dialects import YASNAC_LX3
+from contoursolve.examine import Policy
+from contoursolve.model import Length
+from contoursolve.pipeline import run
+
+CLOSE = 1e-9
+"""mm."""
+
+
+def solve(text, **options):
+    return contoursolve.solve(text, control="yasnac-lx3", **options)
+
+
+def codes(result):
+    return [each.code for each in result.diagnostics if each.severity.value != "info"]
+
+
+def place(at):
+    return complex(*at)
+
+
+def assert_same(answer, elements, points):
+    contour = answer.contour
+    assert contour is not None, answer.diagnostics
+    assert len(contour.elements) == len(elements)
+    for found, expected in zip(contour.elements, elements, strict=True):
+        assert abs(place(found.start) - expected.start) < CLOSE
+        assert abs(place(found.end) - expected.end) < CLOSE
+        assert hasattr(found, "turn") == (expected.kind == "arc")
+        if expected.kind == "arc":
+            assert found.turn.value == expected.turn
+            assert found.radius == pytest.approx(expected.radius, abs=CLOSE)
+            assert abs(place(found.center) - expected.center) < CLOSE
+    for name, at in points.items():
+        assert abs(place(contour.points[name]) - at) < CLOSE
+
+
+def rounded(answer):
+    """(Z, X diameter) of the end of each element."""
+    return [(round(each.end[0], 4), round(2 * each.end[1], 4)) for each in answer.contour.elements]
+
+
+MANUAL = "G01 X100. Z-50. F0.2\n"
+
+
+@pytest.mark.parametrize(
+    ("corners", "ends"),
+    [
+        ("P5. Q5.", [(-68.3772, 100), (-72.8948, 94.2857), (-127.1052, 94.2857), (-131.6228, 100)]),
+        ("C5. D5.", [(-69.0192, 100), (-74.0192, 90), (-125.9808, 90), (-130.9808, 100)]),
+    ],
+)
+def test_the_manuals_example_of_g112_worked_by_hand(corners, ends):
+    (answer,) = solve(f"{MANUAL}G112 U0 I10. K-50. R30. {corners}").answers
+    assert rounded(answer) == ends
+    assert {name: (round(at[0], 4), at[1]) for name, at in answer.contour.points.items()} == {
+        "V1": (-71.7157, 50),
+        "V2": (-128.2843, 50),
+    }
+    assert [each.turn.value for each in answer.contour.elements if hasattr(each, "turn")].count("cw") == 1
+    assert not answer.sides
+
+
+def test_the_manuals_example_of_g11_has_the_dimensions_of_its_drawing():
+    result = solve("G00 X30. Z0;\nG11 Z-20. I8. F30.;\nX80. K-7.;\nG01 Z-60.;")
+    assert [rounded(answer) for answer in result.answers] == [[(-12, 30), (-20, 46)], [(-20, 66), (-27, 80)]]
+    assert [answer.contour.points for answer in result.answers] == [{"V1": (-20, 15)}, {"V1": (-20, 40)}]
+    assert codes(result) == []
+
+
+def test_forms_of_this_control_show_that_a_program_is_for_it():
+    for block in ("G112 U0 I10. K-50. R30.", "G11 Z-80. I8.", "G12 U20. K-2."):
+        assert contoursolve.solve(MANUAL + block).control == "yasnac-lx3"
+
+
+def test_g112_is_the_drawing_it_was_written_from():
+    rng = random.Random(112)
+    for form, one, two in product(FORMS, ("", "P", "C"), ("", "Q", "D")):
+        for _ in range(12):
+            drawn = random_g112(rng, form, one, two)
+            (answer,) = solve(drawn.text).answers
+            assert_same(answer, drawn.elements, drawn.points)
+            assert answer.certificate.proof.value in ("exact", "unique")
+
+
+def test_g11_g12_and_g01_are_the_drawings_they_were_written_from():
+    rng = random.Random(11)
+    for _ in range(60):
+        drawn = random_g11(rng, 4)
+        answers = solve(drawn.text).answers
+        elements = [each for answer in answers for each in answer.contour.elements]
+        assert len(answers) == 4
+        assert len(elements) == len(drawn.elements)
+        for found, expected in zip(elements, drawn.elements, strict=True):
+            assert abs(place(found.end) - expected.end) < CLOSE
+            assert getattr(getattr(found, "turn", None), "value", "") == expected.turn
+
+
+def test_verdicts_on_disturbed_blocks_are_those_of_the_oracle():
+    rng = random.Random(146)
+    statuses = Counter()
+    for number in range(500):
+        one, two = rng.choice(("", "P", "C")), rng.choice(("", "Q", "D"))
+        drawn = random_g112(rng, rng.choice(FORMS), one, two) if number % 3 else random_g11(rng, 1)
+        program = disturbed(rng, drawn)
+        expected, found = contours(program), solve("\n".join(program)).answers
+        assert len(found) == len(expected), program
+        for answer, outcome in zip(found, expected, strict=True):
+            if not outcome.is_near:
+                assert answer.status.value == outcome.status, (program, answer.diagnostics)
+                statuses[outcome.status] += 1
+                if outcome.status == "solved":
+                    assert_same(answer, outcome.elements, outcome.points)
+    assert min(statuses[status] for status in ("solved", "no-solution", "rejected")) > 20
+
+
+def transformed(drawn, word):
+    """The program with every word rewritten; the G codes stay."""
+    return "\n".join(WORD.sub(lambda found: word(found[1], found[2]), line) for line in drawn.program)
+
+
+def drawings(count):
+    rng = random.Random(18)
+    corners = product(FORMS, ("P", "C"), ("Q", "D"))
+    yield from (random_g112(rng, *each) for each in corners)
+    yield from (random_g11(rng, 2) for _ in range(count))
+
+
+@pytest.mark.parametrize("drawn", list(drawings(6)), ids=lambda drawn: "-".join(drawn.kind))
+def test_laws_of_the_forms(drawn):
+    """Order of words, inches, a shift of the origin and a mirror of Z change nothing but what they say."""
+    reference = [answer.contour for answer in solve(drawn.text).answers]
+
+    def ends(text, **options):
+        return [each.end for answer in solve(text, **options).answers for each in answer.contour.elements]
+
+    plain = [each.end for contour in reference for each in contour.elements]
+    reverse = "\n".join(" ".join([*line.split()[:1], *reversed(line.split()[1:])]) for line in drawn.program)
+    if "G" in reverse.splitlines()[-1]:
+        assert ends(reverse) == plain
+
+    def inches(address, value):
+        return address + (value if address in "GN" else format(Decimal(value) / Decimal("25.4"), "f"))
+
+    def shifted(address, value):
+        step = {"Z": Decimal("12.5"), "X": Decimal(40)}.get(address, 0)
+        return address + (value if address in "GN" else format(Decimal(value) + step, "f"))
+
+    def mirrored(address, value):
+        return address + (format(-Decimal(value), "f") if address in "ZWK" else value)
+
+    close = pytest.approx
+    assert [x for end in ends(transformed(drawn, inches), units="inch") for x in end] == close(
+        [x for end in plain for x in end], abs=1e-6
+    )
+    assert [(z - 12.5, x - 20) for z, x in ends(transformed(drawn, shifted))] == [
+        (close(z, abs=CLOSE), close(x, abs=CLOSE)) for z, x in plain
+    ]
+    assert [(-z, x) for z, x in ends(transformed(drawn, mirrored))] == [
+        (close(z, abs=CLOSE), close(x, abs=CLOSE)) for z, x in plain
+    ]
+
+
+@pytest.mark.parametrize(
+    ("block", "status", "code"),
+    [
+        ("G112 U0 I10. K0 R30.", "no-solution", "g112-no-way"),
+        ("G112 W0 I0 K5. R15.", "no-solution", "g112-no-way-facing"),
+        ("G112 U0 I0 K-50. R30.", "no-solution", "g112-side-open"),
+        ("G112 U40. I10. K-50. R30.", "no-solution", "g112-backs-up"),
+        ("G112 U0 I10. K-20. R30.", "no-solution", "g112-reversed"),
+        ("G112 U0 I40. K-50. R30.", "no-solution", "g112-missed"),
+        ("G112 U-61. I10. K-50. R30.", "no-solution", "g112-missed"),
+        ("G112 U0 I10. K-50. R30. P200.", "no-solution", "g112-corner-too-large"),
+        ("G112 U0 I10. K-50. R30. D20.001", "no-solution", "g112-corner-too-large"),
+        ("G112 U0 I28. K-50. R30. C1.", "no-solution", "g112-bevel-band"),
+        ("G112 I10. K-50. R30.", "rejected", "g112-word-missing"),
+        ("G112 U0 Z-5. I10. K-50. R30.", "rejected", "g112-x-and-z"),
+        ("G112 U0 I10. K-50. R30. M08", "rejected", "g112-m-s-t"),
+        ("G112 G111 U0 I10. K-50. R30.", "rejected", "g111-other-g"),
+        ("G11 U10. K5.001", "no-solution", "g11-corner-too-large"),
+        ("G12 X110. W-5. K5.", "rejected", "g11-both-axes"),
+    ],
+)
+def test_what_cannot_be_made_is_refused_by_name(block, status, code):
+    result = solve(MANUAL + block)
+    assert result.answers[0].status.value == status
+    assert code in codes(result)
+
+
+@pytest.mark.parametrize(
+    ("block", "line"),
+    [
+        ("G112 U0 I10. K-50. R30. D25.", "G112 U0 I10. K-50. R30. D18.284"),
+        ("G11 U10. K-7.", "G11 U10. K-5."),
+        ("G12 W-5. I-6.", "G12 W-5. I-5."),
+    ],
+)
+def test_corner_that_is_too_large_is_offered_with_the_largest_size_and_its_sign(block, line):
+    (finding,) = solve(MANUAL + block).diagnostics
+    assert line in [fix.replacement for fix in finding.fixes]
+
+
+def test_line_that_leads_to_the_centre_takes_the_side_of_the_landing_line():
+    for step, turn in (("U-10.", "cw"), ("U10.", "ccw")):
+        (answer,) = solve(f"{MANUAL}G112 {step} I0 K-50. R30.").answers
+        assert answer.contour.elements[1].turn.value == turn
+
+
+def test_line_that_touches_the_arc_ends_it_without_a_corner():
+    result = solve(MANUAL + "G112 U-40. I10. K-50. R30. P5.")
+    assert rounded(result.answers[0])[-1] == (-100, 60)
+    assert codes(result) == []
+
+
+def test_mode_of_g11_lasts_until_another_motion():
+    result = solve(
+        "G00 X30. Z0.\nG11\nM08\nZ-20. I8.\nG04 X1.\nS500\nX80. K-7.\nG01 Z-40.\nX90.\nG12 Z-50. I2.\nU20. K1."
+    )
+    assert [answer.form for answer in result.answers] == ["G11", "G11", "G12", "G12"]
+    assert codes(result) == []
+
+
+def test_ordinary_lines_and_arcs_are_not_contours():
+    arcs = ("X70. Z-10. R10.", "X90. Z-20. I10.", "I5. K0", "U0.002 W-20. R10.", "R#1 X3.", "G28 U0 W0", "X1. R1.")
+    result = solve("\n".join(("G00 X50. Z0.", "G02", *arcs, "G00 X40. Z0.", "G11 Z-20. I8.")))
+    assert len(result.answers) == 1
+    assert codes(result) == []
+
+
+@pytest.mark.parametrize(
+    ("arc", "code"),
+    [
+        ("G02 X70. Z-10. R7.05", "arc-radius-too-small"),
+        ("G02 X70. Z-10. R-7.05", "arc-radius-too-small"),
+        ("G03 U20. W-10. I10.02", "arc-radius-difference"),
+        ("G03 X70. Z-10.", "arc-without-center"),
+        ("G03 X50. Z0 R5.", "arc-undefined"),
+        ("G03 X50. Z0 I0 K0", "arc-undefined"),
+        ("G02 X70. Z-10. I10. J0", "arc-center-outside-plane"),
+    ],
+)
+def test_arc_that_cannot_run_is_reported_and_not_listed(arc, code):
+    result = solve(f"G00 X50. Z0.\n{arc}\nG00 X40. Z0.\nG11 Z-20. I8.")
+    assert len(result.answers) == 1
+    assert codes(result) == [code]
+    assert result.diagnostics[0].span.line == 2
+    assert codes(solve(f"G00 X50.\n{arc}\nG00 X40. Z0.\nG11 Z-20. I8.")) == []
+
+
+def configured(values, block):
+    program = contoursolve.parse("G00 X40. Z0.\n" + block)
+    return run(program, YASNAC_LX3.configure(values), Length.MM, Policy.ENFORCE).answers[0]
+
+
+def test_bevel_by_setback_is_as_long_on_both_sides_of_the_virtual_intersection():
+    answer = configured({"bevel": "setback"}, "G111 X100. A180. K-30. B120. C5. D4.")
+    c, s, z2 = 5 * cos(radians(60)), 5 * sin(radians(60)), -30 - 30 / 3**0.5
+    assert [each.end for each in answer.contour.elements] == [
+        (pytest.approx(z), pytest.approx(x))
+        for z, x in [(-25, 20), (-30 - c, 20 + s), (z2 + 0.8 * c, 50 - 0.8 * s), (z2 - 4, 50)]
+    ]
+    arc = configured({"bevel": "setback"}, "G112 U0 I10. K-50. R30. C5.").contour
+    begin, end, v1 = arc.elements[0].end, arc.elements[1].end, place(arc.points["V1"])
+    assert abs(place(begin) - v1) == pytest.approx(5)
+    assert abs(place(end) - v1) == pytest.approx(5)
+    assert abs(place(end) - (-50 + 30j)) == pytest.approx(30)
+
+
+def test_settings_have_names_and_a_contour_tells_on_which_it_rests():
+    assert configured({}, "G111 X100. A180. K-30. B120. C5.").claim.conventions[0].setting.name == "bevel"
+    assert configured({}, "G112 U0 I10. K-50. R30. D5.").claim.conventions[0].setting.name == "bevel"
+    assert configured({}, "G111 X100. A180. K-30. B120. P5.").claim.conventions == ()
+    assert configured({}, "G11 Z-20. I5.").claim.conventions == ()
+    with pytest.raises(ValueError, match="values are: axis-45, setback"):
+        YASNAC_LX3.configure({"bevel": "45"})
+
+
+def table(form):
+    """{letters: (legality, determinacy)} of a form's part of the printed table."""
+    outcome = CliRunner().invoke(main, ["rules", "--table", "--control", "yasnac-lx3"])
+    (part,) = (part for part in outcome.output.split("\n\n") if part.startswith(f"yasnac-lx3 {form}:"))
+    rows = [line.split(" | ") for line in part.splitlines()[1:]]
+    return {frozenset(words.split()) - {"-"}: (legality, rest) for words, legality, rest in rows}
+
+
+@pytest.mark.parametrize(
+    ("form", "letters", "needed", "either"),
+    [
+        ("G112, circular-arc multiple cornering, turning", "XUIKRPQCD", "IKR", "XU"),
+        ("G112, circular-arc multiple cornering, facing", "WIKRPQCD", "IKR", ""),
+        ("G11, bevelling, along Z", "XUWIK", "I", ""),
+        ("G11, bevelling, along X", "UIK", "K", ""),
+        ("G12, rounding, along Z", "XUWIK", "I", ""),
+        ("G12, rounding, along X", "UIK", "K", ""),
+    ],
+)
+def test_table_says_which_sets_of_words_are_legal_and_that_each_of_them_is_determined(form, letters, needed, either):
+    """A row of a facing form or of G11 has its axis word besides, which may not be given twice."""
+    rows = table(form)
+    pairs = [set("CP"), set("DQ"), *([set(either)] if either else [])]
+    assert len(rows) == 2 ** len(letters)
+    for words, (legality, determinacy) in rows.items():
+        is_legal = (
+            words >= set(needed)
+            and (not either or bool(words & set(either)))
+            and not any(words >= pair for pair in pairs)
+            and words <= {*needed, *either, *("PQCD" if "R" in letters else "")}
+        )
+        assert (legality == "legal") == is_legal, sorted(words)
+        assert not is_legal or determinacy.startswith("determined"), sorted(words)

@@ -1,0 +1,166 @@
+"""NCT chapter 16: every form, corners and chains, held against drawings and against closed forms of their own.
+
+Programs are written from paths that were drawn first; `disturbed` ones mean something that nobody drew, and are held
+against the oracle's verdict. Set MILL_INSTANCES to draw so many of each form (default 15).
+"""
+
+import json
+import os
+from collections import Counter
+from collections.abc import Sequence
+from itertools import product
+from random import Random
+from typing import Any
+
+import pytest
+from generate_nct import FORMS, Drawn, disturbed, random_chain, random_cornered, random_pair
+from oracle import PLANES
+from oracle_corners import miss
+from oracle_nct import Run, runs
+
+from contoursolve import Result, solve
+from contoursolve.output.document import to_json
+
+CLOSE = 1e-8
+"""mm. Words have 12 decimals, and points of a chain build on each other."""
+
+INSTANCES = int(os.environ.get("MILL_INSTANCES", "15"))
+
+
+def answers_of(result: Result) -> list[dict[str, Any]]:
+    """The contours in JSON."""
+    contours: list[dict[str, Any]] = json.loads(to_json(result))["contours"]
+    return contours
+
+
+def solve_mill(program: Sequence[str], rules: str = "enforce", depth: str = "verdict") -> Result:
+    return solve("\n".join(program), control="nct-99m", rules=rules, depth=depth)
+
+
+# The sheet's examples -----------------------------------------------------------------------------------
+
+LINES = "G17 G90 G41 D0\nG0 X90 Y10\n"
+TO_CIRCLE = "N10 G17 G42 G0 X100 Y20 D0 S200 M3\nN20 G1 X-30 Y-20\n"
+FROM_CIRCLE = "N10 G17 G0 X90 Y0 M3 S200\nN20 G42 G1 X50 D0\nN30 G3 X-50 Y0 R50\nN40 G1 "
+EXAMPLES = {
+    # Programs printed, results derived by hand: page, program, form, points as ends of elements.
+    "p. 123, by an angle": (LINES + "N10 G1 ,A150\nN20 X10 Y20 ,A225", "line-line", ("32.9423 42.9423", "10 20")),
+    "p. 123, by a point": (LINES + "N10 G1 X50 Y33.094\nN20 X10 Y20 ,A225", "line-line", ("32.9423 42.9423", "10 20")),
+    "p. 128, Q-1": (
+        TO_CIRCLE + "N30 G3 X20 Y40 I20 J-10 R50 Q-1\nN40 G40 G0 Y60",
+        "line-circle",
+        ("66.0216 9.5451", "20 40"),
+    ),
+    "p. 128, Q1": (
+        TO_CIRCLE + "N30 G3 X20 Y40 I20 J-10 R50 Q1\nN40 G40 G0 Y60",
+        "line-circle",
+        ("-29.0486 -19.7073", "20 40"),
+    ),
+    "p. 130, Q-1": (
+        FROM_CIRCLE + "X-50 Y42.857 ,A171.87 Q-1\nN50 G40 G0 Y70",
+        "circle-line",
+        ("39.99998 30.00002", "-50 42.857"),
+    ),
+    "p. 130, Q1": (
+        FROM_CIRCLE + "X-50 Y42.857 ,A171.87 Q1\nN50 G40 G0 Y70",
+        "circle-line",
+        ("-30.00012 39.99991", "-50 42.857"),
+    ),
+    "p. 119, chamfer": (
+        "G0 X0 Y0\nN1 G1 G91 X30 ,C10\nN2 X10 Y40",
+        "corners",
+        ("20 0", "32.4254 9.7014", "40 40"),
+    ),
+    "p. 119, rounding": (
+        "G0 X0 Y0\nN1 G91 G01 X30 ,R8\nN2 G03 X-30 Y30 R30",
+        "corners",
+        ("20.4939 0", "27.9462 10.9091", "0 30"),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_the_examples_of_the_sheet_come_out_to_its_digits(name):
+    program, form, ends = EXAMPLES[name]
+    (answer,) = solve(program, control="nct-99m").answers
+    assert (answer.form, answer.status.value, answer.diagnostics) == (form, "solved", ())
+    for element, digits in zip(answer.contour.elements, ends, strict=True):
+        for value, text in zip(element.end, digits.split(), strict=True):
+            assert abs(value - float(text)) <= 0.5 * 10.0 ** -len(text.partition(".")[2]) * (1 if "." in text else 1e-9)
+
+
+# Drawings -----------------------------------------------------------------------------------------------
+
+
+def assert_drawn(drawn: Drawn) -> None:
+    (contour,) = answers_of(solve_mill(drawn.program))
+    assert contour["status"] == "solved", drawn.text
+    assert contour["certificate"]["kind"] in ("exact", "unique"), drawn.text
+    assert miss(drawn.elements, drawn.points, contour) < CLOSE, drawn.text
+
+
+@pytest.mark.parametrize(("form", "corner"), tuple(product(FORMS, ("", "C", "R"))))
+def test_every_drawn_pair_is_found_again(form, corner):
+    rng = Random(f"{form}{corner}")
+    kinds: Counter[str] = Counter()
+    for number in range(INSTANCES):
+        drawn = random_pair(rng, form, tuple(PLANES)[number % 3], corner)
+        assert_drawn(drawn)
+        kinds.update((drawn.elements[0].turn, drawn.elements[-1].turn, "Q-" if "Q-" in drawn.text else "Q+"))
+    assert min(kinds[side] for side in ("Q-", "Q+")) > 2 or form == "line-line"
+    assert min(kinds[turn] for turn in ("cw", "ccw")) > 2 or form == "line-line"
+
+
+@pytest.mark.parametrize("plane", PLANES)
+def test_every_drawn_path_with_corners_is_found_again(plane):
+    rng = Random(plane)
+    for _ in range(2 * INSTANCES):
+        assert_drawn(random_cornered(rng, plane))
+
+
+@pytest.mark.parametrize("blocks", [1, 2, 3, 5, 8, 12, 19])
+def test_every_drawn_chain_is_found_again(blocks):
+    rng = Random(blocks)
+    for _ in range(1 + INSTANCES // blocks // 2):
+        for plane in PLANES:
+            assert_drawn(random_chain(rng, blocks, plane))
+
+
+# What nobody drew ---------------------------------------------------------------------------------------
+
+
+def draw_any(rng: Random) -> Drawn:
+    plane = rng.choice(tuple(PLANES))
+    match rng.randrange(3):
+        case 0:
+            return random_pair(rng, rng.choice(FORMS), plane, rng.choice(("", "C", "R")))
+        case 1:
+            return random_chain(rng, rng.randint(1, 4), plane, corners=0.2)
+        case _:
+            return random_cornered(rng, plane)
+
+
+def compare(program: Sequence[str], expected: Run) -> str:
+    """The status that both agree on; empty where the oracle does not judge."""
+    if expected.is_near:
+        return ""
+    (contour,) = answers_of(solve_mill(program))
+    text = "\n".join(program)
+    assert contour["status"] == expected.status, text
+    if expected.status == "solved":
+        size = max(abs(at) for at in (*expected.points.values(), expected.end, 1e3))
+        # A line that ends where it begins is left out.
+        gap = miss(expected.elements, expected.points, contour) if expected.elements else len(contour["elements"])
+        assert gap < CLOSE * size / 1e3, text
+    return expected.status
+
+
+def test_blocks_that_nobody_drew_are_solved_or_refused_as_the_sheet_says():
+    rng = Random(1600)
+    statuses: Counter[str] = Counter()
+    for _ in range(12 * INSTANCES):
+        program = disturbed(rng, draw_any(rng))
+        (expected,) = runs(program)
+        statuses[compare(program, expected)] += 1
+    assert statuses[""] < 0.03 * statuses.total()
+    assert min(statuses[status] for status in ("solved", "no-solution", "conflicting", "rejected")) > INSTANCES // 4
