@@ -4,7 +4,6 @@ Points count from the start point, in mm; real is the plane's first axis, imagin
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from itertools import combinations
 
 from contoursolve.tolerance import LENGTH, RADIUS_DIFFERENCE
@@ -176,8 +175,3 @@ def draw(course: Course, pieces: Sequence[Piece], points: Mapping[str, complex])
 def ends_of(pieces: Sequence[Piece]) -> Iterator[complex]:
     """Where the pieces end, without those of no length."""
     return (piece.end for piece in pieces if abs(piece.end - piece.begin) >= SHORTEST)
-
-
-def nearby(course: Course, joints: Sequence[complex]) -> Course:
-    """The course with other joints."""
-    return replace(course, joints=tuple(joints))

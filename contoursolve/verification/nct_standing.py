@@ -8,7 +8,15 @@ from contoursolve.verification.claimed import ClaimedDiagnosis
 from contoursolve.verification.course import Course, Trace, trace
 from contoursolve.verification.ledger import Ledger
 from contoursolve.verification.nct_words import (
-    CENTERS, ENDS, choosing, course_of, elements_of, is_plain, lacks_words, own_point)
+    CENTERS,
+    ENDS,
+    choosing,
+    course_of,
+    elements_of,
+    is_plain,
+    lacks_words,
+    own_point,
+)
 from contoursolve.verification.rails import UnmakeableError
 from contoursolve.verification.standing import Candidate, Leg, Standing, path_of
 
