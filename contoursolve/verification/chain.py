@@ -28,20 +28,20 @@ def check_points(case: Case, ledger: Ledger, names: Sequence[str]) -> bool:
 
 
 def check_course(case: Case, ledger: Ledger, course: Course, joints: Sequence[str], words: Words) -> None:
-    """The claimed joints, lines, circles and corners are those of the course; `joints` are the names of the inner
-    ones."""
-    claimed = [0j, *(case.points[name] for name in joints), case.end or 0j]
-    ends = [*joints, "the end"]
+    """The claimed joints, lines, circles and corners are those of the course; `joints` are the names of those
+    that the result names; the last one is otherwise the end."""
+    claimed = [0j, *(case.points[name] for name in joints)]
+    ends = list(joints)
+    if len(joints) < len(course.names):
+        claimed.append(case.end or 0j)
+        ends.append("the end")
     base = ROUNDING * case.reach + case.start_error
     for number, (name, at) in enumerate(zip(ends, claimed[1:], strict=True), 1):
         stated = [word for each in course.names[number - 1 : number + 1] for word in words[each]]
-        if number == len(course.names) and course.landing:
-            continue  # the path ends after a corner
         blur = course.unsure[number] if course.unsure else base
         case.compare(ledger, f"{name} is where the words put it", stated, abs(at - course.joints[number]), blur)
     for number, (name, rail) in enumerate(zip(course.names, course.rails, strict=True)):
-        begin, end = claimed[number], course.joints[-1] if course.landing else claimed[number + 1]
-        _check_rail(case, ledger, name, rail, (begin, end), words[name], course.gaps.get(number, 0.0))
+        _check_rail(case, ledger, name, rail, claimed[number : number + 2], words[name], course.gaps.get(number, 0.0))
     try:
         traced = trace(course)
     except UnmakeableError as error:
@@ -70,7 +70,7 @@ def _check_rail(
     ledger: Ledger,
     name: str,
     rail: Rail,
-    ends: tuple[complex, complex],
+    ends: Sequence[complex],
     words: tuple[str, ...],
     gap: float,
 ) -> None:
@@ -83,7 +83,7 @@ def _check_rail(
     end = off(rail, ends[1]) - (gap if abs(off(rail, ends[1]) - gap) <= case.limit + blur else 0.0)
     ledger.measure(f"{name} ends on its {thing}", words, end, case.limit + blur)
     if isinstance(rail, Ray):
-        against = max(0.0, -length(rail, *ends))
+        against = max(0.0, -length(rail, ends[0], ends[1]))
         ledger.measure(f"{name} runs in its direction", words, against, case.limit)
 
 

@@ -24,11 +24,16 @@ def examine(found: Found, claimed: ClaimedContour, ledger: Ledger, selected: Map
     claim = found.claim
     first, second = claim.before.start().values
     checker = CHECKERS.get(claim.form.name)
+    is_extended = claim.directives or any(word.is_asked for word in claim.words.values())
     if first is None or second is None:
         ledger.omit("the path", "the program does not tell where it starts")
         return False
     if checker is None:
         ledger.omit("the path", f"contours of the form {claim.form.name} cannot be checked yet")
+        return False
+    if is_extended and not checker.knows_facts:
+        why = f"further facts and values that are asked for are not checked with {claim.form.name}"
+        ledger.omit("the path", why)
         return False
     case = make_case(claim, claimed, (first, second), found.start_error)
     case = replace(

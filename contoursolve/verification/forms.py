@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from contoursolve.model import Arc
 from contoursolve.reading import Claim
 from contoursolve.tolerance import RADIUS_DIFFERENCE
-from contoursolve.verification import g111, g111_standing, nct, nct_standing, nct_words, ties
+from contoursolve.verification import g111, g111_standing, lathe, nct, nct_standing, nct_words, ties
 from contoursolve.verification.case import Case
 from contoursolve.verification.claimed import ClaimedDiagnosis
 from contoursolve.verification.drawing import Drawing
@@ -31,6 +31,8 @@ class FormChecker:
     stand: Callable[[Case], Standing | None]
     diagnose: Callable[[Case, ClaimedDiagnosis, Ledger], None]
     slack: float = 0.0
+    knows_facts: bool = True
+    """Whether facts, and values that are asked for, are checked."""
 
     def elements(self, claim: Claim) -> tuple[str, ...]:
         """The elements that facts may mention, and the corners."""
@@ -49,6 +51,10 @@ def _g111_words(_claim: Claim) -> frozenset[str]:
 
 def _none(_claim: Claim) -> tuple[str, ...]:
     return ()
+
+
+def _lathe_words(_claim: Claim) -> frozenset[str]:
+    return lathe.READ
 
 
 _G111 = FormChecker(
@@ -70,8 +76,19 @@ _NCT = FormChecker(
     slack=RADIUS_DIFFERENCE,
 )
 
+_LATHE = FormChecker(
+    check=lathe.check,
+    redo=lathe.redo,
+    reads=_lathe_words,
+    choosing=_none,
+    stand=lathe.stand,
+    diagnose=lathe.check_ties,
+    knows_facts=False,
+)
+
 CHECKERS: Mapping[str, FormChecker] = {
     "G111": _G111,
     **dict.fromkeys(("line-angle", "corners", "line-line", "line-circle", "circle-line", "circle-circle"), _NCT),
     "chain": _NCT,
+    **dict.fromkeys(("G112", "G11", "G12", "G01"), _LATHE),
 }
