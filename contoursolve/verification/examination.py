@@ -24,16 +24,11 @@ def examine(found: Found, claimed: ClaimedContour, ledger: Ledger, selected: Map
     claim = found.claim
     first, second = claim.before.start().values
     checker = CHECKERS.get(claim.form.name)
-    is_extended = claim.directives or any(word.is_asked for word in claim.words.values())
     if first is None or second is None:
         ledger.omit("the path", "the program does not tell where it starts")
         return False
     if checker is None:
         ledger.omit("the path", f"contours of the form {claim.form.name} cannot be checked yet")
-        return False
-    if is_extended and not checker.knows_facts:
-        why = f"further facts and values that are asked for are not checked with {claim.form.name}"
-        ledger.omit("the path", why)
         return False
     case = make_case(claim, claimed, (first, second), found.start_error)
     case = replace(
@@ -47,6 +42,10 @@ def examine(found: Found, claimed: ClaimedContour, ledger: Ledger, selected: Map
     )
     check_path(case, ledger, checker.slack)
     check_certificate(claimed.certificate, case.limit, ledger)
+    why_not = checker.why_not(case)
+    if why_not:
+        ledger.omit("the path", why_not)
+        return False
     if _check_words(case, ledger, checker.reads(claim)) and check_readable(case.facts, ledger):
         checker.check(case, ledger)
         check_filled(case, ledger, checker, found.dialect)

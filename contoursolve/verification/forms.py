@@ -14,6 +14,10 @@ from contoursolve.verification.ledger import Ledger
 from contoursolve.verification.standing import Standing
 
 
+def _never(_case: Case) -> str:
+    return ""
+
+
 @dataclass(frozen=True, slots=True)
 class FormChecker:
     """How contours of one form are checked.
@@ -31,8 +35,8 @@ class FormChecker:
     stand: Callable[[Case], Standing | None]
     diagnose: Callable[[Case, ClaimedDiagnosis, Ledger], None]
     slack: float = 0.0
-    knows_facts: bool = True
-    """Whether facts, and values that are asked for, are checked."""
+    why_not: Callable[[Case], str] = _never
+    """Why a contour is not checked; empty if it is."""
 
     def elements(self, claim: Claim) -> tuple[str, ...]:
         """The elements that facts may mention, and the corners."""
@@ -83,7 +87,7 @@ _LATHE = FormChecker(
     choosing=_none,
     stand=lathe.stand,
     diagnose=lathe.check_ties,
-    knows_facts=False,
+    why_not=lathe.why_not,
 )
 
 CHECKERS: Mapping[str, FormChecker] = {

@@ -150,6 +150,7 @@ def _lines(case: Case, used: tuple[str, ...], points: tuple[complex, complex]) -
         landing=None if by_x == by_z else complex(1, 0) if by_x else complex(0, 1),
         zero=0.0 if "A" in used or not v1 else case.limit / abs(v1),
         meeting=_meeting(case, v2),
+        is_setback=any(each.value == "setback" for each in case.claim.conventions),
     )
 
 

@@ -7,11 +7,11 @@ from contoursolve.model import FIRST, SECOND, Turn
 from contoursolve.reading import Claim
 from contoursolve.verification.case import Case
 from contoursolve.verification.chain import check_course, check_points, draw
-from contoursolve.verification.claimed import ClaimedDiagnosis, ClaimedStatus
+from contoursolve.verification.claimed import ClaimedDiagnosis, ClaimedStatus, Rules
 from contoursolve.verification.course import Bend, Course, Shape, trace
 from contoursolve.verification.drawing import Drawing, UnmeasurableError
 from contoursolve.verification.ledger import Ledger
-from contoursolve.verification.measure import ROUNDING, cross, sign, unit
+from contoursolve.verification.measure import cross, sign, unit
 from contoursolve.verification.rails import FARTHER, NEARER, Ray, Ring, UnmakeableError, meet
 from contoursolve.verification.standing import Candidate, Leg, Standing, path_of
 
@@ -81,26 +81,25 @@ def _stated(case: Case, axis: int) -> float:
 
 def _leaving_course(case: Case) -> Course:
     """To the programmed point, which the corner then leaves along the other axis for as far as I or K."""
-    axis, unsure = _axis_of(case.claim), ROUNDING * case.reach + case.start_error
+    axis, unsure = _axis_of(case.claim), case.start_error
     corner, away = _stated(case, axis) * _AXES[axis], case.amount(CENTERS[1 - axis])
     shape = Shape.ROUNDING if case.claim.form.name == "G12" else Shape.BEVEL
     landing = Ray(corner, sign(away) * _AXES[1 - axis])
-    bends = {0: Bend("corner 1", shape, abs(away), case.texts(CENTERS[1 - axis]))}
-    if not away:
-        raise UnmakeableError("its corner has no size")
-    # The corner ends at most as far from the virtual intersection as it is large.
-    line = Ray(0j, unit(corner))
-    return Course(("line 1",), (line,), (0j, corner), bends, (landing, corner), (0.0, unsure))
+    bends = {0: Bend("corner 1", shape, abs(away), case.texts(CENTERS[1 - axis]))} if away else {}
+    return Course(
+        ("line 1",), (Ray(0j, unit(corner)),), (0j, corner), bends, (landing, corner) if away else None, (0.0, unsure)
+    )
 
 
 def _arc_course(case: Case) -> Course:
     """Line 1 towards the centre, the arc from where they first meet, to beyond the centre on the landing line."""
-    axis, unsure = _axis_of(case.claim), ROUNDING * case.reach + case.start_error
+    axis, unsure = _axis_of(case.claim), case.start_error
     center, radius = complex(case.amount("K"), case.amount("I")), case.amount("R")
     way = sign((center.real, center.imag)[axis]) * _AXES[axis]
     if not way or radius <= 0:
         raise UnmakeableError("the centre is neither ahead nor behind, or there is no radius")
     place = _stated(case, 1 - axis) * _AXES[1 - axis]
+    _check_way(case, cross(way, center), cross(way, center - place))
     line, landing = Ray(0j, way, case.start_error), Ray(place, way, unsure)
     # The arc passes its centre on the side of line 1, or on that of the landing line where line 1 leads to the centre.
     side = sign(cross(way, center)) or sign(cross(way, center - place))
@@ -123,6 +122,27 @@ def _arc_course(case: Case) -> Course:
         (0.0, first.unsure, last.unsure),
         {1: first.touches, 2: last.touches},
     )
+
+
+def _check_way(case: Case, first: float, last: float) -> None:
+    """The path does not back up (derived): both lines are on one side of the centre."""
+    if is_strict(case) and (first * last < 0 or not (first or last)):
+        raise UnmakeableError("line 1 and the landing line lie on opposite sides of the centre, or both lead to it")
+
+
+def is_strict(case: Case) -> bool:
+    """Whether the rules of the manual apply."""
+    return case.rules not in (Rules.WARN, Rules.OFF)
+
+
+def why_not(case: Case) -> str:
+    """Why a contour is not checked; empty if it is."""
+    form = case.claim.form.name
+    if case.is_extended:
+        return f"further facts and values that are asked for are not checked with {form}"
+    if not _is_plain(case) and not is_strict(case):
+        return f"too many words of {form} are not checked: its rules refuse them"
+    return ""
 
 
 def _shape(case: Case, name: str) -> Shape:
@@ -155,7 +175,7 @@ def stand(case: Case) -> Standing | None:
     if not _is_plain(case):
         return None
     if is_arc and not case.value(CENTERS[axis]):
-        return Standing(is_loose=True)
+        return Standing(is_loose=not is_strict(case))
     try:
         course = course_of(case)
     except UnmakeableError:

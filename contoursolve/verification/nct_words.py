@@ -5,6 +5,7 @@ Points count from the start point: real is the plane's first axis, imaginary its
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from decimal import Decimal, localcontext
 from itertools import pairwise
 
 from contoursolve.model import FIRST, SECOND, Arc, Turn
@@ -144,7 +145,7 @@ def course_of(case: Case, signs: Signs, near: Mapping[str, complex] | None = Non
 
     Raises UnmakeableError where there is none.
     """
-    base = ROUNDING * case.reach + case.start_error
+    base = case.start_error
     rails: list[Rail] = []
     joints, unsure = [0j], [case.start_error]
     touching: dict[int, bool | None] = {}
@@ -257,6 +258,10 @@ def _ring_by_radius(
     """R > 0 makes the arc from its begin to the point shorter than half a turn, R < 0 longer (printed)."""
     radius, way, turn = case.amount(each.given("R")), point - tail, each.turn
     chord = abs(way)
+    rest = _rest(case, each)
+    if rest == 0 and turn is not None:
+        moot.add(each.given("R"))
+        return Ring(tail + way / 2, radius, turn, unsure)
     if turn is None or not LENGTH < chord <= 2 * radius + case.limit + unsure:
         raise UnmakeableError(f"no circle of this radius passes through two points {chord:g} mm apart")
     rise, blur = leg(radius, chord / 2, ROUNDING * (radius + chord) + unsure)
@@ -268,6 +273,19 @@ def _ring_by_radius(
     if not sign:
         raise UnmakeableError("R has no sign")
     return Ring(places[sign], radius, turn, blur)
+
+
+def _rest(case: Case, each: Element) -> Decimal | None:
+    """By how much the square of twice the radius is more than that of the chord, exactly; None if it is not known."""
+    with localcontext(prec=100):
+        parts = []
+        for axis, (absolute, step) in zip((FIRST, SECOND), ENDS, strict=True):
+            if case.states(each.given(step)):
+                parts.append(case.value(each.given(step)))
+            elif case.states(each.given(absolute)) and each.number == 1:
+                parts.append(case.value(each.given(absolute)) - case.origin[axis])
+        rest = 4 * case.value(each.given("R")) ** 2 - sum(part * part for part in parts)
+    return rest if len(parts) == 2 and any(parts) else None  # noqa: PLR2004 - a plane has two axes
 
 
 def own_point(case: Case, each: Element, tail: complex) -> complex | None:

@@ -121,7 +121,7 @@ def meet(first: Rail, second: Rail, unsure: float) -> Meeting:
     band = ROUNDING * (ring.radius + sum(map(abs, parts)))
     own = unsure + ray.unsure + ray.swing * (abs(foot - ray.at) + ring.radius) + ring.unsure
     half, blur, touches = _half(ring.radius, abs(distance), band, own, "the line misses the circle")
-    return Meeting({side: foot + side * half * ray.along for side in (NEARER, FARTHER)}, blur, touches)
+    return Meeting({side: foot + side * half * ray.along for side in (NEARER, FARTHER)}, blur + band + own, touches)
 
 
 def _cross_lines(first: Ray, second: Ray, unsure: float) -> Meeting:
@@ -149,14 +149,15 @@ def _cross_circles(first: Ring, second: Ring, unsure: float) -> Meeting:
     own = (unsure + first.unsure + second.unsure) * stretch
     half, blur, touches = _half(first.radius, abs(ahead), band, own, "the circles do not meet")
     foot = first.center + ahead * along
-    return Meeting({side: foot - side * half * 1j * along for side in (LEFT, RIGHT)}, blur + own, touches)
+    places = {side: foot - side * half * 1j * along for side in (LEFT, RIGHT)}
+    return Meeting(places, blur + band + own, touches)
 
 
 def _half(radius: float, distance: float, band: float, own: float, without: str) -> tuple[float, float, bool | None]:
     """Half a chord at a distance from the centre, what rounding does to it, and whether it is next to nothing."""
     gap = radius - distance
     touches: bool | None = None
-    if abs(gap) <= band / _FEW - own:
+    if abs(gap) <= band / _FEW and own <= band / _FEW:
         touches = True
     elif abs(gap) > _FEW * band + own:
         touches = False

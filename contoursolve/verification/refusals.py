@@ -54,6 +54,39 @@ def _g111(claim: Claim) -> Iterator[str]:
     yield from (f"{name} cannot stand in the block" for name in ("M", "S", "T", "other G") if name in stated)
 
 
+def _g112(claim: Claim) -> Iterator[str]:
+    """YASNAC LX3 2.8.30, p. 144: the words of G112, the signs of its corners and of R."""
+    stated, given = set(claim.words), claim.givens
+    ends = stated & {"X", "U", "Z", "W"}
+    if not ends or not stated >= {"I", "K", "R"}:
+        yield "a word is missing"
+    if len(ends) > 1:
+        yield "two words give the line on which corner 2 lands"
+    yield from (f"{' and '.join(pair)} exclude each other" for pair in ("CP", "DQ") if stated >= {*pair})
+    yield from (f"{name} is negative" for name in "CPDQ" if name in given and given[name].value < 0)
+    if "R" in given and given["R"].value <= 0:
+        yield "R is not positive"
+    yield from (f"{name} cannot stand in the block" for name in ("M", "S", "T", "other G") if name in stated)
+
+
+def _leaving(claim: Claim) -> Iterator[str]:
+    """YASNAC LX3 p. 31-32: one axis a block, with the letter of the other one."""
+    stated, given = set(claim.words), claim.givens
+    by_x, by_z, letters = stated & {"X", "U"}, stated & {"Z", "W"}, stated & {"I", "K"}
+    if by_x and by_z:
+        yield "both axes in one block"
+    elif not (by_x or by_z):
+        yield "no axis"
+    else:
+        if letters != {"K" if by_x else "I"}:
+            yield "no corner, or one along the axis of the move"
+        if max(len(by_x), len(by_z)) > 1:
+            yield "one axis twice"
+    yield from (f"{name} is 0" for name in sorted(letters) if name in given and not given[name].value)
+    if "other G" in stated:
+        yield "another G code that uses the axis words"
+
+
 def _nct(claim: Claim) -> Iterator[str]:
     """NCT 99M chapter 16, block by block, then pair by pair."""
     for each in elements_of(claim):
@@ -123,6 +156,8 @@ def _of_shape(each: Element, names: set[str], given: Mapping[str, Decimal]) -> I
 
 _SHEETS: Mapping[str, Callable[[Claim], Iterator[str]]] = {
     "G111": _g111,
+    "G112": _g112,
+    **dict.fromkeys(("G11", "G12", "G01"), _leaving),
     **dict.fromkeys(("line-angle", "corners", "line-line", "line-circle", "circle-line", "circle-circle"), _nct),
     "chain": _nct,
 }
