@@ -212,9 +212,11 @@ the one that the words choose is worked out."""
 
 
 def count_choices(profile: Profile) -> int:
-    """The points that may lie in two places each, for all that the form says of it; 0 where there is no closed form."""
+    """The points that may lie in two places each, for all that the form says of it; 0 where the system is not
+    determined or has no closed form."""
     system, decided = assemble(profile), {choice.point for choice in profile.choices if not choice.given}
-    return len({*points_with_two_solutions(system)} - decided) if is_closed(system) else 0
+    is_ordered = judge(system).is_determined and is_closed(system)
+    return len({*points_with_two_solutions(system)} - decided) if is_ordered else 0
 
 
 def list_alternatives(answer: Answer) -> Alternatives | None:
@@ -262,12 +264,13 @@ def _state_more(
     # Few blocks state more than their words.
     from contoursolve.statements import Flaw, apply_statements  # noqa: PLC0415
 
-    profile, faults = apply_statements(profile, claim.directives, next_place)
+    extended, faults = apply_statements(profile, claim.directives, next_place)
     kinds = {Flaw.UNREADABLE: Trouble.FACT_UNREADABLE, Flaw.IMPOSSIBLE: Trouble.FACT_IMPOSSIBLE}
     for fault in faults:
         rule = context.row(kinds[fault.flaw])
         notebook.add(report(context, rule, Basis.RULE, [fault.word], reason=fault.message), Status.REJECTED)
-    return profile, not faults
+    # With a fact that cannot be used, the others may speak of what is not drawn.
+    return profile if faults else extended, not faults
 
 
 def answer_question(question: Question, profile: Profile, solution: Solution) -> AskedValue:
@@ -301,8 +304,9 @@ def _examine_geometry(
     system = assemble(profile)
     says_too_much = len(system.facts) > len(system.unknowns)
     is_solvable = not structure and profile.start.is_known
-    is_short = is_solvable and count_choices(profile) <= MOST_CHOICES
-    if is_short and is_refused and not profile.is_extended and _has_choice(profile):
+    is_open = is_solvable and is_refused and not profile.is_extended and _has_choice(profile)
+    is_long = is_open and count_choices(profile) > MOST_CHOICES
+    if is_open and not is_long:
         # Which contours the missing word could choose is worth knowing.
         return Solution(Status.UNDERDETERMINED), _solve(profile, context, notebook)[1]
     if structure and not is_refused and profile.is_extended and profile.start.is_known:
@@ -310,7 +314,7 @@ def _examine_geometry(
 
         for event in said_twice(profile):
             notebook.add(explain_result(context, event, profile), Status.CONFLICTING)
-    if not is_solvable or (is_refused and not says_too_much):
+    if not is_solvable or is_long or (is_refused and not says_too_much):
         return Solution(Status.UNDERDETERMINED), None
     solution, alternatives = _solve(profile, context, notebook)
     events: list[Refusal | Remark] = [*solution.refusals, *solution.remarks]

@@ -153,6 +153,10 @@ def _named(words: Sequence[Word], names: Mapping[str, Word]) -> Iterable[tuple[s
 def explain_offence(context: Context, offence: Offence, comparison: str = "") -> Diagnostic:
     """A rule on combinations that holds."""
     words = [context.words[name] for name in offence.names if name in context.words]
+    block = [word.span for name, word in context.words.items() if name.startswith(offence.role.prefixes[-1])]
+    if not words and block and min(block).line != context.place.line:
+        # What is missing is missing in the last block that the rule is about.
+        context = replace(context, place=min(block))
     return report(context, offence.rule, Basis.RULE, words, comparison=comparison)
 
 

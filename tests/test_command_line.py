@@ -401,7 +401,7 @@ BAD = {
     "a line by its angle and no coordinate": (MILL + "G1 ,A30", "nct-coordinate-missing"),
     "a corner before positioning": (MILL + "G1 X60 ,C2\nG0 X70", "nct-corner-without-next"),
     "a chamfer and a rounding": (MILL + "G1 X60 ,C2 ,R2\nY20", "nct-two-corners"),
-    "an ordinary arc off its centre": (MILL + "G3 X-50 Y2 I-50 J0", "nct-radius-difference"),
+    "an ordinary arc off its centre": (MILL + "G3 X-50 Y2 I-50 J0\nG1 X-60 ,A180", "nct-radius-difference"),
     "line over-defined at the beginning": (
         "G17 G41\nG1 X-50 Y42.857 ,A171.87 Q-1",
         "nct-nothing-before position-unknown",

@@ -6,8 +6,10 @@ against the oracle's verdict. Set MILL_INSTANCES to draw so many of each form (d
 
 import json
 import os
+import re
+import time
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from itertools import product
 from random import Random
 from typing import Any
@@ -18,7 +20,8 @@ from oracle import PLANES
 from oracle_corners import miss
 from oracle_nct import Run, runs
 
-from contoursolve import Result, solve
+from contoursolve import Result, check, solve
+from contoursolve.dialects import DIALECTS
 from contoursolve.output.document import to_json
 
 CLOSE = 1e-8
@@ -164,3 +167,108 @@ def test_blocks_that_nobody_drew_are_solved_or_refused_as_the_sheet_says():
         statuses[compare(program, expected)] += 1
     assert statuses[""] < 0.03 * statuses.total()
     assert min(statuses[status] for status in ("solved", "no-solution", "conflicting", "rejected")) > INSTANCES // 4
+
+
+def subsets() -> Iterator[tuple[str, list[str]]]:
+    """Every set of the optional words of every form's sample."""
+    optional = re.compile(r"\{([^}]*)\}")
+    for form in DIALECTS["nct-99m"].forms:
+        texts = [word for block in form.sample.blocks for word in optional.findall(block)]
+        for kept in product((True, False), repeat=len(texts)):
+            keep = iter(kept)
+            blocks = [
+                optional.sub(lambda word, keep=keep: word[1] if next(keep) else "", b) for b in form.sample.blocks
+            ]
+            yield form.name, [form.sample.before, *blocks]
+
+
+@pytest.mark.parametrize("rules", ["enforce", "off"])
+def test_every_set_of_words_of_a_form_gets_a_status(rules):
+    for name, program in subsets():
+        result = solve_mill(program, rules)
+        assert result.answers, program
+        for answer in result.answers:
+            assert (answer.contour is None) == result.has_errors, (name, program)
+
+
+# Ordinary arcs --------------------------------------------------------------------------------------------
+
+AT = "G17 G90 G0 X0 Y0 Z0"
+
+
+@pytest.mark.parametrize(
+    ("block", "codes"),
+    [
+        ("G2 X30 Y2 I15 J0", {"nct-radius-difference"}),
+        ("G2 X30 Y5 I15 J0 Z-5", {"nct-radius-difference"}),
+        ("G2 X30 R14.999", {"nct-radius-too-small"}),
+        ("G2 X30 I15 K0", {"nct-center-outside-plane"}),
+        ("G2 R15", {"nct-radius-without-point"}),
+        ("G2 X30", {"nct-circle-undefined"}),
+        ("G2 X0 Y0 R15", {"nct-circle-degenerate"}),
+        ("G2 X30 I15 ,A30", {"nct-angle-on-arc"}),
+        ("G2 X30 R15", set()),
+        ("G2 X30 I15 Z-5", set()),
+        ("G2 I15", set()),
+        ("G2 X0 Y0 I15", set()),
+        ("G91 G2 X0 Y0 I15", set()),
+        ("G2 X#1 Y2 I15", set()),
+    ],
+)
+def test_an_ordinary_arc_is_checked_and_not_listed(block, codes):
+    found = check("\n".join((AT, block)), control="nct-99m")
+    assert {each.code for each in found if each.severity.value == "error"} == codes
+    assert solve_mill((AT, block)).answers == ()
+
+
+def test_an_arc_from_an_unknown_point_says_nothing():
+    assert {each.code for each in check("G17 G90\nG2 X30 Y5 I15 J0", control="nct-99m")} == {"no-contour"}
+
+
+# Chains that are wrong ------------------------------------------------------------------------------------
+
+
+def spoil(program: Sequence[str], kind: str) -> tuple[list[str], int]:
+    """A program with one mistake in the middle of its chain, and the line that has it."""
+    lines = list(program)
+    for index in range(len(lines) // 2, len(lines)):
+        if kind == "no Q" and "Q" in lines[index] and ",A" in lines[index]:
+            lines[index] = re.sub(r"Q\S+", "", lines[index])
+        elif kind == "Q0" and "Q" in lines[index]:
+            lines[index] = re.sub(r"Q\S+", "Q0", lines[index])
+        elif kind == "off its circle" and "Q" in lines[index] and "I" in lines[index]:
+            lines[index] = re.sub(r"X\S+", "X500", lines[index])
+        elif kind == "corner twice" and ",C" not in lines[index] and ",R" not in lines[index]:
+            lines[index] += " ,C1 ,R1"
+        else:
+            continue
+        break
+    return lines, index + 1
+
+
+@pytest.mark.parametrize(
+    ("kind", "code"),
+    [
+        ("no Q", "nct-q-missing"),
+        ("Q0", "nct-q-zero"),
+        ("off its circle", "nct-radius-difference"),
+        ("corner twice", "nct-two-corners"),
+    ],
+)
+def test_a_mistake_in_a_long_chain_is_found_in_its_block_and_soon(kind, code):
+    drawn = random_chain(Random(0), 19, 17, corners=0)
+    program, line = spoil(drawn.program, kind)
+    began = time.perf_counter()
+    result = solve_mill(program, depth="full")
+    assert time.perf_counter() - began < 10  # a chain of 20 whose alternatives were all listed took minutes
+    finding = next(each for each in result.diagnostics if each.code == code)
+    assert line in {finding.span.line, *(label.span.line for label in finding.labels)}
+    assert len(finding.fixes) < 10
+
+
+def test_a_conflict_in_block_3_is_explained_with_the_word_of_block_1_that_it_rests_on():
+    (answer,) = solve_mill(
+        ("G17 G90 G41 G0 X90 Y10", "G1 ,A150", "X10 Y20 ,A225", "X10 Y80 ,A225"), depth="full"
+    ).answers
+    assert answer.status.value == "no-solution"
+    assert {label.span.line for label in answer.diagnostics[0].labels} >= {3, 4}

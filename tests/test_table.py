@@ -24,7 +24,13 @@ def tables() -> dict[str, str]:
     outcome = CliRunner().invoke(main, ["rules", "--table"])
     assert outcome.exit_code == 0
     parts = outcome.output.rstrip("\n").split("\n\n")
-    return {part.split()[1].rstrip(",").lower(): part.strip("\n") + "\n" for part in parts}
+    return {_name(part): part.strip("\n") + "\n" for part in parts}
+
+
+def _name(part: str) -> str:
+    """The form's name; where a form goes along either axis, with which."""
+    name, _, *way = part.partition(" ")[2].partition(":")[0].split(", ")
+    return " ".join((name, *way)).lower().replace(" ", "-")
 
 
 @lru_cache(maxsize=1)

@@ -20,7 +20,11 @@ from contoursolve.syntax import parse_block
 from contoursolve.tolerance import AGREEMENT
 
 MOST_TRIED = 60
-"""Changed blocks that are considered for one contour; beyond it the list is not called complete."""
+"""Changed blocks that are considered for one contour, fewer for a chain, whose every trial takes longer; beyond it the
+list is not called complete."""
+
+LARGEST_ROLE = 2
+"""Blocks that a rule sees at once."""
 
 
 EASY_STEP, LARGEST_STEP = 4, 12
@@ -75,16 +79,19 @@ def choose_repairs(
     found: list[Repair] = []
     tried: set[tuple[Edit, ...]] = set()
     spent = 0
+    most = MOST_TRIED if len(claim.blocks) <= LARGEST_ROLE else max(8, 2 * MOST_TRIED // len(claim.blocks))
     for drafts in stages:
         for edits in drafts:
-            if len(tried) + spent < MOST_TRIED and not any(set(other.edits) <= set(edits) for other in found):
+            if len(tried) > most:
+                break
+            if len(tried) + spent < most and not any(set(other.edits) <= set(edits) for other in found):
                 repair = _try(claim, dialect, edits, before) if edits not in tried else None
                 found += [repair] if repair else []
                 spent += _extra(claim, dialect, edits, before)
             tried.add(edits)
     found = [repair for repair in found if not any(set(other.edits) < set(repair.edits) for other in found)]
     found.sort(key=_order)
-    return Repairs(tuple(found), is_complete=len(tried) + spent <= MOST_TRIED)
+    return Repairs(tuple(found), is_complete=len(tried) + spent <= most)
 
 
 def _order(repair: Repair) -> tuple[bool, int, int, float]:
@@ -153,7 +160,9 @@ def _largest_step(found: Claim, before: Before) -> int:
     profile = read(found, frozenset())
     if not profile.is_extended:
         return 0
-    profile, _ = _with_facts(profile, found, before.next_place)
+    profile, is_usable = _with_facts(profile, found, before.next_place)
+    if not is_usable:
+        return 0
     system = assemble(profile)
     verdict = judge(system)
     if not verdict.is_determined:

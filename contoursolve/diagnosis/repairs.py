@@ -9,13 +9,13 @@ from itertools import combinations, product
 from math import copysign
 
 from contoursolve.diagnosis.affine import AffineFacts, Circuit, affine_facts
-from contoursolve.diagnosis.attempt import Before, Repairs, choose_repairs
+from contoursolve.diagnosis.attempt import LARGEST_ROLE, Before, Repairs, choose_repairs
 from contoursolve.diagnosis.drafts import change, drop, has_faults, marked, missing_points, unreadable, variants
 from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, write_word
 from contoursolve.diagnostic import Diagnostic, Severity
 from contoursolve.dialects import Dialect
-from contoursolve.examine import Answer, Policy, examine
-from contoursolve.model import Given, Profile, Unit
+from contoursolve.examine import MOST_CHOICES, Answer, Policy, count_choices, examine
+from contoursolve.model import Given, Profile, Role, Unit
 from contoursolve.reading import Claim, Form, read
 from contoursolve.rules import Rule, check
 from contoursolve.solving import Status, lookup
@@ -43,7 +43,9 @@ def find_repairs(answer: Answer, dialect: Dialect) -> Repairs:
         repairs = choose_repairs(claim, dialect, further_drafts(answer, dialect, before), before)
         return Repairs(repairs.repairs, is_complete=False)
     whole = _Geometry.of(claim)
-    reference = answer.contour or examine(claim, dialect.rules, Policy.OFF).contour
+    reference = answer.contour
+    if reference is None and count_choices(answer.profile) <= MOST_CHOICES:
+        reference = examine(claim, dialect.rules, Policy.OFF).contour
     stages = (stage(answer, dialect, whole) for stage in (_sets, _values, _slips))
     return choose_repairs(claim, dialect, (missing_points(answer), marked(answer), *stages), Before(codes, reference))
 
@@ -185,15 +187,70 @@ def smallest_changes(
 
     if is_clean(form, rules, present, circumstances):
         one = (frozenset({name}) for name in sorted(present))
-        exchanged = (frozenset({old, new}) for old in sorted(present & extra) for new in sorted(extra - present))
+        exchanged = (
+            frozenset({old, new})
+            for old in sorted(present & extra)
+            for new in sorted(extra - present)
+            if not _is_chain(form) or _block(old) == _block(new)
+        )
         changes = (frozenset(), *one, *exchanged)
         return tuple(change for change in changes if is_clean(form, rules, present ^ change, circumstances))
+    if not _is_chain(form):
+        return _smallest(form.roles, rules, present, present | extra, circumstances)
+    # What one block of a chain says is legal or not whatever blocks far from it say.
+    parts = []
+    for prefixes in _offending(form.roles, rules, present | circumstances):
+        roles = tuple(role for role in form.roles if prefixes & set(role.prefixes))
+        near = {prefix for role in roles for prefix in role.prefixes}
+        own, around = (
+            frozenset(name for name in present | extra | circumstances if _block(name) in blocks)
+            for blocks in (prefixes, near)
+        )
+        parts.append(_smallest(roles, rules, present & around, own & (present | extra), circumstances & around))
+    unions = (frozenset().union(*choice) for choice in product(*parts))
+    return tuple(change for change in unions if len(change) <= MOST_EDITS and change)
+
+
+def _is_chain(form: Form) -> bool:
+    """Whether it has more blocks than a rule sees at once."""
+    return (
+        len(form.combinations) > LARGEST_ROLE and len({prefix for role in form.roles for prefix in role.prefixes}) > 1
+    )
+
+
+def _block(name: str) -> str:
+    """The beginning that the names of one block share."""
+    return name.partition(":")[0] + ":"
+
+
+def _offending(roles: tuple[Role, ...], rules: tuple[Rule, ...], stated: frozenset[str]) -> list[set[str]]:
+    """The beginnings of the names of blocks that are refused; those that are refused together in one set."""
+    groups: list[set[str]] = []
+    for role in roles:
+        if check(rules, (role,), dict.fromkeys(stated)):
+            group = set(role.prefixes)
+            for other in [other for other in groups if other & group]:
+                groups.remove(other)
+                group |= other
+            groups.append(group)
+    return groups
+
+
+def _smallest(
+    roles: tuple[Role, ...],
+    rules: tuple[Rule, ...],
+    present: frozenset[str],
+    touched: frozenset[str],
+    circumstances: frozenset[str],
+) -> tuple[frozenset[str], ...]:
+    """The smallest changes among the names that may be touched after which no rule about these roles holds."""
     found: list[frozenset[str]] = []
-    universe = sorted(present | extra)
+    universe = sorted(touched)
     for size in range(1, MOST_EDITS + 1):
         for names in combinations(universe, size):
             change = frozenset(names)
-            if not any(other <= change for other in found) and is_clean(form, rules, present ^ change, circumstances):
+            stated = dict.fromkeys(present ^ change | circumstances)
+            if not any(other <= change for other in found) and not check(rules, roles, stated):
                 found.append(change)
     return tuple(found)
 

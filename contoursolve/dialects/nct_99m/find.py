@@ -99,12 +99,13 @@ def _has_corner(block: Block) -> bool:
 
 def _is_tied_alone(block: Block, here: State, modes: Modes) -> bool:
     """Whether a block is calculated although nothing follows that belongs to it: a line by its angle (16.2), one with
-    a corner, and an arc with an end, which is checked; about its centre, it is a full circle if that is where it
-    begins (assumed)."""
+    a corner, and an arc with an end, which is checked if its values are known; about its centre, it is a full circle
+    if that is where it begins (assumed)."""
     stated = _stated(block)
     if _has_corner(block) or ",A" in stated:
         return True
-    if here.motion not in _TURNS or not stated & {*here.plane.axes, "R"}:
+    is_variable = any(word.number is None and not word.is_asked for word in block.words)
+    if here.motion not in _TURNS or not stated & {*here.plane.axes, "R"} or is_variable:
         return False
     return "R" in stated or not stated & {*here.plane.centers} or not _ends_where_it_begins(block, here, modes)
 

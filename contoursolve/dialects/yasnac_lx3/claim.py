@@ -1,9 +1,10 @@
 """YASNAC LX3: a block as a contour of some form, with every word by the name of the given that it states."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
+from functools import lru_cache
 
-from contoursolve.dialects.yasnac_lx3.lexicon import AXIS_45, BEVEL, SETBACK
+from contoursolve.dialects.yasnac_lx3.lexicon import ADDRESSES, AXIS_45, BEVEL, SETBACK
 from contoursolve.model import Choice, CornerShape, Given
 from contoursolve.reading import Claim, Code, Effect, Form, Modes, State, codes_of
 from contoursolve.syntax import Block, Word
@@ -58,20 +59,25 @@ def claim_of(
         form=form,
         lexicon=lexicon,
         blocks=(block,),
-        before=replace(before, unit=after.unit),
+        before=before if before.unit is after.unit else replace(before, unit=after.unit),
         after=after,
         words={**known, **{name: word for name, word in words.items() if name in named}},
         givens={
             **{name: given for name, given in givens.items() if given is not None},
             **{given.name: given for given in supplied},
         },
-        vocabulary={address: (address, 0) for address in sorted(form.allowed & lexicon.addresses.keys())},
+        vocabulary=_vocabulary(form),
         unknown=tuple(word for word in words.values() if word.address not in form.allowed | named | {"G"}),
         repeated=tuple(repeated),
         circumstances=frozenset(circumstances),
         choices=tuple(choices),
         conventions=(modes.convention(BEVEL),) if any(word in known for word in bevels) else (),
     )
+
+
+@lru_cache(maxsize=32)
+def _vocabulary(form: Form) -> Mapping[str, tuple[str, int]]:
+    return {row.address: (row.address, 0) for row in ADDRESSES if row.address in form.allowed}
 
 
 _CONVENTIONAL = (CornerShape.CHAMFER_AXIS_45, CornerShape.CHAMFER_SETBACK)

@@ -66,5 +66,7 @@ G111 = g111(CornerShape.CHAMFER_AXIS_45)
 def claim_g111(block: Block, state: State, modes: Modes) -> Claim:
     """The contour of a block with G111."""
     # G111 is not modal: what it stands with applies, and the motion before it stays in force.
-    after = replace(apply_modes(state, block, modes), motion=state.motion)
+    after = apply_modes(state, block, modes)
+    if after.motion != state.motion:
+        after = replace(after, motion=state.motion)
     return claim_of(block, g111(bevel_of(modes)), 111, state, after, modes, REFUSED)
