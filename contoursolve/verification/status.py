@@ -83,8 +83,10 @@ def check_diagnosis(found: Found, claimed: ClaimedContour, ledger: Ledger) -> No
     if diagnosis is None or checker is None:
         return
     is_known = None not in claim.before.start().values and not any(block.faults for block in claim.blocks)
-    ledger.require("ties are complete where the block can be read", (), diagnosis.ties_complete == is_known, "")
-    if claim.directives:
+    is_extended = bool(claim.directives) or any(word.is_asked for word in claim.words.values())
+    is_whole = diagnosis.ties_complete == (is_known and not is_extended)
+    ledger.require("ties are complete where the block can be read and has no further facts", (), is_whole, "")
+    if is_extended:
         ledger.omit("the ties and freedoms of the diagnosis", "with further facts they were not worked out")
     elif is_known:
         checker.diagnose(_nowhere(found, claimed, checker), diagnosis, ledger)
