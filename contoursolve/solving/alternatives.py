@@ -269,7 +269,10 @@ def _sides(system: System, at: Values, chosen: Set[str]) -> dict[str, str]:
 
     sides: dict[str, str] = {}
     circles = [fact for fact in system.facts if isinstance(fact, OnCircle)]
-    unknown = set(system.figure.points)
+    axes = {(fact.point, fact.axis) for fact in system.facts if isinstance(fact, Coordinate | Offset)}
+    stated = {point for point, _ in axes}
+    # A point whose coordinates are both stated is at one place, whatever else passes through it.
+    unknown = {point for point in system.figure.points if not {(point, FIRST), (point, SECOND)} <= axes}
     beside = (line for line in system.figure.lines if line.heading is not None)
     for line in (*(element for element in system.figure.path if isinstance(element, Line)), *beside):
         for circle in circles:
@@ -288,7 +291,6 @@ def _sides(system: System, at: Values, chosen: Set[str]) -> dict[str, str]:
             left = centers[FIRST] * spoke[SECOND] - centers[SECOND] * spoke[FIRST]
             sides[first.head] = name(left, Side.LEFT.value, Side.RIGHT.value)
     ends = {element.head for element in system.figure.path}
-    stated = {fact.point for fact in system.facts if isinstance(fact, Coordinate | Offset)}
     for arc in arcs:
         on_it = [circle.point for circle in circles if circle.center == arc.center]
         others = [point for point in on_it if point != arc.tail and point not in sides]

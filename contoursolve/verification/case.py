@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from decimal import Decimal
 from math import floor, log10
 
-from contoursolve.model import FIRST, SECOND, Arc, Turn
+from contoursolve.model import FIRST, SECOND, Turn
 from contoursolve.reading import Claim
 from contoursolve.tolerance import ERROR_BOUND_WARNING, RESIDUAL
 from contoursolve.verification.claimed import ClaimedContour, ClaimedElement, Rules
@@ -148,11 +148,6 @@ def make_case(claim: Claim, claimed: ClaimedContour, origin: Origin, start_error
     # The solver went on from an end of its own, of which the result has 12 decimals.
     inherited = start_error + EPSILON * size if start_error else 0.0
     return Case(claim, claimed, origin, end, points, moves, size, reach, inherited, grain=_grain(claimed))
-
-
-def turn_of(case: Case) -> Turn:
-    """The sense of the only arc of a form, as its G code says."""
-    return next(element.turn for element in case.claim.form.path if isinstance(element, Arc))
 
 
 def _grain(claimed: ClaimedContour) -> float:

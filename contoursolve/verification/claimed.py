@@ -178,6 +178,10 @@ class ClaimedContour:
     solutions: tuple[ClaimedSolution, ...] | None = None
     count: ClaimedCount | None = None
     diagnosis: ClaimedDiagnosis | None = None
+    branches: Mapping[str, str] | None = None
+    """The branch of each intersection, by its point."""
+    conventions: tuple[tuple[str, str], ...] | None = None
+    """Settings, with their values, on which the contour is said to rest."""
 
     @property
     def has_path(self) -> bool:
@@ -189,9 +193,11 @@ class ClaimedContour:
 @dataclass(frozen=True, slots=True)
 class ClaimedResult:
     """Everything of a result that can be checked; `control` is None where it names none, `rules` where it does not
-    say under which policy it was made. `findings` is how many findings it has, which are not looked at."""
+    say under which policy it was made, `settings` (by `control.name`) where it does not say under which conventions.
+    `findings` is how many findings it has, which are not looked at."""
 
     control: str | None
     rules: Rules | None
+    settings: Mapping[str, str] | None
     findings: int
     contours: tuple[ClaimedContour, ...]

@@ -20,13 +20,14 @@ def check_contour(found: Found, claimed: ClaimedContour) -> tuple[Ledger, bool]:
     _check_place(claim, claimed, ledger)
     _check_start(claim, claimed, ledger)
     _check_facts(claim, claimed, ledger)
+    _check_conventions(claim, claimed, ledger)
     if claimed.has_path:
         is_checked = examine(found, claimed, ledger)
     else:
         is_checked, status = False, claimed.status.value
         ledger.require("a contour with this status has no path", (), claimed.path.is_empty, f"{status}, with a path")
         ledger.omit("the path", f"claimed {status}: there is none to check")
-        given = (claimed.certificate.radius, claimed.certificate.gap, claimed.branch)
+        given = (claimed.certificate.radius, claimed.certificate.gap, claimed.branch, claimed.branches or None)
         is_bare = all(each is None for each in given)
         ledger.require("without a path nothing is certified or chosen", (), is_bare, "something is")
         values = [each.word for each in claimed.asked or () if each.value is not None]
@@ -68,6 +69,15 @@ def _check_questions(claim: Claim, asked: Sequence[ClaimedAsked], ledger: Ledger
     for each in asked:
         is_known = (each.word, each.line) in places
         ledger.require("what is answered is asked there", [each.word], is_known, f"not on line {each.line}")
+
+
+def _check_conventions(claim: Claim, claimed: ClaimedContour, ledger: Ledger) -> None:
+    """The result names the conventions on which the reading of these blocks rests, and their values."""
+    if claimed.conventions is not None:
+        known = [(each.setting.name, each.value) for each in claim.conventions]
+        shown = ", ".join(f"{name}={value}" for name, value in known) or "none"
+        is_same = sorted(claimed.conventions) == sorted(known)
+        ledger.require("the conventions are those in force", (), is_same, f"{shown} by the program")
 
 
 def _check_facts(claim: Claim, claimed: ClaimedContour, ledger: Ledger) -> None:

@@ -33,16 +33,20 @@ def examine(found: Found, claimed: ClaimedContour, ledger: Ledger, selected: Map
     case = make_case(claim, claimed, (first, second), found.start_error)
     case = replace(
         case,
-        facts=read_facts(claim, checker.elements, checker.points, found.apart),
-        choices=signs_of(claim, checker.choosing) if selected is None else selected,
+        facts=read_facts(claim, checker.elements(claim), checker.points(claim), found.apart),
+        choices=signs_of(claim, checker.choosing(claim)) if selected is None else selected,
         is_listed=selected is not None,
         is_selected=_is_selected(claimed),
         next_end=case.place(found.next_end) if found.next_end else None,
         rules=found.rules,
     )
-    check_path(case, ledger)
+    check_path(case, ledger, checker.slack)
     check_certificate(claimed.certificate, case.limit, ledger)
-    if _check_words(case, ledger, checker.reads) and check_readable(case.facts, ledger):
+    why_not = checker.why_not(case)
+    if why_not:
+        ledger.omit("the path", why_not)
+        return False
+    if _check_words(case, ledger, checker.reads(claim)) and check_readable(case.facts, ledger):
         checker.check(case, ledger)
         check_filled(case, ledger, checker, found.dialect)
     return True

@@ -114,12 +114,12 @@ def _asked(case: Case) -> list[Word]:
 
 
 def _choices(claim: Claim, checker: FormChecker) -> dict[str, int]:
-    numbers = {name: claim.words[name].number for name in checker.choosing if name in claim.words}
+    numbers = {name: claim.words[name].number for name in checker.choosing(claim) if name in claim.words}
     return {name: 1 if number > 0 else -1 for name, number in numbers.items() if number}
 
 
 def _ends(drawing: Drawing) -> list[complex]:
     """Where the elements of a drawing end, in order; without those of no length."""
-    order = [*drawing.chain[:1], "corner 1", *drawing.chain[1:], "corner 2"]
+    order = [each for number, name in enumerate(drawing.chain, 1) for each in (name, f"corner {number}")]
     shapes = [drawing.shapes[name] for name in order if name in drawing.shapes]
     return [shape.end for shape in shapes if abs(shape.end - shape.begin) >= SHORTEST]

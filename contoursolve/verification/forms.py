@@ -3,12 +3,19 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from contoursolve.verification import circle_line, circle_line_standing, circle_line_stated, g111, g111_standing, ties
+from contoursolve.model import Arc
+from contoursolve.reading import Claim
+from contoursolve.tolerance import RADIUS_DIFFERENCE
+from contoursolve.verification import g111, g111_standing, lathe, nct, nct_standing, nct_words, ties
 from contoursolve.verification.case import Case
 from contoursolve.verification.claimed import ClaimedDiagnosis
 from contoursolve.verification.drawing import Drawing
 from contoursolve.verification.ledger import Ledger
 from contoursolve.verification.standing import Standing
+
+
+def _never(_case: Case) -> str:
+    return ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -18,38 +25,74 @@ class FormChecker:
     `reads` are the names of the givens that this looks at, `choosing` those whose sign chooses between solutions.
     `elements` and `points` may be mentioned by facts. `redo` makes the contour of the words alone near the claimed
     one, None if they fix none there. `stand` tells how a contour of words alone stands, None where it cannot.
-    `diagnose` checks what a diagnosis says of such a contour.
+    `diagnose` checks what a diagnosis says of such a contour. `slack` (mm) is how far an arc may end off its circle.
     """
 
     check: Callable[[Case, Ledger], None]
     redo: Callable[[Case], Drawing | None]
-    reads: frozenset[str]
-    choosing: tuple[str, ...]
+    reads: Callable[[Claim], frozenset[str]]
+    choosing: Callable[[Claim], tuple[str, ...]]
     stand: Callable[[Case], Standing | None]
     diagnose: Callable[[Case, ClaimedDiagnosis, Ledger], None]
-    elements: tuple[str, ...]
-    points: tuple[str, ...]
+    slack: float = 0.0
+    why_not: Callable[[Case], str] = _never
+    """Why a contour is not checked; empty if it is."""
 
+    def elements(self, claim: Claim) -> tuple[str, ...]:
+        """The elements that facts may mention, and the corners."""
+        return (*(each.name for each in claim.form.path), *(corner.name for corner in claim.form.corners))
+
+    def points(self, claim: Claim) -> tuple[str, ...]:
+        """The points that facts may mention."""
+        centers = [each.center for each in claim.form.path if isinstance(each, Arc)]
+        heads = [each.head for each in claim.form.path]
+        return tuple(dict.fromkeys((claim.form.start, *centers, *claim.form.points, *heads)))
+
+
+def _g111_words(_claim: Claim) -> frozenset[str]:
+    return g111.READ
+
+
+def _none(_claim: Claim) -> tuple[str, ...]:
+    return ()
+
+
+def _lathe_words(_claim: Claim) -> frozenset[str]:
+    return lathe.READ
+
+
+_G111 = FormChecker(
+    check=g111.check,
+    redo=g111.redo,
+    reads=_g111_words,
+    choosing=_none,
+    stand=g111_standing.stand,
+    diagnose=ties.check_linear,
+)
+
+_NCT = FormChecker(
+    check=nct.check,
+    redo=nct.redo,
+    reads=nct_words.reads,
+    choosing=nct_words.choosing,
+    stand=nct_standing.stand,
+    diagnose=nct_standing.check_ties,
+    slack=RADIUS_DIFFERENCE,
+)
+
+_LATHE = FormChecker(
+    check=lathe.check,
+    redo=lathe.redo,
+    reads=_lathe_words,
+    choosing=_none,
+    stand=lathe.stand,
+    diagnose=lathe.check_ties,
+    why_not=lathe.why_not,
+)
 
 CHECKERS: Mapping[str, FormChecker] = {
-    "G111": FormChecker(
-        check=g111.check,
-        redo=g111.redo,
-        reads=g111.READ,
-        choosing=(),
-        stand=g111_standing.stand,
-        diagnose=ties.check_linear,
-        elements=("line 1", "line 2", "corner 1", "corner 2"),
-        points=("S", "V1", "V2"),
-    ),
-    "circle-line": FormChecker(
-        check=circle_line.check,
-        redo=circle_line_stated.redo,
-        reads=circle_line.READ,
-        choosing=circle_line.CHOOSING,
-        stand=circle_line_standing.stand,
-        diagnose=circle_line_standing.check_ties,
-        elements=("arc", "line"),
-        points=("S", "C", "N1", "P1", "N2"),
-    ),
+    "G111": _G111,
+    **dict.fromkeys(("line-angle", "corners", "line-line", "line-circle", "circle-line", "circle-circle"), _NCT),
+    "chain": _NCT,
+    **dict.fromkeys(("G112", "G11", "G12", "G01"), _LATHE),
 }

@@ -42,7 +42,7 @@ def check(case: Case, ledger: Ledger) -> None:
     if not ledger.require("the points are V1 and V2", (), case.points.keys() == {"V1", "V2"}, names):
         ledger.omit("the words of the block", "they are about V1 and V2")
         return
-    ledger.require("there is no choice of branch", (), case.claimed.branch is None, f"{case.claimed.branch!a}")
+    ledger.require("there is no choice of branch", (), case.claimed.branch is None and not case.claimed.branches)
     ignored = ignored_words(case)
     readings = [ignored]
     if case.rules is None and ignored and case.claimed.status is ClaimedStatus.OVERDETERMINED:
@@ -150,6 +150,7 @@ def _lines(case: Case, used: tuple[str, ...], points: tuple[complex, complex]) -
         landing=None if by_x == by_z else complex(1, 0) if by_x else complex(0, 1),
         zero=0.0 if "A" in used or not v1 else case.limit / abs(v1),
         meeting=_meeting(case, v2),
+        is_setback=any(each.value == "setback" for each in case.claim.conventions),
     )
 
 

@@ -11,7 +11,7 @@ from itertools import product
 
 from contoursolve.model import Turn
 from contoursolve.tolerance import LENGTH, REGULAR
-from contoursolve.verification.case import Case
+from contoursolve.verification.case import Case, Move
 from contoursolve.verification.g111_drawing import BEVELS, CORNERS, Lines, Sizes, Slots
 from contoursolve.verification.ledger import Ledger
 from contoursolve.verification.measure import PRINTED, cross, dot, sign
@@ -43,7 +43,7 @@ def check_elements(case: Case, ledger: Ledger, lines: Lines) -> tuple[Slots, Siz
     """
     found = []
     for slots in _readings(case):
-        attempt, sizes = Ledger(), _sizes(case, slots)
+        attempt, sizes = Ledger(), _sizes(case, slots, is_setback=lines.is_setback)
         corners = {corner.name: corner for corner in _corners(case, attempt, lines, sizes)}
         if attempt.failures:
             attempt.omit("the elements", "the corners between them are not defined")
@@ -55,7 +55,7 @@ def check_elements(case: Case, ledger: Ledger, lines: Lines) -> tuple[Slots, Siz
         ledger.require("the elements are those that the words make", case.texts(*_WORDS), True)
         ledger.add(best[0])
         return best[1:]
-    list(_corners(case, ledger, lines, _sizes(case, {})))
+    list(_corners(case, ledger, lines, _sizes(case, {}, is_setback=False)))
     shown = ", ".join("arc" if move.circle else "line" for move in case.moves) or "nothing"
     wanted = ", ".join("arc" if shape else "line" for _, shape in _order(case))
     remark = f"found {shown}; the words make {wanted}"
@@ -95,17 +95,23 @@ def _readings(case: Case) -> Iterator[Slots]:
             yield dict(zip((name for name, _ in chosen), case.moves, strict=True))
 
 
-def _sizes(case: Case, slots: Slots) -> Sizes:
+def _size(move: Move, at: complex | None) -> float:
+    """The size of a claimed corner: its radius, how far it is set back from `at`, or its extent along the axes."""
+    run = move.end - move.start
+    extent = max(abs(run.real), abs(run.imag)) if at is None else abs(move.start - at)
+    return move.circle.radius if move.circle else extent
+
+
+def _sizes(case: Case, slots: Slots, *, is_setback: bool) -> Sizes:
     """Sizes as stated; one that is asked for is that of its element."""
     sizes: Sizes = {}
     for name, *_ in CORNERS:
+        at = case.points["V1" if name == "corner 1" else "V2"]
         for word in makers(case, name):
             if word not in case.asked:
                 sizes[word] = case.amount(word)
             elif name in slots:
-                move = slots[name]
-                run = move.end - move.start
-                sizes[word] = move.circle.radius if move.circle else max(abs(run.real), abs(run.imag))
+                sizes[word] = _size(slots[name], at if is_setback else None)
             else:
                 sizes[word] = 0.0
     return sizes
@@ -156,7 +162,7 @@ def _check_slots(case: Case, ledger: Ledger, lines: Lines, corners: dict[str, _C
         word = case.texts(corners["corner 1"].word)
         _check_between(limit, ledger, "corner 1 leaves line 1", word, (0j, lines.v1), lines.first, line1)
         _check_between(limit, ledger, "corner 1 joins line 2", word, (lines.v1, lines.v2), lines.second, joined)
-        if corners["corner 1"].word in BEVELS:
+        if corners["corner 1"].word in BEVELS and not lines.is_setback:
             # p. 138: refused where V1 lies outside the rectangle of start and end of line 2.
             out = max(0.0, *(max(min(0.0, to) - at, at - max(0.0, to)) for at, to in _sides(lines)))
             ledger.measure("V1 lies between the start and V2", word, out, case.limit)
@@ -214,7 +220,11 @@ def _check_corner(
         return reached
     corner, move = corners[name], slots[name]
     word = case.texts(corner.word)
-    if corner.word in BEVELS:
+    if corner.word in BEVELS and lines.is_setback:
+        for end, side in ((move.start, "before"), (move.end, "after")):
+            far = abs(end - corner.at) - corner.size
+            ledger.measure(f"{name} is set back by its size on the line {side}", word, far, case.limit + lines.slack)
+    elif corner.word in BEVELS:
         extent = corner.size * corner.quadrant
         ledger.measure(f"{name} is a 45 degree bevel", word, abs(move.end - move.start - extent), case.limit)
     elif move.circle:

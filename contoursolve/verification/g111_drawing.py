@@ -49,6 +49,8 @@ class Lines:
     landing: complex | None
     zero: float
     meeting: Meeting | None = None
+    is_setback: bool = False
+    """Whether a bevel is set back equally along both lines, by the setting, and not at 45 degrees."""
 
     @property
     def onward(self) -> complex:
@@ -95,6 +97,8 @@ def draw(lines: Lines, sizes: Sizes) -> Drawing:
             if after is None or not turn:
                 raise UnmeasurableError(f"{name} joins no two lines")
             shape = _draw_corner(at, before, after, sizes[word], quadrant if word in BEVELS else None)
+            if word in BEVELS and lines.is_setback:
+                shape = Bevel(at - sizes[word] * before, at + sizes[word] * after, sizes[word])
             ends[name], shapes[name] = (shape.begin, shape.end), shape
     straight = {
         "line 1": Straight(0j, lines.v1, 0j, ends["corner 1"][0], lines.first),

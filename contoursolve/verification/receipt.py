@@ -1,7 +1,8 @@
 """The receipt of a verification: what was checked against what, and the verdict, as records and as JSON."""
 
 import json
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from enum import Enum
 from typing import Any
 
@@ -53,6 +54,8 @@ class Receipt:
     rules: Rules | None = None
     start: str | None = None
     facts: tuple[str, ...] = ()
+    settings: Mapping[str, str] = field(default_factory=dict)
+    """Under which the program was read, as the result says, by `control.name`."""
 
     @property
     def verdict(self) -> Verdict:
@@ -74,6 +77,7 @@ def to_json(receipt: Receipt) -> str:
         "control": receipt.control,
         "units": receipt.unit.value,
         "rules": receipt.rules.value if receipt.rules else None,
+        "settings": dict(receipt.settings),
         "start": receipt.start,
         "facts": list(receipt.facts),
         "contours": [_contour(each) for each in receipt.contours],

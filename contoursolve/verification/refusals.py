@@ -1,10 +1,12 @@
 """Which words the sheets of the controls refuse, read here once more, without the tables of rules."""
 
 from collections.abc import Callable, Iterator, Mapping
+from decimal import Decimal
 
 from contoursolve.reading import Claim
 from contoursolve.syntax import FaultKind
 from contoursolve.tolerance import LARGEST
+from contoursolve.verification.nct_words import Element, choosing_pairs, elements_of
 
 TURNED = 360
 """Degrees. The largest angle of G111 (p. 140)."""
@@ -52,44 +54,110 @@ def _g111(claim: Claim) -> Iterator[str]:
     yield from (f"{name} cannot stand in the block" for name in ("M", "S", "T", "other G") if name in stated)
 
 
-def _circle_line(claim: Claim) -> Iterator[str]:
-    """NCT 99M 16.3.3."""
-    stated, around, given = set(claim.words), claim.circumstances, claim.givens
-    centers, point = {"1:center-first", "1:center-second"} & stated, {name for name in stated if _is_point(name)}
-    if "2:,A" in stated:
-        yield from (text for name, text in _WITH_ANGLE.items() if (name in around) is _FORBIDS[name])
-    is_pair = "@alone" not in around
-    if is_pair and "2:,A" in stated and "2:Q" not in stated:
-        yield "Q is missing"
-    if "2:Q" in given and not given["2:Q"].value:
-        yield "Q is 0"
-    if is_pair and not centers and "1:R" not in stated:
-        yield "the circle has neither a centre nor a radius"
-    if "1:R" in stated and centers:
-        yield "the circle has a centre and a radius"
-    if "1:R" in stated and not point:
-        yield "R has no point"
-    if "1:R" in given and not given["1:R"].value:
-        yield "R is 0"
-    yield from (f"{name} has no meaning there" for name in _NEVER if name in stated)
-    yield from (f"the pair is {name.removeprefix('@')}" for name in ("@chained", "@other-plane") if name in around)
+def _g112(claim: Claim) -> Iterator[str]:
+    """YASNAC LX3 2.8.30, p. 144: the words of G112, the signs of its corners and of R."""
+    stated, given = set(claim.words), claim.givens
+    ends = stated & {"X", "U", "Z", "W"}
+    if not ends or not stated >= {"I", "K", "R"}:
+        yield "a word is missing"
+    if len(ends) > 1:
+        yield "two words give the line on which corner 2 lands"
+    yield from (f"{' and '.join(pair)} exclude each other" for pair in ("CP", "DQ") if stated >= {*pair})
+    yield from (f"{name} is negative" for name in "CPDQ" if name in given and given[name].value < 0)
+    if "R" in given and given["R"].value <= 0:
+        yield "R is not positive"
+    yield from (f"{name} cannot stand in the block" for name in ("M", "S", "T", "other G") if name in stated)
 
 
-def _is_point(name: str) -> bool:
-    return name.removesuffix("-step") in ("1:first", "1:second")
+def _leaving(claim: Claim) -> Iterator[str]:
+    """YASNAC LX3 p. 31-32: one axis a block, with the letter of the other one."""
+    stated, given = set(claim.words), claim.givens
+    by_x, by_z, letters = stated & {"X", "U"}, stated & {"Z", "W"}, stated & {"I", "K"}
+    if by_x and by_z:
+        yield "both axes in one block"
+    elif not (by_x or by_z):
+        yield "no axis"
+    else:
+        if letters != {"K" if by_x else "I"}:
+            yield "no corner, or one along the axis of the move"
+        if max(len(by_x), len(by_z)) > 1:
+            yield "one axis twice"
+    yield from (f"{name} is 0" for name in sorted(letters) if name in given and not given[name].value)
+    if "other G" in stated:
+        yield "another G code that uses the axis words"
 
 
-_WITH_ANGLE = {
-    "@compensated": "without G41 or G42",
-    "@alone": "without an arc before it",
-    "@rapid": "with G0",
+def _nct(claim: Claim) -> Iterator[str]:
+    """NCT 99M chapter 16, block by block, then pair by pair."""
+    for each in elements_of(claim):
+        prefix = f"{each.number}:"
+        names = {name.removeprefix(prefix) for name in claim.words if name.startswith(prefix)}
+        around = {name.removeprefix(prefix) for name in claim.circumstances if name.startswith(prefix)}
+        given = {
+            name.removeprefix(prefix): each.value for name, each in claim.givens.items() if name.startswith(prefix)
+        }
+        for text in (*_of_place(each, names, around), *_of_shape(each, names, given)):
+            yield f"block {each.number}: {text}"
+    for _, each in choosing_pairs(claim):
+        q = each.given("Q")
+        if q not in claim.words:
+            yield f"block {each.number}: Q is missing"
+        elif q in claim.givens and not claim.givens[q].value:
+            yield f"block {each.number}: Q is 0"
+
+
+_CENTERS = {"center-first", "center-second"}
+_POINT = {"first", "first-step", "second", "second-step"}
+_BENDS = {",C", ",R"}
+
+
+def _of_place(each: Element, names: set[str], around: set[str]) -> Iterator[str]:
+    """What cannot stand where the block is."""
+    if each.is_over and names & {",A", "R"} and "@compensated" not in around:
+        yield "without G41 or G42"
+    if names & {",A", "Q"} and "@alone" in around:
+        yield "over-defined without an element before it"
+    if each.is_over and each.turn is None and ",A" in names and "@rapid" in around:
+        yield "with G0"
+    if not each.is_over and "Q" in names and "@alone" not in around:
+        yield "Q without an intersection"
+    if each.turn is None and not each.is_over and ",A" in names and names & _POINT and each.is_followed:
+        yield "its direction is given twice"
+    if names & _BENDS and "@last" in around:
+        yield "a corner and nothing after it"
+    if "off-plane" in names and "@ordinary" not in around:
+        yield "an axis outside the plane"
+    if "@other-plane" in around:
+        yield "in another plane"
+
+
+def _of_shape(each: Element, names: set[str], given: Mapping[str, Decimal]) -> Iterator[str]:
+    """What makes no line, no circle or no corner."""
+    if each.turn is None:
+        if names & {*_CENTERS, "wrong-center", "R"}:
+            yield "a line with a centre or a radius"
+    else:
+        if not each.is_over and not names & {*_CENTERS, "R"}:
+            yield "the circle has neither a centre nor a radius"
+        if not each.is_over and names & _CENTERS and "R" in names:
+            yield "the circle has a centre and a radius"
+        if not each.is_over and "R" in names and not names & _POINT:
+            yield "R has no point"
+        if "R" in given and not given["R"]:
+            yield "R is 0"
+        if "wrong-center" in names:
+            yield "a centre outside the plane"
+        if ",A" in names:
+            yield "an arc with an angle"
+    if names >= _BENDS:
+        yield "a chamfer and a rounding"
+    yield from (f"{name} is negative" for name in sorted(_BENDS) if name in given and given[name] < 0)
+
+
+_SHEETS: Mapping[str, Callable[[Claim], Iterator[str]]] = {
+    "G111": _g111,
+    "G112": _g112,
+    **dict.fromkeys(("G11", "G12", "G01"), _leaving),
+    **dict.fromkeys(("line-angle", "corners", "line-line", "line-circle", "circle-line", "circle-circle"), _nct),
+    "chain": _nct,
 }
-_FORBIDS = {"@compensated": False, "@alone": True, "@rapid": True}
-"""Whether a circumstance, or its absence, refuses a line with ,A."""
-
-_NEVER = (
-    *("1:wrong-center", "2:wrong-center", "2:center-first", "2:center-second", "2:R", "1:Q", "1:,A"),
-    *("1:off-plane", "2:off-plane", "1:,C", "1:,R", "2:,C", "2:,R"),
-)
-
-_SHEETS: Mapping[str, Callable[[Claim], Iterator[str]]] = {"G111": _g111, "circle-line": _circle_line}

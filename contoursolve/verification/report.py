@@ -19,7 +19,9 @@ def report_lines(receipt: Receipt) -> Iterator[str]:
         yield from _contour_lines(receipt, contour)
     for omission in receipt.omissions:
         yield f"{receipt.program.name}: not checked: {_plain(omission.what)}: {_plain(omission.why)}"
-    if receipt.contours or receipt.omissions:
+    for name, value in receipt.settings.items():
+        yield f"{receipt.program.name}: read with {_plain(name)}={_plain(value)}, as the result says"
+    if receipt.contours or receipt.omissions or receipt.settings:
         yield ""
     yield f"program {receipt.program.checksum}  {receipt.program.name}"
     yield f"result  {receipt.result.checksum}  {receipt.result.name}"

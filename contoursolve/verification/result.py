@@ -35,9 +35,11 @@ def read_result(document: Document) -> ClaimedResult:
     if schema != SCHEMA:
         root.field("schema").refuse(f"{shown(schema)} where {SCHEMA!r} is read: write it by 'solve --format json'")
     control, rules, findings = root.field("control").optional(), root.maybe("rules"), root.maybe("diagnostics")
+    settings = root.maybe("settings")
     return ClaimedResult(
         control.text() if control else None,
         Rules(rules.choice(tuple(each.value for each in Rules))) if rules else None,
+        _named(settings) if settings else None,
         len(list(findings.items())) if findings else 0,
         tuple(_contour(node) for node in root.field("contours").items()),
     )
@@ -47,6 +49,7 @@ def _contour(node: Node) -> ClaimedContour:
     branch = node.field("branch").optional()
     starts = (each.optional() for each in node.field("start").pair())
     facts, asked, filled = node.maybe("facts"), node.maybe("asked"), node.maybe("filled")
+    branches, conventions = node.maybe("branches"), node.maybe("conventions")
     solutions, count, diagnosis = node.maybe("solutions"), node.maybe("count"), node.maybe("diagnosis")
     return ClaimedContour(
         line=node.field("line").integer(),
@@ -64,7 +67,17 @@ def _contour(node: Node) -> ClaimedContour:
         solutions=tuple(_solution(each) for each in solutions.items()) if solutions else None,
         count=_count(count) if count else None,
         diagnosis=_diagnosis(diagnosis) if diagnosis else None,
+        branches=_named(branches) if branches else None,
+        conventions=tuple(map(_convention, conventions.items())) if conventions else None,
     )
+
+
+def _named(node: Node) -> dict[str, str]:
+    return {name: each.text() for name, each in node.fields().items()}
+
+
+def _convention(node: Node) -> tuple[str, str]:
+    return node.field("setting").text(), node.field("value").text()
 
 
 def _diagnosis(node: Node) -> ClaimedDiagnosis:

@@ -81,7 +81,7 @@ def check_solutions(found: Found, claimed: ClaimedContour, ledger: Ledger) -> bo
 def _is_eligible(found: Found, claimed: ClaimedContour, solution: ClaimedSolution) -> bool:
     """Whether a solution, right in all else, agrees with the words of the program that choose, too."""
     checker = CHECKERS.get(found.claim.form.name)
-    signs = signs_of(found.claim, checker.choosing if checker else ())
+    signs = signs_of(found.claim, checker.choosing(found.claim) if checker else ())
     if not signs:
         return True
     statuses = (ClaimedStatus.SOLVED, ClaimedStatus.OVERDETERMINED)
@@ -165,25 +165,37 @@ def _readings(found: Found, solution: ClaimedSolution) -> Iterator[tuple[Claimed
 
     A word that does not tell the solutions apart is not named by what selects them.
     """
-    checker = CHECKERS.get(found.claim.form.name)
-    named, words = _signs(found, solution), found.claim.words
-    choosing = checker.choosing if checker else ()
-    names = [name for name in choosing if name in named or (name in words and words[name].number)]
-    signs = [((named[name],) if name in named else (1, -1)) for name in names]
+    checker, words = CHECKERS.get(found.claim.form.name), found.claim.words
+    choosing = checker.choosing(found.claim) if checker else ()
     for status in (ClaimedStatus.SOLVED, ClaimedStatus.OVERDETERMINED):
-        for combination in product(*signs):
-            yield status, dict(zip(names, combination, strict=True))
+        for named in _signs(found, solution, choosing):
+            names = [name for name in choosing if name in named or (name in words and words[name].number)]
+            signs = [((named[name],) if name in named else (1, -1)) for name in names]
+            for combination in product(*signs):
+                yield status, dict(zip(names, combination, strict=True))
 
 
-def _signs(found: Found, solution: ClaimedSolution) -> dict[str, int]:
-    """The signs of the words that select a solution, by the names of their givens."""
-    signs = {}
-    for text in solution.selects:
-        for word in syntax.parse_block(text, 1).words:
-            for name, (address, _) in found.claim.vocabulary.items():
-                if address == word.address and word.number:
-                    signs[name] = 1 if word.number > 0 else -1
-    return signs
+def _signs(found: Found, solution: ClaimedSolution, choosing: tuple[str, ...]) -> Iterator[Signs]:
+    """The signs of the words that select a solution, by the names of their givens: what selects is in the order of
+    the blocks."""
+    vocabulary, words = found.claim.vocabulary, found.claim.words
+    selecting = [
+        word
+        for text in solution.selects
+        for word in syntax.parse_block(text, 1).words
+        if word.number and word.address in {vocabulary[name][0] for name in choosing if name in vocabulary}
+    ]
+    for names in combinations(choosing, len(selecting)):
+        pairs = list(zip(names, selecting, strict=True))
+        if all(vocabulary[name][0] == word.address and _has_size(words.get(name), word) for name, word in pairs):
+            yield {name: 1 if (word.number or 0) > 0 else -1 for name, word in pairs}
+
+
+def _has_size(stated: Word | None, word: Word) -> bool:
+    """Whether a word that selects has the size of the stated one, where its size means something."""
+    if word.address != "R" or stated is None or stated.number is None:
+        return word.address != "R" or stated is not None
+    return abs(stated.number) == abs(word.number or 0)
 
 
 def _attempt(
@@ -222,7 +234,8 @@ def _check_selects(
 def _check_fact(
     found: Found, solution: ClaimedSolution, others: list[ClaimedSolution], text: str, own: str, ledger: Ledger
 ) -> None:
-    plane, unit, points = found.claim.after.plane, found.claim.after.unit, CHECKERS[found.claim.form.name].points
+    plane, unit = found.claim.after.plane, found.claim.after.unit
+    points = CHECKERS[found.claim.form.name].points(found.claim)
     try:
         fact = read_statement(text, Vocabulary((), points, plane, unit))
     except GrammarError as error:
@@ -245,12 +258,12 @@ def _check_word(found: Found, solution: ClaimedSolution, word: Word, own: str, l
     given = claim.lexicon.given(word.address, word, unit) if word.address in claim.lexicon.addresses else None
     if not ledger.require(f"{own} is a word with a value", [word.text], given is not None) or given is None:
         return
+    if word.address == "R" and not any(each.is_asked for each in stated):
+        is_same = any(each.number is not None and abs(each.number) == abs(word.number or 0) for each in stated)
+        ledger.require(f"{own} has a radius of the program", [word.text], is_same, "it has no such R")
     for each in stated:
         answers = [asked for asked in solution.asked or () if (asked.word, asked.line) == (each.text, each.span.line)]
         if answers and answers[0].value is not None:
             value = abs(given.value) if word.address == "R" else given.value
             off, limit = answers[0].value - float(value), half_increment(given, claim.lexicon, unit) + RESIDUAL
             ledger.measure(f"{own} has the value that is asked for", [word.text], off, limit, given.unit.value)
-        elif word.address == "R" and each.number is not None and word.number is not None:
-            is_same = abs(each.number) == abs(word.number)
-            ledger.require(f"{own} has the program's radius", [word.text], is_same, each.text)

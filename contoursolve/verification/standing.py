@@ -33,6 +33,8 @@ class Standing:
     is_loose: bool = False
     is_over: bool = False
     candidates: tuple[Candidate, ...] | None = ()
+    is_all: bool = True
+    """Whether these are all; otherwise they are what the signs of the words choose."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -41,11 +41,13 @@ def check_status(found: Found, claimed: ClaimedContour, ledger: Ledger) -> bool:
         ledger.omit("the status", "rounding, or the order in which words are solved for, decides it")
         return False
     feasible = [each for each in standing.candidates or () if _is_path(found, claimed, each, standing)]
-    expected = _expected(standing, feasible, signs_of(claim, checker.choosing))
+    expected = _expected(standing, feasible, signs_of(claim, checker.choosing(claim)))
     words = [word.text for word in claim.words.values()]
     remark = f"by the words it is {expected.value}"
     ledger.require("the status is the one that the words give", words, claimed.status is expected, remark)
-    if claimed.count is not None and standing.candidates is not None:
+    if not standing.is_all:
+        ledger.omit("whether these are all solutions", "there are too many to go through")
+    elif claimed.count is not None and standing.candidates is not None:
         count, there = claimed.count, (len(standing.candidates), len(feasible))
         remark = f"{there[0]}, of which {there[1]} are paths"
         is_all = (count.solutions, count.contours) == there
@@ -57,7 +59,7 @@ def _check_rejected(found: Found, claimed: ClaimedContour, ledger: Ledger) -> bo
     """Whether a block had to be rejected; None if it had not, and was not."""
     claim, is_rejected = found.claim, claimed.status is ClaimedStatus.REJECTED
     checker = CHECKERS.get(claim.form.name)
-    facts = read_facts(claim, checker.elements, checker.points, found.apart) if checker else ()
+    facts = read_facts(claim, checker.elements(claim), checker.points(claim), found.apart) if checker else ()
     reasons = [*unreadable(claim), *(each.text for each in facts if each.fact is None)]
     is_extended = bool(claim.directives) or any(word.is_asked for word in claim.words.values())
     # What states or asks more than the control reads is not a block for the control yet: its rules only warn.
@@ -81,8 +83,10 @@ def check_diagnosis(found: Found, claimed: ClaimedContour, ledger: Ledger) -> No
     if diagnosis is None or checker is None:
         return
     is_known = None not in claim.before.start().values and not any(block.faults for block in claim.blocks)
-    ledger.require("ties are complete where the block can be read", (), diagnosis.ties_complete == is_known, "")
-    if claim.directives:
+    is_extended = bool(claim.directives) or any(word.is_asked for word in claim.words.values())
+    is_whole = diagnosis.ties_complete == (is_known and not is_extended)
+    ledger.require("ties are complete where the block can be read and has no further facts", (), is_whole, "")
+    if is_extended:
         ledger.omit("the ties and freedoms of the diagnosis", "with further facts they were not worked out")
     elif is_known:
         checker.diagnose(_nowhere(found, claimed, checker), diagnosis, ledger)
@@ -97,7 +101,7 @@ def _nowhere(found: Found, claimed: ClaimedContour, checker: FormChecker) -> Cas
     first, second = found.claim.before.start().values
     at = (first or Decimal(0), second or Decimal(0))
     case = make_case(found.claim, replace(claimed, path=ClaimedPath(None, {}, ())), at, 0.0)
-    return replace(case, rules=found.rules, choices=signs_of(found.claim, checker.choosing))
+    return replace(case, rules=found.rules, choices=signs_of(found.claim, checker.choosing(found.claim)))
 
 
 def _stand(found: Found, claimed: ClaimedContour, checker: FormChecker) -> Standing | None:

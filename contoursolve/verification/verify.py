@@ -45,7 +45,7 @@ def verify(
     """
     blocks, claims, unit = parse_program(program), read_result(result), Length(units)
     beginning = syntax.parse(start, program.name, first_line=0) if start is not None else None
-    dialect = _dialect(blocks, claims, control)
+    dialect = _configured(_dialect(blocks, claims, control), claims)
     if dialect and facts:
         blocks = with_facts(blocks, dialect, unit, beginning, facts)
     contours: list[ContourReceipt] = []
@@ -62,7 +62,18 @@ def verify(
     if claims.findings:
         omissions.append(_FINDINGS)
     name, rules = dialect.name if dialect else None, claims.rules
-    return Receipt(program, result, name, unit, tuple(contours), tuple(omissions), rules, start, tuple(facts))
+    return Receipt(
+        program,
+        result,
+        name,
+        unit,
+        tuple(contours),
+        tuple(omissions),
+        rules,
+        start,
+        tuple(facts),
+        claims.settings or {},
+    )
 
 
 def _dialect(program: Program, claims: ClaimedResult, control: str | None) -> Dialect | None:
@@ -74,6 +85,22 @@ def _dialect(program: Program, claims: ClaimedResult, control: str | None) -> Di
     if wanted not in DIALECTS:
         raise CannotVerifyError(f"unknown control {wanted!a}; choose from {', '.join(DIALECTS)}")
     return DIALECTS[wanted]
+
+
+def _configured(dialect: Dialect | None, claims: ClaimedResult) -> Dialect | None:
+    """The control with the settings under which the result says that it was made."""
+    if dialect is None or not claims.settings:
+        return dialect
+    values = {}
+    for name, value in claims.settings.items():
+        control, _, setting = name.partition(".")
+        if control != dialect.name:
+            raise CannotVerifyError(f"the result has the setting {name!a}, which is none of {dialect.name}")
+        values[setting] = value
+    try:
+        return dialect.configure(values)
+    except ValueError as error:
+        raise CannotVerifyError(f"the result has a setting that is none: {ascii(str(error))[1:-1]}") from None
 
 
 def _examined(found: Found) -> ContourReceipt:
