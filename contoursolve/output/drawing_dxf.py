@@ -52,6 +52,8 @@ def to_dxf(answers: Sequence[Answer]) -> bytes:
         height = _MARK * _larger_side([answer.contour for _, answer in drawn if answer.contour], unit)
         for number, answer in drawn:
             _draw(document, page, number, answer, unit, height)
+        for kind in sorted(document.entitydb.dxf_types_in_use()):
+            document.classes.add_class(kind)  # ezdxf would list them in the order of a set
         stream = io.StringIO()
         document.write(stream)
     return document.encode(stream.getvalue())
