@@ -247,10 +247,10 @@ def test_blocks_that_are_not_followed_are_listed_once_where_both_have_them(tmp_p
     assert "only in NEW: 1 block\n    NEW line 30: N260 X46.5 " in output
 
 
-def test_an_arc_whose_radii_differ_is_named_with_both(diff):
+def test_a_program_with_an_arc_whose_radii_differ_has_no_path(diff):
     found = diff(MANUAL, MANUAL.partition("G111")[0] + "G01 Z-27.1132\nG02 X45.1 Z-31.4434 I5. K0\n")
-    assert found["difference"]["reason"] == "only NEW has a block that is not followed"
-    assert "is 5.0000 mm at its start and 4.9753 mm at its end" in found["difference"]["new"]["reason"]
+    assert found["verdict"] == "not-compared"
+    assert [each["code"] for each in found["diagnostics"]] == ["arc-radius-difference"]
 
 
 def test_what_is_not_solved_is_said(diff, tmp_path):
