@@ -172,6 +172,8 @@ def stand(case: Case) -> Standing | None:
     needed = (*CENTERS, "R") if is_arc else (CENTERS[1 - axis],)
     if not any(ends) or len(case.states(*needed)) < len(needed):
         return Standing(is_loose=True)
+    if is_arc and any(len([name for name in names if case.states(name) and case.value(name)]) > 1 for names in CORNERS):
+        return Standing(disagrees="two corners in one place", is_twice=True)
     if not _is_plain(case):
         return None
     if is_arc and not case.value(CENTERS[axis]):

@@ -9,6 +9,7 @@ from contoursolve.verification.course import Course, Trace, trace
 from contoursolve.verification.ledger import Ledger
 from contoursolve.verification.nct_words import (
     CENTERS,
+    CORNERS,
     ENDS,
     choosing,
     course_of,
@@ -31,6 +32,11 @@ def stand(case: Case) -> Standing | None:
     """None where rounding hides whether something touches or agrees, or where words say more than they need to."""
     if lacks_words(case):
         return Standing(is_loose=True)
+    sizes = [[each.given(word) for word in CORNERS] for each in elements_of(case.claim)[:-1]]
+    if any(all(case.states(name) and case.value(name) for name in names) for names in sizes):
+        return Standing(disagrees="a chamfer and a rounding", is_twice=True)
+    if any(case.amount(name) < 0 for names in sizes for name in case.states(*names)):
+        return Standing()
     names = choosing(case.claim)
     if not is_plain(case):
         return None

@@ -192,6 +192,8 @@ def _joint(
     if 0 in meeting.places:
         return meeting.places[0], meeting.unsure, False
     sign = signs.get(each.given("Q"), 0)
+    if meeting.touches:
+        return next(iter(meeting.places.values())), meeting.unsure, True
     if sign:
         side = sign * positive_side(case) if before.turn is not None and each.turn is not None else sign
         return meeting.places[side], meeting.unsure, meeting.touches
