@@ -11,6 +11,8 @@ from pathlib import Path
 from random import Random
 from typing import Any
 
+import generate_lx3
+import generate_nct
 import pytest
 from click.testing import CliRunner
 from hypothesis import HealthCheck, given, settings
@@ -30,6 +32,8 @@ MILL = "G17 G90 G0 X50 Y0\nG42\n"
 LINE = "G1 X-50 Y42.857 ,A171.87 Q-1"
 PROGRAM = LATHE + "G111 X100. A180. K-30. B120. P5. Q5."
 CIRCLE = "G3 X-40 Y60 I-40 J20 R40 Q-1"
+TURN = "G17 G90 G42 G0 X100 Y20\n"
+ARC = "G00 X100. Z-50.\n"
 PAIR = MILL + "G3 X-50 Y0 R50\n" + LINE
 
 SAMPLES = {
@@ -55,6 +59,20 @@ SAMPLES = {
     "weakly fixed": LATHE + "G111 A179.99 I0.005 B120. X100. P1.",
     "one after the other": PROGRAM
     + "\nG01 X110. W-5.\nG111 U20. A170. K-20. B100. C1.\nG111 A180. K-9. B135. X160. Q2.",
+    "G112, roundings": ARC + "G112 U0 I10. K-50. P5. Q5. R30.",
+    "G112, bevels": ARC + "G112 U0 I10. K-50. C5. D5. R30.",
+    "G112, facing": ARC + "G112 Z-50. I30. K5. R15. P2. D2.",
+    "G112, sharp": ARC + "G112 U-10. I0 K-50. R30.",
+    "G11, G12 and G01": "G00 X30. Z0.\nG11 Z-20. I8.\nX80. K-7.\nG12 W-20. I-2.\nG01 U20. K3.",
+    "two lines": TURN + "G1 ,A150\nG1 X10 Y20 ,A225",
+    "two lines by points": TURN + "G1 X50 Y33.094 ,R2\nG1 X10 Y20 ,A225",
+    "a line and a circle": TURN + "G1 X-30 Y-20 ,C2\nG3 X20 Y40 I20 J-10 R50 Q-1",
+    "two circles": MILL + "G3 X-50 Y0 I-50 J0\nG3 X-40 Y60 I-40 J20 R40 Q-1",
+    "two circles, rounded": MILL + "G3 X0 Y50 R50 ,R2\nG3 X-40 Y60 I-40 J20 R-40 Q1",
+    "a chain": TURN + "G1 ,A150 ,R2\nG1 X10 Y20 ,A225 ,C2\nG3 X-40 Y-20 I-20 J-20 R20 Q1",
+    "a chain to a point that is off": TURN + "G1 ,A197\nG3 X20 Y40.005 I20 J-10 R50 Q-1",
+    "chamfers and roundings": MILL + "G1 X80 ,C10\nX90 Y40 ,R5\nG3 X60 Y70 R30 ,R3\nG3 X40 Y90 I-20 J0 ,C2\nG1 X0",
+    "a line by its angle": MILL + "G91 G1 X40 ,A45",
     "a radius": PAIR,
     "the farther point": MILL + "G3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q1",
     "a long arc": MILL + "G2 X-30 Y40 R-50\nG1 X-50 Y42.857 ,A171.87 Q1",
@@ -71,6 +89,11 @@ SAMPLES = {
     "Y-Z plane": "G19 G90 G41 G0 Y50 Z0\nG3 J-50 K0\nG1 Y-50 Z42.857 ,A171.87 Q1",
     "mill in inches": "G20\nG17 G90 G41 G0 X2 Y0\nG3 X-2 Y0 R2\nG1 X-2 Y1.7143 ,A171.87 Q-1",
 }
+
+NEW = [
+    *("G112, roundings", "G112, bevels", "G112, facing", "two lines by points", "a line and a circle", "two circles"),
+    *("two circles, rounded", "a chain", "chamfers and roundings", "a line by its angle"),
+]
 
 NUDGE = 1e-6
 """mm."""
@@ -347,23 +370,95 @@ def tampered(contour: dict[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
     yield "no elements", {"elements": []}
     yield "no end", {"end": None}
     yield "no start", {"start": [None, None]}
-    yield "no points", {"points": {}}
+    if contour["points"]:
+        yield "no points", {"points": {}}
     yield "one point more", {"points": {**contour["points"], "V9": [0.0, 0.0]}}
     yield "branch", {"branch": "farther" if contour["branch"] == "nearer" else "nearer"}
     yield "no line", {"line": contour["line"] + 1}
     yield "other lines", {"lines": [*contour["lines"], 99]}
     yield "axes swapped", {"plane": contour["plane"][::-1]}
-    yield "other form", {"form": "G112"}
+    yield "other form", {"form": "G112" if contour["form"] != "G112" else "G111"}
     yield "kind of certificate", {"certificate": {**contour["certificate"], "kind": "sworn"}}
     yield "negative radius", {"certificate": {"kind": "verified", "radius": -1e-9}}
 
 
-@pytest.mark.parametrize("name", ["two roundings", "two bevels", "sharp corners", "a radius", "a centre", "increments"])
+@pytest.mark.parametrize("name", ["two roundings", "two bevels", "sharp corners", "a radius", "a centre", *NEW])
 def test_a_result_that_was_tampered_with_is_found(desk, name):
     result = older(desk.solve(SAMPLES[name]))
     (contour,) = result["contours"]
     for what, change in tampered(contour):
         assert desk.is_wrong({**result, "contours": [{**contour, **change}]}), what
+    for point, side in contour["branches"].items():
+        for other in ("nearer", "farther", "left", "right"):
+            branches = {**contour["branches"], point: other}
+            assert (other == side) != desk.is_wrong(with_contour(result, branches=branches))
+
+
+def random_programs() -> Iterator[tuple[str, str]]:
+    """Programs of every form, written from drawn paths, and some with another value in one word."""
+    rng = Random(7)
+    for number in range(60):
+        form, plane = generate_nct.FORMS[number % 4], (17, 18, 19)[number % 3]
+        kinds = (
+            generate_nct.random_pair(rng, form, plane, rng.choice(("", "C", "R"))),
+            generate_nct.random_chain(rng, rng.choice((2, 3)), plane),
+            generate_nct.random_cornered(rng, plane),
+            generate_lx3.random_g112(
+                rng, rng.choice(generate_lx3.FORMS), rng.choice(("", "P", "C")), rng.choice(("", "Q", "D"))
+            ),
+            generate_lx3.random_g11(rng, 2),
+        )
+        drawn, control = kinds[number % 5], ("yasnac-lx3" if number % 5 > 2 else "nct-99m")
+        yield drawn.text, control
+        if number % 2:
+            yield "\n".join(generate_nct.disturbed(rng, drawn)), control
+
+
+def test_random_programs_of_every_form_are_right(desk):
+    """Whatever becomes of the blocks is worked out again, and one number that is off is found."""
+    rng, statuses = Random(8), set()
+    for text, control in random_programs():
+        result = desk.solve(text, "--control", control)
+        statuses |= {contour["status"] for contour in result["contours"]}
+        receipt = desk.receipt(result)
+        assert failures(receipt) == [], text
+        assert receipt["verdict"] == "verified", text
+        every = list(coordinates(older(result)))
+        for place, value in rng.sample(every, min(len(every), 4)):
+            assert desk.is_wrong(changed(older(result), place, value + NUDGE)), (place, text)
+    assert statuses >= {"solved", "no-solution", "conflicting"}
+
+
+@pytest.mark.parametrize(
+    ("name", "setting", "value"),
+    [
+        ("two circles", "nct-99m.circle-circle-q", "right-is-negative"),
+        ("G112, bevels", "yasnac-lx3.bevel", "setback"),
+        ("two bevels", "yasnac-lx3.bevel", "setback"),
+        ("bevel and rounding", "yasnac-lx3.bevel", "setback"),
+    ],
+)
+def test_the_program_is_read_with_the_settings_that_the_result_names(desk, name, setting, value):
+    other = desk.solve(SAMPLES[name])
+    result = desk.solve(SAMPLES[name], "--set", f"{setting}={value}")
+    assert other["contours"][0]["elements"] != result["contours"][0]["elements"]
+    for each, settings_of in ((other, {}), (result, {setting: value})):
+        receipt = desk.receipt(each)
+        assert (failures(receipt), receipt["verdict"], receipt["settings"]) == ([], "verified", settings_of)
+    assert f"read with {setting}={value}, as the result says" in desk.verify(result)[1]
+    assert desk.is_wrong({**result, "settings": {}})
+    assert desk.is_wrong({**other, "settings": {setting: value}})
+    assert desk.is_wrong(with_contour(result, conventions=[]))
+    for wrong in nudged(older(result)):
+        assert desk.is_wrong(wrong)
+    for unknown, message in (
+        ({"fanuc.bevel": value}, "has the setting 'fanuc.bevel', which is none of"),
+        ({setting: "none"}, "has a setting that is none"),
+        ({setting: 5}, f"settings.{setting}: 5 where a text is expected"),
+        ([], "settings: a list where an object is expected"),
+    ):
+        status, output, errors = desk.verify({**result, "settings": unknown})
+        assert (status, output, message in errors) == (2, "", True), errors
 
 
 def test_the_branch_of_a_line_that_touches_is_none(desk):

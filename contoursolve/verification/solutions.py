@@ -58,19 +58,23 @@ def check_solutions(found: Found, claimed: ClaimedContour, ledger: Ledger) -> bo
         selects = bool(first.selects and first.selects == second.selects)
         remark = "the same words select both"
         ledger.require(f"solutions {one} and {other} are told apart", first.selects, not selects, remark)
-    is_checked, eligible = False, 0
+    is_checked, eligible, is_known = False, 0, True
     for number, each in paths:
         _check_selects(found, each, [other for _, other in paths if other is not each], number, ledger)
         if each.is_chosen and claimed.has_path:
             eligible += 1
             continue  # it is the contour, and that is checked
         attempt = fewest(partial(_attempt, found, claimed, each, *reading) for reading in _readings(found, each))
-        is_checked |= bool(attempt.checks)
+        is_examined = all(each.what != "the path" for each in attempt.omissions)
+        is_checked |= is_examined and bool(attempt.checks)
+        is_known &= is_examined
         for check in attempt.checks:
             ledger.checks.append(replace(check, name=f"solution {number}: {check.name}"))
         ledger.omissions += [each for each in attempt.omissions if each not in ledger.omissions]
         eligible += not attempt.failures and _is_eligible(found, claimed, each)
-    if claimed.has_path and paths:
+    if not is_known:
+        ledger.omit("which of the solutions is chosen", "not all of them were checked")
+    elif claimed.has_path and paths:
         ledger.require("the program chooses one path", (), eligible == 1, f"{eligible} of {len(paths)} agree with it")
     elif claimed.status is ClaimedStatus.AMBIGUOUS:
         remark = f"{eligible} of {len(paths)} agree with it"
