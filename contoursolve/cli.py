@@ -27,7 +27,7 @@ from contoursolve.output.document import findings_to_json, to_json
 from contoursolve.output.findings import Style, finding_lines, plain
 from contoursolve.output.layout import count
 from contoursolve.pipeline import FactPlaceError, Result, UnknownControlError, recognise, run
-from contoursolve.project import SettingError, configure, read_setting
+from contoursolve.project import SettingError, configure, find_settings, read_setting
 from contoursolve.rules import Rule
 from contoursolve.solving import Status
 from contoursolve.syntax import Program
