@@ -65,8 +65,9 @@ class Post:
         return max(0, -exponent) if isinstance(exponent, int) else 0
 
     def writes_point(self, source: NumberFormat) -> bool:
-        """Whether a whole number is written with a point: wherever it would count in least increments without it."""
-        return (self.without_point or source.without_point) is WithoutPoint.LEAST_INCREMENTS
+        """Whether a whole number is written with a point: wherever, here or there, it would else count in least
+        increments."""
+        return WithoutPoint.LEAST_INCREMENTS in (self.without_point, source.without_point)
 
 
 def _span(*parts: int | range) -> frozenset[int]:
