@@ -11,14 +11,8 @@ from typing import IO, Any
 import click
 
 from contoursolve import syntax
-from contoursolve.cli import (
-    FOUND_ERRORS,
-    CouldNotRunError,
-    common_options,
-    settings_option,
-    style_of_output,
-    units_option,
-)
+from contoursolve.cli.options import FOUND_ERRORS, CouldNotRunError, common_options, settings_option, units_option
+from contoursolve.cli.printing import style_of_output
 from contoursolve.dialects import DIALECTS
 from contoursolve.examine import Policy
 from contoursolve.expansion import Options, Summary
