@@ -71,7 +71,7 @@ SAMPLES = {
     "two circles, rounded": MILL + "G3 X0 Y50 R50 ,R2\nG3 X-40 Y60 I-40 J20 R-40 Q1",
     "a chain": TURN + "G1 ,A150 ,R2\nG1 X10 Y20 ,A225 ,C2\nG3 X-40 Y-20 I-20 J-20 R20 Q1",
     "a chain to a point that is off": TURN + "G1 ,A197\nG3 X20 Y40.005 I20 J-10 R50 Q-1",
-    "chamfers and roundings": MILL + "G1 X80 ,C10\nX90 Y40 ,R5\nG3 X60 Y70 R30 ,R3\nG3 X40 Y90 I-20 J0 ,C2\nG1 X0",
+    "chamfers and roundings": MILL + "G1 X80 ,C10\nX90 Y40 ,R5\nG3 X60 Y70 R30 ,R3\nG3 X40 Y90 I-20 J0 ,C2\nG1 Y60",
     "a line by its angle": MILL + "G91 G1 X40 ,A45",
     "a radius": PAIR,
     "the farther point": MILL + "G3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q1",
