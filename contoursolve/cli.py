@@ -18,15 +18,15 @@ import click
 from contoursolve import __version__, syntax
 from contoursolve.api import UnreadableProgramError, only_findings, read_program, solve_program
 from contoursolve.diagnostic import Diagnostic, Severity
-from contoursolve.dialects import DIALECTS
+from contoursolve.dialects import DIALECTS, PLAIN, Dialect
 from contoursolve.examine import Answer, Policy
 from contoursolve.model import Length
 from contoursolve.output.contours import contour_lines
 from contoursolve.output.document import findings_to_json, to_json
 from contoursolve.output.findings import Style, finding_lines, plain
 from contoursolve.output.layout import count
-from contoursolve.pipeline import FactPlaceError, Result, UnknownControlError
-from contoursolve.project import SettingError, find_settings, read_setting
+from contoursolve.pipeline import FactPlaceError, Result, UnknownControlError, recognise, run
+from contoursolve.project import SettingError, configure, find_settings, read_setting
 from contoursolve.rules import Rule
 from contoursolve.solving import Status
 from contoursolve.syntax import Program
@@ -65,6 +65,16 @@ _settings = click.option(
     metavar="CONTROL.NAME=VALUE",
     help="Change a convention on which the manual is silent; may be repeated. 'contoursolve rules' lists them. "
     "The file contoursolve.toml holds them for a whole folder.",
+)
+
+
+_rules = click.option(
+    "--rules",
+    type=click.Choice([policy.value for policy in Policy]),
+    default="enforce",
+    show_default=True,
+    help="Rules of the control's manual: enforce refuses what they refuse, warn only says so, off lets the "
+    "geometry alone decide. About a block with ? or facts, which no control reads, they only warn.",
 )
 
 
@@ -109,14 +119,7 @@ def _common(command: Callable[..., None]) -> Callable[..., None]:
                 help="The control. Without it, the control is found from the program where that is clear.",
             ),
             _units,
-            click.option(
-                "--rules",
-                type=click.Choice([policy.value for policy in Policy]),
-                default="enforce",
-                show_default=True,
-                help="Rules of the control's manual: enforce refuses what they refuse, warn only says so, off lets the "
-                "geometry alone decide. About a block with ? or facts, which no control reads, they only warn.",
-            ),
+            _rules,
             _settings,
         )
     ):
@@ -364,6 +367,163 @@ def verify(
     else:
         _print(verification.report_lines(receipt))
     context.exit(FOUND_ERRORS if receipt.verdict is verification.Verdict.FAILED else 0)
+
+
+@main.command(short_help="Draw the contours for CAD (DXF).")
+@click.argument("program", required=False)
+@click.option(
+    "-o", "--output", required=True, metavar="OUT.dxf", type=click.Path(path_type=Path), help="The drawing to write."
+)
+@click.option("--force", "is_forced", is_flag=True, help="Replace the drawing if it exists.")
+@_common
+@click.pass_context
+def plot(
+    context: click.Context,
+    /,
+    program: str | None,
+    output: Path,
+    is_forced: bool,
+    blocks: tuple[str, ...],
+    start: str | None,
+    assignments: tuple[str, ...],
+    **options: Any,
+) -> None:
+    """Draw every solved contour of PROGRAM (a file, or - for standard input) into a DXF file.
+
+    Lines and arcs in full precision, each element on a layer of its own; virtual and computed intersections on the
+    layer construction. The drawing's X and Y are the plane's axes: on a lathe Z to the right and X up, as radius. It
+    is in mm, or in inches if all contours are. Needs the extra contoursolve[dxf].
+
+    \b
+    contoursolve plot shaft.nc -o shaft.dxf
+    contoursolve plot --block "G111 X100. A180. K-30. B120. P5." --start "X40. Z0." -o block.dxf --force
+    """
+    if output.suffix.lower() != ".dxf":
+        raise CouldNotRunError(f"{output}: drawings end in .dxf; SVG and PNG are not made yet")
+    load = _load([program] if program else [], blocks, start)[0]
+    try:
+        from contoursolve.output.drawing_dxf import to_dxf  # noqa: PLC0415 - needs an extra
+    except ModuleNotFoundError as error:
+        if error.name != "ezdxf":
+            raise
+        raise CouldNotRunError("a DXF drawing needs ezdxf; install it with: pip install 'contoursolve[dxf]'") from None
+    from contoursolve.output.target import TargetError, check_target, write_whole  # noqa: PLC0415 - only here
+
+    try:
+        check_target(output, (program,) if program else (), is_forced=is_forced)
+        result = _examine(load(), start, assignments, options)
+        _print(_findings(result, result.diagnostics, _style()))
+        contours = [answer.contour for answer in result.answers if answer.contour]
+        if contours:
+            write_whole(output, to_dxf(result.answers))
+    except TargetError as error:
+        raise CouldNotRunError(str(error)) from None
+    elements = count(sum(len(contour.elements) for contour in contours), "element")
+    written = f"{output}: {elements} of {count(len(contours), 'contour')}" if contours else f"{output}: not written"
+    _print_summary([result])
+    click.echo(written)
+    context.exit(FOUND_ERRORS if result.has_errors or not contours else 0)
+
+
+_ANY_CONTROL = click.Choice([*DIALECTS, *PLAIN])
+
+
+@main.command(short_help="Tell whether two programs describe the same path.")
+@click.argument("old", metavar="OLD")
+@click.argument("new", metavar="NEW")
+@click.option(
+    "--tolerance",
+    type=click.FloatRange(min=0, min_open=True, max=1),
+    default=0.001,
+    show_default=True,
+    metavar="MM",
+    help="How far apart the paths may be, in mm.",
+)
+@click.option(
+    "--control", type=_ANY_CONTROL, help="The control of OLD. Without it, found from OLD where that is clear."
+)
+@click.option(
+    "--new-control", type=_ANY_CONTROL, help="The control of NEW. Without it, found from NEW, or that of OLD."
+)
+@_units
+@click.option(
+    "--new-units", type=click.Choice([unit.value for unit in Length]), help="The same for NEW. Without it, as for OLD."
+)
+@_rules
+@_settings
+@click.option(
+    "--format", "format_", type=click.Choice(["text", "json"]), default="text", show_default=True, help="What to print."
+)
+@click.pass_context
+def diff(
+    context: click.Context,
+    /,
+    old: str,
+    new: str,
+    tolerance: float,
+    control: str | None,
+    new_control: str | None,
+    units: str,
+    new_units: str | None,
+    rules: str,
+    assignments: tuple[str, ...],
+    format_: str,
+) -> None:
+    """Tell whether OLD and NEW describe the same path, and if not, where they differ first.
+
+    Contours are solved, and all moves by G0 to G3 followed, in either program as its own control reads them. A line or
+    an arc may be divided differently. What is not followed, such as cycles and subprograms, must be the same word by
+    word, and is listed. Feeds, leads, speeds, tools, offsets, dwells and M functions are not compared.
+
+    Exit status: 0 the same path, 1 not the same or not solved, 2 could not run.
+
+    \b
+    contoursolve diff shaft.nc shaft_by_hand.nc
+    contoursolve diff shaft.nc shaft.ngc --new-control linuxcnc --tolerance 0.002
+    """
+    from contoursolve.comparison import compare, follow  # noqa: PLC0415 - only here
+    from contoursolve.output import differences  # noqa: PLC0415 - only here
+
+    if old == new == "-":
+        raise click.UsageError("only one of OLD and NEW can be standard input")
+    sides: list[tuple[Result, Dialect, Length]] = []
+    for path, own, unit in ((old, control, units), (new, new_control, new_units or units)):
+        program = _read(path)
+        dialect = _dialect_of(program, own, sides[0][1] if sides else None, assignments)
+        result = only_findings(run(program, dialect, Length(unit), Policy(rules)))
+        sides.append((result, dialect, Length(unit)))
+    results = [result for result, _, _ in sides]
+    if any(result.has_errors for result in results):
+        if format_ == "json":
+            click.echo(differences.refusal_to_json(results))
+        else:
+            for result in results:
+                _print(_findings(result, result.diagnostics, _style()))
+            click.echo("not compared: a program that has errors has no path")
+        context.exit(FOUND_ERRORS)
+    axes = tuple(sorted({axis for _, dialect, _ in sides for axis in dialect.modes.axes}))
+    one, other = (follow(result, dialect, unit, axes) for result, dialect, unit in sides)
+    comparison = compare(one, other, tolerance)
+    if format_ == "json":
+        click.echo(differences.to_json(comparison))
+    else:
+        _print(differences.comparison_lines(comparison))
+    context.exit(0 if comparison.is_equal else FOUND_ERRORS)
+
+
+def _dialect_of(program: Program, name: str | None, otherwise: Dialect | None, assignments: Sequence[str]) -> Dialect:
+    """The control of a program: the one that is named, or that it shows, or another."""
+    try:
+        settings = find_settings(_folder(program)) | dict(map(read_setting, assignments))
+        dialect = {**DIALECTS, **PLAIN}[name] if name else recognise(program) or otherwise
+        if dialect is not None:
+            return configure(settings).get(dialect.name, dialect)
+    except SettingError as error:
+        raise CouldNotRunError(str(error)) from None
+    except UnknownControlError as error:
+        raise CouldNotRunError(f"{program.name}: {error}; say which with --control or --new-control") from None
+    choices = "|".join([*DIALECTS, *PLAIN])
+    raise CouldNotRunError(f"{program.name}: no block shows the control; say which with --control {choices}")
 
 
 def _load(paths: Sequence[str], blocks: tuple[str, ...], start: str | None) -> list[Callable[[], Program]]:

@@ -31,6 +31,7 @@ FLOORS = (
     "diagnosis",
     "fill",
     "pipeline project verification",
+    "comparison",
     "output api",
     "trial",
     "__init__",

@@ -266,7 +266,7 @@ def test_a_mistake_in_a_long_chain_is_found_in_its_block_and_soon(kind, code):
     assert len(finding.fixes) < 10
 
 
-def test_a_conflict_in_block_3_is_explained_with_the_word_of_block_1_that_it_rests_on():
+def test_lines_of_a_chain_that_are_parallel_are_shown_in_both_of_their_blocks():
     (answer,) = solve_mill(
         ("G17 G90 G41 G0 X90 Y10", "G1 ,A150", "X10 Y20 ,A225", "X10 Y80 ,A225"), depth="full"
     ).answers

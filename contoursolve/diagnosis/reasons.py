@@ -2,7 +2,8 @@
 
 from collections.abc import Iterator, Sequence
 
-from contoursolve.constraints import Heading
+from contoursolve.analysis import judge, order
+from contoursolve.constraints import Heading, assemble
 from contoursolve.diagnosis.affine import AffineFacts, Circuit
 from contoursolve.diagnosis.identities import identity
 from contoursolve.diagnostic import Diagnostic, Freedom
@@ -88,6 +89,7 @@ def path_reasons(profile: Profile, affine: AffineFacts | None, finding: Diagnost
             f"because the {element} has {length_text(values['available'], profile.unit)}, and the corner takes "
             f"{length_text(values['needed'], profile.unit)} of it"
         )
+    yield from _placed_before(profile, finding)
     if "angle_from" in values:
         yield (
             f"a line through the same end point meets the circle with {finding.addresses[0]} between "
@@ -103,6 +105,27 @@ def path_reasons(profile: Profile, affine: AffineFacts | None, finding: Diagnost
                     f"because {line.name} goes from {place_text(profile, tail)} to {place_text(profile, head)}, "
                     f"and {word.text} points the other way"
                 )
+
+
+def _placed_before(profile: Profile, finding: Diagnostic) -> Iterator[str]:
+    """Which words of earlier blocks put the beginning of an element of a later one where it is."""
+    if finding.about is not RefusalKind.RADIUS_DIFFERENCE or len(profile.blocks) != len(profile.figure.path):
+        return
+    for element, block in zip(profile.figure.path, profile.blocks, strict=True):
+        if block.line == finding.span.line and element.tail != profile.figure.start:
+            system = assemble(profile)
+            verdict = judge(system)
+            wanted = {scalar(element.tail, axis) for axis in (FIRST, SECOND)}
+            facts: list[Fact] = []
+            for group in reversed(order(system, tuple(system.facts[index] for index in verdict.basis))):
+                if wanted & {*group.unknowns}:
+                    facts += group.facts
+                    wanted |= {name for fact in group.facts for name in system.unknowns_of(fact)}
+            words = sorted(profile.words_of(facts), key=lambda word: word.span)
+            if words:
+                shown = join(list(dict.fromkeys(f"{word.text} (line {word.span.line})" for word in words)))
+                name = element.name if element.name[-1].isdigit() else f"the {element.name}"
+                yield f"because {name} begins at {element.tail}, where {shown} put it"
 
 
 def _known(profile: Profile, fixed: dict[str, float], point: str) -> dict[str, float]:

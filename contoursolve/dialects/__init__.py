@@ -2,8 +2,9 @@
 
 from contoursolve.dialects.dialect import Dialect, Finder
 from contoursolve.dialects.nct_99m import NCT_99M
+from contoursolve.dialects.plain import PLAIN
 from contoursolve.dialects.yasnac_lx3 import YASNAC_LX3
 
 DIALECTS = {dialect.name: dialect for dialect in (YASNAC_LX3, NCT_99M)}
 
-__all__ = ["DIALECTS", "NCT_99M", "YASNAC_LX3", "Dialect", "Finder"]
+__all__ = ["DIALECTS", "NCT_99M", "PLAIN", "YASNAC_LX3", "Dialect", "Finder"]

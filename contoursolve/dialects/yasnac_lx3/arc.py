@@ -14,7 +14,7 @@ from contoursolve.dialects.yasnac_lx3.g111 import START
 from contoursolve.model import FIRST, SECOND, Arc, Choice, Given, Role, Side, Turn, Unit
 from contoursolve.reading import Claim, FactRow, Form, Modes, State, apply_modes
 from contoursolve.syntax import Block
-from contoursolve.tolerance import RADIUS_DIFFERENCE
+from contoursolve.tolerance import LENGTH, RADIUS_DIFFERENCE
 
 CENTER, END, RADIUS = "C", "E", "r"
 WRONG_CENTER = frozenset("J")
@@ -92,14 +92,17 @@ _READ = frozenset({*chain(*_ENDS), *CENTERS, "R", *WRONG_CENTER})
 
 
 def _runs(values: Mapping[str, Decimal], state: State) -> bool:
-    """Whether an arc can run from the start to the end, as far as a control looks."""
+    """Whether an arc can run from the start to the end, as far as a control looks.
+
+    The rounding of a difference of exactly what is allowed must not make it more.
+    """
     first, second = (_step(values, state, axis) for axis in (FIRST, SECOND))
     chord = hypot(first, second)
     if "R" in values:
-        return 0 < chord <= 2 * (abs(float(values["R"])) + RADIUS_DIFFERENCE)
+        return 0 < chord <= 2 * (abs(float(values["R"])) + RADIUS_DIFFERENCE) + LENGTH
     along, across = (float(values.get(name, 0)) for name in CENTERS)
     distance = hypot(along, across)
-    return distance > 0 and abs(hypot(first - along, second - across) - distance) <= RADIUS_DIFFERENCE
+    return distance > 0 and abs(hypot(first - along, second - across) - distance) <= RADIUS_DIFFERENCE + LENGTH
 
 
 def _step(values: Mapping[str, Decimal], state: State, axis: int) -> float:

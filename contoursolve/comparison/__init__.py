@@ -1,0 +1,18 @@
+"""Whether two programs describe the same path."""
+
+from contoursolve.comparison.compare import Comparison, Difference, compare
+from contoursolve.comparison.follow import Path, follow
+from contoursolve.comparison.travel import Motion, Place, Step, Travel, Unfollowed
+
+__all__ = [
+    "Comparison",
+    "Difference",
+    "Motion",
+    "Path",
+    "Place",
+    "Step",
+    "Travel",
+    "Unfollowed",
+    "compare",
+    "follow",
+]

@@ -1,0 +1,307 @@
+"""Follows a solved program block by block into its path: contours, and the ordinary moves G0 to G3 between them."""
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from decimal import Decimal
+from math import atan2, hypot, sqrt, tau
+
+from contoursolve.comparison.travel import Bend, Motion, Place, Step, Travel, Unfollowed
+from contoursolve.contour import ArcSegment, Segment
+from contoursolve.dialects import Dialect
+from contoursolve.dialects.plain import SWITCHES, Centers, Switch
+from contoursolve.examine import Answer
+from contoursolve.model import Length, Turn
+from contoursolve.pipeline import Result
+from contoursolve.reading import Effect, Lexicon, State, WithoutPoint, advance, apply_modes, codes_of, leave
+from contoursolve.syntax import Block, Macro, Program, Word
+from contoursolve.tolerance import LENGTH, RADIUS_DIFFERENCE
+
+_TURNS = {2: Turn.CW, 3: Turn.CCW}
+_LINES = {0: Motion.RAPID, 1: Motion.FEED}
+_BESIDE = frozenset("NGFSTMDHEO")
+"""Addresses that may stand beside the coordinates of a move and say nothing about its path."""
+_BESIDE_MACRO = re.compile(r"^[\s/]*N\d+|\([^)]*\)|;.*")
+_NAMES = frozenset("GMTSPNO")
+"""Addresses whose numbers are names or counts: a decimal point changes nothing."""
+
+
+@dataclass(frozen=True, slots=True)
+class Path:
+    """The path of one program: its axes, and its elements in order."""
+
+    name: str
+    control: str
+    axes: tuple[str, ...]
+    steps: tuple[Step, ...]
+
+    @property
+    def unfollowed(self) -> tuple[Unfollowed, ...]:
+        """What is not followed."""
+        return tuple(step for step in self.steps if isinstance(step, Unfollowed))
+
+
+def follow(result: Result, dialect: Dialect, unit: Length, axes: tuple[str, ...]) -> Path:
+    """The path of a program that has been solved for this control; `unit` is that before any G20 or G21."""
+    follower = _Follower(dialect, unit, axes)
+    return Path(result.program.name, dialect.name, axes, tuple(follower.walk(result.program, result.answers)))
+
+
+class _Follower:
+    """The state as it goes, and how words are read."""
+
+    def __init__(self, dialect: Dialect, unit: Length, axes: tuple[str, ...]) -> None:
+        self.modes = dialect.modes
+        self.switches = SWITCHES.get(dialect.name, {})
+        self.centers = Centers.START
+        self.state = dialect.initial_state(unit)
+        self.axes = axes
+
+    def walk(self, program: Program, answers: Sequence[Answer]) -> Iterator[Step]:
+        """Every element of the path in order."""
+        contours = {answer.lines[0]: answer for answer in answers}
+        inside = 0
+        for block in program.blocks:
+            answer = contours.get(block.line)
+            if answer is not None:
+                inside = answer.lines[-1]
+                yield from self._contour(answer)
+            elif block.line > inside and (block.words or block.macro):
+                yield from self._block(self._switch(block))
+
+    def _contour(self, answer: Answer) -> Iterator[Step]:
+        """The elements of a contour, each with the block that makes it: a form has one block, or one an element."""
+        claim, here = answer.claim, self.state
+        states: dict[int, tuple[Block, State]] = {}
+        for block in claim.blocks:
+            here = apply_modes(here, block, self.modes)
+            states[block.line] = block, here
+        owner = {claim.form.path[0].name: claim.blocks[0].line}
+        if len(claim.blocks) > 1:
+            owner = {each.name: block.line for each, block in zip(claim.form.path, claim.blocks, strict=True)}
+            owner |= {row.name: owner[row.before] for row in claim.form.corners}
+        for element in answer.contour.elements if answer.contour else ():
+            block, state = states[owner.get(element.name, claim.blocks[0].line)]
+            is_rapid = state.motion == 0 and not self._is_own_motion(block)
+            yield self._segment(block, state, element, Motion.RAPID if is_rapid else Motion.FEED)
+        reason = "the contour is not solved"
+        if answer.contour is None:
+            yield self._unfollowed(claim.blocks[0], reason)
+        self.state = leave(claim, answer.contour.end if answer.contour else None, self.modes, reason)
+
+    def _is_own_motion(self, block: Block) -> bool:
+        """Whether a code of the block itself makes it a contour, so that the motion in force has no part in it."""
+        codes = codes_of(block, self.modes)
+        return any(not isinstance(code, Word) and code.effect is Effect.CONTOUR for code in codes)
+
+    def _segment(self, block: Block, state: State, segment: Segment, motion: Motion) -> Travel:
+        """An element of a contour in space."""
+        first, second = (self.axes.index(axis) for axis in state.plane.axes)
+        places: list[Place] = []
+        for at in (segment.start, segment.end):
+            place = list(self._place(self.state))
+            place[first], place[second] = at
+            places.append(tuple(place))
+        bend = None
+        if isinstance(segment, ArcSegment):
+            bend = _bend((first, second), segment.center, segment.start, segment.end, segment.turn)
+        return self._travel(block, state, motion, (places[0], places[1]), bend)
+
+    def _switch(self, block: Block) -> Block:
+        """A block without the codes that change how its words are read, which are in force now."""
+        found = [word for word in block.words if word.address == "G" and word.number in self.switches]
+        for switch in (self.switches[word.number] for word in found if word.number is not None):
+            self._apply(switch)
+        if not found:
+            return block
+        return replace(block, words=tuple(word for word in block.words if word not in found))
+
+    def _apply(self, switch: Switch) -> None:
+        self.centers = switch.centers or self.centers
+        if switch.is_diameter is not None:
+            lexicon = self.modes.lexicon
+            rows = {
+                name: replace(row, is_diameter=switch.is_diameter) if row.axis == "X" else row
+                for name, row in lexicon.addresses.items()
+            }
+            self.modes = replace(self.modes, lexicon=replace(lexicon, addresses=rows))
+
+    def _block(self, block: Block) -> Iterator[Step]:
+        """What a block that is no contour adds to the path."""
+        before = self.state
+        here = apply_modes(before, block, self.modes)
+        self.state = advance(before, block, self.modes)
+        codes = codes_of(block, self.modes)
+        if block.macro is not None:
+            is_flow = block.macro is Macro.FLOW
+            yield self._unfollowed(block, "a macro statement may jump" if is_flow else "it sets a variable")
+            return
+        for word in block.words:
+            if word.address == "M" and word.number in self.modes.calls:
+                yield self._unfollowed(block, f"{word.text.strip()} calls or ends a subprogram")
+                return
+        is_preset = False
+        for code in codes:
+            if isinstance(code, Word):
+                yield self._unfollowed(block, f"{code.text.strip()} is not known to contoursolve")
+                return
+            if code.effect in (Effect.SINGLE, Effect.FRAME):
+                yield self._unfollowed(block, f"G{code.number}: {code.meaning}")
+                return
+            if code.effect is Effect.SHIFT:
+                named = Word("G", Decimal(code.number), False, f"G{code.number}", block.span)
+                yield self._unfollowed(replace(block, words=(named,)), f"G{code.number}: {code.meaning}")
+            if code.effect is Effect.NO_MOTION:
+                return
+            is_preset = is_preset or code.effect is Effect.PRESET
+        yield from self._move(block, here, is_preset=is_preset)
+
+    def _move(self, block: Block, here: State, *, is_preset: bool) -> Iterator[Step]:
+        """A move by the block's coordinates, if it has any."""
+        rows = self.modes.lexicon.addresses
+        moved = [rows[word.address].axis for word in block.words if word.address in rows and rows[word.address].axis]
+        has_center = any(word.address in (*here.plane.centers, "R") for word in block.words)
+        turn = _TURNS.get(here.motion or 0)
+        if not moved and (turn is None or is_preset or not has_center):
+            return
+        lost = [self.state.axes[axis].reason for axis in moved if self.state.axes[axis].value is None]
+        code = self.modes.codes.get(here.motion) if here.motion is not None else None
+        ends = self._place(here), self._place(self.state)
+        if lost:
+            yield self._unfollowed(block, lost[0])
+        elif is_preset:
+            yield self._travel(block, here, Motion.PRESET, ends, None)
+        elif code is None or code.effect is not Effect.MOTION:
+            yield self._unfollowed(block, f"G{code.number}: {code.meaning}" if code else "no G0 to G3 is in force")
+        elif turn is not None:
+            yield self._arc(block, here, turn)
+        else:
+            motion = _LINES.get(code.number, Motion.THREAD)
+            beside = [word for word in block.words if not self._is_plain(word)]
+            if beside and motion is not Motion.THREAD:
+                yield self._unfollowed(block, f"{beside[0].text.strip()} in a line")
+            elif any(
+                new is not None and (old is None or abs(new - old) > LENGTH) for old, new in zip(*ends, strict=True)
+            ):
+                yield self._travel(block, here, motion, ends, None)
+
+    def _is_plain(self, word: Word, more: str = "") -> bool:
+        row = self.modes.lexicon.addresses.get(word.address)
+        return word.address in _BESIDE or word.address in more or bool(row and row.axis)
+
+    def _arc(self, block: Block, here: State, turn: Turn) -> Step:
+        """An arc by its centre or its radius, or why it is none."""
+        beside = [word for word in block.words if not self._is_plain(word, "".join((*here.plane.centers, "R")))]
+        if beside:
+            return self._unfollowed(block, f"{beside[0].text.strip()} in an arc of {here.plane.code}")
+        ends = self._place(here), self._place(self.state)
+        indices = self.axes.index(here.plane.axes[0]), self.axes.index(here.plane.axes[1])
+        known = [place[index] for place in ends for index in indices]
+        numbers = [value for value in known if value is not None]
+        if len(numbers) != len(known):
+            return self._unfollowed(block, "the start of the arc is not known")
+        start, end = (numbers[0], numbers[1]), (numbers[2], numbers[3])
+        values = self._values(block, here)
+        if values is None:
+            return self._unfollowed(block, "the centre or the radius of the arc is not known")
+        if "R" in values and len(values) > 1:
+            return self._unfollowed(block, "the arc has a centre and a radius")
+        if "R" in values:
+            center = _center_of(start, end, values["R"], turn)
+            if center is None:
+                return self._unfollowed(block, "R is too small for the arc, or the arc ends where it starts")
+        else:
+            base = start if self.centers is Centers.START else (0.0, 0.0)
+            first, second = (values.get(address, 0.0) for address in here.plane.centers)
+            center = base[0] + first, base[1] + second
+        bend, unit = _bend(indices, center, start, end, turn), here.unit.value
+        if abs(bend.radii[0] - bend.radii[1]) > RADIUS_DIFFERENCE or not min(bend.radii):
+            one, other = (value / float(here.unit.in_mm) for value in bend.radii)
+            return self._unfollowed(
+                block, f"the radius of the arc is {one:.4f} {unit} at its start and {other:.4f} {unit} at its end"
+            )
+        return self._travel(block, here, Motion.FEED, ends, bend)
+
+    def _values(self, block: Block, here: State) -> dict[str, float] | None:
+        """The centre or the radius that a block states, mm; None if it states none, or one that has no number."""
+        lexicon: Lexicon = self.modes.lexicon
+        values: dict[str, float] = {}
+        for word in block.words:
+            if word.address in (*here.plane.centers, "R"):
+                value = lexicon.value(word, here.unit) if word.address in lexicon.addresses else None
+                if value is None or word.address in values:
+                    return None
+                values[word.address] = float(value)
+        return values or None
+
+    def _place(self, state: State) -> Place:
+        values = (state.axes[axis].value if axis in state.axes else None for axis in self.axes)
+        return tuple(None if value is None else float(value) for value in values)
+
+    def _travel(
+        self, block: Block, state: State, motion: Motion, ends: tuple[Place, Place], bend: Bend | None
+    ) -> Travel:
+        rows = self.modes.lexicon.addresses.values()
+        doubled = {row.axis for row in rows if row.is_diameter}
+        return Travel(
+            line=block.line,
+            text=block.text.strip(),
+            motion=motion,
+            start=ends[0],
+            end=ends[1],
+            bend=bend,
+            compensation=state.compensation,
+            is_skippable=block.is_skippable,
+            unit=state.unit,
+            doubled=tuple(axis in doubled for axis in self.axes),
+        )
+
+    def _unfollowed(self, block: Block, reason: str) -> Unfollowed:
+        """A block with its words in the terms in which the control reads them."""
+        state = self.state
+        modes = ["/"] if block.is_skippable else []
+        if block.macro is not None:
+            modes.append("".join(_BESIDE_MACRO.sub("", block.text.upper()).split()))
+        if any(word.address not in _NAMES for word in block.words):
+            modes += [state.unit.value, "incremental" if state.is_incremental else "absolute"]
+        modal = self.modes.codes.get(state.motion) if state.motion is not None else None
+        if modal and modal.effect is Effect.CYCLE:
+            modes += [f"modal G{modal.number}", state.plane.code]
+        words = sorted(self._canonical(word) for word in block.words if word.address not in "NO")
+        return Unfollowed(block.line, block.text.strip(), (*modes, *words), reason)
+
+    def _canonical(self, word: Word) -> str:
+        if word.number is None:
+            return "".join(word.text.upper().split())
+        counts = self.modes.lexicon.numbers.without_point is WithoutPoint.LEAST_INCREMENTS
+        is_count = counts and not word.has_point and word.number and word.address not in _NAMES
+        return f"{word.address}{word.number.normalize():f}{' increments' if is_count else ''}"
+
+
+def _bend(
+    axes: tuple[int, int],
+    center: tuple[float, float],
+    start: tuple[float, float],
+    end: tuple[float, float],
+    turn: Turn,
+) -> Bend:
+    """An arc from its ends; a full circle if they are the same."""
+    (begin, one), (finish, other) = (
+        (atan2(at[1] - center[1], at[0] - center[0]), hypot(at[0] - center[0], at[1] - center[1]))
+        for at in (start, end)
+    )
+    is_full = hypot(end[0] - start[0], end[1] - start[1]) <= LENGTH
+    sweep = tau if is_full else ((finish - begin) * turn.sign) % tau
+    return Bend(axes, center, begin, sweep * turn.sign, (one, other))
+
+
+def _center_of(
+    start: tuple[float, float], end: tuple[float, float], radius: float, turn: Turn
+) -> tuple[float, float] | None:
+    """The centre of an arc by its radius, negative for more than half a turn; None if there is none."""
+    chord = end[0] - start[0], end[1] - start[1]
+    half = hypot(*chord) / 2
+    if half <= LENGTH or half > abs(radius) + RADIUS_DIFFERENCE:
+        return None
+    height = sqrt(max(radius**2 - half**2, 0.0)) * turn.sign * (1 if radius > 0 else -1) / (2 * half)
+    return (start[0] + end[0]) / 2 - chord[1] * height, (start[1] + end[1]) / 2 + chord[0] * height

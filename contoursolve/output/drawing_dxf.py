@@ -1,0 +1,129 @@
+"""Solved contours as a drawing for CAD: DXF R2010 with one layer an element, the same bytes for the same input.
+
+The plane's first axis is the drawing's X and its second axis the drawing's Y: on a lathe Z to the right and X up, as
+radius. Custom properties of the drawing say so. No text of the program enters it.
+"""
+
+import io
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from math import atan2, degrees, hypot
+
+import ezdxf
+from ezdxf.document import Drawing
+from ezdxf.enums import TextEntityAlignment
+from ezdxf.filemanagement import new
+from ezdxf.layouts.layout import Modelspace
+
+from contoursolve.contour import ArcSegment, Contour, Segment
+from contoursolve.examine import Answer
+from contoursolve.model import Length, Plane, Turn
+from contoursolve.solving import Point
+from contoursolve.tolerance import LENGTH
+
+CONSTRUCTION = "construction"
+"""The layer of what is not cut: virtual and computed intersections."""
+
+_RELEASE = "R2010"
+_INSUNITS = {Length.INCH: 1, Length.MM: 4}
+_MEASUREMENT = {Length.INCH: 0, Length.MM: 1}
+_RED, _BLACK, _GREY = 1, 7, 8
+_CROSS = 2
+"""$PDMODE: points are drawn as crosses."""
+_MARK = 0.01
+"""1. Height of texts, as a share of the drawing's larger side."""
+_FULL = 360.0
+
+
+def to_dxf(answers: Sequence[Answer]) -> bytes:
+    """The drawing of every contour that is solved; in inches if all of them are programmed in inches, else in mm.
+
+    Raises ValueError if none is solved.
+    """
+    drawn = [(number, answer) for number, answer in enumerate(answers, 1) if answer.contour]
+    if not drawn:
+        raise ValueError("no contour is solved: there is nothing to draw")
+    unit = Length.INCH if all(answer.unit is Length.INCH for _, answer in drawn) else Length.MM
+    with _same_bytes():
+        document = new(_RELEASE)
+        _set_header(document, unit, [answer.plane for _, answer in drawn])
+        document.layers.add(CONSTRUCTION, color=_GREY)
+        page = document.modelspace()
+        height = _MARK * _larger_side([answer.contour for _, answer in drawn if answer.contour], unit)
+        for number, answer in drawn:
+            _draw(document, page, number, answer, unit, height)
+        for kind in sorted(document.entitydb.dxf_types_in_use()):
+            document.classes.add_class(kind)  # ezdxf would list them in the order of a set
+        stream = io.StringIO()
+        document.write(stream)
+    return document.encode(stream.getvalue())
+
+
+def layer_name(number: int, answer: Answer, element: Segment) -> str:
+    """The layer of one element: the contour's number and line, and the element's name."""
+    return f"contour {number} - program line {answer.lines[0]} - {element.name}"
+
+
+@contextmanager
+def _same_bytes() -> Iterator[None]:
+    """Write no date, no version and no random identity into the drawing."""
+    options = ezdxf.options  # type: ignore[attr-defined]  # documented, and exported without saying so
+    before = options.write_fixed_meta_data_for_testing
+    options.write_fixed_meta_data_for_testing = True
+    try:
+        yield
+    finally:
+        options.write_fixed_meta_data_for_testing = before
+
+
+def _set_header(document: Drawing, unit: Length, planes: Sequence[Plane]) -> None:
+    document.header["$INSUNITS"] = _INSUNITS[unit]
+    document.header["$MEASUREMENT"] = _MEASUREMENT[unit]
+    document.header["$PDMODE"] = _CROSS
+    for plane in dict.fromkeys(planes):
+        first, second = (
+            f"{axis} as radius" if is_diameter else axis
+            for axis, is_diameter in zip(plane.axes, plane.diameters, strict=True)
+        )
+        document.header.custom_vars.append(f"Axes in {plane.code}", f"X of the drawing is {first}, Y is {second}")
+    document.header.custom_vars.append("Unit", unit.value)
+
+
+def _larger_side(contours: Sequence[Contour], unit: Length) -> float:
+    ends = [each for contour in contours for each in (contour.start, *(element.end for element in contour.elements))]
+    sides = (max(each[axis] for each in ends) - min(each[axis] for each in ends) for axis in (0, 1))
+    return max(sides) / float(unit.in_mm)
+
+
+def _draw(document: Drawing, page: Modelspace, number: int, answer: Answer, unit: Length, height: float) -> None:
+    contour, scale = answer.contour, float(unit.in_mm)
+    if contour is None:
+        return
+
+    def place(at: Point) -> Point:
+        return at[0] / scale, at[1] / scale
+
+    for element in contour.elements:
+        layer = layer_name(number, answer, element)
+        if not document.layers.has_entry(layer):
+            document.layers.add(layer, color=_RED if isinstance(element, ArcSegment) else _BLACK)
+        style = {"layer": layer}
+        start, end = place(element.start), place(element.end)
+        if not isinstance(element, ArcSegment):
+            page.add_line(start, end, dxfattribs=style)
+            continue
+        center, radius = place(element.center), element.radius / scale
+        if hypot(element.end[0] - element.start[0], element.end[1] - element.start[1]) <= LENGTH:
+            page.add_circle(center, radius, dxfattribs=style)
+            continue
+        # An arc of DXF runs counter-clockwise.
+        first, last = (start, end) if element.turn is Turn.CCW else (end, start)
+        page.add_arc(center, radius, _angle(center, first), _angle(center, last), dxfattribs=style)
+    for name, at in contour.points.items():
+        page.add_point(place(at), dxfattribs={"layer": CONSTRUCTION})
+        text = page.add_text(f"{number}: {name}", height=height, dxfattribs={"layer": CONSTRUCTION})
+        text.set_placement(place(at), align=TextEntityAlignment.BOTTOM_LEFT)
+
+
+def _angle(center: Point, at: Point) -> float:
+    return degrees(atan2(at[1] - center[1], at[0] - center[0])) % _FULL

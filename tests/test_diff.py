@@ -1,0 +1,452 @@
+"""Whether two programs describe the same path: by worked examples, by laws, and by LinuxCNC's own interpreter."""
+
+import json
+import re
+import shutil
+import subprocess
+from math import atan2, cos, hypot, pi, radians, sin
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from contoursolve.api import only_findings, read_program
+from contoursolve.cli import main
+from contoursolve.comparison import follow
+from contoursolve.dialects.plain import LINUXCNC as LINUXCNC_CONTROL
+from contoursolve.examine import Policy
+from contoursolve.model import Length
+from contoursolve.pipeline import run
+
+PROGRAMS = Path(__file__).parent.parent / "notebooks" / "programs"
+SHAFT, PLATE = (PROGRAMS.joinpath(name).read_text() for name in ("shaft.nc", "plate.nc"))
+
+
+def invoke(*arguments, stdin=None):
+    done = CliRunner().invoke(main, ["diff", *map(str, arguments)], input=stdin)
+    assert done.exception is None or isinstance(done.exception, SystemExit), done.exception
+    return done.exit_code, done.output
+
+
+@pytest.fixture(scope="module")
+def diff(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("diff")
+
+    def run(old, new, *arguments):
+        for name, text in (("old.nc", old), ("new.nc", new)):
+            (folder / name).write_text(text)
+        status, output = invoke(folder / "old.nc", folder / "new.nc", "--format", "json", *arguments)
+        document = json.loads(output)
+        assert status == (0 if document["verdict"] == "equal" else 1)
+        return document
+
+    return run
+
+
+def replaced(program, **lines):
+    """A program with the blocks of these numbers written by hand."""
+    for number, text in lines.items():
+        program, changed = re.subn(rf"^{number} .*$", f"{number} {text}", program, flags=re.MULTILINE)
+        assert changed == 1
+    return program
+
+
+# --- Conversions by hand -----------------------------------------------------------------------------
+
+SHAFT_BY_HAND = {
+    "N630": "G01 X18.2679 Z-3.9641 F0.12\nG02 X18. Z-4.4641 I0.866 K-0.5\nG01 Z-35.",
+    "N780": "G01 X26. F0.15\nX30. Z-2.\nZ-27.\nG02 X36. Z-30. R3.",
+    "N810": "G01 Z-109.4223 F0.12\nG02 X80.4291 Z-110.5364 I3. K0\nG01 X84. Z-115.",
+    "N820": "G01 Z-133. F0.15\nG02 X88. Z-135. I2. K0\nG01 X89.\nX90. Z-135.5",
+    "N830": "G01 Z-144.\nX92. Z-145.\nU6.",
+}
+PLATE_BY_HAND = {
+    "N180": "G2 X-26.4575 Y30 R40",
+    "N190": "G1 X75",
+    "N370": "G3 X18.4391 Y12 I-22 J0",
+    "N380": "G1 X-18.439",
+    "N530": "G2 X83 Y11.4891 I14 J0",
+    "N540": "G1 Y-11.489",
+}
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        (SHAFT, replaced(SHAFT, **SHAFT_BY_HAND)),
+        (PLATE, replaced(PLATE, **PLATE_BY_HAND)),
+    ],
+    ids=["shaft", "plate"],
+)
+def test_blocks_written_by_hand_are_the_same_path_either_way_round(diff, old, new):
+    for pair in ((old, new), (new, old)):
+        found = diff(*pair)
+        assert found["verdict"] == "equal", found["difference"]
+        assert 0 < found["largest_deviation"]["mm"] < 0.0005
+
+
+def test_the_slip_of_the_conversion_in_the_notebooks_is_the_only_one(diff):
+    converted = PROGRAMS.parent.joinpath("conversions", "shaft_by_hand.nc").read_text()
+    found = diff(SHAFT, converted)
+    assert found["difference"]["old"]["line"] == 68
+    assert found["difference"]["new"]["text"] == "N792 G01 X59.775 Z-57.667"
+    assert found["difference"]["distance_mm"] == pytest.approx(0.009, abs=5e-4)
+    assert diff(SHAFT, converted.replace("X59.775", "X59.757"))["verdict"] == "equal"
+
+
+@pytest.mark.parametrize(
+    ("program", "by_hand"), [(SHAFT, SHAFT_BY_HAND), (PLATE, PLATE_BY_HAND)], ids=["shaft", "plate"]
+)
+def test_every_coordinate_by_hand_that_is_off_by_a_hundredth_is_found(diff, program, by_hand):
+    whole = replaced(program, **by_hand)
+    for number, text in by_hand.items():
+        for match in re.finditer(r"([XYZU])(-?\d+\.?\d*)", text):
+            value = float(match[2]) + 0.01
+            changed = text[: match.start()] + f"{match[1]}{value:.4f}" + text[match.end() :]
+            found = diff(program, whole.replace(text, changed))
+            # An arc whose radii differ is an error by itself on some controls.
+            assert found["verdict"] in ("different", "not-compared"), (number, changed)
+
+
+MANUAL = "G00 X40. Z0.\nG111 X100. A180. K-30. B120. P5. Q5."
+LINUXCNC = """G7 G18 G21 G90 G91.1 (X is a diameter)
+G0 X40 Z0
+G1 Z-27.1132 F100
+G2 X45 Z-31.4434 I5 K0
+G1 X95 Z-45.8771
+G3 X100 Z-50.2073 R5
+M2"""
+RADIUS = re.sub(r"X(\d+)", lambda match: f"X{int(match[1]) / 2}", LINUXCNC).replace("G7", "G8")
+INCH_END = "G03 X3.937008 Z-1.976665 R.19685"
+
+
+@pytest.mark.parametrize(
+    ("control", "new"),
+    [
+        ("linuxcnc", LINUXCNC),
+        ("linuxcnc", RADIUS),
+        ("linuxcnc", LINUXCNC.replace("G91.1", "G90.1").replace("I5 K0", "I25 K-27.1132")),
+        ("linuxcnc", LINUXCNC.replace("G1 Z-27.1132", "G1 G91 Z-20\nZ-7.1132\nG90")),
+        ("fanuc-lathe", "G00 X40. Z0.\nG01 W-27.113\nG02 U5. W-4.33 R5.\nG01 X95. Z-45.877\nG03 X100. Z-50.207 R5."),
+        (
+            "fanuc-lathe",
+            "G00 X40000 Z0\nG01 W-27113\nG02 U5000 W-4330 I5000 K0\nG01 X95. Z-45.877\nG03 X100. Z-50.207 R5.",
+        ),
+        (
+            "fanuc-lathe",
+            "G20 G00 X1.574803 Z0.\nG01 Z-1.067449\nG02 X1.771654 Z-1.237929 R.19685\nG01 X3.740157 Z-1.806185\n"
+            + INCH_END,
+        ),
+    ],
+    ids=["diameter", "radius", "centres from the origin", "increments", "fanuc", "without point", "inches"],
+)
+def test_a_program_for_another_control_is_read_as_that_control_reads_it(diff, control, new):
+    found = diff(MANUAL, new, "--new-control", control)
+    assert found["verdict"] == "equal", found["difference"]
+    assert found["new"]["control"] == control
+    other = diff(new, MANUAL, "--control", control, "--new-control", "yasnac-lx3")
+    assert other["verdict"] == "equal"
+    assert other["largest_deviation"]["mm"] == found["largest_deviation"]["mm"]
+
+
+@pytest.mark.parametrize(
+    ("new", "reason"),
+    [
+        (LINUXCNC.replace("G7", "G8"), "start apart|end apart"),
+        (LINUXCNC.replace("G2 X45", "G3 X45"), "opposite directions"),
+        (LINUXCNC.replace("G2 X45 Z-31.4434 I5 K0", "G1 X45 Z-31.4434"), "OLD is an arc, NEW is a line"),
+        (LINUXCNC.replace("R5", "R5.05"), "run apart between"),
+        (LINUXCNC.replace("R5", "R-5"), "run apart between"),
+        (LINUXCNC.replace("G1 X95", "G0 X95"), "OLD is a feed, NEW is a rapid"),
+        (LINUXCNC.replace("G1 X95", "/G1 X95"), "only NEW can be skipped"),
+        (LINUXCNC.replace("G1 X95", "G41 G1 X95"), "OLD is compensated by G40, NEW by G41"),
+        (LINUXCNC.replace("\nM2", "\nG0 X110"), "NEW goes on"),
+        (LINUXCNC.partition("G3")[0], "OLD goes on"),
+        (LINUXCNC.replace("X95 Z-45.8771", "X95 Z-45.8771 A5"), "only NEW has a block that is not followed"),
+        (LINUXCNC.replace("I5 K0", "I5 K0.1"), "only NEW has a block that is not followed"),
+        (LINUXCNC.replace("I5 K0", ""), "only NEW has a block that is not followed"),
+    ],
+)
+def test_what_is_different_is_named(diff, new, reason):
+    found = diff(MANUAL, new, "--new-control", "linuxcnc")
+    assert found["verdict"] == "different"
+    assert re.search(reason, found["difference"]["reason"]), found["difference"]
+
+
+def test_both_lines_values_units_and_the_distance_are_printed(tmp_path):
+    old, new = tmp_path / "old.nc", tmp_path / "new.ngc"
+    old.write_text(MANUAL)
+    new.write_text(LINUXCNC.replace("X95", "X95.02"))
+    status, output = invoke(old, new, "--new-control", "linuxcnc")
+    assert status == 1
+    assert "different: they end apart, 0.0100 mm" in output
+    assert "old.nc:2: G111 X100. A180." in output
+    assert "new.ngc:5: G1 X95.02 Z-45.8771" in output
+    assert "feed, line [mm, X as diameter]" in output
+    assert "to   X95.0000 Z-45.8771" in output
+    assert "to   X95.0200 Z-45.8771" in output
+    new.write_text(LINUXCNC)
+    status, output = invoke("-", new, "--new-control", "linuxcnc", stdin=MANUAL)
+    assert status == 0
+    assert output.startswith("equal: the same path to within 0.001 mm\n")
+
+
+# --- What is not followed --------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("program", [SHAFT, PLATE], ids=["shaft", "plate"])
+def test_a_program_is_equal_to_itself_and_what_is_not_followed_is_named(diff, program):
+    found = diff(program, program)
+    assert found["verdict"] == "equal"
+    assert found["largest_deviation"]["mm"] == 0
+    named = [each["text"].split()[1] for each in found["old"]["not_followed"]]
+    assert named[0] in ("G28", "G54")
+    assert ("G81" in named) or ("G90" in named)
+    assert found["old"]["not_followed"] == found["new"]["not_followed"]
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "G28 U0 W0",
+        "M98 P100",
+        "#100 = 5.",
+        "G65 P9000 A1.",
+        "G01 X#100",
+        "G71 P1 Q2 U0.5",
+        "G54",
+        "G99.3 X1.",
+        "GOTO 5",
+    ],
+)
+def test_what_is_not_followed_must_be_the_same_word_by_word(diff, line):
+    program = MANUAL + "\n{}\nG00 X40. Z10."
+    assert diff(program.format(line), program.format(line))["verdict"] == "equal"
+    assert diff(program.format(line), program.format(f"N5 {line} (COMMENT)"))["verdict"] == "equal"
+    for other in ("(NOTHING)", line + "1", "G30 U0 W0"):
+        assert diff(program.format(line), program.format(other))["verdict"] == "different"
+
+
+def test_blocks_that_are_not_followed_are_listed_once_where_both_have_them(tmp_path):
+    new = tmp_path / "new.nc"
+    new.write_text(SHAFT.replace("N260 X46.", "N260 X46.5"))
+    output = invoke(PROGRAMS / "shaft.nc", new)[1]
+    assert "different: blocks that are not followed are not the same\n" in output
+    assert "the same word by word in both: 15 blocks" in output
+    assert (
+        "N160 G90 X91. Z-144. F0.35 (the end of G90 (turning cycle) is not followed), and 12 more up to line 33"
+        in output
+    )
+    assert "only in OLD: 1 block\n    OLD line 30: N260 X46. " in output
+    assert "only in NEW: 1 block\n    NEW line 30: N260 X46.5 " in output
+
+
+def test_an_arc_whose_radii_differ_is_named_with_both(diff):
+    new = LINUXCNC.replace("X45 Z-31.4434", "X45.1 Z-31.4434")
+    found = diff(MANUAL, new, "--new-control", "linuxcnc")
+    assert found["difference"]["reason"] == "only NEW has a block that is not followed"
+    assert "is 5.0000 mm at its start and 4.9753 mm at its end" in found["difference"]["new"]["reason"]
+
+
+def test_what_is_not_solved_is_said(diff, tmp_path):
+    broken = PROGRAMS.joinpath("shaft_broken.nc").read_text()
+    found = diff(SHAFT, broken)
+    assert found["verdict"] == "not-compared"
+    assert {each["code"] for each in found["diagnostics"]} >= {"g111-a-ignored", "words-missing"}
+    status, output = invoke(PROGRAMS / "shaft.nc", PROGRAMS / "shaft_broken.nc")
+    assert status == 1
+    assert "not compared: a program that has errors has no path" in output
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("-", "-"), "standard input"),
+        (("missing.nc", PROGRAMS / "shaft.nc"), "no such file"),
+        ((PROGRAMS / "shaft.nc", PROGRAMS / "shaft.nc", "--tolerance", "0"), "tolerance"),
+        ((PROGRAMS / "shaft.nc", PROGRAMS / "shaft.nc", "--control", "unknown"), "linuxcnc"),
+        (("-", PROGRAMS / "shaft.nc"), "say which with --control"),
+        ((PROGRAMS / "shaft.nc", PROGRAMS / "shaft.nc", "--set", "x.y=z"), "no setting"),
+    ],
+)
+def test_what_cannot_run_ends_with_2(arguments, said):
+    status, output = invoke(*arguments, stdin="G0 X1")
+    assert status == 2
+    assert said in output
+
+
+# --- Laws ------------------------------------------------------------------------------------------
+
+lengths = st.integers(2_000, 40_000).map(lambda value: value / 1000)
+turns = st.integers(20, 150).flatmap(lambda value: st.sampled_from((value, -value)))
+sweeps = st.integers(30, 300).flatmap(lambda value: st.sampled_from((value, -value)))
+pieces = st.lists(st.tuples(turns, lengths, st.none() | sweeps), min_size=2, max_size=8)
+
+
+def write(drawing, turned=(), split=()):
+    """Plain G-code of lines and arcs with a corner between each two; some arcs reversed, some elements in two."""
+    x = y = heading = 0.0
+    blocks = ["G17 G21 G90 G91.1", "G0 X0 Y0"]
+    for number, (turn, size, sweep) in enumerate(drawing):
+        heading += radians(turn)
+        if sweep is None:
+            parts = (0.4, 0.6) if number in split else (1.0,)
+            for part in parts:
+                x, y = x + part * size * cos(heading), y + part * size * sin(heading)
+                blocks.append(f"G1 X{x:.6f} Y{y:.6f}")
+            continue
+        side = pi / 2 if sweep > 0 else -pi / 2
+        center = x + size * cos(heading + side), y + size * sin(heading + side)
+        parts = (0.4, 0.6) if number in split else (1.0,)
+        for part in parts:
+            i, j = center[0] - x, center[1] - y
+            angle = atan2(-j, -i) + radians(sweep * part)
+            x, y = center[0] + size * cos(angle), center[1] + size * sin(angle)
+            code = 3 if (sweep > 0) != (number in turned) else 2
+            blocks.append(f"G{code} X{x:.6f} Y{y:.6f} I{i:.6f} J{j:.6f}")
+        heading += radians(sweep)
+    return "\n".join(blocks)
+
+
+PLAIN = ("--control", "linuxcnc")
+
+
+@settings(max_examples=60, deadline=None)
+@given(pieces, st.data())
+def test_dividing_lines_and_arcs_changes_nothing(diff, drawing, data):
+    parts = [data.draw(st.sets(st.integers(0, len(drawing) - 1))) for _ in range(2)]
+    one, other = (write(drawing, split=each) for each in parts)
+    found = diff(one, other, *PLAIN)
+    assert found["verdict"] == "equal", found["difference"]
+    assert found["largest_deviation"]["mm"] < 1e-5
+    back = diff(other, one, *PLAIN)
+    assert (back["verdict"], back["largest_deviation"]["mm"]) == ("equal", found["largest_deviation"]["mm"])
+
+
+@settings(max_examples=120, deadline=None)
+@given(pieces, st.data())
+def test_every_coordinate_that_is_changed_by_a_hundredth_is_found(diff, drawing, data):
+    one = write(drawing)
+    other = write(drawing, split=data.draw(st.sets(st.integers(0, len(drawing) - 1))))
+    places = list(re.finditer(r"(?<=[XY])-?\d+\.\d+", one))
+    place = data.draw(st.sampled_from(places))
+    value = float(place[0]) + data.draw(st.sampled_from((0.01, -0.01)))
+    changed = one[: place.start()] + f"{value:.6f}" + one[place.end() :]
+    for pair in ((changed, other), (other, changed)):
+        found = diff(*pair, *PLAIN)
+        assert found["verdict"] == "different"
+
+
+@settings(max_examples=40, deadline=None)
+@given(pieces, st.data())
+def test_an_arc_the_other_way_round_is_found(diff, drawing, data):
+    arcs = [number for number, (_, _, sweep) in enumerate(drawing) if sweep is not None]
+    if arcs:
+        found = diff(write(drawing), write(drawing, turned={data.draw(st.sampled_from(arcs))}), *PLAIN)
+        assert found["verdict"] == "different"
+        assert found["difference"]["reason"] == "the arcs turn in opposite directions"
+
+
+MILL = "G17 G21 G90 G91.1\nG0 X0 Y0 Z0\n"
+TINY = "".join(f"G1 X{x / 10_000:.4f}\n" for x in (*range(8, 900, 8), *range(900, 8, -8)))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "verdict"),
+    [
+        ("G0 X10", "G0 X4\nX10", "equal"),
+        ("G0 X10 Y5", "G0 X4 Y2\nX10 Y5", "different"),
+        ("G33 X10 K1", "G33 X4 K1\nX10 K1", "different"),
+        ("G1 X10 Y5 Z5", "G1 X4 Y2 Z2\nX10 Y5 Z5", "equal"),
+        ("G2 X10 I5 Z5", "G2 X5 Y5 I5 Z2.5\nG2 X10 Y0 J-5 Z5", "equal"),
+        ("G2 X10 I5 Z5", "G2 X5 Y5 I5 Z2.51\nG2 X10 Y0 J-5 Z5", "different"),
+        ("G2 I5", "G2 X10 I5\nX0 I-5", "equal"),
+        ("G2 I5", "G2 X10 I5", "different"),
+        ("G1 X10\nX0", "G1 X0", "different"),
+        ("G1 X10", "G1 X12\nX10", "different"),
+        ("G1 X10", "G1 X10.0008\nX10", "equal"),
+        ("G1 Y10", TINY + "G1 X0\nY10", "different"),
+        ("G1 Y10", "G1 Y10\n" + TINY + "X0", "different"),
+        ("G1 X.0009\nG1 Y10", "G1 Y10", "equal"),
+        ("G1 X10 Y0.0018", "G1 X5 Y0\nX10 Y0.0018", "equal"),
+        ("G1 X10 Y0.0030", "G1 X5 Y0\nX10 Y0.0030", "different"),
+        ("G92 X5\nG1 X10", "G92 X5.01\nG1 X10", "different"),
+        ("G1 X1", "G1 X1\nG92 X5", "different"),
+        ("G41 G1 X1", "G1 X1", "different"),
+    ],
+)
+def test_a_cut_may_be_divided_and_nothing_else(diff, old, new, verdict):
+    for pair in ((old, new), (new, old)):
+        found = diff(*(MILL + text for text in pair), *PLAIN)
+        assert found["verdict"] == verdict, found["difference"]
+
+
+def test_the_modal_bevels_of_a_lathe_are_followed(diff):
+    bevels = "G00 X30. Z0\nG11 Z-20. I8. F30\nX80. K-7.\nG00 X90.\n"
+    by_hand = "G00 X30. Z0\nG01 Z-12. F30\nX46. Z-20.\nX66.\nX80. Z-27.\nG00 X90.\n"
+    lx3 = ("--control", "yasnac-lx3")
+    assert diff(bevels, by_hand, *lx3)["verdict"] == "equal"
+    assert diff(bevels, by_hand.replace("X66.", "X66.02"), *lx3)["verdict"] == "different"
+
+
+# --- LinuxCNC's interpreter ------------------------------------------------------------------------
+
+INTERPRETED = {
+    "lathe": LINUXCNC,
+    "radius": RADIUS,
+    "inches": LINUXCNC.replace("G21", "G20"),
+    "absolute centres": "G17 G90 G90.1 G21\nF100\nG0 X0 Y0 Z0\nG2 X10 Y10 I10 J0\nG3 X0 Y20 R10\nG3 X20 R-10.5 Z5",
+    "helix": "G17 G90 G91.1 G21\nF100\nG0 X0 Y0 Z1\nG2 X10 Y0 I5 J0 Z0\nG3 I3 J4\nG91 G1 X1 Y1\nG2 X3 R2",
+    "planes": "G18 G8 G90 G91.1 G21\nF100\nG0 X0 Y0 Z1\nG2 X4 Z1 I2\nG19\nG3 Y4 Z1 J2\nG17\nG2 X0 Y0 I-2 J-2",
+}
+
+
+@pytest.mark.parametrize("program", INTERPRETED.values(), ids=INTERPRETED)
+def test_plain_g_code_is_followed_as_linuxcnc_runs_it(program, tmp_path):
+    interpreter = shutil.which("rs274")
+    if interpreter is None:
+        pytest.skip("rs274, LinuxCNC's interpreter (package linuxcnc-uspace), is not installed")
+    file = tmp_path / "part.ngc"
+    file.write_text(program if program.rstrip().endswith("M2") else program + "\nM2\n")
+    done = subprocess.run([interpreter, "-g", str(file)], capture_output=True, text=True, check=True)
+    calls = re.findall(r"(STRAIGHT_TRAVERSE|STRAIGHT_FEED|ARC_FEED|SELECT_PLANE)\((.*)\)", done.stdout)
+    planes = {"CANON_PLANE_XY": (0, 1, 2), "CANON_PLANE_XZ": (2, 0, 1), "CANON_PLANE_YZ": (1, 2, 0)}
+    wanted, order = [], (0, 1, 2)
+    mm = 25.4 if "G20" in program else 1.0
+    for name, text in calls:
+        if name == "SELECT_PLANE":
+            order = planes[text]
+            continue
+        values = [float(value) * mm for value in text.split(",")]
+        end = [0.0, 0.0, 0.0]
+        if name == "ARC_FEED":
+            end[order[0]], end[order[1]], end[order[2]] = values[0], values[1], values[5]
+            wanted.append(("arc", end, values[2:4], "ccw" if values[4] > 0 else "cw"))
+        else:
+            wanted.append(("line", values[:3], "rapid" if "TRAVERSE" in name else "feed", None))
+    followed = steps_of(file)
+    assert len(followed) == len(wanted) > 2
+    for step, (kind, end, more, turn) in zip(followed, wanted, strict=True):
+        got = [value or 0.0 for value in step.end]
+        assert got == pytest.approx(end, abs=1.1e-4 * mm)
+        if kind == "arc":
+            assert step.bend.center == pytest.approx(more, abs=1.1e-4 * mm)
+            assert (step.bend.sweep > 0) == (turn == "ccw")
+            radius = hypot(
+                *(value - center for value, center in zip(at(step, step.end), step.bend.center, strict=True))
+            )
+            assert radius == pytest.approx(step.bend.radii[0], abs=2e-4 * mm)
+        else:
+            assert step.bend is None
+            assert step.motion.value == more
+
+
+def at(step, place):
+    return [place[axis] for axis in step.bend.axes]
+
+
+def steps_of(file):
+    result = only_findings(run(read_program(file), LINUXCNC_CONTROL, Length.MM, Policy.ENFORCE))
+    return follow(result, LINUXCNC_CONTROL, Length.MM, ("X", "Y", "Z")).steps

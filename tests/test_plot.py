@@ -1,0 +1,186 @@
+"""Drawings for CAD: what was written is read back with ezdxf and held against the contours."""
+
+import io
+import subprocess
+import sys
+from dataclasses import replace
+from math import cos, hypot, radians, sin
+from pathlib import Path
+
+import ezdxf
+import pytest
+from click.testing import CliRunner
+from ezdxf import recover
+
+import contoursolve
+from contoursolve.cli import main
+from contoursolve.contour import ArcSegment
+from contoursolve.model import Turn
+from contoursolve.output.drawing_dxf import CONSTRUCTION, layer_name, to_dxf
+
+PROGRAMS = Path(__file__).parent.parent / "notebooks" / "programs"
+CIRCLE = "G17 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q-1"
+INCH = "G20 G00 X2. Z0.\nG111 X4. A180. K-1. B120. P.2 Q.2"
+
+
+def plot(*arguments, **options):
+    done = CliRunner().invoke(main, ["plot", *map(str, arguments)], **options)
+    assert done.exception is None or isinstance(done.exception, SystemExit), done.exception
+    return done.exit_code, done.output
+
+
+def read(data: bytes):
+    """The drawing, as a program reads it that repairs nothing."""
+    document, auditor = recover.read(io.BytesIO(data))
+    assert auditor.errors == [] == auditor.fixes
+    return document
+
+
+def ends(entity):
+    if entity.dxftype() == "LINE":
+        return [tuple(entity.dxf.start)[:2], tuple(entity.dxf.end)[:2]]
+    center, radius = entity.dxf.center, entity.dxf.radius
+    angles = radians(entity.dxf.start_angle), radians(entity.dxf.end_angle)
+    return [(center.x + radius * cos(angle), center.y + radius * sin(angle)) for angle in angles]
+
+
+def close(one, other):
+    return hypot(one[0] - other[0], one[1] - other[1]) < 1e-9
+
+
+@pytest.mark.parametrize(
+    ("text", "mm"),
+    [(PROGRAMS.joinpath("shaft.nc").read_text(), 1.0), (PROGRAMS.joinpath("plate.nc").read_text(), 1.0), (INCH, 25.4)],
+    ids=["lathe", "mill", "inches"],
+)
+def test_the_drawing_holds_every_element_on_its_layer_to_1e_9(text, mm):
+    result = contoursolve.solve(text)
+    document = read(to_dxf(result.answers))
+    assert document.header["$INSUNITS"] == (4 if mm == 1.0 else 1)
+    page = document.modelspace()
+    drawn = [entity for entity in page if entity.dxf.layer != CONSTRUCTION]
+    elements = [
+        (layer_name(number, answer, element), element)
+        for number, answer in enumerate(result.answers, 1)
+        for element in answer.contour.elements
+    ]
+    assert len(elements) == len(drawn) > 1
+    for (layer, element), entity in zip(elements, drawn, strict=True):
+        assert entity.dxf.layer == layer
+        assert layer in document.layers
+        want = [tuple(value / mm for value in place) for place in (element.start, element.end)]
+        if isinstance(element, ArcSegment):
+            assert entity.dxftype() == "ARC"
+            assert close(entity.dxf.center, [value / mm for value in element.center])
+            assert entity.dxf.radius == pytest.approx(element.radius / mm, abs=1e-9)
+            assert (entity.dxf.end_angle - entity.dxf.start_angle) % 360 == pytest.approx(element.sweep, abs=1e-9)
+            want = want if element.turn is Turn.CCW else want[::-1]
+        else:
+            assert entity.dxftype() == "LINE"
+        assert all(map(close, ends(entity), want))
+    points = [tuple(value / mm for value in at) for each in result.answers for at in each.contour.points.values()]
+    marks = [entity.dxf.location for entity in page.query("POINT")]
+    assert all(map(close, marks, points))
+    assert len(marks) == len(points) > 0
+
+
+def test_the_header_says_which_axes_the_drawing_has():
+    lathe = read(to_dxf(contoursolve.solve(INCH).answers)).header.custom_vars
+    assert lathe.get("Axes in G18") == "X of the drawing is Z, Y is X as radius"
+    mill = read(to_dxf(contoursolve.solve(CIRCLE).answers)).header.custom_vars
+    assert mill.get("Axes in G17") == "X of the drawing is X, Y is Y"
+
+
+def test_nothing_of_the_programs_text_enters_the_drawing():
+    hostile = "(\n0\nEOF\n) (%UD9 {\\C1;EVIL} \x1b[31m <>/\\:;?*|=`)"
+    text = INCH.replace("\n", f" {hostile.replace(chr(10), ' ')}\n") + " (EVIL)"
+    assert to_dxf(contoursolve.solve(text).answers) == to_dxf(contoursolve.solve(INCH).answers)
+
+
+def test_the_same_program_gives_the_same_bytes_in_every_process(tmp_path):
+    files = [tmp_path / "a.dxf", tmp_path / "b.DXF"]
+    for seed, file in zip((0, 4), files, strict=True):
+        command = [sys.executable, "-m", "contoursolve", "plot", str(PROGRAMS / "shaft.nc"), "-o", str(file)]
+        subprocess.run(command, check=True, env={"PYTHONHASHSEED": str(seed), "PYTHONPATH": ":".join(sys.path)})
+    assert files[0].read_bytes() == files[1].read_bytes()
+    assert not ezdxf.options.write_fixed_meta_data_for_testing
+    assert to_dxf(contoursolve.solve_file(PROGRAMS / "shaft.nc").answers) == files[0].read_bytes()
+
+
+def test_a_drawing_that_exists_is_replaced_only_by_force(tmp_path):
+    target = tmp_path / "part.dxf"
+    target.write_text("mine")
+    target.chmod(0o640)
+    status, output = plot(PROGRAMS / "shaft.nc", "-o", target)
+    assert (status, target.read_text()) == (2, "mine")
+    assert "part.dxf exists; --force replaces it" in output
+    status, output = plot(PROGRAMS / "shaft.nc", "-o", target, "--force")
+    assert status == 0
+    assert "24 elements of 7 contours" in output
+    assert len(read(target.read_bytes()).modelspace().query("LINE ARC")) == 24
+    assert target.stat().st_mode & 0o777 == 0o640
+    assert [each.name for each in tmp_path.iterdir()] == ["part.dxf"]
+
+
+def test_a_write_that_fails_leaves_the_old_drawing_and_nothing_else(tmp_path, monkeypatch):
+    target = tmp_path / "part.dxf"
+    target.write_text("mine")
+
+    def fail(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("os.fsync", fail)
+    status, output = plot(PROGRAMS / "shaft.nc", "-o", target, "--force")
+    assert (status, target.read_text()) == (2, "mine")
+    assert "part.dxf cannot be written: No space left on device" in output
+    assert [each.name for each in tmp_path.iterdir()] == ["part.dxf"]
+
+
+@pytest.mark.parametrize(
+    ("output", "said"),
+    [
+        ("part.svg", "SVG and PNG are not made yet"),
+        ("part", "drawings end in .dxf"),
+        ("missing/part.dxf", "is no directory"),
+        ("folder.dxf", "is a directory"),
+        ("program.dxf", "is the program itself"),
+    ],
+)
+def test_a_target_that_makes_no_sense_is_named(tmp_path, output, said):
+    program = tmp_path / "program.dxf"
+    program.write_text(INCH)
+    (tmp_path / "folder.dxf").mkdir()
+    status, printed = plot(program, "-o", tmp_path / output, "--force")
+    assert status == 2
+    assert said in printed
+    assert program.read_text() == INCH
+
+
+def test_without_ezdxf_the_message_says_what_to_install(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "ezdxf", None)
+    monkeypatch.delitem(sys.modules, "contoursolve.output.drawing_dxf")
+    status, output = plot(PROGRAMS / "shaft.nc", "-o", tmp_path / "part.dxf")
+    assert status == 2
+    assert "pip install 'contoursolve[dxf]'" in output
+
+
+def test_where_nothing_is_solved_nothing_is_written(tmp_path):
+    target = tmp_path / "part.dxf"
+    status, output = plot("--block", "G111 A180. B120. X100.", "--start", "X40. Z0.", "-o", target)
+    assert status == 1
+    assert "words-missing" in output
+    assert "part.dxf: not written" in output
+    assert not target.exists()
+    status, output = plot(PROGRAMS / "shaft_broken.nc", "-o", target)
+    assert status == 1
+    assert "2 elements of 1 contour" in output
+    assert len(read(target.read_bytes()).modelspace().query("LINE ARC")) == 2
+
+
+def test_a_full_circle_is_drawn_as_one():
+    answer = contoursolve.solve(CIRCLE).answers[0]
+    arc = next(each for each in answer.contour.elements if isinstance(each, ArcSegment))
+    whole = replace(answer, contour=replace(answer.contour, elements=(replace(arc, end=arc.start),)))
+    (circle,) = read(to_dxf([whole])).modelspace().query("CIRCLE")
+    assert close(circle.dxf.center, arc.center)
+    assert circle.dxf.radius == arc.radius
