@@ -283,9 +283,8 @@ def nudged(result: dict[str, Any]) -> Iterator[dict[str, Any]]:
 @pytest.mark.parametrize("text", SAMPLES.values(), ids=SAMPLES)
 def test_a_number_that_is_off_by_a_millionth_is_found(desk, text):
     result = older(desk.solve(text))
-    for number, wrong in enumerate(nudged(result)):
-        assert desk.is_wrong(wrong), number
-    for place, value in coordinates(result):
+    for number, (place, value) in enumerate(coordinates(result)):
+        assert desk.is_wrong(changed(result, place, value + (NUDGE if number % 2 else -NUDGE))), place
         if value:
             assert desk.is_wrong(changed(result, place, -value)), place
 
@@ -325,7 +324,7 @@ def mutations(result: dict[str, Any]) -> Iterator[tuple[Place, Any]]:
                 yield place, each
 
 
-MOST = 300
+MOST = 100
 """Mutations of a program of one contour; each of a longer one takes so much longer to verify."""
 
 MUTATED = {
@@ -397,7 +396,7 @@ def test_a_result_that_was_tampered_with_is_found(desk, name):
 def random_programs() -> Iterator[tuple[str, str]]:
     """Programs of every form, written from drawn paths, and some with another value in one word."""
     rng = Random(7)
-    for number in range(60):
+    for number in range(35):
         form, plane = generate_nct.FORMS[number % 4], (17, 18, 19)[number % 3]
         kinds = (
             generate_nct.random_pair(rng, form, plane, rng.choice(("", "C", "R"))),
@@ -806,6 +805,13 @@ EXTENDED = {
         "length of line 1 = ?; straight part of line 2 = ?; direction of line 1 = ?; X of end of corner 1 = ?; "
         "angle from line 1 to line 2 = ?; Z of V2 = ?; radius of corner 1 = ?; Z of begin of line 2 = ?",
     ),
+    "length of a line of two": TURN + "G1 ,A150\nG1 X10 Y? ,A225 (contoursolve: length of line 1 = 40)",
+    "rounding of two lines": TURN + "G1 ,A150 ,R?\nG1 X10 Y20 ,A225 (contoursolve: straight part of line 1 = 30)",
+    "chamfer of two lines": TURN + "G1 ,A150 ,C?\nG1 X10 Y20 ,A225 (contoursolve: length of corner 1 = 4)",
+    "coordinate of a crossing": MILL + "G3 I? J0\n" + CIRCLE + " (contoursolve: X of P1 = -45)",
+    "radius in a chain": TURN + "G1 ,A150 ,R2\nG1 X10 Y20 ,A225\nG3 X-40 Y-20 I-20 J-20 R? Q1",
+    "a chamfer before a rounding": MILL
+    + "G1 X80 ,C?\nX90 Y40 ,R5\nG3 X60 Y70 R30 (contoursolve: straight part of line 1 = 25)",
     "tangent": pair("G3 I-50 J0", "G1 X-80 Y42.857", "line tangent to arc"),
     "tangent, clockwise": pair("G2 I-50 J0", "G1 X-80 Y42.857", "arc tangent to line"),
     "tangent, one coordinate": pair("G3 I-50 J0", "G1 X-80 ,A171.87", "line tangent to arc"),
@@ -830,7 +836,7 @@ UNCHOSEN = ("ambiguous", "rejected")
 
 def solved(desk: Desk, name: str) -> dict[str, Any]:
     """The result for one of these programs."""
-    is_mill = EXTENDED[name].startswith(MILL)
+    is_mill = EXTENDED[name].startswith("G17")
     return desk.solve(EXTENDED[name], *(("--control", "nct-99m") if is_mill else ()))
 
 
@@ -895,7 +901,7 @@ def test_the_answer_to_a_slightly_different_fact_is_wrong(desk, name):
         other = text[: match.start()] + number + "00002" + text[match.end() :]
         if "." in match[0]:
             other = text[: match.start()] + f"{float(match[0]) + 2e-5:.6f}" + text[match.end() :]
-        result = desk.solve(other, *(("--control", "nct-99m") if text.startswith(MILL) else ()))
+        result = desk.solve(other, *(("--control", "nct-99m") if text.startswith("G17") else ()))
         assert not desk.is_wrong(result), other
         (contour,) = result["contours"]
         program = parse(text).blocks
@@ -985,7 +991,7 @@ def test_a_list_of_solutions_that_was_tampered_with_is_found(desk, name):
 )
 def test_words_that_leave_the_points_loose_fix_none(desk, text, facts, line):
     """As many words as unknowns, of which some say the same: any path along the way would do."""
-    result = older(desk.solve(text, *(("--control", "nct-99m") if text.startswith(MILL) else ())))
+    result = older(desk.solve(text, *(("--control", "nct-99m") if text.startswith("G17") else ())))
     program = "\n".join([*text.split("\n")[:-1], f"{line} (contoursolve: {facts[0]})"])
     desk.program.write_bytes(program.encode())
     found = failures(desk.receipt(with_contour(result, facts=facts)))
@@ -1307,7 +1313,7 @@ JSON = st.recursive(
     max_leaves=6,
 )
 FUZZ = settings(
-    derandomize=True, deadline=None, max_examples=120, suppress_health_check=[HealthCheck.function_scoped_fixture]
+    derandomize=True, deadline=None, max_examples=50, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )
 
 
