@@ -18,6 +18,7 @@ if TYPE_CHECKING:
         UnreadableProgramError,
         check,
         check_file,
+        expand,
         parse,
         read_program,
         solve,
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
     from contoursolve.contour import ArcSegment, Contour, LineSegment
     from contoursolve.diagnostic import Basis, Diagnosis, Diagnostic, Severity
     from contoursolve.examine import Answer, Depth, Policy
+    from contoursolve.expansion import Expansion
     from contoursolve.pipeline import Result, UnknownControlError
     from contoursolve.sketch import Drawings, Drawn, Sketch
     from contoursolve.solving import Status
@@ -47,6 +49,7 @@ __all__ = [
     "Diagnostic",
     "Drawings",
     "Drawn",
+    "Expansion",
     "LineSegment",
     "Policy",
     "Program",
@@ -60,6 +63,7 @@ __all__ = [
     "check",
     "check_file",
     "completions",
+    "expand",
     "parse",
     "read_program",
     "solve",
@@ -72,6 +76,7 @@ _ROOMS = {
     "contour": ("ArcSegment", "Contour", "LineSegment"),
     "diagnostic": ("Basis", "Diagnosis", "Diagnostic", "Severity"),
     "examine": ("Answer", "Depth", "Policy"),
+    "expansion": ("Expansion",),
     "pipeline": ("Result", "UnknownControlError"),
     "sketch": ("Drawings", "Drawn", "Sketch"),
     "solving": ("Status",),

@@ -18,12 +18,14 @@ from contoursolve.reading import Trouble
 from contoursolve.syntax import STANDARD_INPUT, Directive, Program, UnreadableProgramError
 
 if TYPE_CHECKING:
+    from contoursolve.expansion import Expansion
     from contoursolve.statements import Statement
 
 __all__ = [
     "UnreadableProgramError",
     "check",
     "check_file",
+    "expand",
     "find_dialect",
     "only_findings",
     "parse",
@@ -166,6 +168,79 @@ def only_findings(result: Result) -> Result:
         for each in result.diagnostics
     ]
     return replace(result, diagnostics=tuple(findings))
+
+
+def expand(
+    text: str,
+    *,
+    post: str = "same",
+    arcs: str = "center",
+    decimals: int | None = None,
+    comments: bool = True,
+    keep_going: bool = False,
+    control: str | None = None,
+    start: str | None = None,
+    units: str = "mm",
+    rules: str = "enforce",
+    facts: Iterable[str | Statement] = (),
+    settings: Mapping[str, str] | None = None,
+    name: str = "<program>",
+) -> Expansion:
+    """A program with every contour written as plain G00, G01, G02 and G03, and everything else as it was.
+
+    Args:
+        text: the program, with its line ends.
+        post: the target: `same` (the control that the program is for), `linuxcnc` or `fanuc`.
+        arcs: `center` (I J K) or `radius` (R).
+        decimals: decimals of a length; the target's own without.
+        comments: whether the original blocks are kept as comments.
+        keep_going: whether to expand the other contours where one cannot be expanded.
+        control: and all others as for `solve`, with the same errors.
+
+    >>> print(expand("G00 X40. Z0.\\nG111 X100. A180. K-30. B120. C5. F0.2").text)
+    G00 X40. Z0.
+    (G111 X100. A180. K-30. B120. C5. F0.2)
+    G01 X40. Z-27.887 F0.2
+    G01 X50. Z-32.887
+    G01 X100. Z-47.321
+    """
+    # Only this function needs them.
+    from contoursolve.expansion import (  # noqa: PLC0415
+        OPENING,
+        Expansion,
+        Options,
+        Summary,
+        expand_lines,
+        lines_of_facts,
+        opening_of,
+    )
+    from contoursolve.posts import Arcs, find_post  # noqa: PLC0415
+
+    program = syntax.parse(text, name)
+    dialect = find_dialect(control) if control else recognise(program)
+    options = Options(find_post(post), Arcs(arcs), decimals, comments, keep_going)
+    summary, unit, policy = Summary(), Length(units), Policy(rules)
+    if dialect is None:
+        return Expansion(text, None, summary)
+    dialect = (configure(settings) if settings else {}).get(dialect.name, dialect)
+    beginning = syntax.parse(start, name, first_line=0) if start is not None else None
+    stated = [_fact(fact, -number) for number, fact in enumerate(facts, 1)]
+    further = lines_of_facts(program, dialect, unit, beginning, stated)
+    pieces = list(
+        expand_lines(
+            syntax.split_lines(text),
+            dialect,
+            options,
+            summary,
+            unit=unit,
+            policy=policy,
+            start=beginning,
+            facts=further,
+        )
+    )
+    opening = opening_of(options, dialect, unit, summary)
+    written = "".join(opening if piece is OPENING else str(piece) for piece in pieces)
+    return Expansion(written if keep_going or not summary.left else None, dialect.name, summary)
 
 
 def read_program(path: str | Path) -> Program:

@@ -9,6 +9,7 @@ import sys
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
+from importlib import import_module
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -49,7 +50,7 @@ class CouldNotRunError(click.ClickException):
     exit_code = COULD_NOT_RUN
 
 
-_units = click.option(
+units_option = click.option(
     "--units",
     type=click.Choice([unit.value for unit in Length]),
     default="mm",
@@ -58,7 +59,7 @@ _units = click.option(
 )
 
 
-_settings = click.option(
+settings_option = click.option(
     "--set",
     "assignments",
     multiple=True,
@@ -68,7 +69,7 @@ _settings = click.option(
 )
 
 
-_rules = click.option(
+rules_option = click.option(
     "--rules",
     type=click.Choice([policy.value for policy in Policy]),
     default="enforce",
@@ -108,7 +109,7 @@ def _apart(command: Callable[..., None]) -> Callable[..., None]:
     return command
 
 
-def _common(command: Callable[..., None]) -> Callable[..., None]:
+def common_options(command: Callable[..., None]) -> Callable[..., None]:
     """The options that `solve` and `check` share."""
     for option in reversed(
         (
@@ -118,16 +119,35 @@ def _common(command: Callable[..., None]) -> Callable[..., None]:
                 type=click.Choice(list(DIALECTS)),
                 help="The control. Without it, the control is found from the program where that is clear.",
             ),
-            _units,
-            _rules,
-            _settings,
+            units_option,
+            rules_option,
+            settings_option,
         )
     ):
         command = option(command)
     return command
 
 
-@click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+_ELSEWHERE = {"expand": "contoursolve.cli_expand:expand", "filter": "contoursolve.cli_expand:filter_"}
+
+
+class _Commands(click.Group):
+    """The commands; those of other modules are imported when they are asked for."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """All names, in order."""
+        return sorted([*super().list_commands(ctx), *_ELSEWHERE])
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """The command of this name."""
+        if cmd_name not in _ELSEWHERE:
+            return super().get_command(ctx, cmd_name)
+        module, _, name = _ELSEWHERE[cmd_name].partition(":")
+        command: click.Command = getattr(import_module(module), name)
+        return command
+
+
+@click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
 @click.version_option(__version__, prog_name="contoursolve")
 def main() -> None:
     """Solve CNC contour blocks, or say why they cannot be solved.
@@ -145,7 +165,7 @@ def main() -> None:
 
 @main.command(short_help="Solve every contour block of a program.")
 @click.argument("program", required=False)
-@_common
+@common_options
 @click.option(
     "--format",
     "format_",
@@ -182,14 +202,14 @@ def solve(
     if format_ == "json":
         click.echo(to_json(result))
     else:
-        _print(_solved(result, _style(), is_explained))
+        _print(_solved(result, style_of_output(), is_explained))
         _print_summary([result])
     context.exit(FOUND_ERRORS if result.has_errors else 0)
 
 
 @main.command(short_help="Report findings only, for any number of programs.")
 @click.argument("programs", nargs=-1, metavar="PROGRAM...")
-@_common
+@common_options
 @click.option(
     "--format",
     "format_",
@@ -250,7 +270,7 @@ def check(
             _print([to_github(results)])
         case _:
             for result in results:
-                _print(_findings(result, result.diagnostics, _style()))
+                _print(_findings(result, result.diagnostics, style_of_output()))
             _print_summary(results)
     failing = {"error": (Severity.ERROR,), "warning": (Severity.ERROR, Severity.WARNING), "never": ()}[fail_on]
     found = {finding.severity for result in results for finding in result.diagnostics}
@@ -314,7 +334,7 @@ def explain(code: str) -> None:
     type=click.Choice(list(DIALECTS)),
     help="The control. Without it, the one that the result names.",
 )
-@_units
+@units_option
 @click.option(
     "--format",
     "format_",
@@ -376,7 +396,7 @@ def verify(
     "-o", "--output", required=True, metavar="OUT.dxf", type=click.Path(path_type=Path), help="The drawing to write."
 )
 @click.option("--force", "is_forced", is_flag=True, help="Replace the drawing if it exists.")
-@_common
+@common_options
 @click.pass_context
 def plot(
     context: click.Context,
@@ -413,7 +433,7 @@ def plot(
     try:
         check_target(output, (program,) if program else (), is_forced=is_forced)
         result = _examine(load(), start, assignments, options)
-        _print(_findings(result, result.diagnostics, _style()))
+        _print(_findings(result, result.diagnostics, style_of_output()))
         contours = [answer.contour for answer in result.answers if answer.contour]
         if contours:
             write_whole(output, to_dxf(result.answers))
@@ -446,12 +466,12 @@ _ANY_CONTROL = click.Choice([*DIALECTS, *PLAIN])
 @click.option(
     "--new-control", type=_ANY_CONTROL, help="The control of NEW. Without it, found from NEW, or that of OLD."
 )
-@_units
+@units_option
 @click.option(
     "--new-units", type=click.Choice([unit.value for unit in Length]), help="The same for NEW. Without it, as for OLD."
 )
-@_rules
-@_settings
+@rules_option
+@settings_option
 @click.option(
     "--format", "format_", type=click.Choice(["text", "json"]), default="text", show_default=True, help="What to print."
 )
@@ -499,7 +519,7 @@ def diff(
             click.echo(differences.refusal_to_json(results))
         else:
             for result in results:
-                _print(_findings(result, result.diagnostics, _style()))
+                _print(_findings(result, result.diagnostics, style_of_output()))
             click.echo("not compared: a program that has errors has no path")
         context.exit(FOUND_ERRORS)
     axes = tuple(sorted({axis for _, dialect, _ in sides for axis in dialect.modes.axes}))
@@ -564,7 +584,8 @@ def _folder(program: Program) -> Path:
     return Path() if program.name.startswith("<") else Path(program.name).parent
 
 
-def _style() -> Style:
+def style_of_output() -> Style:
+    """Colours, unless NO_COLOR asks for none; click leaves them out where there is no terminal."""
     if os.environ.get("NO_COLOR"):
         return plain
     return lambda text, role: click.style(text, **_COLORS[role]) if text else text

@@ -64,6 +64,8 @@ class Depth(Enum):
 
     VERDICT = "verdict"
     """Its findings."""
+    PATH = "path"
+    """Also why they are so, and every repair; but nothing is proven of a contour without a finding."""
     FULL = "full"
     """Also why they are so, and every repair; some milliseconds a contour."""
 
@@ -144,6 +146,7 @@ def examine(
     rules: tuple[Rule, ...],
     policy: Policy,
     next_place: Callable[[], tuple[Decimal, Decimal] | None] = _no_place,
+    depth: Depth = Depth.FULL,
 ) -> Answer:
     """Everything there is to say about one contour, and its path if there is one.
 
@@ -175,7 +178,7 @@ def examine(
         notebook.add(finding)
     solution, alternatives = Solution(Status.REJECTED), None
     if is_readable:
-        solution, alternatives = _examine_geometry(context, claim, profile, notebook)
+        solution, alternatives = _examine_geometry(context, claim, profile, notebook, depth)
     for offence in ignoring:
         notebook.add(explain_ignored(context, offence, profile, solution))
 
@@ -291,7 +294,7 @@ def _examine_words(context: Context, claim: Claim, notebook: _Notebook) -> None:
 
 
 def _examine_geometry(
-    context: Context, claim: Claim, profile: Profile, notebook: _Notebook
+    context: Context, claim: Claim, profile: Profile, notebook: _Notebook, depth: Depth
 ) -> tuple[Solution, Alternatives | None]:
     """The system for all values, then its solution at the values of the block.
 
@@ -308,7 +311,7 @@ def _examine_geometry(
     is_long = is_open and count_choices(profile) > MOST_CHOICES
     if is_open and not is_long:
         # Which contours the missing word could choose is worth knowing.
-        return Solution(Status.UNDERDETERMINED), _solve(profile, context, notebook)[1]
+        return Solution(Status.UNDERDETERMINED), _solve(profile, context, notebook, depth)[1]
     if structure and not is_refused and profile.is_extended and profile.start.is_known:
         from contoursolve.settling import said_twice  # noqa: PLC0415 - few blocks state more than their words
 
@@ -316,7 +319,7 @@ def _examine_geometry(
             notebook.add(explain_result(context, event, profile), Status.CONFLICTING)
     if not is_solvable or is_long or (is_refused and not says_too_much):
         return Solution(Status.UNDERDETERMINED), None
-    solution, alternatives = _solve(profile, context, notebook)
+    solution, alternatives = _solve(profile, context, notebook, depth)
     events: list[Refusal | Remark] = [*solution.refusals, *solution.remarks]
     for event in events:
         if not is_refused or event.kind in _ABOUT_WORDS:
@@ -325,10 +328,12 @@ def _examine_geometry(
     return (Solution(solution.status), None) if is_refused else (solution, alternatives)
 
 
-def _solve(profile: Profile, context: Context, notebook: _Notebook) -> tuple[Solution, Alternatives | None]:
+def _solve(
+    profile: Profile, context: Context, notebook: _Notebook, depth: Depth
+) -> tuple[Solution, Alternatives | None]:
     """The contour that the control makes, or the only one that there is."""
     is_chosen = not profile.is_extended and not _has_choice(profile)
-    solution = solve(profile) if is_chosen else None
+    solution = solve(profile, is_proven=depth is not Depth.PATH) if is_chosen else None
     touches = solution is not None and any(remark.kind is RemarkKind.TOUCHES for remark in solution.remarks)
     if solution is not None and not (touches and count_choices(profile) <= MOST_CHOICES):
         return solution, None

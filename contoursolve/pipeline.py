@@ -1,7 +1,8 @@
 """The order of the stages: from the text of a program to its contours and findings."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import islice
 from typing import TYPE_CHECKING, cast
 
 from contoursolve.diagnostic import Basis, Diagnostic, Severity
@@ -9,7 +10,16 @@ from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.examine import Answer, Depth, Policy, examine, rank
 from contoursolve.explain import Context, report
 from contoursolve.model import Length, Plane
-from contoursolve.reading import Claim, State, Trouble, advance, leave, next_place
+from contoursolve.reading import (
+    Claim,
+    State,
+    Trouble,
+    advance,
+    advance_plainly,
+    is_plain,
+    leave,
+    next_place,
+)
 from contoursolve.source import Span
 from contoursolve.spelling import (
     explain_asked_outside,
@@ -18,7 +28,7 @@ from contoursolve.spelling import (
     explain_unmarked,
     explain_words,
 )
-from contoursolve.syntax import Block, Directive, FaultKind, Program, Word
+from contoursolve.syntax import Block, Directive, FaultKind, PlainLine, Program, Word, parse_block
 
 if TYPE_CHECKING:
     from contoursolve.statements import Statement
@@ -55,6 +65,22 @@ class Result:
         return block.span if block else Span(1, 1, 2)
 
 
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One block of a program, or the blocks of one contour from its first line to its last, and the state before it:
+    before a plain line, the state before the first one in a row.
+
+    `findings` are about blocks that are no contour.
+    """
+
+    blocks: tuple[Block, ...]
+    before: State
+    answer: Answer | None = None
+    findings: tuple[Diagnostic, ...] = ()
+    line: PlainLine | None = None
+    """In place of a block: what nobody needed to read into words."""
+
+
 class UnknownControlError(ValueError):
     """The program does not tell which control it is for; the message lists the choices."""
 
@@ -63,12 +89,13 @@ class FactPlaceError(ValueError):
     """Facts were stated apart from a program with several contours; the message says what to do."""
 
 
-def _attach(
+def attach(
     program: Program, dialect: Dialect, unit: Length, start: Program | None, facts: Sequence[Directive]
 ) -> tuple[Program, tuple[Directive, ...]]:
     """The program with further facts in the last block of its only contour, or else of its last block; and the facts,
-    those that are no texts in words."""
-    answers = list(_Examiner(program, dialect, unit, Policy.OFF, Depth.VERDICT).walk(start))
+    those that are no texts in words. Raises FactPlaceError if there are several contours."""
+    steps = walk(program.blocks, dialect, unit, Policy.OFF, Depth.VERDICT, start)
+    answers = [step.answer for step in steps if step.answer is not None]
     if len(answers) > 1:
         lines = ", ".join(str(answer.lines[0]) for answer in answers)
         raise FactPlaceError(
@@ -109,6 +136,11 @@ def recognise(program: Program) -> Dialect | None:
     return DIALECTS[next(iter(signs))] if signs else None
 
 
+def first_sign(blocks: Iterable[Block]) -> Dialect | None:
+    """The control that the first block that shows any is written for."""
+    return next((dialect for block in blocks for dialect in DIALECTS.values() if dialect.signs(block)), None)
+
+
 def run(
     program: Program,
     dialect: Dialect | None,
@@ -125,26 +157,47 @@ def run(
     examined.
     """
     if facts and dialect is not None:
-        program, facts = _attach(program, dialect, unit, start, facts)
-    examiner = _Examiner(program, dialect, unit, policy, depth)
-    answers = list(examiner.walk(start))
-    if not answers and not any(each.severity is Severity.ERROR for each in examiner.diagnostics):
-        examiner.nothing_to_solve()
-    everything = [*examiner.diagnostics, *(each for answer in answers for each in answer.diagnostics)]
+        program, facts = attach(program, dialect, unit, start, facts)
+    examiner = _Examiner(dialect, unit, policy, depth)
+    answers: list[Answer] = []
+    everything: list[Diagnostic] = []
+    for step in examiner.steps(program.blocks, start):
+        everything += step.findings
+        if step.answer is not None:
+            answers.append(step.answer)
+    if not answers and not any(each.severity is Severity.ERROR for each in everything):
+        everything.append(examiner.nothing_to_solve())
+    everything += [each for answer in answers for each in answer.diagnostics]
     everything.sort(key=rank)
     control, settings = (dialect.name, dialect.modes.settings) if dialect else (None, {})
     return Result(program, control, tuple(answers), tuple(everything), start, tuple(facts), settings, policy)
 
 
+def walk(
+    blocks: Iterable[Block | PlainLine],
+    dialect: Dialect,
+    unit: Length,
+    policy: Policy,
+    depth: Depth,
+    start: Program | None = None,
+) -> Iterator[Step]:
+    """Every block and every contour of a program in order; blocks that are not a sequence are read as they are needed,
+    so that a program of any length takes no more memory than its longest contour. Plain lines are read into words
+    only where that matters."""
+    return _Examiner(dialect, unit, policy, depth).steps(blocks, start)
+
+
 _FAULTS_OF_NO_CONSEQUENCE = (FaultKind.STRAY_CHARACTER,)
 """Faults that are only worth a warning in a block that is not a contour."""
+
+_BATCH = 1_000
+"""Blocks that are read at once."""
 
 
 class _Examiner:
     """One pass over one program: the modal state as it goes, and the findings outside contours."""
 
-    def __init__(self, program: Program, dialect: Dialect | None, unit: Length, policy: Policy, depth: Depth) -> None:
-        self.program = program
+    def __init__(self, dialect: Dialect | None, unit: Length, policy: Policy, depth: Depth) -> None:
         self.dialect = dialect
         self.unit = unit
         self.policy = policy
@@ -152,62 +205,111 @@ class _Examiner:
         self.rules = dialect.rules if dialect else DIALECTS["yasnac-lx3"].rules
         self.diagnostics: list[Diagnostic] = []
 
-    def walk(self, start: Program | None) -> Iterator[Answer]:
-        """The answer to every contour, in order."""
+    def steps(self, blocks: Iterable[Block | PlainLine], start: Program | None) -> Iterator[Step]:
+        """Every block and every contour, in order; without a dialect, only what is found."""
         if self.dialect is None:
-            for block in self.program.blocks:
-                self._check_block(block)
+            for each in blocks:
+                self._check_block(_read(each))
+            none = DIALECTS["yasnac-lx3"].initial_state(self.unit)
+            yield Step((), none, findings=self._findings())
             return
-        dialect, blocks = self.dialect, self.program.blocks
+        dialect = self.dialect
         state = dialect.initial_state(self.unit)
         for block in start.blocks if start else ():
             self._check_block(block)
             state = advance(state, block, dialect.modes)
         start_unit = state.unit
-        index = 0
-        while index < len(blocks):
-            block = blocks[index]
-            found = dialect.find(blocks, index, state, dialect.modes)
-            if found is not None:
-                answer = self._examine(found, index, state)
-                if start and found.after.unit is not start_unit:
-                    place = Context(self.rules, start_unit, place=start.blocks[0].span)
-                    self.diagnostics.append(explain_start_units(place, found.after.unit, start.blocks[0]))
-                    start_unit = found.after.unit
-                has_findings = any(each.severity is not Severity.INFO for each in answer.diagnostics)
-                if has_findings and self.depth is Depth.FULL:
-                    # Most programs need no diagnosis, and none should wait for its import.
-                    from contoursolve.diagnosis import diagnose  # noqa: PLC0415
-
-                    answer = diagnose(answer, dialect, self.policy)
-                if found.form.is_contour:
-                    yield answer
-                    lines = " and ".join(str(line) for line in answer.lines)
-                    reason = f"the contour of line {lines} before it is not solved"
-                    state = leave(found, answer.contour.end if answer.contour else None, dialect.modes, reason)
-                else:
-                    self.diagnostics += answer.diagnostics if answer.start.is_known else ()
-                    state = advance(state, block, dialect.modes)
-                index += found.blocks[-1].line - block.line
+        is_whole, index = isinstance(blocks, Sequence), 0
+        held: list[Block | PlainLine] = list(blocks) if isinstance(blocks, Sequence) else []
+        rest = iter(() if isinstance(blocks, Sequence) else blocks)
+        plain: list[PlainLine] = []
+        view, base, reach = _read_on(held, 0)
+        while True:
+            if index >= len(held) - 1 and not is_whole:
+                more = list(islice(rest, _BATCH))
+                held, index, reach, is_whole = [*held[index:], *more], 0, 0, len(more) < _BATCH
+                continue
+            if index >= len(held):
+                return
+            line = held[index]
+            if isinstance(line, PlainLine) and (
+                not line.moves or ((plain or is_plain(state)) and len(plain) < _BATCH and _moves_next(held, index + 1))
+            ):
+                if line.moves:
+                    plain.append(line)
+                yield Step((), state, line=line)
+                index += 1
+                continue
+            if plain:
+                state = advance_plainly(state, plain, dialect.modes)
+                plain = []
+            if index >= reach:
+                view, base, reach = _read_on(held, index)
+            place = index - base
+            block = view[place]
+            found = dialect.find(view, place, state, dialect.modes)
+            after = place + 1
+            if isinstance(found, Claim):
+                after += found.blocks[-1].line - block.line
+            if not is_whole and not _says_something(view, after):
+                # Whether a contour goes on is known at the next block that says something.
+                more = list(islice(rest, _BATCH))
+                held, index, reach, is_whole = [*held[index:], *more], 0, 0, len(more) < _BATCH
+                continue
+            blocks_of_step = tuple(view[place:after])
+            if isinstance(found, Claim) and found.form.is_contour:
+                answer = self._examine(found, view, after, state)
+                self._check_units(start, start_unit, found)
+                start_unit = found.after.unit
+                yield Step(blocks_of_step, state, answer, findings=self._findings())
+                lines = " and ".join(str(line) for line in answer.lines)
+                reason = f"the contour of line {lines} before it is not solved"
+                state = leave(found, answer.contour.end if answer.contour else None, dialect.modes, reason)
             else:
-                self._check_block(block)
+                before = state
                 state = advance(state, block, dialect.modes)
-            index += 1
+                if isinstance(found, Claim):
+                    answer = self._examine(found, view, after, before)
+                    self.diagnostics += answer.diagnostics if answer.start.is_known else ()
+                    self._check_units(start, start_unit, found)
+                    start_unit = found.after.unit
+                else:
+                    self._check_block(block)
+                yield Step(blocks_of_step, before, findings=self._findings())
+            index = base + after
 
-    def _examine(self, found: Claim, index: int, state: State) -> Answer:
-        """The answer to a contour that begins at a block, with the values that it asks for filled in."""
-        dialect, blocks = self.dialect, self.program.blocks
+    def _findings(self) -> tuple[Diagnostic, ...]:
+        """What was found since the last step."""
+        findings, self.diagnostics = tuple(self.diagnostics), []
+        return findings
+
+    def _examine(self, found: Claim, blocks: Sequence[Block], after: int, state: State) -> Answer:
+        """The answer to a contour that ends before a block, with the values that it asks for filled in."""
+        dialect = self.dialect
         if dialect is None:
             raise ValueError("without a control there is no contour")
-        after = index + found.blocks[-1].line - found.blocks[0].line + 1
-        answer = examine(found, self.rules, self.policy, lambda: next_place(blocks[after:], found, dialect.modes))
-        if answer.contour is None or not any(value.value is not None for value in answer.answers):
-            return answer
-        from contoursolve.fill import fill_in  # noqa: PLC0415 - few blocks ask for a value
+        answer = examine(
+            found, self.rules, self.policy, lambda: next_place(blocks[after:], found, dialect.modes), self.depth
+        )
+        if answer.contour is not None and any(value.value is not None for value in answer.answers):
+            from contoursolve.fill import fill_in  # noqa: PLC0415 - few blocks ask for a value
 
-        return replace(answer, filled=fill_in(answer, state, dialect))
+            answer = replace(answer, filled=fill_in(answer, state, dialect))
+        has_findings = any(each.severity is not Severity.INFO for each in answer.diagnostics)
+        if has_findings and self.depth is not Depth.VERDICT:
+            # Most programs need no diagnosis, and none should wait for its import.
+            from contoursolve.diagnosis import diagnose  # noqa: PLC0415
 
-    def nothing_to_solve(self) -> None:
+            answer = diagnose(answer, dialect, self.policy)
+        return answer
+
+    def _check_units(self, start: Program | None, unit: Length, found: Claim) -> None:
+        """Whether a contour is in the units in which the start point was stated apart from the program."""
+        if start and found.after.unit is not unit:
+            place = Context(self.rules, unit, place=start.blocks[0].span)
+            self.diagnostics.append(explain_start_units(place, found.after.unit, start.blocks[0]))
+
+    def nothing_to_solve(self) -> Diagnostic:
         """The finding that a program has no contour block."""
         forms = dict.fromkeys(
             f"{form.name} ({form.title}, {dialect.name})"
@@ -217,7 +319,7 @@ class _Examiner:
         )
         context = Context(self.rules, self.unit)
         rule = context.row(Trouble.NO_CONTOUR)
-        self.diagnostics.append(report(context, rule, Basis.RULE, [], triggers=" and ".join(forms)))
+        return report(context, rule, Basis.RULE, [], triggers=" and ".join(forms))
 
     def _check_block(self, block: Block) -> None:
         context = Context(self.rules, self.unit, place=block.span)
@@ -236,6 +338,43 @@ class _Examiner:
             addresses = lexicon.addresses
             axis_words = [word for word in block.words if word.address in addresses and addresses[word.address].axis]
             self.diagnostics += explain_words(context, lexicon, _repeated(axis_words), axis_words)
+
+
+def _read(block: Block | PlainLine) -> Block:
+    return parse_block(block.text, block.line) if isinstance(block, PlainLine) else block
+
+
+def _read_on(lines: Sequence[Block | PlainLine], index: int) -> tuple[list[Block], int, int]:
+    """The blocks from an index on as far as a contour there can go, that is to the second of two plain lines in a row;
+    the index of the first of them; and the first index that this is not far enough for."""
+    view: list[Block] = []
+    is_second = False
+    for place in range(index, len(lines)):
+        line = lines[place]
+        view.append(_read(line))
+        if isinstance(line, PlainLine) and not line.moves:
+            continue
+        is_first, is_second = is_second, isinstance(line, PlainLine)
+        if is_first and is_second:
+            return view, index, place
+    return view, index, len(lines)
+
+
+def _moves_next(lines: Sequence[Block | PlainLine], index: int) -> bool:
+    """Whether the next line that says something, from an index on, only moves."""
+    for place in range(index, len(lines)):
+        line = lines[place]
+        if not isinstance(line, PlainLine):
+            return False
+        if line.moves:
+            return True
+    return False
+
+
+def _says_something(blocks: Sequence[Block], index: int) -> bool:
+    """Whether any block from an index on has more than its number."""
+    rest = (blocks[other] for other in range(index, len(blocks)))
+    return any(each.faults or each.macro or any(word.address not in "NO" for word in each.words) for each in rest)
 
 
 def _repeated(words: Sequence[Word]) -> list[Word]:

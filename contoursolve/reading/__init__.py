@@ -6,6 +6,7 @@ from contoursolve.reading.claim import Claim, Selector, Trouble, read
 from contoursolve.reading.codes import Code, Effect
 from contoursolve.reading.form import CornerRow, FactRow, Form, Sample, lay_out, stated_sets
 from contoursolve.reading.lexicon import Address, Lexicon, NumberFormat, WithoutPoint
+from contoursolve.reading.plain import advance_plainly, is_plain, plain_lines
 from contoursolve.reading.setting import Convention, Setting
 from contoursolve.reading.state import Position, State
 
@@ -29,11 +30,14 @@ __all__ = [
     "Trouble",
     "WithoutPoint",
     "advance",
+    "advance_plainly",
     "apply_modes",
     "codes_of",
+    "is_plain",
     "lay_out",
     "leave",
     "next_place",
+    "plain_lines",
     "positions",
     "read",
     "stated_sets",

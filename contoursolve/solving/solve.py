@@ -52,7 +52,7 @@ ROUNDING = 2.0**-50
 """1 (share of the coordinates). Rounding of one formula of about four operations."""
 
 
-def solve(profile: Profile) -> Solution:
+def solve(profile: Profile, *, is_proven: bool = True) -> Solution:
     """The contour of a profile whose system is determined and whose start is known.
 
     With more facts than unknowns, the first determined subset that is regular at these values is
@@ -64,13 +64,13 @@ def solve(profile: Profile) -> Solution:
         raise ValueError(f"not determined: {', '.join(verdict.free)}")
     tied = frozenset(system.facts[index] for index in verdict.tied)
     attempt = _Attempt(profile, system)
-    answer = attempt.answer()
+    answer = attempt.answer(is_proven=is_proven)
     if not attempt.stuck & tied:
         # Where it is singular nothing is said twice, and so nothing can stand in for it.
         return answer
     for candidate in _orders(system, tied):
         attempt = _Attempt(profile, candidate)
-        answer = attempt.answer()
+        answer = attempt.answer(is_proven=is_proven)
         if not attempt.stuck:
             break
     return answer
@@ -170,7 +170,7 @@ class _Attempt:
         """The outputs for other sizes of corners."""
         return self.machine.function({**self._inputs(), **sizes})
 
-    def answer(self) -> Solution:
+    def answer(self, *, is_proven: bool) -> Solution:
         for number, step in enumerate(self.plan.steps):
             refusal = self._examine_step(number, step)
             if refusal:
@@ -198,7 +198,7 @@ class _Attempt:
             corners={corner.name: self._corner(corner) for corner in self.system.figure.corners},
             remarks=tuple(self.remarks),
             error_bound=bound,
-            certificate=self._certificate(bound),
+            certificate=self._certificate(bound) if is_proven else None,
         )
 
     def _certificate(self, bound: float) -> Certificate:

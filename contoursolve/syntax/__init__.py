@@ -1,10 +1,11 @@
 """Blocks and words as typed."""
 
-from contoursolve.syntax.lexer import parse, parse_block, read_directive
-from contoursolve.syntax.text import STANDARD_INPUT, UnreadableProgramError, decode, read_bytes
-from contoursolve.syntax.word import FACT, Block, Directive, Fault, FaultKind, Macro, Program, Word
+from contoursolve.syntax.lexer import parse, parse_block, read_directive, split_lines
+from contoursolve.syntax.text import BINARY, STANDARD_INPUT, UnreadableProgramError, decode, is_folder, read_bytes
+from contoursolve.syntax.word import FACT, Block, Directive, Fault, FaultKind, Macro, PlainLine, Program, Word
 
 __all__ = [
+    "BINARY",
     "FACT",
     "STANDARD_INPUT",
     "Block",
@@ -12,12 +13,15 @@ __all__ = [
     "Fault",
     "FaultKind",
     "Macro",
+    "PlainLine",
     "Program",
     "UnreadableProgramError",
     "Word",
     "decode",
+    "is_folder",
     "parse",
     "parse_block",
     "read_bytes",
     "read_directive",
+    "split_lines",
 ]

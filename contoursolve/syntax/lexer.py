@@ -13,6 +13,7 @@ LONGEST_NUMBER = 32
 """Characters of a number; controls read 8 digits."""
 
 _LINE_END = re.compile(r"\r\n|\n|\r")
+_LINE = re.compile(r"[^\r\n]*(?:\r\n|\n|\r)|[^\r\n]+")
 _BRACKETS = r"\[(?:[^\[\]]|\[(?:[^\[\]]|\[[^\[\]]*\])*\])*\]"
 _TOKEN = re.compile(
     rf"""
@@ -48,6 +49,11 @@ def parse(text: str, name: str = "<program>", first_line: int = 1) -> Program:
         lines.pop()
     blocks = tuple(parse_block(line, number) for number, line in enumerate(lines, first_line))
     return Program(name, text, blocks)
+
+
+def split_lines(text: str) -> list[str]:
+    """The lines of a text, each with its end: LF, CRLF or CR."""
+    return _LINE.findall(text)
 
 
 def parse_block(text: str, line: int) -> Block:

@@ -8,7 +8,7 @@ STANDARD_INPUT = "-"
 _TAPE_CODES = bytes([0x02, 0x03, 0x11, 0x12, 0x13, 0x14, 0x1A])
 """STX, ETX, DC1 to DC4 and SUB: left in a program by a reader of paper tape or by DOS."""
 
-_BINARY = frozenset(range(0x20)) - frozenset(b"\t\n\v\f\r" + _TAPE_CODES)
+BINARY = frozenset(range(0x20)) - frozenset(b"\t\n\v\f\r" + _TAPE_CODES)
 """Bytes that no program holds; a file in UTF-16 holds NUL."""
 
 
@@ -23,13 +23,14 @@ def read_bytes(path: str, wanted: str = "a file") -> bytes:
     except FileNotFoundError:
         raise UnreadableProgramError(f"{path}: no such file") from None
     except (OSError, ValueError) as error:
-        if _is_folder(path):  # Windows answers "permission denied" for a directory
+        if is_folder(path):  # Windows answers "permission denied" for a directory
             raise UnreadableProgramError(f"{path} is a directory, not {wanted}") from None
         reason = error.strerror if isinstance(error, OSError) else str(error)
         raise UnreadableProgramError(f"{path} cannot be read: {reason}") from None
 
 
-def _is_folder(path: str) -> bool:
+def is_folder(path: str) -> bool:
+    """Whether a name is that of a directory."""
     try:
         return Path(path).is_dir()
     except ValueError:  # a name with a NUL
@@ -38,7 +39,7 @@ def _is_folder(path: str) -> bool:
 
 def decode(data: bytes, name: str) -> str:
     """Text in UTF-8 or Latin-1. Raises UnreadableProgramError for bytes that are none."""
-    if not _BINARY.isdisjoint(data):
+    if not BINARY.isdisjoint(data):
         raise UnreadableProgramError(
             f"{name} is not a text file (it holds control bytes); save it as UTF-8 or Latin-1 text"
         )

@@ -110,6 +110,15 @@ class Block:
 
 
 @dataclass(frozen=True, slots=True)
+class PlainLine:
+    """One line of a program that does nothing but move, or nothing at all, and that nobody has read into words yet."""
+
+    line: int
+    text: str
+    moves: bool
+
+
+@dataclass(frozen=True, slots=True)
 class Program:
     """A program as typed: its name, text and blocks (one for each line, empty ones included)."""
 

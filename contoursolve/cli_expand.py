@@ -1,0 +1,244 @@
+"""The commands that write programs: expand, and the filter of LinuxCNC."""
+
+import sys
+from collections.abc import Callable, Mapping
+from contextlib import AbstractContextManager
+from dataclasses import replace
+from pathlib import Path
+from tempfile import TemporaryFile
+from typing import IO, Any
+
+import click
+
+from contoursolve import syntax
+from contoursolve.cli import (
+    FOUND_ERRORS,
+    CouldNotRunError,
+    common_options,
+    settings_option,
+    style_of_output,
+    units_option,
+)
+from contoursolve.dialects import DIALECTS
+from contoursolve.examine import Policy
+from contoursolve.expansion import Options, Summary
+from contoursolve.files import CannotWriteError, Tape, open_tape, tape_of, write_whole
+from contoursolve.model import Length
+from contoursolve.output.findings import Style, finding_lines, plain
+from contoursolve.output.layout import count
+from contoursolve.pipeline import FactPlaceError, UnknownControlError
+from contoursolve.posts import POSTS, Arcs, Post
+from contoursolve.project import SettingError, find_settings, read_setting
+from contoursolve.rewrite import Rewritten, rewrite
+from contoursolve.syntax import UnreadableProgramError
+
+STANDARD = "-"
+"""Standard input, or standard output."""
+
+
+@click.command(short_help="Write a program's contours as plain G-code.")
+@click.argument("program", metavar="OLD", required=False)
+@common_options
+@click.option("-o", "--output", metavar="NEW", help="Where to write; without it, or with -, to standard output.")
+@click.option("--in-place", "is_in_place", is_flag=True, help="Write to OLD itself, and keep it as OLD.bak.")
+@click.option("--force", "is_forced", is_flag=True, help="Replace NEW if it exists.")
+@click.option(
+    "--post",
+    type=click.Choice(list(POSTS)),
+    default="same",
+    show_default=True,
+    help="For which control: the one that the program is for, LinuxCNC, or Fanuc.",
+)
+@click.option(
+    "--arcs",
+    type=click.Choice([arcs.value for arcs in Arcs]),
+    default="center",
+    show_default=True,
+    help="Arcs by I J K, or by R.",
+)
+@click.option("--decimals", type=click.IntRange(1, 8), help="Decimals of a length; the target's own without.")
+@click.option("--no-comments", is_flag=True, help="Do not keep the original blocks as comments.")
+@click.option(
+    "--keep-going", "keeps_going", is_flag=True, help="Leave a contour that cannot be expanded, with a comment why."
+)
+@click.pass_context
+def expand(
+    context: click.Context,
+    /,
+    program: str | None,
+    blocks: tuple[str, ...],
+    start: str | None,
+    output: str | None,
+    is_in_place: bool,
+    is_forced: bool,
+    post: str,
+    arcs: str,
+    decimals: int | None,
+    no_comments: bool,
+    keeps_going: bool,
+    **options: Any,
+) -> None:
+    """Write OLD (a file, or - for standard input) with every contour as plain G00, G01, G02 and G03.
+
+    Everything else stays as it is, byte for byte, and each original block is kept as a comment above what replaces
+    it. End points are rounded first, and then the centre of each arc; the largest deviation is reported, and what
+    OLD says that the target does not know. If a contour cannot be expanded, nothing is written.
+
+    \b
+    contoursolve expand shaft.nc -o shaft_plain.nc
+    contoursolve expand shaft.nc --post linuxcnc --arcs radius > shaft.ngc
+    contoursolve expand --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0."
+    """
+    if bool(blocks) == bool(program):
+        raise click.UsageError("name a program (- for standard input), or give --block")
+    if start is not None and not blocks:
+        raise click.UsageError("--start goes with --block; a PROGRAM states its own positions")
+    target = _target(program, output, is_in_place, is_forced)
+    wish = Options(POSTS[post], Arcs(arcs), decimals, not no_comments, keeps_going)
+    source = tape_of("".join(f"{block}\n" for block in blocks), "<block>") if blocks else open_tape(program or "-")
+    length = 100
+    with (
+        TemporaryFile() as body,
+        click.progressbar(length=length, label="expanding", file=sys.stderr, hidden=not sys.stderr.isatty()) as bar,
+    ):
+        rewritten = _rewrite(
+            source, body, wish, start, options, lambda share: bar.update(int(share * length) - bar.pos)
+        )
+        bar.update(length - bar.pos)
+        summary = rewritten.summary
+        _report_left(summary, program or "<block>", style_of_output())
+        if summary.left and not keeps_going:
+            click.echo("nothing was written (--keep-going expands the others)", err=True)
+            context.exit(FOUND_ERRORS)
+        if target is None:
+            _print(rewritten)
+        elif summary.replaced or not is_in_place:
+            try:
+                backup = write_whole(target, rewritten.pieces(), keeps_backup=is_in_place)
+            except CannotWriteError as error:
+                raise CouldNotRunError(str(error)) from None
+            click.echo(f"{target} written" + (f"; the old one is {backup}" if backup else ""), err=True)
+    _report_expansion(summary, POSTS[post])
+    context.exit(FOUND_ERRORS if summary.left else 0)
+
+
+@click.command("filter", short_help="Expand a program as a filter of LinuxCNC.")
+@click.argument("program", metavar="FILE")
+@click.option("--control", type=click.Choice(list(DIALECTS)), help="The control; found from the program without it.")
+@units_option
+@settings_option
+@click.pass_context
+def filter_(context: click.Context, /, program: str, **options: Any) -> None:
+    """Write FILE for LinuxCNC to standard output, as LinuxCNC asks a filter to.
+
+    Progress goes to standard error as FILTER_PROGRESS=n. If a contour cannot be expanded, nothing is written, the
+    findings go to standard error, and the exit status is 1. In LinuxCNC's INI file:
+
+    \b
+    [FILTER]
+    PROGRAM_EXTENSION = .nc Programs of other controls
+    nc = contoursolve filter
+    """
+
+    def progress(share: float) -> None:
+        click.echo(f"FILTER_PROGRESS={int(share * 100)}", err=True)
+
+    with TemporaryFile() as body:
+        wish = Options(POSTS["linuxcnc"])
+        rewritten = _rewrite(open_tape(program), body, wish, None, {"rules": "enforce", **options}, progress)
+        _report_left(rewritten.summary, program, plain)
+        if rewritten.summary.left:
+            context.exit(FOUND_ERRORS)
+        progress(1.0)
+        _print(rewritten)
+    _report_expansion(rewritten.summary, POSTS["linuxcnc"])
+
+
+def _target(program: str | None, output: str | None, is_in_place: bool, is_forced: bool) -> Path | None:
+    """The file to write to, if any. What may not be written to is told before anything is done."""
+    source = None if program in (None, STANDARD) else Path(str(program))
+    if is_in_place:
+        if output is not None or source is None:
+            raise click.UsageError("--in-place takes a file OLD, and no NEW")
+        return source
+    if output in (None, STANDARD):
+        return None
+    target = Path(str(output))
+    if target.is_dir():
+        raise CouldNotRunError(f"{target} is a directory; name a file")
+    if target.exists():
+        if source is not None and source.exists() and target.samefile(source):
+            raise CouldNotRunError(f"{target} is the program itself; write to another file, or give --in-place")
+        if not target.is_file():
+            raise CouldNotRunError(f"{target} is not a regular file; leave -o out, and redirect")
+        if not is_forced:
+            raise CouldNotRunError(f"{target} exists; give --force to replace it")
+    return target
+
+
+def _rewrite(
+    source: AbstractContextManager[Tape],
+    body: IO[bytes],
+    wish: Options,
+    start: str | None,
+    options: Mapping[str, Any],
+    progress: Callable[[float], None],
+) -> Rewritten:
+    """Expand a program; whatever keeps it from running is told as one line."""
+    name = ""
+    try:
+        with source as tape:
+            name = tape.name
+            folder = Path() if name.startswith("<") else Path(name).parent
+            return rewrite(
+                tape,
+                body,
+                wish,
+                control=options["control"],
+                unit=Length(options["units"]),
+                policy=Policy(options["rules"]),
+                settings=find_settings(folder) | dict(map(read_setting, options["assignments"])),
+                start=syntax.parse(start, name, first_line=0) if start is not None else None,
+                facts=[syntax.read_directive(text, -number) for number, text in enumerate(options.get("facts", ()), 1)],
+                progress=progress,
+            )
+    except (SettingError, UnreadableProgramError) as error:
+        raise CouldNotRunError(str(error)) from None
+    except UnknownControlError as error:
+        raise CouldNotRunError(f"{name}: {error}; say which with --control {'|'.join(DIALECTS)}") from None
+    except FactPlaceError as error:
+        raise CouldNotRunError(f"{name}: {error}") from None
+
+
+def _print(rewritten: Rewritten) -> None:
+    """The bytes of the program on standard output."""
+    stream = sys.stdout.buffer
+    for piece in rewritten.pieces():
+        stream.write(piece)
+    stream.flush()
+
+
+def _report_left(summary: Summary, name: str, style: Style) -> None:
+    """Why contours were not expanded, on standard error."""
+    for left in summary.left:
+        if not left.diagnostics:
+            click.echo(f"{style('error', 'error')}: line {left.lines[0]}: {left.reason}", err=True)
+        for finding in left.diagnostics:
+            here = tuple(label for label in finding.labels if label.span.line in left.sources)
+            lines = finding_lines(replace(finding, labels=here), name, left.sources, style)
+            click.echo("\n".join(lines), err=True)
+
+
+def _report_expansion(summary: Summary, post: Post) -> None:
+    """What was done, and what is left to do, on standard error."""
+    for each in summary.unfamiliar:
+        click.echo(f"line {each.line}: {each.text} {each.problem} on {post.title}", err=True)
+    done = f"{count(summary.replaced, 'contour')} expanded"
+    if summary.replaced:
+        done += f", at most {summary.deviation:.1g} mm off"
+    if summary.left:
+        done += f"; {len(summary.left)} left"
+    if summary.warnings:
+        them = "it" if summary.warnings == 1 else "them"
+        done += f"; {count(summary.warnings, 'warning')}: contoursolve check shows {them}"
+    click.echo(done if summary.replaced or summary.left else "no contour block: nothing to expand", err=True)

@@ -1,0 +1,175 @@
+"""Writes a contour as plain G-code: rounded so that every arc stays valid, with the deviation that this costs."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from math import atan2, ceil, cos, floor, hypot, pi, radians, sin, sqrt, tau
+
+from contoursolve.contour import ArcSegment, LineSegment, Segment
+from contoursolve.model import Length, Plane, Turn
+from contoursolve.posts import Arcs
+from contoursolve.solving import Point
+
+LONGEST_BY_CENTER = 300.0
+"""Degrees. A longer arc is written as two: where its ends come close, they no longer tell where its centre is, and
+where they round to the same point, it would be no arc or a full circle."""
+
+LONGEST_BY_RADIUS = 120.0
+"""Degrees. A longer arc is written as several: near 180, the least change of R moves the centre far."""
+
+
+@dataclass(frozen=True, slots=True)
+class Format:
+    """How the words of one block are written: lengths in `unit` with so many decimals."""
+
+    plane: Plane
+    unit: Length
+    decimals: int
+    has_point: bool
+    arcs: Arcs
+    is_incremental: bool = False
+
+    def number(self, value: float) -> str:
+        """A number with its decimals, without zeros at its end."""
+        text = f"{value:.{self.decimals}f}"
+        if "." in text:
+            text = text.rstrip("0")
+        elif self.has_point:
+            text += "."
+        if text in ("-0.", "-0"):
+            text = text[1:]
+        return text if self.has_point else text.removesuffix(".")
+
+
+@dataclass(frozen=True, slots=True)
+class Move:
+    """One block of plain G-code: its motion code, its words, where it ends and how far its path is from the exact
+    one; mm, X of a lathe as radius."""
+
+    code: int
+    words: tuple[str, ...]
+    end: Point
+    deviation: float
+
+
+def emit(segment: Segment, here: Point, form: Format, *, is_rapid: bool = False) -> Iterator[Move]:
+    """The moves that make an element, from where the tool really is; none if it rounds to nothing.
+
+    A last move without words tells how far off that is.
+    """
+    whole = [segment]
+    if isinstance(segment, ArcSegment):
+        limit = LONGEST_BY_RADIUS if form.arcs is Arcs.RADIUS else LONGEST_BY_CENTER
+        parts = ceil(segment.sweep / limit)
+        whole = [*_split(segment, parts)] if parts > 1 else whole
+    for part in whole:
+        move = _Writer(part, here, form).move(is_rapid)
+        here = move.end
+        yield move
+
+
+def _split(arc: ArcSegment, parts: int) -> Iterator[Segment]:
+    """An arc as so many equal ones."""
+    begin, start = atan2(arc.start[1] - arc.center[1], arc.start[0] - arc.center[0]), arc.start
+    for number in range(1, parts + 1):
+        angle = begin + arc.turn.sign * radians(arc.sweep) * number / parts
+        middle = arc.center[0] + arc.radius * cos(angle), arc.center[1] + arc.radius * sin(angle)
+        end = arc.end if number == parts else middle
+        yield replace(arc, start=start, end=end)
+        start = end
+
+
+class _Writer:
+    """One element; inside, lengths are in the program's unit, X as radius."""
+
+    def __init__(self, segment: Segment, here: Point, form: Format) -> None:
+        self.form = form
+        self.mm = float(form.unit.in_mm)
+        self.segment = segment
+        self.here = here[0] / self.mm, here[1] / self.mm
+        self.scales = tuple(2 if is_diameter else 1 for is_diameter in form.plane.diameters)
+        self.step = 10.0**-form.decimals
+
+    def move(self, is_rapid: bool) -> Move:
+        words: list[tuple[str, str]] = []
+        more: list[tuple[str, str]] = []
+        ends: list[float] = []
+        for axis, address in enumerate(self.form.plane.axes):
+            base, scale = self.here[axis] if self.form.is_incremental else 0.0, self.scales[axis]
+            text = self.form.number((self.segment.end[axis] / self.mm - base) * scale)
+            words.append((address, text))
+            ends.append(base + float(text) / scale)
+        end = ends[0], ends[1]
+        off = self._distance(self.segment.end, end)
+        if hypot(end[0] - self.here[0], end[1] - self.here[1]) < self.step / 4:
+            return Move(1, (), self._in_mm(self.here), off)
+        if isinstance(self.segment, LineSegment):
+            code = 0 if is_rapid else 1
+        else:
+            code = 2 if self.segment.turn is Turn.CW else 3
+            by_radius = self.form.arcs is Arcs.RADIUS
+            more, center, radius = self._by_radius(end) if by_radius else self._by_center(end)
+            off = max(off, _arc_deviation(self.segment, self._in_mm(center), radius * self.mm))
+        return Move(code, tuple(map("".join, (*sorted(words), *sorted(more)))), self._in_mm(end), off)
+
+    def _by_center(self, end: Point) -> tuple[list[tuple[str, str]], Point, float]:
+        """I J K for a centre that is as far from one end as from the other, to one unit of the last decimal; of those,
+        the one nearest to the exact centre."""
+        arc, start = self._arc(), self.here
+        exact = arc.center[0] / self.mm - start[0], arc.center[1] / self.mm - start[1]
+        chord = end[0] - start[0], end[1] - start[1]
+        along = (chord[0] / 2 - exact[0]) * chord[0] + (chord[1] / 2 - exact[1]) * chord[1]
+        along /= chord[0] ** 2 + chord[1] ** 2
+        best: tuple[float, float, float, float] | None = None
+        for share in (0.0, along):
+            first, second = ((exact[axis] + share * chord[axis]) / self.step for axis in (0, 1))
+            for one in {floor(first), ceil(first)}:
+                for two in {floor(second), ceil(second)}:
+                    i, j = one * self.step, two * self.step
+                    mismatch = abs(hypot(i, j) - hypot(chord[0] - i, chord[1] - j))
+                    key = (max(mismatch, self.step), hypot(i - exact[0], j - exact[1]), i, j)
+                    best = min(best, key) if best else key
+        if best is None:
+            raise ValueError("an arc without a center")
+        texts = [self.form.number(best[2]), self.form.number(best[3])]
+        center = start[0] + float(texts[0]), start[1] + float(texts[1])
+        return list(zip(self.form.plane.centers, texts, strict=True)), center, hypot(float(texts[0]), float(texts[1]))
+
+    def _by_radius(self, end: Point) -> tuple[list[tuple[str, str]], Point, float]:
+        """R, large enough to reach both ends."""
+        arc, start = self._arc(), self.here
+        chord = end[0] - start[0], end[1] - start[1]
+        half = hypot(*chord) / 2
+        radius = float(self.form.number(arc.radius / self.mm))
+        if radius < half:
+            radius = ceil(half / self.step) * self.step
+        text = self.form.number(radius)
+        height = sqrt(max(radius**2 - half**2, 0.0)) * arc.turn.sign / (2 * half)
+        center = (start[0] + end[0]) / 2 - chord[1] * height, (start[1] + end[1]) / 2 + chord[0] * height
+        return [("R", text)], center, radius
+
+    def _arc(self) -> ArcSegment:
+        if isinstance(self.segment, LineSegment):
+            raise TypeError("a line has no center")
+        return self.segment
+
+    def _in_mm(self, point: Point) -> Point:
+        return point[0] * self.mm, point[1] * self.mm
+
+    def _distance(self, exact: Point, written: Point) -> float:
+        return hypot(exact[0] - written[0] * self.mm, exact[1] - written[1] * self.mm)
+
+
+def _arc_deviation(arc: ArcSegment, center: Point, radius: float) -> float:
+    """How far the points of an exact arc are from a circle at most, mm: at its ends, or in line with both centres."""
+    aside = center[0] - arc.center[0], center[1] - arc.center[1]
+    angle = atan2(aside[1], aside[0])
+    begin = atan2(arc.start[1] - arc.center[1], arc.start[0] - arc.center[0])
+    extremes = [
+        extreme for extreme in (angle, angle + pi) if ((extreme - begin) * arc.turn.sign) % tau <= radians(arc.sweep)
+    ]
+    points = [
+        arc.start,
+        arc.end,
+        *((arc.center[0] + arc.radius * cos(a), arc.center[1] + arc.radius * sin(a)) for a in extremes),
+    ]
+    return max(abs(hypot(point[0] - center[0], point[1] - center[1]) - radius) for point in points)

@@ -1,0 +1,377 @@
+"""A program with its contours written as plain G-code, and everything else byte for byte as it was."""
+
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from contoursolve.comments import LEFT_MARK, comment_out, own_comments, remark
+from contoursolve.contour import Segment
+from contoursolve.diagnostic import Diagnostic, Severity
+from contoursolve.dialects import Dialect
+from contoursolve.emit import Format, Move, emit
+from contoursolve.examine import Answer, Depth, Policy
+from contoursolve.lines import Lines
+from contoursolve.model import Length
+from contoursolve.pipeline import Step, attach, walk
+from contoursolve.posts import SAME, Arcs, Machine, Post
+from contoursolve.reading import Effect, State, apply_modes, codes_of
+from contoursolve.solving import Point
+from contoursolve.syntax import Block, Directive, Macro, PlainLine, Program, Word, parse_block
+from contoursolve.unfamiliar import Unfamiliar, Watch
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """What is asked of an expansion: the target, how it writes arcs, decimals (None: the target's own), whether the
+    original blocks are kept as comments, and whether to go on past a contour that cannot be expanded."""
+
+    post: Post = SAME
+    arcs: Arcs = Arcs.CENTER
+    decimals: int | None = None
+    has_comments: bool = True
+    keeps_going: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Left:
+    """A contour that was left as it is: its lines with their texts, why, and the findings about it."""
+
+    lines: tuple[int, ...]
+    reason: str
+    diagnostics: tuple[Diagnostic, ...]
+    sources: Mapping[int, str]
+
+
+@dataclass(slots=True)
+class Summary:
+    """What became of a program's contours, as far as it has been read; `deviation` is the largest distance of what
+    was written from the exact contours, mm."""
+
+    replaced: int = 0
+    warnings: int = 0
+    """Findings about contours that were replaced."""
+    deviation: float = 0.0
+    left: list[Left] = field(default_factory=list)
+    unfamiliar: list[Unfamiliar] = field(default_factory=list)
+    line_end: str = "\n"
+    """How the first line that has an end ends."""
+
+
+@dataclass(frozen=True, slots=True)
+class Expansion:
+    """A program in plain G-code; `text` is None where a contour could not be expanded."""
+
+    text: str | None
+    control: str | None
+    summary: Summary
+
+
+OPENING = object()
+"""Stands where the words belong that the target needs before anything else."""
+
+_BLANK = r"[ \t\f\v\x02\x03\x11-\x14\x1a\ufeff%]*"
+_FRAME = re.compile(rf"(?P<head>{_BLANK})(?P<skip>/[1-9]?(?!\d)[ \t]*)?.*?(?P<tail>{_BLANK})", re.DOTALL)
+
+_AFTER_MOTION = frozenset({0, 1, 2, 5, 9, 30, 60, 98, 99})
+"""M codes that act after the motion of their block: stop, end, spindle and coolant off, pallet, calls."""
+
+_MOTIONS = (Effect.MOTION, Effect.CYCLE, Effect.CANCEL)
+_OWN_WORDS = (Effect.NO_MOTION, Effect.PRESET, Effect.FRAME)
+"""G codes whose blocks use their words themselves, whatever motion is in force."""
+
+_RESTORABLE = (0, 1)
+"""Motions whose G code may stand alone in a block."""
+
+
+def expand_lines(
+    lines: Iterable[str],
+    dialect: Dialect,
+    options: Options,
+    summary: Summary,
+    *,
+    unit: Length = Length.MM,
+    policy: Policy = Policy.ENFORCE,
+    start: Program | None = None,
+    facts: Mapping[int, tuple[Directive, ...]] | None = None,
+    is_certain: bool = True,
+) -> Iterator[str | object]:
+    """The lines of a program (each with its end) with every contour replaced, and `OPENING` once.
+
+    `facts` are further facts by line. Unless the control `is_certain`, raises UnknownControlError if some block is for
+    another one.
+    """
+    reel = Lines(lines, dialect, facts or {}, is_certain=is_certain)
+    steps = walk(reel.blocks(), dialect, unit, policy, Depth.PATH, start)
+    yield from _Expander(dialect, options, summary, reel).expand(steps)
+
+
+def lines_of_facts(
+    program: Program, dialect: Dialect, unit: Length, start: Program | None, facts: Sequence[Directive]
+) -> dict[int, tuple[Directive, ...]]:
+    """Facts that were stated apart from a program, by the line of its only contour. Raises FactPlaceError."""
+    if not facts:
+        return {}
+    attached, worded = attach(program, dialect, unit, start, facts)
+    return {block.line: worded for block in attached.blocks if worded[0] in block.directives}
+
+
+def opening_of(options: Options, dialect: Dialect, unit: Length, summary: Summary) -> str:
+    """The line that the target needs before the first block; empty if it needs none, or nothing was replaced."""
+    text = options.post.opening.get(_machine(dialect), "") if summary.replaced else ""
+    return text.format(unit="G20" if unit is Length.INCH else "G21") + summary.line_end if text else ""
+
+
+def _machine(dialect: Dialect) -> Machine:
+    return Machine.LATHE if any(dialect.plane.diameters) else Machine.MILL
+
+
+class _Expander:
+    """One pass over one program. Offsets are how far the tool is from where the original program has it."""
+
+    def __init__(self, dialect: Dialect, options: Options, summary: Summary, lines: Lines) -> None:
+        self.dialect = dialect
+        self.modes = dialect.modes
+        self.options = options
+        self.summary = summary
+        self.lines = lines
+        self.watch = Watch(options.post, dialect, options.post.readings.get(_machine(dialect)))
+        summary.unfamiliar = self.watch.found
+        self.offsets: dict[str, float] = {}
+        self.motion: int | None = None
+        """The motion that is in force in the expanded program, where it differs from the original."""
+        self.is_opened = False
+        self.is_marked = False
+        """Whether the last line says why what follows is not expanded."""
+
+    def expand(self, steps: Iterable[Step]) -> Iterator[str | object]:
+        for step in steps:
+            if not self.is_opened and ((step.line and step.line.moves) or any(map(_is_active, step.blocks))):
+                self.is_opened = True
+                self.summary.line_end = self.lines.end_of((step.line or step.blocks[0]).line)
+                yield OPENING
+            if step.line is not None:
+                yield from self._pass(step.line, step.before)
+                continue
+            if step.answer is None:
+                for block in step.blocks:
+                    yield from self._keep(block, step.before)
+                continue
+            reason = self._obstacle(step.answer)
+            if reason:
+                yield from self._leave(step, step.answer, reason)
+            else:
+                yield from self._replace(step, step.answer)
+
+    # What stays as it is
+
+    def _pass(self, line: PlainLine, state: State) -> Iterator[str]:
+        """A line that only moves, as it is; it is read into words only if they matter."""
+        if line.moves and (self.motion is not None or self.offsets or self.watch.asks(line.text)):
+            yield from self._keep(parse_block(line.text, line.line), state)
+        else:
+            self.is_marked = line.text.startswith(LEFT_MARK)
+            yield line.text + self.lines.take_end(line.line)
+
+    def _keep(self, block: Block, state: State) -> Iterator[str]:
+        if block.words or block.macro or block.faults:
+            if self.motion is not None:
+                yield from self._restore(block, state)
+            if self.offsets:
+                self._update_offsets(block, state)
+            self.watch.look(block, block.words, state)
+        self.is_marked = block.text.startswith(LEFT_MARK)
+        yield block.text + self.lines.take_end(block.line)
+
+    def _restore(self, block: Block, state: State) -> Iterator[str]:
+        """The motion code that a block relies on, if a contour before it has left another one in force."""
+        codes = codes_of(block, self.modes)
+        known = [code for code in codes if not isinstance(code, Word)]
+        if any(code.effect in _MOTIONS for code in known) and not block.is_skippable:
+            self.motion = None
+            return
+        calls = any(word.address == "M" and word.number in self.modes.calls for word in block.words)
+        uses = any(word.address in self.modes.lexicon.addresses for word in block.words)
+        own = any(code.effect in _OWN_WORDS for code in known)
+        others = len(known) < len(codes) or any(code.effect in (Effect.SINGLE, *_MOTIONS) for code in known)
+        if not (calls or others or block.faults or block.macro is Macro.FLOW or block.find("O") or (uses and not own)):
+            return
+        if state.motion in _RESTORABLE:
+            yield f"G{state.motion:02}" + self.lines.end
+        else:
+            relied = f"G{state.motion}" if state.motion is not None else "the motion that the control starts with"
+            reason = f"line {block.line} relies on {relied}, which the contour before it ends: write its G code into it"
+            self.summary.left.append(Left((block.line,), reason, (), {block.line: block.text}))
+            if self.options.keeps_going:
+                yield remark(reason) + self.lines.end
+        self.motion = None
+
+    def _update_offsets(self, block: Block, state: State) -> None:
+        """An absolute word puts an axis where it belongs again."""
+        here = apply_modes(state, block, self.modes)
+        codes = codes_of(block, self.modes)
+        if any(not isinstance(code, Word) and code.effect is Effect.NO_MOTION for code in codes):
+            return
+        for word in block.words:
+            row = self.modes.lexicon.addresses.get(word.address)
+            if row and row.axis and not (row.is_increment or here.is_incremental):
+                self.offsets.pop(row.axis, None)
+
+    def _leave(self, step: Step, answer: Answer, reason: str) -> Iterator[str]:
+        """A contour as it was, below a comment that says why."""
+        sources = {block.line: block.text for block in step.blocks}
+        self.summary.left.append(Left(answer.lines, reason, answer.diagnostics, sources))
+        if self.motion is not None:
+            yield from self._restore(step.blocks[0], step.before)
+        if not self.is_marked:
+            yield remark(reason) + self.lines.end
+        state = step.before
+        for block in step.blocks:
+            yield from self._keep(block, state)
+            state = apply_modes(state, block, self.modes)
+
+    def _obstacle(self, answer: Answer) -> str:
+        """Why a contour cannot be expanded; empty if it can."""
+        errors = [each for each in answer.diagnostics if each.severity is Severity.ERROR]
+        if errors or answer.contour is None:
+            return f"{errors[0].code}: {errors[0].message}" if errors else "the contour is not known"
+        if len({block.is_skippable for block in answer.claim.blocks}) > 1:
+            return "some of its blocks begin with / and some do not: with them skipped, it is another contour"
+        is_open = any(answer.claim.before.axes[axis].is_skippable for axis in answer.plane.axes)
+        if is_open and not answer.claim.blocks[0].is_skippable:
+            return "it begins where a block with / leads: with that block skipped, it is another contour"
+        addresses = self.modes.lexicon.addresses
+        beside = [
+            word.text
+            for block in answer.claim.blocks
+            for word in block.words
+            if word.address in addresses and addresses[word.address].axis not in ("", *answer.plane.axes)
+        ]
+        return f"{beside[0]} moves an axis outside the plane: move it in a block of its own" if beside else ""
+
+    # What is replaced
+
+    def _replace(self, step: Step, answer: Answer) -> Iterator[str]:
+        claim, state = answer.claim, step.before
+        groups = _groups(answer)
+        axes = answer.plane.axes
+        here = self._place(answer)
+        members = {block.line for block in claim.blocks}
+        for block in step.blocks:
+            if block.line not in members:
+                yield from self._keep(block, state)
+                continue
+            state = apply_modes(state, block, self.modes)
+            form = self._format(state)
+            is_rapid = state.motion == 0 and not self._is_own_motion(block)
+            moves: list[Move] = []
+            for segment in groups.get(block.line, ()):
+                for move in emit(segment, here, form, is_rapid=is_rapid):
+                    here = move.end
+                    self.summary.deviation = max(self.summary.deviation, move.deviation)
+                    if move.words:
+                        moves.append(move)
+            end = self.lines.take_end(block.line)
+            yield from self._write(block, moves, end, state)
+            if moves:
+                self.motion = moves[-1].code
+        self.is_marked = False
+        if self.motion == claim.after.motion:
+            self.motion = None
+        contour = answer.contour
+        if contour is not None:
+            self.offsets |= {axis: here[n] - contour.end[n] for n, axis in enumerate(axes) if here[n] != contour.end[n]}
+        self.summary.replaced += 1
+        self.summary.warnings += sum(each.severity is Severity.WARNING for each in answer.diagnostics)
+
+    def _place(self, answer: Answer) -> Point:
+        """Where the tool is at the start of a contour, in the expanded program."""
+        first, second = (
+            float(value or 0) + self.offsets.pop(axis, 0.0)
+            for axis, value in zip(answer.plane.axes, answer.start.values, strict=True)
+        )
+        return first, second
+
+    def _format(self, state: State) -> Format:
+        numbers, post = self.modes.lexicon.numbers, self.options.post
+        decimals = self.options.decimals
+        digits = post.digits(state.unit, numbers) if decimals is None else decimals
+        return Format(
+            state.plane, state.unit, digits, post.writes_point(numbers), self.options.arcs, state.is_incremental
+        )
+
+    def _is_own_motion(self, block: Block) -> bool:
+        """Whether a code of the block itself makes it a contour, so that the motion in force has no part in it."""
+        own = (Effect.CONTOUR,)
+        return any(not isinstance(code, Word) and code.effect in own for code in codes_of(block, self.modes))
+
+    def _write(self, block: Block, moves: list[Move], end: str, state: State) -> Iterator[str]:
+        """The lines in place of a block. Its number and what it sets stand in the first, what ends it in the last."""
+        frame = _FRAME.fullmatch(block.text)
+        head, skip, tail = (frame["head"], frame["skip"] or "", frame["tail"]) if frame else ("", "", "")
+        indent, specials = "".join(c for c in head if c in " \t"), "".join(c for c in head if c not in " \t")
+        lines = [indent + text for text in comment_out(block.text.strip())] if self.options.has_comments else []
+        numbers, codes, words, last = self._carried(block, state)
+        comments = [] if self.options.has_comments else own_comments(block.text)
+        texts = [[f"G{move.code:02}", *move.words] for move in moves]
+        texts = texts or ([[]] if numbers or codes or words or last or comments else [])
+        if texts:
+            texts[0] = [*numbers, *codes, *texts[0], *words, *comments]
+            texts[-1] += last
+        lines += [indent + skip + " ".join(text) for text in texts]
+        if lines:
+            lines[0] = specials + lines[0]
+            lines[-1] += tail.strip(" \t")
+        between = end or self.lines.end
+        yield from (line + between for line in lines[:-1])
+        yield from (line + end for line in lines[-1:])
+
+    def _carried(self, block: Block, state: State) -> tuple[list[str], list[str], list[str], list[str]]:
+        """What a block says besides its contour: its numbers, G codes, words for its first and for its last line."""
+        numbers, codes, words, last = [], [], [], []
+        kept = []
+        rows = iter(codes_of(block, self.modes))
+        dropped = (*_MOTIONS, Effect.CONTOUR)
+        for word in block.words:
+            text = word.text.strip()
+            if word.address == "G":
+                row = next(rows)
+                if not isinstance(row, Word) and row.effect in dropped:
+                    continue
+                codes.append(text)
+            elif word.address in "NO":
+                numbers.append(text)
+            elif word.address in self.modes.lexicon.addresses:
+                continue
+            elif word.address == "M" and word.number in _AFTER_MOTION:
+                last.append(text)
+            else:
+                words.append(text)
+            kept.append(word)
+        self.watch.look(block, kept, state)
+        return numbers, codes, words, last
+
+
+def _is_active(block: Block | PlainLine) -> bool:
+    """Whether a block is more than the name of the program."""
+    return (
+        isinstance(block, PlainLine)
+        or bool(block.faults or block.macro)
+        or any(word.address != "O" for word in block.words)
+    )
+
+
+def _groups(answer: Answer) -> dict[int, list[Segment]]:
+    """The elements of a contour by the line of the block that makes them; a corner belongs to the element before it.
+
+    A form has either one block, or one element a block.
+    """
+    claim, contour = answer.claim, answer.contour
+    elements = contour.elements if contour else ()
+    if len(claim.blocks) == 1:
+        return {claim.blocks[0].line: list(elements)}
+    owner = {each.name: block.line for each, block in zip(claim.form.path, claim.blocks, strict=True)}
+    owner |= {row.name: owner[row.before] for row in claim.form.corners}
+    groups: dict[int, list[Segment]] = {}
+    for element in elements:
+        groups.setdefault(owner[element.name], []).append(element)
+    return groups

@@ -1,0 +1,161 @@
+"""Programs as files: read as a stream whatever their encoding, and written whole or not at all."""
+
+import codecs
+import io
+import os
+import sys
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from itertools import count
+from pathlib import Path
+from typing import BinaryIO
+
+from contoursolve.syntax import BINARY, STANDARD_INPUT, UnreadableProgramError, is_folder
+
+_NOT_TEXT = bytes(sorted(BINARY))
+_CHUNK = 1 << 20
+_IN_MEMORY = 1 << 22
+"""Bytes of standard input that are held in memory."""
+
+
+class CannotWriteError(ValueError):
+    """A target that cannot be written; the message says why and what to do."""
+
+
+@dataclass(frozen=True, slots=True)
+class Tape:
+    """An open program: its name, its bytes, how many there are, and how they are to be read."""
+
+    name: str
+    data: BinaryIO
+    size: int
+    encoding: str
+    mark: bytes
+    """The byte order mark that it begins with, if any."""
+
+    def lines(self) -> Iterator[str]:
+        """Its lines from the first, each with its end, one at a time."""
+        self.data.seek(len(self.mark))
+        text = io.TextIOWrapper(self.data, self.encoding, newline="")
+        try:
+            for line in text:  # noqa: UP028 - `yield from` would close the file when it is not read to its end
+                yield line
+        finally:
+            text.detach()
+
+    def read(self) -> str:
+        """All of it."""
+        self.data.seek(len(self.mark))
+        return self.data.read().decode(self.encoding)
+
+    @property
+    def share(self) -> float:
+        """How much of it has been read, from 0 to 1."""
+        return self.data.tell() / self.size if self.size else 1.0
+
+
+@contextmanager
+def open_tape(path: str | Path) -> Iterator[Tape]:
+    """Open a file of UTF-8 or Latin-1 text; `-` is standard input.
+
+    Raises UnreadableProgramError if there is no such file, or it is not text.
+    """
+    name = str(path)
+    try:
+        data = _spool() if name == STANDARD_INPUT else Path(path).open("rb")  # noqa: SIM115 - closed below
+    except FileNotFoundError:
+        raise UnreadableProgramError(f"{name}: no such file") from None
+    except (OSError, ValueError) as error:
+        if is_folder(name):  # Windows answers "permission denied" for a directory
+            raise UnreadableProgramError(f"{name} is a directory, not a program file") from None
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        raise UnreadableProgramError(f"{name} cannot be read: {reason}") from None
+    with data:
+        encoding, mark = _recognise_encoding(data, name)
+        size = data.seek(0, os.SEEK_END)
+        yield Tape("<standard input>" if name == STANDARD_INPUT else name, data, size, encoding, mark)
+
+
+@contextmanager
+def tape_of(text: str, name: str) -> Iterator[Tape]:
+    """A text as if it were in a file."""
+    data = text.encode("utf-8", "surrogateescape")
+    yield Tape(name, io.BytesIO(data), len(data), "utf-8", b"")
+
+
+def _spool() -> BinaryIO:
+    """Standard input as a file that can be read twice."""
+    from tempfile import SpooledTemporaryFile  # noqa: PLC0415 - most programs are files
+
+    copy = SpooledTemporaryFile(_IN_MEMORY)  # noqa: SIM115 - the caller closes it
+    while chunk := sys.stdin.buffer.read(_CHUNK):
+        copy.write(chunk)
+    copy.seek(0)
+    return copy  # type: ignore[return-value]
+
+
+def _recognise_encoding(data: BinaryIO, name: str) -> tuple[str, bytes]:
+    """UTF-8 where every byte fits, else Latin-1; and the byte order mark of UTF-8, which Latin-1 has not."""
+    decoder = codecs.getincrementaldecoder("utf-8")()
+    mark = codecs.BOM_UTF8 if data.read(len(codecs.BOM_UTF8)) == codecs.BOM_UTF8 else b""
+    data.seek(0)
+    is_utf8 = True
+    while chunk := data.read(_CHUNK):
+        if len(chunk.translate(None, _NOT_TEXT)) < len(chunk):
+            raise UnreadableProgramError(
+                f"{name} is not a text file (it holds control bytes); save it as UTF-8 or Latin-1 text"
+            )
+        try:
+            is_utf8 = is_utf8 and decoder.decode(chunk) is not None
+        except UnicodeDecodeError:
+            is_utf8 = False
+    try:
+        decoder.decode(b"", is_utf8)
+    except UnicodeDecodeError:
+        is_utf8 = False
+    return ("utf-8", mark) if is_utf8 else ("latin-1", b"")
+
+
+def write_whole(target: Path, pieces: Iterable[bytes], *, keeps_backup: bool) -> Path | None:
+    """Write a file so that at any moment it is either the old one or the whole new one; returns where the old one is
+    kept. Raises CannotWriteError."""
+    import shutil  # noqa: PLC0415 - most commands write nothing
+
+    target = target.resolve()
+    temporary = target.with_name(f".{target.name}.{os.urandom(4).hex()}.tmp")
+    backup = None
+    try:
+        try:
+            with temporary.open("xb") as file:
+                for piece in pieces:
+                    file.write(piece)
+                file.flush()
+                os.fsync(file.fileno())
+            if target.exists():
+                shutil.copymode(target, temporary)
+                backup = _back_up(target) if keeps_backup else None
+            temporary.replace(target)
+        finally:
+            temporary.unlink(missing_ok=True)
+    except OSError as error:
+        raise CannotWriteError(f"{target} cannot be written: {error.strerror}") from None
+    return backup
+
+
+def _back_up(file: Path) -> Path:
+    """A copy beside a file, under the first name that is free: .bak, .bak2, ..."""
+    import shutil  # noqa: PLC0415 - most commands write nothing
+
+    for number in count(1):
+        backup = file.with_name(f"{file.name}.bak{number if number > 1 else ''}")
+        try:
+            with backup.open("xb") as copy, file.open("rb") as original:
+                shutil.copyfileobj(original, copy)
+                copy.flush()
+                os.fsync(copy.fileno())
+        except FileExistsError:
+            continue
+        shutil.copystat(file, backup)
+        return backup
+    raise AssertionError("there is always a free number")

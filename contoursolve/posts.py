@@ -1,0 +1,163 @@
+"""The targets that a contour can be written for: one row each, and what each of them reads in another way."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import Enum
+
+from contoursolve.model import Length
+from contoursolve.reading import NumberFormat, WithoutPoint
+
+
+class Arcs(Enum):
+    """How the centre of an arc is told."""
+
+    CENTER = "center"
+    """By I J K, counted from where the arc begins."""
+    RADIUS = "radius"
+    """By R; an arc of more than 120 degrees is written as several."""
+
+
+class Machine(Enum):
+    """What a control is for; lathes of the family of G-code system A share their codes."""
+
+    LATHE = "lathe"
+    MILL = "mill"
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """What a target reads of a program as its own control does.
+
+    `g` and `m` are the codes that it knows and that mean the same there; `otherwise` says of a code (`G90`) or of an
+    address (`U`) what it means there instead.
+    """
+
+    g: frozenset[int]
+    m: frozenset[int]
+    otherwise: Mapping[str, str] = field(default_factory=dict)
+    has_macros: bool = True
+    """Whether IF, WHILE and GOTO are read."""
+    flat_compensation: bool = False
+    """Whether there is no cutter compensation in G19."""
+
+
+@dataclass(frozen=True, slots=True)
+class Post:
+    """One target: how it writes numbers, what must stand before the first block of a program, and what it reads.
+
+    `decimals` is None where the source control's own least increment counts; `opening` and `readings` go by the kind
+    of machine. `without_point` is what a number without a decimal point means; None: as on the source control.
+    """
+
+    name: str
+    title: str
+    decimals: Mapping[Length, int] | None
+    without_point: WithoutPoint | None
+    opening: Mapping[Machine, str] = field(default_factory=dict)
+    readings: Mapping[Machine, Reading] = field(default_factory=dict)
+
+    def digits(self, unit: Length, source: NumberFormat) -> int:
+        """Decimals of a length."""
+        if self.decimals is not None:
+            return self.decimals[unit]
+        step = source.inch if unit is Length.INCH else source.mm
+        exponent = step.normalize().as_tuple().exponent
+        return max(0, -exponent) if isinstance(exponent, int) else 0
+
+    def writes_point(self, source: NumberFormat) -> bool:
+        """Whether a whole number is written with a point: wherever, here or there, it would else count in least
+        increments."""
+        return WithoutPoint.LEAST_INCREMENTS in (self.without_point, source.without_point)
+
+
+def _span(*parts: int | range) -> frozenset[int]:
+    return frozenset(number for part in parts for number in (part if isinstance(part, range) else (part,)))
+
+
+_LINUXCNC_M = _span(range(10), 30, 48, 49, 98, 99)
+_NO_COUNTERPART = "is an axis of its own"
+
+_LINUXCNC_LATHE = Reading(
+    g=_span(range(5), 18, 20, 21, 30, 40, 41, 42, 53, range(54, 60), 96, 97),
+    m=_LINUXCNC_M,
+    otherwise={
+        "G4": "takes its time as P, in seconds",
+        "G28": "goes to a stored position, through X and Z",
+        "G70": "is the finishing pass of a subprogram",
+        "G71": "reads a subprogram",
+        "G72": "reads a subprogram",
+        "G73": "is a drilling cycle",
+        "G74": "is a tapping cycle",
+        "G76": "is a threading cycle with other words",
+        "G90": "is absolute coordinates",
+        "G92": "sets coordinates",
+        "G94": "is feed a minute",
+        "G98": "is about the return of drilling cycles; feed a minute is G94",
+        "G99": "is about the return of drilling cycles; feed a revolution is G95",
+        "F": "is a feed a minute as long as no G95 is in force",
+        "T": "is the number of a tool alone; its offset is taken with G43",
+        "U": _NO_COUNTERPART,
+        "W": _NO_COUNTERPART,
+    },
+    has_macros=False,
+)
+
+_LINUXCNC_MILL = Reading(
+    g=_span(range(5), range(17, 22), 28, 30, range(40, 44), 49, range(53, 60), 61, 64, 73, range(80, 93), 94)
+    | _span(range(95, 100)) - {87},
+    m=_LINUXCNC_M,
+    otherwise={
+        "G4": "takes its time as P, in seconds",
+        "G10": "sets tool data and coordinate systems, with L and P",
+        "G52": "sets coordinates like G92",
+        "G74": "is a tapping cycle",
+        "G76": "is a threading cycle",
+        "G84": "is a tapping cycle",
+        "G88": "is a boring cycle with a stop",
+    },
+    has_macros=False,
+    flat_compensation=True,
+)
+
+_FANUC_LATHE = Reading(
+    g=_span(range(5), 10, 18, 20, 21, 22, 23, 27, 28, 30, 31, 32, 34, 36, 37, 40, 41, 42, 50, range(53, 60), 65, 66, 67)
+    | _span(range(70, 77), 90, 92, 94, range(96, 100)),
+    m=_span(range(10), 19, 30, 98, 99),
+    otherwise={"G11": "ends the setting of data", "G12": "begins polar coordinates"},
+)
+
+_FANUC_MILL = Reading(
+    g=_span(range(5), 9, 10, range(15, 24), range(27, 32), 33, 37, range(40, 45), range(49, 60), 61, range(64, 70))
+    | _span(73, 74, 76, range(80, 93), range(94, 100)),
+    m=_span(range(10), 19, 30, 98, 99),
+    otherwise={},
+)
+
+SAME = Post("same", "the control that the program is written for", None, None)
+
+LINUXCNC = Post(
+    "linuxcnc",
+    "LinuxCNC 2.9",
+    {Length.MM: 4, Length.INCH: 5},
+    WithoutPoint.AS_WRITTEN,
+    opening={Machine.LATHE: "G7 G18 {unit} G90 G91.1", Machine.MILL: "G8 G17 {unit} G90 G91.1"},
+    readings={Machine.LATHE: _LINUXCNC_LATHE, Machine.MILL: _LINUXCNC_MILL},
+)
+"""G7: X is a diameter, G8: a radius; G91.1: I J K are counted from where the arc begins."""
+
+FANUC = Post(
+    "fanuc",
+    "Fanuc 0i and relatives; lathes in G-code system A",
+    {Length.MM: 3, Length.INCH: 4},
+    WithoutPoint.LEAST_INCREMENTS,
+    readings={Machine.LATHE: _FANUC_LATHE, Machine.MILL: _FANUC_MILL},
+)
+
+POSTS = {post.name: post for post in (SAME, LINUXCNC, FANUC)}
+
+
+def find_post(name: str) -> Post:
+    """The target of this name. Raises ValueError, which lists the choices."""
+    if name not in POSTS:
+        raise ValueError(f"unknown post {name!r}; choose from {', '.join(POSTS)}")
+    return POSTS[name]

@@ -1,0 +1,102 @@
+"""Expands a program of any length from an open file into bytes, of which none are delivered before all are known."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import IO
+
+from contoursolve.api import find_dialect
+from contoursolve.examine import Policy
+from contoursolve.expansion import OPENING, Options, Summary, expand_lines, lines_of_facts, opening_of
+from contoursolve.files import Tape
+from contoursolve.model import Length
+from contoursolve.pipeline import first_sign
+from contoursolve.project import configure
+from contoursolve.syntax import Block, Directive, Program, parse, parse_block
+
+_BATCH = 2_000
+"""Lines that are encoded at once."""
+
+_CHUNK = 1 << 20
+_REPORTED = 0.01
+"""Share of a program after which the progress is told again."""
+
+
+@dataclass(frozen=True, slots=True)
+class Rewritten:
+    """An expanded program in a temporary file, where the opening goes, and what became of the contours."""
+
+    body: IO[bytes]
+    place: int
+    opening: bytes
+    control: str | None
+    summary: Summary
+
+    def pieces(self) -> Iterator[bytes]:
+        """The bytes of the program, in order."""
+        self.body.seek(0)
+        yield self.body.read(self.place)
+        yield self.opening
+        while chunk := self.body.read(_CHUNK):
+            yield chunk
+
+
+def rewrite(
+    tape: Tape,
+    body: IO[bytes],
+    options: Options,
+    *,
+    control: str | None = None,
+    unit: Length = Length.MM,
+    policy: Policy = Policy.ENFORCE,
+    settings: Mapping[str, str] | None = None,
+    start: Program | None = None,
+    facts: Sequence[Directive] = (),
+    progress: Callable[[float], None] = lambda _: None,
+) -> Rewritten:
+    """Expand a program into `body`; `progress` is told which share of it has been read.
+
+    Raises UnknownControlError, SettingError and FactPlaceError, as `solve` does. With facts, all of the program is
+    held in memory, to see which contour they are about.
+    """
+    dialect = find_dialect(control) if control else first_sign(_blocks(tape))
+    summary = Summary()
+    body.write(tape.mark)
+    if dialect is None:
+        lines: Iterable[str | object] = tape.lines()
+    else:
+        dialect = (configure(settings) if settings else {}).get(dialect.name, dialect)
+        places = lines_of_facts(parse(tape.read(), tape.name), dialect, unit, start, facts) if facts else {}
+        lines = expand_lines(
+            tape.lines(),
+            dialect,
+            options,
+            summary,
+            unit=unit,
+            policy=policy,
+            start=start,
+            facts=places,
+            is_certain=control is not None,
+        )
+    held: list[str] = []
+    place, told = len(tape.mark), 0.0
+    for line in lines:
+        if line is OPENING:
+            body.write("".join(held).encode(tape.encoding))
+            held, place = [], body.tell()
+            continue
+        held.append(str(line))
+        if len(held) == _BATCH:
+            body.write("".join(held).encode(tape.encoding))
+            held = []
+            if tape.share - told >= _REPORTED:
+                told = tape.share
+                progress(told)
+    body.write("".join(held).encode(tape.encoding))
+    opening = opening_of(options, dialect, unit, summary) if dialect else ""
+    return Rewritten(body, place, opening.encode(tape.encoding), dialect.name if dialect else None, summary)
+
+
+def _blocks(tape: Tape) -> Iterator[Block]:
+    return (parse_block(line.rstrip("\r\n"), number) for number, line in enumerate(tape.lines(), 1))

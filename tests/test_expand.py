@@ -1,0 +1,589 @@
+"""Whole programs in plain G-code: what replaces a contour, and that nothing else changes."""
+
+import re
+import subprocess
+import sys
+import time
+from math import cos, hypot, radians, sin
+from pathlib import Path
+from random import Random
+
+import pytest
+from click.testing import CliRunner
+from generate_lx3 import random_g11, random_g112
+from generate_nct import FORMS, random_chain, random_cornered, random_pair
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from interpreter import assert_path, interpret, needs_rs274
+from oracle import g111
+
+import contoursolve
+from contoursolve.cli import main
+from contoursolve.contour import ArcSegment, LineSegment
+from contoursolve.dialects import DIALECTS
+from contoursolve.emit import Format, emit
+from contoursolve.examine import Depth, Policy
+from contoursolve.lines import Lines
+from contoursolve.model import Length, Plane, Turn
+from contoursolve.pipeline import walk
+from contoursolve.posts import Arcs
+
+PROGRAMS = Path(__file__).parent.parent / "notebooks" / "programs"
+TAPER = "G111 A180. K-30. B120. X100."
+START = "G00 X40. Z0.\n"
+WITHIN = 2e-4
+"""mm. Four decimals of ours, and four that rs274 prints."""
+
+
+def expand(text, **options):
+    """The expanded lines, without the comments that keep the original blocks."""
+    expansion = contoursolve.expand(text, comments=False, **options)
+    assert expansion.text is not None, expansion.summary.left
+    return expansion.text.split("\n")
+
+
+# --- The judge: LinuxCNC runs what we write, and goes where the contour goes ---------------------------
+
+
+def judge(text, path, tmp_path, control, arcs):
+    expansion = contoursolve.expand(text, post="linuxcnc", control=control, arcs=arcs)
+    assert expansion.text is not None, expansion.summary.left
+    motions = interpret(expansion.text, tmp_path)[1:]
+    assert_path(motions, [(each.start, each.end, each.center, each.turn) for each in path], WITHIN)
+
+
+@needs_rs274
+@pytest.mark.parametrize("seed", range(60))
+def test_linuxcnc_runs_nct_contours_where_they_were_drawn(seed, tmp_path):
+    rng = Random(seed)
+    plane = rng.choice((17, 18, 19))
+    drawn = rng.choice(
+        (
+            lambda: random_pair(rng, rng.choice(FORMS[:4]), plane, rng.choice(("", "C", "R"))),
+            lambda: random_chain(rng, rng.randint(2, 5), plane),
+            lambda: random_cornered(rng, plane),
+        )
+    )()
+    text = "F100\n" + drawn.text + "M30\n"
+    for arcs in ("center", "radius"):
+        expansion = contoursolve.expand(text, post="linuxcnc", control="nct-99m", arcs=arcs)
+        # LinuxCNC has no compensation in G19, and says so; with D0, it changes nothing.
+        written = re.sub(r"G4[12] |D0", "", expansion.text) if plane == 19 else expansion.text
+        assert [each.text[4:] for each in expansion.summary.unfamiliar] == ["in G19"] * (plane == 19)
+        path = [(each.start, each.end, each.center, each.turn) for each in drawn.elements]
+        assert_path(interpret(written, tmp_path)[1:], path, WITHIN)
+
+
+@needs_rs274
+@pytest.mark.parametrize("seed", range(60))
+def test_linuxcnc_runs_tapers_where_the_closed_form_goes(seed, tmp_path):
+    rng = Random(seed)
+    while True:
+        start = complex(rng.uniform(-20, 20), rng.uniform(10, 40))
+        start = complex(round(start.real, 3), round(2 * start.imag, 3) / 2)
+        words = {
+            "A": rng.choice((180, 135, 90, round(rng.uniform(91, 269), 3))),
+            "K": -round(rng.uniform(2, 40), 3),
+            "B": round(rng.uniform(91, 179), 3),
+            rng.choice("XU"): round(rng.uniform(20, 160), 3),
+            rng.choice("CP"): round(rng.uniform(0, 5), 3),
+            rng.choice("DQ"): round(rng.uniform(0, 5), 3),
+        }
+        outcome = g111(start, words)
+        if outcome.status == "solved" and not outcome.is_near:
+            break
+    block = " ".join(
+        f"{address}{value}." if value == int(value) else f"{address}{value}" for address, value in words.items()
+    )
+    text = f"F100\nG00 X{2 * start.imag:.4f} Z{start.real:.4f}\nG111 {block.replace('..', '.')}\nM30\n"
+    for arcs in ("center", "radius"):
+        judge(text, outcome.elements, tmp_path, "yasnac-lx3", arcs)
+
+
+@needs_rs274
+@pytest.mark.parametrize("seed", range(60))
+def test_linuxcnc_runs_other_lathe_contours_where_they_were_drawn(seed, tmp_path):
+    rng = Random(seed)
+    name = rng.choice(("G112", "G11"))
+    if not any(form.name.split("-")[0] == name for form in DIALECTS["yasnac-lx3"].forms):
+        pytest.skip(f"{name} is not resolved by this version")
+    if name == "G112":
+        corners = rng.choice(("", "P", "C")), rng.choice(("", "Q", "D"))
+        drawn = random_g112(rng, rng.choice(("turning", "facing")), *corners)
+    else:
+        drawn = random_g11(rng, rng.randint(1, 4))
+    for arcs in ("center", "radius"):
+        judge("F100\n" + drawn.text + "M30\n", drawn.elements, tmp_path, "yasnac-lx3", arcs)
+
+
+@needs_rs274
+@pytest.mark.parametrize("name", ["shaft", "roller", "plate", "cover", "unusual"])
+@pytest.mark.parametrize("arcs", ["center", "radius"])
+def test_linuxcnc_runs_our_programs_without_the_lines_that_it_is_said_not_to_know(name, arcs, tmp_path):
+    text = (PROGRAMS / f"{name}.nc").read_text()
+    expansion = contoursolve.expand(text, post="linuxcnc", arcs=arcs)
+    unknown = [each.text for each in expansion.summary.unfamiliar]
+    codes = [code for code in unknown if code[0] in "GM" and " " not in code]
+    names = [rf"\b{code}\b" for code in codes] + [rf"\b{text[0]}\d" for text in unknown if text[0] in "UW"]
+    drop = re.compile(rf"^(?![(]|G7)(?=.*(?:{'|'.join(names) or '!'})).*\n", re.MULTILINE)
+    by_hand = expansion.text.replace("U2. W-1. R1.", "X82. Z-126. R1.").replace("X86. W-1.", "X86. Z-127.")
+    written = drop.sub("", by_hand)
+    written = re.sub(r"T0\d\d\d", "", written).replace("G19 G41 D0", "G19 G40")
+    motions = interpret(written.replace("\nN10 ", "\nF100\nN10 ", 1), tmp_path)
+    for answer in contoursolve.solve(text).answers:
+        elements = answer.contour.elements
+        path = [
+            (
+                complex(*each.start),
+                complex(*each.end),
+                complex(*each.center) if isinstance(each, ArcSegment) else None,
+                each.turn.name.lower() if isinstance(each, ArcSegment) else "",
+            )
+            for each in elements
+        ]
+        begins = [n for n, motion in enumerate(motions) if abs(motion.start - path[0][0]) <= WITHIN]
+        for begin in begins:
+            for count in range(len(path), 3 * len(path) + 1):
+                try:
+                    assert_path(motions[begin : begin + count], path, WITHIN)
+                except AssertionError:
+                    continue
+                break
+            else:
+                continue
+            break
+        else:
+            pytest.fail(f"no motions go along the contour of line {answer.lines[0]}")
+
+
+@needs_rs274
+@pytest.mark.parametrize(("unit", "scale"), [("G21", 1), ("G20", 25.4)])
+def test_linuxcnc_sees_the_same_contour_in_inches(unit, scale, tmp_path):
+    text = f"{unit} F10\nG00 X4. Z0.\nG111 X10. A180. K-3. B120. P.5 Q.5\nM30\n"
+    motions = interpret(contoursolve.expand(text, post="linuxcnc").text, tmp_path)
+    end = motions[-1].end * (scale if abs(motions[-1].end) < 10 else 1) / scale
+    assert abs(end - (-5.02073 + 5j)) < 1e-4
+
+
+# --- Rounding ------------------------------------------------------------------------------------------
+
+LATHE = Plane("G18", ("Z", "X"), ("K", "I"), (False, True))
+
+
+@given(
+    st.floats(-200, 200),
+    st.floats(1, 200),
+    st.floats(0.01, 500),
+    st.floats(0, 360),
+    st.floats(0.001, 359.9),
+    st.sampled_from(list(Turn)),
+    st.sampled_from(list(Arcs)),
+    st.booleans(),
+    st.integers(2, 5),
+)
+@settings(max_examples=300, deadline=None)
+def test_a_rounded_arc_is_valid_and_as_near_as_reported(
+    z, x, radius, begin, sweep, turn, arcs, is_incremental, decimals
+):
+    def at(degrees):
+        angle = radians(begin + turn.sign * degrees)
+        return z + radius * cos(angle), x + radius * sin(angle)
+
+    arc = ArcSegment("arc", at(0), at(sweep), (z, x), radius, turn)
+    form = Format(LATHE, Length.MM, decimals, True, arcs, is_incremental)
+    step = 10.0**-decimals
+    here = arc.start if is_incremental else (round(arc.start[0], decimals), round(arc.start[1] * 2, decimals) / 2)
+    place, told, written = here, 0.0, []
+    for move in emit(arc, here, form):
+        told = max(told, move.deviation)
+        if not move.words:
+            continue
+        words = {word[0]: float(word[1:]) for word in move.words}
+        base = place if is_incremental else (0.0, 0.0)
+        end = base[0] + words["Z"], base[1] + words["X"] / 2
+        assert hypot(end[0] - move.end[0], end[1] - move.end[1]) < 1e-9
+        if "R" in words:
+            assert 2 * words["R"] >= hypot(end[0] - place[0], end[1] - place[1]) - 1e-9
+        else:
+            center = place[0] + words["K"], place[1] + words["I"]
+            ends = [hypot(p[0] - center[0], p[1] - center[1]) for p in (place, end)]
+            assert abs(ends[0] - ends[1]) <= 1.5 * step
+            written.append((center, ends))
+        assert end != place
+        place = end
+    assert hypot(place[0] - arc.end[0], place[1] - arc.end[1]) <= 1.01 * step
+    assert told <= (6 if arcs is Arcs.RADIUS else 3) * step
+    if len(written) == 1:
+        center, ends = written[0]
+        worst = max(
+            abs(hypot(p[0] - center[0], p[1] - center[1]) - ends[0]) for p in (at(sweep * n / 50) for n in range(51))
+        )
+        assert worst <= told + 1e-9
+
+
+def test_an_element_that_rounds_to_nothing_is_left_out_and_its_deviation_counted():
+    line = LineSegment("line", (0.0, 10.0), (0.0003, 10.0))
+    (move,) = emit(line, (0.0, 10.0), Format(LATHE, Length.MM, 3, True, Arcs.CENTER))
+    assert move.words == ()
+    assert move.deviation == pytest.approx(0.0003)
+
+
+# --- What replaces a contour ---------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("text", "lines"),
+    [
+        pytest.param(
+            f"{START}N30 {TAPER} F0.2",
+            ["G00 X40. Z0.", "N30 G01 X40. Z-30. F0.2", "G01 X100. Z-47.321"],
+            id="number and F on the first line",
+        ),
+        pytest.param(
+            f"{START}/2 N30 {TAPER} (TAPER)",
+            ["G00 X40. Z0.", "/2 N30 G01 X40. Z-30. (TAPER)", "/2 G01 X100. Z-47.321"],
+            id="block skip on every line, the block's own comment",
+        ),
+        pytest.param(
+            f"{START}\t{TAPER}  \nX50.\nZ9.",
+            ["G00 X40. Z0.", "\tG01 X40. Z-30.", "\tG01 X100. Z-47.321", "G00", "X50.", "Z9."],
+            id="the motion before it is in force again",
+        ),
+        pytest.param(
+            f"{START}{TAPER}\nM08\nG01 X50.",
+            ["G00 X40. Z0.", "G01 X40. Z-30.", "G01 X100. Z-47.321", "M08", "G01 X50."],
+            id="a motion that is said needs nothing",
+        ),
+        pytest.param(
+            f"G01 X40. Z0. F1.\n{TAPER}\nX50.",
+            ["G01 X40. Z0. F1.", "G01 X40. Z-30.", "G01 X100. Z-47.321", "X50."],
+            id="the same motion needs nothing",
+        ),
+        pytest.param(
+            f"{START}{TAPER}\nM98 P1\nX50.",
+            ["G00 X40. Z0.", "G01 X40. Z-30.", "G01 X100. Z-47.321", "G00", "M98 P1", "X50."],
+            id="a subprogram finds the motion that it expects",
+        ),
+        pytest.param(
+            f"{START}G111 A180. K-30. B120. X100. Q5.\nG01 W-1.\nG111 I0 K-5. U10. W-10.",
+            [
+                *("G00 X40. Z0.", "G01 X40. Z-30.", "G01 X95. Z-45.877", "G03 X100. Z-50.207 I-2.5 K-4.33"),
+                *("G01 W-1.", "G01 X100. Z-56.207", "G01 X110. Z-61.207"),
+            ],
+            id="increments after it begin where it really ends",
+        ),
+        pytest.param(
+            "G20 G00 X4. Z0.\nG111 A180. K-3. B120. X10. C.5",
+            ["G20 G00 X4. Z0.", "G01 X4. Z-2.7887", "G01 X5. Z-3.2887", "G01 X10. Z-4.7321"],
+            id="inches have four decimals",
+        ),
+        pytest.param(
+            "G17 G41 G0 X50 Y0 D1\nG3 X-50 Y0 R50 F300 S900 M3\n(HERE)\nN5 G42 G1 X-50 Y42.857 ,A171.87 Q-1 M5",
+            [
+                *("G17 G41 G0 X50 Y0 D1", "G03 X40 Y30 I-50 J0 F300 S900 M3", "(HERE)"),
+                "N5 G42 G01 X-50 Y42.857 M5",
+            ],
+            id="words of each block of a pair stay with it",
+        ),
+        pytest.param(
+            "G17 G0 X0 Y0\nG91 G1 X30 ,C10\nX10 Y40 M5\nX5",
+            ["G17 G0 X0 Y0", "G91 G01 X20 Y0", "G01 X12.425 Y9.701", "G01 X7.575 Y30.299 M5", "X5"],
+            id="G91: increments, what ends a block on its last line",
+        ),
+        pytest.param(
+            "G17 G0 X0 Y0\nG0 X10 ,A45\nG1 Y20",
+            ["G17 G0 X0 Y0", "G00 X10 Y10", "G1 Y20"],
+            id="a rapid line stays rapid",
+        ),
+    ],
+)
+def test_a_contour_is_replaced(text, lines):
+    assert expand(text) == lines
+
+
+def test_the_original_block_stays_as_a_comment_that_nothing_ends():
+    text = f"{START}N30 {TAPER} (A (B) ; 100% (contoursolve: length of line 1 = 30)\r\n"
+    lines = contoursolve.expand(text.replace("A (B) ", "A) (B) "), rules="off").text.split("\n")
+    assert lines[1] == f"(N30 {TAPER} [A] [B] ; 100  [contoursolve: length of line 1 = 30])\r"
+    long = "G111 A180. K-30. B120. X100. (" + 500 * "X" + ")"
+    lines = contoursolve.expand(START + long).text.split("\n")
+    assert all(len(line) < 250 and line[0] == "(" and line[-1] == ")" for line in lines[1:4])
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        (START + "G111 A180. B120. X100.", "g111-line-1"),
+        (f"{TAPER}", "position-unknown"),
+        (f"G00 X40. Z0.\nG02 X40. Z-10. R30.\n{TAPER}\nX50. Z-90. R40.", "line 4 relies on G2"),
+        ("G17 G41 G0 X50 Y0\nG3 X-50 Y0 R50\n/G1 X-50 Y42.857 ,A171.87 Q-1", "some of its blocks begin with /"),
+        (f"{START}/G01 X50.\n{TAPER}", "it begins where a block with / leads"),
+    ],
+)
+def test_what_cannot_be_expanded_is_told_and_nothing_is_written(text, reason):
+    expansion = contoursolve.expand(text)
+    assert expansion.text is None
+    assert expansion.summary.left[0].reason.startswith(reason)
+    kept = contoursolve.expand(text, keep_going=True)
+    assert f"(NOT EXPANDED: {reason}" in kept.text
+    assert contoursolve.expand(kept.text, keep_going=True, control=kept.control).text == kept.text
+
+
+def test_what_the_target_reads_otherwise_is_named_once():
+    text = f"G50 S2000\nG50 S1500\n{START}{TAPER}\nG01 X50 F.1\nG01 U5.\nIF [#1 GT 2] GOTO 5"
+    for post, told in (
+        ("same", []),
+        ("fanuc", []),
+        ("linuxcnc", [(1, "G50"), (5, "X50"), (5, "F.1"), (6, "U5."), (7, "IF [#1 GT 2] GOTO 5")]),
+    ):
+        found = contoursolve.expand(text, post=post).summary.unfamiliar
+        assert sorted((each.line, each.text) for each in found) == sorted(told)
+
+
+def test_a_word_that_the_control_ignores_is_not_passed_over():
+    text = f"{START}G111 A135. I10. K-12. B180. Z-40."
+    assert contoursolve.expand(text).summary.warnings == 1
+    assert "1 warning: contoursolve check shows it" in run("expand", "-", stdin=text)[2]
+
+
+# --- What stays as it is -------------------------------------------------------------------------------
+
+PLAIN = st.sampled_from(
+    [
+        "%",
+        "",
+        "O0001 (NAME)",
+        " G00 x40.0 Z+0.50 ",
+        "n20 G01X1Y2F.3",
+        "X41.",
+        "(G111 X5)",
+        "#100=5.",
+        "M08",
+        "\x02G4 X1.",
+        "W-1. U-.5",
+    ]
+)
+ENDS = st.sampled_from(["\n", "\r\n", "\r"])
+
+
+@given(st.text(st.characters(codec="utf-8", exclude_characters="\x00"), max_size=80), st.sampled_from(list(DIALECTS)))
+def test_a_text_without_a_contour_comes_out_as_it_was(text, control):
+    if not contoursolve.solve(text, control=control, rules="off").answers:
+        assert contoursolve.expand(text, control=control, keep_going=True).text == text
+
+
+@given(
+    st.lists(PLAIN | st.just(START + TAPER + " P2.") | st.just("G111 A180."), max_size=12),
+    ENDS,
+    st.sampled_from(["same", "linuxcnc", "fanuc"]),
+)
+@settings(deadline=None)
+def test_only_contours_change_and_only_once(blocks, end, post):
+    blocks = [each.replace("\n", end) for each in blocks]
+    text = end.join(blocks)
+    once = contoursolve.expand(text, post=post, keep_going=True, control="yasnac-lx3")
+    plain = [line for line in re.split(r"\r\n|\n|\r", text) if not line.startswith("G111")]
+    rest = iter(re.split(r"\r\n|\n|\r", once.text))
+    assert all(line in rest for line in plain)  # in this order, every one of them
+    assert contoursolve.expand(once.text, post=post, keep_going=True, control="yasnac-lx3").text == once.text
+    if once.summary.replaced == 0 and not once.summary.left:
+        assert once.text == text
+
+
+LATHE_LINES = (
+    "%",
+    "",
+    "(A COMMENT)",
+    "G00 X40. Z0.",
+    "X41. (X9.)",
+    "N5 Z-1. F.2",
+    "G01 x42.Z-2.",
+    "W-1.",
+    "G01 U.5",
+    "G02 X43. Z-3. R9.",
+    "G90 X30.",
+    "G28 U0",
+    "M08",
+    "M98 P1",
+    "/X44.",
+    "X45. X46.",
+    "X1.5.",
+    "#1=2",
+    "X[#1]",
+    "G50 X40. Z1.",
+    "G20",
+    "G111 A180. K-30. B120. X100.",
+    "G111 A180. K-30. B120. U60. P2.",
+    "G111 A180.",
+    "G112 U0 I10. K-50. P5. Q5. R30.",
+    "G11 Z-20. I8. F30",
+    "X80. K-7.",
+    "G12 U10. K1.",
+    "G01 X50. K-2.",
+)
+MILL_LINES = (
+    "",
+    "(A COMMENT)",
+    "G17 G90 G41 G0 X50 Y0",
+    "G91",
+    "G90",
+    "X10 Y5",
+    "G1 X20",
+    "Y7 F100 (,R2)",
+    "G0 X1 Y1 Z1 M3",
+    "G3 X-50 Y0 R50",
+    "G1 X-50 Y42.857 ,A171.87 Q-1",
+    "G1 ,A150",
+    "X10 Y20 ,A225",
+    "X30 Y30 ,C2",
+    "Y10 ,R1",
+    "G81 X1 Y1 Z-1 R1",
+    "G80",
+    "G18",
+    "N7",
+)
+
+
+@given(
+    st.sampled_from(("yasnac-lx3", "nct-99m")).flatmap(
+        lambda control: st.tuples(
+            st.just(control),
+            st.lists(st.sampled_from(LATHE_LINES if control == "yasnac-lx3" else MILL_LINES), max_size=14),
+        )
+    ),
+    st.sampled_from((1, 2, 3, 1000)),
+)
+@settings(deadline=None, max_examples=300)
+def test_a_program_that_is_read_as_a_stream_has_the_same_contours(program, batch):
+    control, lines = program
+    dialect = DIALECTS[control]
+    text = "\n".join(lines)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("contoursolve.pipeline._BATCH", batch)
+        blocks = Lines([line + "\n" for line in lines], dialect, {}, is_certain=True).blocks()
+        steps = list(walk(blocks, dialect, Length.MM, Policy.ENFORCE, Depth.VERDICT))
+    answers = [step.answer for step in steps if step.answer]
+    expected = contoursolve.solve(text, control=control, depth="verdict").answers
+    assert [(each.lines, each.start, each.contour) for each in answers] == [
+        (each.lines, each.start, each.contour) for each in expected
+    ]
+    seen = [block for step in steps for block in (step.blocks or (step.line,))]
+    assert [(each.line, each.text) for each in seen] == list(enumerate(lines, 1))
+
+
+# --- Files ---------------------------------------------------------------------------------------------
+
+
+def run(*arguments, stdin=None):
+    done = CliRunner().invoke(main, [str(each) for each in arguments], input=stdin)
+    assert done.exception is None or isinstance(done.exception, SystemExit), done.exception
+    return done.exit_code, done.stdout_bytes, done.stderr
+
+
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [
+        (b"\xef\xbb\xbf(\xc3\x84)\r\n", b"\r\n(\xc3\x96)"),
+        (b"(\xc4)\n", b"\n(\xd6 \xb5)\n"),
+        (b"%\r\x02", b"\r%\r\x1a"),
+        (b"", b""),
+    ],
+    ids=["UTF-8 with its mark, CRLF", "Latin-1, LF", "tape, CR", "nothing"],
+)
+def test_every_other_byte_stays(before, after, tmp_path):
+    old, new = tmp_path / "old.nc", tmp_path / "new.nc"
+    end = b"\r\n" if b"\r\n" in before else b"\r" if b"\r" in before else b"\n"
+    old.write_bytes(before + b"G00 X40. Z0." + end + TAPER.encode() + after)
+    assert run("expand", old, "-o", new)[0] == 0
+    comment = b"(" + TAPER.encode() + b")" + end
+    replaced = comment + b"G01 X40. Z-30." + end + b"G01 X100. Z-47.321"
+    assert new.read_bytes() == before + b"G00 X40. Z0." + end + replaced + after
+
+
+def test_a_target_is_not_replaced_unless_that_is_asked_for(tmp_path):
+    old, new = tmp_path / "old.nc", tmp_path / "new.nc"
+    old.write_text(START + TAPER + "\n")
+    new.write_text("mine")
+    for arguments, message in (
+        (("-o", new), "exists; give --force"),
+        (("-o", old), "is the program itself"),
+        (("-o", tmp_path), "is a directory"),
+        (("-o", tmp_path / "no" / "new.nc"), "cannot be written"),
+        (("--in-place", "-o", new), "--in-place takes"),
+    ):
+        status, output, errors = run("expand", old, *arguments)
+        assert (status, output) == (2, b"")
+        assert message in errors
+    assert new.read_text() == "mine"
+    assert run("expand", old, "-o", new, "--force")[0] == 0
+    assert "G01" in new.read_text()
+    old.write_text(START + "G111 A180.\n")
+    assert run("expand", old, "-o", new, "--force")[0] == 1
+    assert "G01" in new.read_text()
+    assert sorted(each.name for each in tmp_path.iterdir()) == ["new.nc", "old.nc"]
+
+
+def test_in_place_keeps_every_older_file(tmp_path):
+    old = tmp_path / "old.nc"
+    (tmp_path / "old.nc.bak").write_text("an older one")
+    text = START + TAPER + "\n"
+    old.write_text(text)
+    status, _, errors = run("expand", "--in-place", old)
+    assert status == 0
+    assert "old.nc.bak2" in errors
+    assert (tmp_path / "old.nc.bak").read_text() == "an older one"
+    assert (tmp_path / "old.nc.bak2").read_text() == text
+    assert "G01" in old.read_text()
+    run("expand", "--in-place", old)  # nothing is left to expand, nothing is written
+    assert len(list(tmp_path.iterdir())) == 3
+
+
+def test_killed_at_any_moment_a_file_is_the_old_one_or_the_whole_new_one(tmp_path):
+    text = "G00 X40. Z0.\n" + f"{START}{TAPER} P2.\n" * 300
+    old = tmp_path / "old.nc"
+    old.write_text(text)
+    whole = contoursolve.expand(text).text
+    command = [sys.executable, "-m", "contoursolve", "expand", "--in-place", str(old)]
+    begin = time.perf_counter()
+    subprocess.run(command, check=True, capture_output=True)
+    took, outcomes = time.perf_counter() - begin, set()
+    for share in (0.1, 0.5, 0.8, 0.9, 0.95, 1.0, 1.05, 1.2):
+        old.write_text(text)
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        time.sleep(took * share)
+        process.kill()
+        process.wait()
+        found = old.read_text()
+        assert found in (text, whole)
+        outcomes.add(found)
+    assert text in outcomes
+
+
+# --- LinuxCNC's filter ---------------------------------------------------------------------------------
+
+
+@needs_rs274
+def test_linuxcnc_opens_an_old_program_through_the_filter(tmp_path):
+    old = tmp_path / "an old one.nc"
+    old.write_text("F100\n" + START + TAPER + " P5. Q5.\nM30\n")
+    filter_ = f"{sys.executable} -m contoursolve filter"
+    done = subprocess.run(["sh", "-c", f"{filter_} '{old}'"], capture_output=True, text=True, check=True)
+    assert "FILTER_PROGRESS=100" in done.stderr.splitlines()
+    motions = interpret(done.stdout, tmp_path)
+    assert [motion.kind for motion in motions] == ["traverse", "line", "cw", "line", "ccw"]
+    assert abs(motions[-1].end - (-50.2073 + 50j)) < 1e-4
+
+
+def test_the_filter_fails_with_the_findings_and_no_program(tmp_path):
+    old = tmp_path / "old.nc"
+    old.write_text(START + "G111 A180. B120. X100.\n")
+    status, output, errors = run("filter", old)
+    assert (status, output) == (1, b"")
+    assert "error[g111-line-1]" in errors
+    assert run("filter", tmp_path / "none.nc")[:2] == (2, b"")
+
+
+def test_the_filter_leaves_a_program_of_linuxcnc_alone(tmp_path):
+    old = tmp_path / "own.ngc"
+    old.write_bytes(b"o100 sub\nG1 X[#1+2] F#<_feed>\no100 endsub\nM2\n")
+    assert run("filter", old)[:2] == (0, old.read_bytes())
