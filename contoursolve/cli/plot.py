@@ -12,6 +12,7 @@ from contoursolve.cli.options import (
     common_options,
 )
 from contoursolve.cli.printing import lines_of_findings, print_lines, print_summary, style_of_output
+from contoursolve.files import CannotWriteError, check_target, write_whole
 from contoursolve.output.layout import count
 
 
@@ -53,16 +54,14 @@ def plot(
         if error.name != "ezdxf":
             raise
         raise CouldNotRunError("a DXF drawing needs ezdxf; install it with: pip install 'contoursolve[dxf]'") from None
-    from contoursolve.output.target import TargetError, check_target, write_whole  # noqa: PLC0415 - only here
-
     try:
-        check_target(output, (program,) if program else (), is_forced=is_forced)
+        check_target(output, Path(program) if program else None, is_forced=is_forced)
         result = examine(loader(), start, assignments, options)
         print_lines(lines_of_findings(result, result.diagnostics, style_of_output()))
         contours = [answer.contour for answer in result.answers if answer.contour]
         if contours:
-            write_whole(output, to_dxf(result.answers))
-    except TargetError as error:
+            write_whole(output, [to_dxf(result.answers)], keeps_backup=False)
+    except CannotWriteError as error:
         raise CouldNotRunError(str(error)) from None
     elements = count(sum(len(contour.elements) for contour in contours), "element")
     written = f"{output}: {elements} of {count(len(contours), 'contour')}" if contours else f"{output}: not written"
