@@ -508,7 +508,7 @@ def test_a_target_is_not_replaced_unless_that_is_asked_for(tmp_path):
         (("-o", new), "exists; give --force"),
         (("-o", old), "is the program itself"),
         (("-o", tmp_path), "is a directory"),
-        (("-o", tmp_path / "no" / "new.nc"), "cannot be written"),
+        (("-o", tmp_path / "no" / "new.nc"), "is no directory; make it first"),
         (("--in-place", "-o", new), "--in-place takes"),
     ):
         status, output, errors = run("expand", old, *arguments)

@@ -113,7 +113,7 @@ def test_a_drawing_that_exists_is_replaced_only_by_force(tmp_path):
     target.chmod(0o640)
     status, output = plot(PROGRAMS / "shaft.nc", "-o", target)
     assert (status, target.read_text()) == (2, "mine")
-    assert "part.dxf exists; --force replaces it" in output
+    assert "part.dxf exists; give --force to replace it" in output
     status, output = plot(PROGRAMS / "shaft.nc", "-o", target, "--force")
     assert status == 0
     assert "24 elements of 7 contours" in output
