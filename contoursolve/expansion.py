@@ -76,7 +76,7 @@ _AFTER_MOTION = frozenset({0, 1, 2, 5, 9, 30, 60, 98, 99})
 """M codes that act after the motion of their block: stop, end, spindle and coolant off, pallet, calls."""
 
 _MOTIONS = (Effect.MOTION, Effect.CYCLE, Effect.CANCEL)
-_OWN_WORDS = (Effect.NO_MOTION, Effect.PRESET, Effect.FRAME)
+_OWN_WORDS = (Effect.NO_MOTION, Effect.PRESET, Effect.FRAME, Effect.CONTOUR)
 """G codes whose blocks use their words themselves, whatever motion is in force."""
 
 _RESTORABLE = (0, 1)
