@@ -358,7 +358,8 @@ def verify(
     RESULT.json is what solve printed with --format json. Each point, radius and direction, each value that was asked
     for and each listed solution is held against the words and further facts with formulas of its own, none of the
     solver's; so are the status and the number of solutions where there are words alone. What was not checked is named,
-    too. Give --block, --start and --fact as they were given to solve.
+    too. The program is read with the settings that RESULT.json names. Give --block, --start and --fact as they were
+    given to solve.
 
     Exit status: 0 nothing claimed is wrong, 1 something is, 2 could not run.
 

@@ -71,7 +71,7 @@ SAMPLES = {
     "two circles, rounded": MILL + "G3 X0 Y50 R50 ,R2\nG3 X-40 Y60 I-40 J20 R-40 Q1",
     "a chain": TURN + "G1 ,A150 ,R2\nG1 X10 Y20 ,A225 ,C2\nG3 X-40 Y-20 I-20 J-20 R20 Q1",
     "a chain to a point that is off": TURN + "G1 ,A197\nG3 X20 Y40.005 I20 J-10 R50 Q-1",
-    "chamfers and roundings": MILL + "G1 X80 ,C10\nX90 Y40 ,R5\nG3 X60 Y70 R30 ,R3\nG3 X40 Y90 I-20 J0 ,C2\nG1 X0",
+    "chamfers and roundings": MILL + "G1 X80 ,C10\nX90 Y40 ,R5\nG3 X60 Y70 R30 ,R3\nG3 X40 Y90 I-20 J0 ,C2\nG1 Y60",
     "a line by its angle": MILL + "G91 G1 X40 ,A45",
     "a radius": PAIR,
     "the farther point": MILL + "G3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q1",
@@ -283,9 +283,9 @@ def nudged(result: dict[str, Any]) -> Iterator[dict[str, Any]]:
 @pytest.mark.parametrize("text", SAMPLES.values(), ids=SAMPLES)
 def test_a_number_that_is_off_by_a_millionth_is_found(desk, text):
     result = older(desk.solve(text))
-    for number, wrong in enumerate(nudged(result)):
-        assert desk.is_wrong(wrong), number
-    for place, value in coordinates(result):
+    every = list(coordinates(result))
+    for number, (place, value) in enumerate(Random(text).sample(every, min(len(every), 24))):
+        assert desk.is_wrong(changed(result, place, value + (NUDGE if number % 2 else -NUDGE))), place
         if value:
             assert desk.is_wrong(changed(result, place, -value)), place
 
@@ -325,7 +325,10 @@ def mutations(result: dict[str, Any]) -> Iterator[tuple[Place, Any]]:
                 yield place, each
 
 
-MOST = 300
+FEW = 16
+"""Numbers that are changed where each of them takes long."""
+
+MOST = 100
 """Mutations of a program of one contour; each of a longer one takes so much longer to verify."""
 
 MUTATED = {
@@ -397,7 +400,7 @@ def test_a_result_that_was_tampered_with_is_found(desk, name):
 def random_programs() -> Iterator[tuple[str, str]]:
     """Programs of every form, written from drawn paths, and some with another value in one word."""
     rng = Random(7)
-    for number in range(60):
+    for number in range(25):
         form, plane = generate_nct.FORMS[number % 4], (17, 18, 19)[number % 3]
         kinds = (
             generate_nct.random_pair(rng, form, plane, rng.choice(("", "C", "R"))),
@@ -806,6 +809,13 @@ EXTENDED = {
         "length of line 1 = ?; straight part of line 2 = ?; direction of line 1 = ?; X of end of corner 1 = ?; "
         "angle from line 1 to line 2 = ?; Z of V2 = ?; radius of corner 1 = ?; Z of begin of line 2 = ?",
     ),
+    "length of a line of two": TURN + "G1 ,A150\nG1 X10 Y? ,A225 (contoursolve: length of line 1 = 40)",
+    "rounding of two lines": TURN + "G1 ,A150 ,R?\nG1 X10 Y20 ,A225 (contoursolve: straight part of line 1 = 30)",
+    "chamfer of two lines": TURN + "G1 ,A150 ,C?\nG1 X10 Y20 ,A225 (contoursolve: length of corner 1 = 4)",
+    "coordinate of a crossing": MILL + "G3 I? J0\n" + CIRCLE + " (contoursolve: X of P1 = -45)",
+    "radius in a chain": TURN + "G1 ,A150 ,R2\nG1 X10 Y20 ,A225\nG3 X-40 Y-20 I-20 J-20 R? Q1",
+    "a chamfer before a rounding": MILL
+    + "G1 X80 ,C?\nX90 Y40 ,R5\nG3 X60 Y70 R30 (contoursolve: straight part of line 1 = 25)",
     "tangent": pair("G3 I-50 J0", "G1 X-80 Y42.857", "line tangent to arc"),
     "tangent, clockwise": pair("G2 I-50 J0", "G1 X-80 Y42.857", "arc tangent to line"),
     "tangent, one coordinate": pair("G3 I-50 J0", "G1 X-80 ,A171.87", "line tangent to arc"),
@@ -830,7 +840,7 @@ UNCHOSEN = ("ambiguous", "rejected")
 
 def solved(desk: Desk, name: str) -> dict[str, Any]:
     """The result for one of these programs."""
-    is_mill = EXTENDED[name].startswith(MILL)
+    is_mill = EXTENDED[name].startswith("G17")
     return desk.solve(EXTENDED[name], *(("--control", "nct-99m") if is_mill else ()))
 
 
@@ -868,12 +878,14 @@ def test_a_number_of_facts_questions_and_solutions_that_is_off_is_found(desk, na
     assert len(places) > 8
     # The chosen one is the same as the contour, which is looked at by itself.
     chosen = [number for number, each in enumerate(result["contours"][0]["solutions"]) if each["is_chosen"]]
-    for number, (place, value) in enumerate(places):
+    rng = Random(name)
+    for number, (place, value) in enumerate(rng.sample(places, min(len(places), FEW))):
         assert desk.is_wrong(changed(result, place, value + (NUDGE if number % 2 else -NUDGE))), place
         if value and value != 180 and place[3] not in chosen:
             assert desk.is_wrong(changed(result, place, -value)), place
     alone = older(result)
-    for number, (place, value) in enumerate(listed(alone)):
+    numbered = list(listed(alone))
+    for number, (place, value) in enumerate(rng.sample(numbered, min(len(numbered), FEW))):
         assert desk.is_wrong(changed(alone, place, value + (-NUDGE if number % 2 else NUDGE))), place
         if value and value != 180:
             assert desk.is_wrong(changed(alone, place, -value)), place
@@ -895,7 +907,7 @@ def test_the_answer_to_a_slightly_different_fact_is_wrong(desk, name):
         other = text[: match.start()] + number + "00002" + text[match.end() :]
         if "." in match[0]:
             other = text[: match.start()] + f"{float(match[0]) + 2e-5:.6f}" + text[match.end() :]
-        result = desk.solve(other, *(("--control", "nct-99m") if text.startswith(MILL) else ()))
+        result = desk.solve(other, *(("--control", "nct-99m") if text.startswith("G17") else ()))
         assert not desk.is_wrong(result), other
         (contour,) = result["contours"]
         program = parse(text).blocks
@@ -985,7 +997,7 @@ def test_a_list_of_solutions_that_was_tampered_with_is_found(desk, name):
 )
 def test_words_that_leave_the_points_loose_fix_none(desk, text, facts, line):
     """As many words as unknowns, of which some say the same: any path along the way would do."""
-    result = older(desk.solve(text, *(("--control", "nct-99m") if text.startswith(MILL) else ())))
+    result = older(desk.solve(text, *(("--control", "nct-99m") if text.startswith("G17") else ())))
     program = "\n".join([*text.split("\n")[:-1], f"{line} (contoursolve: {facts[0]})"])
     desk.program.write_bytes(program.encode())
     found = failures(desk.receipt(with_contour(result, facts=facts)))
@@ -1307,7 +1319,7 @@ JSON = st.recursive(
     max_leaves=6,
 )
 FUZZ = settings(
-    derandomize=True, deadline=None, max_examples=120, suppress_health_check=[HealthCheck.function_scoped_fixture]
+    derandomize=True, deadline=None, max_examples=50, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )
 
 
