@@ -117,6 +117,21 @@ def _recognise_encoding(data: BinaryIO, name: str) -> tuple[str, bytes]:
     return ("utf-8", mark) if is_utf8 else ("latin-1", b"")
 
 
+def check_target(target: Path, source: Path | None, *, is_forced: bool) -> None:
+    """Raise CannotWriteError if a file exists and may not be replaced, or cannot be written at all."""
+    if target.is_dir():
+        raise CannotWriteError(f"{target} is a directory; name a file")
+    if not target.parent.is_dir():
+        raise CannotWriteError(f"{target.parent} is no directory; make it first")
+    if target.exists():
+        if source is not None and source.exists() and target.samefile(source):
+            raise CannotWriteError(f"{target} is the program itself; write to another file")
+        if not target.is_file():
+            raise CannotWriteError(f"{target} is not a regular file")
+        if not is_forced:
+            raise CannotWriteError(f"{target} exists; give --force to replace it")
+
+
 def write_whole(target: Path, pieces: Iterable[bytes], *, keeps_backup: bool) -> Path | None:
     """Write a file so that at any moment it is either the old one or the whole new one; returns where the old one is
     kept. Raises CannotWriteError."""

@@ -38,7 +38,6 @@ FLOORS = (
     "trial rewrite",
     "__init__",
     "cli",
-    "cli_expand",
     "__main__",
 )
 FLOOR_OF = {room: number for number, rooms in enumerate(FLOORS) for room in rooms.split()}

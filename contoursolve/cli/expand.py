@@ -11,18 +11,12 @@ from typing import IO, Any
 import click
 
 from contoursolve import syntax
-from contoursolve.cli import (
-    FOUND_ERRORS,
-    CouldNotRunError,
-    common_options,
-    settings_option,
-    style_of_output,
-    units_option,
-)
+from contoursolve.cli.options import FOUND_ERRORS, CouldNotRunError, common_options, settings_option, units_option
+from contoursolve.cli.printing import style_of_output
 from contoursolve.dialects import DIALECTS
 from contoursolve.examine import Policy
 from contoursolve.expansion import Options, Summary
-from contoursolve.files import CannotWriteError, Tape, open_tape, tape_of, write_whole
+from contoursolve.files import CannotWriteError, Tape, check_target, open_tape, tape_of, write_whole
 from contoursolve.model import Length
 from contoursolve.output.findings import Style, finding_lines, plain
 from contoursolve.output.layout import count
@@ -164,15 +158,10 @@ def _target(program: str | None, output: str | None, is_in_place: bool, is_force
     if output in (None, STANDARD):
         return None
     target = Path(str(output))
-    if target.is_dir():
-        raise CouldNotRunError(f"{target} is a directory; name a file")
-    if target.exists():
-        if source is not None and source.exists() and target.samefile(source):
-            raise CouldNotRunError(f"{target} is the program itself; write to another file, or give --in-place")
-        if not target.is_file():
-            raise CouldNotRunError(f"{target} is not a regular file; leave -o out, and redirect")
-        if not is_forced:
-            raise CouldNotRunError(f"{target} exists; give --force to replace it")
+    try:
+        check_target(target, source, is_forced=is_forced)
+    except CannotWriteError as error:
+        raise CouldNotRunError(str(error)) from None
     return target
 
 

@@ -1,0 +1,122 @@
+"""The command that compares two programs."""
+
+from collections.abc import Sequence
+
+import click
+
+from contoursolve.api import only_findings
+from contoursolve.cli.loading import folder_of, read
+from contoursolve.cli.options import (
+    FOUND_ERRORS,
+    CouldNotRunError,
+    rules_option,
+    settings_option,
+    units_option,
+)
+from contoursolve.cli.printing import lines_of_findings, print_lines, style_of_output
+from contoursolve.dialects import DIALECTS, PLAIN, Dialect
+from contoursolve.examine import Policy
+from contoursolve.model import Length
+from contoursolve.pipeline import Result, UnknownControlError, recognise, run
+from contoursolve.project import SettingError, configure, find_settings, read_setting
+from contoursolve.syntax import Program
+
+_ANY_CONTROL = click.Choice([*DIALECTS, *PLAIN])
+
+
+@click.command(short_help="Tell whether two programs describe the same path.")
+@click.argument("old", metavar="OLD")
+@click.argument("new", metavar="NEW")
+@click.option(
+    "--tolerance",
+    type=click.FloatRange(min=0, min_open=True, max=1),
+    default=0.001,
+    show_default=True,
+    metavar="MM",
+    help="How far apart the paths may be, in mm.",
+)
+@click.option(
+    "--control", type=_ANY_CONTROL, help="The control of OLD. Without it, found from OLD where that is clear."
+)
+@click.option(
+    "--new-control", type=_ANY_CONTROL, help="The control of NEW. Without it, found from NEW, or that of OLD."
+)
+@units_option
+@click.option(
+    "--new-units", type=click.Choice([unit.value for unit in Length]), help="The same for NEW. Without it, as for OLD."
+)
+@rules_option
+@settings_option
+@click.option(
+    "--format", "format_", type=click.Choice(["text", "json"]), default="text", show_default=True, help="What to print."
+)
+@click.pass_context
+def diff(
+    context: click.Context,
+    /,
+    old: str,
+    new: str,
+    tolerance: float,
+    control: str | None,
+    new_control: str | None,
+    units: str,
+    new_units: str | None,
+    rules: str,
+    assignments: tuple[str, ...],
+    format_: str,
+) -> None:
+    """Tell whether OLD and NEW describe the same path, and if not, where they differ first.
+
+    Contours are solved, and all moves by G0 to G3 followed, in either program as its own control reads them. A line or
+    an arc may be divided differently. What is not followed, such as cycles and subprograms, must be the same word by
+    word, and is listed. Feeds, leads, speeds, tools, offsets, dwells and M functions are not compared.
+
+    Exit status: 0 the same path, 1 not the same or not solved, 2 could not run.
+
+    \b
+    contoursolve diff shaft.nc shaft_by_hand.nc
+    contoursolve diff shaft.nc shaft.ngc --new-control linuxcnc --tolerance 0.002
+    """
+    from contoursolve.comparison import compare, follow  # noqa: PLC0415 - only here
+    from contoursolve.output import differences  # noqa: PLC0415 - only here
+
+    if old == new == "-":
+        raise click.UsageError("only one of OLD and NEW can be standard input")
+    sides: list[tuple[Result, Dialect, Length]] = []
+    for path, own, unit in ((old, control, units), (new, new_control, new_units or units)):
+        program = read(path)
+        dialect = _dialect_of(program, own, sides[0][1] if sides else None, assignments)
+        result = only_findings(run(program, dialect, Length(unit), Policy(rules)))
+        sides.append((result, dialect, Length(unit)))
+    results = [result for result, _, _ in sides]
+    if any(result.has_errors for result in results):
+        if format_ == "json":
+            click.echo(differences.refusal_to_json(results))
+        else:
+            for result in results:
+                print_lines(lines_of_findings(result, result.diagnostics, style_of_output()))
+            click.echo("not compared: a program that has errors has no path")
+        context.exit(FOUND_ERRORS)
+    axes = tuple(sorted({axis for _, dialect, _ in sides for axis in dialect.modes.axes}))
+    one, other = (follow(result, dialect, unit, axes) for result, dialect, unit in sides)
+    comparison = compare(one, other, tolerance)
+    if format_ == "json":
+        click.echo(differences.to_json(comparison))
+    else:
+        print_lines(differences.comparison_lines(comparison))
+    context.exit(0 if comparison.is_equal else FOUND_ERRORS)
+
+
+def _dialect_of(program: Program, name: str | None, otherwise: Dialect | None, assignments: Sequence[str]) -> Dialect:
+    """The control of a program: the one that is named, or that it shows, or another."""
+    try:
+        settings = find_settings(folder_of(program)) | dict(map(read_setting, assignments))
+        dialect = {**DIALECTS, **PLAIN}[name] if name else recognise(program) or otherwise
+        if dialect is not None:
+            return configure(settings).get(dialect.name, dialect)
+    except SettingError as error:
+        raise CouldNotRunError(str(error)) from None
+    except UnknownControlError as error:
+        raise CouldNotRunError(f"{program.name}: {error}; say which with --control or --new-control") from None
+    choices = "|".join([*DIALECTS, *PLAIN])
+    raise CouldNotRunError(f"{program.name}: no block shows the control; say which with --control {choices}")

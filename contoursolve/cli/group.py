@@ -1,0 +1,55 @@
+"""The command `contoursolve`, and where its commands are."""
+
+import io
+import sys
+from importlib import import_module
+
+import click
+
+from contoursolve import __version__
+
+_COMMANDS = {
+    "check": "solve:check",
+    "solve": "solve:solve",
+    "expand": "expand:expand",
+    "filter": "expand:filter_",
+    "diff": "diff:diff",
+    "plot": "plot:plot",
+    "verify": "verify:verify",
+    "rules": "catalogue:rules",
+    "explain": "catalogue:explain",
+    "facts": "catalogue:facts",
+}
+"""Where each command is: a module of this room, and the name there."""
+
+
+class _Commands(click.Group):
+    """The commands; each is imported when it is asked for, so that the others start sooner."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002 - as click calls it
+        """All names, in order."""
+        return list(_COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002 - as click calls it
+        """The command of this name."""
+        module, _, name = _COMMANDS.get(cmd_name, "").partition(":")
+        if not module:
+            return None
+        command: click.Command = getattr(import_module(f"contoursolve.cli.{module}"), name)
+        return command
+
+
+@click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+@click.version_option(__version__, prog_name="contoursolve")
+def main() -> None:
+    """Solve CNC contour blocks, or say why they cannot be solved.
+
+    Reads the contour blocks of the YASNAC LX3 (G111, G112, G11, G12) and of the NCT 99M (chapter 16), with any
+    further facts.
+
+    Exit status: 0 no error found, 1 at least one error found, 2 could not run.
+    """
+    for stream in (sys.stdout, sys.stderr):
+        # A console may lack a character that a program's comment has.
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")

@@ -1,0 +1,151 @@
+"""The commands that examine contours: solve and check."""
+
+import sys
+from collections.abc import Iterator
+from typing import Any
+
+import click
+
+from contoursolve import __version__
+from contoursolve.api import only_findings
+from contoursolve.cli.loading import examine, load
+from contoursolve.cli.options import (
+    COULD_NOT_RUN,
+    FOUND_ERRORS,
+    CouldNotRunError,
+    common_options,
+)
+from contoursolve.cli.printing import lines_of_findings, print_lines, print_summary, style_of_output
+from contoursolve.diagnostic import Diagnostic, Severity
+from contoursolve.examine import Answer
+from contoursolve.output.contours import contour_lines
+from contoursolve.output.document import findings_to_json, to_json
+from contoursolve.output.findings import Style
+from contoursolve.pipeline import Result
+
+
+@click.command(short_help="Solve every contour block of a program.")
+@click.argument("program", required=False)
+@common_options
+@click.option(
+    "--format",
+    "format_",
+    type=click.Choice(["text", "json"]),
+    default="text",
+    show_default=True,
+    help="What to print; json is in mm, with X as radius.",
+)
+@click.option("--explain", "is_explained", is_flag=True, help="Also print the construction, step by step.")
+@click.pass_context
+def solve(
+    context: click.Context,
+    /,
+    program: str | None,
+    blocks: tuple[str, ...],
+    start: str | None,
+    format_: str,
+    is_explained: bool,
+    assignments: tuple[str, ...],
+    **options: Any,
+) -> None:
+    """Solve every contour block of PROGRAM (a file, or - for standard input).
+
+    Prints what was given, the virtual intersections, and every element of the path, with what is proven of it; where
+    several contours satisfy a block, all of them. A word with ? for its value, such as P?, is worked out from the
+    other words and from facts.
+
+    \b
+    contoursolve solve shaft.nc
+    contoursolve solve --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0."
+    contoursolve solve --start "X40. Z0." --fact "length of line 1 = 30" --block "G111 X100. A180. B120. K?"
+    """
+    result = examine(load([program] if program else [], blocks, start)[0](), start, assignments, options)
+    if format_ == "json":
+        click.echo(to_json(result))
+    else:
+        print_lines(_solved(result, style_of_output(), is_explained))
+        print_summary([result])
+    context.exit(FOUND_ERRORS if result.has_errors else 0)
+
+
+@click.command(short_help="Report findings only, for any number of programs.")
+@click.argument("programs", nargs=-1, metavar="PROGRAM...")
+@common_options
+@click.option(
+    "--format",
+    "format_",
+    type=click.Choice(["text", "json", "sarif", "github"]),
+    default="text",
+    show_default=True,
+    help="What to print: text, one JSON document, SARIF 2.1.0, or GitHub's annotations.",
+)
+@click.option(
+    "--fail-on",
+    type=click.Choice(["error", "warning", "never"]),
+    default="error",
+    show_default=True,
+    help="The least finding that makes the exit status 1.",
+)
+@click.pass_context
+def check(
+    context: click.Context,
+    /,
+    programs: tuple[str, ...],
+    blocks: tuple[str, ...],
+    start: str | None,
+    format_: str,
+    fail_on: str,
+    assignments: tuple[str, ...],
+    **options: Any,
+) -> None:
+    """Report the findings about each PROGRAM (files, or - for standard input), without the contours.
+
+    \b
+    contoursolve check shaft.nc flange.nc
+    contoursolve check --control yasnac-lx3 - < shaft.nc
+    """
+    is_shown = len(programs) > 1 and sys.stderr.isatty()
+    results, failures = [], []
+    with click.progressbar(
+        load(programs, blocks, start), label="checking", file=sys.stderr, hidden=not is_shown
+    ) as loaded:
+        for loader in loaded:
+            try:
+                results.append(only_findings(examine(loader(), start, assignments, options)))
+            except CouldNotRunError as error:
+                failures.append(error)
+    for failure in failures:
+        failure.show()
+    if failures and not results:
+        context.exit(COULD_NOT_RUN)
+    match format_:
+        case "json":
+            click.echo(findings_to_json(results))
+        case "sarif":
+            from contoursolve.output.exchange import to_sarif  # noqa: PLC0415 - only here
+
+            click.echo(to_sarif(results, __version__))
+        case "github":
+            from contoursolve.output.exchange import to_github  # noqa: PLC0415 - only here
+
+            print_lines([to_github(results)])
+        case _:
+            for result in results:
+                print_lines(lines_of_findings(result, result.diagnostics, style_of_output()))
+            print_summary(results)
+    failing = {"error": (Severity.ERROR,), "warning": (Severity.ERROR, Severity.WARNING), "never": ()}[fail_on]
+    found = {finding.severity for result in results for finding in result.diagnostics}
+    context.exit(COULD_NOT_RUN if failures else FOUND_ERRORS if found & set(failing) else 0)
+
+
+def _solved(result: Result, style: Style, is_explained: bool) -> Iterator[str]:
+    """Contours in order, each followed by its findings, between the findings about other blocks."""
+    own = {id(finding) for answer in result.answers for finding in answer.diagnostics}
+    items: list[Diagnostic | Answer] = [finding for finding in result.diagnostics if id(finding) not in own]
+    items += result.answers
+    for item in sorted(items, key=lambda each: each.lines[0] if isinstance(each, Answer) else each.span.line):
+        if isinstance(item, Answer):
+            yield from contour_lines(item, result, is_explained=is_explained)
+            yield from lines_of_findings(result, item.diagnostics, style)
+        else:
+            yield from lines_of_findings(result, [item], style)

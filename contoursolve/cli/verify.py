@@ -1,0 +1,78 @@
+"""The command that checks a claimed answer."""
+
+from typing import Any
+
+import click
+
+from contoursolve.cli.options import (
+    FOUND_ERRORS,
+    CouldNotRunError,
+    apart_options,
+    units_option,
+)
+from contoursolve.cli.printing import print_lines
+from contoursolve.dialects import DIALECTS
+
+
+@click.command(short_help="Check a claimed answer, independently.")
+@click.argument("inputs", nargs=-1, metavar="PROGRAM RESULT.json")
+@apart_options
+@click.option(
+    "--control",
+    type=click.Choice(list(DIALECTS)),
+    help="The control. Without it, the one that the result names.",
+)
+@units_option
+@click.option(
+    "--format",
+    "format_",
+    type=click.Choice(["text", "json"]),
+    default="text",
+    show_default=True,
+    help="What to print: text, or a receipt with every check, its residual and its limit.",
+)
+@click.pass_context
+def verify(
+    context: click.Context,
+    /,
+    inputs: tuple[str, ...],
+    blocks: tuple[str, ...],
+    start: str | None,
+    format_: str,
+    **options: Any,
+) -> None:
+    """Check every element of RESULT.json against the words of PROGRAM (one of them may be -).
+
+    RESULT.json is what solve printed with --format json. Each point, radius and direction, each value that was asked
+    for and each listed solution is held against the words and further facts with formulas of its own, none of the
+    solver's; so are the status and the number of solutions where there are words alone. What was not checked is named,
+    too. The program is read with the settings that RESULT.json names. Give --block, --start and --fact as they were
+    given to solve.
+
+    Exit status: 0 nothing claimed is wrong, 1 something is, 2 could not run.
+
+    \b
+    contoursolve solve shaft.nc --format json > shaft.json
+    contoursolve verify shaft.nc shaft.json
+    contoursolve verify --block "G111 X100. A180. K-30. B120." --start "X40. Z0." block.json
+    """
+    from contoursolve import verification  # noqa: PLC0415 - only here
+
+    if inputs.count("-") > 1:
+        raise click.UsageError("only one of PROGRAM and RESULT.json can be standard input")
+    if start is not None and not blocks:
+        raise click.UsageError("--start goes with --block; a PROGRAM states its own positions")
+    if blocks and len(inputs) != 1:
+        raise click.UsageError("with --block, name RESULT.json and no PROGRAM")
+    if not blocks and len(inputs) != 2:  # noqa: PLR2004 - the two that the usage names
+        raise click.UsageError("name PROGRAM and RESULT.json, or --block and RESULT.json")
+    try:
+        program = verification.document_of_blocks(blocks) if blocks else verification.read_document(inputs[0])
+        receipt = verification.verify(program, verification.read_document(inputs[-1]), start=start, **options)
+    except verification.CannotVerifyError as error:
+        raise CouldNotRunError(str(error)) from None
+    if format_ == "json":
+        click.echo(verification.to_json(receipt))
+    else:
+        print_lines(verification.report_lines(receipt))
+    context.exit(FOUND_ERRORS if receipt.verdict is verification.Verdict.FAILED else 0)
