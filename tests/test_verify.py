@@ -283,7 +283,8 @@ def nudged(result: dict[str, Any]) -> Iterator[dict[str, Any]]:
 @pytest.mark.parametrize("text", SAMPLES.values(), ids=SAMPLES)
 def test_a_number_that_is_off_by_a_millionth_is_found(desk, text):
     result = older(desk.solve(text))
-    for number, (place, value) in enumerate(coordinates(result)):
+    every = list(coordinates(result))
+    for number, (place, value) in enumerate(Random(text).sample(every, min(len(every), 24))):
         assert desk.is_wrong(changed(result, place, value + (NUDGE if number % 2 else -NUDGE))), place
         if value:
             assert desk.is_wrong(changed(result, place, -value)), place
@@ -399,7 +400,7 @@ def test_a_result_that_was_tampered_with_is_found(desk, name):
 def random_programs() -> Iterator[tuple[str, str]]:
     """Programs of every form, written from drawn paths, and some with another value in one word."""
     rng = Random(7)
-    for number in range(35):
+    for number in range(25):
         form, plane = generate_nct.FORMS[number % 4], (17, 18, 19)[number % 3]
         kinds = (
             generate_nct.random_pair(rng, form, plane, rng.choice(("", "C", "R"))),
