@@ -25,7 +25,7 @@ from contoursolve.explain import (
     without_point,
 )
 from contoursolve.model import Length, Plane, Profile, Question, Side, Start
-from contoursolve.reading import Claim, Trouble, read
+from contoursolve.reading import Claim, Trouble, read, unused_words
 from contoursolve.rules import Offence, Rule, check
 from contoursolve.solving import (
     Refusal,
@@ -176,6 +176,11 @@ def examine(
     unmarked = (finding for block in claim.blocks for finding in explain_unmarked(context, block))
     for finding in (*explain_skippable(context, claim), *without_point(context, claim), *unmarked):
         notebook.add(finding)
+    explained = {label.span for finding in notebook.findings for label in finding.labels}
+    for word in unused_words(claim, profile) if is_whole else ():
+        # Whatever the rules say of it: nothing is dropped without a word.
+        if word.span not in explained:
+            notebook.add(report(context, context.row(Trouble.WORD_UNUSED), Basis.RULE, [word], form=claim.form.name))
     solution, alternatives = Solution(Status.REJECTED), None
     if is_readable:
         solution, alternatives = _examine_geometry(context, claim, profile, notebook, depth)

@@ -325,3 +325,10 @@ def test_table_says_which_sets_of_words_are_legal_and_that_each_of_them_is_deter
         )
         assert (legality == "legal") == is_legal, sorted(words)
         assert not is_legal or determinacy.startswith("determined"), sorted(words)
+
+
+def test_a_word_without_a_part_in_the_contour_is_named_whatever_the_rules():
+    for block, word in (("G11 Z-70. X30. I8.", "X"), ("G112 Z-150. U0 I10. K-50. R30.", "Z")):
+        found = solve(MANUAL + block, rules="off")
+        (finding,) = (each for each in found.diagnostics if each.code == "word-unused")
+        assert finding.addresses == (word,)

@@ -124,6 +124,16 @@ READING_RULES = (
         rejected=(_START + "G111 A180. K#101 B120. X100.",),
     ),
     Rule(
+        code="word-unused",
+        message="{words} has no part in this contour ({form}), which was solved without it",
+        help="delete it, or write it in a block of its own",
+        source=_READING,
+        about=Trouble.WORD_UNUSED,
+        severity=Severity.WARNING,
+        accepted=(_GOOD,),
+        rejected=(),
+    ),
+    Rule(
         code="point-missing",
         message="{words} has no decimal point, unlike other words of the block, and is read as {actual}",
         help="write the point if {words} means what it says",

@@ -2,7 +2,7 @@
 
 from contoursolve.reading.advance import Modes, advance, apply_modes, codes_of, positions
 from contoursolve.reading.beyond import leave, next_place
-from contoursolve.reading.claim import Claim, Selector, Trouble, read
+from contoursolve.reading.claim import Claim, Selector, Trouble, read, unused_words
 from contoursolve.reading.codes import Code, Effect
 from contoursolve.reading.form import CornerRow, FactRow, Form, Sample, lay_out, stated_sets
 from contoursolve.reading.lexicon import Address, Lexicon, NumberFormat, WithoutPoint
@@ -41,4 +41,5 @@ __all__ = [
     "positions",
     "read",
     "stated_sets",
+    "unused_words",
 ]

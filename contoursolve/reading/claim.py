@@ -6,7 +6,7 @@ from decimal import Decimal
 from enum import Enum
 
 from contoursolve.constraints import Radius
-from contoursolve.model import Choice, Fact, Given, Profile, Question, Side
+from contoursolve.model import Choice, Fact, Given, Layout, Profile, Question, Side
 from contoursolve.reading.form import Form, lay_out
 from contoursolve.reading.lexicon import Lexicon
 from contoursolve.reading.setting import Convention
@@ -38,6 +38,7 @@ class Trouble(Enum):
     FACTS_SINGULAR = "facts-singular"
     START_UNITS = "start-units"
     ASKED_NOTHING = "asked-nothing"
+    WORD_UNUSED = "word-unused"
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,16 +108,27 @@ def read(claim: Claim, ignored: frozenset[str]) -> Profile:
         intersections=claim.form.intersections,
         ignored=dropped,
         choices=claim.choices,
-        questions=tuple(_questions(claim, asked)),
+        questions=tuple(_questions(claim, asked, layout)),
         is_extended=bool(asked or claim.directives),
     )
 
 
-def _questions(claim: Claim, asked: frozenset[str]) -> Iterator[Question]:
-    """The words that are asked for, with the facts that they would state."""
+def unused_words(claim: Claim, profile: Profile) -> list[Word]:
+    """The words with a value that states nothing about the contour and chooses nothing."""
+    used = {fact.given for fact in (*profile.facts, *profile.ignored)}
+    used |= {choice.given for choice in claim.choices} | {question.name for question in profile.questions}
+    used |= {name for row in claim.form.corners for name in row.shapes}
+    return [given.word for name, given in claim.givens.items() if given.word and name not in used]
+
+
+def _questions(claim: Claim, asked: frozenset[str], layout: Layout) -> Iterator[Question]:
+    """The words that are asked for, each with the fact that it would state about what there is."""
+    drawn = {layout.figure.start, *layout.figure.points, *layout.figure.radii}
+    facts: dict[str, Fact] = {}
     for row in claim.form.facts:
-        if row.fact.given in asked:
-            yield _question(claim, row.fact.given, row.fact)
+        if row.fact.given in asked and drawn.issuperset(name.partition(".")[0] for name in row.fact.reads()):
+            facts.setdefault(row.fact.given, row.fact)
+    yield from (_question(claim, name, fact) for name, fact in facts.items())
     for corner in claim.form.corners:
         for name in asked & corner.shapes.keys():
             yield _question(claim, name, Radius(name, f"{corner.name}.radius"))
