@@ -1113,8 +1113,8 @@ def test_words_and_facts_that_do_not_go_together_are_named(block: str, fact: str
 
 
 def test_a_search_that_is_given_up_is_undecided_and_says_what_was_tried(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("contoursolve.solving.enumerate.BOXES", 20)
-    monkeypatch.setattr("contoursolve.solving.enumerate.LEAST", 10)
+    monkeypatch.setattr("contoursolve.solving.enumerate.INTERVALS", 200)
+    monkeypatch.setattr("contoursolve.solving.enumerate.LEAST", 100)
     block, fact = "G111 X100. K-30. B120. P? Q5.", "straight part of line 2 = 5"
     contour, found = contour_of(block, fact, "corner 1 tangent to line [Z-70. X30. A90.]")
     assert contour["status"] == "undecided"

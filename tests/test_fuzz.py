@@ -4,6 +4,7 @@ The mutations work on windows of a few lines around each contour, not on whole p
 is about 60 lines of which a mutation touches one, so windows try 15 times as many in the same time.
 """
 
+import os
 import random
 import re
 import string
@@ -25,7 +26,7 @@ PROGRAMS = {
     path.name: (path.read_text(), "nct-99m" if "NCT" in path.read_text() else "yasnac-lx3")
     for path in sorted((Path(__file__).parent.parent / "notebooks" / "programs").glob("*.nc"))
 }
-MUTANTS, WHOLE_PROGRAMS = 24_000, 300
+MUTANTS, WHOLE_PROGRAMS = int(os.environ.get("CONTOURSOLVE_MUTANTS", "8000")), 120
 SHARDS = 8
 """A failing shard names its seed, so that one failure is repeated in seconds."""
 

@@ -315,7 +315,7 @@ FREE = ("G111 A180. B120. X100. P5. Q5.", "G111 A180. K-30. B120. P? Q5.", WHOLE
 
 
 @given(st.sampled_from(FREE), st.lists(fact_texts(), min_size=1, max_size=2), st.booleans())
-@settings(max_examples=100, deadline=None, derandomize=True)
+@settings(max_examples=40, deadline=None, derandomize=True)
 def test_any_fact_about_a_block_is_answered(block: str, facts: list[str], is_comment: bool) -> None:
     if is_comment:
         arguments = ["--block", f"{block} (contoursolve: {'; '.join(facts)})"]
