@@ -2,6 +2,8 @@
 
 import atexit
 import gc
+import os
+import sys
 
 
 def main() -> None:
@@ -14,7 +16,13 @@ def main() -> None:
     atexit.register(gc.freeze)
     from contoursolve.cli import main as command  # noqa: PLC0415 - after the collector is off
 
-    command(prog_name="contoursolve")
+    try:
+        command(prog_name="contoursolve")
+    except OSError as error:
+        # A full disk behind the output; what is left in its buffer goes nowhere, or Python complains at the end.
+        sys.stderr.write(f"Error: the output cannot be written: {error.strerror}\n")
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(2)
 
 
 if __name__ == "__main__":

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
+from enum import Enum
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 from contoursolve import syntax
 from contoursolve.diagnostic import Diagnostic, Severity
@@ -13,7 +14,7 @@ from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.examine import Depth, Policy
 from contoursolve.model import Length
 from contoursolve.pipeline import Result, UnknownControlError, recognise, run
-from contoursolve.project import configure
+from contoursolve.project import configure, find_settings
 from contoursolve.reading import Trouble
 from contoursolve.syntax import STANDARD_INPUT, Directive, Program, UnreadableProgramError
 
@@ -34,6 +35,10 @@ __all__ = [
     "solve_file",
     "solve_program",
 ]
+
+
+MOST_DECIMALS = 8
+"""Decimals of a length that can be asked for."""
 
 
 def parse(text: str, *, name: str = "<program>") -> Program:
@@ -91,6 +96,8 @@ def solve(
     >>> f"{asked.answers[0].answers[0].value:.3f}"
     '8.038'
     """
+    if not isinstance(text, str):
+        raise TypeError(f"the program is a text (str), not {type(text).__name__}; solve_file reads a file")
     program = syntax.parse(text, name)
     return solve_program(
         program,
@@ -111,6 +118,8 @@ def check(
     start: str | None = None,
     units: str = "mm",
     rules: str = "enforce",
+    facts: Iterable[str | Statement] = (),
+    settings: Mapping[str, str] | None = None,
     name: str = "<program>",
 ) -> tuple[Diagnostic, ...]:
     """The findings about a program; arguments and errors as for `solve`.
@@ -120,19 +129,41 @@ def check(
     >>> [each.code for each in check("G00 X40. Z0.\\nG111 X100. A180. B120.")]
     ['g111-line-1', 'words-missing']
     """
-    return only_findings(solve(text, control=control, start=start, units=units, rules=rules, name=name)).diagnostics
+    found = solve(
+        text, control=control, start=start, units=units, rules=rules, facts=facts, settings=settings, name=name
+    )
+    return only_findings(found).diagnostics
 
 
-def solve_file(path: str | Path, *, control: str | None = None, units: str = "mm", rules: str = "enforce") -> Result:
-    """Solve every contour of a file; `-` is standard input. Raises UnreadableProgramError, and as `solve`."""
-    return solve_program(read_program(path), control=control, units=units, rules=rules)
+def solve_file(
+    path: str | Path,
+    *,
+    control: str | None = None,
+    units: str = "mm",
+    rules: str = "enforce",
+    facts: Iterable[str | Statement] = (),
+    settings: Mapping[str, str] | None = None,
+) -> Result:
+    """Solve every contour of a file; `-` is standard input.
+
+    Settings are those of the project file beside it or above it (see `contoursolve.project`), and `settings` on top.
+    Raises UnreadableProgramError, SettingError, and as `solve`.
+    """
+    folder = Path() if str(path) == STANDARD_INPUT else Path(path).parent
+    own = find_settings(folder) | dict(settings or {})
+    return solve_program(read_program(path), control=control, units=units, rules=rules, facts=facts, settings=own)
 
 
 def check_file(
-    path: str | Path, *, control: str | None = None, units: str = "mm", rules: str = "enforce"
+    path: str | Path,
+    *,
+    control: str | None = None,
+    units: str = "mm",
+    rules: str = "enforce",
+    settings: Mapping[str, str] | None = None,
 ) -> tuple[Diagnostic, ...]:
-    """The findings about a file; `-` is standard input. Raises UnreadableProgramError, and as `solve`."""
-    return only_findings(solve_file(path, control=control, units=units, rules=rules)).diagnostics
+    """The findings about a file, with arguments and errors as for `solve_file`."""
+    return only_findings(solve_file(path, control=control, units=units, rules=rules, settings=settings)).diagnostics
 
 
 def solve_program(
@@ -152,8 +183,25 @@ def solve_program(
     if dialect is not None:
         dialect = configured.get(dialect.name, dialect)
     beginning = syntax.parse(start, program.name, first_line=0) if start is not None else None
-    stated = [_fact(fact, -number) for number, fact in enumerate(facts, 1)]
-    return run(program, dialect, Length(units), Policy(rules), Depth(depth), beginning, stated)
+    unit, policy = choice_of(Length, units, "units"), choice_of(Policy, rules, "rules")
+    return run(program, dialect, unit, policy, choice_of(Depth, depth, "depth"), beginning, _facts(facts))
+
+
+Choice = TypeVar("Choice", bound=Enum)
+
+
+def choice_of(kind: type[Choice], value: str, argument: str) -> Choice:
+    """The member of an enum with this value. Raises ValueError, which lists the choices."""
+    for member in kind:
+        if member.value == value:
+            return member
+    raise ValueError(f"{argument} cannot be {value!r}; choose from {', '.join(str(each.value) for each in kind)}")
+
+
+def _facts(facts: Iterable[str | Statement]) -> list[Directive]:
+    """Further facts, numbered; a text alone is one fact."""
+    several = [facts] if isinstance(facts, str) else facts
+    return [_fact(fact, -number) for number, fact in enumerate(several, 1)]
 
 
 def _fact(fact: str | Statement, line: int) -> Directive:
@@ -218,14 +266,15 @@ def expand(
 
     program = syntax.parse(text, name)
     dialect = find_dialect(control) if control else recognise(program)
-    options = Options(find_post(post), Arcs(arcs), decimals, comments, keep_going)
-    summary, unit, policy = Summary(), Length(units), Policy(rules)
+    if decimals is not None and (isinstance(decimals, bool) or decimals not in range(1, MOST_DECIMALS + 1)):
+        raise ValueError(f"decimals cannot be {decimals!r}; choose 1 to {MOST_DECIMALS}, or None for the target's own")
+    options = Options(find_post(post), choice_of(Arcs, arcs, "arcs"), decimals, comments, keep_going)
+    summary, unit, policy = Summary(), choice_of(Length, units, "units"), choice_of(Policy, rules, "rules")
     if dialect is None:
         return Expansion(text, None, summary)
     dialect = (configure(settings) if settings else {}).get(dialect.name, dialect)
     beginning = syntax.parse(start, name, first_line=0) if start is not None else None
-    stated = [_fact(fact, -number) for number, fact in enumerate(facts, 1)]
-    further = lines_of_facts(program, dialect, unit, beginning, stated)
+    further = lines_of_facts(program, dialect, unit, beginning, _facts(facts))
     pieces = list(
         expand_lines(
             syntax.split_lines(text),

@@ -27,7 +27,7 @@ def find_settings(folder: Path) -> dict[str, str]:
     for place in (folder, *folder.resolve().parents):
         for name in (OWN, SHARED):
             file = place / name
-            table = _table(file) if file.is_file() else None
+            table = _table(file) if file.exists() else None
             if table is not None:
                 return _settings(table, file)
     return {}
@@ -71,10 +71,20 @@ def _table(file: Path) -> dict[str, Any] | None:
     """What a file says about contoursolve; None if nothing."""
     import tomllib  # noqa: PLC0415 - most folders have no such file
 
-    try:
-        data = tomllib.loads(file.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+    if file.is_dir():
         if file.name == SHARED:
+            return None
+        raise SettingError(f"{file} is a directory, not a file of settings")
+    text = ""
+    try:
+        text = file.read_text(encoding="utf-8")
+        data = tomllib.loads(text)
+    except UnicodeDecodeError:
+        if file.name == SHARED:
+            return None  # another tool's business
+        raise SettingError(f"{file} cannot be read: it is not UTF-8 text") from None
+    except (OSError, tomllib.TOMLDecodeError) as error:
+        if file.name == SHARED and "tool.contoursolve" not in text:
             return None  # another tool's business
         raise SettingError(f"{file} cannot be read: {error}") from None
     if file.name == OWN:
@@ -87,8 +97,12 @@ def _settings(table: Mapping[str, Any], file: Path) -> dict[str, str]:
     settings = {
         f"{control}.{name}": str(value)
         for control, own in table.items()
-        for name, value in (own.items() if isinstance(own, dict) else [("", own)])
+        if isinstance(own, dict)
+        for name, value in own.items()
     }
+    for name, own in table.items():
+        if not isinstance(own, dict):
+            raise SettingError(f"{file}: {name!r} stands in no table; write [CONTROL] above it, such as [nct-99m]")
     try:
         configure(settings)
     except SettingError as error:

@@ -31,6 +31,7 @@ def what_if(
     start: str | None = None,
     units: str = "mm",
     rules: str = "enforce",
+    settings: Mapping[str, str] | None = None,
 ) -> Result:
     """Solve a block with words dropped (by address), added, or changed (address to the new word).
 
@@ -51,10 +52,12 @@ def what_if(
         raise ValueError("the block has no words")
     edits += [Edit(EditKind.ADD, word, text=word, line=last.line) for word in add]
     text = "\n".join(apply_edits(program.blocks, edits))
-    return solve(text, control=control, start=start, units=units, rules=rules)
+    return solve(text, control=control, start=start, units=units, rules=rules, settings=settings)
 
 
 def _edit(program: Program, address: str, text: str) -> Edit:
+    if not isinstance(text, str):
+        raise TypeError(f"the new word for {address} is a text such as '{address}5.', not {text!r}")
     words = [word for block in program.blocks for word in block.words if word.address == address.upper()]
     if len(words) != 1:
         raise ValueError(f"the block has {len(words)} words {address}; exactly one can be dropped or changed")

@@ -11,6 +11,7 @@ from typing import IO, Any
 import click
 
 from contoursolve import syntax
+from contoursolve.api import MOST_DECIMALS
 from contoursolve.cli.options import FOUND_ERRORS, CouldNotRunError, common_options, settings_option, units_option
 from contoursolve.cli.printing import style_of_output
 from contoursolve.dialects import DIALECTS
@@ -50,7 +51,9 @@ STANDARD = "-"
     show_default=True,
     help="Arcs by I J K, or by R.",
 )
-@click.option("--decimals", type=click.IntRange(1, 8), help="Decimals of a length; the target's own without.")
+@click.option(
+    "--decimals", type=click.IntRange(1, MOST_DECIMALS), help="Decimals of a length; the target's own without."
+)
 @click.option("--no-comments", is_flag=True, help="Do not keep the original blocks as comments.")
 @click.option(
     "--keep-going", "keeps_going", is_flag=True, help="Leave a contour that cannot be expanded, with a comment why."

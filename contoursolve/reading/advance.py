@@ -77,6 +77,10 @@ def advance(state: State, block: Block, modes: Modes) -> State:
     for word in block.words:
         if word.address == "M" and word.number in modes.calls:
             return state.lose(modes.axes, f"{word.text} calls or ends a subprogram", word.span)
+    for code in codes_of(block, modes):
+        if isinstance(code, Word):
+            # Whatever it does, it may do to every axis.
+            return state.lose(modes.axes, f"{code.text} is not known to contoursolve", code.span)
     lost = _lost_by_faults(block, modes)
     effect, reason = _effect(state, block, modes)
     words = [word for word in block.words if _axis(word, modes)]
@@ -119,7 +123,7 @@ def _effect(state: State, block: Block, modes: Modes) -> tuple[Effect, str]:
     """What the block does with its axis words, and the reason to give if the position is lost."""
     for code in codes_of(block, modes):
         if isinstance(code, Word):
-            return Effect.SINGLE, f"{code.text} is not known to contoursolve"
+            continue
         if code.effect is Effect.SINGLE:
             return Effect.SINGLE, f"the end of G{code.number} ({code.meaning}) is not followed"
         if code.effect in (Effect.NO_MOTION, Effect.FRAME):

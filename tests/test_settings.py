@@ -1,0 +1,99 @@
+"""Conventions that a manual does not state: on the command line, in a project file, in Python, and in every result."""
+
+import json
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+import contoursolve
+from contoursolve.cli import main
+from contoursolve.dialects import DIALECTS
+
+CIRCLES = "G17 G90 G0 X90 Y0\nG42 G1 X50 D0\nG3 X-50 Y0 I-50 J0\nG3 X-40 Y60 I-40 J20 R40 Q-1\n"
+LEFT, RIGHT = (-46.0220, -19.5441), (-11.9780, 48.5441)
+OTHER = "nct-99m.circle-circle-q=right-is-negative"
+
+
+def solved(folder: Path, *arguments: str) -> dict[str, object]:
+    program = folder / "circles.nc"
+    program.write_text(CIRCLES)
+    outcome = CliRunner().invoke(main, ["solve", str(program), "--format", "json", *arguments])
+    assert outcome.exit_code == 0, outcome.output
+    document: dict[str, object] = json.loads(outcome.stdout)
+    return document
+
+
+def crossing(document: dict[str, object]) -> tuple[float, ...]:
+    return tuple(round(value, 4) for value in document["contours"][0]["points"]["P1"])  # type: ignore[index]
+
+
+def test_a_setting_changes_the_contour_and_the_result_names_it(tmp_path: Path) -> None:
+    for arguments, at, value in ((), LEFT, "left-is-negative"), (("--set", OTHER), RIGHT, "right-is-negative"):
+        document = solved(tmp_path, *arguments)
+        assert crossing(document) == at
+        (convention,) = document["contours"][0]["conventions"]  # type: ignore[index]
+        assert (convention["setting"], convention["value"], convention["evidence"]) == (
+            "circle-circle-q",
+            value,
+            "assumed",
+        )
+        assert document["settings"] == ({"nct-99m.circle-circle-q": value} if arguments else {})
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("contoursolve.toml", '[nct-99m]\ncircle-circle-q = "right-is-negative"\n'),
+        ("pyproject.toml", '[tool.contoursolve.nct-99m]\ncircle-circle-q = "right-is-negative"\n'),
+    ],
+)
+def test_a_project_file_above_the_program_holds_for_it(tmp_path: Path, name: str, text: str) -> None:
+    (tmp_path / name).write_text(text)
+    folder = tmp_path / "part" / "one"
+    folder.mkdir(parents=True)
+    assert crossing(solved(folder)) == RIGHT
+    assert crossing(solved(folder, "--set", "nct-99m.circle-circle-q=left-is-negative")) == LEFT
+    answer = contoursolve.solve_file(folder / "circles.nc").answers[0]
+    assert tuple(round(value, 4) for value in answer.contour.points["P1"]) == RIGHT
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("[nct-99m", "contoursolve.toml cannot be read"),
+        ('[nct-99m]\nbevel = "axis-45"', "nct-99m has no setting 'bevel'; settings are: circle-circle-q"),
+        ('[nct-99m]\ncircle-circle-q = "left"', "cannot be 'left'; values are: left-is-negative, right-is-negative"),
+        ('circle-circle-q = "left-is-negative"', "'circle-circle-q' stands in no table"),
+        ('[sinumerik]\na = "b"', "there is no setting 'sinumerik.a'"),
+    ],
+)
+def test_a_project_file_that_makes_no_sense_is_an_error_that_names_it(tmp_path: Path, text: str, message: str) -> None:
+    (tmp_path / "contoursolve.toml").write_text(text)
+    (tmp_path / "circles.nc").write_text(CIRCLES)
+    outcome = CliRunner().invoke(main, ["solve", str(tmp_path / "circles.nc")])
+    assert outcome.exit_code == 2
+    assert "contoursolve.toml" in outcome.output
+    assert message in outcome.output
+
+
+def test_a_broken_file_of_another_tool_is_not_ours_but_one_with_our_table_is(tmp_path: Path) -> None:
+    (tmp_path / "pyproject.toml").write_text("[project\n")
+    assert crossing(solved(tmp_path)) == LEFT
+    (tmp_path / "pyproject.toml").write_text("[tool.contoursolve.nct-99m]\n[broken\n")
+    assert CliRunner().invoke(main, ["solve", str(tmp_path / "circles.nc")]).exit_code == 2
+
+
+@pytest.mark.parametrize("text", ["nct-99m.circle-circle-q", "circle-circle-q=left", "nct-99m.q=1", "=", "nct-99m.=x"])
+def test_a_setting_that_there_is_not_is_refused(text: str) -> None:
+    outcome = CliRunner().invoke(main, ["solve", "--set", text, "--block", "G1 X1"])
+    assert outcome.exit_code == 2
+    assert "Traceback" not in outcome.output
+
+
+def test_the_catalogue_lists_every_setting_with_its_values() -> None:
+    printed = CliRunner().invoke(main, ["rules"]).output
+    for dialect in DIALECTS.values():
+        for setting in dialect.settings:
+            assert setting.default in setting.values
+            assert all(f"--set {dialect.name}.{setting.name}={value}" in printed for value in setting.values)
