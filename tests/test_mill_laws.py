@@ -163,3 +163,13 @@ def test_a_conflict_in_the_third_block_is_explained_by_words_of_the_blocks_befor
     (finding,) = solve(program, control="nct-99m").diagnostics
     assert (finding.code, finding.span.line) == ("nct-radius-difference", 4)
     assert "because the arc begins at V2, where X30 (line 2) and Y20 (line 3) put it" in finding.notes
+
+
+def test_a_corner_at_an_end_that_is_off_its_arc_by_less_than_allowed_is_made() -> None:
+    program = "G17 G90 G0 X0 Y0\nG3 X40 Y0.004 I20 J0 ,C5\nG1 X80"
+    answer = solve(program, control="nct-99m", depth="verdict").answers[0]
+    assert answer.contour is not None
+    begin, end = answer.contour.elements[1].start, answer.contour.elements[1].end
+    corner = 40 + 0.004j
+    assert abs(complex(*begin) - corner) == pytest.approx(5, abs=1e-9)
+    assert abs(complex(*end) - corner) == pytest.approx(5, abs=1e-9)

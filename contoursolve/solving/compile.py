@@ -5,6 +5,7 @@ from functools import lru_cache
 from math import tau
 from typing import Any
 
+from contoursolve.analysis import judge
 from contoursolve.backends import ball
 from contoursolve.backends.inputs import Directions, Inputs
 from contoursolve.backends.numeric import (
@@ -27,7 +28,7 @@ from contoursolve.backends.numeric import (
     sine as sine_of,
 )
 from contoursolve.backends.replay import Replay
-from contoursolve.constraints import Collinear, Functions, Heading, System, Values
+from contoursolve.constraints import Collinear, Functions, Heading, OnCircle, System, Values
 from contoursolve.model import FIRST, SECOND, Arc, Corner, Fact, Line, scalar
 from contoursolve.solving.corners import Edge, Pair, build_corner, unit
 from contoursolve.solving.plan import AffineStep, DistanceStep, LineCircleStep, Plan, Step, TwoCirclesStep, make_plan
@@ -44,6 +45,13 @@ class _Builder:
         for axis in (FIRST, SECOND):
             name = scalar(system.figure.start, axis)
             self.scalars[name] = self.tape.input(name)
+        basis = judge(system).basis
+        self.compared = {
+            (fact.point, fact.center)
+            for index, fact in enumerate(system.facts)
+            if isinstance(fact, OnCircle) and index not in basis
+        }
+        """Points that are compared with a circle that others determine, with its centre."""
         self.rooms: dict[str, Any] = {}
         """What the corners leave of each element."""
         self.amounts = Inputs(self.tape, {})
@@ -198,7 +206,11 @@ class _Builder:
         spoke = point[0] - center[0], point[1] - center[1]
         outward = unit(spoke)
         turn = element.turn.sign
-        return Edge((-turn * outward[1], turn * outward[0]), spoke, self.scalars[element.radius], turn)
+        radius = self.scalars[element.radius]
+        if (at, element.center) in self.compared:
+            # It may be off the circle by as much as the control allows; a corner there is cut from the arc as it ends.
+            radius = sqrt(spoke[0] ** 2 + spoke[1] ** 2)
+        return Edge((-turn * outward[1], turn * outward[0]), spoke, radius, turn)
 
     def _measure(self, element: Line | Arc, edge: Edge) -> None:
         """The length of an element; of a line along its direction, so that a reversed one is negative."""
