@@ -1349,6 +1349,67 @@ def test_whatever_is_put_in_a_result_gets_an_answer(desk, data):
     assert bool(errors) == (status == 2)
 
 
+GARBAGE = ("", "A" + "9" * 31, "\n", "\ud800", "length of line 1 = ?", "X of V2 = 1", "G111 X", "V1", "R5")
+DAMAGE = (None, {}, [], True, 0, -1, 1e-9, 5e-324, 1e12, [0.0, 0.0], *GARBAGE)
+
+
+def damaged(result: dict[str, Any], others: list[dict[str, Any]], rng: Random) -> dict[str, Any]:
+    """The result with a node of it gone, of another kind or value, with other digits, or from another contour."""
+    copy = deepcopy(result)
+    # A place by its depth first: most of a result are numbers far below.
+    every = list(places(copy))
+    depth = rng.choice([len(place) for place in every[:: max(1, len(every) // 50)]])
+    place = rng.choice([place for place in every if len(place) <= depth])
+    holder: Any = copy
+    for name in place[:-1]:
+        holder = holder[name]
+    old, kind = holder[place[-1]], rng.randrange(4)
+    if kind == 0:
+        del holder[place[-1]]
+    elif kind == 1 and isinstance(old, str) and re.search(r"\d", old):
+        holder[place[-1]] = re.sub(r"[\d.]+", rng.choice(("9" * 31, "0", "?", "#1")), old, count=rng.randrange(3))
+    elif kind == 2 and place[0] == "contours" and len(place) > 2:
+        holder[place[-1]] = rng.choice(others).get(place[2], old) if len(place) == 3 else [old]
+    else:
+        holder[place[-1]] = rng.choice(DAMAGE)
+    return copy
+
+
+def test_however_a_result_is_damaged_there_is_an_answer(desk):
+    """Right, wrong, or no result: never an exception."""
+    rng, results = Random(11), {}
+    for path in sorted(PROGRAMS.glob("*.nc")):
+        text = path.read_text(encoding="utf-8")
+        results[text] = desk.solve(text)
+        del results[text]["diagnostics"]
+    others = [contour for result in results.values() for contour in result["contours"]]
+    for text, result in results.items():
+        desk.program.write_bytes(text.encode())
+        for number, contour in enumerate(result["contours"]):
+            for point in contour["points"]:
+                rest = {name: at for name, at in contour["points"].items() if name != point}
+                assert desk.is_refused(changed(result, ("contours", number, "points"), rest)), point
+            if contour["filled"]:
+                blocks = [re.sub(r"(?<=[A-Z])[\d.]{4,}", "9" * 31, block) for block in contour["filled"]["blocks"]]
+                assert desk.is_wrong(changed(result, ("contours", number, "filled", "blocks"), blocks))
+        for _ in range(60):
+            desk.is_refused(damaged(result, others, rng))
+
+
+@pytest.mark.parametrize(
+    ("name", "place", "value"),
+    [
+        ("two roundings", ("certificate", "radius"), 5e-324),
+        ("a long arc", ("solutions", 3, "selects"), ["R50", "Q-1", "R50", "Q-1"]),
+        ("radius of a corner", ("points", "V1"), [0.0, 0.0]),
+        ("radius of a corner", ("points",), {}),
+    ],
+)
+def test_what_cannot_be_worked_with_is_wrong(desk, name, place, value):
+    result = desk.solve({**SAMPLES, **EXTENDED}[name])
+    assert desk.receipt(changed(result, ("contours", 0, *place), value))["verdict"] == "failed"
+
+
 VOCABULARY = """G00 G01 G111 G112 G2 G3 G17 G18 G20 G28 G41 G90 G91 X40. X-50 Z0. Z-30. Y0 U60. W-5. A180. A0 B120. I0
 I-50 K-30. C5. P5. P0 Q5. D5. Q-1 Q0 R50 R-50 J0 ,A171.87 ,C1 #1=2 X#1 A A1e9 (a ) / M98 N5
 X9999999999999999999999999999999. A9999999999999999999999999999999. ,A9999999999999999999999999999999."""

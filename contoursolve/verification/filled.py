@@ -15,6 +15,7 @@ from contoursolve.verification.drawing import Drawing, UnmeasurableError
 from contoursolve.verification.forms import FormChecker
 from contoursolve.verification.ledger import Ledger
 from contoursolve.verification.path import SHORTEST
+from contoursolve.verification.refusals import too_large
 
 SAME = "the filled blocks differ from the program's only where a value is asked for"
 
@@ -39,7 +40,9 @@ def check_filled(case: Case, ledger: Ledger, checker: FormChecker, dialect: Dial
     claim = dialect.find(stripped, 0, case.claim.before, dialect.modes)
     is_contour = isinstance(claim, Claim) and len(claim.blocks) == len(blocks)
     if ledger.require("the filled blocks are a contour", texts, is_contour) and isinstance(claim, Claim):
-        _check_deviation(case, ledger, checker, claim, filled.deviation)
+        large = too_large(claim)
+        if ledger.require("no value that is filled in is too large", large, not large, "no control reads it"):
+            _check_deviation(case, ledger, checker, claim, filled.deviation)
 
 
 def _is_filled(block: Block, filled: Block) -> bool:

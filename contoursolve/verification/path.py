@@ -1,7 +1,5 @@
 """What holds for every path, whatever its form: no gaps, nothing without length, arcs on their circles."""
 
-from math import floor, log10
-
 from contoursolve.tolerance import LENGTH
 from contoursolve.verification.case import Case
 from contoursolve.verification.claimed import ClaimedCertificate
@@ -53,7 +51,7 @@ def check_certificate(certificate: ClaimedCertificate, limit: float, ledger: Led
     is_exact = radius <= PRINTED if kind == "exact" else radius != 0
     ledger.require("the certificate is exact if its radius is next to nothing", (), is_exact, f"{radius:g} mm")
     if radius > 0:
-        digit = radius / 10.0 ** floor(log10(radius))
+        digit = float(f"{radius:.17e}".partition("e")[0])
         ledger.require("the certificate's radius has one digit", (), abs(digit - round(digit)) < DIGIT, repr(radius))
 
 

@@ -21,6 +21,11 @@ def unreadable(claim: Claim) -> list[str]:
     return [*faults, *large, *(word.text for word in (*claim.repeated, *claim.unknown))]
 
 
+def too_large(claim: Claim) -> list[str]:
+    """The words whose values are beyond all travel, and beyond what decimals of 28 digits can reduce to one turn."""
+    return [given.word.text for given in claim.givens.values() if given.word and abs(given.value) > LARGEST]
+
+
 HARMLESS = (FaultKind.COMMENT_NOT_CLOSED,)
 
 

@@ -64,7 +64,11 @@ def check_solutions(found: Found, claimed: ClaimedContour, ledger: Ledger) -> bo
         if each.is_chosen and claimed.has_path:
             eligible += 1
             continue  # it is the contour, and that is checked
-        attempt = fewest(partial(_attempt, found, claimed, each, *reading) for reading in _readings(found, each))
+        readings = list(_readings(found, each))
+        name, remark = f"solution {number}: what selects it are words that choose", "the program has no such words"
+        if not ledger.require(name, each.selects, bool(readings), remark):
+            continue
+        attempt = fewest(partial(_attempt, found, claimed, each, *reading) for reading in readings)
         is_examined = all(each.what != "the path" for each in attempt.omissions)
         is_checked |= is_examined and bool(attempt.checks)
         is_known &= is_examined
