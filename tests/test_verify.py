@@ -652,6 +652,8 @@ STANDINGS = {
     "a bevel outside": ("G111 X100. A180. K-30. B60. C5.", "no-solution", "no-solution"),
     "straight on": ("G111 A135. K-30. B135. X120. P2.", "no-solution", "no-solution"),
     "A ignored": ("G111 A135. I10. K-12. B180. Z-40. P60.", "no-solution", "conflicting"),
+    "an angle alone": (MILL + "G1 ,A150\nX10 Y20", "rejected", "underdetermined"),
+    "an angle alone, and a corner": (MILL + "G1 ,A150 ,R2\nX10 Y20", "rejected", "underdetermined"),
     "no circle": (MILL + "G3 X-50 Y0\n" + LINE, "rejected", "underdetermined"),
     "no Q": (MILL + "G3 I-50 J0\nG1 X-50 Y42.857 ,A171.87", "rejected", "ambiguous"),
     "no Q, one path": (MILL + "G3 I-50 J0\nG1 X0 Y42.857 ,A171.87", "rejected", "solved"),
@@ -707,6 +709,28 @@ def test_the_status_of_a_contour_is_worked_out_from_its_words(desk, name):
         if status != wanted[1 - (rules == "off")]:
             other = "off" if rules == "enforce" else "enforce"
             assert desk.is_wrong({**result, "rules": other}), "made under other rules"
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "N4 W0 G111 X100. A180. K-30. B120. P? Q?",
+        "G111 A180. K-30. B120. Q?",
+        "G111 A180. K-30. B120. X100. F?",
+        "G112 U0 I10. K-50. C? D5. R30.",
+        "G01 Z-20. K?",
+    ],
+)
+def test_what_cannot_be_asked_for_is_rejected(desk, words):
+    for rules in ("enforce", "off"):
+        result = desk.solve(LATHE + words, "--rules", rules, "--control", "yasnac-lx3")
+        assert result["contours"][0]["status"] == "rejected"
+        assert failures(desk.receipt(result)) == []
+        for status in STATUSES:
+            assert status == "rejected" or desk.is_wrong(with_contour(result, status=status)), status
+    askable = desk.solve(LATHE + "G111 A180. K-30. B120. X100. Q?")
+    assert askable["contours"][0]["status"] == "underdetermined"
+    assert desk.is_wrong(with_contour(askable, status="rejected"))
 
 
 def test_without_a_start_a_contour_is_loose(desk):

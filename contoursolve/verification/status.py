@@ -16,7 +16,7 @@ from contoursolve.verification.examination import examine, signs_of
 from contoursolve.verification.facts import read_facts
 from contoursolve.verification.forms import CHECKERS, FormChecker
 from contoursolve.verification.ledger import Ledger
-from contoursolve.verification.refusals import refused, unreadable
+from contoursolve.verification.refusals import refused, unaskable, unreadable
 from contoursolve.verification.standing import Candidate, Standing
 from contoursolve.verification.walk import Found
 
@@ -61,6 +61,8 @@ def _check_rejected(found: Found, claimed: ClaimedContour, ledger: Ledger) -> bo
     checker = CHECKERS.get(claim.form.name)
     facts = read_facts(claim, checker.elements(claim), checker.points(claim), found.apart) if checker else ()
     reasons = [*unreadable(claim), *(each.text for each in facts if each.fact is None)]
+    if checker and not claim.directives:
+        reasons += unaskable(claim, checker.reads(claim))
     is_extended = bool(claim.directives) or any(word.is_asked for word in claim.words.values())
     # What states or asks more than the control reads is not a block for the control yet: its rules only warn.
     if not is_extended and (found.rules is Rules.ENFORCE or (found.rules is None and is_rejected)):
