@@ -1201,6 +1201,31 @@ def test_the_text_says_what_is_wrong_and_by_how_much(desk):
     assert output.endswith("1 contour (1 verified); every claim that was checked is right\n")
 
 
+def test_what_is_wrong_is_said_as_what_was_expected_and_found(desk):
+    def wrong(result: object, *options: str) -> list[str]:
+        lines = desk.verify(result, *options)[1].split("\n")
+        return [line.partition("wrong: ")[2] for line in lines if "wrong: " in line]
+
+    result = desk.solve(PROGRAM)
+    assert wrong(changed(result, ("contours", 0, "line"), 3)) == [
+        "expected: the result mentions this contour; but it has none on this line",
+        "expected: the program has a contour block here; but line 3 begins none",
+    ]
+    assert wrong(changed(result, ("contours", 0, "form"), "G112")) == [
+        "expected: the form is that of its blocks; but it is G111, and the result has 'G112'"
+    ]
+    fewer = changed(result, ("contours", 0, "count", "solutions"), 2)
+    assert (
+        "expected: the solutions are all that there are (X100. A180. K-30. B120. P5. Q5.); but the result has 2, of "
+        "which 1 can be made, and by the words there are 1, of which 1 can be made"
+    ) in [re.sub(r"\(.*\)", "(X100. A180. K-30. B120. P5. Q5.)", line) for line in wrong(fewer)]
+    desk.program.write_text(PROGRAM.split("\n")[1], encoding="utf-8")
+    assert (
+        "expected: Z of the start is the program's position; but the program does not tell it, and the result has "
+        "0 mm; if it was solved with --start, verify with the same --start"
+    ) in wrong(changed(result, ("contours", 0, "line"), 1))
+
+
 # --- Inputs that are none --------------------------------------------------------------------------
 
 TROUBLE: tuple[tuple[str, Place, Any, str], ...] = (

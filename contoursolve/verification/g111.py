@@ -39,7 +39,9 @@ def check(case: Case, ledger: Ledger) -> None:
     been solved with the notes of the manual or without them.
     """
     names = ", ".join(sorted(map(ascii, case.points))) or "none"
-    if not ledger.require("the points are V1 and V2", (), case.points.keys() == {"V1", "V2"}, names):
+    if not ledger.require(
+        "the points are V1 and V2", (), case.points.keys() == {"V1", "V2"}, f"the result has {names}"
+    ):
         ledger.omit("the words of the block", "they are about V1 and V2")
         return
     ledger.require("there is no choice of branch", (), case.claimed.branch is None and not case.claimed.branches)

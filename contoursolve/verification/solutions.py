@@ -104,9 +104,14 @@ def _check_count(claimed: ClaimedContour, listed: tuple[ClaimedSolution, ...], l
         ledger.require("a list of solutions comes with their number", (), not listed, "the number is missing")
         return
     paths = sum(each.is_path for each in listed)
-    remark = f"{count.solutions} claimed, {len(listed)} listed"
+    remark = f"there are said to be {count.solutions}, and {len(listed)} are listed"
     ledger.require("all solutions are listed", (), count.solutions == len(listed), remark)
-    ledger.require("all paths are listed", (), count.contours == paths, f"{count.contours} claimed, {paths} listed")
+    ledger.require(
+        "all paths are listed",
+        (),
+        count.contours == paths,
+        f"there are said to be {count.contours}, and {paths} are listed",
+    )
     ledger.require(
         "the list is complete unless there is a doubt", (), count.is_complete != bool(count.doubts), "it is both"
     )
@@ -117,7 +122,7 @@ def _check_chosen(found: Found, claimed: ClaimedContour, listed: tuple[ClaimedSo
     chosen = [each for each in listed if each.is_chosen]
     if not claimed.has_path:
         status = claimed.status.value
-        ledger.require("no solution is chosen", (), not chosen, f"{status}, with {len(chosen)} chosen")
+        ledger.require("no solution is chosen", (), not chosen, f"it is {status}, with {len(chosen)} chosen")
         return
     if ledger.require("one solution is chosen", (), len(chosen) == 1, f"{len(chosen)} are"):
         off = _distance(chosen[0].path, claimed.path)
