@@ -673,6 +673,7 @@ STANDINGS = {
     "a corner straight on": (MILL + "G1 X80 ,C3\nX90", "no-solution", "no-solution"),
     "the arc's rounding too large": (MILL + "G1 X80 ,R40\nG3 X50 Y30 R30", "no-solution", "no-solution"),
     "an angle along the only coordinate": (MILL + "G1 X70 ,A90", "no-solution", "no-solution"),
+    "an angle along the coordinate it is at": (MILL + "G1 X50 ,A90", "underdetermined", "underdetermined"),
     "G112 lacks a word": ("G112 U0 I10. K-50.", "rejected", "underdetermined"),
     "G112 backs up": ("G112 U30. I10. K-50. R30.", "no-solution", "solved"),
     "G112 misses": ("G112 U0 I10. K-50. R5.", "no-solution", "no-solution"),
