@@ -652,6 +652,8 @@ STANDINGS = {
     "a bevel outside": ("G111 X100. A180. K-30. B60. C5.", "no-solution", "no-solution"),
     "straight on": ("G111 A135. K-30. B135. X120. P2.", "no-solution", "no-solution"),
     "A ignored": ("G111 A135. I10. K-12. B180. Z-40. P60.", "no-solution", "conflicting"),
+    "an angle alone": (MILL + "G1 ,A150\nX10 Y20", "rejected", "underdetermined"),
+    "an angle alone, and a corner": (MILL + "G1 ,A150 ,R2\nX10 Y20", "rejected", "underdetermined"),
     "no circle": (MILL + "G3 X-50 Y0\n" + LINE, "rejected", "underdetermined"),
     "no Q": (MILL + "G3 I-50 J0\nG1 X-50 Y42.857 ,A171.87", "rejected", "ambiguous"),
     "no Q, one path": (MILL + "G3 I-50 J0\nG1 X0 Y42.857 ,A171.87", "rejected", "solved"),
@@ -671,6 +673,7 @@ STANDINGS = {
     "a corner straight on": (MILL + "G1 X80 ,C3\nX90", "no-solution", "no-solution"),
     "the arc's rounding too large": (MILL + "G1 X80 ,R40\nG3 X50 Y30 R30", "no-solution", "no-solution"),
     "an angle along the only coordinate": (MILL + "G1 X70 ,A90", "no-solution", "no-solution"),
+    "an angle along the coordinate it is at": (MILL + "G1 X50 ,A90", "underdetermined", "underdetermined"),
     "G112 lacks a word": ("G112 U0 I10. K-50.", "rejected", "underdetermined"),
     "G112 backs up": ("G112 U30. I10. K-50. R30.", "no-solution", "solved"),
     "G112 misses": ("G112 U0 I10. K-50. R5.", "no-solution", "no-solution"),
@@ -707,6 +710,28 @@ def test_the_status_of_a_contour_is_worked_out_from_its_words(desk, name):
         if status != wanted[1 - (rules == "off")]:
             other = "off" if rules == "enforce" else "enforce"
             assert desk.is_wrong({**result, "rules": other}), "made under other rules"
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "N4 W0 G111 X100. A180. K-30. B120. P? Q?",
+        "G111 A180. K-30. B120. Q?",
+        "G111 A180. K-30. B120. X100. F?",
+        "G112 U0 I10. K-50. C? D5. R30.",
+        "G01 Z-20. K?",
+    ],
+)
+def test_what_cannot_be_asked_for_is_rejected(desk, words):
+    for rules in ("enforce", "off"):
+        result = desk.solve(LATHE + words, "--rules", rules, "--control", "yasnac-lx3")
+        assert result["contours"][0]["status"] == "rejected"
+        assert failures(desk.receipt(result)) == []
+        for status in STATUSES:
+            assert status == "rejected" or desk.is_wrong(with_contour(result, status=status)), status
+    askable = desk.solve(LATHE + "G111 A180. K-30. B120. X100. Q?")
+    assert askable["contours"][0]["status"] == "underdetermined"
+    assert desk.is_wrong(with_contour(askable, status="rejected"))
 
 
 def test_without_a_start_a_contour_is_loose(desk):
@@ -1177,6 +1202,31 @@ def test_the_text_says_what_is_wrong_and_by_how_much(desk):
     assert output.endswith("1 contour (1 verified); every claim that was checked is right\n")
 
 
+def test_what_is_wrong_is_said_as_what_was_expected_and_found(desk):
+    def wrong(result: object, *options: str) -> list[str]:
+        lines = desk.verify(result, *options)[1].split("\n")
+        return [line.partition("wrong: ")[2] for line in lines if "wrong: " in line]
+
+    result = desk.solve(PROGRAM)
+    assert wrong(changed(result, ("contours", 0, "line"), 3)) == [
+        "expected: the result mentions this contour; but it has none on this line",
+        "expected: the program has a contour block here; but line 3 begins none",
+    ]
+    assert wrong(changed(result, ("contours", 0, "form"), "G112")) == [
+        "expected: the form is that of its blocks; but it is G111, and the result has 'G112'"
+    ]
+    fewer = changed(result, ("contours", 0, "count", "solutions"), 2)
+    assert (
+        "expected: the solutions are all that there are (X100. A180. K-30. B120. P5. Q5.); but the result has 2, of "
+        "which 1 can be made, and by the words there are 1, of which 1 can be made"
+    ) in [re.sub(r"\(.*\)", "(X100. A180. K-30. B120. P5. Q5.)", line) for line in wrong(fewer)]
+    desk.program.write_text(PROGRAM.split("\n")[1], encoding="utf-8")
+    assert (
+        "expected: Z of the start is the program's position; but the program does not tell it, and the result has "
+        "0 mm; if it was solved with --start, verify with the same --start"
+    ) in wrong(changed(result, ("contours", 0, "line"), 1))
+
+
 # --- Inputs that are none --------------------------------------------------------------------------
 
 TROUBLE: tuple[tuple[str, Place, Any, str], ...] = (
@@ -1347,6 +1397,67 @@ def test_whatever_is_put_in_a_result_gets_an_answer(desk, data):
     assert status in (0, 1, 2)
     assert bool(output) == (status != 2)
     assert bool(errors) == (status == 2)
+
+
+GARBAGE = ("", "A" + "9" * 31, "\n", "\ud800", "length of line 1 = ?", "X of V2 = 1", "G111 X", "V1", "R5")
+DAMAGE = (None, {}, [], True, 0, -1, 1e-9, 5e-324, 1e12, [0.0, 0.0], *GARBAGE)
+
+
+def damaged(result: dict[str, Any], others: list[dict[str, Any]], rng: Random) -> dict[str, Any]:
+    """The result with a node of it gone, of another kind or value, with other digits, or from another contour."""
+    copy = deepcopy(result)
+    # A place by its depth first: most of a result are numbers far below.
+    every = list(places(copy))
+    depth = rng.choice([len(place) for place in every[:: max(1, len(every) // 50)]])
+    place = rng.choice([place for place in every if len(place) <= depth])
+    holder: Any = copy
+    for name in place[:-1]:
+        holder = holder[name]
+    old, kind = holder[place[-1]], rng.randrange(4)
+    if kind == 0:
+        del holder[place[-1]]
+    elif kind == 1 and isinstance(old, str) and re.search(r"\d", old):
+        holder[place[-1]] = re.sub(r"[\d.]+", rng.choice(("9" * 31, "0", "?", "#1")), old, count=rng.randrange(3))
+    elif kind == 2 and place[0] == "contours" and len(place) > 2:
+        holder[place[-1]] = rng.choice(others).get(place[2], old) if len(place) == 3 else [old]
+    else:
+        holder[place[-1]] = rng.choice(DAMAGE)
+    return copy
+
+
+def test_however_a_result_is_damaged_there_is_an_answer(desk):
+    """Right, wrong, or no result: never an exception."""
+    rng, results = Random(11), {}
+    for path in sorted(PROGRAMS.glob("*.nc")):
+        text = path.read_text(encoding="utf-8")
+        results[text] = desk.solve(text)
+        del results[text]["diagnostics"]
+    others = [contour for result in results.values() for contour in result["contours"]]
+    for text, result in results.items():
+        desk.program.write_bytes(text.encode())
+        for number, contour in enumerate(result["contours"]):
+            for point in contour["points"]:
+                rest = {name: at for name, at in contour["points"].items() if name != point}
+                assert desk.is_refused(changed(result, ("contours", number, "points"), rest)), point
+            if contour["filled"]:
+                blocks = [re.sub(r"(?<=[A-Z])[\d.]{4,}", "9" * 31, block) for block in contour["filled"]["blocks"]]
+                assert desk.is_wrong(changed(result, ("contours", number, "filled", "blocks"), blocks))
+        for _ in range(60):
+            desk.is_refused(damaged(result, others, rng))
+
+
+@pytest.mark.parametrize(
+    ("name", "place", "value"),
+    [
+        ("two roundings", ("certificate", "radius"), 5e-324),
+        ("a long arc", ("solutions", 3, "selects"), ["R50", "Q-1", "R50", "Q-1"]),
+        ("radius of a corner", ("points", "V1"), [0.0, 0.0]),
+        ("radius of a corner", ("points",), {}),
+    ],
+)
+def test_what_cannot_be_worked_with_is_wrong(desk, name, place, value):
+    result = desk.solve({**SAMPLES, **EXTENDED}[name])
+    assert desk.receipt(changed(result, ("contours", 0, *place), value))["verdict"] == "failed"
 
 
 VOCABULARY = """G00 G01 G111 G112 G2 G3 G17 G18 G20 G28 G41 G90 G91 X40. X-50 Z0. Z-30. Y0 U60. W-5. A180. A0 B120. I0

@@ -65,7 +65,9 @@ def _check_answer(case: Case, ledger: Ledger, question: _Question, asked: Claime
         ledger.require(name, words, answer is None and asked.value is None, "only one of them has a value")
         return
     wanted = "deg" if answer.is_angle else "mm"
-    if not ledger.require("its unit is what it measures", words, asked.unit == wanted, f"{asked.unit}, not {wanted}"):
+    if not ledger.require(
+        "its unit is what it measures", words, asked.unit == wanted, f"it is {asked.unit}, not {wanted}"
+    ):
         return
     off = asked.value - answer.value
     if answer.is_angle:

@@ -23,7 +23,9 @@ Words = Mapping[str, tuple[str, ...]]
 def check_points(case: Case, ledger: Ledger, names: Sequence[str]) -> bool:
     """The result names the inner joints, and an end."""
     wanted, found = ", ".join(names) or "none", ", ".join(sorted(map(ascii, case.points))) or "none"
-    is_right = ledger.require(f"the points are {wanted}", (), case.points.keys() == set(names), found)
+    is_right = ledger.require(
+        f"the points are {wanted}", (), case.points.keys() == set(names), f"the result has {found}"
+    )
     return is_right and case.end is not None
 
 
@@ -92,7 +94,7 @@ def check_pieces(case: Case, ledger: Ledger, traced: Trace, unsure: float, words
     pieces = _fitting(traced.pieces, case.moves)
     shown = ", ".join("arc" if move.circle else "line" for move in case.moves) or "nothing"
     wanted = ", ".join(f"{piece.name} ({'arc' if piece.arc else 'line'})" for piece in traced.pieces)
-    name, remark = "the elements are those that the words make", f"found {shown}; the words make {wanted}"
+    name, remark = "the elements are those that the words make", f"the result has {shown}, and the words make {wanted}"
     if not ledger.require(name, _all(words), pieces is not None, remark) or pieces is None:
         return {}
     for piece, move in zip(pieces, case.moves, strict=True):
@@ -104,7 +106,9 @@ def check_pieces(case: Case, ledger: Ledger, traced: Trace, unsure: float, words
             gap = abs(move.circle.center - center)
             case.compare(ledger, f"the centre of {piece.name} is where the words put it", own, gap, unsure)
             ledger.measure(f"{piece.name} has its radius", own, move.circle.radius - radius, case.limit + unsure)
-            ledger.require(f"{piece.name} turns as it must", own, move.circle.turn is turn, move.circle.turn.value)
+            ledger.require(
+                f"{piece.name} turns as it must", own, move.circle.turn is turn, f"it turns {move.circle.turn.value}"
+            )
     return dict(zip((piece.name for piece in pieces), case.moves, strict=True))
 
 

@@ -34,7 +34,7 @@ def check_statements(case: Case, ledger: Ledger, statements: Sequence[Statement]
         if each.against:
             ledger.measure(f"{each.name} in its direction", stated, each.against, case.limit)
     surplus = len(statements) - len(unknowns)
-    name, found = "as many words as the status says", f"{len(statements)} words for {len(unknowns)} unknowns"
+    name, found = "as many words as the status says", f"there are {len(statements)} for {len(unknowns)} unknowns"
     ledger.require(name, words, surplus > 0 if is_over else surplus == 0, found)
     holding = [each for each in statements if not is_over or abs(each.residual) <= case.limit]
     moved = displacement(holding, len(unknowns))

@@ -4,7 +4,6 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from contoursolve.reading import Claim
-from contoursolve.tolerance import LARGEST
 from contoursolve.verification.case import Case, make_case
 from contoursolve.verification.claimed import ClaimedContour
 from contoursolve.verification.facts import check_readable, read_facts
@@ -12,7 +11,7 @@ from contoursolve.verification.filled import check_filled
 from contoursolve.verification.forms import CHECKERS
 from contoursolve.verification.ledger import Ledger
 from contoursolve.verification.path import check_certificate, check_path
-from contoursolve.verification.refusals import HARMLESS
+from contoursolve.verification.refusals import HARMLESS, too_large
 from contoursolve.verification.walk import Found
 
 
@@ -69,9 +68,7 @@ def _check_words(case: Case, ledger: Ledger, reads: frozenset[str]) -> bool:
     claim = case.claim
     faults = [fault.text for block in claim.blocks for fault in block.faults if fault.kind not in HARMLESS]
     variables = [word.text for word in claim.words.values() if word.number is None and not word.is_asked]
-    # Beyond all travel, and beyond what decimals of 28 digits can reduce to one turn.
-    large = [given.word.text for given in claim.givens.values() if given.word and abs(given.value) > LARGEST]
-    unreadable = [*faults, *variables, *large, *(word.text for word in (*claim.repeated, *claim.unknown))]
+    unreadable = [*faults, *variables, *too_large(claim), *(word.text for word in (*claim.repeated, *claim.unknown))]
     for name, word in claim.words.items():
         if name not in reads:
             ledger.omit(word.text, "what it does to a contour of this form is not checked")

@@ -15,6 +15,7 @@ from contoursolve.verification.drawing import Drawing, UnmeasurableError
 from contoursolve.verification.forms import FormChecker
 from contoursolve.verification.ledger import Ledger
 from contoursolve.verification.path import SHORTEST
+from contoursolve.verification.refusals import too_large
 
 SAME = "the filled blocks differ from the program's only where a value is asked for"
 
@@ -28,7 +29,12 @@ def check_filled(case: Case, ledger: Ledger, checker: FormChecker, dialect: Dial
     texts = [word.text for word in words]
     if not ledger.require("a value is asked for", texts, bool(words), "nothing was to be filled in"):
         return
-    if not ledger.require(SAME, texts, len(filled.blocks) == len(blocks), f"{len(filled.blocks)} blocks"):
+    if not ledger.require(
+        SAME,
+        texts,
+        len(filled.blocks) == len(blocks),
+        f"they are {len(filled.blocks)}, and the program's {len(blocks)}",
+    ):
         return
     found = [syntax.parse_block(text, block.line) for text, block in zip(filled.blocks, blocks, strict=True)]
     is_same = all(map(_is_filled, blocks, found))
@@ -39,7 +45,9 @@ def check_filled(case: Case, ledger: Ledger, checker: FormChecker, dialect: Dial
     claim = dialect.find(stripped, 0, case.claim.before, dialect.modes)
     is_contour = isinstance(claim, Claim) and len(claim.blocks) == len(blocks)
     if ledger.require("the filled blocks are a contour", texts, is_contour) and isinstance(claim, Claim):
-        _check_deviation(case, ledger, checker, claim, filled.deviation)
+        large = too_large(claim)
+        if ledger.require("no value that is filled in is too large", large, not large, "no control reads it"):
+            _check_deviation(case, ledger, checker, claim, filled.deviation)
 
 
 def _is_filled(block: Block, filled: Block) -> bool:
@@ -103,7 +111,12 @@ def _check_deviation(case: Case, ledger: Ledger, checker: FormChecker, claim: Cl
         return
     ends = _ends(drawing)
     claimed = [move.end for move in case.moves]
-    if ledger.require("the filled blocks make the same elements", words, len(ends) == len(claimed), f"{len(ends)}"):
+    if ledger.require(
+        "the filled blocks make the same elements",
+        words,
+        len(ends) == len(claimed),
+        f"they make {len(ends)}, and the path has {len(claimed)}",
+    ):
         farthest = max((abs(one - other) for one, other in zip(ends, claimed, strict=True)), default=0.0)
         name = "the filled blocks deviate as much as the result says"
         ledger.measure(name, words, farthest - deviation, case.limit)

@@ -39,7 +39,9 @@ def check(case: Case, ledger: Ledger) -> None:
     been solved with the notes of the manual or without them.
     """
     names = ", ".join(sorted(map(ascii, case.points))) or "none"
-    if not ledger.require("the points are V1 and V2", (), case.points.keys() == {"V1", "V2"}, names):
+    if not ledger.require(
+        "the points are V1 and V2", (), case.points.keys() == {"V1", "V2"}, f"the result has {names}"
+    ):
         ledger.omit("the words of the block", "they are about V1 and V2")
         return
     ledger.require("there is no choice of branch", (), case.claimed.branch is None and not case.claimed.branches)
@@ -123,7 +125,8 @@ def _values(case: Case, lines: Lines, sizes: Sizes) -> dict[str, Quantity]:
 def redo(case: Case) -> Drawing | None:
     """The contour of the words alone, near the claimed one; None if they do not fix it."""
     used = tuple(name for name in case.states(*LINE_1, *LINE_2) if name not in ignored_words(case))
-    lines = _lines(case, used, (case.points["V1"], case.points["V2"]))
+    # A result that lacks a point is redone from the start: what the words say is linear.
+    lines = _lines(case, used, (case.points.get("V1", 0j), case.points.get("V2", 0j)))
     stated = list(_statements(case, used, lines))
     moved = displacement(stated, UNKNOWNS)
     if moved.rank < UNKNOWNS:

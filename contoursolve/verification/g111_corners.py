@@ -58,7 +58,7 @@ def check_elements(case: Case, ledger: Ledger, lines: Lines) -> tuple[Slots, Siz
     list(_corners(case, ledger, lines, _sizes(case, {}, is_setback=False)))
     shown = ", ".join("arc" if move.circle else "line" for move in case.moves) or "nothing"
     wanted = ", ".join("arc" if shape else "line" for _, shape in _order(case))
-    remark = f"found {shown}; the words make {wanted}"
+    remark = f"the result has {shown}, and the words make {wanted}"
     ledger.require("the elements are those that the words make", case.texts(*_WORDS), False, remark)
     return None
 
@@ -122,10 +122,10 @@ def _corners(case: Case, ledger: Ledger, lines: Lines, sizes: Sizes) -> Iterator
     for name, *_ in CORNERS:
         words = [word for word in makers(case, name) if sizes[word] or word not in case.asked]
         texts = case.texts(*words)
-        if not words or not ledger.require(f"{name} has one shape", texts, len(words) == 1, "two words"):
+        if not words or not ledger.require(f"{name} has one shape", texts, len(words) == 1, "two words give it one"):
             continue
         size = sizes[words[0]]
-        if not ledger.require(f"{name} has a size", texts, size > 0, f"{size:g} mm"):
+        if not ledger.require(f"{name} has a size", texts, size > 0, f"it is {size:g} mm"):
             continue
         room = abs(lines.v2 - lines.v1)
         if name == "corner 1":
@@ -236,5 +236,5 @@ def _check_corner(
         ledger.measure(f"{name} touches the line before", word, before, limit)
         ledger.measure(f"{name} touches the line after", word, after, limit)
         turn = Turn.CCW if cross(corner.arriving, corner.leaving) > 0 else Turn.CW
-        ledger.require(f"{name} turns as the lines do", word, circle.turn is turn, circle.turn.value)
+        ledger.require(f"{name} turns as the lines do", word, circle.turn is turn, f"it turns {circle.turn.value}")
     return move.end

@@ -36,7 +36,7 @@ def check(case: Case, ledger: Ledger) -> None:
     words = tuple(word.text for word in case.claim.words.values())
     is_over = case.claimed.status is ClaimedStatus.OVERDETERMINED
     fits = _is_plain(case) and not is_over
-    if not ledger.require("as many words as the form needs", words, fits, "too few or too many"):
+    if not ledger.require("as many words as the form needs", words, fits, "they are too few or too many"):
         return
     try:
         course = course_of(case)

@@ -72,7 +72,7 @@ def _check_signs(case: Case, ledger: Ledger) -> None:
     for before, each in choosing_pairs(case.claim):
         has_sign = bool(case.choices.get(each.given("Q")))
         words = case.texts(each.given("Q"))
-        ledger.require(f"Q chooses where {before.name} and {each.name} meet", words, has_sign, "zero or missing")
+        ledger.require(f"Q chooses where {before.name} and {each.name} meet", words, has_sign, "Q is zero or missing")
 
 
 def _check_double(case: Case, ledger: Ledger, course: Course) -> None:
@@ -107,9 +107,9 @@ def check_sides(case: Case, ledger: Ledger, wanted: dict[str, set[str | None]]) 
         branches = dict(zip(wanted, (branch or "").split(", "), strict=False)) if branch else {}
     words = [word for _, each in choosing_pairs(case.claim) for word in case.texts(each.given("Q"))]
     fits = all(branches.get(name) in sides for name, sides in wanted.items()) and branches.keys() <= wanted.keys()
-    ledger.require("the branch is the one that Q chooses", words, fits, f"{branch!a}"[:60])
+    ledger.require("the branch is the one that Q chooses", words, fits, f"the result has {branch!a}"[:60])
     told = ", ".join(branches.values()) or None
-    ledger.require("the branches are named in their order", words, told == branch, f"{branch!a}"[:60])
+    ledger.require("the branches are named in their order", words, told == branch, f"the result has {branch!a}"[:60])
 
 
 def redo(case: Case) -> Drawing | None:

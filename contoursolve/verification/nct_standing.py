@@ -18,7 +18,7 @@ from contoursolve.verification.nct_words import (
     lacks_words,
     own_point,
 )
-from contoursolve.verification.rails import UnmakeableError
+from contoursolve.verification.rails import LooseError, UnmakeableError
 from contoursolve.verification.standing import Candidate, Leg, Standing, path_of
 
 _NEAR = 1e-6
@@ -50,6 +50,9 @@ def stand(case: Case) -> Standing | None:
         signs = dict(zip(names, values, strict=True))
         try:
             course = course_of(case, signs)
+        except LooseError:
+            # With signs that choose, other places of the points may leave nothing loose.
+            return None if names else Standing(is_loose=True)
         except UnmakeableError:
             continue
         if None in course.touching.values():

@@ -33,7 +33,7 @@ def check(case: Case, ledger: Ledger, words: Words, check_sides: Callable[[Sides
     """Everything that words and facts say about the path; `check_sides` takes the branches that are possible."""
     readings = list(slots_of(case))
     shown = ", ".join("arc" if move.circle else "line" for move in case.moves) or "nothing"
-    if ledger.require("the elements are those that the words make", (), bool(readings), f"found {shown}"):
+    if ledger.require("the elements are those that the words make", (), bool(readings), f"the result has {shown}"):
         ledger.add(fewest([partial(_reading, case, each, words, check_sides) for each in readings]))
     else:
         ledger.omit("the words of the blocks", "they are about other elements")

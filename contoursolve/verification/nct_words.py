@@ -14,7 +14,7 @@ from contoursolve.tolerance import LENGTH, REGULAR
 from contoursolve.verification.case import Case
 from contoursolve.verification.course import Bend, Course, Shape
 from contoursolve.verification.measure import ROUNDING, direction, unit
-from contoursolve.verification.rails import LEFT, RIGHT, Rail, Ray, Ring, UnmakeableError, leg, meet, off
+from contoursolve.verification.rails import LEFT, RIGHT, LooseError, Rail, Ray, Ring, UnmakeableError, leg, meet, off
 
 ENDS = (("first", "first-step"), ("second", "second-step"))
 """What states a coordinate of an element, absolute and as an increment."""
@@ -316,6 +316,8 @@ def _end(case: Case, each: Element, tail: complex, rail: Rail, point: complex | 
         begin, ahead = (tail.real, tail.imag)[axis], (rail.along.real, rail.along.imag)[axis]
         there = case.coordinate(each.given(absolute), axis) if is_absolute else begin + case.amount(each.given(step))
         if abs(ahead) <= REGULAR:
+            if abs(there - begin) <= case.limit:
+                raise LooseError("the line runs along the only coordinate that it is given, and is at it already")
             raise UnmakeableError("the line runs along the only coordinate that it is given")
         place = tail + (there - begin) / ahead * rail.along
         return complex(there, place.imag) if axis == FIRST else complex(place.real, there)

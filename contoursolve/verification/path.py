@@ -1,7 +1,5 @@
 """What holds for every path, whatever its form: no gaps, nothing without length, arcs on their circles."""
 
-from math import floor, log10
-
 from contoursolve.tolerance import LENGTH
 from contoursolve.verification.case import Case
 from contoursolve.verification.claimed import ClaimedCertificate
@@ -22,10 +20,10 @@ def check_path(case: Case, ledger: Ledger, slack: float) -> None:
         own = f"element {number}"
         ledger.measure(f"{own} begins at {name}", (), abs(move.start - here), case.limit)
         length = abs(move.end - move.start)
-        ledger.require(f"{own} has a length", (), length >= SHORTEST, f"{length:.3g} mm")
+        ledger.require(f"{own} has a length", (), length >= SHORTEST, f"it is {length:.3g} mm long")
         if move.circle:
             center, radius = move.circle.center, move.circle.radius
-            ledger.require(f"{own} has a radius", (), radius > 0, f"{radius:g} mm")
+            ledger.require(f"{own} has a radius", (), radius > 0, f"it is {radius:g} mm")
             ledger.measure(f"{own} begins on its circle", (), abs(move.start - center) - radius, case.limit)
             ledger.measure(f"{own} ends on its circle", (), abs(move.end - center) - radius, case.limit + slack)
         here, name = move.end, f"the end of {own}"
@@ -40,7 +38,7 @@ def check_certificate(certificate: ClaimedCertificate, limit: float, ledger: Led
     """
     kind, radius = certificate.kind, certificate.radius
     named = kind in CERTIFICATE_KINDS
-    ledger.require("the certificate is of a known kind", (), named, ascii(kind)[:60])
+    ledger.require("the certificate is of a known kind", (), named, f"it is {ascii(kind)[:60]}")
     if kind == "unknown" and certificate.reason is not None:
         ledger.require("the certificate says why it proves nothing", (), bool(certificate.reason), "there is no reason")
     if certificate.gap is not None:
@@ -48,13 +46,20 @@ def check_certificate(certificate: ClaimedCertificate, limit: float, ledger: Led
     if radius is None:
         ledger.omit("the certificate", "it names no radius")
         return
-    ledger.require("the certificate's radius is not negative", (), radius >= 0, "it is")
+    ledger.require("the certificate's radius is not negative", (), radius >= 0, f"it is {radius:g} mm")
     # An exact number may have no double, or no twelve decimals, that are exactly it.
     is_exact = radius <= PRINTED if kind == "exact" else radius != 0
-    ledger.require("the certificate is exact if its radius is next to nothing", (), is_exact, f"{radius:g} mm")
+    ledger.require(
+        "the certificate is exact if its radius is next to nothing",
+        (),
+        is_exact,
+        f"it is {kind}, and the radius {radius:g} mm",
+    )
     if radius > 0:
-        digit = radius / 10.0 ** floor(log10(radius))
-        ledger.require("the certificate's radius has one digit", (), abs(digit - round(digit)) < DIGIT, repr(radius))
+        digit = float(f"{radius:.17e}".partition("e")[0])
+        ledger.require(
+            "the certificate's radius has one digit", (), abs(digit - round(digit)) < DIGIT, f"it is {radius!r} mm"
+        )
 
 
 DIGIT = 1e-12

@@ -24,6 +24,10 @@ class UnmakeableError(ValueError):
     """Something that words describe and that there cannot be; the message says what."""
 
 
+class LooseError(UnmakeableError):
+    """A point that the words leave free at their values; the message says why."""
+
+
 @dataclass(frozen=True, slots=True)
 class Ray:
     """A line through `at` in the unit direction `along`; `unsure` (mm) is how far it may be off there, and `swing` (1)

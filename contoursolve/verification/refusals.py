@@ -21,6 +21,34 @@ def unreadable(claim: Claim) -> list[str]:
     return [*faults, *large, *(word.text for word in (*claim.repeated, *claim.unknown))]
 
 
+def unaskable(claim: Claim, reads: frozenset[str]) -> list[str]:
+    """What a contour of words alone asks for and cannot be told, under any rules; `reads` are the givens of its form.
+
+    A size is one of a corner between two elements: a last corner of G111 lands along the axis of which the block, or
+    else what it asks for, has the only coordinate; a bevel at 45 degrees beside an arc has no equations.
+    """
+    form = claim.form.name
+    asked = {name for name, word in claim.words.items() if word.is_asked}
+    if form in ("G11", "G12", "G01"):
+        reads -= {"I"} if claim.words.keys() & {"X", "U"} else {"K"}
+    known = [claim.words[name] for name in asked & reads]
+    words = [word for block in claim.blocks for word in block.words]
+    found = [f"{word.text} asks for nothing of the contour" for word in words if word.is_asked and word not in known]
+    if form == "G111" and asked & {"D", "Q"}:
+        told = [[ends for ends in ("XU", "ZW") if names & {*ends}] for names in (claim.givens.keys(), asked)]
+        if len(told[0] or told[1]) != 1:
+            found.append("nothing tells which line corner 2 lands on, so that its size cannot be asked for")
+    if form == "G112" and asked & {"C", "D"}:
+        is_setback = any((each.setting.name, each.value) == ("bevel", "setback") for each in claim.conventions)
+        found += [] if is_setback else ["the size of a bevel beside an arc cannot be asked for"]
+    return found
+
+
+def too_large(claim: Claim) -> list[str]:
+    """The words whose values are beyond all travel, and beyond what decimals of 28 digits can reduce to one turn."""
+    return [given.word.text for given in claim.givens.values() if given.word and abs(given.value) > LARGEST]
+
+
 HARMLESS = (FaultKind.COMMENT_NOT_CLOSED,)
 
 
@@ -136,6 +164,8 @@ def _of_shape(each: Element, names: set[str], given: Mapping[str, Decimal]) -> I
     if each.turn is None:
         if names & {*_CENTERS, "wrong-center", "R"}:
             yield "a line with a centre or a radius"
+        if not (each.is_over or each.is_followed) and ",A" in names and not names & _POINT:
+            yield "its angle alone does not say where the line ends"
     else:
         if not each.is_over and not names & {*_CENTERS, "R"}:
             yield "the circle has neither a centre nor a radius"

@@ -54,7 +54,7 @@ _WITH_PATH = ("solved", "overdetermined")
 def _check_text(check: Check) -> str:
     words = f" ({' '.join(map(_plain, check.words))})" if check.words else ""
     if check.limit is None:
-        return f"{check.name}{words}: {_plain(check.remark) or 'it is not so'}"
+        return f"expected: {check.name}{words}; but {_plain(check.remark) or 'it is not so'}"
     off = "not a number" if check.residual is None else f"off by {check.residual:.3g} {check.unit}"
     return f"{check.name}{words}: {off}, allowed {check.limit:.1e} {check.unit}"
 

@@ -64,7 +64,11 @@ def check_solutions(found: Found, claimed: ClaimedContour, ledger: Ledger) -> bo
         if each.is_chosen and claimed.has_path:
             eligible += 1
             continue  # it is the contour, and that is checked
-        attempt = fewest(partial(_attempt, found, claimed, each, *reading) for reading in _readings(found, each))
+        readings = list(_readings(found, each))
+        name, remark = f"solution {number}: what selects it are words that choose", "the program has no such words"
+        if not ledger.require(name, each.selects, bool(readings), remark):
+            continue
+        attempt = fewest(partial(_attempt, found, claimed, each, *reading) for reading in readings)
         is_examined = all(each.what != "the path" for each in attempt.omissions)
         is_checked |= is_examined and bool(attempt.checks)
         is_known &= is_examined
@@ -100,9 +104,14 @@ def _check_count(claimed: ClaimedContour, listed: tuple[ClaimedSolution, ...], l
         ledger.require("a list of solutions comes with their number", (), not listed, "the number is missing")
         return
     paths = sum(each.is_path for each in listed)
-    remark = f"{count.solutions} claimed, {len(listed)} listed"
+    remark = f"there are said to be {count.solutions}, and {len(listed)} are listed"
     ledger.require("all solutions are listed", (), count.solutions == len(listed), remark)
-    ledger.require("all paths are listed", (), count.contours == paths, f"{count.contours} claimed, {paths} listed")
+    ledger.require(
+        "all paths are listed",
+        (),
+        count.contours == paths,
+        f"there are said to be {count.contours}, and {paths} are listed",
+    )
     ledger.require(
         "the list is complete unless there is a doubt", (), count.is_complete != bool(count.doubts), "it is both"
     )
@@ -113,7 +122,7 @@ def _check_chosen(found: Found, claimed: ClaimedContour, listed: tuple[ClaimedSo
     chosen = [each for each in listed if each.is_chosen]
     if not claimed.has_path:
         status = claimed.status.value
-        ledger.require("no solution is chosen", (), not chosen, f"{status}, with {len(chosen)} chosen")
+        ledger.require("no solution is chosen", (), not chosen, f"it is {status}, with {len(chosen)} chosen")
         return
     if ledger.require("one solution is chosen", (), len(chosen) == 1, f"{len(chosen)} are"):
         off = _distance(chosen[0].path, claimed.path)

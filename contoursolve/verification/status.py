@@ -16,7 +16,7 @@ from contoursolve.verification.examination import examine, signs_of
 from contoursolve.verification.facts import read_facts
 from contoursolve.verification.forms import CHECKERS, FormChecker
 from contoursolve.verification.ledger import Ledger
-from contoursolve.verification.refusals import refused, unreadable
+from contoursolve.verification.refusals import refused, unaskable, unreadable
 from contoursolve.verification.standing import Candidate, Standing
 from contoursolve.verification.walk import Found
 
@@ -43,13 +43,16 @@ def check_status(found: Found, claimed: ClaimedContour, ledger: Ledger) -> bool:
     feasible = [each for each in standing.candidates or () if _is_path(found, claimed, each, standing)]
     expected = _expected(standing, feasible, signs_of(claim, checker.choosing(claim)))
     words = [word.text for word in claim.words.values()]
-    remark = f"by the words it is {expected.value}"
+    remark = f"the result says {claimed.status.value}, and by the words it is {expected.value}"
     ledger.require("the status is the one that the words give", words, claimed.status is expected, remark)
     if not standing.is_all:
         ledger.omit("whether these are all solutions", "there are too many to go through")
     elif claimed.count is not None and standing.candidates is not None:
         count, there = claimed.count, (len(standing.candidates), len(feasible))
-        remark = f"{there[0]}, of which {there[1]} are paths"
+        remark = (
+            f"the result has {count.solutions}, of which {count.contours} can be made, and by the words there are "
+            f"{there[0]}, of which {there[1]} can be made"
+        )
         is_all = (count.solutions, count.contours) == there
         ledger.require("the solutions are all that there are", words, is_all, remark)
     return True
@@ -61,13 +64,16 @@ def _check_rejected(found: Found, claimed: ClaimedContour, ledger: Ledger) -> bo
     checker = CHECKERS.get(claim.form.name)
     facts = read_facts(claim, checker.elements(claim), checker.points(claim), found.apart) if checker else ()
     reasons = [*unreadable(claim), *(each.text for each in facts if each.fact is None)]
+    if checker and not claim.directives:
+        reasons += unaskable(claim, checker.reads(claim))
     is_extended = bool(claim.directives) or any(word.is_asked for word in claim.words.values())
     # What states or asks more than the control reads is not a block for the control yet: its rules only warn.
     if not is_extended and (found.rules is Rules.ENFORCE or (found.rules is None and is_rejected)):
         reasons += refused(claim)
     name = "a block that cannot be read, or that the sheet refuses, is rejected, and no other"
     if reasons or (is_rejected and not claim.directives):
-        remark = "nothing is said against it" if is_rejected else "; ".join(reasons)
+        against = "; ".join(reasons) or "nothing was found against it"
+        remark = f"the result says {claimed.status.value}, and {against}"
         ledger.require(name, [word.text for word in claim.words.values()], is_rejected and bool(reasons), remark)
         return True
     if is_rejected:
@@ -85,7 +91,9 @@ def check_diagnosis(found: Found, claimed: ClaimedContour, ledger: Ledger) -> No
     is_known = None not in claim.before.start().values and not any(block.faults for block in claim.blocks)
     is_extended = bool(claim.directives) or any(word.is_asked for word in claim.words.values())
     is_whole = diagnosis.ties_complete == (is_known and not is_extended)
-    ledger.require("ties are complete where the block can be read and has no further facts", (), is_whole, "")
+    ledger.require(
+        "ties are complete where the block can be read and has no further facts", (), is_whole, "it says the opposite"
+    )
     if is_extended:
         ledger.omit("the ties and freedoms of the diagnosis", "with further facts they were not worked out")
     elif is_known:

@@ -1,6 +1,6 @@
 """What a diagnosis says of the equations of a contour of words alone: what can still move, which words say the same."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import combinations
 from math import atan2, degrees, hypot
 
@@ -35,14 +35,20 @@ def check_linear(case: Case, diagnosis: ClaimedDiagnosis, ledger: Ledger) -> Non
             )
             is_right = tie.is_conflict == (tie.off_by_mm > AGREEMENT)
             ledger.require("they conflict if that is more than the least increment", tie.addresses, is_right)
-    ledger.require("all words that are tied are named", [" ".join(each) for each in found], not found, "it is not")
+    ledger.require(
+        "all words that are tied are named", [" ".join(each) for each in found], not found, "the result lacks these"
+    )
+
+
+def _list(names: Iterable[str]) -> str:
+    return ", ".join(ascii(name)[1:-1] for name in names) or "none"
 
 
 def _check_freedoms(rows: Sequence[Row], freedoms: Sequence[ClaimedFreedom], ledger: Ledger) -> None:
     null = _null_space(rows)
     expected = {name: at for name, at in _moving(null).items() if at is not None}
     names = [each.point for each in freedoms]
-    remark = ", ".join(expected) or "none"
+    remark = f"the result has {_list(names)}, and by the words they are {_list(expected)}"
     ledger.require("the points that can move are those", (), sorted(names) == sorted(expected), remark)
     for each in freedoms:
         if each.point not in expected:

@@ -109,7 +109,7 @@ def _examined(found: Found) -> ContourReceipt:
     lines = tuple(block.line for block in claim.blocks)
     if claimed is None:
         ledger, has_path = Ledger(), False
-        ledger.require("the result mentions this contour", (), False, "the program has a contour block here")
+        ledger.require("the result mentions this contour", (), False, "it has none on this line")
     else:
         ledger, has_path = check_contour(found, claimed)
     return _receipt(lines, claim.form.name, claimed, ledger, has_path)
@@ -121,9 +121,12 @@ def _surplus(claims: ClaimedResult, lines: set[int]) -> Iterator[ContourReceipt]
     for contour in {contour.line: contour for contour in claims.contours}.values():
         ledger = Ledger()
         if contour.line not in lines:
-            ledger.require("the program has a contour here", (), False, "no contour block that could be checked")
+            remark = f"line {contour.line} begins none"
+            if not lines:
+                remark = "no line of the program begins one"
+            ledger.require("the program has a contour block here", (), False, remark)
         elif times[contour.line] > 1:
-            ledger.require("the result has this contour once", (), False, f"{times[contour.line]} times")
+            ledger.require("the result has this contour once", (), False, f"it has it {times[contour.line]} times")
         else:
             continue
         yield _receipt(contour.lines, contour.form, contour, ledger, has_path=False)
