@@ -338,20 +338,6 @@ def explain_beyond(context: Context, profile: Profile, solution: Solution, conto
         yield report(context, context.row(Trouble.FACT_BEYOND), Basis.NUMERICAL, [word] if word else [], **fields)
 
 
-def without_point(context: Context, claim: Claim) -> Iterator[Diagnostic]:
-    """Words that are read in least increments because they have no decimal point, where others have one."""
-    words = [given.word for given in claim.givens.values() if given.word and given.word.number]
-    for given in claim.givens.values() if any(word.has_point for word in words) else ():
-        word = given.word
-        if word is None or not word.number or word.has_point or given.unit is Unit.SIGN:
-            continue
-        typed = given.value * 2 if given.is_diameter else given.value
-        if abs(typed) < abs(word.number):
-            is_length = given.unit is Unit.MM
-            text = length_text(float(typed), context.unit) if is_length else angle_text(float(typed))
-            yield report(context, context.row(Trouble.POINT_MISSING), Basis.RULE, [word], actual=text)
-
-
 def _labels(event: Refusal | Remark, fields: Mapping[str, Any]) -> list[str]:
     """What to write under the first word."""
     if "limit" in fields and event.kind is RefusalKind.CORNER_TOO_LARGE:

@@ -882,3 +882,24 @@ def test_completions_without_a_contour_end_with_a_question_mark():
         for each in completions(case.text, control="yasnac-lx3", start=case.start_text):
             assert each.word in each.block
             assert each.word.endswith("?") == (each.contour is None)
+
+
+# Slips of a newcomer -------------------------------------------------------------------------------------
+
+MEANT = "G111 X100. A180. K-30. B120."
+
+
+@pytest.mark.parametrize("text", ["G111 X100 A180 K-30 B120", "G111 X100. A180 K-30. B120."])
+def test_a_forgotten_point_is_told_and_mended_first(text):
+    answer = answer_to(text)
+    error = next(each for each in answer.diagnostics if each.severity is Severity.ERROR)
+    assert error.notes[0] == "A180 is read as 0.180 deg: it has no decimal point"
+    assert error.help.startswith("write A180. if that is meant")
+    assert error.fixes[0].replacement == MEANT
+    (told,) = (each for each in answer.diagnostics if each.code == "point-missing")
+    assert "0.180 deg" in told.message
+
+
+def test_least_increments_that_mean_what_they_say_are_left_alone():
+    for text in ("G111 A180000 K-30000 B120000 X100000", "G111 A180000 K-30000 B120000"):
+        assert "point-missing" not in {each.code for each in answer_to(text).diagnostics}

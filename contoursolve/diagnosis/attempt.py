@@ -94,9 +94,11 @@ def choose_repairs(
     return Repairs(tuple(found), is_complete=len(tried) + spent <= most)
 
 
-def _order(repair: Repair) -> tuple[bool, int, int, float]:
+def _order(repair: Repair) -> tuple[bool, bool, int, int, float]:
     is_placeholder = repair.applicability is Applicability.PLACEHOLDER
-    return is_placeholder, len(repair.edits), repair.warnings, repair.deviation
+    # A forgotten point is the commonest slip, and one slip however many words lack it.
+    is_slip = all(edit.text == edit.old + "." for edit in repair.edits)
+    return is_placeholder, not is_slip, len(repair.edits), repair.warnings, repair.deviation
 
 
 def _try(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> Repair | None:

@@ -12,11 +12,12 @@ from contoursolve.syntax import FACT, FaultKind, Word
 
 
 def missing_points(answer: Answer) -> Iterator[tuple[Edit, ...]]:
-    """Decimal points added to the words that lack them, where others of the block have one: each alone, and all."""
+    """Decimal points added to the words that lack them: each alone where others of the block have one, and all."""
     missing = [each for each in answer.diagnostics if each.about is Trouble.POINT_MISSING]
-    spans = {finding.span for finding in missing}
+    spans = {label.span for finding in missing for label in finding.labels}
     edits = [change(word, word.text + ".") for word in answer.claim.words.values() if word.span in spans]
-    yield from ((edit,) for edit in edits)
+    if len(missing) == len(spans):
+        yield from ((edit,) for edit in edits)
     if len(edits) > 1:
         yield tuple(edits)
 
