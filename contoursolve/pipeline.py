@@ -190,6 +190,9 @@ def walk(
 _FAULTS_OF_NO_CONSEQUENCE = (FaultKind.STRAY_CHARACTER,)
 """Faults that are only worth a warning in a block that is not a contour."""
 
+_NEAR = 8
+"""Blocks after a contour of which a repair may make a part of it."""
+
 _BATCH = 1_000
 """Blocks that are read at once."""
 
@@ -275,8 +278,22 @@ class _Examiner:
                     start_unit = found.after.unit
                 else:
                     self._check_block(block)
+                    self._check_commas(view, place, (before, state))
                 yield Step(blocks_of_step, before, findings=self._findings())
             index = base + after
+
+    def _check_commas(self, blocks: Sequence[Block], index: int, states: tuple[State, State]) -> None:
+        """Whether a line lacks the comma that would make a contour of it, where the control knows such words."""
+        block, dialect = blocks[index], self.dialect
+        if dialect is None or self.depth is Depth.VERDICT:
+            return
+        addresses = dialect.modes.lexicon.addresses
+        if any(f",{word.address}" in addresses for word in block.words):
+            # Few programs need it.
+            from contoursolve.commas import explain_commas  # noqa: PLC0415
+
+            context = Context(self.rules, self.unit, place=block.span)
+            self.diagnostics += explain_commas(context, dialect, blocks[: index + _NEAR], index, states)
 
     def _findings(self) -> tuple[Diagnostic, ...]:
         """What was found since the last step."""
@@ -300,7 +317,7 @@ class _Examiner:
             # Most programs need no diagnosis, and none should wait for its import.
             from contoursolve.diagnosis import diagnose  # noqa: PLC0415
 
-            answer = diagnose(answer, dialect, self.policy)
+            answer = diagnose(answer, dialect, self.policy, blocks[after : after + _NEAR])
         return answer
 
     def _check_units(self, start: Program | None, unit: Length, found: Claim) -> None:

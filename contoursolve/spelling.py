@@ -1,6 +1,6 @@
 """Findings about characters, words and positions, before the equations are looked at."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from decimal import Decimal
 
@@ -87,10 +87,24 @@ def explain_words(
 
 
 def _explain_unknown(context: Context, claim: Claim) -> Iterator[Diagnostic]:
-    allowed = ", ".join(sorted(claim.form.allowed - {"N", "G"}))
+    form = claim.form
+    own = [address for address in claim.lexicon.addresses if address in form.allowed]
+    others = sorted(form.allowed - {"N", "G", *own})
+    allowed = " ".join(own) + (f", and besides {' '.join(others)}" if others else "")
     for word in claim.unknown:
-        rule = context.row(Trouble.UNKNOWN_ADDRESS)
-        yield report(context, rule, Basis.RULE, [word], form=claim.form.name, allowed=allowed)
+        rule, other = context.row(Trouble.UNKNOWN_ADDRESS), respelled(word, form.allowed)
+        do = f"write {other}" if other else "delete it"
+        name = form.name if form.name.startswith("G") else form.title
+        yield report(context, rule, Basis.RULE, [word], form=name, allowed=allowed, do=do)
+
+
+def respelled(word: Word, allowed: Container[str]) -> str:
+    """The word with the comma that its address lacks, or without the one that it has not; empty if there is no such
+    address."""
+    has_comma = word.address.startswith(",")
+    other = word.address[1:] if has_comma else f",{word.address}"
+    text = word.text.strip()
+    return "" if other not in allowed else text.replace(",", "", 1).strip() if has_comma else f",{text}"
 
 
 def explain_start(context: Context, claim: Claim) -> Diagnostic:

@@ -107,8 +107,8 @@ READING_RULES = (
     ),
     Rule(
         code="address-unknown",
-        message="{words}: the address {address} has no meaning in {form}",
-        help="delete it; {form} reads {allowed}",
+        message="{words}: the address {address} has no meaning in this contour ({form})",
+        help="{do}; such a contour is written with {allowed}",
         source=_READING,
         about=Trouble.UNKNOWN_ADDRESS,
         accepted=(_GOOD,),
