@@ -136,8 +136,13 @@ def _corrections(claim: Claim, dialect: Dialect) -> Iterator[tuple[str, list[Edi
             if given.unit is Unit.SIGN:
                 yield name, [change(word, f"{word.address}-1"), change(word, f"{word.address}1")]
             elif given.value:
-                value = float(given.value % 360 if given.unit is Unit.DEGREE else abs(given.value))
-                yield name, [change(word, write_word(word.address, value, dialect.modes.lexicon, claim.after.unit))]
+                values = [float(abs(given.value))]
+                if given.unit is Unit.DEGREE:
+                    within = float(given.value % 360)
+                    # The line may have to run the other way.
+                    values = [within, within - 180 if within > 0 else within + 180]
+                lexicon, unit = dialect.modes.lexicon, claim.after.unit
+                yield name, [change(word, write_word(word.address, value, lexicon, unit)) for value in values]
 
 
 def _additions(claim: Claim, dialect: Dialect, name: str, geometries: Iterable[_Geometry]) -> list[Edit]:
