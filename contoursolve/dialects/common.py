@@ -165,7 +165,7 @@ READING_RULES = (
     Rule(
         code="no-contour",
         message="nothing to solve: the program has no contour block",
-        help="contour blocks are {triggers}",
+        help="contour blocks {triggers}",
         source=_READING,
         about=Trouble.NO_CONTOUR,
         accepted=(_GOOD,),
