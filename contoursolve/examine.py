@@ -22,7 +22,6 @@ from contoursolve.explain import (
     explain_result,
     explain_singular,
     report,
-    without_point,
 )
 from contoursolve.model import Length, Plane, Profile, Question, Side, Start
 from contoursolve.reading import Claim, Trouble, read, unused_words
@@ -45,7 +44,14 @@ from contoursolve.solving.certificate import Certificate
 if TYPE_CHECKING:
     from contoursolve.solving.alternatives import Alternatives
 from contoursolve.source import Span
-from contoursolve.spelling import explain_skippable, explain_spelling, explain_start, explain_unmarked
+from contoursolve.spelling import (
+    explain_skippable,
+    explain_spelling,
+    explain_start,
+    explain_unmarked,
+    tell_points,
+    without_point,
+)
 
 
 class Policy(Enum):
@@ -160,7 +166,7 @@ def examine(
     offences = _offences(claim, rules) if is_whole and policy is not Policy.OFF else ()
     for offence in offences:
         if not offence.rule.ignores:
-            finding = explain_offence(context, offence)
+            finding = explain_offence(context, offence, claim.givens)
             weaker = replace(finding, severity=Severity.WARNING)
             # What states or asks more than the control reads is not a block for the control yet.
             is_strict = policy is Policy.ENFORCE and not _is_extended(claim)
@@ -174,8 +180,7 @@ def examine(
     if not profile.start.is_known:
         notebook.add(explain_start(context, claim), Status.UNDERDETERMINED)
     unmarked = (finding for block in claim.blocks for finding in explain_unmarked(context, block))
-    for finding in (*explain_skippable(context, claim), *without_point(context, claim), *unmarked):
-        notebook.add(finding)
+    notebook.findings += (*explain_skippable(context, claim), *unmarked)
     explained = {label.span for finding in notebook.findings for label in finding.labels}
     for word in unused_words(claim, profile) if is_whole else ():
         # Whatever the rules say of it: nothing is dropped without a word.
@@ -186,6 +191,7 @@ def examine(
         solution, alternatives = _examine_geometry(context, claim, profile, notebook, depth)
     for offence in ignoring:
         notebook.add(explain_ignored(context, offence, profile, solution))
+    notebook.findings += without_point(context, claim, notebook.findings)
 
     is_path = bool(solution.points) and notebook.status in (Status.SOLVED, Status.OVERDETERMINED)
     contour = trace(profile, solution) if is_path else None
@@ -207,7 +213,7 @@ def examine(
         contour=contour,
         sides=sides if contour else {},
         error_bound=solution.error_bound,
-        diagnostics=tuple(sorted(notebook.findings, key=rank)),
+        diagnostics=tuple(sorted(tell_points(context, claim, notebook.findings), key=rank)),
         certificate=solution.certificate if contour else None,
         answers=tuple(answer_question(question, profile, solution) for question in profile.questions),
         alternatives=alternatives,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from decimal import Decimal
 from enum import Enum
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
@@ -12,7 +13,7 @@ from contoursolve.analysis import Verdict
 from contoursolve.constraints import Radius, assemble
 from contoursolve.contour import Contour, LineSegment
 from contoursolve.diagnostic import Basis, Diagnostic, Label
-from contoursolve.model import Length, Profile, Role, Unit
+from contoursolve.model import Given, Length, Profile, Role, Unit
 from contoursolve.reading import Claim, Trouble
 from contoursolve.rules import Offence, Rule
 from contoursolve.solving import Refusal, RefusalKind, Remark, RemarkKind, Solution, compare, lookup, scalars_of
@@ -150,14 +151,25 @@ def _named(words: Sequence[Word], names: Mapping[str, Word]) -> Iterable[tuple[s
     return ((known.get(id(word), word.address), word.text) for word in words)
 
 
-def explain_offence(context: Context, offence: Offence, comparison: str = "") -> Diagnostic:
-    """A rule on combinations that holds."""
+def explain_offence(context: Context, offence: Offence, givens: Mapping[str, Given]) -> Diagnostic:
+    """A rule on combinations that holds. `givens` are the values of the words."""
     words = [context.words[name] for name in offence.names if name in context.words]
     block = [word.span for name, word in context.words.items() if name.startswith(offence.role.prefixes[-1])]
     if not words and block and min(block).line != context.place.line:
         # What is missing is missing in the last block that the rule is about.
         context = replace(context, place=min(block))
-    return report(context, offence.rule, Basis.RULE, words, comparison=comparison)
+    turned = (givens[name] for name in offence.names if name in givens and givens[name].unit is Unit.DEGREE)
+    within = [f"{each.word.address}{_pointed(each.value % _FULL_TURN)}" for each in turned if each.word]
+    return report(context, offence.rule, Basis.RULE, words, comparison="", within=join(within))
+
+
+_FULL_TURN = 360
+
+
+def _pointed(value: Decimal) -> str:
+    """A number as a word has it, with its decimal point."""
+    text = f"{value:f}"
+    return f"{text.rstrip('0')}" if "." in text else f"{text}."
 
 
 def explain_ignored(context: Context, offence: Offence, profile: Profile, solution: Solution) -> Diagnostic:
@@ -336,20 +348,6 @@ def explain_beyond(context: Context, profile: Profile, solution: Solution, conto
         place = place_text(profile, scalars_of({"": at}))
         fields: dict[str, Any] = {"element": element.name, "whole": whole, "place": place}
         yield report(context, context.row(Trouble.FACT_BEYOND), Basis.NUMERICAL, [word] if word else [], **fields)
-
-
-def without_point(context: Context, claim: Claim) -> Iterator[Diagnostic]:
-    """Words that are read in least increments because they have no decimal point, where others have one."""
-    words = [given.word for given in claim.givens.values() if given.word and given.word.number]
-    for given in claim.givens.values() if any(word.has_point for word in words) else ():
-        word = given.word
-        if word is None or not word.number or word.has_point or given.unit is Unit.SIGN:
-            continue
-        typed = given.value * 2 if given.is_diameter else given.value
-        if abs(typed) < abs(word.number):
-            is_length = given.unit is Unit.MM
-            text = length_text(float(typed), context.unit) if is_length else angle_text(float(typed))
-            yield report(context, context.row(Trouble.POINT_MISSING), Basis.RULE, [word], actual=text)
 
 
 def _labels(event: Refusal | Remark, fields: Mapping[str, Any]) -> list[str]:

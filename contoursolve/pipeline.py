@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, cast
 from contoursolve.diagnostic import Basis, Diagnostic, Severity
 from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.examine import Answer, Depth, Policy, examine, rank
-from contoursolve.explain import Context, report
+from contoursolve.explain import Context, join, report
 from contoursolve.model import Length, Plane
 from contoursolve.reading import (
     Claim,
@@ -129,11 +129,17 @@ def recognise(program: Program) -> Dialect | None:
 
     Raises UnknownControlError if its blocks show more than one.
     """
-    signs = {name: block.line for name, dialect in DIALECTS.items() for block in program.blocks if dialect.signs(block)}
+    signs = {name: sign for name, dialect in DIALECTS.items() for sign in [_sign(program.blocks, dialect)] if sign}
     if len(signs) > 1:
-        places = ", ".join(f"{name} by line {line}" for name, line in signs.items())
+        places = ", ".join(f"{name} by {sign}" for name, sign in signs.items())
         raise UnknownControlError(f"the program looks like more than one control ({places})")
     return DIALECTS[next(iter(signs))] if signs else None
+
+
+def _sign(blocks: Iterable[Block], dialect: Dialect) -> str:
+    """What first shows that blocks are for a control; empty if nothing does."""
+    shown = ((block.line, words) for block in blocks for words in [dialect.signs(block)] if words)
+    return next((f"{join([word.text.strip() for word in words])} in line {line}" for line, words in shown), "")
 
 
 def first_sign(blocks: Iterable[Block]) -> Dialect | None:
@@ -166,7 +172,7 @@ def run(
         if step.answer is not None:
             answers.append(step.answer)
     if not answers and not any(each.severity is Severity.ERROR for each in everything):
-        everything.append(examiner.nothing_to_solve())
+        everything.append(examiner.nothing_to_solve(program.blocks))
     everything += [each for answer in answers for each in answer.diagnostics]
     everything.sort(key=rank)
     control, settings = (dialect.name, dialect.modes.settings) if dialect else (None, {})
@@ -189,6 +195,9 @@ def walk(
 
 _FAULTS_OF_NO_CONSEQUENCE = (FaultKind.STRAY_CHARACTER,)
 """Faults that are only worth a warning in a block that is not a contour."""
+
+_NEAR = 8
+"""Blocks after a contour of which a repair may make a part of it."""
 
 _BATCH = 1_000
 """Blocks that are read at once."""
@@ -275,8 +284,20 @@ class _Examiner:
                     start_unit = found.after.unit
                 else:
                     self._check_block(block)
+                    self._check_commas(view, place, (before, state))
                 yield Step(blocks_of_step, before, findings=self._findings())
             index = base + after
+
+    def _check_commas(self, blocks: Sequence[Block], index: int, states: tuple[State, State]) -> None:
+        """Whether a line lacks the comma that would make a contour of it, where the control knows such words."""
+        block, dialect = blocks[index], self.dialect
+        if dialect is None or self.depth is Depth.VERDICT:
+            return
+        if any(f",{word.address}" in dialect.modes.lexicon.addresses for word in block.words):
+            from contoursolve.commas import explain_commas  # noqa: PLC0415 - few programs need it
+
+            context = Context(self.rules, self.unit, place=block.span)
+            self.diagnostics += explain_commas(context, dialect, blocks[: index + _NEAR], index, states)
 
     def _findings(self) -> tuple[Diagnostic, ...]:
         """What was found since the last step."""
@@ -300,7 +321,7 @@ class _Examiner:
             # Most programs need no diagnosis, and none should wait for its import.
             from contoursolve.diagnosis import diagnose  # noqa: PLC0415
 
-            answer = diagnose(answer, dialect, self.policy)
+            answer = diagnose(answer, dialect, self.policy, blocks[after : after + _NEAR])
         return answer
 
     def _check_units(self, start: Program | None, unit: Length, found: Claim) -> None:
@@ -309,17 +330,14 @@ class _Examiner:
             place = Context(self.rules, unit, place=start.blocks[0].span)
             self.diagnostics.append(explain_start_units(place, found.after.unit, start.blocks[0]))
 
-    def nothing_to_solve(self) -> Diagnostic:
+    def nothing_to_solve(self, blocks: Sequence[Block]) -> Diagnostic:
         """The finding that a program has no contour block."""
-        forms = dict.fromkeys(
-            f"{form.name} ({form.title}, {dialect.name})"
-            for dialect in DIALECTS.values()
-            for form in dialect.forms
-            if self.dialect in (None, dialect) and form.is_contour
-        )
+        own = self.dialect.name if self.dialect else None
+        triggers = [f"of {name}: {each.contours}" for name, each in DIALECTS.items() if own in (None, name)]
+        others = ((name, _sign(blocks, each)) for name, each in DIALECTS.items() if own not in (None, name))
+        triggers += [f"{sign} is for {name}: try --control {name}" for name, sign in others if sign]
         context = Context(self.rules, self.unit)
-        rule = context.row(Trouble.NO_CONTOUR)
-        return report(context, rule, Basis.RULE, [], triggers=" and ".join(forms))
+        return report(context, context.row(Trouble.NO_CONTOUR), Basis.RULE, [], triggers="; ".join(triggers))
 
     def _check_block(self, block: Block) -> None:
         context = Context(self.rules, self.unit, place=block.span)

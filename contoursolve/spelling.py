@@ -1,12 +1,12 @@
 """Findings about characters, words and positions, before the equations are looked at."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from decimal import Decimal
 
-from contoursolve.diagnostic import Basis, Diagnostic, Label
-from contoursolve.explain import Context, length_text, report
-from contoursolve.model import Length
+from contoursolve.diagnostic import Basis, Diagnostic, Label, Severity
+from contoursolve.explain import Context, angle_text, join, length_text, report
+from contoursolve.model import Given, Length, Unit
 from contoursolve.reading import Claim, Lexicon, Trouble
 from contoursolve.source import Span
 from contoursolve.syntax import Block, Fault, Word
@@ -87,10 +87,24 @@ def explain_words(
 
 
 def _explain_unknown(context: Context, claim: Claim) -> Iterator[Diagnostic]:
-    allowed = ", ".join(sorted(claim.form.allowed - {"N", "G"}))
+    form = claim.form
+    own = [address for address in claim.lexicon.addresses if address in form.allowed]
+    others = sorted(form.allowed - {"N", "G", *own})
+    allowed = " ".join(own) + (f", and besides {' '.join(others)}" if others else "")
     for word in claim.unknown:
-        rule = context.row(Trouble.UNKNOWN_ADDRESS)
-        yield report(context, rule, Basis.RULE, [word], form=claim.form.name, allowed=allowed)
+        rule, other = context.row(Trouble.UNKNOWN_ADDRESS), respelled(word, form.allowed)
+        do = f"write {other}" if other else "delete it"
+        name = form.name if form.name.startswith("G") else form.title
+        yield report(context, rule, Basis.RULE, [word], form=name, allowed=allowed, do=do)
+
+
+def respelled(word: Word, allowed: Container[str]) -> str:
+    """The word with the comma that its address lacks, or without the one that it has not; empty if there is no such
+    address."""
+    has_comma = word.address.startswith(",")
+    other = word.address[1:] if has_comma else f",{word.address}"
+    text = word.text.strip()
+    return "" if other not in allowed else text.replace(",", "", 1).strip() if has_comma else f",{text}"
 
 
 def explain_start(context: Context, claim: Claim) -> Diagnostic:
@@ -119,3 +133,74 @@ def explain_skippable(context: Context, claim: Claim) -> Iterator[Diagnostic]:
     skippable = {block.is_skippable for block in claim.blocks}
     if len(skippable) > 1 or any(claim.before.axes[axis].is_skippable for axis in claim.before.plane.axes):
         yield report(context, context.row(Trouble.SKIPPABLE_START), Basis.RULE, [])
+
+
+_FULL_TURN, _MANY_INCREMENTS = 360, 1_000
+"""A number that is no larger says a direction in degrees, or a length under 1 mm in least increments."""
+
+
+def without_point(context: Context, claim: Claim, findings: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
+    """Words that are read in least increments because they have no decimal point: each where others have one, and all
+    together where none has and the values are hardly meant like this."""
+    counted = _counted(context, claim)
+    words = list(counted)
+    rule = context.row(Trouble.POINT_MISSING)
+    if any(given.word and given.word.number and given.word.has_point for given in claim.givens.values()):
+        for word, value in counted.items():
+            yield report(context, rule, Basis.RULE, [word], are="is", have="has", actual=value)
+    elif words and _is_slip(claim, words, has_error=any(each.severity is Severity.ERROR for each in findings)):
+        several = len(words) > 1
+        values = join(list(counted.values()))
+        yield report(
+            context,
+            rule,
+            Basis.RULE,
+            words,
+            are="are" if several else "is",
+            have="have" if several else "has",
+            actual=values,
+        )
+
+
+def tell_points(context: Context, claim: Claim, findings: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
+    """Findings, the errors about a word that lacks its point with how it was read, before what else may be done."""
+    findings = list(findings)
+    lacking = {label.span for each in findings if each.about is Trouble.POINT_MISSING for label in each.labels}
+    counted = {word: value for word, value in _counted(context, claim).items() if word.span in lacking}
+    for finding in findings:
+        spans = {label.span for label in finding.labels}
+        blamed = {word: value for word, value in counted.items() if word.span in spans}
+        if not blamed or finding.severity is Severity.INFO or finding.basis is not Basis.NUMERICAL:
+            yield finding
+            continue
+        notes = tuple(f"{word.text} is read as {value}: it has no decimal point" for word, value in blamed.items())
+        meant = join([f"{word.text}." for word in blamed])
+        yield replace(finding, notes=notes + finding.notes, help=f"write {meant} if that is meant; else {finding.help}")
+
+
+def _counted(context: Context, claim: Claim) -> Mapping[Word, str]:
+    """The words of a contour that count least increments, each with its value in the order of the block."""
+    counted = {}
+    for given in sorted((each for each in claim.givens.values() if each.word), key=_place):
+        word = given.word
+        if word is None or not word.number or word.has_point or given.unit is Unit.SIGN:
+            continue
+        typed = given.value * 2 if given.is_diameter else given.value
+        if abs(typed) < abs(word.number):
+            is_length = given.unit is Unit.MM
+            counted[word] = length_text(float(typed), context.unit) if is_length else angle_text(float(typed))
+    return counted
+
+
+def _place(given: Given) -> Span:
+    return given.word.span if given.word else Span(0, 0, 0)
+
+
+def _is_slip(claim: Claim, words: Sequence[Word], *, has_error: bool) -> bool:
+    """Whether words without any point mean what they say: their angles would be directions in degrees, or without
+    an angle a block that is refused would have no length of 1 mm."""
+    angles = [word for word in words if claim.lexicon.addresses[word.address].unit is Unit.DEGREE]
+    most = _FULL_TURN if angles else _MANY_INCREMENTS
+    return (bool(angles) or has_error) and all(
+        word.number is None or abs(word.number) <= most for word in angles or words
+    )

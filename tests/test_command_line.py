@@ -605,3 +605,14 @@ def test_a_start_point_in_another_unit_than_the_contour_is_pointed_out():
         _, output, _ = run("solve", *inches, *arguments)
         assert "start-units" not in output
         assert "start X   2.00000" in output
+
+
+def test_the_other_control_is_named_with_the_words_that_show_it(save):
+    chamfer, both = "G17 G90 G0 X0 Y0\nG1 X30 ,C10\nX40 Y40\n", "G1 X30 ,C10\nG111 A4.\n"
+    _, output, _ = run("check", save(chamfer), "--control", "yasnac-lx3")
+    (advice,) = (line for line in output.splitlines() if "= help" in line)
+    assert "G111" in advice
+    assert advice.endswith(",C10 in line 2 is for nct-99m: try --control nct-99m")
+    assert len(advice) < 200
+    _, _, errors = run("check", save(both))
+    assert "yasnac-lx3 by G111 in line 2, nct-99m by ,C10 in line 1" in errors

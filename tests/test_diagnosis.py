@@ -882,3 +882,39 @@ def test_completions_without_a_contour_end_with_a_question_mark():
         for each in completions(case.text, control="yasnac-lx3", start=case.start_text):
             assert each.word in each.block
             assert each.word.endswith("?") == (each.contour is None)
+
+
+# Slips of a newcomer -------------------------------------------------------------------------------------
+
+MEANT = "G111 X100. A180. K-30. B120."
+
+
+@pytest.mark.parametrize("text", ["G111 X100 A180 K-30 B120", "G111 X100. A180 K-30. B120."])
+def test_a_forgotten_point_is_told_and_mended_first(text):
+    answer = answer_to(text)
+    error = next(each for each in answer.diagnostics if each.severity is Severity.ERROR)
+    assert error.notes[0] == "A180 is read as 0.180 deg: it has no decimal point"
+    assert error.help.startswith("write A180. if that is meant")
+    assert error.fixes[0].replacement == MEANT
+    (told,) = (each for each in answer.diagnostics if each.code == "point-missing")
+    assert "0.180 deg" in told.message
+
+
+def test_least_increments_that_mean_what_they_say_are_left_alone():
+    for text in ("G111 A180000 K-30000 B120000 X100000", "G111 A180000 K-30000 B120000"):
+        assert "point-missing" not in {each.code for each in answer_to(text).diagnostics}
+
+
+def test_a_decimal_comma_in_a_fact_is_told_as_in_a_word_and_mended():
+    answer = answer_to("G111 A180. B120. X100. (contoursolve: length of line 1 = 30,5)")
+    error = next(each for each in answer.diagnostics if each.severity is Severity.ERROR)
+    assert error.message.endswith("30,5 has a decimal comma; write 30.5")
+    assert error.fixes[0].replacement.endswith("length of line 1 = 30.5)")
+
+
+@pytest.mark.parametrize(("angle", "said", "fixed"), [("A400.", "A40.", "A-140."), ("A580.", "A220.", "A220.")])
+def test_an_angle_of_more_than_a_turn_is_told_as_one_within_a_turn_and_the_fix_runs_forward(angle, said, fixed):
+    answer = answer_to(f"G111 {angle} K-30. B120. X100.")
+    (error,) = answer.diagnostics
+    assert said in error.help
+    assert error.fixes[0].replacement == f"G111 {fixed} K-30. B120. X100."

@@ -30,7 +30,7 @@ FLOORS = (
     "examine",
     "dialects",
     "diagnosis",
-    "fill",
+    "fill commas",
     "pipeline project verification unfamiliar",
     "lines comparison",
     "expansion",

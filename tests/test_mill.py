@@ -281,3 +281,18 @@ def test_an_angle_that_is_asked_for_beside_a_point_is_answered() -> None:
     (asked,) = answer.answers
     to_center, away = degrees(atan2(-30, -80)) % 360, degrees(asin(50 / hypot(80, 30)))
     assert asked.value == pytest.approx(to_center - away, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("text", "code", "fixed"),
+    [
+        ("G1 X30 ,C10\nX40 Y40 C4\nX80", "address-unknown", "G1 X30 ,C10\nX40 Y40 ,C4"),
+        ("G1 X30 ,C10\nX40 Y40 R5\nX80", "nct-center-on-line", "G1 X30 ,C10\nX40 Y40 ,R5"),
+        ("G1 X30 ,C10\nX40 A30", "address-unknown", "G1 X30 ,C10\nX40 ,A30"),
+        ("G1 X30 C10\nX40 Y40 ,R5\nX80", "nct-comma-missing", "G1 X30 ,C10"),
+    ],
+)
+def test_a_forgotten_comma_is_told_and_written_first(text, code, fixed):
+    (finding,) = solve("G17 G90 G0 X0 Y0\n" + text, control="nct-99m").diagnostics
+    assert finding.code == code
+    assert finding.fixes[0].replacement == fixed

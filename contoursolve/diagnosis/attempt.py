@@ -16,7 +16,7 @@ from contoursolve.examine import Answer, Policy, examine
 from contoursolve.model import Profile
 from contoursolve.reading import Claim, read
 from contoursolve.solving import Status
-from contoursolve.syntax import parse_block
+from contoursolve.syntax import Block, parse_block
 from contoursolve.tolerance import AGREEMENT
 
 MOST_TRIED = 60
@@ -42,6 +42,8 @@ class Before:
     codes: frozenset[str]
     contour: Contour | None
     next_place: tuple[Decimal, Decimal] | None = None
+    following: tuple[Block, ...] = ()
+    """The blocks after it, of which a corner needs one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,9 +96,11 @@ def choose_repairs(
     return Repairs(tuple(found), is_complete=len(tried) + spent <= most)
 
 
-def _order(repair: Repair) -> tuple[bool, int, int, float]:
+def _order(repair: Repair) -> tuple[bool, bool, int, int, float]:
     is_placeholder = repair.applicability is Applicability.PLACEHOLDER
-    return is_placeholder, len(repair.edits), repair.warnings, repair.deviation
+    # A forgotten point or comma is the commonest slip, and one slip however many words lack it.
+    is_slip = all(edit.text == f"{edit.old}." or _is_comma(edit) for edit in repair.edits)
+    return is_placeholder, not is_slip, len(repair.edits), repair.warnings, repair.deviation
 
 
 def _try(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> Repair | None:
@@ -143,7 +147,7 @@ def _now_agrees(finding: Diagnostic, before: Before) -> bool:
 
 def examine_edited(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> Answer | None:
     """The answer to the edited blocks; None where they are not read as the same contour any more."""
-    found = _find(claim, dialect, edits)
+    found = _find(claim, dialect, edits, before.following)
     if found is None or _largest_step(found, before) > LARGEST_STEP:
         return None
     return examine(found, dialect.rules, Policy.ENFORCE, lambda: before.next_place)
@@ -178,13 +182,21 @@ def _with_facts(profile: Profile, claim: Claim, next_place: tuple[Decimal, Decim
     return extended, not faults
 
 
-def _find(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...]) -> Claim | None:
+def _is_comma(edit: Edit) -> bool:
+    """Whether the address gets a comma or loses it."""
+    return edit.kind is EditKind.CHANGE and edit.text != edit.old and edit.text.strip(", ") == edit.old.strip(", ")
+
+
+def _find(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], following: tuple[Block, ...] = ()) -> Claim | None:
     texts = apply_edits(claim.blocks, edits)
     blocks = [parse_block(text, block.line) for text, block in zip(texts, claim.blocks, strict=True)]
     apart = edit_facts([each for each in claim.directives if each.span.line < 0], edits)
     blocks[-1] = replace(blocks[-1], directives=(*blocks[-1].directives, *apart))
-    found = dialect.find(blocks, 0, claim.before, dialect.modes)
-    return found if isinstance(found, Claim) and len(found.blocks) == len(blocks) else None
+    more = following if all(map(_is_comma, edits)) else ()
+    found = dialect.find([*blocks, *more], 0, claim.before, dialect.modes)
+    if not isinstance(found, Claim):
+        return None
+    return found if len(found.blocks) == len(blocks) or (more and len(found.blocks) > len(blocks)) else None
 
 
 _SAMPLE = "37.123"

@@ -1,6 +1,6 @@
 """Adds to the findings of a contour why they are so, and what to write instead."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from contoursolve.analysis import judge
@@ -18,18 +18,19 @@ from contoursolve.explain import length_text, place_text
 from contoursolve.reading import Trouble
 from contoursolve.solving import RefusalKind, RemarkKind, scalars_of
 from contoursolve.source import Span
-from contoursolve.syntax import FACT, Word
+from contoursolve.syntax import FACT, Block, Word
 from contoursolve.tolerance import AGREEMENT, RADIUS_DIFFERENCE
 
 
-def diagnose(answer: Answer, dialect: Dialect, policy: Policy) -> Answer:
-    """The answer with a diagnosis; its findings with their reasons, the first one with the repairs."""
+def diagnose(answer: Answer, dialect: Dialect, policy: Policy, following: Iterable[Block] = ()) -> Answer:
+    """The answer with a diagnosis; its findings with their reasons, the first one with the repairs. `following` are
+    the next blocks."""
     profile = answer.profile
     affine = affine_facts(profile, (*profile.facts, *profile.ignored))
     is_readable = not any(block.faults for block in answer.claim.blocks)
     circuits = affine.circuits() if affine and is_readable else ()
     freedoms = affine.freedoms() if affine and is_readable else ()
-    repairs = find_repairs(answer, dialect)
+    repairs = find_repairs(answer, dialect, tuple(following))
     diagnosis = Diagnosis(
         layers=list_layers(answer, policy),
         freedoms=freedoms,

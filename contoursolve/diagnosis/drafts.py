@@ -4,21 +4,38 @@ from collections.abc import Iterator
 from itertools import product
 
 from contoursolve.diagnosis.edits import Edit, EditKind, write_word
+from contoursolve.diagnostic import Severity
 from contoursolve.examine import Answer
 from contoursolve.model import Given, Length, Unit
 from contoursolve.reading import Claim, Lexicon, Trouble
-from contoursolve.spelling import unanswerable
+from contoursolve.spelling import respelled, unanswerable
 from contoursolve.syntax import FACT, FaultKind, Word
 
 
 def missing_points(answer: Answer) -> Iterator[tuple[Edit, ...]]:
-    """Decimal points added to the words that lack them, where others of the block have one: each alone, and all."""
+    """Decimal points added to the words that lack them: each alone where others of the block have one, and all."""
     missing = [each for each in answer.diagnostics if each.about is Trouble.POINT_MISSING]
-    spans = {finding.span for finding in missing}
+    spans = {label.span for finding in missing for label in finding.labels}
     edits = [change(word, word.text + ".") for word in answer.claim.words.values() if word.span in spans]
-    yield from ((edit,) for edit in edits)
+    if len(missing) == len(spans):
+        yield from ((edit,) for edit in edits)
     if len(edits) > 1:
         yield tuple(edits)
+
+
+def commas(answer: Answer) -> Iterator[tuple[Edit, ...]]:
+    """Words that an error is about, with the comma that their address lacks or without the one that it has not: all
+    and each alone."""
+    claim = answer.claim
+    errors = [each for each in answer.diagnostics if each.severity is Severity.ERROR]
+    blamed = {label.span for finding in errors for label in finding.labels}
+    words = dict.fromkeys((*claim.unknown, *claim.words.values()))
+    found = [(word, respelled(word, claim.form.allowed)) for word in words if word.span in blamed]
+    edits = [change(word, text) for word, text in found if text]
+    if edits:
+        yield tuple(edits)
+    if len(edits) > 1:
+        yield from ((edit,) for edit in edits)
 
 
 def marked(answer: Answer) -> Iterator[tuple[Edit, ...]]:

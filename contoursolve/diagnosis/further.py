@@ -32,6 +32,7 @@ _NOT_TOGETHER = (
     Trouble.FACTS_SINGULAR,
 )
 _USELESS = (Trouble.FACT_UNREADABLE, Trouble.FACT_IMPOSSIBLE)
+_DECIMAL_COMMA = re.compile(r"(?<=\d),(?=\d)")
 _VALUE = re.compile(r"=\s*(?P<number>[+-]?(?:\d+\.?\d*|\.\d+))\s*$")
 
 
@@ -43,6 +44,7 @@ def further_drafts(answer: Answer, dialect: Dialect, before: Before) -> Iterator
     yield missing_points(answer)
     yield marked(answer)
     yield _brackets(answer)
+    yield _decimal_commas(answer)
     yield _useless(answer, findings)
     twice = [each for each in findings if each.about in _TWICE]
     missing = list(_additions(answer)) if any(each.about is Trouble.UNDERDETERMINED for each in findings) else [()]
@@ -72,6 +74,14 @@ def _brackets(answer: Answer) -> Iterator[tuple[Edit, ...]]:
             if "(" in directive.text and ")" in block.text[end + 1 :]:
                 old, span = block.text[begin : end + 1], Span(block.line, begin + 1, end + 2)
                 yield (change(Word(FACT, None, False, old, span), f"[{old[1:-1]}]"),)
+
+
+def _decimal_commas(answer: Answer) -> Iterator[tuple[Edit, ...]]:
+    """Facts with a decimal comma, with a point for it: no comma of a fact stands between digits otherwise."""
+    for word in map(word_of, answer.claim.directives):
+        text = _DECIMAL_COMMA.sub(".", word.text)
+        if text != word.text:
+            yield (change(word, text),)
 
 
 def _useless(answer: Answer, findings: list[Diagnostic]) -> Iterator[tuple[Edit, ...]]:

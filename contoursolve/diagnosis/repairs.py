@@ -10,7 +10,7 @@ from math import copysign
 
 from contoursolve.diagnosis.affine import AffineFacts, Circuit, affine_facts
 from contoursolve.diagnosis.attempt import LARGEST_ROLE, Before, Repairs, choose_repairs
-from contoursolve.diagnosis.drafts import change, drop, has_faults, marked, missing_points, unreadable, variants
+from contoursolve.diagnosis.drafts import change, commas, drop, has_faults, marked, missing_points, unreadable, variants
 from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, write_word
 from contoursolve.diagnostic import Diagnostic, Severity
 from contoursolve.dialects import Dialect
@@ -19,17 +19,17 @@ from contoursolve.model import Given, Profile, Role, Unit
 from contoursolve.reading import Claim, Form, read
 from contoursolve.rules import Rule, check
 from contoursolve.solving import Status, lookup
-from contoursolve.syntax import Word
+from contoursolve.syntax import Block, Word
 from contoursolve.tolerance import AGREEMENT
 
 MOST_EDITS = 4
 """Words that a repair may touch; more is a new block."""
 
 
-def find_repairs(answer: Answer, dialect: Dialect) -> Repairs:
+def find_repairs(answer: Answer, dialect: Dialect, following: tuple[Block, ...] = ()) -> Repairs:
     """The repairs of a contour that was refused, or in which a word is ignored.
 
-    A repair leaves no error and no warning. None of them contains another one.
+    A repair leaves no error and no warning. None of them contains another one. `following` are the next blocks.
     """
     claim = answer.claim
     if not answer.start.is_known:
@@ -47,7 +47,8 @@ def find_repairs(answer: Answer, dialect: Dialect) -> Repairs:
     if reference is None and count_choices(answer.profile) <= MOST_CHOICES:
         reference = examine(claim, dialect.rules, Policy.OFF).contour
     stages = (stage(answer, dialect, whole) for stage in (_sets, _values, _slips))
-    return choose_repairs(claim, dialect, (missing_points(answer), marked(answer), *stages), Before(codes, reference))
+    slips = (missing_points(answer), commas(answer), marked(answer))
+    return choose_repairs(claim, dialect, (*slips, *stages), Before(codes, reference, following=following))
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,8 +136,13 @@ def _corrections(claim: Claim, dialect: Dialect) -> Iterator[tuple[str, list[Edi
             if given.unit is Unit.SIGN:
                 yield name, [change(word, f"{word.address}-1"), change(word, f"{word.address}1")]
             elif given.value:
-                value = float(given.value % 360 if given.unit is Unit.DEGREE else abs(given.value))
-                yield name, [change(word, write_word(word.address, value, dialect.modes.lexicon, claim.after.unit))]
+                values = [float(abs(given.value))]
+                if given.unit is Unit.DEGREE:
+                    within = float(given.value % 360)
+                    # The line may have to run the other way.
+                    values = [within, within - 180 if within > 0 else within + 180]
+                lexicon, unit = dialect.modes.lexicon, claim.after.unit
+                yield name, [change(word, write_word(word.address, value, lexicon, unit)) for value in values]
 
 
 def _additions(claim: Claim, dialect: Dialect, name: str, geometries: Iterable[_Geometry]) -> list[Edit]:

@@ -107,8 +107,8 @@ READING_RULES = (
     ),
     Rule(
         code="address-unknown",
-        message="{words}: the address {address} has no meaning in {form}",
-        help="delete it; {form} reads {allowed}",
+        message="{words}: the address {address} has no meaning in this contour ({form})",
+        help="{do}; such a contour is written with {allowed}",
         source=_READING,
         about=Trouble.UNKNOWN_ADDRESS,
         accepted=(_GOOD,),
@@ -135,13 +135,13 @@ READING_RULES = (
     ),
     Rule(
         code="point-missing",
-        message="{words} has no decimal point, unlike other words of the block, and is read as {actual}",
-        help="write the point if {words} means what it says",
+        message="{words} {have} no decimal point and {are} read as {actual}",
+        help="write the point where the number means what it says",
         source=_READING,
         about=Trouble.POINT_MISSING,
         severity=Severity.INFO,
         accepted=(_GOOD, _START + "G111 A180000 K-30000 B120000 X100000"),
-        rejected=(_GOOD + " P2",),
+        rejected=(_GOOD + " P2", _START + "G111 A180 K-30 B120 X100"),
     ),
     Rule(
         code="position-unknown",
@@ -165,7 +165,7 @@ READING_RULES = (
     Rule(
         code="no-contour",
         message="nothing to solve: the program has no contour block",
-        help="contour blocks are {triggers}",
+        help="contour blocks {triggers}",
         source=_READING,
         about=Trouble.NO_CONTOUR,
         accepted=(_GOOD,),

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from contoursolve.model import Length, Plane
 from contoursolve.reading import Claim, Form, Modes, Position, Setting, State
 from contoursolve.rules import Rule
-from contoursolve.syntax import Block
+from contoursolve.syntax import Block, Word
 
 Finder = Callable[[Sequence[Block], int, State, Modes], Claim | None]
 """(blocks, index, state before the block, modes) to the contour that begins at this block, if any."""
@@ -23,8 +23,10 @@ class Dialect:
     forms: tuple[Form, ...]
     rules: tuple[Rule, ...]
     find: Finder
-    signs: Callable[[Block], bool]
-    """Whether a block can only be meant for this control."""
+    signs: Callable[[Block], Sequence[Word]]
+    """The words of a block by which it can only be meant for this control."""
+    contours: str = ""
+    """What shows a contour block, for a reader."""
     settings: tuple[Setting, ...] = ()
     """Conventions on which the manual is silent."""
 

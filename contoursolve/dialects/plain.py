@@ -165,7 +165,7 @@ def _no_contour(blocks: Sequence[Block], index: int, state: State, modes: Modes)
 
 
 def _plain(name: str, title: str, modes: Modes, plane: Plane) -> Dialect:
-    return Dialect(name, title, modes, plane, (), COMMON_RULES, _no_contour, lambda _: False)
+    return Dialect(name, title, modes, plane, (), COMMON_RULES, _no_contour, lambda _: ())
 
 
 LINUXCNC = _plain(

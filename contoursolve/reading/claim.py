@@ -22,6 +22,7 @@ class Trouble(Enum):
     VARIABLE = "variable"
     WORD_IGNORED = "word-ignored"
     POINT_MISSING = "point-missing"
+    COMMA_MISSING = "comma-missing"
     VALUE_TOO_LARGE = "value-too-large"
     POSITION_UNKNOWN = "position-unknown"
     SKIPPABLE_START = "skippable-start"

@@ -39,6 +39,7 @@ from contoursolve.statements.statement import (
 from contoursolve.tolerance import LARGEST
 
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?(?![\w.])")
+_DECIMAL_COMMA = re.compile(r"[+-]?\d+,\d+(?![\w.])")
 _PARTS = {"begin": ("begin of", "start of"), "end": ("end of",), "center": ("center of", "centre of")}
 _TOKEN = re.compile(r"[^\s(),=]+|.", re.DOTALL)
 _NAME = re.compile(r"[^\s(),=]+(?:\s+\d+)?|.", re.DOTALL)
@@ -242,6 +243,10 @@ class _Reader:
         match = _NUMBER.match(self.text, self.at)
         if not match or len(match[0]) > LONGEST_NUMBER:
             raise self._error("a number")
+        comma = _DECIMAL_COMMA.match(self.text, self.at)
+        if comma:
+            message = f"{comma[0]} has a decimal comma; write {comma[0].replace(',', '.')}"
+            raise GrammarError(message, self.at, comma.end())
         value = Decimal(match[0])
         if abs(value) > Decimal(LARGEST):
             raise GrammarError(f"{match[0]} is larger than a control can travel", self.at, match.end())

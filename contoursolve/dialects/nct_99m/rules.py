@@ -21,6 +21,7 @@ from contoursolve.dialects.nct_99m.element import (
     RAPID,
 )
 from contoursolve.dialects.nct_99m.lexicon import MANUAL
+from contoursolve.reading import Trouble
 from contoursolve.rules import Rule, Value, all_of, at_most, some
 from contoursolve.solving import RefusalKind, RemarkKind
 from contoursolve.source import Evidence, Source
@@ -175,7 +176,7 @@ COMBINATION_RULES = (
     Rule(
         code="nct-center-on-line",
         message="{words}: a line has no centre and no radius",
-        help="delete it",
+        help="delete it; a rounding is ,R",
         source=_manual("16.3: the formats", Evidence.DERIVED),
         roles=(LINE, OVER_LINE),
         when=some(*_CENTERS, "wrong-center", "R"),
@@ -280,6 +281,16 @@ COMBINATION_RULES = (
 )
 
 GEOMETRY_RULES = (
+    Rule(
+        code="nct-comma-missing",
+        message="{words} is no corner and no angle, and this line is taken as if it were not there",
+        help="write {meant} if that is meant",
+        source=_manual("16.1, 16.2: ,A ,C ,R have a comma"),
+        about=Trouble.COMMA_MISSING,
+        severity=Severity.WARNING,
+        accepted=(_CUT,),
+        rejected=(_CUT.replace(",C", "C") + " ,R5\nX80",),
+    ),
     Rule(
         code="nct-circle-missed",
         message="the line misses the circle: it passes the centre at {actual}, the radius is {limit}, {off} too far",

@@ -12,14 +12,13 @@ from contoursolve.dialects.yasnac_lx3.g112_rules import G112_RULES
 from contoursolve.dialects.yasnac_lx3.leaving import LEAVING_FORMS
 from contoursolve.dialects.yasnac_lx3.leaving_rules import LEAVING_RULES
 from contoursolve.dialects.yasnac_lx3.lexicon import BEVEL, LATHE, MODES
-from contoursolve.syntax import Block
+from contoursolve.syntax import Block, Word
 
 
-def _signs(block: Block) -> bool:
-    codes = {word.number for word in block.words if word.address == "G"}
+def _signs(block: Block) -> tuple[Word, ...]:
     addresses = {word.address for word in block.words}
-    is_leaving = bool(codes & {11, 12} and addresses & {*"XUZW"} and addresses & {*"IK"})
-    return bool(codes & {111, 112}) or is_leaving
+    codes = {111, 112, 11, 12} if addresses & {*"XUZW"} and addresses & {*"IK"} else {111, 112}
+    return tuple(word for word in block.words if word.address == "G" and word.number in codes)
 
 
 YASNAC_LX3 = Dialect(
@@ -31,5 +30,6 @@ YASNAC_LX3 = Dialect(
     rules=COMMON_RULES + G111_RULES + G112_RULES + LEAVING_RULES + ARC_RULES,
     find=find,
     signs=_signs,
+    contours="G111, G112, G11, G12, and G01 with I or K",
     settings=(BEVEL,),
 )

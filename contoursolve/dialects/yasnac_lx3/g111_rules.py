@@ -139,7 +139,7 @@ _COMBINATION_RULES = (
     Rule(
         code="g111-angle-range",
         message="{words} is outside -360 to 360 deg",
-        help="write the same direction within one turn",
+        help="write {within}, the same direction within one turn",
         source=manual("2.8.30, p. 140"),
         alarm=_COMBINATION,
         roles=(_ROLE,),
