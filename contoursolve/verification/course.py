@@ -10,7 +10,7 @@ from enum import Enum
 from math import asin
 
 from contoursolve.model import Turn
-from contoursolve.tolerance import LENGTH, REGULAR
+from contoursolve.tolerance import LENGTH, RADIUS_DIFFERENCE, REGULAR
 from contoursolve.verification.measure import cross, dot, sign, unit
 from contoursolve.verification.rails import (
     Rail,
@@ -119,6 +119,7 @@ def trace(course: Course) -> Trace:
         turn = cross(heading(before, at), heading(after, at))
         if abs(turn) <= REGULAR:
             raise UnmakeableError(f"{bend.name} joins two elements of the same direction, or of opposite ones")
+        before = _through(before, at)
         piece = make(bend, at, before, after)
         back, ahead = travel(before, piece.begin, at), travel(after, at, piece.end)
         if not (back >= -LENGTH and ahead >= -LENGTH):
@@ -136,6 +137,13 @@ def trace(course: Course) -> Trace:
         pieces.append(Piece(name, begins[number], ends[number], arc))
         pieces += [made[number]] if number in made else []
     return Trace(tuple(pieces), room, condition)
+
+
+def _through(rail: Rail, at: complex) -> Rail:
+    """An arc's circle through the end that its words give it, which may be off it by what the control allows."""
+    if isinstance(rail, Ray) or not LENGTH < abs(abs(at - rail.center) - rail.radius) <= RADIUS_DIFFERENCE:
+        return rail
+    return Ring(rail.center, abs(at - rail.center), rail.turn)
 
 
 def _condition(piece: Piece, before: Rail, after: Rail) -> float:
