@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from contoursolve.diagnostic import Basis, Diagnosis, Diagnostic, Severity
     from contoursolve.examine import Answer, Depth, Policy
     from contoursolve.expansion import Expansion
+    from contoursolve.families import Family, FamilyError, family
     from contoursolve.pipeline import Result, UnknownControlError
     from contoursolve.sketch import Drawings, Drawn, Sketch
     from contoursolve.solving import Status
@@ -50,6 +51,8 @@ __all__ = [
     "Drawings",
     "Drawn",
     "Expansion",
+    "Family",
+    "FamilyError",
     "LineSegment",
     "Policy",
     "Program",
@@ -64,6 +67,7 @@ __all__ = [
     "check_file",
     "completions",
     "expand",
+    "family",
     "parse",
     "read_program",
     "solve",
@@ -77,6 +81,7 @@ _ROOMS = {
     "diagnostic": ("Basis", "Diagnosis", "Diagnostic", "Severity"),
     "examine": ("Answer", "Depth", "Policy"),
     "expansion": ("Expansion",),
+    "families": ("Family", "FamilyError", "family"),
     "pipeline": ("Result", "UnknownControlError"),
     "sketch": ("Drawings", "Drawn", "Sketch"),
     "solving": ("Status",),

@@ -32,7 +32,7 @@ FLOORS = (
     "diagnosis",
     "fill",
     "pipeline project verification unfamiliar",
-    "lines comparison",
+    "lines comparison families",
     "expansion",
     "output api",
     "trial rewrite",
