@@ -1,9 +1,15 @@
 """A family says of every row what a single solve says of the block with these values."""
 
+import sys
+
+import click
 import numpy as np
 import pytest
+from click.testing import CliRunner
 
 import contoursolve
+from contoursolve.cli import main
+from contoursolve.cli.sweep import read_range
 from contoursolve.families import REASONS, Code, FamilyError, family
 
 LATHE, MILL = {"start": "X40. Z0."}, {}
@@ -205,3 +211,87 @@ def test_families_go_to_arrow_parquet_and_xarray(tmp_path):
     data = found.to_xarray()
     assert dict(data.sizes) == {"A": 3, "P": 2}
     assert float(data["V2.X"].sel(A=180, P=1)) == found["V2.X"][1, 0]
+
+
+ON_BLOCK = ("--block", BLOCK, "--start", START)
+
+
+def run(*arguments):
+    done = CliRunner().invoke(main, ["sweep", *map(str, arguments)])
+    assert done.exception is None or isinstance(done.exception, SystemExit), done.exception
+    return done.exit_code, done.stdout, done.stderr
+
+
+def test_a_sweep_counts_what_becomes_of_the_contours():
+    status, output, _ = run(*ON_BLOCK, "--vary", "P=-1,1,20,80")
+    assert status == 0
+    lines = [line.split(maxsplit=1) for line in output.splitlines()]
+    assert lines == [
+        ["4", "contours"],
+        ["2", "solved"],
+        ["1", "rejected"],
+        ["1", "no-solution"],
+        ["1", "corner-too-large"],
+    ]
+
+
+def test_a_range_has_both_ends_and_no_rounding_adds_up():
+    word, values = read_range("a=170:190:0.01")
+    assert (word, len(values), values[0], values[-1], values[1733]) == ("A", 2001, 170.0, 190.0, 187.33)
+    assert read_range("2:,A=3:1:-1") == ("2:,A", [3.0, 2.0, 1.0])
+    assert read_range("P=1, 2.5")[1] == [1.0, 2.5]
+
+
+@pytest.mark.parametrize("text", ["A", "A=", "A=1:2", "A=1:2:0", "A=1:2:-1", "A=1:2,3", "A=x", "A=nan", "A=0:1:1e-12"])
+def test_a_range_that_is_none_is_refused(text):
+    with pytest.raises(click.UsageError):
+        read_range(text)
+
+
+def test_a_sweep_writes_every_row(tmp_path):
+    vary = ("--vary", "A=150:200:0.5", "--vary", "P=0:40:0.1")
+    found = family(BLOCK, start=START, vary={"A": np.arange(1500, 2005, 5) / 10, "P": np.arange(0, 401) / 10})
+    target = tmp_path / "family.csv"
+    assert run(*ON_BLOCK, *vary, "-o", target)[0] == 0
+    names, *rows = [line.split(",") for line in target.read_text().splitlines()]
+    assert tuple(names) == found.names
+    assert len(rows) == len(found)
+    for name, column in zip(names, zip(*rows, strict=True), strict=True):
+        if name == "status":
+            assert list(column) == [Code(code).status.value for code in found["status"].ravel()]
+        elif name != "reason":
+            numbers = [float(each) if each else float("nan") for each in column]
+            assert np.array_equal(numbers, found[name].ravel(), equal_nan=True), name
+    status, _, errors = run(*ON_BLOCK, *vary, "-o", target)
+    assert (status, "give --force" in errors) == (2, True)
+    pytest.importorskip("pyarrow")
+    from pyarrow import parquet  # noqa: PLC0415
+
+    files = [tmp_path / f"{workers}.parquet" for workers in (1, 2)]
+    for workers, file in enumerate(files, 1):
+        assert run(*ON_BLOCK, *vary, "-o", file, "--workers", workers)[0] == 0
+    assert files[0].read_bytes() == files[1].read_bytes()
+    table = parquet.read_table(files[0])
+    assert all(np.array_equal(table[name], found[name].ravel(), equal_nan=True) for name in found.names)
+
+
+def test_a_missing_package_is_named_with_the_extra_that_brings_it(monkeypatch, tmp_path):
+    monkeypatch.setitem(sys.modules, "pyarrow", None)
+    status, _, errors = run(*ON_BLOCK, "--vary", "A=170", "-o", tmp_path / "family.parquet")
+    assert (status, "pip install 'contoursolve[family]'" in errors) == (2, True)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ((*ON_BLOCK, "--vary", "R=1"), "the block has no word R"),
+        ((*ON_BLOCK, "--vary", "A=1", "--vary", "a=2"), "twice"),
+        ((*ON_BLOCK, "--vary", "A=1", "-o", "x.txt"), ".parquet or .csv"),
+        (("--block", BLOCK, "--vary", "A=1"), "start point"),
+        (("--block", "A1", "--vary", "A=1"), "--control"),
+    ],
+)
+def test_a_sweep_that_makes_no_sense_is_one_line_and_status_2(arguments, message):
+    status, output, errors = run(*arguments)
+    assert (status, output) == (2, "")
+    assert message in errors

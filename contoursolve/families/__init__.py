@@ -1,23 +1,24 @@
 """Families: one block with some words free, a million contours at once."""
 
-from contoursolve.families.export import MissingExtraError, parquet_writer, to_arrow
-from contoursolve.families.family import STRETCH, Family, family, summary_of, sweep
-from contoursolve.families.ranges import FamilyError, stretches
+from contoursolve.families.evaluate import family, pieces, sweep
+from contoursolve.families.export import MissingExtraError, csv_lines, need, write_parquet
+from contoursolve.families.ranges import FamilyError
+from contoursolve.families.result import Family, summary_of
 from contoursolve.families.sweep import Sweep
 from contoursolve.families.verdict import REASONS, Code
 
 __all__ = [
     "REASONS",
-    "STRETCH",
     "Code",
     "Family",
     "FamilyError",
     "MissingExtraError",
     "Sweep",
+    "csv_lines",
     "family",
-    "parquet_writer",
-    "stretches",
+    "need",
+    "pieces",
     "summary_of",
     "sweep",
-    "to_arrow",
+    "write_parquet",
 ]

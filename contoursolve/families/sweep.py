@@ -21,6 +21,7 @@ Table = dict[str, NDArray[Any]]
 Results = Mapping[str, NDArray[Any]]
 Rows = NDArray[numpy.int64]
 Target = slice | Rows
+_Ready = tuple[Columns, Mapping[str, tuple[str, Array]], Mapping[str, tuple[str, float]]]
 
 _OUTPUTS = (
     "determinant:", "offset:", "radius:", "scale:", "distance:", "residual:", "length:", "turn:", "cosine:",
@@ -54,9 +55,13 @@ class Sweep:
         return {**found, "residual": numpy.float64}
 
     def empty(self, rows: int) -> Table:
-        """Room for the results of so many rows."""
-        return {name: numpy.full(rows, numpy.nan, kind) if kind is numpy.float64 else numpy.zeros(rows, kind)
-                for name, kind in self.columns().items()}  # fmt: skip
+        """Room for the results of so many rows; NaN and 0 where not every kind has all of them."""
+        if len(self.kinds) == 1 and self.kinds[0].status is None:
+            return {name: numpy.empty(rows, kind) for name, kind in self.columns().items()}
+        return {
+            name: numpy.full(rows, numpy.nan) if kind is numpy.float64 else numpy.zeros(rows, kind)
+            for name, kind in self.columns().items()
+        }
 
     def words(self, first: int, last: int) -> dict[str, Array]:
         """The values of the free words in these rows."""
@@ -90,7 +95,7 @@ class Sweep:
         rows: int,
         table: Results,
     ) -> None:
-        function, inputs = self._function(number, kind)
+        function, inputs, results = self._function(number, kind)
         cosines: dict[str, Array] = {
             name: function.numbers[place : place + 1] for place, name in enumerate(function.fixed)
         }
@@ -106,9 +111,12 @@ class Sweep:
         is_path &= reason == 0
         again = numpy.flatnonzero(verdict.again)
         is_path[again] = False
-        for name, (output, offset) in _results(kind).items():
-            if name.endswith(".room"):
+        is_whole = bool(is_path.all())
+        for name, (output, offset) in results.items():
+            if name.endswith(".room") or (is_whole and not offset):
                 table[name][target] = out[output]
+            elif is_whole:
+                table[name][target] = out[output] + offset
             else:
                 table[name][target] = numpy.where(is_path, out[output] + offset, numpy.nan)
         worst = numpy.zeros(1)
@@ -124,7 +132,7 @@ class Sweep:
             single = {word: float(self.ranges.values[word][each[row]]) for word, each in places.items()}
             _fill(kind, kind.solve(single), place, table)
 
-    def _function(self, number: int, kind: Kind) -> tuple[Columns, Mapping[str, tuple[str, Array]]]:
+    def _function(self, number: int, kind: Kind) -> _Ready:
         """The function of a kind for this thread."""
         made = self.local.__dict__.setdefault("functions", {})
         if number not in made:
@@ -133,8 +141,8 @@ class Sweep:
             function = Columns(tape, inputs.keys())
             numbers = kind.numbers()
             function.numbers[:] = [numbers[name] for name in function.fixed]
-            made[number] = function, inputs
-        found: tuple[Columns, Mapping[str, tuple[str, Array]]] = made[number]
+            made[number] = function, inputs, _results(kind)
+        found: _Ready = made[number]
         return found
 
 

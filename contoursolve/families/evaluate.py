@@ -1,93 +1,24 @@
-"""A family of contours: one block, some words free, a row for every set of values."""
+"""Solves a contour for many values of some of its words."""
 
-from collections.abc import Mapping
-from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
-from typing import Any
+from collections import deque
+from collections.abc import Iterator, Mapping
+from concurrent.futures import Future, ThreadPoolExecutor
 
-import numpy
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from contoursolve import syntax
 from contoursolve.dialects import DIALECTS
 from contoursolve.examine import Policy
-from contoursolve.families.export import to_arrow, to_parquet, to_xarray
-from contoursolve.families.ranges import FamilyError, Ranges, ranges_of, stretches
-from contoursolve.families.sweep import Sweep, prepare
+from contoursolve.families.ranges import FamilyError, ranges_of, stretches
+from contoursolve.families.result import Family
+from contoursolve.families.sweep import Sweep, Table, prepare
 from contoursolve.families.template import Template, find_words
-from contoursolve.families.verdict import Code
 from contoursolve.model import Length
 from contoursolve.pipeline import UnknownControlError, recognise
 from contoursolve.project import configure
-from contoursolve.solving import Status
 
 STRETCH = 65_536
 """Rows that are evaluated, or written to a file, at once."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Family:
-    """Every contour of a family as named arrays.
-
-    `family[name]` has the shape (rows,) for paired words, and one axis for each word, in their order, for a grid. The
-    names, in mm with X of a lathe as radius:
-
-    * the free words, as written (float64);
-    * `status` (uint8, see `Code`) and `reason` (uint8, an index of `REASONS`; 0 for none);
-    * `branch.P1` (int8): the side that the block chooses, +1 farther or left, -1 nearer or right, 0 where there is no
-      contour or both are one;
-    * `V1.Z`, `V1.X`: the points; `r`: radii; `corner 1.begin.Z`, `.end`, `.center`: the corners (float64, NaN where
-      there is no contour, or no such corner);
-    * `line 1.room` (float64): what the corners leave of an element, below 0 if they do not fit; it has a value wherever
-      the points have one;
-    * `residual` (float64): the largest residual of the equations that were solved, the corners' among them.
-    """
-
-    ranges: Ranges
-    columns: Mapping[str, NDArray[Any]]
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        """The shape of every array."""
-        return self.ranges.shape
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """The names of all arrays."""
-        return (*self.ranges.values, *self.columns)
-
-    def __getitem__(self, name: str) -> NDArray[Any]:
-        if name in self.columns:
-            return self.columns[name].reshape(self.shape)
-        if name not in self.ranges.values:
-            raise KeyError(f"{name}; there are {', '.join(self.names)}")
-        rows = numpy.arange(self.ranges.count)
-        return self.ranges.values[name][self.ranges.places(name, rows)].reshape(self.shape)
-
-    def __len__(self) -> int:
-        return self.ranges.count
-
-    def summary(self) -> dict[Status, int]:
-        """How many rows have each status, without those that none has."""
-        return summary_of(numpy.bincount(self.columns["status"], minlength=len(Code)))
-
-    def to_arrow(self) -> Any:
-        """A pyarrow.Table with a column for each array. Raises MissingExtraError without pyarrow."""
-        return to_arrow({name: self[name].reshape(-1) for name in self.names})
-
-    def to_parquet(self, path: str) -> None:
-        """Write that table to a Parquet file. Raises MissingExtraError without pyarrow."""
-        to_parquet({name: self[name].reshape(-1) for name in self.names}, path)
-
-    def to_xarray(self) -> Any:
-        """An xarray.Dataset whose dimensions are the free words, or `row`. Raises MissingExtraError without xarray."""
-        arrays = {name: self[name] for name in self.columns}
-        return to_xarray(dict(self.ranges.values), arrays, is_paired=self.ranges.is_paired)
-
-
-def summary_of(counts: NDArray[Any]) -> dict[Status, int]:
-    """The counts by `Code` as counts by status."""
-    return {code.status: int(counts[code]) for code in Code if counts[code]}
 
 
 def sweep(
@@ -153,8 +84,7 @@ def family(
     >>> [f"{value:.4f}" for value in found["corner 1.end.X"][:, 0]]
     ['22.5000', '27.3090']
     """
-    if workers < 1:
-        raise FamilyError(f"workers is {workers}; it must be at least 1")
+    _check_workers(workers)
     ready = sweep(
         block, vary=vary, start=start, control=control, paired=paired, units=units, rules=rules, settings=settings
     )
@@ -172,3 +102,28 @@ def family(
             for _ in executor.map(fill, parts):
                 pass
     return Family(ready.ranges, table)
+
+
+def pieces(ready: Sweep, workers: int = 1) -> Iterator[Table]:
+    """The words and results of all rows in order, some thousands at a time, so that any number of rows takes no more
+    memory than a few of these. Raises FamilyError for less than one worker."""
+    _check_workers(workers)
+
+    def fill(first: int, last: int) -> Table:
+        table = ready.empty(last - first)
+        ready.evaluate(first, last, table)
+        return {**ready.words(first, last), **table}
+
+    with ThreadPoolExecutor(workers) as executor:
+        waiting: deque[Future[Table]] = deque()
+        for part in stretches(ready.ranges.count, STRETCH):
+            waiting.append(executor.submit(fill, *part))
+            if len(waiting) > workers:
+                yield waiting.popleft().result()
+        while waiting:
+            yield waiting.popleft().result()
+
+
+def _check_workers(workers: int) -> None:
+    if workers < 1:
+        raise FamilyError(f"workers is {workers}; it must be at least 1")
