@@ -1,6 +1,7 @@
 """One function for many rows at once: its instructions replayed over columns, called through a buffer."""
 
 from collections.abc import Collection
+from dataclasses import dataclass
 from typing import Any
 
 import casadi
@@ -15,33 +16,47 @@ ROWS = 4096
 """Rows of one call: what is in use then stays in the processor's cache."""
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class ColumnFunction:
+    """A function of columns of `ROWS` rows: its inputs that are single numbers and those that vary, its outputs that
+    are single numbers, as they follow from those alone, and those that vary."""
+
+    function: Any
+    fixed: tuple[str, ...]
+    varied: tuple[str, ...]
+    single: tuple[str, ...]
+    many: tuple[str, ...]
+
+
+def compile_columns(tape: Tape, names: Collection[str]) -> ColumnFunction:
+    """The function of a tape for columns of the inputs of these names; some milliseconds."""
+    fixed = tuple(name for name in tape.inputs if name not in names)
+    varied = tuple(name for name in tape.inputs if name in names)
+    scalars, columns = casadi.MX.sym("fixed", len(fixed)), casadi.MX.sym("varied", ROWS, len(varied))
+    places = {name: scalars[number] for number, name in enumerate(fixed)}
+    places |= {name: columns[:, number] for number, name in enumerate(varied)}
+    results = _replay(tape.shared(), [places[name] for name in tape.inputs])
+    named = dict(zip(tape.outputs, results, strict=True))
+    single = tuple(name for name, each in named.items() if each.size1() == 1)
+    many = tuple(name for name, each in named.items() if each.size1() != 1)
+    outputs = [
+        casadi.vertcat(casadi.MX(0, 1), *(named[name] for name in single)),
+        casadi.horzcat(casadi.MX(ROWS, 0), *(named[name] for name in many)),
+    ]
+    function = casadi.Function("columns", [scalars, columns], [casadi.densify(each) for each in outputs])
+    return ColumnFunction(function, fixed, varied, single, many)
+
+
 class Columns:
-    """A tape as a function of columns of `ROWS` rows; inputs that do not vary, and what follows from them alone, are
-    single numbers.
+    """A function of columns with buffers of its own; every thread needs one. CasADi lets go of the interpreter lock
+    while it evaluates."""
 
-    It owns its buffers, so that every thread needs one of its own. CasADi lets go of the interpreter lock while it
-    evaluates.
-    """
-
-    def __init__(self, tape: Tape, varied: Collection[str]) -> None:
-        self.fixed = tuple(name for name in tape.inputs if name not in varied)
-        self.varied = tuple(name for name in tape.inputs if name in varied)
-        scalars, columns = casadi.MX.sym("fixed", len(self.fixed)), casadi.MX.sym("varied", ROWS, len(self.varied))
-        places = {name: scalars[number] for number, name in enumerate(self.fixed)}
-        places |= {name: columns[:, number] for number, name in enumerate(self.varied)}
-        results = _replay(tape.shared(), [places[name] for name in tape.inputs])
-        named = dict(zip(tape.outputs, results, strict=True))
-        self._single = tuple(name for name, each in named.items() if each.size1() == 1)
-        self._many = tuple(name for name, each in named.items() if each.size1() != 1)
-        outputs = [
-            casadi.vertcat(casadi.MX(0, 1), *(named[name] for name in self._single)),
-            casadi.horzcat(casadi.MX(ROWS, 0), *(named[name] for name in self._many)),
-        ]
-        function: Any = casadi.Function("columns", [scalars, columns], [casadi.densify(each) for each in outputs])
-        self.inputs = numpy.zeros((len(self.varied), ROWS))
-        self.numbers = numpy.zeros(len(self.fixed))
-        self._results = numpy.zeros(len(self._single)), numpy.zeros((len(self._many), ROWS))
-        self._buffer, self._trigger = function.buffer()
+    def __init__(self, compiled: ColumnFunction) -> None:
+        self.compiled = compiled
+        self.inputs = numpy.zeros((len(compiled.varied), ROWS))
+        self.numbers = numpy.zeros(len(compiled.fixed))
+        self._results = numpy.zeros(len(compiled.single)), numpy.zeros((len(compiled.many), ROWS))
+        self._buffer, self._trigger = compiled.function.buffer()
         for number, argument in enumerate((self.numbers, self.inputs)):
             self._buffer.set_arg(number, _memory(argument))
         for number, result in enumerate(self._results):
@@ -52,8 +67,8 @@ class Columns:
         true until the next call; of what does not vary, one number."""
         self._trigger()
         single, many = self._results
-        found = {name: single[number : number + 1] for number, name in enumerate(self._single)}
-        return found | {name: many[number, :rows] for number, name in enumerate(self._many)}
+        found = {name: single[number : number + 1] for number, name in enumerate(self.compiled.single)}
+        return found | {name: many[number, :rows] for number, name in enumerate(self.compiled.many)}
 
 
 def _memory(array: Any) -> Any:

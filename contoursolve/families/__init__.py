@@ -2,9 +2,9 @@
 
 from contoursolve.families.evaluate import family, pieces, sweep
 from contoursolve.families.export import MissingExtraError, csv_lines, need, write_parquet
+from contoursolve.families.prepared import Sweep
 from contoursolve.families.ranges import FamilyError
 from contoursolve.families.result import Family, summary_of
-from contoursolve.families.sweep import Sweep
 from contoursolve.families.verdict import REASONS, Code
 
 __all__ = [

@@ -9,9 +9,9 @@ from numpy.typing import ArrayLike
 from contoursolve import syntax
 from contoursolve.dialects import DIALECTS
 from contoursolve.examine import Policy
+from contoursolve.families.prepared import Sweep, Table, prepare
 from contoursolve.families.ranges import FamilyError, ranges_of, stretches
 from contoursolve.families.result import Family
-from contoursolve.families.sweep import Sweep, Table, prepare
 from contoursolve.families.template import Template, find_words
 from contoursolve.model import Length
 from contoursolve.pipeline import UnknownControlError, recognise

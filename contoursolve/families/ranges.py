@@ -43,7 +43,9 @@ class Ranges:
         stride = 1
         for size in self.shape[number + 1 :]:
             stride *= size
-        return rows // stride % self.shape[number]
+        whole = rows // stride
+        # Dividing by one number is fast, and a remainder is not.
+        return whole - whole // self.shape[number] * self.shape[number] if number else whole
 
 
 def ranges_of(vary: Mapping[str, ArrayLike], *, is_paired: bool) -> Ranges:

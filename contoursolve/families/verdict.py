@@ -1,6 +1,6 @@
 """The verdict on each of many rows, by the checks of `solving.solve` and `solving.path` in their order."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from enum import IntEnum
 
 import numpy
@@ -64,17 +64,20 @@ class Verdict:
         self.again: Mask = numpy.zeros(rows, bool)
         self._agrees: Mask = numpy.zeros(rows, bool)
         self._conflicts: Mask = numpy.zeros(rows, bool)
+        basis = [f"residual:{number}" for number in range(len(plan.basis))]
         with numpy.errstate(invalid="ignore"):
+            solved = _worst(numpy.zeros(rows), (out[name] for name in basis))
+            self.worst = _worst(solved.copy(), (out[name] for name in corner_residuals))
+            """The largest residual of the equations that were solved, mm; NaN if any is."""
             for number, step in enumerate(plan.steps):
                 self._check_step(number, step)
-            self._check_equations()
+            self._check_equations(solved)
             self._check_elements()
             if figure.corners:
                 self._check_corners()
                 self._check_room()
                 # Checked last, because a corner that does not fit may be huge.
-                for name in corner_residuals:
-                    self._refuse(~(numpy.abs(out[name]) <= RESIDUAL), RefusalKind.NOT_VERIFIED)
+                self._refuse(~(self.worst <= RESIDUAL), RefusalKind.NOT_VERIFIED)
 
     @property
     def status(self) -> Codes:
@@ -112,12 +115,8 @@ class Verdict:
             self._look_again(touches)
         self._refuse(~(touches | (offset < radius)), kind)
 
-    def _check_equations(self) -> None:
-        size, is_open = len(self.plan.basis), self.reason == 0
-        wrong = numpy.zeros(1, bool)
-        for number in range(size):
-            wrong = wrong | ~(numpy.abs(self.out[f"residual:{number}"]) <= RESIDUAL)
-        wrong = wrong & is_open
+    def _check_equations(self, solved: Array) -> None:
+        size, wrong = len(self.plan.basis), ~(solved <= RESIDUAL) & (self.reason == 0)
         self._refuse(wrong, RefusalKind.NOT_VERIFIED)
         for number, fact in enumerate(self.plan.checks, size):
             off = numpy.abs(self.out[f"residual:{number}"])
@@ -210,3 +209,10 @@ class Verdict:
         """The elements that a corner joins, as far as they have two ends."""
         after = corner.after or corner.lands_on
         return [corner.before, *([after] if after and f"length:{after}" in self.out else [])]
+
+
+def _worst(worst: Array, residuals: Iterable[Array]) -> Array:
+    """The largest absolute value, row by row, in place of the first argument."""
+    for residual in residuals:
+        numpy.maximum(worst, numpy.abs(residual), out=worst)
+    return worst

@@ -3,19 +3,22 @@
 import threading
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import lru_cache
 from itertools import product
 from typing import Any
 
 import numpy
 from numpy.typing import NDArray
 
-from contoursolve.backends.columns import ROWS, Array, Columns
+from contoursolve.backends.columns import ROWS, Array, ColumnFunction, Columns, compile_columns
+from contoursolve.constraints import System
 from contoursolve.families.kinds import Kind, alike, classify, kind_of
 from contoursolve.families.ranges import Ranges, stretches
 from contoursolve.families.template import Template
 from contoursolve.families.verdict import Code, Verdict, code_of, reason_of
 from contoursolve.model import FIRST, SECOND, CornerShape, scalar
 from contoursolve.solving import RemarkKind, Solution
+from contoursolve.solving.compile import compile_system
 
 Table = dict[str, NDArray[Any]]
 Results = Mapping[str, NDArray[Any]]
@@ -97,9 +100,9 @@ class Sweep:
     ) -> None:
         function, inputs, results = self._function(number, kind)
         cosines: dict[str, Array] = {
-            name: function.numbers[place : place + 1] for place, name in enumerate(function.fixed)
+            name: function.numbers[place : place + 1] for place, name in enumerate(function.compiled.fixed)
         }
-        for place, name in enumerate(function.varied):
+        for place, name in enumerate(function.compiled.varied):
             word, values = inputs[name]
             numpy.take(values, places[word], out=function.inputs[place, :rows], mode="clip")
             cosines[name] = function.inputs[place, :rows]
@@ -107,22 +110,22 @@ class Sweep:
         machine, figure = kind.machine, kind.system.figure
         verdict = Verdict(figure, machine.plan, machine.corner_residuals, cosines, out, rows)
         status, reason = verdict.status, verdict.reason
-        is_path = status <= Code.OVERDETERMINED
-        is_path &= reason == 0
         again = numpy.flatnonzero(verdict.again)
-        is_path[again] = False
-        is_whole = bool(is_path.all())
+        is_path = (status <= Code.OVERDETERMINED) & (reason == 0) & ~verdict.again
+        without = numpy.flatnonzero(~is_path)
         for name, (output, offset) in results.items():
-            if name.endswith(".room") or (is_whole and not offset):
+            if name.endswith(".room"):
                 table[name][target] = out[output]
-            elif is_whole:
-                table[name][target] = out[output] + offset
+                continue
+            if isinstance(target, slice):
+                values = table[name][target]
+                numpy.add(out[output], offset, out=values)
+                values[without] = numpy.nan
             else:
-                table[name][target] = numpy.where(is_path, out[output] + offset, numpy.nan)
-        worst = numpy.zeros(1)
-        for each in (*(f"residual:{index}" for index in range(len(machine.plan.basis))), *machine.corner_residuals):
-            worst = numpy.maximum(worst, numpy.abs(out[each]))
-        table["residual"][target] = worst
+                values = numpy.broadcast_to(out[output], rows) + offset
+                values[without] = numpy.nan
+                table[name][target] = values
+        table["residual"][target] = verdict.worst
         for point, side in _branches(kind).items():
             table[f"branch.{point}"][target] = numpy.where(is_path, side, 0)
         table["status"][target] = status
@@ -137,13 +140,18 @@ class Sweep:
         made = self.local.__dict__.setdefault("functions", {})
         if number not in made:
             inputs = kind.columns(self.ranges)
-            tape = kind.machine.tape.keep(_OUTPUTS, kind.system.unknowns)
-            function = Columns(tape, inputs.keys())
+            function = Columns(_compile(kind.system, frozenset(inputs)))
             numbers = kind.numbers()
-            function.numbers[:] = [numbers[name] for name in function.fixed]
+            function.numbers[:] = [numbers[name] for name in function.compiled.fixed]
             made[number] = function, inputs, _results(kind)
         found: _Ready = made[number]
         return found
+
+
+@lru_cache(maxsize=64)
+def _compile(system: System, varied: frozenset[str]) -> ColumnFunction:
+    """The function of a system for columns."""
+    return compile_columns(compile_system(system).tape.keep(_OUTPUTS, system.unknowns), varied)
 
 
 def prepare(template: Template, ranges: Ranges) -> Sweep:
