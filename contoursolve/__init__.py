@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from contoursolve.diagnostic import Basis, Diagnosis, Diagnostic, Severity
     from contoursolve.examine import Answer, Depth, Policy
     from contoursolve.expansion import Expansion
-    from contoursolve.families import Family, FamilyError, family
+    from contoursolve.families import Family, FamilyError, Sensitivity, family, sensitivity
     from contoursolve.pipeline import Result, UnknownControlError
     from contoursolve.sketch import Drawings, Drawn, Sketch
     from contoursolve.solving import Status
@@ -57,6 +57,7 @@ __all__ = [
     "Policy",
     "Program",
     "Result",
+    "Sensitivity",
     "Severity",
     "Sketch",
     "Status",
@@ -70,6 +71,7 @@ __all__ = [
     "family",
     "parse",
     "read_program",
+    "sensitivity",
     "solve",
     "solve_file",
     "solve_program",
@@ -81,7 +83,7 @@ _ROOMS = {
     "diagnostic": ("Basis", "Diagnosis", "Diagnostic", "Severity"),
     "examine": ("Answer", "Depth", "Policy"),
     "expansion": ("Expansion",),
-    "families": ("Family", "FamilyError", "family"),
+    "families": ("Family", "FamilyError", "Sensitivity", "family", "sensitivity"),
     "pipeline": ("Result", "UnknownControlError"),
     "sketch": ("Drawings", "Drawn", "Sketch"),
     "solving": ("Status",),

@@ -10,7 +10,7 @@ from click.testing import CliRunner
 import contoursolve
 from contoursolve.cli import main
 from contoursolve.cli.sweep import read_range
-from contoursolve.families import REASONS, Code, FamilyError, family
+from contoursolve.families import REASONS, Code, FamilyError, family, sensitivity
 
 LATHE, MILL = {"start": "X40. Z0."}, {}
 _NCT = "G17 G90 {comp} G0 X{x} Y{y}\n"
@@ -307,3 +307,59 @@ def test_a_sweep_that_makes_no_sense_is_one_line_and_status_2(arguments, message
     status, output, errors = run(*arguments)
     assert (status, output) == (2, "")
     assert message in errors
+
+
+@pytest.mark.parametrize(
+    ("block", "options"),
+    [
+        (BLOCK, LATHE),
+        ("G111 X100. A170. K-30. B120. C5. D5.", LATHE),
+        ("G112 X50. K-30. I-10. R20. P2. Q2.", LATHE),
+        ("G111 X4. A180. K-1.2 B120. P.2 Q.2", {"start": "X1.6 Z0.", "units": "inch"}),
+        (_NCT.format(comp="G41", x=50, y=0) + "G3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q-1", MILL),
+        (
+            _NCT.format(comp="G41", x=90, y=10)
+            + "G1 ,A150 ,R2\nG1 X10 Y20 ,A225 Q1 ,C2\nG3 X-40 Y-20 I-20 J-20 R20 Q1",
+            MILL,
+        ),
+    ],
+)
+def test_derivatives_are_central_differences(block, options):
+    slopes = sensitivity(block, **options).slopes
+    words = list(next(iter(slopes.values())))
+    program = contoursolve.parse(block)
+    step = 1e-4
+    compared = 0
+    for word in words:
+        line, _, address = word.rpartition(":")
+        same = [each for each in program.blocks if not line or each.line == int(line)]
+        value = float(next(each.find(address) for each in same if each.find(address)).number)
+        found = family(block, vary={word: [value - step, value + step]}, **options)
+        if set(found.summary()) != {contoursolve.Status.SOLVED}:
+            continue  # a circle that is said to pass through a point allows it little
+        compared += 1
+        for name, by_word in slopes.items():
+            difference = np.diff(found[name])[0] / (2 * step)
+            assert abs(by_word[word] - difference) <= 1e-6 * max(1.0, abs(difference)), (name, word)
+    assert compared >= 3
+
+
+def test_tolerances_add_up_at_worst_and_in_squares():
+    found = sensitivity(BLOCK, start=START)
+    spread = found.spread({"K": 0.03, "X": 0.04 / found.slopes["V2.Z"]["X"]})["V2.Z"]
+    assert (spread.worst, spread.typical) == pytest.approx((0.07, 0.05))
+    with pytest.raises(FamilyError, match="no word R; there are X, A, K, B, P, Q"):
+        found.spread({"R": 1})
+
+
+@pytest.mark.parametrize(
+    ("block", "message"),
+    [
+        (BLOCK.replace("P5.", "P500."), "no-solution"),
+        (BLOCK.replace("K-30.", ""), "rejected"),
+        ("G17 G41 G0 X50 Y0\nG3 I-50 J0\nG1 X-60 Y50 ,A180 Q-1", "no derivative exists"),
+    ],
+)
+def test_a_contour_without_derivatives_is_refused(block, message):
+    with pytest.raises(FamilyError, match=message):
+        sensitivity(block, start=None if "G17" in block else START)

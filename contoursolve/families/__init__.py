@@ -5,6 +5,7 @@ from contoursolve.families.export import MissingExtraError, csv_lines, need, wri
 from contoursolve.families.prepared import Sweep
 from contoursolve.families.ranges import FamilyError
 from contoursolve.families.result import Family, summary_of
+from contoursolve.families.slopes import Sensitivity, Spread, sensitivity
 from contoursolve.families.verdict import REASONS, Code
 
 __all__ = [
@@ -13,11 +14,14 @@ __all__ = [
     "Family",
     "FamilyError",
     "MissingExtraError",
+    "Sensitivity",
+    "Spread",
     "Sweep",
     "csv_lines",
     "family",
     "need",
     "pieces",
+    "sensitivity",
     "summary_of",
     "sweep",
     "write_parquet",

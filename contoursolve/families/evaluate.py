@@ -1,7 +1,7 @@
 """Solves a contour for many values of some of its words."""
 
 from collections import deque
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Future, ThreadPoolExecutor
 
 from numpy.typing import ArrayLike
@@ -16,6 +16,7 @@ from contoursolve.families.template import Template, find_words
 from contoursolve.model import Length
 from contoursolve.pipeline import UnknownControlError, recognise
 from contoursolve.project import configure
+from contoursolve.syntax import Program, Word
 
 STRETCH = 65_536
 """Rows that are evaluated, or written to a file, at once."""
@@ -33,6 +34,23 @@ def sweep(
     settings: Mapping[str, str] | None = None,
 ) -> Sweep:
     """A family that is ready to be evaluated; arguments and errors as for `family`."""
+    ranges = ranges_of(vary, is_paired=paired)
+    template = template_of(
+        block, start, control, units, rules, settings, lambda program: find_words(program, list(ranges.values))
+    )
+    return prepare(template, ranges)
+
+
+def template_of(
+    block: str,
+    start: str | None,
+    control: str | None,
+    units: str,
+    rules: str,
+    settings: Mapping[str, str] | None,
+    free: Callable[[Program], Mapping[str, Word]],
+) -> Template:
+    """A block with those of its words free that are asked for; arguments and errors as for `family`."""
     program = syntax.parse(block, "<block>")
     dialect = DIALECTS.get(control) if control else recognise(program)
     if dialect is None:
@@ -40,9 +58,7 @@ def sweep(
         raise UnknownControlError(f"{told}; choose from {', '.join(DIALECTS)}")
     dialect = (configure(settings) if settings else {}).get(dialect.name, dialect)
     beginning = syntax.parse(start, "<start>", first_line=0) if start is not None else None
-    ranges = ranges_of(vary, is_paired=paired)
-    words = find_words(program, list(ranges.values))
-    return prepare(Template(program, dialect, Length(units), Policy(rules), beginning, words), ranges)
+    return Template(program, dialect, Length(units), Policy(rules), beginning, free(program))
 
 
 def family(

@@ -113,16 +113,22 @@ def _limits(rules: Iterable[Rule]) -> Iterable[Decimal]:
 
 def kind_of(template: Template, values: Mapping[str, float]) -> Kind:
     """The kind of the row with these values. Raises FamilyError where its equations need a search or leave a choice."""
-    answer = template.solve(values)
+    return kind_in(template.solve(values), template.words, values)
+
+
+def kind_in(answer: Answer, words: Mapping[str, Word], values: Mapping[str, float]) -> Kind:
+    """The kind of a contour that was solved at these values of its free words. Raises FamilyError as `kind_of`."""
     profile = answer.profile
     status = _verdict(answer)
     free: dict[str, tuple[str, Decimal]] = {}
-    for word, typed in template.words.items():
+    for word, typed in words.items():
         number, stated = Decimal(repr(values[word])), list(_stated_by(typed, profile))
         if not stated and status is None:
             raise FamilyError(f"{typed.text} cannot vary: the contour has no value of it")
         for given in stated:
-            free[given.name] = word, given.value / number if number else Decimal(1)
+            one = replace(typed, number=Decimal(1), has_point=given.word is None or given.word.has_point)
+            factor = given.value / number if number else answer.claim.lexicon.value(one, answer.unit)
+            free[given.name] = word, factor or Decimal(1)
     if status is None:
         system = assemble(profile)
         if not is_closed(system):

@@ -54,7 +54,7 @@ class Sweep:
                 found |= {f"branch.{point}": numpy.int8 for point in _branches(kind)}
         for kind in self.kinds:
             if kind.status is None:
-                found |= dict.fromkeys(_results(kind), numpy.float64)
+                found |= dict.fromkeys(results_of(kind), numpy.float64)
         return {**found, "residual": numpy.float64}
 
     def empty(self, rows: int) -> Table:
@@ -143,7 +143,7 @@ class Sweep:
             function = Columns(_compile(kind.system, frozenset(inputs)))
             numbers = kind.numbers()
             function.numbers[:] = [numbers[name] for name in function.compiled.fixed]
-            made[number] = function, inputs, _results(kind)
+            made[number] = function, inputs, results_of(kind)
         found: _Ready = made[number]
         return found
 
@@ -193,7 +193,7 @@ def _branches(kind: Kind) -> dict[str, int]:
     return {choice.point: choice.side.sign for choice in kind.profile.choices if choice.given and choice.point in shown}
 
 
-def _results(kind: Kind) -> dict[str, tuple[str, float]]:
+def results_of(kind: Kind) -> dict[str, tuple[str, float]]:
     """The output behind each result, and what is added to it: coordinates count from the start point inside."""
     profile, figure = kind.profile, kind.system.figure
     origin = [float(value or 0) for value in profile.start.values]

@@ -67,7 +67,7 @@ def find_words(program: Program, names: Sequence[str]) -> dict[str, Word]:
             raise FamilyError(f"{name} names no word; write its letter, or LINE:LETTER such as 2:,A")
         same = [word for word in words if word.address == address and (not line or word.span.line == int(line))]
         if len(same) != 1:
-            have = ", ".join(_call(word, words) for word in words)
+            have = ", ".join(call(word, words) for word in words)
             told = f"{len(same)} words {address}" if same else f"no word {address}"
             raise FamilyError(f"the block has {told}{f' in line {line}' if line else ''}; its words are {have}")
         if same[0] in found.values():
@@ -82,6 +82,7 @@ _NEVER = ("G", "N", "M")
 """What says what the other words mean."""
 
 
-def _call(word: Word, words: Sequence[Word]) -> str:
+def call(word: Word, words: Sequence[Word]) -> str:
+    """The name of a word among all: its letter, with its line where several have it."""
     is_alone = sum(each.address == word.address for each in words) == 1
     return word.address if is_alone else f"{word.span.line}:{word.address}"
