@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from contoursolve.diagnostic import Basis, Diagnosis, Diagnostic, Severity
     from contoursolve.examine import Answer, Depth, Policy
     from contoursolve.expansion import Expansion
+    from contoursolve.families import Family, FamilyError, Sensitivity, family, sensitivity
     from contoursolve.pipeline import Result, UnknownControlError
     from contoursolve.sketch import Drawings, Drawn, Sketch
     from contoursolve.solving import Status
@@ -50,10 +51,13 @@ __all__ = [
     "Drawings",
     "Drawn",
     "Expansion",
+    "Family",
+    "FamilyError",
     "LineSegment",
     "Policy",
     "Program",
     "Result",
+    "Sensitivity",
     "Severity",
     "Sketch",
     "Status",
@@ -64,8 +68,10 @@ __all__ = [
     "check_file",
     "completions",
     "expand",
+    "family",
     "parse",
     "read_program",
+    "sensitivity",
     "solve",
     "solve_file",
     "solve_program",
@@ -77,6 +83,7 @@ _ROOMS = {
     "diagnostic": ("Basis", "Diagnosis", "Diagnostic", "Severity"),
     "examine": ("Answer", "Depth", "Policy"),
     "expansion": ("Expansion",),
+    "families": ("Family", "FamilyError", "Sensitivity", "family", "sensitivity"),
     "pipeline": ("Result", "UnknownControlError"),
     "sketch": ("Drawings", "Drawn", "Sketch"),
     "solving": ("Status",),

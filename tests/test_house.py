@@ -32,7 +32,7 @@ FLOORS = (
     "diagnosis",
     "fill commas",
     "pipeline project verification unfamiliar",
-    "lines comparison",
+    "lines comparison families",
     "expansion",
     "output api",
     "trial rewrite",

@@ -160,6 +160,16 @@ class Tape:
         }
         return kept
 
+    def slopes(self, outputs: Sequence[str], inputs: Sequence[str]) -> "Compiled":
+        """The derivatives of some outputs by some inputs, as outputs named `output by input`."""
+        jacobian = casadi.densify(
+            casadi.jacobian(
+                _stack(self._outputs[name] for name in outputs), _stack(self._inputs[name] for name in inputs)
+            )
+        )
+        function = casadi.Function("slopes", [_stack(self._inputs.values())], [casadi.vec(jacobian.T)])
+        return Compiled(function, self.inputs, tuple(f"{output} by {name}" for output in outputs for name in inputs))
+
     @property
     def outputs(self) -> tuple[str, ...]:
         """The names of the outputs, in order."""

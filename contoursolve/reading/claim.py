@@ -1,7 +1,7 @@
 """A contour found in a program: its form, its blocks, and every word with the given that it states."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from decimal import Decimal
 from enum import Enum
 
@@ -77,6 +77,8 @@ class Claim:
     """The words that would choose, whether they are stated or not."""
     conventions: tuple[Convention, ...] = ()
     """What the manual does not say and the reading rests on."""
+    limits: Mapping[str, Decimal] = field(default_factory=dict)
+    """Values of givens, mm, on whose two sides the words are read in different ways while the others stay."""
 
     @property
     def directives(self) -> tuple[Directive, ...]:

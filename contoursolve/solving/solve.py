@@ -129,6 +129,26 @@ def compare(fact: Fact, profile: Profile, at: Values) -> dict[str, float]:
     return values
 
 
+def inputs_of(profile: Profile, system: System) -> dict[str, float]:
+    """All inputs of the function of a system. Coordinates are counted from the start point, and the difference is
+    taken in decimals: a shifted program has the same numbers, to the last bit. Raises ValueError without a start."""
+    start = profile.start.values
+    if start[FIRST] is None or start[SECOND] is None:
+        raise ValueError("the start point is not known")
+    inputs = {scalar(system.figure.start, axis): 0.0 for axis in (FIRST, SECOND)}
+    absolute = {fact.given: fact.axis for fact in system.facts if isinstance(fact, Coordinate)}
+    for given in profile.givens.values():
+        if given.unit is Unit.DEGREE:
+            inputs[given.name + COSINE], inputs[given.name + SINE] = direction(given.value)
+        elif given.name in absolute:
+            inputs[given.name] = float(given.value - (start[absolute[given.name]] or 0))
+        else:
+            inputs[given.name] = float(given.value)
+    for choice in profile.choices:
+        inputs[f"side:{choice.point}"] = float(choice.side.sign)
+    return inputs
+
+
 class _Attempt:
     """One evaluation of one system; `answer` reads the outputs in the order in which they can fail."""
 
@@ -142,7 +162,7 @@ class _Attempt:
         self.system = system
         self.machine = compile_system(system)
         self.plan = self.machine.plan
-        self.out = self.machine.function(self._inputs())
+        self.out = self.machine.function(inputs_of(profile, system))
         self.refusals: list[Refusal] = []
         self.remarks: list[Remark] = []
         self.doubles: dict[int, dict[str, float]] = {}
@@ -150,25 +170,9 @@ class _Attempt:
         self.stuck: frozenset[Fact] = frozenset()
         """The facts of the step that is singular at these values, if one is."""
 
-    def _inputs(self) -> dict[str, float]:
-        """All inputs of the function. Coordinates are counted from the start point, and the difference is
-        taken in decimals: a shifted program has the same numbers, to the last bit."""
-        inputs = {scalar(self.system.figure.start, axis): 0.0 for axis in (FIRST, SECOND)}
-        absolute = {fact.given: fact.axis for fact in self.system.facts if isinstance(fact, Coordinate)}
-        for given in self.profile.givens.values():
-            if given.unit is Unit.DEGREE:
-                inputs[given.name + COSINE], inputs[given.name + SINE] = direction(given.value)
-            elif given.name in absolute:
-                inputs[given.name] = float(given.value - self.start[absolute[given.name]])
-            else:
-                inputs[given.name] = float(given.value)
-        for choice in self.profile.choices:
-            inputs[f"side:{choice.point}"] = float(choice.side.sign)
-        return inputs
-
     def _resize(self, sizes: Mapping[str, float]) -> Mapping[str, float]:
         """The outputs for other sizes of corners."""
-        return self.machine.function({**self._inputs(), **sizes})
+        return self.machine.function({**inputs_of(self.profile, self.system), **sizes})
 
     def answer(self, *, is_proven: bool) -> Solution:
         for number, step in enumerate(self.plan.steps):

@@ -103,7 +103,8 @@ def claim_g112(block: Block, state: State, modes: Modes) -> Claim:
     # The arc begins where line 1 meets it first, and ends beyond its centre (derived).
     choices = [Choice(V1, Side.NEARER, ""), Choice(V2, Side.FARTHER, "")]
     circumstances = _circumstances(side, beyond)
-    return claim_of(block, form, 112, state, after, modes, REFUSED, supplied, choices, circumstances)
+    claim = claim_of(block, form, 112, state, after, modes, REFUSED, supplied, choices, circumstances)
+    return replace(claim, limits=_limits(draft, 1 - along, aside, beyond))
 
 
 def _value(claim: Claim, name: str) -> Decimal | None:
@@ -124,6 +125,15 @@ def _landing(claim: Claim, across: int, aside: Decimal | None) -> Decimal | None
     if step is not None:
         return step - aside
     return place - start - aside if place is not None and start is not None else None
+
+
+def _limits(claim: Claim, across: int, aside: Decimal | None, beyond: Decimal | None) -> dict[str, Decimal]:
+    """Where the words put the landing line through the centre, each by itself."""
+    if aside is None or beyond is None:
+        return {}
+    lands = claim.givens.keys() & set("ZW" if across == FIRST else "XU")
+    limits = {name: claim.givens[name].value - beyond for name in lands}
+    return {**limits, _CENTERS[across]: aside + beyond}
 
 
 def _circumstances(side: int, beyond: Decimal | None) -> Iterator[str]:

@@ -1,0 +1,121 @@
+"""One function for many rows at once: its instructions replayed over columns, called through a buffer."""
+
+from collections.abc import Collection
+from dataclasses import dataclass
+from typing import Any
+
+import casadi
+import numpy
+from numpy.typing import NDArray
+
+from contoursolve.backends.numeric import Tape
+
+Array = NDArray[numpy.float64]
+
+ROWS = 4096
+"""Rows of one call: what is in use then stays in the processor's cache."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ColumnFunction:
+    """A function of columns of `ROWS` rows: its inputs that are single numbers and those that vary, its outputs that
+    are single numbers, as they follow from those alone, and those that vary."""
+
+    function: Any
+    fixed: tuple[str, ...]
+    varied: tuple[str, ...]
+    single: tuple[str, ...]
+    many: tuple[str, ...]
+
+
+def compile_columns(tape: Tape, names: Collection[str]) -> ColumnFunction:
+    """The function of a tape for columns of the inputs of these names; some milliseconds."""
+    fixed = tuple(name for name in tape.inputs if name not in names)
+    varied = tuple(name for name in tape.inputs if name in names)
+    scalars, columns = casadi.MX.sym("fixed", len(fixed)), casadi.MX.sym("varied", ROWS, len(varied))
+    places = {name: scalars[number] for number, name in enumerate(fixed)}
+    places |= {name: columns[:, number] for number, name in enumerate(varied)}
+    results = _replay(tape.shared(), [places[name] for name in tape.inputs])
+    named = dict(zip(tape.outputs, results, strict=True))
+    single = tuple(name for name, each in named.items() if each.size1() == 1)
+    many = tuple(name for name, each in named.items() if each.size1() != 1)
+    outputs = [
+        casadi.vertcat(casadi.MX(0, 1), *(named[name] for name in single)),
+        casadi.horzcat(casadi.MX(ROWS, 0), *(named[name] for name in many)),
+    ]
+    function = casadi.Function("columns", [scalars, columns], [casadi.densify(each) for each in outputs])
+    return ColumnFunction(function, fixed, varied, single, many)
+
+
+class Columns:
+    """A function of columns with buffers of its own; every thread needs one. CasADi lets go of the interpreter lock
+    while it evaluates."""
+
+    def __init__(self, compiled: ColumnFunction) -> None:
+        self.compiled = compiled
+        self.inputs = numpy.zeros((len(compiled.varied), ROWS))
+        self.numbers = numpy.zeros(len(compiled.fixed))
+        self._results = numpy.zeros(len(compiled.single)), numpy.zeros((len(compiled.many), ROWS))
+        self._buffer, self._trigger = compiled.function.buffer()
+        for number, argument in enumerate((self.numbers, self.inputs)):
+            self._buffer.set_arg(number, _memory(argument))
+        for number, result in enumerate(self._results):
+            self._buffer.set_res(number, _memory(result))
+
+    def evaluate(self, rows: int) -> dict[str, Array]:
+        """The outputs of the first rows of `inputs` (varied input, row) at `numbers` (fixed input): views by name,
+        true until the next call; of what does not vary, one number."""
+        self._trigger()
+        single, many = self._results
+        found = {name: single[number : number + 1] for number, name in enumerate(self.compiled.single)}
+        return found | {name: many[number, :rows] for number, name in enumerate(self.compiled.many)}
+
+
+def _memory(array: Any) -> Any:
+    """The numbers of an array, which CasADi reads and writes in place."""
+    return memoryview(array.reshape(-1))
+
+
+def _replay(function: Any, inputs: list[Any]) -> list[Any]:
+    """The outputs of a function of scalars for matrices in place of its inputs."""
+    work: dict[int, Any] = {}
+    results = [casadi.MX(0)] * function.nnz_out(0)
+    for number in range(function.n_instructions()):
+        kind = function.instruction_id(number)
+        read, target = function.instruction_input(number), function.instruction_output(number)
+        if kind == casadi.OP_OUTPUT:
+            results[target[1]] = work[read[0]]
+        elif kind == casadi.OP_INPUT:
+            work[target[0]] = inputs[read[1]]
+        elif kind == casadi.OP_CONST:
+            work[target[0]] = casadi.MX(function.instruction_constant(number))
+        elif len(read) == 1:
+            work[target[0]] = casadi.MX.unary(kind, work[read[0]])
+        else:
+            work[target[0]] = casadi.MX.binary(kind, work[read[0]], work[read[1]])
+    return results
+
+
+def directions(degrees: Array) -> tuple[Array, Array]:
+    """(cosine, sine) of angles in degrees, exact where they are exact; see `backends.angle.direction`.
+
+    Angles of at most nine decimals are folded into 0 to 45 degrees as whole numbers, without rounding.
+    """
+    scaled = numpy.rint(degrees * _BILLION)
+    is_decimal = scaled / _BILLION == degrees
+    quarter = numpy.rint(scaled / (90 * _BILLION))
+    whole = numpy.where(is_decimal, scaled - quarter * (90 * _BILLION), 0.0) / _BILLION
+    rest = numpy.where(is_decimal, whole, degrees - 90 * quarter)
+    size = numpy.abs(numpy.radians(rest))
+    cosine, sine = numpy.cos(size), numpy.copysign(numpy.sin(size), rest)
+    is_half = numpy.abs(rest) == 45  # noqa: PLR2004 - both are then the same number
+    cosine = numpy.where(is_half, numpy.sqrt(0.5), cosine)
+    sine = numpy.where(is_half, numpy.copysign(numpy.sqrt(0.5), rest), sine)
+    turns = quarter.astype(numpy.int64) % 4
+    return (
+        numpy.choose(turns, (cosine, -sine, -cosine, sine)) + 0.0,
+        numpy.choose(turns, (sine, cosine, -sine, -cosine)) + 0.0,
+    )
+
+
+_BILLION = 1e9

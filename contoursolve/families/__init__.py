@@ -1,0 +1,28 @@
+"""Families: one block with some words free, a million contours at once."""
+
+from contoursolve.families.evaluate import family, pieces, sweep
+from contoursolve.families.export import MissingExtraError, csv_lines, need, write_parquet
+from contoursolve.families.prepared import Sweep
+from contoursolve.families.ranges import FamilyError
+from contoursolve.families.result import Family, summary_of
+from contoursolve.families.slopes import Sensitivity, Spread, sensitivity
+from contoursolve.families.verdict import REASONS, Code
+
+__all__ = [
+    "REASONS",
+    "Code",
+    "Family",
+    "FamilyError",
+    "MissingExtraError",
+    "Sensitivity",
+    "Spread",
+    "Sweep",
+    "csv_lines",
+    "family",
+    "need",
+    "pieces",
+    "sensitivity",
+    "summary_of",
+    "sweep",
+    "write_parquet",
+]

@@ -1,0 +1,78 @@
+"""Which values the free words of a family take, row by row."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy
+from numpy.typing import ArrayLike, NDArray
+
+from contoursolve.backends.columns import Array
+
+
+class FamilyError(ValueError):
+    """A family that cannot be evaluated; the message says why, and what to do."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Ranges:
+    """The values of each free word, by its name: as columns side by side (`is_paired`), or as the axes of a grid whose
+    last word varies fastest."""
+
+    values: Mapping[str, Array]
+    is_paired: bool
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """(rows,) for columns, one size for each word for a grid."""
+        sizes = tuple(each.size for each in self.values.values())
+        return sizes[:1] if self.is_paired else sizes
+
+    @property
+    def count(self) -> int:
+        """Rows altogether."""
+        total = 1
+        for size in self.shape:
+            total *= size
+        return total
+
+    def places(self, word: str, rows: NDArray[numpy.int64]) -> NDArray[numpy.int64]:
+        """Where the values of a word are for these rows."""
+        if self.is_paired:
+            return rows
+        number = list(self.values).index(word)
+        stride = 1
+        for size in self.shape[number + 1 :]:
+            stride *= size
+        whole = rows // stride
+        # Dividing by one number is fast, and a remainder is not.
+        return whole - whole // self.shape[number] * self.shape[number] if number else whole
+
+
+def ranges_of(vary: Mapping[str, ArrayLike], *, is_paired: bool) -> Ranges:
+    """The ranges of a mapping. Raises FamilyError for what is no list of numbers."""
+    if not vary:
+        raise FamilyError("no word varies; name one with its values, such as A with 170 to 190")
+    values: dict[str, Array] = {}
+    for name, each in vary.items():
+        word = name.strip().upper()
+        try:
+            array = numpy.atleast_1d(numpy.asarray(each, dtype=numpy.float64))
+        except (TypeError, ValueError):
+            raise FamilyError(f"the values of {name} are not numbers") from None
+        if array.ndim != 1 or not array.size:
+            raise FamilyError(f"{name} needs a list of one or more numbers, not an array of shape {array.shape}")
+        if not numpy.isfinite(array).all():
+            raise FamilyError(f"the values of {name} must be finite numbers")
+        if word in values:
+            raise FamilyError(f"{name} is named twice")
+        values[word] = array
+    sizes = {word: array.size for word, array in values.items()}
+    if is_paired and len(set(sizes.values())) > 1:
+        told = ", ".join(f"{word} has {size:,}" for word, size in sizes.items())
+        raise FamilyError(f"paired words need equally many values: {told}")
+    return Ranges(values, is_paired)
+
+
+def stretches(count: int, size: int) -> Sequence[tuple[int, int]]:
+    """The rows from 0 to `count` in stretches of at most `size`."""
+    return [(first, min(first + size, count)) for first in range(0, count, size)]

@@ -1,0 +1,218 @@
+"""The verdict on each of many rows, by the checks of `solving.solve` and `solving.path` in their order."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from enum import IntEnum
+
+import numpy
+from numpy.typing import NDArray
+
+from contoursolve.backends.columns import Array
+from contoursolve.constraints import Coordinate, Heading, Offset, OnCircle, Radius
+from contoursolve.model import FIRST, SECOND, Arc, Corner, CornerShape, Fact, Figure, scalar
+from contoursolve.solving import RefusalKind, Status
+from contoursolve.solving.plan import AffineStep, DistanceStep, LineCircleStep, Plan, Step, TwoCirclesStep
+from contoursolve.tolerance import AGREEMENT, LENGTH, RADIUS_DIFFERENCE, REGULAR, RESIDUAL, TOUCHING
+
+Mask = NDArray[numpy.bool_]
+Codes = NDArray[numpy.uint8]
+Out = Mapping[str, Array]
+
+
+class Code(IntEnum):
+    """A status in a column of numbers."""
+
+    SOLVED = 0
+    OVERDETERMINED = 1
+    REJECTED = 2
+    CONFLICTING = 3
+    UNDERDETERMINED = 4
+    AMBIGUOUS = 5
+    NO_SOLUTION = 6
+    UNDECIDED = 7
+
+    @property
+    def status(self) -> Status:
+        """The status that it stands for."""
+        return Status[self.name]
+
+
+REASONS: tuple[RefusalKind | None, ...] = (None, *RefusalKind)
+"""What a number in the column `reason` stands for."""
+
+_REASON = {kind: number for number, kind in enumerate(REASONS)}
+
+
+def code_of(status: Status) -> Code:
+    """The number of a status."""
+    return Code[status.name]
+
+
+def reason_of(kind: RefusalKind | None) -> int:
+    """The number of a reason."""
+    return _REASON[kind]
+
+
+class Verdict:
+    """What the checks found, row by row: `status` and `reason` as numbers; and the rows `again` that need the exact
+    arithmetic of a single solve: a step that is singular, a line that touches its circle."""
+
+    def __init__(
+        self, figure: Figure, plan: Plan, corner_residuals: Sequence[str], cosines: Out, out: Out, rows: int
+    ) -> None:
+        self.figure, self.plan, self.out, self.cosines = figure, plan, out, cosines
+        self.reason: Codes = numpy.zeros(rows, numpy.uint8)
+        self.again: Mask = numpy.zeros(rows, bool)
+        self._agrees: Mask = numpy.zeros(rows, bool)
+        self._conflicts: Mask = numpy.zeros(rows, bool)
+        basis = [f"residual:{number}" for number in range(len(plan.basis))]
+        with numpy.errstate(invalid="ignore"):
+            solved = _worst(numpy.zeros(rows), (out[name] for name in basis))
+            self.worst = _worst(solved.copy(), (out[name] for name in corner_residuals))
+            """The largest residual of the equations that were solved, mm; NaN if any is."""
+            for number, step in enumerate(plan.steps):
+                self._check_step(number, step)
+            self._check_equations(solved)
+            self._check_elements()
+            if figure.corners:
+                self._check_corners()
+                self._check_room()
+                # Checked last, because a corner that does not fit may be huge.
+                self._refuse(~(self.worst <= RESIDUAL), RefusalKind.NOT_VERIFIED)
+
+    @property
+    def status(self) -> Codes:
+        """The statuses; of several, the first in the order of `Status`."""
+        status = numpy.where(self.reason != 0, Code.NO_SOLUTION, Code.SOLVED).astype(numpy.uint8)
+        status[self._agrees] = Code.OVERDETERMINED
+        status[self._conflicts] = Code.CONFLICTING
+        return status
+
+    def _refuse(self, mask: Mask, kind: RefusalKind) -> None:
+        """Rows that nothing spoke against until here."""
+        if mask.any():
+            self.reason[mask & (self.reason == 0)] = _REASON[kind]
+
+    def _look_again(self, mask: Mask) -> None:
+        if mask.any():
+            self.again |= mask & (self.reason == 0)
+
+    def _check_step(self, number: int, step: Step) -> None:
+        out = self.out
+        if isinstance(step, AffineStep):
+            self._look_again(~(numpy.abs(out[f"determinant:{number}"]) > REGULAR))
+            return
+        if isinstance(step, DistanceStep):
+            self._refuse(~(out[step.circle.radius] > LENGTH), RefusalKind.CIRCLE_UNDEFINED)
+            return
+        offset, radius = numpy.abs(out[f"offset:{number}"]), out[f"radius:{number}"]
+        kind = RefusalKind.CIRCLE_MISSED
+        if isinstance(step, TwoCirclesStep):
+            kind = RefusalKind.RADIUS_TOO_SMALL if step.is_equal else RefusalKind.CIRCLES_APART
+            undefined = RefusalKind.CIRCLE_UNDEFINED if step.is_equal else kind
+            self._refuse(~(out[f"distance:{number}"] > LENGTH), undefined)
+        touches = numpy.abs(offset - radius) <= TOUCHING * out[f"scale:{number}"]
+        if isinstance(step, LineCircleStep) or not step.is_equal:
+            self._look_again(touches)
+        self._refuse(~(touches | (offset < radius)), kind)
+
+    def _check_equations(self, solved: Array) -> None:
+        size, wrong = len(self.plan.basis), ~(solved <= RESIDUAL) & (self.reason == 0)
+        self._refuse(wrong, RefusalKind.NOT_VERIFIED)
+        for number, fact in enumerate(self.plan.checks, size):
+            off = numpy.abs(self.out[f"residual:{number}"])
+            self._compare(fact, off, numpy.isfinite(off) & ~wrong)
+
+    def _compare(self, fact: Fact, off: Array, is_known: Mask) -> None:
+        """A fact that was not needed, at the points that the others give."""
+        out, kind = self.out, RefusalKind.WORDS_DISAGREE
+        if isinstance(fact, OnCircle) and not fact.given:
+            first, second = self._step(fact.center, fact.point)
+            off = numpy.abs(numpy.hypot(first, second) - out[fact.radius])
+            agrees, differs = numpy.zeros(1, bool), ~(off <= RADIUS_DIFFERENCE)
+            kind = RefusalKind.RADIUS_DIFFERENCE
+        elif isinstance(fact, Heading):
+            first, second = self._step(fact.tail, fact.head)
+            cosine, sine = (self.cosines[f"{fact.given}:{part}"] for part in ("cos", "sin"))
+            turned = numpy.arctan2(cosine * second - sine * first, cosine * first + sine * second)
+            agrees = (off <= AGREEMENT) | (numpy.abs(numpy.degrees(turned)) <= AGREEMENT)
+            differs = ~agrees
+        elif fact.given:
+            agrees = off <= AGREEMENT
+            differs = ~agrees
+            if not isinstance(fact, Coordinate | Offset | Radius):
+                self._look_again(differs & is_known)
+        else:
+            agrees, differs, kind = numpy.zeros(1, bool), ~(off <= AGREEMENT), RefusalKind.FACT_DISAGREES
+        self._agrees |= agrees & is_known
+        self._conflicts |= differs & is_known
+        self._refuse(differs & is_known, kind)
+
+    def _step(self, tail: str, head: str) -> tuple[Array, Array]:
+        """From one point to another, mm."""
+        (a, b), (c, d) = self._point(tail), self._point(head)
+        return c - a, d - b
+
+    def _point(self, name: str) -> tuple[Array, Array]:
+        """A point, counted from the start."""
+        if name == self.figure.start:
+            return numpy.zeros(1), numpy.zeros(1)
+        return self.out[scalar(name, FIRST)], self.out[scalar(name, SECOND)]
+
+    def _check_elements(self) -> None:
+        for element in self.figure.path:
+            if isinstance(element, Arc):
+                self._refuse(numpy.hypot(*self._step(element.tail, element.head)) <= LENGTH, RefusalKind.ARC_EMPTY)
+            else:
+                kind = RefusalKind.LINE_BACKWARDS if element.heading is None else RefusalKind.LINE_REVERSED
+                self._refuse(~(self.out[f"length:{element.name}"] >= -LENGTH), kind)
+
+    def _check_corners(self) -> None:
+        out = self.out
+        for corner in self.figure.corners:
+            name = corner.name
+            for element in self._elements(corner):
+                self._refuse(out[f"length:{element}"] <= LENGTH, RefusalKind.CORNER_TOO_LARGE)
+            if f"landing:{name}" in out:
+                self._refuse(out[f"landing:{name}"] == 0, RefusalKind.LANDING_UNKNOWN)
+            straight = numpy.abs(out[f"turn:{name}"]) <= REGULAR
+            if straight.any():
+                self._refuse(straight & (out[f"cosine:{name}"] > 0), RefusalKind.CORNER_STRAIGHT)
+                self._refuse(straight, RefusalKind.CORNER_REVERSES)
+            if corner.shape is CornerShape.CHAMFER_AXIS_45:
+                self._refuse(self._outside(corner) > LENGTH, RefusalKind.BEVEL_OUTSIDE)
+                for way in ("in", "out"):
+                    self._refuse(out[f"setback-{way}:{name}"] < -LENGTH, RefusalKind.BEVEL_IN_BAND)
+
+    def _outside(self, corner: Corner) -> Array:
+        """How far a corner lies outside the rectangle spanned by the ends of its two lines, mm."""
+        path = {element.name: element for element in self.figure.path}
+        before, after = path[corner.before], path.get(corner.after or "")
+        if after is None or isinstance(before, Arc) or isinstance(after, Arc):
+            return numpy.zeros(1)
+        tail, head, at = self._point(before.tail), self._point(after.head), self._point(corner.at)
+        excess = numpy.full(1, -numpy.inf)
+        for axis in (FIRST, SECOND):
+            low, high = numpy.minimum(tail[axis], head[axis]), numpy.maximum(tail[axis], head[axis])
+            excess = numpy.maximum(excess, numpy.maximum(low - at[axis], at[axis] - high))
+        return excess
+
+    def _check_room(self) -> None:
+        for corner in self.figure.corners:
+            for element, way in zip(self._elements(corner), ("in", "out"), strict=False):
+                setback = self.out[f"setback-{way}:{corner.name}"]
+                fits = (setback >= -LENGTH) & (setback <= self.out[f"length:{element}"] + LENGTH)
+                self._refuse(~fits, RefusalKind.CORNER_TOO_LARGE)
+        for each in self.figure.path:
+            self._refuse(self.out[f"room:{each.name}"] < -LENGTH, RefusalKind.CORNERS_OVERLAP)
+
+    def _elements(self, corner: Corner) -> list[str]:
+        """The elements that a corner joins, as far as they have two ends."""
+        after = corner.after or corner.lands_on
+        return [corner.before, *([after] if after and f"length:{after}" in self.out else [])]
+
+
+def _worst(worst: Array, residuals: Iterable[Array]) -> Array:
+    """The largest absolute value, row by row, in place of the first argument."""
+    for residual in residuals:
+        numpy.maximum(worst, numpy.abs(residual), out=worst)
+    return worst

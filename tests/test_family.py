@@ -1,0 +1,365 @@
+"""A family says of every row what a single solve says of the block with these values."""
+
+import sys
+
+import click
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+import contoursolve
+from contoursolve.cli import main
+from contoursolve.cli.sweep import read_range
+from contoursolve.families import REASONS, Code, FamilyError, family, sensitivity
+
+LATHE, MILL = {"start": "X40. Z0."}, {}
+_NCT = "G17 G90 {comp} G0 X{x} Y{y}\n"
+
+CASES = {
+    "G111, two roundings": (
+        "G111 X100. A180. K-30. B120. P5. Q5.",
+        LATHE,
+        {"A": (150, 210), "K": (-60, 5), "B": (60, 200), "P": (-0.5, 25), "Q": (-0.5, 25), "X": (20, 140)},
+    ),
+    "G111, bevels": (
+        "G111 X100. A180. K-30. B120. C5. D5.",
+        LATHE,
+        {"A": (120, 250), "K": (-60, 5), "B": (60, 200), "C": (-0.5, 25), "D": (-0.5, 25)},
+    ),
+    "G111, every start word": (
+        "G111 A160. B120. I10. Z-60. P2. Q2.",
+        LATHE,
+        {"I": (-20, 20), "A": (90, 370), "Z": (-90, 9)},
+    ),
+    "G111, words twice": (
+        "G111 X100. A180. K-30. B120. I0. P5.",
+        LATHE | {"rules": "off"},
+        {"A": (179.99, 180.01), "I": (-0.005, 0.005), "P": (0, 9)},
+    ),
+    "G112": ("G112 X100. K-30. I10. R20. P2. Q2.", LATHE, {"R": (-5, 60), "K": (-70, 10), "P": (0, 9), "I": (-30, 40)}),
+    "G112, bevels": ("G112 X100. K-30. I10. R20. C2. D2.", LATHE, {"R": (-5, 60), "X": (30, 190), "C": (-1, 9)}),
+    "circle-line": (
+        _NCT.format(comp="G41", x=50, y=0) + "G3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q-1",
+        MILL,
+        {"R": (-70, 80), ",A": (100, 260), "Q": (-1, 1)},
+    ),
+    "line-circle with a corner": (
+        _NCT.format(comp="G42", x=100, y=20) + "G1 ,A197.103 ,R2\nG3 X20 Y30 I20 J-10 R40 Q-1",
+        MILL,
+        {"2:,A": (150, 240), ",R": (0, 20), "3:R": (39.985, 40.015), "Q": (-1, 1)},
+    ),
+    "chain of three with corners": (
+        _NCT.format(comp="G41", x=90, y=10) + "G1 ,A150 ,R2\nG1 X10 Y20 ,A225 Q1 ,C2\nG3 X-40 Y-20 I-20 J-20 R20 Q1",
+        MILL,
+        {"2:,A": (120, 170), "3:,A": (170, 260), ",R": (-0.2, 9), ",C": (0, 9), "4:Q": (-1, 1)},
+    ),
+    "circle-circle": (
+        _NCT.format(comp="G41", x=50, y=0) + "G3 X-50 Y0 R50 ,R2\nG3 X-40 Y60 I-40 J20 R40 Q-1",
+        MILL,
+        {"2:R": (45, 90), "2:Y": (-20, 30), ",R": (0, 30), "Q": (-1, 1)},
+    ),
+    "a line that touches": (
+        _NCT.format(comp="G41", x=50, y=0) + "G3 I-50 J0 ,R2\nG1 X-60 Y50 ,A180 Q-1",
+        MILL,
+        {"3:Y": (49.999, 50.001), ",R": (0, 3), "Q": (-1, 1)},
+    ),
+    "words twice, by other words": (
+        "G111 X100. A180. K-30. B120. I0. Z-47.321",
+        LATHE | {"rules": "off"},
+        {"A": (179.99, 180.01), "B": (119.99, 120.01)},
+    ),
+    "G112 landing beyond the centre": ("G112 X44. K-30. I2. R20.", LATHE, {"I": (-5, 5), "R": (5, 40)}),
+    "G11": ("G11 X80. K-7.", LATHE, {"X": (20, 90), "K": (-20, 20)}),
+    "inches": (
+        "G111 X4. A180. K-1.2 B120. P.2 Q.2",
+        {"start": "X1.6 Z0.", "units": "inch"},
+        {"A": (150, 210), "P": (0, 4)},
+    ),
+}
+
+
+def draw(ranges, rows, seed):
+    """Values of at most three decimals, as a control reads them, with a share of special ones."""
+    rng = np.random.default_rng(seed)
+    found = {}
+    for word, (low, high) in ranges.items():
+        values = np.round(rng.uniform(low, high, rows), 3)
+        special = np.array([each for each in (0, 90, 120, 180, 270, low, high) if low <= each <= high])
+        at = rng.random(rows) < 0.15
+        found[word] = np.where(at, rng.choice(special, rows), values) if special.size else values
+    return found
+
+
+def text_of(block, words, values):
+    """The block with values in place of the words', by plain text."""
+    lines = block.split("\n")
+    for name, value in zip(words, values, strict=True):
+        number, _, address = name.rpartition(":")
+        places = [int(number) - 1] if number else range(len(lines))
+        for place in places:
+            parts = lines[place].split(" ")
+            lines[place] = " ".join(
+                f"{address}{float(value):.3f}"
+                if part[: len(address)] == address and part[len(address) :][:1] in "-.0123456789"
+                else part
+                for part in parts
+            )
+    return "\n".join(lines)
+
+
+def expected_points(answer):
+    """Every coordinate of a solved contour by the family's name for it."""
+    axes = answer.plane.axes
+    for point, pair in answer.contour.points.items():
+        yield from ((f"{point}.{axis}", value) for axis, value in zip(axes, pair, strict=True))
+    for element in answer.contour.elements:
+        if element.name.startswith("corner"):
+            for place in ("start", "end"):
+                name = {"start": "begin"}.get(place, place)
+                pair = getattr(element, place)
+                yield from ((f"{element.name}.{name}.{axis}", value) for axis, value in zip(axes, pair, strict=True))
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_a_row_of_a_family_is_the_single_solve_of_its_block(name):
+    block, options, ranges = CASES[name]
+    values = draw(ranges, 400, sorted(CASES).index(name))
+    found = family(block, vary=values, paired=True, **options)
+    names = set(found.names)
+    seen, compared = set(), 0
+    for row, each in enumerate(zip(*values.values(), strict=True)):
+        text = text_of(block, values, each)
+        answer = contoursolve.solve(text, depth="verdict", **options).answers[0]
+        status = Code(int(found["status"][row])).status
+        assert status is answer.status, (text, status, answer.status)
+        seen.add(status)
+        sides = {point: side.sign for point, side in answer.sides.items()}
+        branch = {key[7:]: int(found[key][row]) for key in names if key.startswith("branch.") and found[key][row]}
+        assert branch == sides, text
+        if answer.contour is None:
+            continue
+        for key, value in expected_points(answer):
+            if key in names:
+                compared += 1
+                assert abs(found[key][row] - value) <= 1e-12 * max(1.0, abs(value)), (text, key)
+    assert compared > 20
+    assert len(seen) > 1
+
+
+BLOCK, START = "G111 X100. A180. K-30. B120. P5. Q5.", "X40. Z0."
+
+
+def test_a_grid_has_an_axis_for_each_word_and_the_rows_of_its_columns():
+    a, p = np.arange(150, 210, 0.5), np.arange(1, 30, 0.25)
+    grid = family(BLOCK, start=START, vary={"A": a, "P": p})
+    assert grid.shape == grid["status"].shape == (a.size, p.size)
+    columns = family(BLOCK, start=START, vary={"A": np.repeat(a, p.size), "P": np.tile(p, a.size)}, paired=True)
+    for name in grid.names:
+        assert np.array_equal(grid[name].ravel(), columns[name], equal_nan=True), name
+    assert sum(grid.summary().values()) == len(grid) == a.size * p.size
+
+
+def test_the_number_of_threads_changes_nothing():
+    vary = {"A": np.linspace(90, 270, 400), "P": np.linspace(0, 30, 400)}
+    one, two = (family(BLOCK, start=START, vary=vary, workers=workers) for workers in (1, 2))
+    for name in one.names:
+        assert one[name].tobytes() == two[name].tobytes(), name
+
+
+def test_types_are_as_documented_and_reasons_have_names():
+    found = family(BLOCK, start=START, vary={"P": [5, 80]})
+    assert (found["status"].dtype, found["reason"].dtype, found["V1.Z"].dtype) == (np.uint8, np.uint8, np.float64)
+    assert found["status"].tolist() == [Code.SOLVED, Code.NO_SOLUTION]
+    assert REASONS[found["reason"][1]].value == "corner-too-large"
+    assert np.isnan(found["V2.Z"]).tolist() == [False, True]
+    assert found["line 2.room"][0] > 0 > found["line 1.room"][1]
+    assert found["residual"].max() < 1e-9
+
+
+@pytest.mark.parametrize(
+    ("block", "vary", "message"),
+    [
+        (BLOCK, {}, "no word varies"),
+        (BLOCK, {"R": [1]}, "the block has no word R; its words are X, A, K, B, P, Q"),
+        (BLOCK, {"A": []}, "A needs a list of one or more numbers"),
+        (BLOCK, {"A": ["x"]}, "the values of A are not numbers"),
+        (BLOCK, {"A": [float("nan")]}, "the values of A must be finite"),
+        (BLOCK, {"A": [1, 2], "P": [1, 2, 3]}, "A has 2, P has 3"),
+        (BLOCK + " (contoursolve: length of line 1 = 30)", {"A": [180]}, "about words alone"),
+        (BLOCK + "\n" + BLOCK, {"1:A": [180]}, "2 contours"),
+        (BLOCK + "\n" + BLOCK, {"A": [180]}, "2 words A; its words are 1:X, 1:A"),
+        ("G112 X100. K-30. I10. R20.", {"X": [1], "I": [1]}, "vary one of them at a time"),
+    ],
+)
+def test_what_makes_no_family_is_refused_with_its_reason(block, vary, message):
+    with pytest.raises(FamilyError) as caught:
+        family(block, start=START, vary=vary, paired=True)
+    assert message in str(caught.value)
+
+
+def test_a_choice_that_nothing_makes_is_refused():
+    block = "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87"
+    with pytest.raises(FamilyError, match="nothing chooses between the two places of P1"):
+        family(block, vary={",A": [170, 171]}, rules="off")
+
+
+def test_the_start_point_must_be_known():
+    with pytest.raises(FamilyError, match="start point"):
+        family(BLOCK, vary={"A": [180]})
+
+
+def test_families_go_to_arrow_parquet_and_xarray(tmp_path):
+    pytest.importorskip("pyarrow")
+    from pyarrow import parquet  # noqa: PLC0415
+
+    found = family(BLOCK, start=START, vary={"A": [170, 180, 190], "P": [1, 60]})
+    table = found.to_arrow()
+    assert tuple(table.column_names) == found.names
+    found.to_parquet(tmp_path / "family.parquet")
+    again = parquet.read_table(tmp_path / "family.parquet")
+    assert again.schema.equals(table.schema)
+    assert all(np.array_equal(again[name], found[name].ravel(), equal_nan=True) for name in found.names)
+    pytest.importorskip("xarray")
+    data = found.to_xarray()
+    assert dict(data.sizes) == {"A": 3, "P": 2}
+    assert float(data["V2.X"].sel(A=180, P=1)) == found["V2.X"][1, 0]
+
+
+ON_BLOCK = ("--block", BLOCK, "--start", START)
+
+
+def run(*arguments):
+    done = CliRunner().invoke(main, ["sweep", *map(str, arguments)])
+    assert done.exception is None or isinstance(done.exception, SystemExit), done.exception
+    return done.exit_code, done.stdout, done.stderr
+
+
+def test_a_sweep_counts_what_becomes_of_the_contours():
+    status, output, _ = run(*ON_BLOCK, "--vary", "P=-1,1,20,80")
+    assert status == 0
+    lines = [line.split(maxsplit=1) for line in output.splitlines()]
+    assert lines == [
+        ["4", "contours"],
+        ["2", "solved"],
+        ["1", "rejected"],
+        ["1", "no-solution"],
+        ["1", "corner-too-large"],
+    ]
+
+
+def test_a_range_has_both_ends_and_no_rounding_adds_up():
+    word, values = read_range("a=170:190:0.01")
+    assert (word, len(values), values[0], values[-1], values[1733]) == ("A", 2001, 170.0, 190.0, 187.33)
+    assert read_range("2:,A=3:1:-1") == ("2:,A", [3.0, 2.0, 1.0])
+    assert read_range("P=1, 2.5")[1] == [1.0, 2.5]
+
+
+@pytest.mark.parametrize("text", ["A", "A=", "A=1:2", "A=1:2:0", "A=1:2:-1", "A=1:2,3", "A=x", "A=nan", "A=0:1:1e-12"])
+def test_a_range_that_is_none_is_refused(text):
+    with pytest.raises(click.UsageError):
+        read_range(text)
+
+
+def test_a_sweep_writes_every_row(tmp_path):
+    vary = ("--vary", "A=150:200:0.5", "--vary", "P=0:40:0.1")
+    found = family(BLOCK, start=START, vary={"A": np.arange(1500, 2005, 5) / 10, "P": np.arange(0, 401) / 10})
+    target = tmp_path / "family.csv"
+    assert run(*ON_BLOCK, *vary, "-o", target)[0] == 0
+    names, *rows = [line.split(",") for line in target.read_text().splitlines()]
+    assert tuple(names) == found.names
+    assert len(rows) == len(found)
+    for name, column in zip(names, zip(*rows, strict=True), strict=True):
+        if name == "status":
+            assert list(column) == [Code(code).status.value for code in found["status"].ravel()]
+        elif name != "reason":
+            numbers = [float(each) if each else float("nan") for each in column]
+            assert np.array_equal(numbers, found[name].ravel(), equal_nan=True), name
+    status, _, errors = run(*ON_BLOCK, *vary, "-o", target)
+    assert (status, "give --force" in errors) == (2, True)
+    pytest.importorskip("pyarrow")
+    from pyarrow import parquet  # noqa: PLC0415
+
+    files = [tmp_path / f"{workers}.parquet" for workers in (1, 2)]
+    for workers, file in enumerate(files, 1):
+        assert run(*ON_BLOCK, *vary, "-o", file, "--workers", workers)[0] == 0
+    assert files[0].read_bytes() == files[1].read_bytes()
+    table = parquet.read_table(files[0])
+    assert all(np.array_equal(table[name], found[name].ravel(), equal_nan=True) for name in found.names)
+
+
+def test_a_missing_package_is_named_with_the_extra_that_brings_it(monkeypatch, tmp_path):
+    monkeypatch.setitem(sys.modules, "pyarrow", None)
+    status, _, errors = run(*ON_BLOCK, "--vary", "A=170", "-o", tmp_path / "family.parquet")
+    assert (status, "pip install 'contoursolve[family]'" in errors) == (2, True)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ((*ON_BLOCK, "--vary", "R=1"), "the block has no word R"),
+        ((*ON_BLOCK, "--vary", "A=1", "--vary", "a=2"), "twice"),
+        ((*ON_BLOCK, "--vary", "A=1", "-o", "x.txt"), ".parquet or .csv"),
+        (("--block", BLOCK, "--vary", "A=1"), "start point"),
+        (("--block", "A1", "--vary", "A=1"), "--control"),
+    ],
+)
+def test_a_sweep_that_makes_no_sense_is_one_line_and_status_2(arguments, message):
+    status, output, errors = run(*arguments)
+    assert (status, output) == (2, "")
+    assert message in errors
+
+
+@pytest.mark.parametrize(
+    ("block", "options"),
+    [
+        (BLOCK, LATHE),
+        ("G111 X100. A170. K-30. B120. C5. D5.", LATHE),
+        ("G112 X50. K-30. I-10. R20. P2. Q2.", LATHE),
+        ("G111 X4. A180. K-1.2 B120. P.2 Q.2", {"start": "X1.6 Z0.", "units": "inch"}),
+        (_NCT.format(comp="G41", x=50, y=0) + "G3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q-1", MILL),
+        (
+            _NCT.format(comp="G41", x=90, y=10)
+            + "G1 ,A150 ,R2\nG1 X10 Y20 ,A225 Q1 ,C2\nG3 X-40 Y-20 I-20 J-20 R20 Q1",
+            MILL,
+        ),
+    ],
+)
+def test_derivatives_are_central_differences(block, options):
+    slopes = sensitivity(block, **options).slopes
+    words = list(next(iter(slopes.values())))
+    program = contoursolve.parse(block)
+    step = 1e-4
+    compared = 0
+    for word in words:
+        line, _, address = word.rpartition(":")
+        same = [each for each in program.blocks if not line or each.line == int(line)]
+        value = float(next(each.find(address) for each in same if each.find(address)).number)
+        found = family(block, vary={word: [value - step, value + step]}, **options)
+        if set(found.summary()) != {contoursolve.Status.SOLVED}:
+            continue  # a circle that is said to pass through a point allows it little
+        compared += 1
+        for name, by_word in slopes.items():
+            difference = np.diff(found[name])[0] / (2 * step)
+            assert abs(by_word[word] - difference) <= 1e-6 * max(1.0, abs(difference)), (name, word)
+    assert compared >= 3
+
+
+def test_tolerances_add_up_at_worst_and_in_squares():
+    found = sensitivity(BLOCK, start=START)
+    spread = found.spread({"K": 0.03, "X": 0.04 / found.slopes["V2.Z"]["X"]})["V2.Z"]
+    assert (spread.worst, spread.typical) == pytest.approx((0.07, 0.05))
+    with pytest.raises(FamilyError, match="no word R; there are X, A, K, B, P, Q"):
+        found.spread({"R": 1})
+
+
+@pytest.mark.parametrize(
+    ("block", "message"),
+    [
+        (BLOCK.replace("P5.", "P500."), "no-solution"),
+        (BLOCK.replace("K-30.", ""), "rejected"),
+        ("G17 G41 G0 X50 Y0\nG3 I-50 J0\nG1 X-60 Y50 ,A180 Q-1", "no derivative exists"),
+    ],
+)
+def test_a_contour_without_derivatives_is_refused(block, message):
+    with pytest.raises(FamilyError, match=message):
+        sensitivity(block, start=None if "G17" in block else START)
