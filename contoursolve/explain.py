@@ -13,7 +13,7 @@ from contoursolve.analysis import Verdict
 from contoursolve.constraints import Radius, assemble
 from contoursolve.contour import Contour, LineSegment
 from contoursolve.diagnostic import Basis, Diagnostic, Label
-from contoursolve.model import Given, Length, Profile, Role, Unit
+from contoursolve.model import CornerShape, Given, Length, Profile, Role, Unit
 from contoursolve.reading import Claim, Trouble
 from contoursolve.rules import Offence, Rule
 from contoursolve.solving import Refusal, RefusalKind, Remark, RemarkKind, Solution, compare, lookup, scalars_of
@@ -259,6 +259,7 @@ def explain_result(
             in_degrees = event.kind in _IN_DEGREES or (is_word and givens[0].unit is Unit.DEGREE)
             text = angle_text(values[name]) if in_degrees else length_text(values[name], context.unit)
             fields[name] = text
+    fields |= {name: length_text(values[name], context.unit) for name in ("radius", "distance") if name in values}
     if "off_by_mm" in values:
         fields["off"] = length_text(values["off_by_mm"], context.unit)
         if is_word and givens[0].unit is Unit.DEGREE and words and words[0].address == FACT and "expected" in values:
@@ -368,6 +369,9 @@ def unknowns_text(names: Sequence[str], profile: Profile) -> str:
     for name in names:
         thing, _, part = name.rpartition(".")
         shown = profile.plane.axes[int(part)] if part.isdigit() else _PARTS.get(part, "")
+        shapes = {corner.shape for corner in profile.figure.corners if corner.name == thing}
+        if part == "radius" and shapes and CornerShape.FILLET not in shapes:
+            shown = "size"
         things.setdefault(thing if shown else name, {}).update({shown: None} if shown else {})
     return join([f"{thing} ({join(list(parts))})" if parts else thing for thing, parts in things.items()])
 

@@ -112,6 +112,8 @@ def explain_start(context: Context, claim: Claim) -> Diagnostic:
     unknown = [axis for axis in claim.before.plane.axes if claim.before.axes[axis].value is None]
     places = [claim.before.axes[axis] for axis in unknown]
     reasons = dict.fromkeys(f"{each.reason}{_on_line(each.span)}" for each in places)
+    if claim.before.is_incremental and any(each.span is None for each in places):
+        reasons["G91 is active, and an increment from an unknown position gives none"] = None
     finding = report(
         context,
         context.row(Trouble.POSITION_UNKNOWN),

@@ -296,3 +296,13 @@ def test_a_forgotten_comma_is_told_and_written_first(text, code, fixed):
     (finding,) = solve("G17 G90 G0 X0 Y0\n" + text, control="nct-99m").diagnostics
     assert finding.code == code
     assert finding.fixes[0].replacement == fixed
+
+
+def test_what_is_told_of_an_arc_off_its_centre_and_of_a_word_beside_the_plane():
+    text = "G17 G90 G42 G0 X50 Y0\n{}\nG1 X-50 Y42.857{} ,A171.87 Q-1"
+    (arc,) = solve(text.format("G3 X-50 Y2 I-50 J0", ""), control="nct-99m").diagnostics
+    assert "50.000 mm" in arc.message
+    assert "50.040 mm" in arc.message
+    assert not any("tied" in note for note in arc.notes)
+    (beside,) = solve(text.format("G3 X-50 Y0 R50", " Z-5"), control="nct-99m").diagnostics
+    assert "safe" not in {fix.applicability.value for fix in beside.fixes}

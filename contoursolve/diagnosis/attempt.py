@@ -122,9 +122,16 @@ def _try(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], before: Before
     reference = before.contour
     deviation = _deviation(answer.contour, reference) if reference else float("inf")
     is_same = deviation <= AGREEMENT and len(answer.contour.elements) == len(reference.elements if reference else ())
-    applicability = Applicability.SAFE if is_same else Applicability.CHANGES_CONTOUR
+    is_safe = is_same and not any(_moves_beside(edit, claim) for edit in edits)
+    applicability = Applicability.SAFE if is_safe else Applicability.CHANGES_CONTOUR
     warnings = sum(each.code not in before.codes for each in rules)
     return Repair(edits, replacement, applicability, answer.contour, deviation, warnings)
+
+
+def _moves_beside(edit: Edit, claim: Claim) -> bool:
+    """Whether a word is dropped that moves an axis outside the plane: the contour is the same, the motion is not."""
+    row = claim.lexicon.addresses.get(edit.address)
+    return edit.kind is EditKind.DROP and bool(row and row.axis and row.axis not in claim.before.plane.axes)
 
 
 def _is_settled(answer: Answer, edits: tuple[Edit, ...]) -> bool:

@@ -14,7 +14,7 @@ from contoursolve.diagnosis.repairs import find_repairs
 from contoursolve.diagnostic import Diagnosis, Diagnostic, Fix, Label, Severity, Tie
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer, Policy
-from contoursolve.explain import length_text, place_text
+from contoursolve.explain import SHOWN, length_text, place_text
 from contoursolve.reading import Trouble
 from contoursolve.solving import RefusalKind, RemarkKind, scalars_of
 from contoursolve.source import Span
@@ -154,7 +154,8 @@ def _reasons(
     if finding.about in _ABOUT_FREEDOM:
         yield from freedom_reasons(profile, diagnosis.freedoms)
     if finding.about in _ABOUT_RADII:
-        yield from (f"these words are tied: {tie.identity}" for tie in diagnosis.ties if tie.identity)
+        identities = (tie.identity for tie in diagnosis.ties)
+        yield from (f"these words are tied: {each}" for each in identities if 0 < len(each) <= SHOWN)
     yield from path_reasons(profile, affine, finding)
 
 

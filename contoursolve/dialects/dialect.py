@@ -47,6 +47,6 @@ class Dialect:
 
     def initial_state(self, unit: Length) -> State:
         """The state before the first block: the position is not known, nothing is compensated."""
-        reason = "no block before it positions this axis"
+        reason = "nothing before it gives an absolute position"
         axes = {axis: Position(None, reason) for axis in self.modes.axes}
         return State(axes, None, self.plane, unit, is_incremental=False, compensation=40)

@@ -411,8 +411,9 @@ def compare_fact(fact: Fact, off: float, profile: Profile, system: System, at: V
     if isinstance(fact, OnCircle) and not fact.given:
         # The residual is the difference of the radii to first order only.
         away = (float(at.coordinate(fact.point, axis) - at.coordinate(fact.center, axis)) for axis in (FIRST, SECOND))
-        off = abs(hypot(*away) - float(at.radius(fact.radius)))
-        values = {"limit": RADIUS_DIFFERENCE, "actual": off, "off_by_mm": off}
+        distance, radius = hypot(*away), float(at.radius(fact.radius))
+        off = abs(distance - radius)
+        values = {"limit": RADIUS_DIFFERENCE, "actual": off, "off_by_mm": off, "radius": radius, "distance": distance}
         if not off <= RADIUS_DIFFERENCE:
             return Refusal(RefusalKind.RADIUS_DIFFERENCE, fact.point, givens_of(fact, system), values)
         if off > AGREEMENT:

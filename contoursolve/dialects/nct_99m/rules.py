@@ -343,7 +343,8 @@ GEOMETRY_RULES = (
     ),
     Rule(
         code="nct-radius-difference",
-        message="{words}: two points of the arc differ in their distance from the centre by {off}, allowed {limit}",
+        message="{words}: the arc has a radius of {radius}, and one of its points is {distance} from its centre; "
+        "that differs by {off}, allowed {limit}",
         help="correct the point, the centre or the radius; a centre counts from where the arc begins, but that of an "
         "over-defined circle is absolute",
         source=_manual("alarm 3011; the allowed difference is a machine parameter", Evidence.ASSUMED),
