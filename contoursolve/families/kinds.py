@@ -11,7 +11,7 @@ from contoursolve.backends.columns import Array, directions
 from contoursolve.backends.inputs import COSINE, SINE
 from contoursolve.constraints import Coordinate, System, assemble
 from contoursolve.diagnostic import Basis, Severity
-from contoursolve.examine import Answer
+from contoursolve.examine import MOST_CHOICES, Answer, count_choices
 from contoursolve.families.ranges import FamilyError, Ranges
 from contoursolve.families.template import Template
 from contoursolve.families.verdict import Codes
@@ -74,7 +74,8 @@ class Kind:
             givens[name] = replace(givens[name], value=Decimal(repr(values[word])) * factor)
         profile = replace(self.profile, givens=givens)
         solution = solve(profile, is_proven=False)
-        if not any(remark.kind is RemarkKind.TOUCHES for remark in solution.remarks):
+        touches = any(remark.kind is RemarkKind.TOUCHES for remark in solution.remarks)
+        if not touches or count_choices(profile) > MOST_CHOICES:
             return solution
         from contoursolve.settling import settle  # noqa: PLC0415 - few rows touch
 

@@ -68,19 +68,17 @@ class Sweep:
 
     def words(self, first: int, last: int) -> dict[str, Array]:
         """The values of the free words in these rows."""
-        rows = numpy.arange(first, last)
-        return {word: values[self.ranges.places(word, rows)] for word, values in self.ranges.values.items()}
+        return {word: values[self.ranges.places(word, first, last)] for word, values in self.ranges.values.items()}
 
     def evaluate(self, first: int, last: int, table: Results) -> None:
         """Fill in the results of the rows from `first` to before `last`."""
-        rows = numpy.arange(first, last)
-        places = {word: self.ranges.places(word, rows) for word in self.ranges.values}
-        number = numpy.zeros(rows.size, numpy.int64)
+        places = {word: self.ranges.places(word, first, last) for word in self.ranges.values}
+        number = numpy.zeros(last - first, numpy.int64)
         if len(self.kinds) > 1:
             number = self.by_code[tuple(codes[places[word]] for word, codes in self.codes.items())]
         for each, kind in enumerate(self.kinds):
             is_all = len(self.kinds) == 1
-            own = rows - first if is_all else numpy.flatnonzero(number == each)
+            own = numpy.arange(last - first) if is_all else numpy.flatnonzero(number == each)
             if kind.status is not None:
                 table["status"][own] = code_of(kind.status)
                 continue

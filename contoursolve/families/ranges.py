@@ -35,17 +35,21 @@ class Ranges:
             total *= size
         return total
 
-    def places(self, word: str, rows: NDArray[numpy.int64]) -> NDArray[numpy.int64]:
-        """Where the values of a word are for these rows."""
+    def places(self, word: str, first: int, last: int) -> NDArray[numpy.int64]:
+        """Where the values of a word are for the rows from `first` to before `last`."""
         if self.is_paired:
-            return rows
+            return numpy.arange(first, last)
         number = list(self.values).index(word)
-        stride = 1
-        for size in self.shape[number + 1 :]:
-            stride *= size
-        whole = rows // stride
-        # Dividing by one number is fast, and a remainder is not.
-        return whole - whole // self.shape[number] * self.shape[number] if number else whole
+        size, stride = self.shape[number], 1
+        for other in self.shape[number + 1 :]:
+            stride *= other
+        # Repeating what is there takes a tenth of the time of dividing row numbers.
+        if stride == 1:
+            skipped = first % size
+            return numpy.resize(numpy.arange(size), skipped + last - first)[skipped:]
+        wholes = numpy.arange(first // stride, (last - 1) // stride + 1) % size
+        skipped = first % stride
+        return numpy.repeat(wholes, stride)[skipped : skipped + last - first]
 
 
 def ranges_of(vary: Mapping[str, ArrayLike], *, is_paired: bool) -> Ranges:

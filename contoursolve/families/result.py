@@ -50,8 +50,8 @@ class Family:
             return self.columns[name].reshape(self.shape)
         if name not in self.ranges.values:
             raise KeyError(f"{name}; there are {', '.join(self.names)}")
-        rows = numpy.arange(self.ranges.count)
-        return self.ranges.values[name][self.ranges.places(name, rows)].reshape(self.shape)
+        places = self.ranges.places(name, 0, self.ranges.count)
+        return self.ranges.values[name][places].reshape(self.shape)
 
     def __len__(self) -> int:
         return self.ranges.count
