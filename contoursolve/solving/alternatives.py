@@ -86,16 +86,18 @@ def find_alternatives(profile: Profile) -> Alternatives:
     doubts = enumeration.doubts
     if any(refusal.kind is RefusalKind.NOT_VERIFIED for item in items for refusal in item.solution.refusals):
         doubts = (*doubts, Doubt((), Obstacle.UNDECIDED))
+    # What the form chooses by itself is no alternative for a user.
+    items = [item for item in items if _agrees(item, [choice for choice in profile.choices if not choice.given])]
     return Alternatives(tuple(_named(items, profile)), doubts, _reach(profile, system, enumeration))
 
 
 def choose(alternatives: Alternatives, choices: tuple[Choice, ...]) -> tuple[Alternative, ...]:
     """The solutions that agree with the control's choices; a double solution agrees with either side."""
-    return tuple(
-        item
-        for item in alternatives.items
-        if all(item.sides.get(choice.point) in (choice.side.value, BOTH, None) for choice in choices)
-    )
+    return tuple(item for item in alternatives.items if _agrees(item, choices))
+
+
+def _agrees(item: Alternative, choices: Sequence[Choice]) -> bool:
+    return all(item.sides.get(choice.point) in (choice.side.value, BOTH, None) for choice in choices)
 
 
 BOTH = "touches"
