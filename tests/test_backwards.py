@@ -262,9 +262,10 @@ def test_g111_along_the_axes_and_at_45_degrees_is_judged_as_the_sheet_says() -> 
         for word in f"{corner1}{corner2}".replace(" ", ""):
             words[word] = rng.choice(("0.", "5.", "10.", "20.", "30.", "40."))
         cases.append(g111_case(rng, start, words))
+    cases = cases[::2]
     compared = assert_verdicts_agree(cases, LATHE)
     assert compared.total() == len(cases)
-    assert min(compared[status] for status in ("solved", "no-solution", "underdetermined")) > 1_000
+    assert min(compared[status] for status in ("solved", "no-solution", "underdetermined")) > 500
 
 
 def random_words(rng: Random) -> dict[str, str]:

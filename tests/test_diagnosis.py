@@ -228,7 +228,7 @@ def block_of(words: Words) -> str:
 @lru_cache(maxsize=1)
 def random_diagnoses() -> list[tuple[Words, Answer]]:
     random, result = Random(3), []
-    while len(result) < 1_000:
+    while len(result) < 500:
         size = random.choice((1, 2, 3, 4, 5, 5, 6, 6, 7, 8))
         words = random_words(random, "".join(random.sample(EQUATIONS, size)))
         result.append((words, answer_to(block_of(words), "off")))
@@ -249,8 +249,8 @@ def test_ties_are_all_minimal_dependent_sets_and_conflicts_all_minimal_inconsist
         assert {frozenset(tie.addresses) for tie in answer.diagnosis.ties if tie.is_conflict} == conflicts, words
         assert answer.diagnosis.ties_complete
         conflicts_seen, ties_seen = conflicts_seen + len(conflicts), ties_seen + len(dependent)
-    assert conflicts_seen > 500
-    assert ties_seen > conflicts_seen + 500
+    assert conflicts_seen > 250
+    assert ties_seen > conflicts_seen + 250
 
 
 def test_status_is_that_of_the_ranks():
@@ -308,7 +308,7 @@ def test_freedoms_are_the_null_space_seen_at_each_point():
                 assert motion[list(columns)] == pytest.approx(direction, abs=1e-9), words
                 assert matrix @ motion == pytest.approx(numpy.zeros(len(matrix)), abs=1e-9), words
             seen[dimension] += 1
-    assert min(seen[dimension] for dimension in (0, 1, 2)) > 100
+    assert min(seen[dimension] for dimension in (0, 1, 2)) > 50
 
 
 def test_identities_hold_for_every_consistent_block_that_has_them():
@@ -452,7 +452,7 @@ def broken(random: Random, kind: str) -> Case:
 @lru_cache(maxsize=1)
 def broken_blocks() -> list[tuple[Case, Answer]]:
     random = Random(5)
-    cases = [broken(random, KINDS[number % len(KINDS)]) for number in range(300)]
+    cases = [broken(random, KINDS[number % len(KINDS)]) for number in range(150)]
     return [(case, case.solve()) for case in cases]
 
 
@@ -610,7 +610,7 @@ def test_placeholder_makes_a_legal_determined_block_for_some_number():
             assert statuses & {"solved", "no-solution"}, (case.text, fix, statuses)
             assert "rejected" not in statuses, (case.text, fix)
             solved, seen = solved + ("solved" in statuses), seen + 1
-    assert seen > 50
+    assert seen > 25
     assert solved > seen / 2
 
 
