@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import click
 
 from contoursolve.api import only_findings
-from contoursolve.cli.loading import folder_of, read
+from contoursolve.cli.loading import folder_of, read, settings_of
 from contoursolve.cli.options import (
     FOUND_ERRORS,
     CouldNotRunError,
@@ -18,7 +18,7 @@ from contoursolve.dialects import DIALECTS, PLAIN, Dialect
 from contoursolve.examine import Policy
 from contoursolve.model import Length
 from contoursolve.pipeline import Result, UnknownControlError, recognise, run
-from contoursolve.project import SettingError, configure, find_settings, read_setting
+from contoursolve.project import SettingError, configure
 from contoursolve.syntax import Program
 
 _ANY_CONTROL = click.Choice([*DIALECTS, *PLAIN])
@@ -110,7 +110,7 @@ def diff(
 def _dialect_of(program: Program, name: str | None, otherwise: Dialect | None, assignments: Sequence[str]) -> Dialect:
     """The control of a program: the one that is named, or that it shows, or another."""
     try:
-        settings = find_settings(folder_of(program)) | dict(map(read_setting, assignments))
+        settings = settings_of(folder_of(program), assignments)
         dialect = {**DIALECTS, **PLAIN}[name] if name else recognise(program) or otherwise
         if dialect is not None:
             return configure(settings).get(dialect.name, dialect)

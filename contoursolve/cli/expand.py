@@ -12,6 +12,7 @@ import click
 
 from contoursolve import syntax
 from contoursolve.api import MOST_DECIMALS
+from contoursolve.cli.loading import settings_of
 from contoursolve.cli.options import FOUND_ERRORS, CouldNotRunError, common_options, settings_option, units_option
 from contoursolve.cli.printing import style_of_output
 from contoursolve.dialects import DIALECTS
@@ -23,7 +24,7 @@ from contoursolve.output.findings import Style, finding_lines, plain
 from contoursolve.output.layout import count
 from contoursolve.pipeline import FactPlaceError, UnknownControlError
 from contoursolve.posts import POSTS, Arcs, Post
-from contoursolve.project import SettingError, find_settings, read_setting
+from contoursolve.project import SettingError
 from contoursolve.rewrite import Rewritten, rewrite
 from contoursolve.syntax import UnreadableProgramError
 
@@ -189,7 +190,7 @@ def _rewrite(
                 control=options["control"],
                 unit=Length(options["units"]),
                 policy=Policy(options["rules"]),
-                settings=find_settings(folder) | dict(map(read_setting, options["assignments"])),
+                settings=settings_of(folder, options["assignments"]),
                 start=syntax.parse(start, name, first_line=0) if start is not None else None,
                 facts=[syntax.read_directive(text, -number) for number, text in enumerate(options.get("facts", ()), 1)],
                 progress=progress,

@@ -40,7 +40,7 @@ def read(path: str) -> Program:
 def examine(program: Program, start: str | None, assignments: Sequence[str], options: dict[str, Any]) -> Result:
     """The result of a program under the options of the command; what makes no sense ends the command."""
     try:
-        settings = find_settings(folder_of(program)) | dict(map(read_setting, assignments))
+        settings = settings_of(folder_of(program), assignments)
         return solve_program(program, start=start, settings=settings, **options)
     except SettingError as error:
         raise CouldNotRunError(str(error)) from None
@@ -48,6 +48,11 @@ def examine(program: Program, start: str | None, assignments: Sequence[str], opt
         raise CouldNotRunError(f"{program.name}: {error}; say which with --control {'|'.join(DIALECTS)}") from None
     except FactPlaceError as error:
         raise CouldNotRunError(f"{program.name}: {error}") from None
+
+
+def settings_of(folder: Path, assignments: Sequence[str]) -> dict[str, str]:
+    """The settings of the project file of a folder, and those of `--set` on top. Raises SettingError."""
+    return find_settings(folder) | dict(map(read_setting, assignments))
 
 
 def folder_of(program: Program) -> Path:

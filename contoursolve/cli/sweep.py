@@ -10,6 +10,7 @@ from typing import Any
 import click
 import numpy
 
+from contoursolve.cli.loading import settings_of
 from contoursolve.cli.options import CouldNotRunError, rules_option, settings_option, units_option
 from contoursolve.dialects import DIALECTS
 from contoursolve.families import (
@@ -27,7 +28,7 @@ from contoursolve.families import (
 from contoursolve.files import CannotWriteError, check_target, write_whole
 from contoursolve.output.layout import columns
 from contoursolve.pipeline import UnknownControlError
-from contoursolve.project import SettingError, find_settings, read_setting
+from contoursolve.project import SettingError
 
 MOST = 10_000_000
 """Values of one word."""
@@ -91,7 +92,7 @@ def sweep_(
             paired=is_paired,
             units=units,
             rules=rules,
-            settings=find_settings(Path()) | dict(map(read_setting, assignments)),
+            settings=settings_of(Path(), assignments),
         )
         counts = _run(ready, workers, target)
     except (FamilyError, SettingError, MissingExtraError, CannotWriteError) as error:

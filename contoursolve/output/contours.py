@@ -8,7 +8,7 @@ from contoursolve.diagnostic import Verdict
 from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.examine import Answer, AskedValue, list_alternatives
 from contoursolve.model import Length, Turn, Unit
-from contoursolve.output.layout import columns, printable
+from contoursolve.output.layout import columns, length_of, printable
 from contoursolve.output.solutions import list_solutions, printed_certificate
 from contoursolve.pipeline import Result
 from contoursolve.reading import Convention, Form, Lexicon
@@ -19,8 +19,6 @@ _VERDICT = {Verdict.PASSED: "passed", Verdict.FOUND: "see finding", Verdict.NOT_
 
 SMALLEST = 0.0001
 """mm. What a listing with four decimals can show."""
-
-_INCH = float(Length.INCH.in_mm)
 
 
 def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False) -> list[str]:
@@ -108,7 +106,7 @@ def _asked_text(asked: AskedValue, answer: Answer) -> str:
         return ""
     if question.unit is Unit.DEGREE:
         return f"{name} = {asked.value:.4f}"
-    return f"{name} = {_length(asked.value * (2 if question.is_diameter else 1), answer.unit)}"
+    return f"{name} = {length_of(asked.value * (2 if question.is_diameter else 1), answer.unit)}"
 
 
 def _plural(count: int) -> str:
@@ -118,7 +116,7 @@ def _plural(count: int) -> str:
 def _place(at: Point, answer: Answer) -> list[str]:
     plane = answer.plane
     return [
-        f"{axis}{_length(value * (2 if is_diameter else 1), answer.unit)}"
+        f"{axis}{length_of(value * (2 if is_diameter else 1), answer.unit)}"
         for axis, value, is_diameter in zip(plane.axes, at, plane.diameters, strict=True)
     ]
 
@@ -127,7 +125,7 @@ def _given_rows(answer: Answer, form: Form, dialect: Dialect) -> list[tuple[str,
     """Word, value, unit and meaning of everything that was given."""
     rows = []
     for axis, value, is_diameter in zip(answer.plane.axes, answer.start.values, answer.plane.diameters, strict=True):
-        shown = "unknown" if value is None else _length(float(value) * (2 if is_diameter else 1), answer.unit)
+        shown = "unknown" if value is None else length_of(float(value) * (2 if is_diameter else 1), answer.unit)
         rows.append(
             ("start " + axis, shown, _unit(answer.unit) if value is not None else "", _axis_meaning(is_diameter))
         )
@@ -162,7 +160,7 @@ def _asked_row(asked: AskedValue, answer: Answer, form: Form, dialect: Dialect) 
         return text, "?", "", f"asked: {meaning}".strip(": ")
     if question.unit is Unit.DEGREE:
         return text, f"{asked.value:.4f}", "deg", f"asked: {meaning}".strip(": ")
-    shown = _length(asked.value * (2 if question.is_diameter else 1), answer.unit)
+    shown = length_of(asked.value * (2 if question.is_diameter else 1), answer.unit)
     return text, shown, _unit(answer.unit), f"asked: {meaning}".strip(": ")
 
 
@@ -173,7 +171,7 @@ def _value(word: Word, lexicon: Lexicon, unit: Length) -> tuple[str, str]:
         return f"{value:.4f}", "deg"
     if row.unit is Unit.SIGN:
         return f"{value:+g}", ""
-    return _length(value * (2 if row.is_diameter else 1), unit), _unit(unit)
+    return length_of(value * (2 if row.is_diameter else 1), unit), _unit(unit)
 
 
 def _axis_meaning(is_diameter: bool) -> str:
@@ -199,7 +197,7 @@ def _path_rows(answer: Answer) -> list[tuple[str, ...]]:
 
     def point(at: Point) -> list[str]:
         return [
-            _length(value * (2 if is_diameter else 1), answer.unit)
+            length_of(value * (2 if is_diameter else 1), answer.unit)
             for value, is_diameter in zip(at, answer.plane.diameters, strict=True)
         ]
 
@@ -209,16 +207,11 @@ def _path_rows(answer: Answer) -> list[tuple[str, ...]]:
     for element in contour.elements:
         if isinstance(element, ArcSegment):
             code = "G02" if element.turn is Turn.CW else "G03"
-            arc = [*point(element.center), _length(element.radius, answer.unit)]
+            arc = [*point(element.center), length_of(element.radius, answer.unit)]
             rows.append((element.name, code, *point(element.end), *arc))
         else:
             rows.append((element.name, "G01", *point(element.end), *blank))
     return [tuple(row) for row in rows]
-
-
-def _length(mm: float, unit: Length) -> str:
-    text = f"{mm:.4f}" if unit is Length.MM else f"{mm / _INCH:.5f}"
-    return text.removeprefix("-") if text in ("-0.0000", "-0.00000") else text
 
 
 def _unit(unit: Length) -> str:

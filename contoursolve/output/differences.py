@@ -10,7 +10,7 @@ from typing import Any
 from contoursolve.comparison import Comparison, Path, Place, Step, Travel, Unfollowed
 from contoursolve.model import Length
 from contoursolve.output.document import finding_data
-from contoursolve.output.layout import count, printable
+from contoursolve.output.layout import count, length_of, printable
 from contoursolve.pipeline import Result
 
 SCHEMA = "contoursolve/diff/1"
@@ -106,22 +106,17 @@ def _step_lines(name: str, path: Path, step: Step | None) -> Iterator[str]:
         for axis, value in zip(step.bend.axes, step.bend.center, strict=True):
             center[axis] = value
         shown = {path.axes[axis] for axis in step.bend.axes}
-        radius = _length(step.bend.radii[0], step.unit)
+        radius = length_of(step.bend.radii[0], step.unit)
         yield f"      centre {_place(step, tuple(center), path.axes, shown)}, radius {radius}"
 
 
 def _place(step: Travel, place: Place, axes: tuple[str, ...], shown: set[str]) -> str:
     """The coordinates of a point in the terms of its program."""
     return " ".join(
-        f"{axis} unknown" if value is None else f"{axis}{_length(value * (2 if is_diameter else 1), step.unit)}"
+        f"{axis} unknown" if value is None else f"{axis}{length_of(value * (2 if is_diameter else 1), step.unit)}"
         for axis, value, is_diameter in zip(axes, place, step.doubled, strict=True)
         if axis in shown
     )
-
-
-def _length(mm: float, unit: Length) -> str:
-    text = f"{mm / float(unit.in_mm):.5f}" if unit is Length.INCH else f"{mm:.4f}"
-    return text.removeprefix("-") if float(text) == 0 else text
 
 
 def _cut(text: str) -> str:

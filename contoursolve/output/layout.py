@@ -2,6 +2,10 @@
 
 from collections.abc import Sequence
 
+from contoursolve.model import Length
+
+_INCH = float(Length.INCH.in_mm)
+
 
 def columns(rows: Sequence[Sequence[str]], left: Sequence[int] = (0,), indent: str = "  ") -> list[str]:
     """Lines with aligned cells, two blanks apart; the columns named in `left` are aligned left."""
@@ -13,6 +17,12 @@ def columns(rows: Sequence[Sequence[str]], left: Sequence[int] = (0,), indent: s
 def printable(text: str) -> str:
     """The text with tabs as blanks and other control characters as dots: one column a character."""
     return text if text.isprintable() else "".join(c if c.isprintable() else (" " if c == "\t" else ".") for c in text)
+
+
+def length_of(mm: float, unit: Length) -> str:
+    """A length in the unit of a program: four decimals of a millimetre, five of an inch; no negative zero."""
+    text = f"{mm:.4f}" if unit is Length.MM else f"{mm / _INCH:.5f}"
+    return text.removeprefix("-") if float(text) == 0 else text
 
 
 def count(number: int, noun: str) -> str:

@@ -3,7 +3,7 @@
 Points count from the start point, in mm; real is the plane's first axis, imaginary its second.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from itertools import combinations
 
 from contoursolve.tolerance import LENGTH, RADIUS_DIFFERENCE
@@ -13,7 +13,6 @@ from contoursolve.verification.drawing import Bevel, Drawing, Round, Straight
 from contoursolve.verification.drawing import Shape as Drawn
 from contoursolve.verification.ledger import Ledger
 from contoursolve.verification.measure import ROUNDING, dot, unit
-from contoursolve.verification.path import SHORTEST
 from contoursolve.verification.rails import Rail, Ray, Ring, UnmakeableError, heading, off
 
 Words = Mapping[str, tuple[str, ...]]
@@ -174,8 +173,3 @@ def draw(course: Course, pieces: Sequence[Piece], points: Mapping[str, complex])
                 else Bevel(piece.begin, piece.end, sizes.get(piece.name, 0.0))
             )
     return Drawing(points, shapes, course.names)
-
-
-def ends_of(pieces: Sequence[Piece]) -> Iterator[complex]:
-    """Where the pieces end, without those of no length."""
-    return (piece.end for piece in pieces if abs(piece.end - piece.begin) >= SHORTEST)
