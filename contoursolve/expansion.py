@@ -1,8 +1,10 @@
 """A program with its contours written as plain G-code, and everything else byte for byte as it was."""
 
 import re
+from collections import deque
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import chain
 
 from contoursolve.comments import LEFT_MARK, comment_out, own_comments, remark
 from contoursolve.contour import Segment
@@ -15,8 +17,9 @@ from contoursolve.model import Length
 from contoursolve.pipeline import Step, attach, walk
 from contoursolve.posts import SAME, Arcs, Machine, Post
 from contoursolve.reading import Effect, State, apply_modes, codes_of
+from contoursolve.reliance import MOTIONS, STANDING_ALONE, Reliance, can_restate, reliance, restate
 from contoursolve.solving import Point
-from contoursolve.syntax import Block, Directive, Macro, PlainLine, Program, Word, parse_block
+from contoursolve.syntax import Block, Directive, PlainLine, Program, Word, parse_block
 from contoursolve.unfamiliar import Unfamiliar, Watch
 
 
@@ -70,17 +73,13 @@ OPENING = object()
 """Stands where the words belong that the target needs before anything else."""
 
 _BLANK = r"[ \t\f\v\x02\x03\x11-\x14\x1a\ufeff%]*"
+_NO_MOTION = -1
+"""The motion that is in force where none is: the control starts with it."""
+
 _FRAME = re.compile(rf"(?P<head>{_BLANK})(?P<skip>/[1-9]?(?!\d)[ \t]*)?.*?(?P<tail>{_BLANK})", re.DOTALL)
 
 _AFTER_MOTION = frozenset({0, 1, 2, 5, 9, 30, 60, 98, 99})
 """M codes that act after the motion of their block: stop, end, spindle and coolant off, pallet, calls."""
-
-_MOTIONS = (Effect.MOTION, Effect.CYCLE, Effect.CANCEL)
-_OWN_WORDS = (Effect.NO_MOTION, Effect.PRESET, Effect.FRAME, Effect.CONTOUR)
-"""G codes whose blocks use their words themselves, whatever motion is in force."""
-
-_RESTORABLE = (0, 1)
-"""Motions whose G code may stand alone in a block."""
 
 
 def expand_lines(
@@ -144,7 +143,8 @@ class _Expander:
         """Whether the last line says why what follows is not expanded."""
 
     def expand(self, steps: Iterable[Step]) -> Iterator[str | object]:
-        for step in steps:
+        coming, rest = deque[Step](), iter(steps)
+        for step in _in_turn(rest, coming):
             if not self.is_opened and ((step.line and step.line.moves) or any(map(_is_active, step.blocks))):
                 self.is_opened = True
                 self.summary.line_end = self.lines.end_of((step.line or step.blocks[0]).line)
@@ -156,7 +156,7 @@ class _Expander:
                 for block in step.blocks:
                     yield from self._keep(block, step.before)
                 continue
-            reason = self._obstacle(step.answer)
+            reason = self._obstacle(step.answer) or self._relying(step.answer, rest, coming)
             if reason:
                 yield from self._leave(step, step.answer, reason)
             else:
@@ -175,35 +175,29 @@ class _Expander:
     def _keep(self, block: Block, state: State) -> Iterator[str]:
         if block.words or block.macro or block.faults:
             if self.motion is not None:
-                yield from self._restore(block, state)
+                before, block = self._restore(block, state)
+                yield from before
             if self.offsets:
                 self._update_offsets(block, state)
             self.watch.look(block, block.words, state)
         self.is_marked = block.text.startswith(LEFT_MARK)
         yield block.text + self.lines.take_end(block.line)
 
-    def _restore(self, block: Block, state: State) -> Iterator[str]:
-        """The motion code that a block relies on, if a contour before it has left another one in force."""
-        codes = codes_of(block, self.modes)
-        known = [code for code in codes if not isinstance(code, Word)]
-        if any(code.effect in _MOTIONS for code in known) and not block.is_skippable:
-            self.motion = None
-            return
-        calls = any(word.address == "M" and word.number in self.modes.calls for word in block.words)
-        uses = any(word.address in self.modes.lexicon.addresses for word in block.words)
-        own = any(code.effect in _OWN_WORDS for code in known)
-        others = len(known) < len(codes) or any(code.effect in (Effect.SINGLE, *_MOTIONS) for code in known)
-        if not (calls or others or block.faults or block.macro is Macro.FLOW or block.find("O") or (uses and not own)):
-            return
-        if state.motion in _RESTORABLE:
-            yield f"G{state.motion:02}" + self.lines.end
-        else:
-            relied = f"G{state.motion}" if state.motion is not None else "the motion that the control starts with"
-            reason = f"line {block.line} relies on {relied}, which the contour before it ends: write its G code into it"
-            self.summary.left.append(Left((block.line,), reason, (), {block.line: block.text}))
-            if self.options.keeps_going:
-                yield remark(reason) + self.lines.end
+    def _restore(self, block: Block, state: State) -> tuple[list[str], Block]:
+        """What goes before a block, and the block itself, so that the motion that it relies on is in force although a
+        contour before it has left another one."""
+        need, motion, before = reliance(block, self.modes), state.motion, []
+        if need is Reliance.NONE:
+            return [], block
+        if need is not Reliance.ENDS and motion is not None:
+            if motion in STANDING_ALONE:
+                before = [f"G{motion:02}" + self.lines.end]
+            else:
+                block = restate(block, motion)
+                if block.is_skippable:
+                    return [], block
         self.motion = None
+        return before, block
 
     def _update_offsets(self, block: Block, state: State) -> None:
         """An absolute word puts an axis where it belongs again."""
@@ -220,12 +214,14 @@ class _Expander:
         """A contour as it was, below a comment that says why."""
         sources = {block.line: block.text for block in step.blocks}
         self.summary.left.append(Left(answer.lines, reason, answer.diagnostics, sources))
+        first, *others = step.blocks
         if self.motion is not None:
-            yield from self._restore(step.blocks[0], step.before)
+            before, first = self._restore(first, step.before)
+            yield from before
         if not self.is_marked:
             yield remark(reason) + self.lines.end
         state = step.before
-        for block in step.blocks:
+        for block in (first, *others):
             yield from self._keep(block, state)
             state = apply_modes(state, block, self.modes)
 
@@ -248,6 +244,22 @@ class _Expander:
         ]
         return f"{beside[0]} moves an axis outside the plane: move it in a block of its own" if beside else ""
 
+    def _relying(self, answer: Answer, steps: Iterator[Step], coming: deque[Step]) -> str:
+        """Why a contour has to stay because of a block behind it, for which the motion that is in force before it
+        cannot be put in force again; empty if there is none. What is read to see that is added to `coming`."""
+        motion = answer.claim.after.motion
+        if motion in STANDING_ALONE:
+            return ""
+        for step in chain(list(coming), _read_on(steps, coming)):
+            for block in step.blocks if step.line is None else (parse_block(step.line.text, step.line.line),):
+                need = reliance(block, self.modes)
+                if not can_restate(motion, need, self.modes):
+                    name = f"the G{motion} before it" if motion is not None else "what the control starts with"
+                    return f"line {block.line} relies on {name}: write the G code of its motion into line {block.line}"
+                if need is not Reliance.NONE and not (need is Reliance.WORDS and block.is_skippable):
+                    return ""
+        return ""
+
     # What is replaced
 
     def _replace(self, step: Step, answer: Answer) -> Iterator[str]:
@@ -256,6 +268,8 @@ class _Expander:
         axes = answer.plane.axes
         here = self._place(answer)
         members = {block.line for block in claim.blocks}
+        had_ended = self.motion is not None
+        motion = self.motion if had_ended else state.motion
         for block in step.blocks:
             if block.line not in members:
                 yield from self._keep(block, state)
@@ -273,10 +287,10 @@ class _Expander:
             end = self.lines.take_end(block.line)
             yield from self._write(block, moves, end, state)
             if moves:
-                self.motion = moves[-1].code
+                motion = moves[-1].code
         self.is_marked = False
-        if self.motion == claim.after.motion:
-            self.motion = None
+        is_same = motion == claim.after.motion and not (had_ended and claim.blocks[0].is_skippable)
+        self.motion = None if is_same else _NO_MOTION if motion is None else motion
         contour = answer.contour
         if contour is not None:
             self.offsets |= {axis: here[n] - contour.end[n] for n, axis in enumerate(axes) if here[n] != contour.end[n]}
@@ -330,7 +344,7 @@ class _Expander:
         numbers, codes, words, last = [], [], [], []
         kept = []
         rows = iter(codes_of(block, self.modes))
-        dropped = (*_MOTIONS, Effect.CONTOUR)
+        dropped = (*MOTIONS, Effect.CONTOUR)
         for word in block.words:
             text = word.text.strip()
             if word.address == "G":
@@ -349,6 +363,20 @@ class _Expander:
             kept.append(word)
         self.watch.look(block, kept, state)
         return numbers, codes, words, last
+
+
+def _in_turn(steps: Iterator[Step], coming: deque[Step]) -> Iterator[Step]:
+    """Every step, those that have been read ahead first."""
+    for step in steps:
+        yield step
+        while coming:
+            yield coming.popleft()
+
+
+def _read_on(steps: Iterator[Step], coming: deque[Step]) -> Iterator[Step]:
+    for step in steps:
+        coming.append(step)
+        yield step
 
 
 def _is_active(block: Block | PlainLine) -> bool:

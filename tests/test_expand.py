@@ -18,15 +18,19 @@ from interpreter import assert_path, interpret, needs_rs274
 from oracle import g111
 
 import contoursolve
+from contoursolve.api import only_findings
 from contoursolve.cli import main
+from contoursolve.comparison import compare, follow
 from contoursolve.contour import ArcSegment, LineSegment
 from contoursolve.dialects import DIALECTS
 from contoursolve.emit import Format, emit
 from contoursolve.examine import Depth, Policy
 from contoursolve.lines import Lines
 from contoursolve.model import Length, Plane, Turn
+from contoursolve.pipeline import run as solved
 from contoursolve.pipeline import walk
 from contoursolve.posts import Arcs
+from contoursolve.syntax import parse
 
 PROGRAMS = Path(__file__).parent.parent / "notebooks" / "programs"
 TAPER = "G111 A180. K-30. B120. X100."
@@ -265,6 +269,24 @@ def test_an_element_that_rounds_to_nothing_is_left_out_and_its_deviation_counted
             id="a subprogram finds the motion that it expects",
         ),
         pytest.param(
+            f"G00 X40. Z0.\nG02 X40. Z-10. R30.\n{TAPER}\nM08\nG28 U0\n/2 N7X50. Z-90. R40.\nX50. Z-95. R9.",
+            [
+                *("G00 X40. Z0.", "G02 X40. Z-10. R30.", "G01 X40. Z-40.", "G01 X100. Z-57.321"),
+                *("M08", "G28 U0", "/2 N7 G02 X50. Z-90. R40.", "G02 X50. Z-95. R9."),
+            ],
+            id="an arc is said in the block that relies on it, and again if that may be skipped",
+        ),
+        pytest.param(
+            "G17 G41 G0 X10 Y20 D1\nG1 X20\nX10 Y20 ,A225\nX2 Y2",
+            ["G17 G41 G0 X10 Y20 D1", "G01", "X2 Y2"],
+            id="a contour of no length still puts its motion in force",
+        ),
+        pytest.param(
+            f"{START}{TAPER}\nM30\nO2\nG00 X1.",
+            ["G00 X40. Z0.", "G01 X40. Z-30.", "G01 X100. Z-47.321", "M30", "O2", "G00 X1."],
+            id="the name of a program relies on nothing",
+        ),
+        pytest.param(
             f"{START}G111 A180. K-30. B120. X100. Q5.\nG01 W-1.\nG111 I0 K-5. U10. W-10.",
             [
                 *("G00 X40. Z0.", "G01 X40. Z-30.", "G01 X95. Z-45.877", "G03 X100. Z-50.207 I-2.5 K-4.33"),
@@ -315,7 +337,10 @@ def test_the_original_block_stays_as_a_comment_that_nothing_ends():
     [
         (START + "G111 A180. B120. X100.", "g111-line-1"),
         (f"{TAPER}", "position-unknown"),
-        (f"G00 X40. Z0.\nG02 X40. Z-10. R30.\n{TAPER}\nX50. Z-90. R40.", "line 4 relies on G2"),
+        (f"G00 X40. Z0.\nG02 X40. Z-10. R30.\n{TAPER}\nG28 U0\nM98 P7", "line 5 relies on the G2 before it"),
+        ("G00 X40. Z0.\nG90 X30. Z-10.\nG00 X40. Z0.\nG11 Z-20. I8.\nX80. K-7.\nM99", "line 6 relies on the G11"),
+        (f"G00 X40. Z0.\nG90 X40. Z-10.\nG50 X40. Z0.\n{TAPER}\nX30.", "line 5 relies on the G90 before it"),
+        (f"G50 X40. Z0.\n{TAPER}\nX50.", "line 3 relies on what the control starts with"),
         ("G17 G41 G0 X50 Y0\nG3 X-50 Y0 R50\n/G1 X-50 Y42.857 ,A171.87 Q-1", "some of its blocks begin with /"),
         (f"{START}/G01 X50.\n{TAPER}", "it begins where a block with / leads"),
     ],
@@ -421,6 +446,17 @@ LATHE_LINES = (
     "G12 U10. K1.",
     "G01 X50. K-2.",
 )
+KEPT_BY_THEIR_MODES = (
+    "X44. Z-4. R9.",
+    "X20. K7.",
+    "U1. K7.",
+    "G32 X30. Z-20. F1.",
+    "Z-30.",
+    "IF [#1 GT 2] GOTO 5",
+    "M99",
+    "M30",
+    "G04 X1.",
+)
 MILL_LINES = (
     "",
     "(A COMMENT)",
@@ -469,6 +505,35 @@ def test_a_program_that_is_read_as_a_stream_has_the_same_contours(program, batch
     ]
     seen = [block for step in steps for block in (step.blocks or (step.line,))]
     assert [(each.line, each.text) for each in seen] == list(enumerate(lines, 1))
+
+
+def path_of(text, control):
+    """The path of a program; blocks that are not solved are a part of it, with the modes that they rely on."""
+    dialect = DIALECTS[control]
+    result = only_findings(solved(parse(text), dialect, Length.MM, Policy.ENFORCE))
+    return follow(result, dialect, Length.MM, dialect.modes.axes)
+
+
+@given(
+    st.sampled_from(("yasnac-lx3", "nct-99m")).flatmap(
+        lambda control: st.tuples(
+            st.just(control),
+            st.lists(
+                st.sampled_from(LATHE_LINES + KEPT_BY_THEIR_MODES if control == "yasnac-lx3" else MILL_LINES),
+                min_size=2,
+                max_size=10,
+            ),
+        )
+    )
+)
+@settings(deadline=None, max_examples=300)
+def test_what_is_left_means_the_same_and_expanding_again_changes_nothing(program):
+    control, lines = program
+    text = "\n".join(("G00 X40. Z0." if control == "yasnac-lx3" else "G17 G41 G0 X50 Y0 D1", *lines))
+    once = contoursolve.expand(text, control=control, keep_going=True)
+    assert contoursolve.expand(once.text, control=control, keep_going=True).text == once.text
+    found = compare(path_of(text, control), path_of(once.text, control), 0.003)
+    assert found.is_equal, found.difference
 
 
 # --- Files ---------------------------------------------------------------------------------------------

@@ -23,7 +23,7 @@ FLOORS = (
     "analysis",
     "solving",
     "settling",
-    "contour posts",
+    "contour posts reliance",
     "beyond",
     "emit explain sketch",
     "spelling",
