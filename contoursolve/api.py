@@ -13,6 +13,7 @@ from contoursolve.diagnostic import Diagnostic, Severity
 from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.examine import Depth, Policy
 from contoursolve.model import Length
+from contoursolve.numbering import Numbers
 from contoursolve.pipeline import Result, UnknownControlError, recognise, run
 from contoursolve.project import configure, find_settings
 from contoursolve.reading import Trouble
@@ -226,6 +227,7 @@ def expand(
     decimals: int | None = None,
     comments: bool = True,
     keep_going: bool = False,
+    block_numbers: str = "first",
     control: str | None = None,
     start: str | None = None,
     units: str = "mm",
@@ -243,6 +245,8 @@ def expand(
         decimals: decimals of a length; the target's own without.
         comments: whether the original blocks are kept as comments.
         keep_going: whether to expand the other contours where one cannot be expanded.
+        block_numbers: `first` (the number of a block stands in the first line in its place), or `all` (the others
+            have numbers that the program does not use).
         control: and all others as for `solve`, with the same errors.
 
     >>> print(expand("G00 X40. Z0.\\nG111 X100. A180. K-30. B120. C5. F0.2").text)
@@ -262,13 +266,14 @@ def expand(
         lines_of_facts,
         opening_of,
     )
-    from contoursolve.posts import Arcs, find_post  # noqa: PLC0415
+    from contoursolve.posts import Arcs, Numbering, find_post  # noqa: PLC0415
 
     program = syntax.parse(text, name)
     dialect = find_dialect(control) if control else recognise(program)
     if decimals is not None and (isinstance(decimals, bool) or decimals not in range(1, MOST_DECIMALS + 1)):
         raise ValueError(f"decimals cannot be {decimals!r}; choose 1 to {MOST_DECIMALS}, or None for the target's own")
-    options = Options(find_post(post), choice_of(Arcs, arcs, "arcs"), decimals, comments, keep_going)
+    numbering = choice_of(Numbering, block_numbers, "block_numbers")
+    options = Options(find_post(post), choice_of(Arcs, arcs, "arcs"), decimals, comments, keep_going, numbering)
     summary, unit, policy = Summary(), choice_of(Length, units, "units"), choice_of(Policy, rules, "rules")
     if dialect is None:
         return Expansion(text, None, summary)
@@ -285,6 +290,7 @@ def expand(
             policy=policy,
             start=beginning,
             facts=further,
+            numbers=Numbers(syntax.split_lines(text)) if numbering is Numbering.ALL else None,
         )
     )
     opening = opening_of(options, dialect, unit, summary)

@@ -14,10 +14,11 @@ from contoursolve.emit import Format, Move, emit
 from contoursolve.examine import Answer, Depth, Policy
 from contoursolve.lines import Lines
 from contoursolve.model import Length
+from contoursolve.numbering import Numberer, Numbers
 from contoursolve.pipeline import Step, attach, walk
-from contoursolve.posts import SAME, Arcs, Machine, Post
+from contoursolve.posts import SAME, Arcs, Machine, Numbering, Post
 from contoursolve.reading import Effect, State, apply_modes, codes_of
-from contoursolve.reliance import MOTIONS, STANDING_ALONE, Reliance, can_restate, reliance, restate
+from contoursolve.reliance import MOTIONS, STANDING_ALONE, Reliance, reliance, restate, why_unmet
 from contoursolve.solving import Point
 from contoursolve.syntax import Block, Directive, PlainLine, Program, Word, parse_block
 from contoursolve.unfamiliar import Unfamiliar, Watch
@@ -26,13 +27,14 @@ from contoursolve.unfamiliar import Unfamiliar, Watch
 @dataclass(frozen=True, slots=True)
 class Options:
     """What is asked of an expansion: the target, how it writes arcs, decimals (None: the target's own), whether the
-    original blocks are kept as comments, and whether to go on past a contour that cannot be expanded."""
+    original blocks are kept as comments, whether to go on past a contour that cannot be expanded, and block numbers."""
 
     post: Post = SAME
     arcs: Arcs = Arcs.CENTER
     decimals: int | None = None
     has_comments: bool = True
     keeps_going: bool = False
+    numbering: Numbering = Numbering.FIRST
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +54,9 @@ class Summary:
 
     replaced: int = 0
     warnings: int = 0
-    """Findings about contours that were replaced."""
+    """How many warnings there are about contours that were replaced."""
+    warned: list[Diagnostic] = field(default_factory=list)
+    """The first of them."""
     deviation: float = 0.0
     left: list[Left] = field(default_factory=list)
     unfamiliar: list[Unfamiliar] = field(default_factory=list)
@@ -73,6 +77,9 @@ OPENING = object()
 """Stands where the words belong that the target needs before anything else."""
 
 _BLANK = r"[ \t\f\v\x02\x03\x11-\x14\x1a\ufeff%]*"
+_KEPT_WARNINGS = 20
+"""Warnings that are kept to be shown."""
+
 _NO_MOTION = -1
 """The motion that is in force where none is: the control starts with it."""
 
@@ -93,15 +100,16 @@ def expand_lines(
     start: Program | None = None,
     facts: Mapping[int, tuple[Directive, ...]] | None = None,
     is_certain: bool = True,
+    numbers: Numbers | None = None,
 ) -> Iterator[str | object]:
     """The lines of a program (each with its end) with every contour replaced, and `OPENING` once.
 
-    `facts` are further facts by line. Unless the control `is_certain`, raises UnknownControlError if some block is for
-    another one.
+    `facts` are further facts by line; `numbers` are those of the whole program, where every line is to have one.
+    Unless the control `is_certain`, raises UnknownControlError if some block is for another one.
     """
     reel = Lines(lines, dialect, facts or {}, is_certain=is_certain)
     steps = walk(reel.blocks(), dialect, unit, policy, Depth.PATH, start)
-    yield from _Expander(dialect, options, summary, reel).expand(steps)
+    yield from _Expander(dialect, options, summary, reel, numbers).expand(steps)
 
 
 def lines_of_facts(
@@ -127,7 +135,9 @@ def _machine(dialect: Dialect) -> Machine:
 class _Expander:
     """One pass over one program. Offsets are how far the tool is from where the original program has it."""
 
-    def __init__(self, dialect: Dialect, options: Options, summary: Summary, lines: Lines) -> None:
+    def __init__(
+        self, dialect: Dialect, options: Options, summary: Summary, lines: Lines, numbers: Numbers | None
+    ) -> None:
         self.dialect = dialect
         self.modes = dialect.modes
         self.options = options
@@ -135,6 +145,7 @@ class _Expander:
         self.lines = lines
         self.watch = Watch(options.post, dialect, options.post.readings.get(_machine(dialect)))
         summary.unfamiliar = self.watch.found
+        self.numberer = Numberer(self.modes, numbers)
         self.offsets: dict[str, float] = {}
         self.motion: int | None = None
         """The motion that is in force in the expanded program, where it differs from the original."""
@@ -180,8 +191,14 @@ class _Expander:
             if self.offsets:
                 self._update_offsets(block, state)
             self.watch.look(block, block.words, state)
+            self._tell(block, self.numberer.look(block))
         self.is_marked = block.text.startswith(LEFT_MARK)
         yield block.text + self.lines.take_end(block.line)
+
+    def _tell(self, block: Block, reason: str) -> None:
+        """Keep in mind what is wrong with a block, if anything is."""
+        if reason:
+            self.summary.left.append(Left((block.line,), reason, (), {block.line: block.text}))
 
     def _restore(self, block: Block, state: State) -> tuple[list[str], Block]:
         """What goes before a block, and the block itself, so that the motion that it relies on is in force although a
@@ -250,15 +267,8 @@ class _Expander:
         motion = answer.claim.after.motion
         if motion in STANDING_ALONE:
             return ""
-        for step in chain(list(coming), _read_on(steps, coming)):
-            for block in step.blocks if step.line is None else (parse_block(step.line.text, step.line.line),):
-                need = reliance(block, self.modes)
-                if not can_restate(motion, need, self.modes):
-                    name = f"the G{motion} before it" if motion is not None else "what the control starts with"
-                    return f"line {block.line} relies on {name}: write the G code of its motion into line {block.line}"
-                if need is not Reliance.NONE and not (need is Reliance.WORDS and block.is_skippable):
-                    return ""
-        return ""
+        blocks = (block for step in chain(list(coming), _read_on(steps, coming)) for block in _blocks_of(step))
+        return why_unmet(motion, blocks, self.modes)
 
     # What is replaced
 
@@ -295,7 +305,9 @@ class _Expander:
         if contour is not None:
             self.offsets |= {axis: here[n] - contour.end[n] for n, axis in enumerate(axes) if here[n] != contour.end[n]}
         self.summary.replaced += 1
-        self.summary.warnings += sum(each.severity is Severity.WARNING for each in answer.diagnostics)
+        warnings = [each for each in answer.diagnostics if each.severity is Severity.WARNING]
+        self.summary.warnings += len(warnings)
+        self.summary.warned += warnings[: max(0, _KEPT_WARNINGS - len(self.summary.warned))]
 
     def _place(self, answer: Answer) -> Point:
         """Where the tool is at the start of a contour, in the expanded program."""
@@ -329,8 +341,9 @@ class _Expander:
         texts = [[f"G{move.code:02}", *move.words] for move in moves]
         texts = texts or ([[]] if numbers or codes or words or last or comments else [])
         if texts:
-            texts[0] = [*numbers, *codes, *texts[0], *words, *comments]
+            texts[0] = [*codes, *texts[0], *words, *comments]
             texts[-1] += last
+            self._tell(block, self.numberer.number(block, numbers, texts))
         lines += [indent + skip + " ".join(text) for text in texts]
         if lines:
             lines[0] = specials + lines[0]
@@ -377,6 +390,10 @@ def _read_on(steps: Iterator[Step], coming: deque[Step]) -> Iterator[Step]:
     for step in steps:
         coming.append(step)
         yield step
+
+
+def _blocks_of(step: Step) -> tuple[Block, ...]:
+    return step.blocks if step.line is None else (parse_block(step.line.text, step.line.line),)
 
 
 def _is_active(block: Block | PlainLine) -> bool:

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
 from contoursolve.dialects import DIALECTS, Dialect
-from contoursolve.pipeline import UnknownControlError
+from contoursolve.pipeline import several_controls, sign_of
 from contoursolve.reading import plain_lines
 from contoursolve.syntax import Block, Directive, PlainLine, parse_block
 
@@ -19,12 +19,13 @@ class Lines:
         self._facts = facts
         self._plain = plain_lines(dialect.modes).fullmatch
         self._others = [other for other in DIALECTS.values() if not is_certain and other.name != dialect.name]
-        self._control = dialect.name
+        self._dialect = dialect
         self._ends: dict[int, str] = {}
         self.end = "\n"
         """The end of the last line that has one."""
 
     def blocks(self) -> Iterator[Block | PlainLine]:
+        own = ""
         for number, line in enumerate(self._lines, 1):
             size = 2 if line.endswith("\r\n") else 1 if line.endswith(("\n", "\r")) else 0
             text, end = line[: len(line) - size], line[len(line) - size :]
@@ -36,10 +37,12 @@ class Lines:
             block = parse_block(text, number)
             if number in self._facts:
                 block = replace(block, directives=(*block.directives, *self._facts[number]))
+            if self._others:
+                own = own or sign_of(block, self._dialect)
             for other in self._others:
-                if other.signs(block):
-                    controls = f"{self._control}, and {other.name} by line {number}"
-                    raise UnknownControlError(f"the program looks like more than one control ({controls})")
+                sign = sign_of(block, other)
+                if sign:
+                    raise several_controls({self._dialect.name: own, other.name: sign})
             yield block
 
     def end_of(self, line: int) -> str:

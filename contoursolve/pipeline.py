@@ -131,15 +131,25 @@ def recognise(program: Program) -> Dialect | None:
     """
     signs = {name: sign for name, dialect in DIALECTS.items() for sign in [_sign(program.blocks, dialect)] if sign}
     if len(signs) > 1:
-        places = ", ".join(f"{name} by {sign}" for name, sign in signs.items())
-        raise UnknownControlError(f"the program looks like more than one control ({places})")
+        raise several_controls(signs)
     return DIALECTS[next(iter(signs))] if signs else None
+
+
+def several_controls(signs: Mapping[str, str]) -> UnknownControlError:
+    """That blocks show more than one control; `signs` say what shows each."""
+    places = ", ".join(f"{name} by {signs[name]}" for name in DIALECTS if name in signs)
+    return UnknownControlError(f"the program looks like more than one control ({places})")
 
 
 def _sign(blocks: Iterable[Block], dialect: Dialect) -> str:
     """What first shows that blocks are for a control; empty if nothing does."""
-    shown = ((block.line, words) for block in blocks for words in [dialect.signs(block)] if words)
-    return next((f"{join([word.text.strip() for word in words])} in line {line}" for line, words in shown), "")
+    return next((sign for block in blocks for sign in [sign_of(block, dialect)] if sign), "")
+
+
+def sign_of(block: Block, dialect: Dialect) -> str:
+    """What shows that a block is for a control; empty if nothing does."""
+    words = dialect.signs(block)
+    return f"{join([word.text.strip() for word in words])} in line {block.line}" if words else ""
 
 
 def first_sign(blocks: Iterable[Block]) -> Dialect | None:

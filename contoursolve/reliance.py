@@ -1,5 +1,6 @@
 """Which blocks rely on the motion code that is in force, and how it is said again where a contour has ended it."""
 
+from collections.abc import Iterable
 from enum import Enum
 
 from contoursolve.reading import Code, Effect, Modes, codes_of
@@ -56,13 +57,19 @@ def reliance(block: Block, modes: Modes) -> Reliance:
     return Reliance.WORDS if uses or is_faulty else Reliance.NONE
 
 
-def can_restate(motion: int | None, need: Reliance, modes: Modes) -> bool:
-    """Whether a motion can be put in force again for a block that relies on it like this."""
-    if need in (Reliance.NONE, Reliance.ENDS) or motion in STANDING_ALONE:
-        return True
+def why_unmet(motion: int | None, blocks: Iterable[Block], modes: Modes) -> str:
+    """Why a motion that has been ended is missed by the blocks behind, of which no more are read than needed; empty
+    if it can be said again for the one that relies on it."""
     code = modes.codes.get(motion) if motion is not None else None
     is_free = code is not None and (code.effect is Effect.MOTION or code.number in _MODAL_CORNERS)
-    return is_free and need is Reliance.WORDS
+    for block in blocks:
+        need = reliance(block, modes)
+        if need is Reliance.BESIDE or (need is Reliance.WORDS and not is_free):
+            name = f"the G{motion} before it" if code else "what the control starts with"
+            return f"line {block.line} relies on {name}: write the G code of its motion into line {block.line}"
+        if need is Reliance.ENDS or (need is Reliance.WORDS and not block.is_skippable):
+            break
+    return ""
 
 
 def restate(block: Block, motion: int) -> Block:

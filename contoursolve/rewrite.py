@@ -11,7 +11,9 @@ from contoursolve.examine import Policy
 from contoursolve.expansion import OPENING, Options, Summary, expand_lines, lines_of_facts, opening_of
 from contoursolve.files import Tape
 from contoursolve.model import Length
+from contoursolve.numbering import Numbers
 from contoursolve.pipeline import first_sign
+from contoursolve.posts import Numbering
 from contoursolve.project import configure
 from contoursolve.syntax import Block, Directive, Program, parse, parse_block
 
@@ -78,6 +80,7 @@ def rewrite(
             start=start,
             facts=places,
             is_certain=control is not None,
+            numbers=Numbers(tape.lines()) if options.numbering is Numbering.ALL else None,
         )
     held: list[str] = []
     place, told = len(tape.mark), 0.0

@@ -368,7 +368,44 @@ def test_what_the_target_reads_otherwise_is_named_once():
 def test_a_word_that_the_control_ignores_is_not_passed_over():
     text = f"{START}G111 A135. I10. K-12. B180. Z-40."
     assert contoursolve.expand(text).summary.warnings == 1
-    assert "1 warning: contoursolve check shows it" in run("expand", "-", stdin=text)[2]
+    said = run("expand", "-", stdin=text)[2]
+    assert "line 2: warning[g111-a-ignored]: A135. is ignored" in said
+    assert "1 warning: contoursolve check says more about it" in said
+    said = run("expand", "-", stdin=f"{text}\n" * 30)[2]
+    assert said.count("warning[g111-a-ignored]") == 20
+    assert "and 10 warnings more" in said
+
+
+BEFORE = "G00 X40. Z0.\nG71 P100 Q0120 U.5 F.2\nN100 G00 X40. Z0.\n"
+ROUNDED = "N0120 G111 A180. K-30. B120. X100. P5."
+
+
+@pytest.mark.parametrize(
+    ("text", "numbers", "written"),
+    [
+        (START + "N20 G111 A180. K-30. B120. X100. P5.\nN21 M01\nGOTO 22", "first", ["N20", "", ""]),
+        (START + "N20 G111 A180. K-30. B120. X100. P5.\nN21 M01\nGOTO 22", "all", ["N20", "N23", "N24"]),
+        (START + "N0020 G111 A180. K-30. B120. X100. P5.\nM99 P23", "all", ["N0020", "N0021", "N0022"]),
+        (START + "N9999 G111 A180. K-30. B120. X100. P5.", "all", ["N9999", "N0001", "N0002"]),
+        (START + "G111 A180. K-30. B120. X100. P5.", "all", ["", "", ""]),
+        (BEFORE + ROUNDED, "first", ["", "", "N0120"]),
+        (BEFORE + ROUNDED, "all", ["N0121", "N0122", "N0120"]),
+    ],
+    ids=["first", "all, not what is there", "width", "from 1", "no number", "end of a profile", "profile, all"],
+)
+def test_numbers_of_new_lines_are_those_that_nothing_else_uses(text, numbers, written):
+    lines = expand(text, block_numbers=numbers)
+    at = next(n for n, line in enumerate(lines) if "Z-27.113" in line)
+    assert [line.partition("G")[0].strip() for line in lines[at : at + 3]] == written
+
+
+def test_numbers_that_cannot_stand_where_they_are_needed_are_told():
+    text = START + ROUNDED + "\nG70 P100 Q120"
+    (left,) = contoursolve.expand(text).summary.left
+    assert left.reason == "the profile of line 3 ends with N120 of line 2, which is more than one line now"
+    full = START + ROUNDED + "\n(" + " ".join(f"N{n}" for n in range(1, 9999)) + ")"
+    (left,) = contoursolve.expand(full, block_numbers="all").summary.left
+    assert "no block number up to 9999 is free" in left.reason
 
 
 # --- What stays as it is -------------------------------------------------------------------------------

@@ -23,7 +23,7 @@ FLOORS = (
     "analysis",
     "solving",
     "settling",
-    "contour posts reliance",
+    "contour posts reliance numbering",
     "beyond",
     "emit explain sketch",
     "spelling",

@@ -23,7 +23,7 @@ from contoursolve.model import Length
 from contoursolve.output.findings import Style, finding_lines, plain
 from contoursolve.output.layout import count
 from contoursolve.pipeline import FactPlaceError, UnknownControlError
-from contoursolve.posts import POSTS, Arcs, Post
+from contoursolve.posts import POSTS, Arcs, Numbering, Post
 from contoursolve.project import SettingError
 from contoursolve.rewrite import Rewritten, rewrite
 from contoursolve.syntax import UnreadableProgramError
@@ -55,6 +55,14 @@ STANDARD = "-"
 @click.option(
     "--decimals", type=click.IntRange(1, MOST_DECIMALS), help="Decimals of a length; the target's own without."
 )
+@click.option(
+    "--block-numbers",
+    type=click.Choice([numbering.value for numbering in Numbering]),
+    default="first",
+    show_default=True,
+    help="Which lines in the place of a block with a number N have one: the first (in the last block of a profile that "
+    "G70 to G73 calls, the last), or all, with numbers that OLD neither has nor jumps to. No other line is renumbered.",
+)
 @click.option("--no-comments", is_flag=True, help="Do not keep the original blocks as comments.")
 @click.option(
     "--keep-going", "keeps_going", is_flag=True, help="Leave a contour that cannot be expanded, with a comment why."
@@ -72,6 +80,7 @@ def expand(
     post: str,
     arcs: str,
     decimals: int | None,
+    block_numbers: str,
     no_comments: bool,
     keeps_going: bool,
     **options: Any,
@@ -92,7 +101,7 @@ def expand(
     if start is not None and not blocks:
         raise click.UsageError("--start goes with --block; a PROGRAM states its own positions")
     target = _target(program, output, is_in_place, is_forced)
-    wish = Options(POSTS[post], Arcs(arcs), decimals, not no_comments, keeps_going)
+    wish = Options(POSTS[post], Arcs(arcs), decimals, not no_comments, keeps_going, Numbering(block_numbers))
     source = tape_of("".join(f"{block}\n" for block in blocks), "<block>") if blocks else open_tape(program or "-")
     length = 100
     with (
@@ -116,7 +125,7 @@ def expand(
             except CannotWriteError as error:
                 raise CouldNotRunError(str(error)) from None
             click.echo(f"{target} written" + (f"; the old one is {backup}" if backup else ""), err=True)
-    _report_expansion(summary, POSTS[post])
+    _report_expansion(summary, POSTS[post], style_of_output())
     context.exit(FOUND_ERRORS if summary.left else 0)
 
 
@@ -149,7 +158,7 @@ def filter_(context: click.Context, /, program: str, **options: Any) -> None:
             context.exit(FOUND_ERRORS)
         progress(1.0)
         _print(rewritten)
-    _report_expansion(rewritten.summary, POSTS["linuxcnc"])
+    _report_expansion(rewritten.summary, POSTS["linuxcnc"], plain)
 
 
 def _target(program: str | None, output: str | None, is_in_place: bool, is_forced: bool) -> Path | None:
@@ -222,8 +231,15 @@ def _report_left(summary: Summary, name: str, style: Style) -> None:
             click.echo("\n".join(lines), err=True)
 
 
-def _report_expansion(summary: Summary, post: Post) -> None:
+def _report_expansion(summary: Summary, post: Post, style: Style) -> None:
     """What was done, and what is left to do, on standard error."""
+    for finding in summary.warned:
+        place = (
+            f"line {finding.span.line}" if finding.span.line > 0 else "--start" if not finding.span.line else "--fact"
+        )
+        click.echo(f"{place}: {style('warning', 'warning')}[{finding.code}]: {finding.message}", err=True)
+    if summary.warnings > len(summary.warned):
+        click.echo(f"and {count(summary.warnings - len(summary.warned), 'warning')} more", err=True)
     for each in summary.unfamiliar:
         click.echo(f"line {each.line}: {each.text} {each.problem} on {post.title}", err=True)
     done = f"{count(summary.replaced, 'contour')} expanded"
@@ -233,5 +249,5 @@ def _report_expansion(summary: Summary, post: Post) -> None:
         done += f"; {len(summary.left)} left"
     if summary.warnings:
         them = "it" if summary.warnings == 1 else "them"
-        done += f"; {count(summary.warnings, 'warning')}: contoursolve check shows {them}"
+        done += f"; {count(summary.warnings, 'warning')}: contoursolve check says more about {them}"
     click.echo(done if summary.replaced or summary.left else "no contour block: nothing to expand", err=True)
