@@ -6,16 +6,12 @@ import sys
 import time
 from math import cos, hypot, radians, sin
 from pathlib import Path
-from random import Random
 
 import pytest
 from click.testing import CliRunner
-from generate_lx3 import random_g11, random_g112
-from generate_nct import FORMS, random_chain, random_cornered, random_pair
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from interpreter import assert_path, interpret, needs_rs274
-from oracle import g111
 
 import contoursolve
 from contoursolve.api import only_findings
@@ -46,78 +42,7 @@ def expand(text, **options):
     return expansion.text.split("\n")
 
 
-# --- The judge: LinuxCNC runs what we write, and goes where the contour goes ---------------------------
-
-
-def judge(text, path, tmp_path, control, arcs):
-    expansion = contoursolve.expand(text, post="linuxcnc", control=control, arcs=arcs)
-    assert expansion.text is not None, expansion.summary.left
-    motions = interpret(expansion.text, tmp_path)[1:]
-    assert_path(motions, [(each.start, each.end, each.center, each.turn) for each in path], WITHIN)
-
-
-@needs_rs274
-@pytest.mark.parametrize("seed", range(60))
-def test_linuxcnc_runs_nct_contours_where_they_were_drawn(seed, tmp_path):
-    rng = Random(seed)
-    plane = rng.choice((17, 18, 19))
-    drawn = rng.choice(
-        (
-            lambda: random_pair(rng, rng.choice(FORMS[:4]), plane, rng.choice(("", "C", "R"))),
-            lambda: random_chain(rng, rng.randint(2, 5), plane),
-            lambda: random_cornered(rng, plane),
-        )
-    )()
-    text = "F100\n" + drawn.text + "M30\n"
-    for arcs in ("center", "radius"):
-        expansion = contoursolve.expand(text, post="linuxcnc", control="nct-99m", arcs=arcs)
-        # LinuxCNC has no compensation in G19, and says so; with D0, it changes nothing.
-        written = re.sub(r"G4[12] |D0", "", expansion.text) if plane == 19 else expansion.text
-        assert [each.text[4:] for each in expansion.summary.unfamiliar] == ["in G19"] * (plane == 19)
-        path = [(each.start, each.end, each.center, each.turn) for each in drawn.elements]
-        assert_path(interpret(written, tmp_path)[1:], path, WITHIN)
-
-
-@needs_rs274
-@pytest.mark.parametrize("seed", range(60))
-def test_linuxcnc_runs_tapers_where_the_closed_form_goes(seed, tmp_path):
-    rng = Random(seed)
-    while True:
-        start = complex(rng.uniform(-20, 20), rng.uniform(10, 40))
-        start = complex(round(start.real, 3), round(2 * start.imag, 3) / 2)
-        words = {
-            "A": rng.choice((180, 135, 90, round(rng.uniform(91, 269), 3))),
-            "K": -round(rng.uniform(2, 40), 3),
-            "B": round(rng.uniform(91, 179), 3),
-            rng.choice("XU"): round(rng.uniform(20, 160), 3),
-            rng.choice("CP"): round(rng.uniform(0, 5), 3),
-            rng.choice("DQ"): round(rng.uniform(0, 5), 3),
-        }
-        outcome = g111(start, words)
-        if outcome.status == "solved" and not outcome.is_near:
-            break
-    block = " ".join(
-        f"{address}{value}." if value == int(value) else f"{address}{value}" for address, value in words.items()
-    )
-    text = f"F100\nG00 X{2 * start.imag:.4f} Z{start.real:.4f}\nG111 {block.replace('..', '.')}\nM30\n"
-    for arcs in ("center", "radius"):
-        judge(text, outcome.elements, tmp_path, "yasnac-lx3", arcs)
-
-
-@needs_rs274
-@pytest.mark.parametrize("seed", range(60))
-def test_linuxcnc_runs_other_lathe_contours_where_they_were_drawn(seed, tmp_path):
-    rng = Random(seed)
-    name = rng.choice(("G112", "G11"))
-    if not any(form.name.split("-")[0] == name for form in DIALECTS["yasnac-lx3"].forms):
-        pytest.skip(f"{name} is not resolved by this version")
-    if name == "G112":
-        corners = rng.choice(("", "P", "C")), rng.choice(("", "Q", "D"))
-        drawn = random_g112(rng, rng.choice(("turning", "facing")), *corners)
-    else:
-        drawn = random_g11(rng, rng.randint(1, 4))
-    for arcs in ("center", "radius"):
-        judge("F100\n" + drawn.text + "M30\n", drawn.elements, tmp_path, "yasnac-lx3", arcs)
+# --- The judge: LinuxCNC runs what we write, and goes where the contour goes (more in test_interpreted.py) ---
 
 
 @needs_rs274
