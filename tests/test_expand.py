@@ -1,5 +1,6 @@
 """Whole programs in plain G-code: what replaces a contour, and that nothing else changes."""
 
+import os
 import re
 import subprocess
 import sys
@@ -584,6 +585,79 @@ def test_killed_at_any_moment_a_file_is_the_old_one_or_the_whole_new_one(tmp_pat
         assert found in (text, whole)
         outcomes.add(found)
     assert text in outcomes
+
+
+DIES = """
+import os, signal, sys
+left = int(sys.argv[1])
+def hook(event, arguments):
+    global left
+    if event.partition(".")[0] in ("open", "os", "shutil") and any("old.nc" in str(each) for each in arguments):
+        left -= 1
+        if not left:
+            os.kill(os.getpid(), signal.SIGKILL)
+sys.addaudithook(hook)
+from contoursolve.cli import main
+main(["expand", "--in-place", sys.argv[2]])
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there is no SIGKILL")
+def test_killed_before_any_step_on_a_file_nothing_is_lost(tmp_path):
+    text = START + TAPER + "\n"
+    whole = contoursolve.expand(text).text
+    outcomes = []
+    for step in range(1, 40):
+        folder = tmp_path / str(step)
+        folder.mkdir()
+        old = folder / "old.nc"
+        old.write_text(text)
+        done = subprocess.run([sys.executable, "-c", DIES, str(step), str(old)], capture_output=True, check=False)
+        backups = [each.read_text() for each in folder.glob("old.nc.bak*")]
+        assert old.read_text() in (text, whole)
+        assert backups in ([], [text])  # never a part of it
+        assert backups or old.read_text() == text
+        outcomes.append((done.returncode, old.read_text() == whole))
+        if not done.returncode:
+            break
+    assert {code for code, _ in outcomes[:-1]} == {-9}
+    assert [done for _, done in outcomes] == sorted(done for _, done in outcomes)
+    assert len(outcomes) > 8
+    assert outcomes[-1] == (0, True)
+
+
+# --- Progress ------------------------------------------------------------------------------------------
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there are no pseudo-terminals")
+def test_progress_is_shown_on_a_terminal_and_nowhere_else(tmp_path):
+    import pty  # noqa: PLC0415 - only where there are terminals
+
+    old, new = tmp_path / "old.nc", tmp_path / "new.nc"
+    for lines, is_terminal, is_shown in ((30_000, True, True), (30_000, False, False), (30, True, False)):
+        old.write_text(START + "G01 X41. F.1\n" * lines + START + TAPER + "\n")
+        with new.open("wb") as out:
+            mine, its = pty.openpty() if is_terminal else os.pipe()
+            process = subprocess.Popen(
+                [sys.executable, "-m", "contoursolve", "expand", str(old)], stdout=out, stderr=its
+            )
+            os.close(its)
+            said = b""
+            while piece := _read(mine):
+                said += piece
+            os.close(mine)
+            assert process.wait() == 0
+        assert (b"expanding  [" in said) == is_shown
+        assert (b"100%" in said) == is_shown
+        assert said.decode().splitlines()[-1] == "1 contour expanded, at most 0.0005 mm off"
+        assert new.read_text() == contoursolve.expand(old.read_text()).text
+
+
+def _read(descriptor):
+    try:
+        return os.read(descriptor, 4096)
+    except OSError:  # a pseudo-terminal of which the other end is closed
+        return b""
 
 
 # --- LinuxCNC's filter ---------------------------------------------------------------------------------

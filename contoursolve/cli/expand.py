@@ -1,8 +1,8 @@
 """The commands that write programs: expand, and the filter of LinuxCNC."""
 
 import sys
-from collections.abc import Callable, Mapping
-from contextlib import AbstractContextManager
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import AbstractContextManager, ExitStack, contextmanager
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryFile
@@ -103,15 +103,9 @@ def expand(
     target = _target(program, output, is_in_place, is_forced)
     wish = Options(POSTS[post], Arcs(arcs), decimals, not no_comments, keeps_going, Numbering(block_numbers))
     source = tape_of("".join(f"{block}\n" for block in blocks), "<block>") if blocks else open_tape(program or "-")
-    length = 100
-    with (
-        TemporaryFile() as body,
-        click.progressbar(length=length, label="expanding", file=sys.stderr, hidden=not sys.stderr.isatty()) as bar,
-    ):
-        rewritten = _rewrite(
-            source, body, wish, start, options, lambda share: bar.update(int(share * length) - bar.pos)
-        )
-        bar.update(length - bar.pos)
+    with TemporaryFile() as body:
+        with _progress_bar() as progress:
+            rewritten = _rewrite(source, body, wish, start, options, progress)
         summary = rewritten.summary
         _report_left(summary, program or "<block>", style_of_output())
         if summary.left and not keeps_going:
@@ -210,6 +204,23 @@ def _rewrite(
         raise CouldNotRunError(f"{name}: {error}; say which with --control {'|'.join(DIALECTS)}") from None
     except FactPlaceError as error:
         raise CouldNotRunError(f"{name}: {error}") from None
+
+
+@contextmanager
+def _progress_bar() -> Iterator[Callable[[float], None]]:
+    """A bar on standard error if that is a terminal; a program that is done before it tells anything needs none."""
+    with ExitStack() as stack:
+        bars: list[Any] = []
+
+        def show(share: float) -> None:
+            if not bars and sys.stderr.isatty():
+                bars.append(stack.enter_context(click.progressbar(length=100, label="expanding", file=sys.stderr)))
+            for bar in bars:
+                bar.update(int(share * 100) - bar.pos)
+
+        yield show
+        for bar in bars:
+            bar.update(100 - bar.pos)
 
 
 def _print(rewritten: Rewritten) -> None:
