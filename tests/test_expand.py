@@ -5,6 +5,7 @@ import re
 import subprocess
 import sys
 import time
+from configparser import ConfigParser
 from math import cos, hypot, radians, sin
 from pathlib import Path
 
@@ -528,6 +529,36 @@ def test_every_other_byte_stays(before, after, tmp_path):
     assert new.read_bytes() == before + b"G00 X40. Z0." + end + replaced + after
 
 
+PIECES = [
+    b"G01X1.",
+    b"g00 x40.0\tz+0.50",
+    b"\t",
+    b" ",
+    b"(\xe4\xb5)",
+    b"(\xc3\xa4)",
+    b"%",
+    b"\x1a",
+    b"\x0c",
+    b"N5",
+    b"#1=2",
+]
+TAILS = [b"\n", b"\r\n", b"\r", b""]
+
+
+@given(
+    st.lists(st.sampled_from(PIECES + TAILS) | st.text(st.characters(exclude_categories=("Cc", "Cs"))), max_size=30),
+    st.sampled_from(["same", "linuxcnc", "fanuc"]),
+    st.sampled_from([b"", b"\xef\xbb\xbf"]),
+)
+@settings(deadline=None, max_examples=100)
+def test_a_file_without_a_contour_keeps_every_byte(pieces, post, mark):
+    data = mark + b"".join(each if isinstance(each, bytes) else each.encode() for each in pieces)
+    for arguments in ((), ("--control", "yasnac-lx3")):
+        status, output, errors = run("expand", "-", "--post", post, "--rules", "off", *arguments, stdin=data)
+        if "nothing to expand" in errors:
+            assert (status, output) == (0, data)
+
+
 def test_a_target_is_not_replaced_unless_that_is_asked_for(tmp_path):
     old, new = tmp_path / "old.nc", tmp_path / "new.nc"
     old.write_text(START + TAPER + "\n")
@@ -663,25 +694,70 @@ def _read(descriptor):
 # --- LinuxCNC's filter ---------------------------------------------------------------------------------
 
 
+def open_in_linuxcnc(file, folder):
+    """What LinuxCNC's screen AXIS does with a file whose ending its INI file names: the status, the program that it
+    loads, what it tells the user, and how the bar moves. The lines of the INI file are those of the README."""
+    text = PROGRAMS.parent.parent.joinpath("README.md").read_text()
+    ini = ConfigParser()
+    ini.read_string(re.search(r"^    \[FILTER\]\n(?:    .+\n)+", text, re.MULTILINE)[0].replace("    ", ""))
+    assert ini["FILTER"]["PROGRAM_EXTENSION"].startswith(f"{file.suffix} ")
+    (folder / "bin").mkdir(exist_ok=True)
+    command = folder / "bin" / "contoursolve"
+    command.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m contoursolve "$@"\n')
+    command.chmod(0o755)
+    quoted = str(file).replace("'", "'\\''")
+    done = subprocess.run(
+        ["sh", "-c", f"{ini['FILTER'][file.suffix[1:]]} '{quoted}'"],
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        check=False,
+        env={**os.environ, "AXIS_PROGRESS_BAR": "1", "PATH": f"{command.parent}:{os.environ['PATH']}"},
+    )
+    said, steps = [], []
+    for line in done.stderr.decode().splitlines():
+        progress = re.match(r"^FILTER_PROGRESS=(\d*)$", line)
+        (steps if progress else said).append(int(progress[1]) if progress else line)
+    return done.returncode, done.stdout, "\n".join(said), steps
+
+
 @needs_rs274
+@pytest.mark.skipif(sys.platform == "win32", reason="LinuxCNC has a shell")
 def test_linuxcnc_opens_an_old_program_through_the_filter(tmp_path):
-    old = tmp_path / "an old one.nc"
-    old.write_text("F100\n" + START + TAPER + " P5. Q5.\nM30\n")
-    filter_ = f"{sys.executable} -m contoursolve filter"
-    done = subprocess.run(["sh", "-c", f"{filter_} '{old}'"], capture_output=True, text=True, check=True)
-    assert "FILTER_PROGRESS=100" in done.stderr.splitlines()
-    motions = interpret(done.stdout, tmp_path)
-    assert [motion.kind for motion in motions] == ["traverse", "line", "cw", "line", "ccw"]
+    old = tmp_path / "an old one's.nc"
+    lines = "G01 X41. F100.\nG00 X40. Z0.\n" * 3_000
+    old.write_text(START + lines + TAPER + " P5. Q5.\nM30\n")
+    status, program, said, steps = open_in_linuxcnc(old, tmp_path)
+    assert status == 0
+    assert len(steps) > 2
+    assert steps == sorted(steps)
+    assert steps[-1] == 100
+    assert said.splitlines()[-1] == "1 contour expanded, at most 6e-05 mm off"
+    motions = interpret(program.decode(), tmp_path)[-4:]
+    assert [motion.kind for motion in motions] == ["line", "cw", "line", "ccw"]
     assert abs(motions[-1].end - (-50.2073 + 50j)) < 1e-4
 
 
-def test_the_filter_fails_with_the_findings_and_no_program(tmp_path):
+@pytest.mark.skipif(sys.platform == "win32", reason="LinuxCNC has a shell")
+@pytest.mark.parametrize(
+    ("data", "status", "message"),
+    [
+        (START.encode() + b"G111 A180. B120. X100.\n", 1, "error[g111-line-1]"),
+        (b"G111 A1.\nG1 X1 Y1 ,A5\n", 2, "say which with --control yasnac-lx3|nct-99m"),
+        (b"\x00\x01binary", 2, "is not a text file"),
+        (None, 2, "no such file"),
+        (b"", 0, "nothing to expand"),
+        (b"(ONLY A COMMENT)", 0, "nothing to expand"),
+    ],
+    ids=["not solved", "two controls", "binary", "missing", "empty", "comment"],
+)
+def test_linuxcnc_is_told_why_the_filter_fails(data, status, message, tmp_path):
     old = tmp_path / "old.nc"
-    old.write_text(START + "G111 A180. B120. X100.\n")
-    status, output, errors = run("filter", old)
-    assert (status, output) == (1, b"")
-    assert "error[g111-line-1]" in errors
-    assert run("filter", tmp_path / "none.nc")[:2] == (2, b"")
+    if data is not None:
+        old.write_bytes(data)
+    outcome, program, said, _ = open_in_linuxcnc(old, tmp_path)
+    assert (outcome, program) == (status, b"" if status else data)
+    assert message in said
+    assert "Traceback" not in said
 
 
 def test_the_filter_leaves_a_program_of_linuxcnc_alone(tmp_path):

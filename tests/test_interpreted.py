@@ -15,6 +15,13 @@ from interpreter import assert_path, interpret_all, needs_rs274
 from oracle import Element, g111
 
 import contoursolve
+from contoursolve.api import only_findings
+from contoursolve.comparison import Path, compare, follow
+from contoursolve.dialects import DIALECTS, PLAIN
+from contoursolve.examine import Policy
+from contoursolve.model import Length
+from contoursolve.pipeline import run
+from contoursolve.syntax import parse
 
 LX3, NCT = "yasnac-lx3", "nct-99m"
 AT_LEAST = 200
@@ -156,3 +163,31 @@ def test_a_fanuc_control_runs_every_program_where_it_was_drawn(arcs):
         motions = list(read(text, is_lathe=each.control == LX3))
         path = [(part.start, part.end, part.center, part.turn) for part in each.path]
         assert_path(motions[1:], path, within(each, "fanuc"))
+
+
+@pytest.mark.parametrize("post", ["same", "linuxcnc", "fanuc"])
+def test_diff_finds_every_program_equal_and_each_coordinate_that_is_off_by_a_hundredth(post):
+    rng = Random(10)
+    targets = {"same": (LX3, NCT), "linuxcnc": ("linuxcnc", "linuxcnc"), "fanuc": ("fanuc-lathe", "fanuc-mill")}
+    for each in drawings():
+        arcs, target = rng.choice(("center", "radius")), targets[post][each.control == NCT]
+        new = contoursolve.expand(each.text, post=post, arcs=arcs, control=each.control).text
+        old = path_of(each.text, each.control)
+        inches = "G20" in each.shows
+        tolerance = 0.0005 if post == "linuxcnc" else 0.003 if inches else 0.0015
+        found = compare(old, path_of(new, target), tolerance)
+        assert found.is_equal, (each.text, new, found.difference and found.difference.reason, found.difference)
+        place = rng.choice(list(re.finditer(r"(?<=[XYZUW])-?\d*\.?\d+", re.sub(r"\(.*\)", hide, new))))
+        value = float(place[0]) + rng.choice((-1, 1)) * (0.0004 if inches else 0.01)
+        changed = f"{new[: place.start()]}{value:.12f}{new[place.end() :]}"
+        assert not compare(old, path_of(changed, target), tolerance).is_equal, (place, new)
+
+
+def hide(comment: re.Match[str]) -> str:
+    return " " * len(comment[0])
+
+
+def path_of(text: str, control: str) -> Path:
+    dialect = {**DIALECTS, **PLAIN}[control]
+    result = only_findings(run(parse(text), dialect, Length.MM, Policy.ENFORCE))
+    return follow(result, dialect, Length.MM, ("X", "Y", "Z"))
