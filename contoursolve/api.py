@@ -263,6 +263,7 @@ def expand(
         Options,
         Summary,
         expand_lines,
+        left_unread,
         lines_of_facts,
         opening_of,
     )
@@ -276,7 +277,8 @@ def expand(
     options = Options(find_post(post), choice_of(Arcs, arcs, "arcs"), decimals, comments, keep_going, numbering)
     summary, unit, policy = Summary(), choice_of(Length, units, "units"), choice_of(Policy, rules, "rules")
     if dialect is None:
-        return Expansion(text, None, summary)
+        summary.left += filter(None, map(left_unread, program.blocks))
+        return Expansion(text if keep_going or not summary.left else None, None, summary)
     dialect = (configure(settings) if settings else {}).get(dialect.name, dialect)
     beginning = syntax.parse(start, name, first_line=0) if start is not None else None
     further = lines_of_facts(program, dialect, unit, beginning, _facts(facts))

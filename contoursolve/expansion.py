@@ -20,7 +20,7 @@ from contoursolve.posts import SAME, Arcs, Machine, Numbering, Post
 from contoursolve.reading import Effect, State, apply_modes, codes_of
 from contoursolve.reliance import MOTIONS, STANDING_ALONE, Reliance, reliance, restate, why_unmet
 from contoursolve.solving import Point
-from contoursolve.syntax import Block, Directive, PlainLine, Program, Word, parse_block
+from contoursolve.syntax import Block, Directive, FaultKind, PlainLine, Program, Word, parse_block
 from contoursolve.unfamiliar import Unfamiliar, Watch
 
 
@@ -122,6 +122,13 @@ def lines_of_facts(
     return {block.line: worded for block in attached.blocks if worded[0] in block.directives}
 
 
+def left_unread(block: Block) -> Left | None:
+    """A block that is too long to be read, and may be a contour."""
+    if all(fault.kind is not FaultKind.BLOCK_TOO_LONG for fault in block.faults):
+        return None
+    return Left((block.line,), f"the block has {len(block.text):,} characters and was not read", (), {})
+
+
 def opening_of(options: Options, dialect: Dialect, unit: Length, summary: Summary) -> str:
     """The line that the target needs before the first block; empty if it needs none, or nothing was replaced."""
     text = options.post.opening.get(_machine(dialect), "") if summary.replaced else ""
@@ -192,6 +199,11 @@ class _Expander:
                 self._update_offsets(block, state)
             self.watch.look(block, block.words, state)
             self._tell(block, self.numberer.look(block))
+            unread = left_unread(block)
+            if unread:
+                self.summary.left.append(unread)
+                if not self.is_marked:
+                    yield remark(unread.reason) + self.lines.end
         self.is_marked = block.text.startswith(LEFT_MARK)
         yield block.text + self.lines.take_end(block.line)
 

@@ -42,7 +42,8 @@ class Tape:
             for line in text:  # noqa: UP028 - `yield from` would close the file when it is not read to its end
                 yield line
         finally:
-            text.detach()
+            if not self.data.closed:
+                text.detach()
 
     def read(self) -> str:
         """All of it."""

@@ -8,7 +8,16 @@ from typing import IO
 
 from contoursolve.api import find_dialect
 from contoursolve.examine import Policy
-from contoursolve.expansion import OPENING, Options, Summary, expand_lines, lines_of_facts, opening_of
+from contoursolve.expansion import (
+    OPENING,
+    Left,
+    Options,
+    Summary,
+    expand_lines,
+    left_unread,
+    lines_of_facts,
+    opening_of,
+)
 from contoursolve.files import Tape
 from contoursolve.model import Length
 from contoursolve.numbering import Numbers
@@ -62,10 +71,12 @@ def rewrite(
     Raises UnknownControlError, SettingError and FactPlaceError, as `solve` does. With facts, all of the program is
     held in memory, to see which contour they are about.
     """
-    dialect = find_dialect(control) if control else first_sign(_blocks(tape))
+    unread: list[Left] = []
+    dialect = find_dialect(control) if control else first_sign(_blocks(tape, unread))
     summary = Summary()
     body.write(tape.mark)
     if dialect is None:
+        summary.left += unread
         lines: Iterable[str | object] = tape.lines()
     else:
         dialect = (configure(settings) if settings else {}).get(dialect.name, dialect)
@@ -101,5 +112,9 @@ def rewrite(
     return Rewritten(body, place, opening.encode(tape.encoding), dialect.name if dialect else None, summary)
 
 
-def _blocks(tape: Tape) -> Iterator[Block]:
-    return (parse_block(line.rstrip("\r\n"), number) for number, line in enumerate(tape.lines(), 1))
+def _blocks(tape: Tape, unread: list[Left]) -> Iterator[Block]:
+    """The blocks of a program; those that are too long to be read are added to `unread`."""
+    for number, line in enumerate(tape.lines(), 1):
+        block = parse_block(line.rstrip("\r\n"), number)
+        unread += filter(None, [left_unread(block)])
+        yield block

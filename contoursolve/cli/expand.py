@@ -43,17 +43,20 @@ STANDARD = "-"
     type=click.Choice(list(POSTS)),
     default="same",
     show_default=True,
-    help="For which control: the one that the program is for, LinuxCNC, or Fanuc.",
+    help="For which control: the one that OLD is for, LinuxCNC, or Fanuc.",
 )
 @click.option(
     "--arcs",
     type=click.Choice([arcs.value for arcs in Arcs]),
     default="center",
     show_default=True,
-    help="Arcs by I J K, or by R.",
+    help="The centre of an arc by I J K from where it begins, or by R.",
 )
 @click.option(
-    "--decimals", type=click.IntRange(1, MOST_DECIMALS), help="Decimals of a length; the target's own without."
+    "--decimals",
+    type=click.IntRange(1, MOST_DECIMALS),
+    metavar="COUNT",
+    help="Decimals of a length. Without it, as many as the target has.",
 )
 @click.option(
     "--block-numbers",
@@ -65,7 +68,10 @@ STANDARD = "-"
 )
 @click.option("--no-comments", is_flag=True, help="Do not keep the original blocks as comments.")
 @click.option(
-    "--keep-going", "keeps_going", is_flag=True, help="Leave a contour that cannot be expanded, with a comment why."
+    "--keep-going",
+    "keeps_going",
+    is_flag=True,
+    help="Write the others where a contour cannot be expanded; it stays, below a comment why.",
 )
 @click.pass_context
 def expand(
@@ -88,8 +94,11 @@ def expand(
     """Write OLD (a file, or - for standard input) with every contour as plain G00, G01, G02 and G03.
 
     Everything else stays as it is, byte for byte, and each original block is kept as a comment above what replaces
-    it. End points are rounded first, and then the centre of each arc; the largest deviation is reported, and what
-    OLD says that the target does not know. If a contour cannot be expanded, nothing is written.
+    it. End points are rounded first, and then the centre of each arc; the largest deviation is reported. The rest is
+    not translated: what OLD says that the target does not know is named. If a contour cannot be expanded, nothing is
+    written.
+
+    Exit status: 0 all contours are expanded, 1 one is left or nothing was written, 2 could not run.
 
     \b
     contoursolve expand shaft.nc -o shaft_plain.nc
@@ -133,7 +142,7 @@ def filter_(context: click.Context, /, program: str, **options: Any) -> None:
     """Write FILE for LinuxCNC to standard output, as LinuxCNC asks a filter to.
 
     Progress goes to standard error as FILTER_PROGRESS=n. If a contour cannot be expanded, nothing is written, the
-    findings go to standard error, and the exit status is 1. In LinuxCNC's INI file:
+    findings go to standard error, and the exit status is 1 (2: could not run). In LinuxCNC's INI file:
 
     \b
     [FILTER]
