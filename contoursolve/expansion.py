@@ -4,6 +4,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
+from contoursolve.batch import Batch
 from contoursolve.comments import LEFT_MARK, comment_out, own_comments, remark
 from contoursolve.contour import Segment
 from contoursolve.diagnostic import Diagnostic, Severity
@@ -101,7 +102,8 @@ def expand_lines(
     another one.
     """
     reel = Lines(lines, dialect, facts or {}, is_certain=is_certain)
-    steps = walk(reel.blocks(), dialect, unit, policy, Depth.PATH, start)
+    together = Batch(dialect.rules, policy, is_proven=False)
+    steps = walk(reel.blocks(), dialect, unit, policy, Depth.PATH, start, together)
     yield from _Expander(dialect, options, summary, reel).expand(steps)
 
 

@@ -1,9 +1,10 @@
 """The order of the stages: from the text of a program to its contours and findings."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from itertools import islice
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Protocol, cast
 
 from contoursolve.diagnostic import Basis, Diagnostic, Severity
 from contoursolve.dialects import DIALECTS, Dialect
@@ -11,7 +12,9 @@ from contoursolve.examine import Answer, Depth, Policy, examine, rank
 from contoursolve.explain import Context, join, report
 from contoursolve.model import Length, Plane
 from contoursolve.reading import (
+    Awaited,
     Claim,
+    Position,
     State,
     Trouble,
     advance,
@@ -79,6 +82,13 @@ class Step:
     findings: tuple[Diagnostic, ...] = ()
     line: PlainLine | None = None
     """In place of a block: what nobody needed to read into words."""
+
+
+class Together(Protocol):
+    """Solves many contours at once."""
+
+    def solve(self, claims: Sequence[Claim], examine: Callable[[int], Answer]) -> Sequence[Answer]:
+        """The answers to contours whose start is known, the same as `examine` gives to each of them by its number."""
 
 
 class UnknownControlError(ValueError):
@@ -155,8 +165,9 @@ def run(
     depth: Depth = Depth.FULL,
     start: Program | None = None,
     facts: Sequence[Directive] = (),
+    together: Together | None = None,
 ) -> Result:
-    """Examine every block of a program and solve every contour.
+    """Examine every block of a program and solve every contour, one by one or `together`.
 
     `start` is a block that states the start point apart from the program, `facts` are further facts about its
     only contour; raises FactPlaceError if it has several. Without a dialect only the characters of the program are
@@ -164,7 +175,7 @@ def run(
     """
     if facts and dialect is not None:
         program, facts = attach(program, dialect, unit, start, facts)
-    examiner = _Examiner(dialect, unit, policy, depth)
+    examiner = _Examiner(dialect, unit, policy, depth, together)
     answers: list[Answer] = []
     everything: list[Diagnostic] = []
     for step in examiner.steps(program.blocks, start):
@@ -186,11 +197,12 @@ def walk(
     policy: Policy,
     depth: Depth,
     start: Program | None = None,
+    together: Together | None = None,
 ) -> Iterator[Step]:
     """Every block and every contour of a program in order; blocks that are not a sequence are read as they are needed,
-    so that a program of any length takes no more memory than its longest contour. Plain lines are read into words
-    only where that matters."""
-    return _Examiner(dialect, unit, policy, depth).steps(blocks, start)
+    so that a program of any length takes no more memory than some thousand lines, or its longest contour. Plain lines
+    are read into words only where that matters. Contours are solved one by one, or `together`."""
+    return _Examiner(dialect, unit, policy, depth, together).steps(blocks, start)
 
 
 _FAULTS_OF_NO_CONSEQUENCE = (FaultKind.STRAY_CHARACTER,)
@@ -202,20 +214,100 @@ _NEAR = 8
 _BATCH = 1_000
 """Blocks that are read at once."""
 
+_WINDOW = 8_192
+"""Steps of which the contours are solved together."""
+
+
+class _Pending:
+    """A contour that is found and not solved yet, with what is done about it then."""
+
+    def __init__(
+        self,
+        claim: Claim,
+        step: Step,
+        examine: Callable[[], Answer],
+        leave: Callable[[Answer], State],
+    ) -> None:
+        self.claim, self.step, self.examine, self.leave = claim, step, examine, leave
+        self.after: State | None = None
+
+    @property
+    def is_solved(self) -> bool:
+        """Whether its answer is known."""
+        return self.after is not None
+
+    @property
+    def is_ready(self) -> bool:
+        """Whether its start is known."""
+        positions = self.claim.before.axes.values()
+        return all(not isinstance(each, Awaited) or each.is_ready() for each in positions)
+
+    def settle(self, answer: Answer) -> None:
+        """Take the answer."""
+        self.step, self.after = replace(self.step, answer=answer), self.leave(answer)
+
 
 class _Examiner:
     """One pass over one program: the modal state as it goes, and the findings outside contours."""
 
-    def __init__(self, dialect: Dialect | None, unit: Length, policy: Policy, depth: Depth) -> None:
+    def __init__(
+        self, dialect: Dialect | None, unit: Length, policy: Policy, depth: Depth, together: Together | None = None
+    ) -> None:
         self.dialect = dialect
         self.unit = unit
         self.policy = policy
         self.depth = depth
         self.rules = dialect.rules if dialect else DIALECTS["yasnac-lx3"].rules
+        self.together = together
         self.diagnostics: list[Diagnostic] = []
+        self.pending: list[_Pending] = []
 
     def steps(self, blocks: Iterable[Block | PlainLine], start: Program | None) -> Iterator[Step]:
         """Every block and every contour, in order; without a dialect, only what is found."""
+        window: list[Step | _Pending] = []
+        for each in self._walk(blocks, start):
+            window.append(each)
+            if len(window) >= _WINDOW or self.together is None:
+                self._settle()
+                yield from (other.step if isinstance(other, _Pending) else other for other in window)
+                window = []
+        self._settle()
+        yield from (other.step if isinstance(other, _Pending) else other for other in window)
+
+    def _settle(self) -> None:
+        """Solve what is pending: first what starts from a known point, then what begins where that ends, and so on."""
+        while self.pending:
+            ready = [each for each in self.pending if each.is_ready]
+            self.pending = [each for each in self.pending if not each.is_ready]
+            if self.together is None:
+                answers: Sequence[Answer] = [each.examine() for each in ready]
+            else:
+                claims = [each.claim for each in ready]
+                answers = self.together.solve(claims, lambda number, ready=ready: ready[number].examine())
+            for each, answer in zip(ready, answers, strict=True):
+                each.settle(answer)
+
+    def _leave(self, pending: _Pending) -> State:
+        """The state after a contour; where it ends follows when it is solved."""
+        if pending.after is not None:
+            return pending.after
+        claim, axes = pending.claim, {*pending.claim.after.plane.axes}
+        if self.dialect is not None:
+            addresses = self.dialect.modes.lexicon.addresses
+            words = claim.blocks[-1].words
+            axes |= {addresses[word.address].axis for word in words if word.address in addresses} - {""}
+
+        def find(axis: str) -> Position:
+            if pending.after is None:
+                self._settle()
+            return cast("State", pending.after).axes[axis]
+
+        return claim.after.move(
+            {axis: Awaited(partial(find, axis), lambda: pending.is_solved) for axis in sorted(axes)}
+        )
+
+    def _walk(self, blocks: Iterable[Block | PlainLine], start: Program | None) -> Iterator[Step | _Pending]:
+        """Every block and every contour, in order, contours as they are found."""
         if self.dialect is None:
             for each in blocks:
                 self._check_block(_read(each))
@@ -267,13 +359,17 @@ class _Examiner:
                 continue
             blocks_of_step = tuple(view[place:after])
             if isinstance(found, Claim) and found.form.is_contour:
-                answer = self._examine(found, view, after, state)
                 self._check_units(start, start_unit, found)
                 start_unit = found.after.unit
-                yield Step(blocks_of_step, state, answer, findings=self._findings())
-                lines = " and ".join(str(line) for line in answer.lines)
-                reason = f"the contour of line {lines} before it is not solved"
-                state = leave(found, answer.contour.end if answer.contour else None, dialect.modes, reason)
+                pending = _Pending(
+                    found,
+                    Step(blocks_of_step, state, findings=self._findings()),
+                    partial(self._examine, found, view, after, state),
+                    partial(_after, found, dialect),
+                )
+                self.pending.append(pending)
+                yield pending
+                state = self._leave(pending)
             else:
                 before = state
                 state = advance(state, block, dialect.modes)
@@ -356,6 +452,13 @@ class _Examiner:
             addresses = lexicon.addresses
             axis_words = [word for word in block.words if word.address in addresses and addresses[word.address].axis]
             self.diagnostics += explain_words(context, lexicon, _repeated(axis_words), axis_words)
+
+
+def _after(claim: Claim, dialect: Dialect, answer: Answer) -> State:
+    """The state that a contour leaves."""
+    lines = " and ".join(str(line) for line in answer.lines)
+    reason = f"the contour of line {lines} before it is not solved"
+    return leave(claim, answer.contour.end if answer.contour else None, dialect.modes, reason)
 
 
 def _read(block: Block | PlainLine) -> Block:

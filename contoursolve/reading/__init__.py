@@ -8,10 +8,11 @@ from contoursolve.reading.form import CornerRow, FactRow, Form, Sample, lay_out,
 from contoursolve.reading.lexicon import Address, Lexicon, NumberFormat, WithoutPoint
 from contoursolve.reading.plain import advance_plainly, is_plain, plain_lines
 from contoursolve.reading.setting import Convention, Setting
-from contoursolve.reading.state import Position, State
+from contoursolve.reading.state import Awaited, Position, State
 
 __all__ = [
     "Address",
+    "Awaited",
     "Claim",
     "Code",
     "Convention",

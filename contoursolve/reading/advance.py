@@ -2,11 +2,13 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from decimal import Decimal
+from functools import partial
 
 from contoursolve.reading.codes import Code, Effect
 from contoursolve.reading.lexicon import Lexicon
 from contoursolve.reading.setting import Convention, Setting
-from contoursolve.reading.state import Position, State
+from contoursolve.reading.state import Awaited, Position, State
 from contoursolve.source import Span
 from contoursolve.syntax import Block, FaultKind, Macro, Word
 
@@ -107,11 +109,18 @@ def positions(state: State, words: list[Word], modes: Modes, is_skippable: bool)
             moved[axis] = Position(None, f"{word.text} depends on a variable", word.span)
         elif not (row.is_increment or state.is_incremental):
             moved[axis] = Position(value, word.text, word.span, is_skippable)
-        elif before.value is None:
-            moved[axis] = before
+        elif isinstance(before, Awaited):
+            moved[axis] = before.then(partial(_step, by=value, word=word, is_skippable=is_skippable))
         else:
-            moved[axis] = Position(before.value + value, word.text, word.span, is_skippable or before.is_skippable)
+            moved[axis] = _step(before, value, word, is_skippable)
     return moved
+
+
+def _step(before: Position, by: Decimal, word: Word, is_skippable: bool) -> Position:
+    """Where an increment leads, mm."""
+    if before.value is None:
+        return before
+    return Position(before.value + by, word.text, word.span, is_skippable or before.is_skippable)
 
 
 def _axis(word: Word, modes: Modes) -> str:

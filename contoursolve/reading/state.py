@@ -1,6 +1,6 @@
 """The modal state of a control: where the tool is, and what is in force."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from decimal import Decimal
 
@@ -20,6 +20,58 @@ class Position:
     span: Span | None = None
     is_skippable: bool = False
     """The block that set it begins with `/`."""
+
+
+class Awaited(Position):
+    """A coordinate that follows from a contour that is not solved yet; who looks at it has it solved.
+
+    `is_ready` tells whether `find` gives it without that.
+    """
+
+    __slots__ = ("_depth", "_find", "_found", "is_ready")
+    is_ready: Callable[[], bool]
+    _find: Callable[[], Position] | None
+    _found: Position | None
+    _depth: int
+
+    def __init__(self, find: Callable[[], Position], is_ready: Callable[[], bool], depth: int = 0) -> None:
+        for name, value in (("_find", find), ("_found", None), ("is_ready", is_ready), ("_depth", depth)):
+            object.__setattr__(self, name, value)
+
+    def found(self) -> Position:
+        """The position."""
+        if self._found is None and self._find is not None:
+            object.__setattr__(self, "_found", self._find())
+            object.__setattr__(self, "_find", None)
+        if self._found is None:
+            raise ValueError("the position has not been found")
+        return self._found
+
+    def then(self, follow: Callable[[Position], Position]) -> Position:
+        """A position that follows from this one."""
+        if self._found is not None or self._depth >= _DEEPEST:
+            return follow(self.found())
+        return Awaited(lambda: follow(self.found()), self.is_ready, self._depth + 1)
+
+    @property
+    def value(self) -> Decimal | None:  # type: ignore[override]
+        return self.found().value
+
+    @property
+    def reason(self) -> str:  # type: ignore[override]
+        return self.found().reason
+
+    @property
+    def span(self) -> Span | None:  # type: ignore[override]
+        return self.found().span
+
+    @property
+    def is_skippable(self) -> bool:  # type: ignore[override]
+        return self.found().is_skippable
+
+
+_DEEPEST = 50
+"""Positions that each follow from the one before, of which none is looked at."""
 
 
 @dataclass(frozen=True, slots=True)
