@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from contoursolve.batch import Batch
 from contoursolve.comments import LEFT_MARK, comment_out, own_comments, remark
@@ -15,7 +15,7 @@ from contoursolve.lines import Lines
 from contoursolve.model import Length
 from contoursolve.pipeline import Step, attach, walk
 from contoursolve.posts import SAME, Arcs, Machine, Post
-from contoursolve.reading import Effect, State, apply_modes, codes_of
+from contoursolve.reading import Effect, State, apply_modes, codes_of, motion_of, words_of
 from contoursolve.solving import Point
 from contoursolve.syntax import Block, Directive, Macro, PlainLine, Program, Word, parse_block
 from contoursolve.unfamiliar import Unfamiliar, Watch
@@ -147,12 +147,15 @@ class _Expander:
 
     def expand(self, steps: Iterable[Step]) -> Iterator[str | object]:
         for step in steps:
-            if not self.is_opened and ((step.line and step.line.moves) or any(map(_is_active, step.blocks))):
+            if not self.is_opened and any(map(_is_active, step.blocks or step.lines)):
+                first = next(filter(_is_active, step.blocks or step.lines))
+                yield from self._pass([line for line in step.lines if line.line < first.line], step.before)
+                step = replace(step, lines=tuple(line for line in step.lines if line.line >= first.line))
                 self.is_opened = True
-                self.summary.line_end = self.lines.end_of((step.line or step.blocks[0]).line)
+                self.summary.line_end = self.lines.end_of((step.lines or step.blocks)[0].line)
                 yield OPENING
-            if step.line is not None:
-                yield from self._pass(step.line, step.before)
+            if step.lines:
+                yield from self._pass(step.lines, step.before)
                 continue
             if step.answer is None:
                 for block in step.blocks:
@@ -166,13 +169,26 @@ class _Expander:
 
     # What stays as it is
 
-    def _pass(self, line: PlainLine, state: State) -> Iterator[str]:
-        """A line that only moves, as it is; it is read into words only if they matter."""
-        if line.moves and (self.motion is not None or self.offsets or self.watch.asks(line.text)):
-            yield from self._keep(parse_block(line.text, line.line), state)
-        else:
+    def _pass(self, lines: Sequence[PlainLine], state: State) -> Iterator[str]:
+        """Lines that only move, as they are; they are read into words only if they matter."""
+        rest = list(lines)
+        while rest:
+            if self.motion is None and not self.offsets and not self.watch.asks(*(line.text for line in rest)):
+                self.is_marked = rest[-1].text.startswith(LEFT_MARK)
+                yield self.lines.take(rest)
+                return
+            line = rest.pop(0)
+            if line.moves and (self.watch.asks(line.text) or self.watch.minds(state)):
+                yield from self._keep(parse_block(line.text, line.line), state)
+                continue
+            if line.moves:
+                words = words_of(line)
+                if self.motion is not None and motion_of(words) is None:
+                    yield f"G{state.motion:02}" + self.lines.end
+                self.motion = None
+                self.offsets = {axis: offset for axis, offset in self.offsets.items() if axis not in words}
             self.is_marked = line.text.startswith(LEFT_MARK)
-            yield line.text + self.lines.take_end(line.line)
+            yield self.lines.take([line])
 
     def _keep(self, block: Block, state: State) -> Iterator[str]:
         if block.words or block.macro or block.faults:
@@ -355,11 +371,9 @@ class _Expander:
 
 def _is_active(block: Block | PlainLine) -> bool:
     """Whether a block is more than the name of the program."""
-    return (
-        isinstance(block, PlainLine)
-        or bool(block.faults or block.macro)
-        or any(word.address != "O" for word in block.words)
-    )
+    if isinstance(block, PlainLine):
+        return block.moves
+    return bool(block.faults or block.macro) or any(word.address != "O" for word in block.words)
 
 
 def _groups(answer: Answer) -> dict[int, list[Segment]]:

@@ -1,12 +1,16 @@
 """The lines of a program on their way through an expansion: read into blocks, and their ends kept."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.pipeline import UnknownControlError
 from contoursolve.reading import plain_lines
 from contoursolve.syntax import Block, Directive, PlainLine, parse_block
+
+
+_USUAL = "\n"
+"""How a line ends of which nothing else is noted."""
 
 
 class Lines:
@@ -21,17 +25,19 @@ class Lines:
         self._others = [other for other in DIALECTS.values() if not is_certain and other.name != dialect.name]
         self._control = dialect.name
         self._ends: dict[int, str] = {}
-        self.end = "\n"
+        self.end = _USUAL
         """The end of the last line that has one."""
 
     def blocks(self) -> Iterator[Block | PlainLine]:
+        plain, facts = self._plain, self._facts
         for number, line in enumerate(self._lines, 1):
-            size = 2 if line.endswith("\r\n") else 1 if line.endswith(("\n", "\r")) else 0
-            text, end = line[: len(line) - size], line[len(line) - size :]
-            self._ends[number] = end
-            plain = self._plain(text)
-            if plain and number not in self._facts:
-                yield PlainLine(number, text, plain["moves"] is not None)
+            text = line[:-1]
+            if line[-1:] != "\n" or text[-1:] == "\r":
+                text = line.rstrip("\r\n")
+                self._ends[number] = line[len(text) :]
+            found = plain(text)
+            if found and number not in facts:
+                yield PlainLine(number, text, found.lastgroup is not None)
                 continue
             block = parse_block(text, number)
             if number in self._facts:
@@ -44,10 +50,17 @@ class Lines:
 
     def end_of(self, line: int) -> str:
         """The end of a line that is not taken yet; if it has none, as the lines before it end."""
-        return self._ends[line] or self.end
+        return self._ends.get(line, _USUAL) or self.end
 
     def take_end(self, line: int) -> str:
         """The end of a line, which is asked for once."""
-        end = self._ends.pop(line)
+        end = self._ends.pop(line, _USUAL)
         self.end = end or self.end
         return end
+
+    def take(self, lines: Sequence[PlainLine]) -> str:
+        """Lines with their ends, which are asked for once."""
+        if not self._ends:
+            self.end = _USUAL
+            return _USUAL.join(line.text for line in lines) + _USUAL
+        return "".join(line.text + self.take_end(line.line) for line in lines)

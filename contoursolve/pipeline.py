@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from itertools import islice
-from typing import TYPE_CHECKING, Protocol, cast
+from typing import TYPE_CHECKING, Protocol, cast, overload
 
 from contoursolve.diagnostic import Basis, Diagnostic, Severity
 from contoursolve.dialects import DIALECTS, Dialect
@@ -70,8 +70,8 @@ class Result:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """One block of a program, or the blocks of one contour from its first line to its last, and the state before it:
-    before a plain line, the state before the first one in a row.
+    """One block of a program, or the blocks of one contour from its first line to its last, or plain lines in a row;
+    and the state before them.
 
     `findings` are about blocks that are no contour.
     """
@@ -80,8 +80,8 @@ class Step:
     before: State
     answer: Answer | None = None
     findings: tuple[Diagnostic, ...] = ()
-    line: PlainLine | None = None
-    """In place of a block: what nobody needed to read into words."""
+    lines: tuple[PlainLine, ...] = ()
+    """In place of blocks: what nobody needed to read into words."""
 
 
 class Together(Protocol):
@@ -240,7 +240,7 @@ class _Pending:
     def is_ready(self) -> bool:
         """Whether its start is known."""
         positions = self.claim.before.axes.values()
-        return all(not isinstance(each, Awaited) or each.is_ready() for each in positions)
+        return all(not isinstance(each, Awaited) or each.is_ready for each in positions)
 
     def settle(self, answer: Answer) -> None:
         """Take the answer."""
@@ -323,7 +323,6 @@ class _Examiner:
         is_whole, index = isinstance(blocks, Sequence), 0
         held: list[Block | PlainLine] = list(blocks) if isinstance(blocks, Sequence) else []
         rest = iter(() if isinstance(blocks, Sequence) else blocks)
-        plain: list[PlainLine] = []
         view, base, reach = _read_on(held, 0)
         while True:
             if index >= len(held) - 1 and not is_whole:
@@ -332,18 +331,12 @@ class _Examiner:
                 continue
             if index >= len(held):
                 return
-            line = held[index]
-            if isinstance(line, PlainLine) and (
-                not line.moves or ((plain or is_plain(state)) and len(plain) < _BATCH and _moves_next(held, index + 1))
-            ):
-                if line.moves:
-                    plain.append(line)
-                yield Step((), state, line=line)
-                index += 1
+            passed = _pass(held, index, moves=is_plain(state))
+            if passed:
+                yield Step((), state, lines=passed)
+                state = advance_plainly(state, passed, dialect.modes)
+                index += len(passed)
                 continue
-            if plain:
-                state = advance_plainly(state, plain, dialect.modes)
-                plain = []
             if index >= reach:
                 view, base, reach = _read_on(held, index)
             place = index - base
@@ -352,7 +345,7 @@ class _Examiner:
             after = place + 1
             if isinstance(found, Claim):
                 after += found.blocks[-1].line - block.line
-            if not is_whole and not _says_something(view, after):
+            if not is_whole and not view.says_something(after):
                 # Whether a contour goes on is known at the next block that says something.
                 more = list(islice(rest, _BATCH))
                 held, index, reach, is_whole = [*held[index:], *more], 0, 0, len(more) < _BATCH
@@ -465,37 +458,68 @@ def _read(block: Block | PlainLine) -> Block:
     return parse_block(block.text, block.line) if isinstance(block, PlainLine) else block
 
 
-def _read_on(lines: Sequence[Block | PlainLine], index: int) -> tuple[list[Block], int, int]:
+class _View(Sequence[Block]):
+    """Lines as blocks; a plain one is read into words when somebody looks at it."""
+
+    def __init__(self, lines: list[Block | PlainLine]) -> None:
+        self.lines = lines
+
+    def __len__(self) -> int:
+        return len(self.lines)
+
+    @overload
+    def __getitem__(self, index: int) -> Block: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> "_View": ...
+
+    def __getitem__(self, index: int | slice) -> "Block | _View":
+        if isinstance(index, slice):
+            return _View(self.lines[index])
+        block = self.lines[index] = _read(self.lines[index])
+        return block
+
+    def says_something(self, first: int) -> bool:
+        """Whether any block from an index on has more than its number."""
+        return any(_says_something(self.lines[place]) for place in range(first, len(self.lines)))
+
+
+def _read_on(lines: Sequence[Block | PlainLine], index: int) -> tuple[_View, int, int]:
     """The blocks from an index on as far as a contour there can go, that is to the second of two plain lines in a row;
     the index of the first of them; and the first index that this is not far enough for."""
-    view: list[Block] = []
-    is_second = False
-    for place in range(index, len(lines)):
+    is_second, end = False, len(lines)
+    for place in range(index, end):
         line = lines[place]
-        view.append(_read(line))
         if isinstance(line, PlainLine) and not line.moves:
             continue
         is_first, is_second = is_second, isinstance(line, PlainLine)
         if is_first and is_second:
-            return view, index, place
-    return view, index, len(lines)
+            return _View(list(lines[index : place + 1])), index, place
+    return _View(list(lines[index:])), index, end
 
 
-def _moves_next(lines: Sequence[Block | PlainLine], index: int) -> bool:
-    """Whether the next line that says something, from an index on, only moves."""
+def _pass(lines: Sequence[Block | PlainLine], index: int, *, moves: bool) -> tuple[PlainLine, ...]:
+    """The plain lines in a row from an index on that need not be read into words: up to the last one that moves, which
+    the next contour may begin with; if lines that move need be (not `moves`), up to the first one."""
+    passed: list[PlainLine] = []
+    last = -1
     for place in range(index, len(lines)):
         line = lines[place]
         if not isinstance(line, PlainLine):
-            return False
+            break
         if line.moves:
-            return True
-    return False
+            last = len(passed)
+            if not moves:
+                break
+        passed.append(line)
+    return tuple(passed if last < 0 else passed[:last])
 
 
-def _says_something(blocks: Sequence[Block], index: int) -> bool:
-    """Whether any block from an index on has more than its number."""
-    rest = (blocks[other] for other in range(index, len(blocks)))
-    return any(each.faults or each.macro or any(word.address not in "NO" for word in each.words) for each in rest)
+def _says_something(line: Block | PlainLine) -> bool:
+    """Whether a line has more than its number."""
+    if isinstance(line, PlainLine):
+        return line.moves
+    return bool(line.faults or line.macro) or any(word.address not in "NO" for word in line.words)
 
 
 def _repeated(words: Sequence[Word]) -> list[Word]:

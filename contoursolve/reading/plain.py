@@ -2,12 +2,16 @@
 
 import re
 from collections.abc import Sequence
+from dataclasses import replace
+from functools import partial
 
 from contoursolve.reading.advance import Modes, advance
-from contoursolve.reading.state import State
+from contoursolve.reading.state import Awaited, Position, State
 from contoursolve.syntax import PlainLine, parse_block
 
 _NUMBER = r"[ \t]*[+-]?(?:[0-9]{1,12}\.?[0-9]{0,12}|\.[0-9]{1,12})"
+_COMMENTS = re.compile(r"\([^()]*\)")
+_MOTIONS = re.compile(r"G0?([01])")
 _COMMENT = r"\((?![ \t]*contoursolve)[^()]*\)"
 
 
@@ -28,18 +32,37 @@ def is_plain(state: State) -> bool:
     return state.motion in (0, 1) and not state.is_incremental
 
 
+def words_of(line: PlainLine) -> str:
+    """The words of a plain line, upper case, without its comments."""
+    return (_COMMENTS.sub("", line.text) if "(" in line.text else line.text).upper()
+
+
+def motion_of(words: str) -> int | None:
+    """The motion that the words of a plain line state, if they state one."""
+    found = _MOTIONS.findall(words) if "G" in words else None
+    return int(found[-1]) if found else None
+
+
 def advance_plainly(state: State, lines: Sequence[PlainLine], modes: Modes) -> State:
-    """The state after plain lines; each axis and the motion are where the last line that says so has them."""
-    missing, needed = {"G", *modes.axes}, []
+    """The state after plain lines; each axis and the motion are where the last line that says so has them. What an
+    axis is told is read when somebody asks."""
+    axes, motion = dict[str, Position](), None
+    nowhere = dict.fromkeys(modes.axes, Position(None, "nothing is known yet"))
+    bare = State(nowhere, state.motion, state.plane, state.unit, state.is_incremental, state.compensation)
     for line in reversed(lines):
         if not line.moves:
             continue
-        code = line.text.partition("(")[0].upper()
-        if any(address in code for address in missing):
-            missing = {address for address in missing if address not in code}
-            needed.append(line)
-            if not missing:
-                break
-    for line in reversed(needed):
-        state = advance(state, parse_block(line.text, line.line), modes)
-    return state
+        words = words_of(line)
+        motion = motion_of(words) if motion is None else motion
+        for axis in modes.axes:
+            if axis in words and axis not in axes:
+                axes[axis] = Awaited(partial(_find, bare, line, axis, modes))
+        if motion is not None and len(axes) == len(modes.axes):
+            break
+    if motion is not None and motion != state.motion:
+        state = replace(state, motion=motion)
+    return state.move(axes)
+
+
+def _find(state: State, line: PlainLine, axis: str, modes: Modes) -> Position:
+    return advance(state, parse_block(line.text, line.line), modes).axes[axis]
