@@ -331,7 +331,7 @@ class _Examiner:
                 continue
             if index >= len(held):
                 return
-            passed = _pass(held, index, moves=is_plain(state))
+            passed = _pass(held, index, moves=is_plain(state), joins=dialect.has_runs)
             if passed:
                 yield Step((), state, lines=passed)
                 state = advance_plainly(state, passed, dialect.modes)
@@ -498,9 +498,11 @@ def _read_on(lines: Sequence[Block | PlainLine], index: int) -> tuple[_View, int
     return _View(list(lines[index:])), index, end
 
 
-def _pass(lines: Sequence[Block | PlainLine], index: int, *, moves: bool) -> tuple[PlainLine, ...]:
-    """The plain lines in a row from an index on that need not be read into words: up to the last one that moves, which
-    the next contour may begin with; if lines that move need be (not `moves`), up to the first one."""
+def _pass(
+    lines: Sequence[Block | PlainLine], index: int, *, moves: bool, joins: bool
+) -> tuple[PlainLine, ...]:
+    """The plain lines in a row from an index on that need not be read into words: up to the last one that moves if
+    the next contour may begin with it (`joins`); if lines that move need be (not `moves`), up to the first one."""
     passed: list[PlainLine] = []
     last = -1
     for place in range(index, len(lines)):
@@ -512,7 +514,7 @@ def _pass(lines: Sequence[Block | PlainLine], index: int, *, moves: bool) -> tup
             if not moves:
                 break
         passed.append(line)
-    return tuple(passed if last < 0 else passed[:last])
+    return tuple(passed[:last] if last >= 0 and (joins or not moves) else passed)
 
 
 def _says_something(line: Block | PlainLine) -> bool:

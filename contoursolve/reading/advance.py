@@ -5,6 +5,7 @@ from dataclasses import dataclass, field, replace
 from decimal import Decimal
 from functools import partial
 
+from contoursolve.model import Length
 from contoursolve.reading.codes import Code, Effect
 from contoursolve.reading.lexicon import Lexicon
 from contoursolve.reading.setting import Convention, Setting
@@ -101,19 +102,34 @@ def positions(state: State, words: list[Word], modes: Modes, is_skippable: bool)
     moved: dict[str, Position] = {}
     for word in words:
         axis = _axis(word, modes)
-        row, before = modes.lexicon.addresses[word.address], state.axes[axis]
-        value = modes.lexicon.value(word, state.unit)
-        if axis in moved:
-            moved[axis] = Position(None, f"{axis} is given twice", word.span)
-        elif value is None:
-            moved[axis] = Position(None, f"{word.text} depends on a variable", word.span)
-        elif not (row.is_increment or state.is_incremental):
-            moved[axis] = Position(value, word.text, word.span, is_skippable)
-        elif isinstance(before, Awaited):
-            moved[axis] = before.then(partial(_step, by=value, word=word, is_skippable=is_skippable))
-        else:
-            moved[axis] = _step(before, value, word, is_skippable)
+        is_step = state.is_incremental or modes.lexicon.addresses[word.address].is_increment
+        moved[axis] = _led(word, axis in moved, state.axes[axis] if is_step else None, state.unit, modes, is_skippable)
     return moved
+
+
+def absolute_positions(words: list[Word], unit: Length, modes: Modes) -> dict[str, Position]:
+    """Where absolute axis words lead."""
+    moved: dict[str, Position] = {}
+    for word in words:
+        axis = _axis(word, modes)
+        moved[axis] = _led(word, axis in moved, None, unit, modes, is_skippable=False)
+    return moved
+
+
+def _led(
+    word: Word, is_second: bool, before: Position | None, unit: Length, modes: Modes, is_skippable: bool
+) -> Position:
+    """Where an axis word leads; `before` is where an increment counts from, None for a coordinate."""
+    if is_second:
+        return Position(None, f"{_axis(word, modes)} is given twice", word.span)
+    value = modes.lexicon.value(word, unit)
+    if value is None:
+        return Position(None, f"{word.text} depends on a variable", word.span)
+    if before is None:
+        return Position(value, word.text, word.span, is_skippable)
+    if isinstance(before, Awaited):
+        return before.then(partial(_step, by=value, word=word, is_skippable=is_skippable))
+    return _step(before, value, word, is_skippable)
 
 
 def _step(before: Position, by: Decimal, word: Word, is_skippable: bool) -> Position:

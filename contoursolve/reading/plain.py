@@ -5,7 +5,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 
-from contoursolve.reading.advance import Modes, advance
+from contoursolve.model import Length
+from contoursolve.reading.advance import Modes, absolute_positions
 from contoursolve.reading.state import Awaited, Position, State
 from contoursolve.syntax import PlainLine, parse_block
 
@@ -47,16 +48,16 @@ def advance_plainly(state: State, lines: Sequence[PlainLine], modes: Modes) -> S
     """The state after plain lines; each axis and the motion are where the last line that says so has them. What an
     axis is told is read when somebody asks."""
     axes, motion = dict[str, Position](), None
-    nowhere = dict.fromkeys(modes.axes, Position(None, "nothing is known yet"))
-    bare = State(nowhere, state.motion, state.plane, state.unit, state.is_incremental, state.compensation)
     for line in reversed(lines):
         if not line.moves:
             continue
         words = words_of(line)
         motion = motion_of(words) if motion is None else motion
+        found = None
         for axis in modes.axes:
             if axis in words and axis not in axes:
-                axes[axis] = Awaited(partial(_find, bare, line, axis, modes))
+                found = found or _Moved(line, state.unit, modes)
+                axes[axis] = Awaited(partial(found.position, axis))
         if motion is not None and len(axes) == len(modes.axes):
             break
     if motion is not None and motion != state.motion:
@@ -64,5 +65,17 @@ def advance_plainly(state: State, lines: Sequence[PlainLine], modes: Modes) -> S
     return state.move(axes)
 
 
-def _find(state: State, line: PlainLine, axis: str, modes: Modes) -> Position:
-    return advance(state, parse_block(line.text, line.line), modes).axes[axis]
+class _Moved:
+    """Where a plain line leads; it is read once, when somebody asks."""
+
+    def __init__(self, line: PlainLine, unit: Length, modes: Modes) -> None:
+        self.line, self.unit, self.modes = line, unit, modes
+        self.positions: dict[str, Position] | None = None
+
+    def position(self, axis: str) -> Position:
+        """Its end on an axis that it programs."""
+        if self.positions is None:
+            block = parse_block(self.line.text, self.line.line)
+            words = [word for word in block.words if word.address in self.modes.axes]
+            self.positions = absolute_positions(words, self.unit, self.modes)
+        return self.positions[axis]
