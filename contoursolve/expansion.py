@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 from contoursolve.batch import Batch
 from contoursolve.comments import LEFT_MARK, comment_out, own_comments, remark
@@ -17,7 +17,7 @@ from contoursolve.pipeline import Step, attach, walk
 from contoursolve.posts import SAME, Arcs, Machine, Post
 from contoursolve.reading import Effect, State, apply_modes, codes_of, motion_of, words_of
 from contoursolve.solving import Point
-from contoursolve.syntax import Block, Directive, Macro, PlainLine, Program, Word, parse_block
+from contoursolve.syntax import Block, Directive, Macro, Passage, Program, Word, parse_block
 from contoursolve.unfamiliar import Unfamiliar, Watch
 
 
@@ -147,15 +147,12 @@ class _Expander:
 
     def expand(self, steps: Iterable[Step]) -> Iterator[str | object]:
         for step in steps:
-            if not self.is_opened and any(map(_is_active, step.blocks or step.lines)):
-                first = next(filter(_is_active, step.blocks or step.lines))
-                yield from self._pass([line for line in step.lines if line.line < first.line], step.before)
-                step = replace(step, lines=tuple(line for line in step.lines if line.line >= first.line))
+            if not self.is_opened and any(map(_is_active, step.blocks)):
                 self.is_opened = True
-                self.summary.line_end = self.lines.end_of((step.lines or step.blocks)[0].line)
+                self.summary.line_end = self.lines.end_of(step.blocks[0].line)
                 yield OPENING
-            if step.lines:
-                yield from self._pass(step.lines, step.before)
+            if step.passage is not None:
+                yield from self._pass(step.passage, step.before)
                 continue
             if step.answer is None:
                 for block in step.blocks:
@@ -169,26 +166,29 @@ class _Expander:
 
     # What stays as it is
 
-    def _pass(self, lines: Sequence[PlainLine], state: State) -> Iterator[str]:
+    def _pass(self, passage: Passage, state: State) -> Iterator[str | object]:
         """Lines that only move, as they are; they are read into words only if they matter."""
-        rest = list(lines)
-        while rest:
-            if self.motion is None and not self.offsets and not self.watch.asks(*(line.text for line in rest)):
-                self.is_marked = rest[-1].text.startswith(LEFT_MARK)
-                yield self.lines.take(rest)
+        is_asking = self.watch.asks("".join(passage.lines))
+        for place, line in enumerate(passage.lines):
+            if self.is_opened and self.motion is None and not self.offsets and not is_asking:
+                self.is_marked = passage.lines[-1].startswith(LEFT_MARK)
+                yield self.lines.take(passage, place)
                 return
-            line = rest.pop(0)
-            if line.moves and (self.watch.asks(line.text) or self.watch.minds(state)):
-                yield from self._keep(parse_block(line.text, line.line), state)
+            words, number = words_of(line), passage.line + place
+            if words and not self.is_opened:
+                self.is_opened = True
+                self.summary.line_end = self.lines.end_of(number)
+                yield OPENING
+            if words and (self.watch.asks(line) or self.watch.minds(state)):
+                yield from self._keep(parse_block(line.rstrip("\r\n"), number), state)
                 continue
-            if line.moves:
-                words = words_of(line)
+            if words:
                 if self.motion is not None and motion_of(words) is None:
                     yield f"G{state.motion:02}" + self.lines.end
                 self.motion = None
                 self.offsets = {axis: offset for axis, offset in self.offsets.items() if axis not in words}
-            self.is_marked = line.text.startswith(LEFT_MARK)
-            yield self.lines.take([line])
+            self.is_marked = line.startswith(LEFT_MARK)
+            yield line.rstrip("\r\n") + self.lines.take_end(number)
 
     def _keep(self, block: Block, state: State) -> Iterator[str]:
         if block.words or block.macro or block.faults:
@@ -369,10 +369,8 @@ class _Expander:
         return numbers, codes, words, last
 
 
-def _is_active(block: Block | PlainLine) -> bool:
+def _is_active(block: Block) -> bool:
     """Whether a block is more than the name of the program."""
-    if isinstance(block, PlainLine):
-        return block.moves
     return bool(block.faults or block.macro) or any(word.address != "O" for word in block.words)
 
 

@@ -1,16 +1,19 @@
 """The lines of a program on their way through an expansion: read into blocks, and their ends kept."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
 from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.pipeline import UnknownControlError
 from contoursolve.reading import plain_lines
-from contoursolve.syntax import Block, Directive, PlainLine, parse_block
-
+from contoursolve.syntax import Block, Directive, Passage, parse_block
 
 _USUAL = "\n"
 """How a line ends of which nothing else is noted."""
+
+
+_LONGEST = 1_000
+"""Plain lines in a row that go by together."""
 
 
 class Lines:
@@ -22,31 +25,49 @@ class Lines:
         self._lines = lines
         self._facts = facts
         self._plain = plain_lines(dialect.modes).fullmatch
+        self._longest = 1 if dialect.has_runs else _LONGEST
         self._others = [other for other in DIALECTS.values() if not is_certain and other.name != dialect.name]
         self._control = dialect.name
         self._ends: dict[int, str] = {}
         self.end = _USUAL
         """The end of the last line that has one."""
 
-    def blocks(self) -> Iterator[Block | PlainLine]:
+    def blocks(self) -> Iterator[Block | Passage]:
         plain, facts = self._plain, self._facts
+        held: list[str] = []
         for number, line in enumerate(self._lines, 1):
-            text = line[:-1]
-            if line[-1:] != "\n" or text[-1:] == "\r":
-                text = line.rstrip("\r\n")
-                self._ends[number] = line[len(text) :]
-            found = plain(text)
-            if found and number not in facts:
-                yield PlainLine(number, text, found.lastgroup is not None)
+            if plain(line) and number not in facts:
+                held.append(line)
+                if line[-1:] != _USUAL or line[-2:-1] == "\r":
+                    self._put(line, number)
+                if len(held) >= self._longest:
+                    yield Passage(number + 1 - len(held), tuple(held))
+                    held = []
                 continue
-            block = parse_block(text, number)
-            if number in self._facts:
-                block = replace(block, directives=(*block.directives, *self._facts[number]))
-            for other in self._others:
-                if other.signs(block):
-                    controls = f"{self._control}, and {other.name} by line {number}"
-                    raise UnknownControlError(f"the program looks like more than one control ({controls})")
-            yield block
+            if held:
+                yield Passage(number - len(held), tuple(held))
+                held = []
+            yield self._read(line, number)
+        if held:
+            yield Passage(number + 1 - len(held), tuple(held))
+
+    def _read(self, line: str, number: int) -> Block:
+        block = parse_block(self._put(line, number), number)
+        if number in self._facts:
+            block = replace(block, directives=(*block.directives, *self._facts[number]))
+        for other in self._others:
+            if other.signs(block):
+                controls = f"{self._control}, and {other.name} by line {number}"
+                raise UnknownControlError(f"the program looks like more than one control ({controls})")
+        return block
+
+    def _put(self, line: str, number: int) -> str:
+        """The text of a line; its end is kept."""
+        text = line.rstrip("\r\n")
+        end = line[len(text) :]
+        if end != _USUAL:
+            self._ends[number] = end
+        return text
 
     def end_of(self, line: int) -> str:
         """The end of a line that is not taken yet; if it has none, as the lines before it end."""
@@ -58,9 +79,10 @@ class Lines:
         self.end = end or self.end
         return end
 
-    def take(self, lines: Sequence[PlainLine]) -> str:
-        """Lines with their ends, which are asked for once."""
-        if not self._ends:
-            self.end = _USUAL
-            return _USUAL.join(line.text for line in lines) + _USUAL
-        return "".join(line.text + self.take_end(line.line) for line in lines)
+    def take(self, passage: Passage, place: int) -> str:
+        """The lines of a passage from a place on, with their ends, which are asked for once."""
+        lines = passage.lines[place:]
+        if self._ends:
+            return "".join(line.rstrip("\r\n") + self.take_end(passage.line + place + n) for n, line in enumerate(lines))
+        self.end = _USUAL
+        return "".join(lines)

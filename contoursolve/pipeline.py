@@ -22,6 +22,7 @@ from contoursolve.reading import (
     is_plain,
     leave,
     next_place,
+    words_of,
 )
 from contoursolve.source import Span
 from contoursolve.spelling import (
@@ -31,7 +32,7 @@ from contoursolve.spelling import (
     explain_unmarked,
     explain_words,
 )
-from contoursolve.syntax import Block, Directive, FaultKind, PlainLine, Program, Word, parse_block
+from contoursolve.syntax import Block, Directive, FaultKind, Passage, Program, Word, parse_block
 
 if TYPE_CHECKING:
     from contoursolve.statements import Statement
@@ -80,7 +81,7 @@ class Step:
     before: State
     answer: Answer | None = None
     findings: tuple[Diagnostic, ...] = ()
-    lines: tuple[PlainLine, ...] = ()
+    passage: Passage | None = None
     """In place of blocks: what nobody needed to read into words."""
 
 
@@ -191,7 +192,7 @@ def run(
 
 
 def walk(
-    blocks: Iterable[Block | PlainLine],
+    blocks: Iterable[Block | Passage],
     dialect: Dialect,
     unit: Length,
     policy: Policy,
@@ -262,7 +263,7 @@ class _Examiner:
         self.diagnostics: list[Diagnostic] = []
         self.pending: list[_Pending] = []
 
-    def steps(self, blocks: Iterable[Block | PlainLine], start: Program | None) -> Iterator[Step]:
+    def steps(self, blocks: Iterable[Block | Passage], start: Program | None) -> Iterator[Step]:
         """Every block and every contour, in order; without a dialect, only what is found."""
         window: list[Step | _Pending] = []
         for each in self._walk(blocks, start):
@@ -306,11 +307,11 @@ class _Examiner:
             {axis: Awaited(partial(find, axis), lambda: pending.is_solved) for axis in sorted(axes)}
         )
 
-    def _walk(self, blocks: Iterable[Block | PlainLine], start: Program | None) -> Iterator[Step | _Pending]:
+    def _walk(self, blocks: Iterable[Block | Passage], start: Program | None) -> Iterator[Step | _Pending]:
         """Every block and every contour, in order, contours as they are found."""
         if self.dialect is None:
-            for each in blocks:
-                self._check_block(_read(each))
+            for block in _each(list(blocks), 0):
+                self._check_block(block)
             none = DIALECTS["yasnac-lx3"].initial_state(self.unit)
             yield Step((), none, findings=self._findings())
             return
@@ -321,36 +322,34 @@ class _Examiner:
             state = advance(state, block, dialect.modes)
         start_unit = state.unit
         is_whole, index = isinstance(blocks, Sequence), 0
-        held: list[Block | PlainLine] = list(blocks) if isinstance(blocks, Sequence) else []
+        held: list[Block | Passage] = list(blocks) if isinstance(blocks, Sequence) else []
         rest = iter(() if isinstance(blocks, Sequence) else blocks)
-        view, base, reach = _read_on(held, 0)
         while True:
             if index >= len(held) - 1 and not is_whole:
                 more = list(islice(rest, _BATCH))
-                held, index, reach, is_whole = [*held[index:], *more], 0, 0, len(more) < _BATCH
+                held, index, is_whole = [*held[index:], *more], 0, len(more) < _BATCH
                 continue
             if index >= len(held):
                 return
-            passed = _pass(held, index, moves=is_plain(state), joins=dialect.has_runs)
-            if passed:
-                yield Step((), state, lines=passed)
-                state = advance_plainly(state, passed, dialect.modes)
-                index += len(passed)
-                continue
-            if index >= reach:
-                view, base, reach = _read_on(held, index)
-            place = index - base
-            block = view[place]
-            found = dialect.find(view, place, state, dialect.modes)
-            after = place + 1
+            if isinstance(held[index], Passage):
+                passed = _pass(held, index, moves=is_plain(state), joins=dialect.has_runs)
+                if passed:
+                    yield Step((), state, passage=passed)
+                    state = advance_plainly(state, passed, dialect.modes)
+                    held, index = _behind(held, index, len(passed.lines))
+                    continue
+            view = _View(held, index)
+            block = view[0]
+            found = dialect.find(view, 0, state, dialect.modes)
+            after = 1
             if isinstance(found, Claim):
                 after += found.blocks[-1].line - block.line
             if not is_whole and not view.says_something(after):
                 # Whether a contour goes on is known at the next block that says something.
                 more = list(islice(rest, _BATCH))
-                held, index, reach, is_whole = [*held[index:], *more], 0, 0, len(more) < _BATCH
+                held, index, is_whole = [*held[index:], *more], 0, len(more) < _BATCH
                 continue
-            blocks_of_step = tuple(view[place:after])
+            blocks_of_step = (block,) if after == 1 else tuple(view[:after])
             if isinstance(found, Claim) and found.form.is_contour:
                 self._check_units(start, start_unit, found)
                 start_unit = found.after.unit
@@ -373,9 +372,9 @@ class _Examiner:
                     start_unit = found.after.unit
                 else:
                     self._check_block(block)
-                    self._check_commas(view, place, (before, state))
+                    self._check_commas(view, 0, (before, state))
                 yield Step(blocks_of_step, before, findings=self._findings())
-            index = base + after
+            held, index = _behind(held, index, after)
 
     def _check_commas(self, blocks: Sequence[Block], index: int, states: tuple[State, State]) -> None:
         """Whether a line lacks the comma that would make a contour of it, where the control knows such words."""
@@ -454,73 +453,84 @@ def _after(claim: Claim, dialect: Dialect, answer: Answer) -> State:
     return leave(claim, answer.contour.end if answer.contour else None, dialect.modes, reason)
 
 
-def _read(block: Block | PlainLine) -> Block:
-    return parse_block(block.text, block.line) if isinstance(block, PlainLine) else block
-
-
 class _View(Sequence[Block]):
-    """Lines as blocks; a plain one is read into words when somebody looks at it."""
+    """The blocks from a place on; plain lines are read into words when somebody looks at them."""
 
-    def __init__(self, lines: list[Block | PlainLine]) -> None:
-        self.lines = lines
+    def __init__(self, held: list[Block | Passage], index: int) -> None:
+        self.held, self.index = held, index
+        self.blocks: list[Block] = []
+        self.rest = _each(held, index)
 
     def __len__(self) -> int:
-        return len(self.lines)
+        return sum(len(each.lines) if isinstance(each, Passage) else 1 for each in self.held[self.index :])
 
     @overload
     def __getitem__(self, index: int) -> Block: ...
 
     @overload
-    def __getitem__(self, index: slice) -> "_View": ...
+    def __getitem__(self, index: slice) -> list[Block]: ...
 
-    def __getitem__(self, index: int | slice) -> "Block | _View":
-        if isinstance(index, slice):
-            return _View(self.lines[index])
-        block = self.lines[index] = _read(self.lines[index])
-        return block
+    def __getitem__(self, index: int | slice) -> Block | list[Block]:
+        last = (len(self) if index.stop is None else index.stop) if isinstance(index, slice) else index + 1
+        self.blocks += islice(self.rest, max(0, last - len(self.blocks)))
+        return self.blocks[index]
 
     def says_something(self, first: int) -> bool:
         """Whether any block from an index on has more than its number."""
-        return any(_says_something(self.lines[place]) for place in range(first, len(self.lines)))
+        place, number = self.index, 0
+        while place < len(self.held):
+            each = self.held[place]
+            lines = each.lines if isinstance(each, Passage) else (each,)
+            if any(map(_says_something, lines[max(0, first - number) :])):
+                return True
+            place, number = place + 1, number + len(lines)
+        return False
 
 
-def _read_on(lines: Sequence[Block | PlainLine], index: int) -> tuple[_View, int, int]:
-    """The blocks from an index on as far as a contour there can go, that is to the second of two plain lines in a row;
-    the index of the first of them; and the first index that this is not far enough for."""
-    is_second, end = False, len(lines)
-    for place in range(index, end):
-        line = lines[place]
-        if isinstance(line, PlainLine) and not line.moves:
-            continue
-        is_first, is_second = is_second, isinstance(line, PlainLine)
-        if is_first and is_second:
-            return _View(list(lines[index : place + 1])), index, place
-    return _View(list(lines[index:])), index, end
+def _each(held: Sequence[Block | Passage], index: int) -> Iterator[Block]:
+    """The blocks from an index on."""
+    for place in range(index, len(held)):
+        each = held[place]
+        if isinstance(each, Passage):
+            for number, line in enumerate(each.lines, each.line):
+                yield parse_block(line.rstrip("\r\n"), number)
+        else:
+            yield each
 
 
-def _pass(
-    lines: Sequence[Block | PlainLine], index: int, *, moves: bool, joins: bool
-) -> tuple[PlainLine, ...]:
+def _pass(held: Sequence[Block | Passage], index: int, *, moves: bool, joins: bool) -> Passage | None:
     """The plain lines in a row from an index on that need not be read into words: up to the last one that moves if
     the next contour may begin with it (`joins`); if lines that move need be (not `moves`), up to the first one."""
-    passed: list[PlainLine] = []
-    last = -1
-    for place in range(index, len(lines)):
-        line = lines[place]
-        if not isinstance(line, PlainLine):
+    lines: list[str] = []
+    for place in range(index, len(held)):
+        each = held[place]
+        if not isinstance(each, Passage):
             break
-        if line.moves:
-            last = len(passed)
-            if not moves:
-                break
-        passed.append(line)
-    return tuple(passed[:last] if last >= 0 and (joins or not moves) else passed)
+        lines += each.lines
+    if not moves or joins:
+        order = range(len(lines)) if not moves else range(len(lines) - 1, -1, -1)
+        stop = next((place for place in order if words_of(lines[place])), len(lines))
+        lines = lines[:stop]
+    first = held[index]
+    return Passage(first.line, tuple(lines)) if lines else None
 
 
-def _says_something(line: Block | PlainLine) -> bool:
+def _behind(held: list[Block | Passage], index: int, rest: int) -> tuple[list[Block | Passage], int]:
+    """The lines that are held, and the index behind so many of them; a passage that goes on there is cut."""
+    while rest:
+        each = held[index]
+        if isinstance(each, Passage) and len(each.lines) > rest:
+            # Whoever looks at the old list later finds it as it was.
+            return [Passage(each.line + rest, each.lines[rest:]), *held[index + 1 :]], 0
+        rest -= len(each.lines) if isinstance(each, Passage) else 1
+        index += 1
+    return held, index
+
+
+def _says_something(line: Block | str) -> bool:
     """Whether a line has more than its number."""
-    if isinstance(line, PlainLine):
-        return line.moves
+    if isinstance(line, str):
+        return bool(words_of(line))
     return bool(line.faults or line.macro) or any(word.address not in "NO" for word in line.words)
 
 

@@ -24,6 +24,9 @@ class Unfamiliar:
 _WITHOUT_POINT = re.compile(r"[XYZ][ \t]*[+-]?[0-9]+(?![0-9.])", re.IGNORECASE)
 """A coordinate without a point, or something in a comment that looks like one."""
 
+_STATED = {address: re.compile(rf"{address}[ \t]*[+-]?[.0-9]", re.IGNORECASE) for address in "FST"}
+"""A word of an address, or something in a comment that looks like one."""
+
 
 class Watch:
     """Looks at every block that is not replaced."""
@@ -41,16 +44,13 @@ class Watch:
         """What may be said in a line that only moves, and is not noted yet."""
         self._verdicts: dict[tuple[str, str], str] = {}
 
-    def asks(self, *lines: str) -> bool:
+    def asks(self, text: str) -> bool:
         """Whether lines that only move may say something that is not noted yet."""
         if self.reading is None:
             return False
-        if self.counts is not None and "without point" not in self._named and any(map(_WITHOUT_POINT.search, lines)):
+        if self.counts is not None and "without point" not in self._named and _WITHOUT_POINT.search(text):
             return True
-        if not self._open:
-            return False
-        text = " ".join(lines).upper()
-        return any(address in text for address in self._open)
+        return any(_STATED[address].search(text) for address in self._open)
 
     def minds(self, state: State) -> bool:
         """Whether what is in force may be worth a note at any block."""
