@@ -63,25 +63,25 @@ class Batch:
     is_proven: bool
     kinds: dict[Hashable, Kind] = field(default_factory=dict)
 
-    def solve(self, claims: Sequence[Claim], examine: Callable[[int], Answer]) -> list[Answer]:
-        """The answers to contours whose start is known; `examine` gives that to one of them."""
+    def solve(self, claims: Sequence[Claim], examine: Sequence[Callable[[], Answer]]) -> list[Answer]:
+        """The answers to contours whose start is known; `examine` gives that to each of them."""
         answers: dict[int, Answer] = {}
         groups: dict[Hashable, list[int]] = {}
         for number, claim in enumerate(claims):
             key = self._key(claim)
             if key is None:
-                answers[number] = examine(number)
+                answers[number] = examine[number]()
             else:
                 groups.setdefault(key, []).append(number)
         for key, numbers in groups.items():
             rest = list(numbers)
             while rest and (key not in self.kinds or len(rest) < FEWEST):
                 first = rest.pop(0)
-                answers[first] = examine(first)
+                answers[first] = examine[first]()
                 self._learn(key, answers[first])
             if rest:
                 together = self._solve(self.kinds[key], [claims[number] for number in rest])
-                answers |= {number: answer or examine(number) for number, answer in zip(rest, together, strict=True)}
+                answers |= {number: answer or examine[number]() for number, answer in zip(rest, together, strict=True)}
         return [answers[number] for number in range(len(claims))]
 
     def _learn(self, key: Hashable, answer: Answer) -> None:

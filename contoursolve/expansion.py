@@ -138,6 +138,7 @@ class _Expander:
         self.lines = lines
         self.watch = Watch(options.post, dialect, options.post.readings.get(_machine(dialect)))
         summary.unfamiliar = self.watch.found
+        self.formats: dict[tuple[str, Length, bool], Format] = {}
         self.offsets: dict[str, float] = {}
         self.motion: int | None = None
         """The motion that is in force in the expanded program, where it differs from the original."""
@@ -310,12 +311,15 @@ class _Expander:
         return first, second
 
     def _format(self, state: State) -> Format:
-        numbers, post = self.modes.lexicon.numbers, self.options.post
-        decimals = self.options.decimals
-        digits = post.digits(state.unit, numbers) if decimals is None else decimals
-        return Format(
-            state.plane, state.unit, digits, post.writes_point(numbers), self.options.arcs, state.is_incremental
-        )
+        key = state.plane.code, state.unit, state.is_incremental
+        if key not in self.formats:
+            numbers, post = self.modes.lexicon.numbers, self.options.post
+            decimals = self.options.decimals
+            digits = post.digits(state.unit, numbers) if decimals is None else decimals
+            self.formats[key] = Format(
+                state.plane, state.unit, digits, post.writes_point(numbers), self.options.arcs, state.is_incremental
+            )
+        return self.formats[key]
 
     def _is_own_motion(self, block: Block) -> bool:
         """Whether a code of the block itself makes it a contour, so that the motion in force has no part in it."""
@@ -326,7 +330,7 @@ class _Expander:
         """The lines in place of a block. Its number and what it sets stand in the first, what ends it in the last."""
         frame = _FRAME.fullmatch(block.text)
         head, skip, tail = (frame["head"], frame["skip"] or "", frame["tail"]) if frame else ("", "", "")
-        indent, specials = "".join(c for c in head if c in " \t"), "".join(c for c in head if c not in " \t")
+        indent, specials = (_split(head) if head else ("", ""))
         lines = [indent + text for text in comment_out(block.text.strip())] if self.options.has_comments else []
         numbers, codes, words, last = self._carried(block, state)
         comments = [] if self.options.has_comments else own_comments(block.text)
@@ -339,9 +343,7 @@ class _Expander:
         if lines:
             lines[0] = specials + lines[0]
             lines[-1] += tail.strip(" \t")
-        between = end or self.lines.end
-        yield from (line + between for line in lines[:-1])
-        yield from (line + end for line in lines[-1:])
+            yield (end or self.lines.end).join(lines) + end
 
     def _carried(self, block: Block, state: State) -> tuple[list[str], list[str], list[str], list[str]]:
         """What a block says besides its contour: its numbers, G codes, words for its first and for its last line."""
@@ -367,6 +369,11 @@ class _Expander:
             kept.append(word)
         self.watch.look(block, kept, state)
         return numbers, codes, words, last
+
+
+def _split(head: str) -> tuple[str, str]:
+    """What stands before the words of a block: blanks, and what is for a tape reader."""
+    return "".join(c for c in head if c in " \t"), "".join(c for c in head if c not in " \t")
 
 
 def _is_active(block: Block) -> bool:

@@ -88,8 +88,8 @@ class Step:
 class Together(Protocol):
     """Solves many contours at once."""
 
-    def solve(self, claims: Sequence[Claim], examine: Callable[[int], Answer]) -> Sequence[Answer]:
-        """The answers to contours whose start is known, the same as `examine` gives to each of them by its number."""
+    def solve(self, claims: Sequence[Claim], examine: Sequence[Callable[[], Answer]]) -> Sequence[Answer]:
+        """The answers to contours whose start is known, the same as `examine` gives to each of them."""
 
 
 class UnknownControlError(ValueError):
@@ -283,8 +283,7 @@ class _Examiner:
             if self.together is None:
                 answers: Sequence[Answer] = [each.examine() for each in ready]
             else:
-                claims = [each.claim for each in ready]
-                answers = self.together.solve(claims, lambda number, ready=ready: ready[number].examine())
+                answers = self.together.solve([each.claim for each in ready], [each.examine for each in ready])
             for each, answer in zip(ready, answers, strict=True):
                 each.settle(answer)
 
@@ -457,12 +456,12 @@ class _View(Sequence[Block]):
     """The blocks from a place on; plain lines are read into words when somebody looks at them."""
 
     def __init__(self, held: list[Block | Passage], index: int) -> None:
-        self.held, self.index = held, index
+        self.held, self.first = held, index
         self.blocks: list[Block] = []
         self.rest = _each(held, index)
 
     def __len__(self) -> int:
-        return sum(len(each.lines) if isinstance(each, Passage) else 1 for each in self.held[self.index :])
+        return sum(len(each.lines) if isinstance(each, Passage) else 1 for each in self.held[self.first :])
 
     @overload
     def __getitem__(self, index: int) -> Block: ...
@@ -477,7 +476,7 @@ class _View(Sequence[Block]):
 
     def says_something(self, first: int) -> bool:
         """Whether any block from an index on has more than its number."""
-        place, number = self.index, 0
+        place, number = self.first, 0
         while place < len(self.held):
             each = self.held[place]
             lines = each.lines if isinstance(each, Passage) else (each,)

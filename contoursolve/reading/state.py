@@ -62,19 +62,19 @@ class Awaited(Position):
         return Awaited(lambda: follow(self.found()), self._is_known, self._depth + 1)
 
     @property
-    def value(self) -> Decimal | None:  # type: ignore[override]
+    def value(self) -> Decimal | None:
         return self.found().value
 
     @property
-    def reason(self) -> str:  # type: ignore[override]
+    def reason(self) -> str:
         return self.found().reason
 
     @property
-    def span(self) -> Span | None:  # type: ignore[override]
+    def span(self) -> Span | None:
         return self.found().span
 
     @property
-    def is_skippable(self) -> bool:  # type: ignore[override]
+    def is_skippable(self) -> bool:
         return self.found().is_skippable
 
 
