@@ -1,7 +1,8 @@
 """Contours that differ in their values alone, solved together; whatever is not plainly solved is left alone."""
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
+from functools import lru_cache
 
 import numpy
 from numpy.typing import NDArray
@@ -9,12 +10,12 @@ from numpy.typing import NDArray
 from contoursolve.backends.numeric import inverse_norms
 from contoursolve.constraints import System, assemble
 from contoursolve.contour import trace
-from contoursolve.examine import Answer, Policy, offends
+from contoursolve.examine import Answer, Policy
 from contoursolve.explain import context_of
 from contoursolve.families.verdict import Code, Verdict
-from contoursolve.model import Line, Profile
-from contoursolve.reading import Claim, WithoutPoint
-from contoursolve.rules import Rule
+from contoursolve.model import Length, Line, Profile
+from contoursolve.reading import Claim, Form, WithoutPoint
+from contoursolve.rules import Rule, is_refused_by_values
 from contoursolve.solving import Status
 from contoursolve.solving.certificate import Proof, up_to_one_digit
 from contoursolve.solving.certify import certify
@@ -44,11 +45,6 @@ class Kind:
     answer: Answer
     system: System
     machine: Machine
-
-    @property
-    def profile(self) -> Profile:
-        """The profile of the one."""
-        return self.answer.profile
 
 
 @dataclass(slots=True)
@@ -97,50 +93,58 @@ class Batch:
         for block in claim.blocks:
             if block.faults or block.directives or block.unmarked or block.is_skippable:
                 return None
-            if any(self._is_special(word, claim) for word in block.words):
-                return None
+            for word in block.words:
+                if word.number is None or not -_SMALL <= word.number <= _SMALL and self._is_large(word, claim):
+                    return None
         before, after = claim.before, claim.after
-        values = {name: given.value for name, given in claim.givens.items()}
-        axes = [before.axes[axis] for axis in before.plane.axes]
-        if any(axis.value is None or axis.is_skippable for axis in axes):
-            return None
-        sizes = [word for row in claim.form.corners for word in row.shapes if word in values]
-        if any(values[word] < 0 for word in sizes):
-            return None
-        if self.policy is not Policy.OFF and offends(claim, self.rules):
-            return None
-        if claim.lexicon.numbers.without_point is WithoutPoint.LEAST_INCREMENTS and any(
-            not given.word.has_point for given in claim.givens.values() if given.word
-        ) and any(without_point(context_of(claim, self.rules), claim, ())):
+        for axis in before.plane.axes:
+            position = before.axes[axis]
+            if position.value is None or position.is_skippable:
+                return None
+        sharp = []
+        for size in _sizes(claim.form):
+            given = claim.givens.get(size)
+            if given is not None and given.value <= 0:
+                if given.value < 0:
+                    return None
+                sharp.append(size)
+        if self.policy is not Policy.OFF:
+            values = {name: given.value for name, given in claim.givens.items()}
+            if is_refused_by_values(self.rules, claim.form.roles, values):
+                return None
+        if claim.lexicon.numbers.without_point is WithoutPoint.LEAST_INCREMENTS and self._lacks_points(claim):
             return None
         return (
             claim.form,
             frozenset(claim.words),
-            frozenset(values),
+            frozenset(claim.givens),
             claim.choices,
             claim.circumstances,
-            after.unit,
+            after.unit is Length.INCH,
             after.plane.code,
             before.plane.code,
-            *(word for word in sizes if not values[word]),
+            *sharp,
         )
 
+    def _lacks_points(self, claim: Claim) -> bool:
+        """Whether there is something to say of numbers without points."""
+        for given in claim.givens.values():
+            if given.word is not None and not given.word.has_point:
+                return any(True for _ in without_point(context_of(claim, self.rules), claim, ()))
+        return False
+
     @staticmethod
-    def _is_special(word: Word, claim: Claim) -> bool:
-        """Whether a word has no number, or one that is too large."""
-        if word.number is None:
-            return True
-        if -_SMALL <= word.number <= _SMALL or word.address not in claim.lexicon.addresses:
+    def _is_large(word: Word, claim: Claim) -> bool:
+        """Whether a number is larger than any control travels."""
+        if word.address not in claim.lexicon.addresses:
             return False
         value = claim.lexicon.value(word, claim.after.unit)
         return value is None or abs(value) > LARGEST
 
     def _solve(self, kind: Kind, claims: Sequence[Claim]) -> list[Answer | None]:
         """The answers to contours of a kind, as far as nothing speaks against them."""
-        like, machine, system = kind.profile, kind.machine, kind.system
-        profiles = [
-            replace(like, blocks=claim.blocks, start=claim.before.start(), givens=claim.givens) for claim in claims
-        ]
+        machine, system = kind.machine, kind.system
+        profiles = [_profile_of(claim, kind.answer.profile) for claim in claims]
         order = machine.function.inputs
         rows = [[inputs[name] for name in order] for inputs in (inputs_of(profile, system) for profile in profiles)]
         found = machine.function.rows(rows)
@@ -160,16 +164,43 @@ class Batch:
         certificate = certify(profile, kind.system, out, bound) if self.is_proven else None
         if certificate is not None and certificate.proof not in (Proof.EXACT, Proof.UNIQUE):
             return None
-        return replace(
-            kind.answer,
-            lines=tuple(block.line for block in claim.blocks),
+        like = kind.answer
+        return Answer(
+            form=like.form,
+            lines=tuple([block.line for block in claim.blocks]),
             claim=claim,
+            status=like.status,
+            plane=like.plane,
+            unit=like.unit,
             start=profile.start,
             profile=profile,
             contour=trace(profile, solution_at(profile, kind.system, out)),
+            sides=like.sides,
             error_bound=bound,
+            diagnostics=(),
             certificate=certificate,
         )
+
+
+def _profile_of(claim: Claim, like: Profile) -> Profile:
+    """The profile of a claim that differs from another one in its values alone."""
+    return Profile(
+        form=like.form,
+        blocks=claim.blocks,
+        plane=like.plane,
+        unit=like.unit,
+        layout=like.layout,
+        start=claim.before.start(),
+        givens=claim.givens,
+        intersections=like.intersections,
+        choices=claim.choices,
+    )
+
+
+@lru_cache(maxsize=4096)
+def _sizes(form: Form) -> tuple[str, ...]:
+    """The words that are sizes of corners."""
+    return tuple(word for row in form.corners for word in row.shapes)
 
 
 def _examine(

@@ -261,11 +261,6 @@ def _offences(claim: Claim, rules: tuple[Rule, ...]) -> tuple[Offence, ...]:
     return (*refusing, *(each for each in without if each.rule.ignores))
 
 
-def offends(claim: Claim, rules: tuple[Rule, ...]) -> bool:
-    """Whether a rule refuses or ignores something in the words of a contour."""
-    return bool(check(rules, claim.form.roles, claim.stated()))
-
-
 def _is_extended(claim: Claim) -> bool:
     return bool(claim.directives) or any(word.is_asked for word in claim.words.values())
 

@@ -233,11 +233,6 @@ class _Pending:
         self.after: State | None = None
 
     @property
-    def is_solved(self) -> bool:
-        """Whether its answer is known."""
-        return self.after is not None
-
-    @property
     def is_ready(self) -> bool:
         """Whether its start is known."""
         positions = self.claim.before.axes.values()
@@ -245,7 +240,8 @@ class _Pending:
 
     def settle(self, answer: Answer) -> None:
         """Take the answer."""
-        self.step, self.after = replace(self.step, answer=answer), self.leave(answer)
+        step = self.step
+        self.step, self.after = Step(step.blocks, step.before, answer, step.findings), self.leave(answer)
 
 
 class _Examiner:
@@ -259,6 +255,7 @@ class _Examiner:
         self.policy = policy
         self.depth = depth
         self.rules = dialect.rules if dialect else DIALECTS["yasnac-lx3"].rules
+        self.modes = dialect.modes if dialect else DIALECTS["yasnac-lx3"].modes
         self.together = together
         self.diagnostics: list[Diagnostic] = []
         self.pending: list[_Pending] = []
@@ -291,11 +288,12 @@ class _Examiner:
         """The state after a contour; where it ends follows when it is solved."""
         if pending.after is not None:
             return pending.after
-        claim, axes = pending.claim, {*pending.claim.after.plane.axes}
-        if self.dialect is not None:
-            addresses = self.dialect.modes.lexicon.addresses
-            words = claim.blocks[-1].words
-            axes |= {addresses[word.address].axis for word in words if word.address in addresses} - {""}
+        claim, addresses = pending.claim, self.modes.lexicon.addresses
+        axes = [*claim.after.plane.axes]
+        for word in claim.blocks[-1].words:
+            row = addresses.get(word.address)
+            if row and row.axis and row.axis not in axes:
+                axes.append(row.axis)
 
         def find(axis: str) -> Position:
             if pending.after is None:
@@ -303,7 +301,7 @@ class _Examiner:
             return cast("State", pending.after).axes[axis]
 
         return claim.after.move(
-            {axis: Awaited(partial(find, axis), lambda: pending.is_solved) for axis in sorted(axes)}
+            {axis: Awaited(partial(find, axis), lambda: pending.after is not None) for axis in axes}
         )
 
     def _walk(self, blocks: Iterable[Block | Passage], start: Program | None) -> Iterator[Step | _Pending]:
@@ -447,9 +445,10 @@ class _Examiner:
 
 def _after(claim: Claim, dialect: Dialect, answer: Answer) -> State:
     """The state that a contour leaves."""
+    if answer.contour is not None:
+        return leave(claim, answer.contour.end, dialect.modes)
     lines = " and ".join(str(line) for line in answer.lines)
-    reason = f"the contour of line {lines} before it is not solved"
-    return leave(claim, answer.contour.end if answer.contour else None, dialect.modes, reason)
+    return leave(claim, None, dialect.modes, f"the contour of line {lines} before it is not solved")
 
 
 class _View(Sequence[Block]):

@@ -36,8 +36,7 @@ def codes_of(block: Block, modes: Modes) -> list[Code | Word]:
     found: list[Code | Word] = []
     for word in block.words:
         if word.address == "G":
-            number = None if word.number is None else int(word.number)
-            row = modes.codes.get(number) if number is not None and number == word.number else None
+            row = None if word.number is None else modes.codes.get(word.number)  # type: ignore[call-overload]
             found.append(row or word)
     return found
 

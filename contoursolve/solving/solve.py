@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from decimal import Decimal
+from functools import lru_cache
 from itertools import combinations
 from math import asin, atan2, degrees, hypot, inf, isfinite
 
@@ -136,7 +137,7 @@ def inputs_of(profile: Profile, system: System) -> dict[str, float]:
     if start[FIRST] is None or start[SECOND] is None:
         raise ValueError("the start point is not known")
     inputs = {scalar(system.figure.start, axis): 0.0 for axis in (FIRST, SECOND)}
-    absolute = {fact.given: fact.axis for fact in system.facts if isinstance(fact, Coordinate)}
+    absolute = _axes(system)
     for given in profile.givens.values():
         if given.unit is Unit.DEGREE:
             inputs[given.name + COSINE], inputs[given.name + SINE] = direction(given.value)
@@ -147,6 +148,12 @@ def inputs_of(profile: Profile, system: System) -> dict[str, float]:
     for choice in profile.choices:
         inputs[f"side:{choice.point}"] = float(choice.side.sign)
     return inputs
+
+
+@lru_cache(maxsize=4096)
+def _axes(system: System) -> Mapping[str, int]:
+    """The axis of each given that is a coordinate."""
+    return {fact.given: fact.axis for fact in system.facts if isinstance(fact, Coordinate)}
 
 
 class _Attempt:
