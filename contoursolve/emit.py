@@ -1,8 +1,9 @@
 """Writes a contour as plain G-code: rounded so that every arc stays valid, with the deviation that this costs."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
-from math import atan2, ceil, cos, floor, hypot, pi, radians, sin, sqrt, tau
+from dataclasses import dataclass, field, replace
+from math import atan2, ceil, cos, floor, hypot, inf, pi, radians, sin, sqrt, tau
+from typing import NamedTuple
 
 from contoursolve.contour import ArcSegment, LineSegment, Segment
 from contoursolve.model import Length, Plane, Turn
@@ -27,10 +28,27 @@ class Format:
     has_point: bool
     arcs: Arcs
     is_incremental: bool = False
+    mm: float = field(init=False)
+    """Millimetres of one unit."""
+    step: float = field(init=False)
+    """One of the last decimal."""
+    axes: tuple[tuple[str, int], ...] = field(init=False)
+    """The addresses of the plane's axes, and what a radius is multiplied by."""
+    spec: str = field(init=False)
+
+    def __post_init__(self) -> None:
+        scales = (2 if is_diameter else 1 for is_diameter in self.plane.diameters)
+        for name, value in (
+            ("mm", float(self.unit.in_mm)),
+            ("step", 10.0**-self.decimals),
+            ("axes", tuple(zip(self.plane.axes, scales, strict=True))),
+            ("spec", f"%.{self.decimals}f"),
+        ):
+            object.__setattr__(self, name, value)
 
     def number(self, value: float) -> str:
         """A number with its decimals, without zeros at its end."""
-        text = f"{value:.{self.decimals}f}"
+        text = self.spec % value
         if "." in text:
             text = text.rstrip("0")
         elif self.has_point:
@@ -40,8 +58,7 @@ class Format:
         return text if self.has_point else text.removesuffix(".")
 
 
-@dataclass(frozen=True, slots=True)
-class Move:
+class Move(NamedTuple):
     """One block of plain G-code: its motion code, its words, where it ends and how far its path is from the exact
     one; mm, X of a lathe as radius."""
 
@@ -83,19 +100,19 @@ class _Writer:
 
     def __init__(self, segment: Segment, here: Point, form: Format) -> None:
         self.form = form
-        self.mm = float(form.unit.in_mm)
+        self.mm = form.mm
         self.segment = segment
         self.here = here[0] / self.mm, here[1] / self.mm
-        self.scales = tuple(2 if is_diameter else 1 for is_diameter in form.plane.diameters)
-        self.step = 10.0**-form.decimals
+        self.step = form.step
 
     def move(self, is_rapid: bool) -> Move:
+        form, mm = self.form, self.mm
         words: list[tuple[str, str]] = []
         more: list[tuple[str, str]] = []
         ends: list[float] = []
-        for axis, address in enumerate(self.form.plane.axes):
-            base, scale = self.here[axis] if self.form.is_incremental else 0.0, self.scales[axis]
-            text = self.form.number((self.segment.end[axis] / self.mm - base) * scale)
+        for (address, scale), exact, here in zip(form.axes, self.segment.end, self.here, strict=True):
+            base = here if form.is_incremental else 0.0
+            text = form.number((exact / mm - base) * scale)
             words.append((address, text))
             ends.append(base + float(text) / scale)
         end = ends[0], ends[1]
@@ -109,7 +126,9 @@ class _Writer:
             by_radius = self.form.arcs is Arcs.RADIUS
             more, center, radius = self._by_radius(end) if by_radius else self._by_center(end)
             off = max(off, _arc_deviation(self.segment, self._in_mm(center), radius * self.mm))
-        return Move(code, tuple(map("".join, (*sorted(words), *sorted(more)))), self._in_mm(end), off)
+        words.sort()
+        more.sort()
+        return Move(code, tuple([address + text for address, text in words + more]), self._in_mm(end), off)
 
     def _by_center(self, end: Point) -> tuple[list[tuple[str, str]], Point, float]:
         """I J K for a centre that is as far from one end as from the other, to one unit of the last decimal; of those,
@@ -119,16 +138,19 @@ class _Writer:
         chord = end[0] - start[0], end[1] - start[1]
         along = (chord[0] / 2 - exact[0]) * chord[0] + (chord[1] / 2 - exact[1]) * chord[1]
         along /= chord[0] ** 2 + chord[1] ** 2
-        best: tuple[float, float, float, float] | None = None
+        step, (across, rise), (to_first, to_second) = self.step, chord, exact
+        best = (inf, inf, 0.0, 0.0)
         for share in (0.0, along):
-            first, second = ((exact[axis] + share * chord[axis]) / self.step for axis in (0, 1))
+            first, second = (to_first + share * across) / step, (to_second + share * rise) / step
             for one in {floor(first), ceil(first)}:
+                i = one * step
                 for two in {floor(second), ceil(second)}:
-                    i, j = one * self.step, two * self.step
-                    mismatch = abs(hypot(i, j) - hypot(chord[0] - i, chord[1] - j))
-                    key = (max(mismatch, self.step), hypot(i - exact[0], j - exact[1]), i, j)
-                    best = min(best, key) if best else key
-        if best is None:
+                    j = two * step
+                    mismatch = abs(hypot(i, j) - hypot(across - i, rise - j))
+                    key = (mismatch if mismatch > step else step, hypot(i - to_first, j - to_second), i, j)
+                    if key < best:
+                        best = key
+        if best[0] == inf:
             raise ValueError("an arc without a center")
         texts = [self.form.number(best[2]), self.form.number(best[3])]
         center = start[0] + float(texts[0]), start[1] + float(texts[1])

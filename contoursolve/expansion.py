@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import chain
 
+from contoursolve.batch import Batch
 from contoursolve.comments import LEFT_MARK, comment_out, own_comments, remark
 from contoursolve.contour import Segment
 from contoursolve.diagnostic import Diagnostic, Severity
@@ -17,10 +18,10 @@ from contoursolve.model import Length
 from contoursolve.numbering import Numberer, Numbers
 from contoursolve.pipeline import Step, attach, walk
 from contoursolve.posts import SAME, Arcs, Machine, Numbering, Post
-from contoursolve.reading import Effect, State, apply_modes, codes_of
+from contoursolve.reading import Effect, State, apply_modes, codes_of, motion_of, words_of
 from contoursolve.reliance import MOTIONS, STANDING_ALONE, Reliance, reliance, restate, why_unmet
 from contoursolve.solving import Point
-from contoursolve.syntax import Block, Directive, FaultKind, PlainLine, Program, Word, parse_block
+from contoursolve.syntax import Block, Directive, FaultKind, Passage, Program, Word, parse_block
 from contoursolve.unfamiliar import Unfamiliar, Watch
 
 
@@ -108,7 +109,8 @@ def expand_lines(
     Unless the control `is_certain`, raises UnknownControlError if some block is for another one.
     """
     reel = Lines(lines, dialect, facts or {}, is_certain=is_certain)
-    steps = walk(reel.blocks(), dialect, unit, policy, Depth.PATH, start)
+    together = Batch(dialect.rules, policy, is_proven=False)
+    steps = walk(reel.blocks(), dialect, unit, policy, Depth.PATH, start, together)
     yield from _Expander(dialect, options, summary, reel, numbers).expand(steps)
 
 
@@ -153,6 +155,7 @@ class _Expander:
         self.watch = Watch(options.post, dialect, options.post.readings.get(_machine(dialect)))
         summary.unfamiliar = self.watch.found
         self.numberer = Numberer(self.modes, numbers)
+        self.formats: dict[tuple[str, Length, bool], Format] = {}
         self.offsets: dict[str, float] = {}
         self.motion: int | None = None
         """The motion that is in force in the expanded program, where it differs from the original."""
@@ -163,12 +166,12 @@ class _Expander:
     def expand(self, steps: Iterable[Step]) -> Iterator[str | object]:
         coming, rest = deque[Step](), iter(steps)
         for step in _in_turn(rest, coming):
-            if not self.is_opened and ((step.line and step.line.moves) or any(map(_is_active, step.blocks))):
+            if not self.is_opened and any(map(_is_active, step.blocks)):
                 self.is_opened = True
-                self.summary.line_end = self.lines.end_of((step.line or step.blocks[0]).line)
+                self.summary.line_end = self.lines.end_of(step.blocks[0].line)
                 yield OPENING
-            if step.line is not None:
-                yield from self._pass(step.line, step.before)
+            if step.passage is not None:
+                yield from self._pass(step.passage, step.before)
                 continue
             if step.answer is None:
                 for block in step.blocks:
@@ -182,13 +185,29 @@ class _Expander:
 
     # What stays as it is
 
-    def _pass(self, line: PlainLine, state: State) -> Iterator[str]:
-        """A line that only moves, as it is; it is read into words only if they matter."""
-        if line.moves and (self.motion is not None or self.offsets or self.watch.asks(line.text)):
-            yield from self._keep(parse_block(line.text, line.line), state)
-        else:
-            self.is_marked = line.text.startswith(LEFT_MARK)
-            yield line.text + self.lines.take_end(line.line)
+    def _pass(self, passage: Passage, state: State) -> Iterator[str | object]:
+        """Lines that only move, as they are; they are read into words only if they matter."""
+        is_asking = self.watch.asks("".join(passage.lines))
+        for place, line in enumerate(passage.lines):
+            if self.is_opened and self.motion is None and not self.offsets and not is_asking:
+                self.is_marked = passage.lines[-1].startswith(LEFT_MARK)
+                yield self.lines.take(passage, place)
+                return
+            words, number = words_of(line), passage.line + place
+            if words and not self.is_opened:
+                self.is_opened = True
+                self.summary.line_end = self.lines.end_of(number)
+                yield OPENING
+            if words and (self.watch.asks(line) or self.watch.minds(state)):
+                yield from self._keep(parse_block(line.rstrip("\r\n"), number), state)
+                continue
+            if words:
+                if self.motion is not None and motion_of(words) is None:
+                    yield f"G{state.motion:02}" + self.lines.end
+                self.motion = None
+                self.offsets = {axis: offset for axis, offset in self.offsets.items() if axis not in words}
+            self.is_marked = line.startswith(LEFT_MARK)
+            yield line.rstrip("\r\n") + self.lines.take_end(number)
 
     def _keep(self, block: Block, state: State) -> Iterator[str]:
         if block.words or block.macro or block.faults:
@@ -330,12 +349,15 @@ class _Expander:
         return first, second
 
     def _format(self, state: State) -> Format:
-        numbers, post = self.modes.lexicon.numbers, self.options.post
-        decimals = self.options.decimals
-        digits = post.digits(state.unit, numbers) if decimals is None else decimals
-        return Format(
-            state.plane, state.unit, digits, post.writes_point(numbers), self.options.arcs, state.is_incremental
-        )
+        key = state.plane.code, state.unit, state.is_incremental
+        if key not in self.formats:
+            numbers, post = self.modes.lexicon.numbers, self.options.post
+            decimals = self.options.decimals
+            digits = post.digits(state.unit, numbers) if decimals is None else decimals
+            self.formats[key] = Format(
+                state.plane, state.unit, digits, post.writes_point(numbers), self.options.arcs, state.is_incremental
+            )
+        return self.formats[key]
 
     def _is_own_motion(self, block: Block) -> bool:
         """Whether a code of the block itself makes it a contour, so that the motion in force has no part in it."""
@@ -346,7 +368,7 @@ class _Expander:
         """The lines in place of a block. Its number and what it sets stand in the first, what ends it in the last."""
         frame = _FRAME.fullmatch(block.text)
         head, skip, tail = (frame["head"], frame["skip"] or "", frame["tail"]) if frame else ("", "", "")
-        indent, specials = "".join(c for c in head if c in " \t"), "".join(c for c in head if c not in " \t")
+        indent, specials = _split(head) if head else ("", "")
         lines = [indent + text for text in comment_out(block.text.strip())] if self.options.has_comments else []
         numbers, codes, words, last = self._carried(block, state)
         comments = [] if self.options.has_comments else own_comments(block.text)
@@ -360,9 +382,7 @@ class _Expander:
         if lines:
             lines[0] = specials + lines[0]
             lines[-1] += tail.strip(" \t")
-        between = end or self.lines.end
-        yield from (line + between for line in lines[:-1])
-        yield from (line + end for line in lines[-1:])
+            yield (end or self.lines.end).join(lines) + end
 
     def _carried(self, block: Block, state: State) -> tuple[list[str], list[str], list[str], list[str]]:
         """What a block says besides its contour: its numbers, G codes, words for its first and for its last line."""
@@ -404,17 +424,22 @@ def _read_on(steps: Iterator[Step], coming: deque[Step]) -> Iterator[Step]:
         yield step
 
 
-def _blocks_of(step: Step) -> tuple[Block, ...]:
-    return step.blocks if step.line is None else (parse_block(step.line.text, step.line.line),)
-
-
-def _is_active(block: Block | PlainLine) -> bool:
-    """Whether a block is more than the name of the program."""
+def _blocks_of(step: Step) -> Iterable[Block]:
+    if step.passage is None:
+        return step.blocks
     return (
-        isinstance(block, PlainLine)
-        or bool(block.faults or block.macro)
-        or any(word.address != "O" for word in block.words)
+        parse_block(line.rstrip("\r\n"), number) for number, line in enumerate(step.passage.lines, step.passage.line)
     )
+
+
+def _split(head: str) -> tuple[str, str]:
+    """What stands before the words of a block: blanks, and what is for a tape reader."""
+    return "".join(c for c in head if c in " \t"), "".join(c for c in head if c not in " \t")
+
+
+def _is_active(block: Block) -> bool:
+    """Whether a block is more than the name of the program."""
+    return bool(block.faults or block.macro) or any(word.address != "O" for word in block.words)
 
 
 def _groups(answer: Answer) -> dict[int, list[Segment]]:

@@ -1,9 +1,10 @@
 """The order of the stages: from the text of a program to its contours and findings."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from itertools import islice
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Protocol, cast, overload
 
 from contoursolve.diagnostic import Basis, Diagnostic, Severity
 from contoursolve.dialects import DIALECTS, Dialect
@@ -11,7 +12,9 @@ from contoursolve.examine import Answer, Depth, Policy, examine, rank
 from contoursolve.explain import Context, join, report
 from contoursolve.model import Length, Plane
 from contoursolve.reading import (
+    Awaited,
     Claim,
+    Position,
     State,
     Trouble,
     advance,
@@ -19,6 +22,7 @@ from contoursolve.reading import (
     is_plain,
     leave,
     next_place,
+    words_of,
 )
 from contoursolve.source import Span
 from contoursolve.spelling import (
@@ -28,7 +32,7 @@ from contoursolve.spelling import (
     explain_unmarked,
     explain_words,
 )
-from contoursolve.syntax import Block, Directive, FaultKind, PlainLine, Program, Word, parse_block
+from contoursolve.syntax import Block, Directive, FaultKind, Passage, Program, Word, parse_block
 
 if TYPE_CHECKING:
     from contoursolve.statements import Statement
@@ -67,8 +71,8 @@ class Result:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """One block of a program, or the blocks of one contour from its first line to its last, and the state before it:
-    before a plain line, the state before the first one in a row.
+    """One block of a program, or the blocks of one contour from its first line to its last, or plain lines in a row;
+    and the state before them.
 
     `findings` are about blocks that are no contour.
     """
@@ -77,8 +81,15 @@ class Step:
     before: State
     answer: Answer | None = None
     findings: tuple[Diagnostic, ...] = ()
-    line: PlainLine | None = None
-    """In place of a block: what nobody needed to read into words."""
+    passage: Passage | None = None
+    """In place of blocks: what nobody needed to read into words."""
+
+
+class Together(Protocol):
+    """Solves many contours at once."""
+
+    def solve(self, claims: Sequence[Claim], examine: Sequence[Callable[[], Answer]]) -> Sequence[Answer]:
+        """The answers to contours whose start is known, the same as `examine` gives to each of them."""
 
 
 class UnknownControlError(ValueError):
@@ -165,8 +176,9 @@ def run(
     depth: Depth = Depth.FULL,
     start: Program | None = None,
     facts: Sequence[Directive] = (),
+    together: Together | None = None,
 ) -> Result:
-    """Examine every block of a program and solve every contour.
+    """Examine every block of a program and solve every contour, one by one or `together`.
 
     `start` is a block that states the start point apart from the program, `facts` are further facts about its
     only contour; raises FactPlaceError if it has several. Without a dialect only the characters of the program are
@@ -174,7 +186,7 @@ def run(
     """
     if facts and dialect is not None:
         program, facts = attach(program, dialect, unit, start, facts)
-    examiner = _Examiner(dialect, unit, policy, depth)
+    examiner = _Examiner(dialect, unit, policy, depth, together)
     answers: list[Answer] = []
     everything: list[Diagnostic] = []
     for step in examiner.steps(program.blocks, start):
@@ -190,17 +202,18 @@ def run(
 
 
 def walk(
-    blocks: Iterable[Block | PlainLine],
+    blocks: Iterable[Block | Passage],
     dialect: Dialect,
     unit: Length,
     policy: Policy,
     depth: Depth,
     start: Program | None = None,
+    together: Together | None = None,
 ) -> Iterator[Step]:
     """Every block and every contour of a program in order; blocks that are not a sequence are read as they are needed,
-    so that a program of any length takes no more memory than its longest contour. Plain lines are read into words
-    only where that matters."""
-    return _Examiner(dialect, unit, policy, depth).steps(blocks, start)
+    so that a program of any length takes no more memory than some thousand lines, or its longest contour. Plain lines
+    are read into words only where that matters. Contours are solved one by one, or `together`."""
+    return _Examiner(dialect, unit, policy, depth, together).steps(blocks, start)
 
 
 _FAULTS_OF_NO_CONSEQUENCE = (FaultKind.STRAY_CHARACTER,)
@@ -212,23 +225,100 @@ _NEAR = 8
 _BATCH = 1_000
 """Blocks that are read at once."""
 
+_WINDOW = 8_192
+"""Steps of which the contours are solved together."""
+
+
+class _Pending:
+    """A contour that is found and not solved yet, with what is done about it then."""
+
+    def __init__(
+        self,
+        claim: Claim,
+        step: Step,
+        examine: Callable[[], Answer],
+        leave: Callable[[Answer], State],
+    ) -> None:
+        self.claim, self.step, self.examine, self.leave = claim, step, examine, leave
+        self.after: State | None = None
+
+    @property
+    def is_ready(self) -> bool:
+        """Whether its start is known."""
+        positions = self.claim.before.axes.values()
+        return all(not isinstance(each, Awaited) or each.is_ready for each in positions)
+
+    def settle(self, answer: Answer) -> None:
+        """Take the answer."""
+        step = self.step
+        self.step, self.after = Step(step.blocks, step.before, answer, step.findings), self.leave(answer)
+
 
 class _Examiner:
     """One pass over one program: the modal state as it goes, and the findings outside contours."""
 
-    def __init__(self, dialect: Dialect | None, unit: Length, policy: Policy, depth: Depth) -> None:
+    def __init__(
+        self, dialect: Dialect | None, unit: Length, policy: Policy, depth: Depth, together: Together | None = None
+    ) -> None:
         self.dialect = dialect
         self.unit = unit
         self.policy = policy
         self.depth = depth
         self.rules = dialect.rules if dialect else DIALECTS["yasnac-lx3"].rules
+        self.modes = dialect.modes if dialect else DIALECTS["yasnac-lx3"].modes
+        self.together = together
         self.diagnostics: list[Diagnostic] = []
+        self.pending: list[_Pending] = []
 
-    def steps(self, blocks: Iterable[Block | PlainLine], start: Program | None) -> Iterator[Step]:
+    def steps(self, blocks: Iterable[Block | Passage], start: Program | None) -> Iterator[Step]:
         """Every block and every contour, in order; without a dialect, only what is found."""
+        window: list[Step | _Pending] = []
+        for each in self._walk(blocks, start):
+            window.append(each)
+            if len(window) >= _WINDOW or self.together is None:
+                self._settle()
+                yield from (other.step if isinstance(other, _Pending) else other for other in window)
+                window = []
+        self._settle()
+        yield from (other.step if isinstance(other, _Pending) else other for other in window)
+
+    def _settle(self) -> None:
+        """Solve what is pending: first what starts from a known point, then what begins where that ends, and so on."""
+        while self.pending:
+            ready = [each for each in self.pending if each.is_ready]
+            self.pending = [each for each in self.pending if not each.is_ready]
+            if self.together is None:
+                answers: Sequence[Answer] = [each.examine() for each in ready]
+            else:
+                answers = self.together.solve([each.claim for each in ready], [each.examine for each in ready])
+            for each, answer in zip(ready, answers, strict=True):
+                each.settle(answer)
+
+    def _leave(self, pending: _Pending) -> State:
+        """The state after a contour; where it ends follows when it is solved."""
+        if pending.after is not None:
+            return pending.after
+        claim, addresses = pending.claim, self.modes.lexicon.addresses
+        axes = [*claim.after.plane.axes]
+        for word in claim.blocks[-1].words:
+            row = addresses.get(word.address)
+            if row and row.axis and row.axis not in axes:
+                axes.append(row.axis)
+
+        def find(axis: str) -> Position:
+            if pending.after is None:
+                self._settle()
+            return cast("State", pending.after).axes[axis]
+
+        return claim.after.move(
+            {axis: Awaited(partial(find, axis), lambda: pending.after is not None) for axis in axes}
+        )
+
+    def _walk(self, blocks: Iterable[Block | Passage], start: Program | None) -> Iterator[Step | _Pending]:
+        """Every block and every contour, in order, contours as they are found."""
         if self.dialect is None:
-            for each in blocks:
-                self._check_block(_read(each))
+            for block in _each(list(blocks), 0):
+                self._check_block(block)
             none = DIALECTS["yasnac-lx3"].initial_state(self.unit)
             yield Step((), none, findings=self._findings())
             return
@@ -239,51 +329,46 @@ class _Examiner:
             state = advance(state, block, dialect.modes)
         start_unit = state.unit
         is_whole, index = isinstance(blocks, Sequence), 0
-        held: list[Block | PlainLine] = list(blocks) if isinstance(blocks, Sequence) else []
+        held: list[Block | Passage] = list(blocks) if isinstance(blocks, Sequence) else []
         rest = iter(() if isinstance(blocks, Sequence) else blocks)
-        plain: list[PlainLine] = []
-        view, base, reach = _read_on(held, 0)
         while True:
             if index >= len(held) - 1 and not is_whole:
                 more = list(islice(rest, _BATCH))
-                held, index, reach, is_whole = [*held[index:], *more], 0, 0, len(more) < _BATCH
+                held, index, is_whole = [*held[index:], *more], 0, len(more) < _BATCH
                 continue
             if index >= len(held):
                 return
-            line = held[index]
-            if isinstance(line, PlainLine) and (
-                not line.moves or ((plain or is_plain(state)) and len(plain) < _BATCH and _moves_next(held, index + 1))
-            ):
-                if line.moves:
-                    plain.append(line)
-                yield Step((), state, line=line)
-                index += 1
-                continue
-            if plain:
-                state = advance_plainly(state, plain, dialect.modes)
-                plain = []
-            if index >= reach:
-                view, base, reach = _read_on(held, index)
-            place = index - base
-            block = view[place]
-            found = dialect.find(view, place, state, dialect.modes)
-            after = place + 1
+            if isinstance(held[index], Passage):
+                passed = _pass(held, index, moves=is_plain(state), joins=dialect.has_runs)
+                if passed:
+                    yield Step((), state, passage=passed)
+                    state = advance_plainly(state, passed, dialect.modes)
+                    held, index = _behind(held, index, len(passed.lines))
+                    continue
+            view = _View(held, index)
+            block = view[0]
+            found = dialect.find(view, 0, state, dialect.modes)
+            after = 1
             if isinstance(found, Claim):
                 after += found.blocks[-1].line - block.line
-            if not is_whole and not _says_something(view, after):
+            if not is_whole and not view.says_something(after):
                 # Whether a contour goes on is known at the next block that says something.
                 more = list(islice(rest, _BATCH))
-                held, index, reach, is_whole = [*held[index:], *more], 0, 0, len(more) < _BATCH
+                held, index, is_whole = [*held[index:], *more], 0, len(more) < _BATCH
                 continue
-            blocks_of_step = tuple(view[place:after])
+            blocks_of_step = (block,) if after == 1 else tuple(view[:after])
             if isinstance(found, Claim) and found.form.is_contour:
-                answer = self._examine(found, view, after, state)
                 self._check_units(start, start_unit, found)
                 start_unit = found.after.unit
-                yield Step(blocks_of_step, state, answer, findings=self._findings())
-                lines = " and ".join(str(line) for line in answer.lines)
-                reason = f"the contour of line {lines} before it is not solved"
-                state = leave(found, answer.contour.end if answer.contour else None, dialect.modes, reason)
+                pending = _Pending(
+                    found,
+                    Step(blocks_of_step, state, findings=self._findings()),
+                    partial(self._examine, found, view, after, state),
+                    partial(_after, found, dialect),
+                )
+                self.pending.append(pending)
+                yield pending
+                state = self._leave(pending)
             else:
                 before = state
                 state = advance(state, block, dialect.modes)
@@ -294,9 +379,9 @@ class _Examiner:
                     start_unit = found.after.unit
                 else:
                     self._check_block(block)
-                    self._check_commas(view, place, (before, state))
+                    self._check_commas(view, 0, (before, state))
                 yield Step(blocks_of_step, before, findings=self._findings())
-            index = base + after
+            held, index = _behind(held, index, after)
 
     def _check_commas(self, blocks: Sequence[Block], index: int, states: tuple[State, State]) -> None:
         """Whether a line lacks the comma that would make a contour of it, where the control knows such words."""
@@ -368,41 +453,93 @@ class _Examiner:
             self.diagnostics += explain_words(context, lexicon, _repeated(axis_words), axis_words)
 
 
-def _read(block: Block | PlainLine) -> Block:
-    return parse_block(block.text, block.line) if isinstance(block, PlainLine) else block
+def _after(claim: Claim, dialect: Dialect, answer: Answer) -> State:
+    """The state that a contour leaves."""
+    if answer.contour is not None:
+        return leave(claim, answer.contour.end, dialect.modes)
+    lines = " and ".join(str(line) for line in answer.lines)
+    return leave(claim, None, dialect.modes, f"the contour of line {lines} before it is not solved")
 
 
-def _read_on(lines: Sequence[Block | PlainLine], index: int) -> tuple[list[Block], int, int]:
-    """The blocks from an index on as far as a contour there can go, that is to the second of two plain lines in a row;
-    the index of the first of them; and the first index that this is not far enough for."""
-    view: list[Block] = []
-    is_second = False
-    for place in range(index, len(lines)):
-        line = lines[place]
-        view.append(_read(line))
-        if isinstance(line, PlainLine) and not line.moves:
-            continue
-        is_first, is_second = is_second, isinstance(line, PlainLine)
-        if is_first and is_second:
-            return view, index, place
-    return view, index, len(lines)
+class _View(Sequence[Block]):
+    """The blocks from a place on; plain lines are read into words when somebody looks at them."""
+
+    def __init__(self, held: list[Block | Passage], index: int) -> None:
+        self.held, self.first = held, index
+        self.blocks: list[Block] = []
+        self.rest = _each(held, index)
+
+    def __len__(self) -> int:
+        return sum(len(each.lines) if isinstance(each, Passage) else 1 for each in self.held[self.first :])
+
+    @overload
+    def __getitem__(self, index: int) -> Block: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> list[Block]: ...
+
+    def __getitem__(self, index: int | slice) -> Block | list[Block]:
+        last = (len(self) if index.stop is None else index.stop) if isinstance(index, slice) else index + 1
+        self.blocks += islice(self.rest, max(0, last - len(self.blocks)))
+        return self.blocks[index]
+
+    def says_something(self, first: int) -> bool:
+        """Whether any block from an index on has more than its number."""
+        place, number = self.first, 0
+        while place < len(self.held):
+            each = self.held[place]
+            lines = each.lines if isinstance(each, Passage) else (each,)
+            if any(map(_says_something, lines[max(0, first - number) :])):
+                return True
+            place, number = place + 1, number + len(lines)
+        return False
 
 
-def _moves_next(lines: Sequence[Block | PlainLine], index: int) -> bool:
-    """Whether the next line that says something, from an index on, only moves."""
-    for place in range(index, len(lines)):
-        line = lines[place]
-        if not isinstance(line, PlainLine):
-            return False
-        if line.moves:
-            return True
-    return False
+def _each(held: Sequence[Block | Passage], index: int) -> Iterator[Block]:
+    """The blocks from an index on."""
+    for place in range(index, len(held)):
+        each = held[place]
+        if isinstance(each, Passage):
+            for number, line in enumerate(each.lines, each.line):
+                yield parse_block(line.rstrip("\r\n"), number)
+        else:
+            yield each
 
 
-def _says_something(blocks: Sequence[Block], index: int) -> bool:
-    """Whether any block from an index on has more than its number."""
-    rest = (blocks[other] for other in range(index, len(blocks)))
-    return any(each.faults or each.macro or any(word.address not in "NO" for word in each.words) for each in rest)
+def _pass(held: Sequence[Block | Passage], index: int, *, moves: bool, joins: bool) -> Passage | None:
+    """The plain lines in a row from an index on that need not be read into words: up to the last one that moves if
+    the next contour may begin with it (`joins`); if lines that move need be (not `moves`), up to the first one."""
+    lines: list[str] = []
+    for place in range(index, len(held)):
+        each = held[place]
+        if not isinstance(each, Passage):
+            break
+        lines += each.lines
+    if not moves or joins:
+        order = range(len(lines)) if not moves else range(len(lines) - 1, -1, -1)
+        stop = next((place for place in order if words_of(lines[place])), len(lines))
+        lines = lines[:stop]
+    first = held[index]
+    return Passage(first.line, tuple(lines)) if lines else None
+
+
+def _behind(held: list[Block | Passage], index: int, rest: int) -> tuple[list[Block | Passage], int]:
+    """The lines that are held, and the index behind so many of them; a passage that goes on there is cut."""
+    while rest:
+        each = held[index]
+        if isinstance(each, Passage) and len(each.lines) > rest:
+            # Whoever looks at the old list later finds it as it was.
+            return [Passage(each.line + rest, each.lines[rest:]), *held[index + 1 :]], 0
+        rest -= len(each.lines) if isinstance(each, Passage) else 1
+        index += 1
+    return held, index
+
+
+def _says_something(line: Block | str) -> bool:
+    """Whether a line has more than its number."""
+    if isinstance(line, str):
+        return bool(words_of(line))
+    return bool(line.faults or line.macro) or any(word.address not in "NO" for word in line.words)
 
 
 def _repeated(words: Sequence[Word]) -> list[Word]:

@@ -24,6 +24,9 @@ class Unfamiliar:
 _WITHOUT_POINT = re.compile(r"[XYZ][ \t]*[+-]?[0-9]+(?![0-9.])", re.IGNORECASE)
 """A coordinate without a point, or something in a comment that looks like one."""
 
+_STATED = {address: re.compile(rf"{address}[ \t]*[+-]?[.0-9]", re.IGNORECASE) for address in "FST"}
+"""A word of an address, or something in a comment that looks like one."""
+
 
 class Watch:
     """Looks at every block that is not replaced."""
@@ -42,13 +45,17 @@ class Watch:
         self._verdicts: dict[tuple[str, str], str] = {}
 
     def asks(self, text: str) -> bool:
-        """Whether a line that only moves may say something that is not noted yet."""
-        reading = self.reading
-        if reading is None:
+        """Whether lines that only move may say something that is not noted yet."""
+        if self.reading is None:
             return False
         if self.counts is not None and "without point" not in self._named and _WITHOUT_POINT.search(text):
             return True
-        return any(address in text.upper() for address in self._open)
+        return any(_STATED[address].search(text) for address in self._open)
+
+    def minds(self, state: State) -> bool:
+        """Whether what is in force may be worth a note at any block."""
+        is_flat = self.reading is not None and self.reading.flat_compensation
+        return is_flat and state.plane.code == "G19" and state.compensation != _NO_COMPENSATION
 
     def look(self, block: Block, words: Sequence[Word], state: State) -> None:
         """Note what a block, with the state before it, says in words that the target does not read like this."""
@@ -73,7 +80,7 @@ class Watch:
                     else "is taken as written where it has no point"
                 )
                 self._note("without point", word.text, problem, block.line)
-        if reading.flat_compensation and state.plane.code == "G19" and state.compensation != _NO_COMPENSATION:
+        if self.minds(state):
             self._note("G19 compensation", f"G{state.compensation} in G19", "is not known", block.line)
 
     def _judge(self, word: Word, reading: Reading) -> str:

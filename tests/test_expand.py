@@ -469,8 +469,9 @@ def test_a_program_that_is_read_as_a_stream_has_the_same_contours(program, batch
     assert [(each.lines, each.start, each.contour) for each in answers] == [
         (each.lines, each.start, each.contour) for each in expected
     ]
-    seen = [block for step in steps for block in (step.blocks or (step.line,))]
-    assert [(each.line, each.text) for each in seen] == list(enumerate(lines, 1))
+    seen = [(block.line, block.text + "\n") for step in steps for block in step.blocks]
+    seen += [each for step in steps if step.passage for each in enumerate(step.passage.lines, step.passage.line)]
+    assert sorted(seen) == [(number, line + "\n") for number, line in enumerate(lines, 1)]
 
 
 def path_of(text, control):

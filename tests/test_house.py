@@ -33,6 +33,7 @@ FLOORS = (
     "fill commas",
     "pipeline project verification unfamiliar",
     "lines comparison families",
+    "batch",
     "expansion",
     "output api",
     "trial rewrite",

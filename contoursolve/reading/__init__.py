@@ -6,12 +6,13 @@ from contoursolve.reading.claim import Claim, Selector, Trouble, read, unused_wo
 from contoursolve.reading.codes import Code, Effect
 from contoursolve.reading.form import CornerRow, FactRow, Form, Sample, lay_out, stated_sets
 from contoursolve.reading.lexicon import Address, Lexicon, NumberFormat, WithoutPoint
-from contoursolve.reading.plain import advance_plainly, is_plain, plain_lines
+from contoursolve.reading.plain import advance_plainly, is_plain, motion_of, plain_lines, words_of
 from contoursolve.reading.setting import Convention, Setting
-from contoursolve.reading.state import Position, State
+from contoursolve.reading.state import Awaited, Position, State
 
 __all__ = [
     "Address",
+    "Awaited",
     "Claim",
     "Code",
     "Convention",
@@ -36,10 +37,12 @@ __all__ = [
     "is_plain",
     "lay_out",
     "leave",
+    "motion_of",
     "next_place",
     "plain_lines",
     "positions",
     "read",
     "stated_sets",
     "unused_words",
+    "words_of",
 ]

@@ -10,19 +10,19 @@ from contoursolve.reading.state import Position, State
 from contoursolve.syntax import Block, Word
 
 
-def leave(claim: Claim, end: tuple[float, float] | None, modes: Modes, reason: str) -> State:
+def leave(claim: Claim, end: tuple[float, float] | None, modes: Modes, reason: str = "") -> State:
     """The modes of a contour's blocks, and the position where it ends, mm.
 
     Where it has no end, for this reason, an axis that its last block programs is still known.
     """
     state, last = claim.after, claim.blocks[-1]
     if end is not None:
-        is_skippable = any(block.is_skippable for block in claim.blocks)
-        is_skippable |= any(claim.before.axes[axis].is_skippable for axis in state.plane.axes)
-        ends = zip(state.plane.axes, map(Decimal, end), strict=True)
-        return state.move(
-            {axis: Position(value, "the end of this contour", last.span, is_skippable) for axis, value in ends}
+        axes, before = state.plane.axes, claim.before.axes
+        is_skippable = any(block.is_skippable for block in claim.blocks) or any(
+            before[axis].is_skippable for axis in axes
         )
+        first, second = (Position(Decimal(value), "the end of this contour", last.span, is_skippable) for value in end)
+        return state.move({axes[0]: first, axes[1]: second})
     lost = state.lose(state.plane.axes, reason, last.span)
     if last.faults:
         return lost

@@ -2,7 +2,7 @@
 
 from contoursolve.syntax.lexer import parse, parse_block, read_directive, split_lines
 from contoursolve.syntax.text import BINARY, STANDARD_INPUT, UnreadableProgramError, decode, is_folder, read_bytes
-from contoursolve.syntax.word import FACT, Block, Directive, Fault, FaultKind, Macro, PlainLine, Program, Word
+from contoursolve.syntax.word import FACT, Block, Directive, Fault, FaultKind, Macro, Passage, Program, Word
 
 __all__ = [
     "BINARY",
@@ -13,7 +13,7 @@ __all__ = [
     "Fault",
     "FaultKind",
     "Macro",
-    "PlainLine",
+    "Passage",
     "Program",
     "UnreadableProgramError",
     "Word",

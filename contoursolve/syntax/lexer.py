@@ -30,6 +30,10 @@ _TOKEN = re.compile(
     """,
     re.VERBOSE | re.ASCII,
 )
+_SIMPLE_WORD = r"[ \t]*([A-DF-Za-df-z])([+-]?(?:[0-9]{1,16}\.?[0-9]{0,15}|\.[0-9]{1,16}))(?=[ \tA-Za-z]|$)"
+_SIMPLE = re.compile(rf"(?:{_SIMPLE_WORD})+[ \t]*")
+"""Nothing but words without blanks inside them; E may be an exponent."""
+_SIMPLE_WORDS = re.compile(_SIMPLE_WORD)
 _SKIP = re.compile(r"[ \t]*/[1-9]?(?!\d)")
 _MACRO = re.compile(
     r"[ \t/]*(?:[Nn]\d+)?[ \t]*(?:(?P<assignment>\#)|(?P<flow>(?:IF|WHILE|GOTO|DO|END|THEN|ELSE)\b"
@@ -58,6 +62,9 @@ def split_lines(text: str) -> list[str]:
 
 def parse_block(text: str, line: int) -> Block:
     """Read one line (without its end) into words and faults."""
+    if len(text) <= LONGEST_BLOCK and _SIMPLE.fullmatch(text):
+        # Most blocks; they need nothing of what follows.
+        return Block(line, text, tuple([_simple_word(token, line) for token in _SIMPLE_WORDS.finditer(text)]))
     if len(text) > LONGEST_BLOCK and len(_COMMENTS.sub("", text)) > LONGEST_BLOCK:
         span = Span(line, 1, len(text) + 1)
         return Block(line, text, (), (Fault(FaultKind.BLOCK_TOO_LONG, f"{len(text):,} characters", span),))
@@ -96,6 +103,12 @@ def parse_block(text: str, line: int) -> Block:
         unmarked=tuple(unmarked),
         is_skippable=skip is not None,
     )
+
+
+def _simple_word(token: re.Match[str], line: int) -> Word:
+    letter, number = token.groups()
+    begin, end = token.start(1), token.end()
+    return Word(letter.upper(), Decimal(number), "." in number, letter + number, Span(line, begin + 1, end + 1))
 
 
 def read_directive(text: str, line: int, column: int = 1) -> Directive:
