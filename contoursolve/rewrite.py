@@ -26,8 +26,8 @@ from contoursolve.posts import Numbering
 from contoursolve.project import configure
 from contoursolve.syntax import Block, Directive, Program, parse, parse_block
 
-_BATCH = 2_000
-"""Lines that are encoded at once."""
+_BATCH = 1 << 16
+"""Characters that are encoded at once."""
 
 _CHUNK = 1 << 20
 _REPORTED = 0.01
@@ -94,16 +94,17 @@ def rewrite(
             numbers=Numbers(tape.lines()) if options.numbering is Numbering.ALL else None,
         )
     held: list[str] = []
-    place, told = len(tape.mark), 0.0
+    size, place, told = 0, len(tape.mark), 0.0
     for line in lines:
         if line is OPENING:
             body.write("".join(held).encode(tape.encoding))
-            held, place = [], body.tell()
+            held, size, place = [], 0, body.tell()
             continue
         held.append(str(line))
-        if len(held) == _BATCH:
+        size += len(held[-1])
+        if size >= _BATCH:
             body.write("".join(held).encode(tape.encoding))
-            held = []
+            held, size = [], 0
             if tape.share - told >= _REPORTED:
                 told = tape.share
                 progress(told)

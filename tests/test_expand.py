@@ -727,11 +727,11 @@ def open_in_linuxcnc(file, folder):
 @pytest.mark.skipif(sys.platform == "win32", reason="LinuxCNC has a shell")
 def test_linuxcnc_opens_an_old_program_through_the_filter(tmp_path):
     old = tmp_path / "an old one's.nc"
-    lines = "G01 X41. F100.\nG00 X40. Z0.\n" * 3_000
+    lines = "G01 X41. F100.\nG00 X40. Z0.\n" * 6_000
     old.write_text(START + lines + TAPER + " P5. Q5.\nM30\n")
     status, program, said, steps = open_in_linuxcnc(old, tmp_path)
     assert status == 0
-    assert len(steps) > 2
+    assert len(steps) > 1
     assert steps == sorted(steps)
     assert steps[-1] == 100
     assert said.splitlines()[-1] == "1 contour expanded, at most 6e-05 mm off"
