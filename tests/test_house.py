@@ -32,7 +32,7 @@ FLOORS = (
     "diagnosis",
     "fill commas",
     "pipeline project verification unfamiliar",
-    "lines comparison families",
+    "lines comparison families outcome",
     "expansion",
     "output api",
     "trial rewrite",
