@@ -20,7 +20,7 @@ from contoursolve.reading import Trouble
 from contoursolve.syntax import STANDARD_INPUT, Directive, Program, UnreadableProgramError
 
 if TYPE_CHECKING:
-    from contoursolve.expansion import Expansion
+    from contoursolve.outcome import Expansion
     from contoursolve.statements import Statement
 
 __all__ = [
@@ -257,16 +257,8 @@ def expand(
     G01 X100. Z-47.321
     """
     # Only this function needs them.
-    from contoursolve.expansion import (  # noqa: PLC0415
-        OPENING,
-        Expansion,
-        Options,
-        Summary,
-        expand_lines,
-        left_unread,
-        lines_of_facts,
-        opening_of,
-    )
+    from contoursolve.expansion import OPENING, expand_lines, lines_of_facts, opening_of  # noqa: PLC0415
+    from contoursolve.outcome import Expansion, Options, Summary, left_unread  # noqa: PLC0415
     from contoursolve.posts import Arcs, Numbering, find_post  # noqa: PLC0415
 
     program = syntax.parse(text, name)

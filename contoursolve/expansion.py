@@ -3,84 +3,31 @@
 import re
 from collections import deque
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from itertools import chain
 
 from contoursolve.batch import Batch
 from contoursolve.comments import LEFT_MARK, comment_out, own_comments, remark
 from contoursolve.contour import Segment
-from contoursolve.diagnostic import Diagnostic, Severity
+from contoursolve.diagnostic import Severity
 from contoursolve.dialects import Dialect
 from contoursolve.emit import Format, Move, emit
 from contoursolve.examine import Answer, Depth, Policy
 from contoursolve.lines import Lines
 from contoursolve.model import Length
 from contoursolve.numbering import Numberer, Numbers
+from contoursolve.outcome import Left, Options, Summary, left_unread
 from contoursolve.pipeline import Step, attach, walk
-from contoursolve.posts import SAME, Arcs, Machine, Numbering, Post
+from contoursolve.posts import Arcs, Machine
 from contoursolve.reading import Effect, State, apply_modes, codes_of, motion_of, words_of
 from contoursolve.reliance import MOTIONS, STANDING_ALONE, Reliance, reliance, restate, why_unmet
 from contoursolve.solving import Point
-from contoursolve.syntax import Block, Directive, FaultKind, Passage, Program, Word, parse_block
-from contoursolve.unfamiliar import Unfamiliar, Watch
-
-
-@dataclass(frozen=True, slots=True)
-class Options:
-    """What is asked of an expansion: the target, how it writes arcs, decimals (None: the target's own), whether the
-    original blocks are kept as comments, whether to go on past a contour that cannot be expanded, and block numbers."""
-
-    post: Post = SAME
-    arcs: Arcs = Arcs.CENTER
-    decimals: int | None = None
-    has_comments: bool = True
-    keeps_going: bool = False
-    numbering: Numbering = Numbering.FIRST
-
-
-@dataclass(frozen=True, slots=True)
-class Left:
-    """A contour that was left as it is: its lines with their texts, why, and the findings about it."""
-
-    lines: tuple[int, ...]
-    reason: str
-    diagnostics: tuple[Diagnostic, ...]
-    sources: Mapping[int, str]
-
-
-@dataclass(slots=True)
-class Summary:
-    """What became of a program's contours, as far as it has been read; `deviation` is the largest distance of what
-    was written from the exact contours, mm."""
-
-    replaced: int = 0
-    warnings: int = 0
-    """How many warnings there are about contours that were replaced."""
-    warned: list[Diagnostic] = field(default_factory=list)
-    """The first of them."""
-    deviation: float = 0.0
-    left: list[Left] = field(default_factory=list)
-    unfamiliar: list[Unfamiliar] = field(default_factory=list)
-    line_end: str = "\n"
-    """How the first line that has an end ends."""
-
-
-@dataclass(frozen=True, slots=True)
-class Expansion:
-    """A program in plain G-code; `text` is None where a contour could not be expanded."""
-
-    text: str | None
-    control: str | None
-    summary: Summary
-
+from contoursolve.syntax import Block, Directive, Passage, Program, Word, parse_block
+from contoursolve.unfamiliar import Watch
 
 OPENING = object()
 """Stands where the words belong that the target needs before anything else."""
 
 _BLANK = r"[ \t\f\v\x02\x03\x11-\x14\x1a\ufeff%]*"
-_KEPT_WARNINGS = 20
-"""Warnings that are kept to be shown."""
-
 _NO_MOTION = -1
 """The motion that is in force where none is: the control starts with it."""
 
@@ -122,13 +69,6 @@ def lines_of_facts(
         return {}
     attached, worded = attach(program, dialect, unit, start, facts)
     return {block.line: worded for block in attached.blocks if worded[0] in block.directives}
-
-
-def left_unread(block: Block) -> Left | None:
-    """A block that is too long to be read, and may be a contour."""
-    if all(fault.kind is not FaultKind.BLOCK_TOO_LONG for fault in block.faults):
-        return None
-    return Left((block.line,), f"the block has {len(block.text):,} characters and was not read", (), {})
 
 
 def opening_of(options: Options, dialect: Dialect, unit: Length, summary: Summary) -> str:
@@ -336,9 +276,7 @@ class _Expander:
         if contour is not None:
             self.offsets |= {axis: here[n] - contour.end[n] for n, axis in enumerate(axes) if here[n] != contour.end[n]}
         self.summary.replaced += 1
-        warnings = [each for each in answer.diagnostics if each.severity is Severity.WARNING]
-        self.summary.warnings += len(warnings)
-        self.summary.warned += warnings[: max(0, _KEPT_WARNINGS - len(self.summary.warned))]
+        self.summary.warn(answer.diagnostics)
 
     def _place(self, answer: Answer) -> Point:
         """Where the tool is at the start of a contour, in the expanded program."""

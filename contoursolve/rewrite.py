@@ -8,19 +8,11 @@ from typing import IO
 
 from contoursolve.api import find_dialect
 from contoursolve.examine import Policy
-from contoursolve.expansion import (
-    OPENING,
-    Left,
-    Options,
-    Summary,
-    expand_lines,
-    left_unread,
-    lines_of_facts,
-    opening_of,
-)
+from contoursolve.expansion import OPENING, expand_lines, lines_of_facts, opening_of
 from contoursolve.files import Tape
 from contoursolve.model import Length
 from contoursolve.numbering import Numbers
+from contoursolve.outcome import Left, Options, Summary, left_unread
 from contoursolve.pipeline import first_sign
 from contoursolve.posts import Numbering
 from contoursolve.project import configure

@@ -32,7 +32,7 @@ FLOORS = (
     "diagnosis",
     "fill commas",
     "pipeline project verification unfamiliar",
-    "lines comparison families",
+    "lines comparison families outcome",
     "batch",
     "expansion",
     "output api",

@@ -17,9 +17,9 @@ from contoursolve.cli.options import FOUND_ERRORS, CouldNotRunError, common_opti
 from contoursolve.cli.printing import style_of_output
 from contoursolve.dialects import DIALECTS
 from contoursolve.examine import Policy
-from contoursolve.expansion import Options, Summary
 from contoursolve.files import CannotWriteError, Tape, check_target, open_tape, tape_of, write_whole
 from contoursolve.model import Length
+from contoursolve.outcome import Options, Summary
 from contoursolve.output.findings import Style, finding_lines, plain
 from contoursolve.output.layout import count
 from contoursolve.pipeline import FactPlaceError, UnknownControlError
