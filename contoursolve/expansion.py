@@ -13,6 +13,7 @@ from contoursolve.emit import Format, Move, emit
 from contoursolve.examine import Answer, Depth, Policy
 from contoursolve.lines import Lines
 from contoursolve.model import Length
+from contoursolve.moulds import Moulded
 from contoursolve.pipeline import Step, attach, walk
 from contoursolve.posts import SAME, Arcs, Machine, Post
 from contoursolve.reading import Effect, State, apply_modes, codes_of, motion_of, words_of
@@ -101,8 +102,8 @@ def expand_lines(
     `facts` are further facts by line. Unless the control `is_certain`, raises UnknownControlError if some block is for
     another one.
     """
-    reel = Lines(lines, dialect, facts or {}, is_certain=is_certain)
-    together = Batch(dialect.rules, policy, is_proven=False)
+    together = Batch(dialect, policy, is_proven=False)
+    reel = Lines(lines, dialect, facts or {}, together.moulds, is_certain=is_certain)
     steps = walk(reel.blocks(), dialect, unit, policy, Depth.PATH, start, together)
     yield from _Expander(dialect, options, summary, reel).expand(steps)
 
@@ -159,8 +160,8 @@ class _Expander:
                 for block in step.blocks:
                     yield from self._keep(block, step.before)
                 continue
-            reason = self._obstacle(step.answer)
-            if reason:
+            reason = self._obstacle(step.answer) if isinstance(step.answer, Answer) else ""
+            if reason and isinstance(step.answer, Answer):
                 yield from self._leave(step, step.answer, reason)
             else:
                 yield from self._replace(step, step.answer)
@@ -269,7 +270,7 @@ class _Expander:
 
     # What is replaced
 
-    def _replace(self, step: Step, answer: Answer) -> Iterator[str]:
+    def _replace(self, step: Step, answer: Answer | Moulded) -> Iterator[str]:
         claim, state = answer.claim, step.before
         groups = _groups(answer)
         axes = answer.plane.axes
@@ -302,7 +303,7 @@ class _Expander:
         self.summary.replaced += 1
         self.summary.warnings += sum(each.severity is Severity.WARNING for each in answer.diagnostics)
 
-    def _place(self, answer: Answer) -> Point:
+    def _place(self, answer: Answer | Moulded) -> Point:
         """Where the tool is at the start of a contour, in the expanded program."""
         first, second = (
             float(value or 0) + self.offsets.pop(axis, 0.0)
@@ -381,14 +382,14 @@ def _is_active(block: Block) -> bool:
     return bool(block.faults or block.macro) or any(word.address != "O" for word in block.words)
 
 
-def _groups(answer: Answer) -> dict[int, list[Segment]]:
+def _groups(answer: Answer | Moulded) -> dict[int, list[Segment]]:
     """The elements of a contour by the line of the block that makes them; a corner belongs to the element before it.
 
     A form has either one block, or one element a block.
     """
     claim, contour = answer.claim, answer.contour
     elements = contour.elements if contour else ()
-    if len(claim.blocks) == 1:
+    if isinstance(claim, Moulded) or len(claim.blocks) == 1:
         return {claim.blocks[0].line: list(elements)}
     owner = {each.name: block.line for each, block in zip(claim.form.path, claim.blocks, strict=True)}
     owner |= {row.name: owner[row.before] for row in claim.form.corners}

@@ -1,6 +1,6 @@
 """Blocks and words as typed."""
 
-from contoursolve.syntax.lexer import parse, parse_block, read_directive, split_lines
+from contoursolve.syntax.lexer import parse, parse_block, read_directive, read_simply, split_lines, split_simply
 from contoursolve.syntax.text import BINARY, STANDARD_INPUT, UnreadableProgramError, decode, is_folder, read_bytes
 from contoursolve.syntax.word import FACT, Block, Directive, Fault, FaultKind, Macro, Passage, Program, Word
 
@@ -23,5 +23,7 @@ __all__ = [
     "parse_block",
     "read_bytes",
     "read_directive",
+    "read_simply",
     "split_lines",
+    "split_simply",
 ]
