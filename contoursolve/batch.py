@@ -37,6 +37,9 @@ FEWEST = 2
 _FAR_BELOW = 0.25
 """Share of a limit up to which a value is within it, however the limit is rounded or measured."""
 
+_MOST_MOULDS = 4_096
+"""Patterns that are noted; a program has few, unless its numbers have no points."""
+
 _SMALL = 30_000
 """A number that is no larger is below the largest value in every unit."""
 
@@ -101,7 +104,7 @@ class Batch:
         """Note the pattern of a block of a kind."""
         words = split_simply(claim.blocks[0].text) if claim.form.is_literal and not self.is_proven else []
         pattern = pattern_of(words)
-        if words and pattern not in self.moulds:
+        if words and pattern not in self.moulds and len(self.moulds) < _MOST_MOULDS:
             mould = mould_of(claim, key, self.dialect)
             if mould is not None:
                 self.moulds[pattern] = mould

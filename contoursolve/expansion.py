@@ -139,7 +139,7 @@ class _Expander:
         self.lines = lines
         self.watch = Watch(options.post, dialect, options.post.readings.get(_machine(dialect)))
         summary.unfamiliar = self.watch.found
-        self.formats: dict[tuple[str, Length, bool], Format] = {}
+        self.formats: dict[tuple[str, bool, bool], Format] = {}
         self.offsets: dict[str, float] = {}
         self.motion: int | None = None
         """The motion that is in force in the expanded program, where it differs from the original."""
@@ -312,7 +312,7 @@ class _Expander:
         return first, second
 
     def _format(self, state: State) -> Format:
-        key = state.plane.code, state.unit, state.is_incremental
+        key = state.plane.code, state.unit is Length.INCH, state.is_incremental
         if key not in self.formats:
             numbers, post = self.modes.lexicon.numbers, self.options.post
             decimals = self.options.decimals

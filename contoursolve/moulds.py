@@ -12,7 +12,7 @@ from contoursolve.reading import Claim, Code, Effect, State, codes_of
 from contoursolve.syntax import Block, read_simply
 
 Pattern = tuple[str, ...]
-"""The addresses of a block, those of codes with their numbers."""
+"""The addresses of a block, those of codes with their numbers, and every number without a point."""
 
 _CODES = "GMTgmt"
 """Addresses whose numbers tell what the block is."""
@@ -78,7 +78,7 @@ class Moulded(NamedTuple):
 
 def pattern_of(words: list[tuple[str, str]]) -> Pattern:
     """The pattern of a block of these addresses and numbers."""
-    return tuple([letter + number if letter in _CODES else letter for letter, number in words])
+    return tuple([letter if "." in number and letter not in _CODES else letter + number for letter, number in words])
 
 
 def mould_of(claim: Claim, kind: Hashable, dialect: Dialect) -> Mould | None:
@@ -94,7 +94,7 @@ def mould_of(claim: Claim, kind: Hashable, dialect: Dialect) -> Mould | None:
     givens: list[tuple[str, Unit, int, Decimal]] = []
     for name, given in claim.givens.items():
         word = given.word
-        if word is None or word.address != name or not word.has_point or id(word) not in places:
+        if word is None or word.address != name or id(word) not in places:
             return None
         one = modes.lexicon.value(word._replace(number=Decimal(1)), claim.after.unit)
         if one is None:

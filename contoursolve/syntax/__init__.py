@@ -1,6 +1,6 @@
 """Blocks and words as typed."""
 
-from contoursolve.syntax.lexer import parse, parse_block, read_directive, read_simply, split_lines, split_simply
+from contoursolve.syntax.lexer import find_words, parse, parse_block, read_directive, read_simply, split_lines, split_simply
 from contoursolve.syntax.text import BINARY, STANDARD_INPUT, UnreadableProgramError, decode, is_folder, read_bytes
 from contoursolve.syntax.word import FACT, Block, Directive, Fault, FaultKind, Macro, Passage, Program, Word
 
@@ -18,6 +18,7 @@ __all__ = [
     "UnreadableProgramError",
     "Word",
     "decode",
+    "find_words",
     "is_folder",
     "parse",
     "parse_block",

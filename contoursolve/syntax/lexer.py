@@ -118,6 +118,14 @@ def read_simply(text: str, line: int, chosen: Container[int] | None = None) -> t
     return tuple([_simple_word(token, line) for index, token in enumerate(tokens) if index in chosen])
 
 
+def find_words(text: str, line: int, addresses: Container[str]) -> list[Word]:
+    """The words of a line that have one of some addresses."""
+    if not _SIMPLE.fullmatch(text):
+        return [word for word in parse_block(text, line).words if word.address in addresses]
+    tokens = _SIMPLE_WORDS.finditer(text)
+    return [_simple_word(token, line) for token in tokens if token[1].upper() in addresses]
+
+
 def split_simply(text: str) -> list[tuple[str, str]]:
     """Such words as addresses and numbers, as typed; none of another line."""
     return _SIMPLE_WORDS.findall(text) if _SIMPLE.fullmatch(text) else []
