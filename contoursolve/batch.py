@@ -173,9 +173,9 @@ class Batch:
             for claim, profile, row in zip(claims, profiles, found, strict=True)
         ]
 
-    def cast(self, mould: Mould, casts: Sequence[tuple[Cast, State]]) -> list[Contour | None]:
-        """The paths of blocks of a mould in states whose positions are known, as far as nothing speaks against them."""
-        kind, answers = self.kinds[mould.kind], list[Contour | None]()
+    def cast(self, mould: Mould, casts: Sequence[tuple[Cast, State]]) -> list[tuple[Start, Contour] | None]:
+        """The start points and the paths of blocks of a mould in states whose positions are known, as far as nothing speaks against them."""
+        kind, answers = self.kinds[mould.kind], list[tuple[Start, Contour] | None]()
         like, sizes = kind.answer.profile, _sizes(kind.answer.claim.form)
         units = [(name, unit) for name, unit, _, _ in mould.givens]
         starts = [state.start() for _, state in casts]
@@ -191,7 +191,7 @@ class Batch:
                 answers.append(None)
                 continue
             corners = {name: float(values[name]) for name in sizes if name in values}
-            answers.append(trace(like, solution_at(kind.system, start, corners, row[0])))
+            answers.append((start, trace(like, solution_at(kind.system, start, corners, row[0]))))
         return answers
 
     def _inputs(
@@ -205,12 +205,17 @@ class Batch:
     ) -> dict[str, float] | None:
         """The inputs of a block of a mould; None where more than its values counts, or it is not known where it
         begins."""
-        if any(values[size] <= 0 for size in sizes if size in values):
+        if None in start.values:
             return None
-        if not all(-_SMALL <= value <= _SMALL for value in values.values()) or None in start.values:
-            return None
-        if any(state.axes[axis].is_skippable for axis in state.plane.axes):
-            return None
+        for size in sizes:
+            if size in values and values[size] <= 0:
+                return None
+        for value in values.values():
+            if not -_SMALL <= value <= _SMALL:
+                return None
+        for axis in state.plane.axes:
+            if state.axes[axis].is_skippable:
+                return None
         if self.policy is not Policy.OFF and is_refused_by_values(self.rules, kind.answer.claim.form.roles, values):
             return None
         return inputs_at(kind.system, start, [(name, unit, values[name]) for name, unit in units])

@@ -170,27 +170,32 @@ class _Expander:
 
     def _pass(self, passage: Passage, state: State) -> Iterator[str | object]:
         """Lines that only move, as they are; they are read into words only if they matter."""
-        is_asking = self.watch.asks("".join(passage.lines))
+        is_asking = self.watch.asks("".join(passage.lines)) or self.watch.minds(state)
+        texts: list[str] = []
         for place, line in enumerate(passage.lines):
             if self.is_opened and self.motion is None and not self.offsets and not is_asking:
                 self.is_marked = passage.lines[-1].startswith(LEFT_MARK)
-                yield self.lines.take(passage, place)
-                return
+                texts.append(self.lines.take(passage, place))
+                break
             words, number = words_of(line), passage.line + place
             if words and not self.is_opened:
                 self.is_opened = True
                 self.summary.line_end = self.lines.end_of(number)
+                yield "".join(texts)
                 yield OPENING
-            if words and (self.watch.asks(line) or self.watch.minds(state)):
-                yield from self._keep(parse_block(line.rstrip("\r\n"), number), state)
+                texts = []
+            if words and is_asking and (self.watch.asks(line) or self.watch.minds(state)):
+                texts += self._keep(parse_block(line.rstrip("\r\n"), number), state)
                 continue
             if words:
                 if self.motion is not None and motion_of(words) is None:
-                    yield f"G{state.motion:02}" + self.lines.end
+                    texts.append(f"G{state.motion:02}" + self.lines.end)
                 self.motion = None
-                self.offsets = {axis: offset for axis, offset in self.offsets.items() if axis not in words}
+                if self.offsets:
+                    self.offsets = {axis: offset for axis, offset in self.offsets.items() if axis not in words}
             self.is_marked = line.startswith(LEFT_MARK)
-            yield line.rstrip("\r\n") + self.lines.take_end(number)
+            texts.append(line.rstrip("\r\n") + self.lines.take_end(number))
+        yield "".join(texts)
 
     def _keep(self, block: Block, state: State) -> Iterator[str]:
         if block.words or block.macro or block.faults:

@@ -7,7 +7,7 @@ from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.moulds import Cast, Mould, Pattern, pattern_of
 from contoursolve.pipeline import Line, UnknownControlError
 from contoursolve.reading import plain_lines
-from contoursolve.syntax import Block, Directive, Passage, parse_block, split_simply
+from contoursolve.syntax import LONGEST_BLOCK, Block, Directive, Passage, parse_block, split_simply
 
 _USUAL = "\n"
 """How a line ends of which nothing else is noted."""
@@ -44,7 +44,7 @@ class Lines:
         plain, facts = self._plain, self._facts
         held: list[str] = []
         for number, line in enumerate(self._lines, 1):
-            if plain(line) and number not in facts:
+            if plain(line) and len(line) <= LONGEST_BLOCK and number not in facts:
                 held.append(line)
                 if line[-1:] != _USUAL or line[-2:-1] == "\r":
                     self._put(line, number)

@@ -11,7 +11,7 @@ from contoursolve.diagnostic import Basis, Diagnostic, Severity
 from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.examine import Answer, Depth, Policy, examine, rank
 from contoursolve.explain import Context, join, report
-from contoursolve.model import Length, Plane
+from contoursolve.model import Length, Plane, Start
 from contoursolve.moulds import Cast, Mould, Moulded
 from contoursolve.reading import (
     Awaited,
@@ -96,8 +96,8 @@ Line = Block | Passage | Cast
 class Together(Protocol):
     """Solves many contours at once."""
 
-    def cast(self, mould: Mould, casts: Sequence[tuple[Cast, State]]) -> Sequence[Contour | None]:
-        """The paths of blocks of a mould in states whose positions are known; None for those that are to be read."""
+    def cast(self, mould: Mould, casts: Sequence[tuple[Cast, State]]) -> Sequence[tuple[Start, Contour] | None]:
+        """The start points and the paths of blocks of a mould in states whose positions are known; None for those that are to be read."""
 
     def solve(self, claims: Sequence[Claim], examine: Sequence[Callable[[], Answer]]) -> Sequence[Answer]:
         """The answers to contours whose start is known, the same as `examine` gives to each of them."""
@@ -241,7 +241,7 @@ class _Pending:
     @property
     def is_ready(self) -> bool:
         """Whether its start is known."""
-        return all(not isinstance(each, Awaited) or each.is_ready for each in self.step.before.axes.values())
+        return all([not isinstance(each, Awaited) or each.is_ready for each in self.step.before.axes.values()])
 
 
 class _Examiner:
@@ -309,7 +309,7 @@ class _Examiner:
                 each.step = Step((each.view[0],), before, findings=each.step.findings)
                 continue
             block = cast.block()
-            answer = Moulded((block,), before, before, before.plane, before.start(), path)
+            answer = Moulded((block,), before, before, before.plane, *path)
             each.step = Step((block,), before, answer, each.step.findings)
             each.left = partial(_behind_cast, answer)
 

@@ -110,7 +110,7 @@ def parse_block(text: str, line: int) -> Block:
 def read_simply(text: str, line: int, chosen: Container[int] | None = None) -> tuple[Word, ...]:
     """The words of a line that is nothing but words, without blanks inside them, or some of them by their index; none
     of another line."""
-    if not _SIMPLE.fullmatch(text):
+    if not _is_simple(text):
         return ()
     tokens = _SIMPLE_WORDS.finditer(text)
     if chosen is None:
@@ -120,7 +120,7 @@ def read_simply(text: str, line: int, chosen: Container[int] | None = None) -> t
 
 def find_words(text: str, line: int, addresses: Container[str]) -> list[Word]:
     """The words of a line that have one of some addresses."""
-    if not _SIMPLE.fullmatch(text):
+    if not _is_simple(text):
         return [word for word in parse_block(text, line).words if word.address in addresses]
     tokens = _SIMPLE_WORDS.finditer(text)
     return [_simple_word(token, line) for token in tokens if token[1].upper() in addresses]
@@ -128,7 +128,11 @@ def find_words(text: str, line: int, addresses: Container[str]) -> list[Word]:
 
 def split_simply(text: str) -> list[tuple[str, str]]:
     """Such words as addresses and numbers, as typed; none of another line."""
-    return _SIMPLE_WORDS.findall(text) if _SIMPLE.fullmatch(text) else []
+    return _SIMPLE_WORDS.findall(text) if _is_simple(text) else []
+
+
+def _is_simple(text: str) -> bool:
+    return len(text) <= LONGEST_BLOCK and _SIMPLE.fullmatch(text) is not None
 
 
 def _simple_word(token: re.Match[str], line: int) -> Word:
