@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
+from decimal import Decimal
 from functools import lru_cache
 
 import numpy
@@ -9,21 +10,23 @@ from numpy.typing import NDArray
 
 from contoursolve.backends.numeric import inverse_norms
 from contoursolve.constraints import System, assemble
-from contoursolve.contour import trace
+from contoursolve.contour import Contour, trace
+from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer, Policy
 from contoursolve.explain import context_of
 from contoursolve.families.verdict import Code, Verdict
-from contoursolve.model import Length, Line, Profile
-from contoursolve.reading import Claim, Form, WithoutPoint
+from contoursolve.model import Length, Line, Profile, Start, Unit
+from contoursolve.moulds import Cast, Mould, Pattern, mould_of, pattern_of
+from contoursolve.reading import Claim, Form, State, WithoutPoint
 from contoursolve.rules import Rule, is_refused_by_values
 from contoursolve.solving import Status
 from contoursolve.solving.certificate import Proof, up_to_one_digit
 from contoursolve.solving.certify import certify
 from contoursolve.solving.compile import Machine, compile_system
 from contoursolve.solving.plan import LineCircleStep, TwoCirclesStep
-from contoursolve.solving.solve import ROUNDING, inputs_of, solution_at
+from contoursolve.solving.solve import ROUNDING, inputs_at, inputs_of, sizes_of, solution_at
 from contoursolve.spelling import without_point
-from contoursolve.syntax import Word
+from contoursolve.syntax import Word, split_simply
 from contoursolve.tolerance import AGREEMENT, ERROR_BOUND_WARNING, LARGEST, LENGTH, TOUCHING
 
 Columns = Mapping[str, NDArray[numpy.float64]]
@@ -33,6 +36,9 @@ FEWEST = 2
 
 _FAR_BELOW = 0.25
 """Share of a limit up to which a value is within it, however the limit is rounded or measured."""
+
+_MOST_MOULDS = 4_096
+"""Patterns that are noted; a program has few, unless its numbers have no points."""
 
 _SMALL = 30_000
 """A number that is no larger is below the largest value in every unit."""
@@ -54,10 +60,16 @@ class Batch:
     The answers are those of `examine`: the same outputs of the same function, checked in columns.
     """
 
-    rules: tuple[Rule, ...]
+    dialect: Dialect
     policy: Policy
     is_proven: bool
     kinds: dict[Hashable, Kind] = field(default_factory=dict)
+    moulds: dict[Pattern, Mould] = field(default_factory=dict)
+
+    @property
+    def rules(self) -> tuple[Rule, ...]:
+        """The rules of the control."""
+        return self.dialect.rules
 
     def solve(self, claims: Sequence[Claim], examine: Sequence[Callable[[], Answer]]) -> list[Answer]:
         """The answers to contours whose start is known; `examine` gives that to each of them."""
@@ -77,6 +89,7 @@ class Batch:
                 self._learn(key, answers[first])
             if rest:
                 together = self._solve(self.kinds[key], [claims[number] for number in rest])
+                self._make_mould(key, claims[rest[0]])
                 answers |= {number: answer or examine[number]() for number, answer in zip(rest, together, strict=True)}
         return [answers[number] for number in range(len(claims))]
 
@@ -85,6 +98,16 @@ class Batch:
         if answer.status is Status.SOLVED and not answer.diagnostics and answer.contour and not answer.alternatives:
             system = assemble(answer.profile)
             self.kinds.setdefault(key, Kind(answer, system, compile_system(system)))
+            self._make_mould(key, answer.claim)
+
+    def _make_mould(self, key: Hashable, claim: Claim) -> None:
+        """Note the pattern of a block of a kind."""
+        words = split_simply(claim.blocks[0].text) if claim.form.is_literal and not self.is_proven else []
+        pattern = pattern_of(words)
+        if words and pattern not in self.moulds and len(self.moulds) < _MOST_MOULDS:
+            mould = mould_of(claim, key, self.dialect)
+            if mould is not None:
+                self.moulds[pattern] = mould
 
     def _key(self, claim: Claim) -> Hashable:
         """What contours of one kind have in common; None where more than the words and their values counts."""
@@ -94,7 +117,7 @@ class Batch:
             if block.faults or block.directives or block.unmarked or block.is_skippable:
                 return None
             for word in block.words:
-                if word.number is None or not -_SMALL <= word.number <= _SMALL and self._is_large(word, claim):
+                if word.number is None or (not -_SMALL <= word.number <= _SMALL and self._is_large(word, claim)):
                     return None
         before, after = claim.before, claim.after
         for axis in before.plane.axes:
@@ -143,28 +166,67 @@ class Batch:
 
     def _solve(self, kind: Kind, claims: Sequence[Claim]) -> list[Answer | None]:
         """The answers to contours of a kind, as far as nothing speaks against them."""
-        machine, system = kind.machine, kind.system
         profiles = [_profile_of(claim, kind.answer.profile) for claim in claims]
-        order = machine.function.inputs
-        rows = [[inputs[name] for name in order] for inputs in (inputs_of(profile, system) for profile in profiles)]
-        found = machine.function.rows(rows)
-        out = dict(zip(machine.function.outputs, numpy.ascontiguousarray(found.T), strict=True))
-        plain, bounds = _examine(kind, dict(zip(order, numpy.array(rows).T, strict=True)), out, len(rows))
-        names, answers = machine.function.outputs, list[Answer | None]()
-        for claim, profile, row, is_plain, bound in zip(
-            claims, profiles, found.tolist(), plain.tolist(), bounds.tolist(), strict=True
-        ):
-            values = dict(zip(names, row, strict=True))
-            answers.append(self._answer(kind, claim, profile, values, up_to_one_digit(bound)) if is_plain else None)
+        found = _evaluate(kind, [inputs_of(profile, kind.system) for profile in profiles])
+        return [
+            None if row is None else self._answer(kind, claim, profile, *row)
+            for claim, profile, row in zip(claims, profiles, found, strict=True)
+        ]
+
+    def cast(self, mould: Mould, casts: Sequence[tuple[Cast, State]]) -> list[tuple[Start, Contour] | None]:
+        """The start points and the paths of blocks of a mould in states whose positions are known, as far as nothing speaks against them."""
+        kind, answers = self.kinds[mould.kind], list[tuple[Start, Contour] | None]()
+        like, sizes = kind.answer.profile, _sizes(kind.answer.claim.form)
+        units = [(name, unit) for name, unit, _, _ in mould.givens]
+        starts = [state.start() for _, state in casts]
+        stated = [each.values() for each, _ in casts]
+        rows = [
+            self._inputs(kind, values, start, state, sizes, units)
+            for values, start, (_, state) in zip(stated, starts, casts, strict=True)
+        ]
+        found = iter(_evaluate(kind, [row for row in rows if row is not None]))
+        for values, start, inputs in zip(stated, starts, rows, strict=True):
+            row = next(found) if inputs is not None else None
+            if row is None:
+                answers.append(None)
+                continue
+            corners = {name: float(values[name]) for name in sizes if name in values}
+            answers.append((start, trace(like, solution_at(kind.system, start, corners, row[0]))))
         return answers
+
+    def _inputs(
+        self,
+        kind: Kind,
+        values: Mapping[str, Decimal],
+        start: Start,
+        state: State,
+        sizes: Sequence[str],
+        units: Sequence[tuple[str, Unit]],
+    ) -> dict[str, float] | None:
+        """The inputs of a block of a mould; None where more than its values counts, or it is not known where it
+        begins."""
+        if None in start.values:
+            return None
+        for size in sizes:
+            if size in values and values[size] <= 0:
+                return None
+        for value in values.values():
+            if not -_SMALL <= value <= _SMALL:
+                return None
+        for axis in state.plane.axes:
+            if state.axes[axis].is_skippable:
+                return None
+        if self.policy is not Policy.OFF and is_refused_by_values(self.rules, kind.answer.claim.form.roles, values):
+            return None
+        return inputs_at(kind.system, start, [(name, unit, values[name]) for name, unit in units])
 
     def _answer(
         self, kind: Kind, claim: Claim, profile: Profile, out: Mapping[str, float], bound: float
     ) -> Answer | None:
-        certificate = certify(profile, kind.system, out, bound) if self.is_proven else None
+        certificate = certify(profile, kind.system, out, up_to_one_digit(bound)) if self.is_proven else None
         if certificate is not None and certificate.proof not in (Proof.EXACT, Proof.UNIQUE):
             return None
-        like = kind.answer
+        like, bound = kind.answer, up_to_one_digit(bound)
         return Answer(
             form=like.form,
             lines=tuple([block.line for block in claim.blocks]),
@@ -174,7 +236,7 @@ class Batch:
             unit=like.unit,
             start=profile.start,
             profile=profile,
-            contour=trace(profile, solution_at(profile, kind.system, out)),
+            contour=trace(profile, solution_at(kind.system, profile.start, sizes_of(profile), out)),
             sides=like.sides,
             error_bound=bound,
             diagnostics=(),
@@ -201,6 +263,21 @@ def _profile_of(claim: Claim, like: Profile) -> Profile:
 def _sizes(form: Form) -> tuple[str, ...]:
     """The words that are sizes of corners."""
     return tuple(word for row in form.corners for word in row.shapes)
+
+
+def _evaluate(kind: Kind, inputs: Sequence[Mapping[str, float]]) -> list[tuple[dict[str, float], float] | None]:
+    """The outputs at many inputs and a bound of their errors, mm; None where something speaks against them."""
+    if not inputs:
+        return []
+    function = kind.machine.function
+    rows = [[each[name] for name in function.inputs] for each in inputs]
+    found = function.rows(rows)
+    out = dict(zip(function.outputs, numpy.ascontiguousarray(found.T), strict=True))
+    plain, bounds = _examine(kind, dict(zip(function.inputs, numpy.array(rows).T, strict=True)), out, len(rows))
+    return [
+        (dict(zip(function.outputs, row, strict=True)), bound) if is_plain else None
+        for row, is_plain, bound in zip(found.tolist(), plain.tolist(), bounds.tolist(), strict=True)
+    ]
 
 
 def _examine(

@@ -32,16 +32,16 @@ class Format:
     """Millimetres of one unit."""
     step: float = field(init=False)
     """One of the last decimal."""
-    axes: tuple[tuple[str, int], ...] = field(init=False)
-    """The addresses of the plane's axes, and what a radius is multiplied by."""
+    scales: tuple[int, int] = field(init=False)
+    """What a radius on each axis is multiplied by."""
     spec: str = field(init=False)
 
     def __post_init__(self) -> None:
-        scales = (2 if is_diameter else 1 for is_diameter in self.plane.diameters)
+        scales = tuple(2 if is_diameter else 1 for is_diameter in self.plane.diameters)
         for name, value in (
             ("mm", float(self.unit.in_mm)),
             ("step", 10.0**-self.decimals),
-            ("axes", tuple(zip(self.plane.axes, scales, strict=True))),
+            ("scales", scales),
             ("spec", f"%.{self.decimals}f"),
         ):
             object.__setattr__(self, name, value)
@@ -73,19 +73,18 @@ def emit(segment: Segment, here: Point, form: Format, *, is_rapid: bool = False)
 
     A last move without words tells how far off that is.
     """
-    whole = [segment]
-    if isinstance(segment, ArcSegment):
-        limit = LONGEST_BY_RADIUS if form.arcs is Arcs.RADIUS else LONGEST_BY_CENTER
-        parts = ceil(segment.sweep / limit)
-        whole = [*_split(segment, parts)] if parts > 1 else whole
-    for part in whole:
+    limit = LONGEST_BY_RADIUS if form.arcs is Arcs.RADIUS else LONGEST_BY_CENTER
+    parts = ceil(segment.sweep / limit) if isinstance(segment, ArcSegment) else 1
+    for part in (segment,) if parts <= 1 else _split(segment, parts):
         move = _Writer(part, here, form).move(is_rapid)
         here = move.end
         yield move
 
 
-def _split(arc: ArcSegment, parts: int) -> Iterator[Segment]:
+def _split(arc: Segment, parts: int) -> Iterator[Segment]:
     """An arc as so many equal ones."""
+    if isinstance(arc, LineSegment):
+        raise TypeError("a line is not split")
     begin, start = atan2(arc.start[1] - arc.center[1], arc.start[0] - arc.center[0]), arc.start
     for number in range(1, parts + 1):
         angle = begin + arc.turn.sign * radians(arc.sweep) * number / parts
@@ -106,19 +105,16 @@ class _Writer:
         self.step = form.step
 
     def move(self, is_rapid: bool) -> Move:
-        form, mm = self.form, self.mm
-        words: list[tuple[str, str]] = []
-        more: list[tuple[str, str]] = []
-        ends: list[float] = []
-        for (address, scale), exact, here in zip(form.axes, self.segment.end, self.here, strict=True):
-            base = here if form.is_incremental else 0.0
-            text = form.number((exact / mm - base) * scale)
-            words.append((address, text))
-            ends.append(base + float(text) / scale)
-        end = ends[0], ends[1]
-        off = self._distance(self.segment.end, end)
-        if hypot(end[0] - self.here[0], end[1] - self.here[1]) < self.step / 4:
+        form, mm, (here, there) = self.form, self.mm, self.here
+        (one, two), exact = form.scales, self.segment.end
+        base, other = (here, there) if form.is_incremental else (0.0, 0.0)
+        first, second = form.number((exact[0] / mm - base) * one), form.number((exact[1] / mm - other) * two)
+        end = base + float(first) / one, other + float(second) / two
+        off = hypot(exact[0] - end[0] * mm, exact[1] - end[1] * mm)
+        if hypot(end[0] - here, end[1] - there) < self.step / 4:
             return Move(1, (), self._in_mm(self.here), off)
+        words = sorted((form.plane.axes[0] + first, form.plane.axes[1] + second))
+        more: list[str] = []
         if isinstance(self.segment, LineSegment):
             code = 0 if is_rapid else 1
         else:
@@ -126,11 +122,9 @@ class _Writer:
             by_radius = self.form.arcs is Arcs.RADIUS
             more, center, radius = self._by_radius(end) if by_radius else self._by_center(end)
             off = max(off, _arc_deviation(self.segment, self._in_mm(center), radius * self.mm))
-        words.sort()
-        more.sort()
-        return Move(code, tuple([address + text for address, text in words + more]), self._in_mm(end), off)
+        return Move(code, (*words, *sorted(more)), (end[0] * mm, end[1] * mm), off)
 
-    def _by_center(self, end: Point) -> tuple[list[tuple[str, str]], Point, float]:
+    def _by_center(self, end: Point) -> tuple[list[str], Point, float]:
         """I J K for a centre that is as far from one end as from the other, to one unit of the last decimal; of those,
         the one nearest to the exact centre."""
         arc, start = self._arc(), self.here
@@ -147,16 +141,17 @@ class _Writer:
                 for two in {floor(second), ceil(second)}:
                     j = two * step
                     mismatch = abs(hypot(i, j) - hypot(across - i, rise - j))
-                    key = (mismatch if mismatch > step else step, hypot(i - to_first, j - to_second), i, j)
+                    key = (max(step, mismatch), hypot(i - to_first, j - to_second), i, j)
                     if key < best:
                         best = key
         if best[0] == inf:
             raise ValueError("an arc without a center")
         texts = [self.form.number(best[2]), self.form.number(best[3])]
         center = start[0] + float(texts[0]), start[1] + float(texts[1])
-        return list(zip(self.form.plane.centers, texts, strict=True)), center, hypot(float(texts[0]), float(texts[1]))
+        words = [address + text for address, text in zip(self.form.plane.centers, texts, strict=True)]
+        return words, center, hypot(float(texts[0]), float(texts[1]))
 
-    def _by_radius(self, end: Point) -> tuple[list[tuple[str, str]], Point, float]:
+    def _by_radius(self, end: Point) -> tuple[list[str], Point, float]:
         """R, large enough to reach both ends."""
         arc, start = self._arc(), self.here
         chord = end[0] - start[0], end[1] - start[1]
@@ -167,7 +162,7 @@ class _Writer:
         text = self.form.number(radius)
         height = sqrt(max(radius**2 - half**2, 0.0)) * arc.turn.sign / (2 * half)
         center = (start[0] + end[0]) / 2 - chord[1] * height, (start[1] + end[1]) / 2 + chord[0] * height
-        return [("R", text)], center, radius
+        return ["R" + text], center, radius
 
     def _arc(self) -> ArcSegment:
         if isinstance(self.segment, LineSegment):
@@ -176,9 +171,6 @@ class _Writer:
 
     def _in_mm(self, point: Point) -> Point:
         return point[0] * self.mm, point[1] * self.mm
-
-    def _distance(self, exact: Point, written: Point) -> float:
-        return hypot(exact[0] - written[0] * self.mm, exact[1] - written[1] * self.mm)
 
 
 def _arc_deviation(arc: ArcSegment, center: Point, radius: float) -> float:

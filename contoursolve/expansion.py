@@ -14,10 +14,11 @@ from contoursolve.emit import Format, Move, emit
 from contoursolve.examine import Answer, Depth, Policy
 from contoursolve.lines import Lines
 from contoursolve.model import Length
+from contoursolve.moulds import Moulded
 from contoursolve.numbering import Numberer, Numbers
 from contoursolve.outcome import Left, Options, Summary, left_unread
 from contoursolve.pipeline import Step, attach, walk
-from contoursolve.posts import Arcs, Machine
+from contoursolve.posts import Machine
 from contoursolve.reading import Effect, State, apply_modes, codes_of, motion_of, words_of
 from contoursolve.reliance import MOTIONS, STANDING_ALONE, Reliance, reliance, restate, why_unmet
 from contoursolve.solving import Point
@@ -55,8 +56,8 @@ def expand_lines(
     `facts` are further facts by line; `numbers` are those of the whole program, where every line is to have one.
     Unless the control `is_certain`, raises UnknownControlError if some block is for another one.
     """
-    reel = Lines(lines, dialect, facts or {}, is_certain=is_certain)
-    together = Batch(dialect.rules, policy, is_proven=False)
+    together = Batch(dialect, policy, is_proven=False)
+    reel = Lines(lines, dialect, facts or {}, together.moulds, is_certain=is_certain)
     steps = walk(reel.blocks(), dialect, unit, policy, Depth.PATH, start, together)
     yield from _Expander(dialect, options, summary, reel, numbers).expand(steps)
 
@@ -95,7 +96,7 @@ class _Expander:
         self.watch = Watch(options.post, dialect, options.post.readings.get(_machine(dialect)))
         summary.unfamiliar = self.watch.found
         self.numberer = Numberer(self.modes, numbers)
-        self.formats: dict[tuple[str, Length, bool], Format] = {}
+        self.formats: dict[tuple[str, bool, bool], Format] = {}
         self.offsets: dict[str, float] = {}
         self.motion: int | None = None
         """The motion that is in force in the expanded program, where it differs from the original."""
@@ -117,7 +118,8 @@ class _Expander:
                 for block in step.blocks:
                     yield from self._keep(block, step.before)
                 continue
-            reason = self._obstacle(step.answer) or self._relying(step.answer, rest, coming)
+            reason = self._obstacle(step.answer) if isinstance(step.answer, Answer) else ""
+            reason = reason or self._relying(step.answer, rest, coming)
             if reason:
                 yield from self._leave(step, step.answer, reason)
             else:
@@ -127,27 +129,32 @@ class _Expander:
 
     def _pass(self, passage: Passage, state: State) -> Iterator[str | object]:
         """Lines that only move, as they are; they are read into words only if they matter."""
-        is_asking = self.watch.asks("".join(passage.lines))
+        is_asking = self.watch.asks("".join(passage.lines)) or self.watch.minds(state)
+        texts: list[str] = []
         for place, line in enumerate(passage.lines):
             if self.is_opened and self.motion is None and not self.offsets and not is_asking:
                 self.is_marked = passage.lines[-1].startswith(LEFT_MARK)
-                yield self.lines.take(passage, place)
-                return
+                texts.append(self.lines.take(passage, place))
+                break
             words, number = words_of(line), passage.line + place
             if words and not self.is_opened:
                 self.is_opened = True
                 self.summary.line_end = self.lines.end_of(number)
+                yield "".join(texts)
                 yield OPENING
-            if words and (self.watch.asks(line) or self.watch.minds(state)):
-                yield from self._keep(parse_block(line.rstrip("\r\n"), number), state)
+                texts = []
+            if words and is_asking and (self.watch.asks(line) or self.watch.minds(state)):
+                texts += self._keep(parse_block(line.rstrip("\r\n"), number), state)
                 continue
             if words:
                 if self.motion is not None and motion_of(words) is None:
-                    yield f"G{state.motion:02}" + self.lines.end
+                    texts.append(f"G{state.motion:02}" + self.lines.end)
                 self.motion = None
-                self.offsets = {axis: offset for axis, offset in self.offsets.items() if axis not in words}
+                if self.offsets:
+                    self.offsets = {axis: offset for axis, offset in self.offsets.items() if axis not in words}
             self.is_marked = line.startswith(LEFT_MARK)
-            yield line.rstrip("\r\n") + self.lines.take_end(number)
+            texts.append(line.rstrip("\r\n") + self.lines.take_end(number))
+        yield "".join(texts)
 
     def _keep(self, block: Block, state: State) -> Iterator[str]:
         if block.words or block.macro or block.faults:
@@ -198,11 +205,15 @@ class _Expander:
             if row and row.axis and not (row.is_increment or here.is_incremental):
                 self.offsets.pop(row.axis, None)
 
-    def _leave(self, step: Step, answer: Answer, reason: str) -> Iterator[str]:
+    def _leave(self, step: Step, answer: Answer | Moulded, reason: str) -> Iterator[str]:
         """A contour as it was, below a comment that says why."""
         sources = {block.line: block.text for block in step.blocks}
-        self.summary.left.append(Left(answer.lines, reason, answer.diagnostics, sources))
-        first, *others = step.blocks
+        lines = tuple(block.line for block in answer.claim.blocks)
+        self.summary.left.append(Left(lines, reason, answer.diagnostics, sources))
+        blocks = (
+            step.blocks if isinstance(answer, Answer) else [parse_block(each.text, each.line) for each in step.blocks]
+        )
+        first, *others = blocks
         if self.motion is not None:
             before, first = self._restore(first, step.before)
             yield from before
@@ -232,7 +243,7 @@ class _Expander:
         ]
         return f"{beside[0]} moves an axis outside the plane: move it in a block of its own" if beside else ""
 
-    def _relying(self, answer: Answer, steps: Iterator[Step], coming: deque[Step]) -> str:
+    def _relying(self, answer: Answer | Moulded, steps: Iterator[Step], coming: deque[Step]) -> str:
         """Why a contour has to stay because of a block behind it, for which the motion that is in force before it
         cannot be put in force again; empty if there is none. What is read to see that is added to `coming`."""
         motion = answer.claim.after.motion
@@ -243,7 +254,7 @@ class _Expander:
 
     # What is replaced
 
-    def _replace(self, step: Step, answer: Answer) -> Iterator[str]:
+    def _replace(self, step: Step, answer: Answer | Moulded) -> Iterator[str]:
         claim, state = answer.claim, step.before
         groups = _groups(answer)
         axes = answer.plane.axes
@@ -278,7 +289,7 @@ class _Expander:
         self.summary.replaced += 1
         self.summary.warn(answer.diagnostics)
 
-    def _place(self, answer: Answer) -> Point:
+    def _place(self, answer: Answer | Moulded) -> Point:
         """Where the tool is at the start of a contour, in the expanded program."""
         first, second = (
             float(value or 0) + self.offsets.pop(axis, 0.0)
@@ -287,7 +298,7 @@ class _Expander:
         return first, second
 
     def _format(self, state: State) -> Format:
-        key = state.plane.code, state.unit, state.is_incremental
+        key = state.plane.code, state.unit is Length.INCH, state.is_incremental
         if key not in self.formats:
             numbers, post = self.modes.lexicon.numbers, self.options.post
             decimals = self.options.decimals
@@ -380,14 +391,14 @@ def _is_active(block: Block) -> bool:
     return bool(block.faults or block.macro) or any(word.address != "O" for word in block.words)
 
 
-def _groups(answer: Answer) -> dict[int, list[Segment]]:
+def _groups(answer: Answer | Moulded) -> dict[int, list[Segment]]:
     """The elements of a contour by the line of the block that makes them; a corner belongs to the element before it.
 
     A form has either one block, or one element a block.
     """
     claim, contour = answer.claim, answer.contour
     elements = contour.elements if contour else ()
-    if len(claim.blocks) == 1:
+    if isinstance(claim, Moulded) or len(claim.blocks) == 1:
         return {claim.blocks[0].line: list(elements)}
     owner = {each.name: block.line for each, block in zip(claim.form.path, claim.blocks, strict=True)}
     owner |= {row.name: owner[row.before] for row in claim.form.corners}

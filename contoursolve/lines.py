@@ -4,9 +4,10 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
 from contoursolve.dialects import DIALECTS, Dialect
-from contoursolve.pipeline import several_controls, sign_of
+from contoursolve.moulds import Cast, Mould, Pattern, pattern_of
+from contoursolve.pipeline import Line, several_controls, sign_of
 from contoursolve.reading import plain_lines
-from contoursolve.syntax import Block, Directive, Passage, parse_block
+from contoursolve.syntax import LONGEST_BLOCK, Block, Directive, Passage, parse_block, split_simply
 
 _USUAL = "\n"
 """How a line ends of which nothing else is noted."""
@@ -20,10 +21,17 @@ class Lines:
     """The lines of a program as blocks; how each of them ends is kept until it is asked for."""
 
     def __init__(
-        self, lines: Iterable[str], dialect: Dialect, facts: Mapping[int, tuple[Directive, ...]], *, is_certain: bool
+        self,
+        lines: Iterable[str],
+        dialect: Dialect,
+        facts: Mapping[int, tuple[Directive, ...]],
+        moulds: Mapping[Pattern, Mould],
+        *,
+        is_certain: bool,
     ) -> None:
         self._lines = lines
         self._facts = facts
+        self._moulds = moulds
         self._plain = plain_lines(dialect.modes).fullmatch
         self._longest = 1 if dialect.has_runs else _LONGEST
         self._others = [other for other in DIALECTS.values() if not is_certain and other.name != dialect.name]
@@ -32,11 +40,11 @@ class Lines:
         self.end = _USUAL
         """The end of the last line that has one."""
 
-    def blocks(self) -> Iterator[Block | Passage]:
+    def blocks(self) -> Iterator[Line]:
         plain, facts = self._plain, self._facts
         held: list[str] = []
         for number, line in enumerate(self._lines, 1):
-            if plain(line) and number not in facts:
+            if plain(line) and len(line) <= LONGEST_BLOCK and number not in facts:
                 held.append(line)
                 if line[-1:] != _USUAL or line[-2:-1] == "\r":
                     self._put(line, number)
@@ -51,8 +59,14 @@ class Lines:
         if held:
             yield Passage(number + 1 - len(held), tuple(held))
 
-    def _read(self, line: str, number: int) -> Block:
-        block = parse_block(self._put(line, number), number)
+    def _read(self, line: str, number: int) -> Block | Cast:
+        text = self._put(line, number)
+        if self._moulds and number not in self._facts:
+            words = split_simply(text)
+            mould = self._moulds.get(pattern_of(words))
+            if mould is not None:
+                return Cast(number, text, tuple([each for _, each in words]), mould)
+        block = parse_block(text, number)
         if number in self._facts:
             block = replace(block, directives=(*block.directives, *self._facts[number]))
         if self._others:

@@ -6,19 +6,23 @@ from functools import partial
 from itertools import islice
 from typing import TYPE_CHECKING, Protocol, cast, overload
 
+from contoursolve.contour import Contour
 from contoursolve.diagnostic import Basis, Diagnostic, Severity
 from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.examine import Answer, Depth, Policy, examine, rank
 from contoursolve.explain import Context, join, report
-from contoursolve.model import Length, Plane
+from contoursolve.model import Length, Plane, Start
+from contoursolve.moulds import Cast, Mould, Moulded
 from contoursolve.reading import (
     Awaited,
     Claim,
+    Modes,
     Position,
     State,
     Trouble,
     advance,
     advance_plainly,
+    end_of_contour,
     is_plain,
     leave,
     next_place,
@@ -79,14 +83,21 @@ class Step:
 
     blocks: tuple[Block, ...]
     before: State
-    answer: Answer | None = None
+    answer: Answer | Moulded | None = None
     findings: tuple[Diagnostic, ...] = ()
     passage: Passage | None = None
     """In place of blocks: what nobody needed to read into words."""
 
 
+Line = Block | Passage | Cast
+"""A line of a program, or several, read as far as it was needed."""
+
+
 class Together(Protocol):
     """Solves many contours at once."""
+
+    def cast(self, mould: Mould, casts: Sequence[tuple[Cast, State]]) -> Sequence[tuple[Start, Contour] | None]:
+        """The start points and the paths of blocks of a mould in states whose positions are known; None for those that are to be read."""
 
     def solve(self, claims: Sequence[Claim], examine: Sequence[Callable[[], Answer]]) -> Sequence[Answer]:
         """The answers to contours whose start is known, the same as `examine` gives to each of them."""
@@ -106,7 +117,7 @@ def attach(
     """The program with further facts in the last block of its only contour, or else of its last block; and the facts,
     those that are no texts in words. Raises FactPlaceError if there are several contours."""
     steps = walk(program.blocks, dialect, unit, Policy.OFF, Depth.VERDICT, start)
-    answers = [step.answer for step in steps if step.answer is not None]
+    answers = [step.answer for step in steps if isinstance(step.answer, Answer)]
     if len(answers) > 1:
         lines = ", ".join(str(answer.lines[0]) for answer in answers)
         raise FactPlaceError(
@@ -191,7 +202,7 @@ def run(
     everything: list[Diagnostic] = []
     for step in examiner.steps(program.blocks, start):
         everything += step.findings
-        if step.answer is not None:
+        if isinstance(step.answer, Answer):
             answers.append(step.answer)
     if not answers and not any(each.severity is Severity.ERROR for each in everything):
         everything.append(examiner.nothing_to_solve(program.blocks))
@@ -202,7 +213,7 @@ def run(
 
 
 def walk(
-    blocks: Iterable[Block | Passage],
+    blocks: Iterable[Line],
     dialect: Dialect,
     unit: Length,
     policy: Policy,
@@ -225,33 +236,22 @@ _NEAR = 8
 _BATCH = 1_000
 """Blocks that are read at once."""
 
-_WINDOW = 8_192
-"""Steps of which the contours are solved together."""
+_FIRST, _WINDOW = 16, 2_048
+"""Steps of which the contours are solved together, in the beginning, when nothing is known, and later."""
 
 
 class _Pending:
-    """A contour that is found and not solved yet, with what is done about it then."""
+    """A contour that is found and not solved yet: a claim, or a block of a mould, in a state, and what follows it."""
 
-    def __init__(
-        self,
-        claim: Claim,
-        step: Step,
-        examine: Callable[[], Answer],
-        leave: Callable[[Answer], State],
-    ) -> None:
-        self.claim, self.step, self.examine, self.leave = claim, step, examine, leave
-        self.after: State | None = None
+    def __init__(self, contour: Claim | Cast, step: Step, view: "_View", after: int) -> None:
+        self.contour, self.step, self.view, self.after = contour, step, view, after
+        self.left: Callable[[], State] | None = None
+        """The state that it leaves, once it is solved."""
 
     @property
     def is_ready(self) -> bool:
         """Whether its start is known."""
-        positions = self.claim.before.axes.values()
-        return all(not isinstance(each, Awaited) or each.is_ready for each in positions)
-
-    def settle(self, answer: Answer) -> None:
-        """Take the answer."""
-        step = self.step
-        self.step, self.after = Step(step.blocks, step.before, answer, step.findings), self.leave(answer)
+        return all([not isinstance(each, Awaited) or each.is_ready for each in self.step.before.axes.values()])
 
 
 class _Examiner:
@@ -270,15 +270,16 @@ class _Examiner:
         self.diagnostics: list[Diagnostic] = []
         self.pending: list[_Pending] = []
 
-    def steps(self, blocks: Iterable[Block | Passage], start: Program | None) -> Iterator[Step]:
+    def steps(self, blocks: Iterable[Line], start: Program | None) -> Iterator[Step]:
         """Every block and every contour, in order; without a dialect, only what is found."""
         window: list[Step | _Pending] = []
+        size = 1 if self.together is None else _FIRST
         for each in self._walk(blocks, start):
             window.append(each)
-            if len(window) >= _WINDOW or self.together is None:
+            if len(window) >= size:
                 self._settle()
                 yield from (other.step if isinstance(other, _Pending) else other for other in window)
-                window = []
+                window, size = [], min(2 * size, _WINDOW) if self.together is not None else 1
         self._settle()
         yield from (other.step if isinstance(other, _Pending) else other for other in window)
 
@@ -287,34 +288,61 @@ class _Examiner:
         while self.pending:
             ready = [each for each in self.pending if each.is_ready]
             self.pending = [each for each in self.pending if not each.is_ready]
-            if self.together is None:
-                answers: Sequence[Answer] = [each.examine() for each in ready]
-            else:
-                answers = self.together.solve([each.claim for each in ready], [each.examine for each in ready])
-            for each, answer in zip(ready, answers, strict=True):
-                each.settle(answer)
+            moulds: dict[int, list[tuple[_Pending, Cast]]] = {}
+            for each in ready:
+                if isinstance(each.contour, Cast):
+                    moulds.setdefault(id(each.contour.mould), []).append((each, each.contour))
+            for casts in moulds.values():
+                self._settle_casts(casts)
+            claimed = [(each, each.contour) for each in ready if isinstance(each.contour, Claim)]
+            examine = [partial(self._examine, claim, each) for each, claim in claimed]
+            answers = (
+                [once() for once in examine]
+                if self.together is None
+                else self.together.solve([claim for _, claim in claimed], examine)
+            )
+            for (each, claim), answer in zip(claimed, answers, strict=True):
+                step = each.step
+                each.step = Step(step.blocks, step.before, answer, step.findings)
+                each.left = partial(_after, claim, self.modes, answer)
+
+    def _settle_casts(self, casts: Sequence[tuple[_Pending, Cast]]) -> None:
+        """Solve blocks of one mould; those that are not plainly solved are read."""
+        paths = self.together.cast(casts[0][1].mould, [(cast, each.step.before) for each, cast in casts])  # type: ignore[union-attr]
+        for (each, cast), path in zip(casts, paths, strict=True):
+            before = each.step.before
+            if path is None:
+                found = self.dialect.find(each.view, 0, before, self.modes)  # type: ignore[union-attr]
+                if not isinstance(found, Claim):
+                    raise TypeError(f"line {cast.line} is no contour")
+                each.contour = found
+                each.step = Step((each.view[0],), before, findings=each.step.findings)
+                continue
+            block = cast.block()
+            answer = Moulded((block,), before, before, before.plane, *path)
+            each.step = Step((block,), before, answer, each.step.findings)
+            each.left = partial(_behind_cast, answer)
 
     def _leave(self, pending: _Pending) -> State:
         """The state after a contour; where it ends follows when it is solved."""
-        if pending.after is not None:
-            return pending.after
-        claim, addresses = pending.claim, self.modes.lexicon.addresses
-        axes = [*claim.after.plane.axes]
-        for word in claim.blocks[-1].words:
+        if pending.left is not None:
+            return pending.left()
+        contour, addresses = pending.contour, self.modes.lexicon.addresses
+        state = contour.after if isinstance(contour, Claim) else pending.step.before
+        axes = [*state.plane.axes]
+        for word in contour.blocks[-1].words if isinstance(contour, Claim) else ():
             row = addresses.get(word.address)
             if row and row.axis and row.axis not in axes:
                 axes.append(row.axis)
 
         def find(axis: str) -> Position:
-            if pending.after is None:
+            if pending.left is None:
                 self._settle()
-            return cast("State", pending.after).axes[axis]
+            return cast("Callable[[], State]", pending.left)().axes[axis]
 
-        return claim.after.move(
-            {axis: Awaited(partial(find, axis), lambda: pending.after is not None) for axis in axes}
-        )
+        return state.move({axis: Awaited(partial(find, axis), lambda: pending.left is not None) for axis in axes})
 
-    def _walk(self, blocks: Iterable[Block | Passage], start: Program | None) -> Iterator[Step | _Pending]:
+    def _walk(self, blocks: Iterable[Line], start: Program | None) -> Iterator[Step | _Pending]:
         """Every block and every contour, in order, contours as they are found."""
         if self.dialect is None:
             for block in _each(list(blocks), 0):
@@ -329,7 +357,7 @@ class _Examiner:
             state = advance(state, block, dialect.modes)
         start_unit = state.unit
         is_whole, index = isinstance(blocks, Sequence), 0
-        held: list[Block | Passage] = list(blocks) if isinstance(blocks, Sequence) else []
+        held: list[Line] = list(blocks) if isinstance(blocks, Sequence) else []
         rest = iter(() if isinstance(blocks, Sequence) else blocks)
         while True:
             if index >= len(held) - 1 and not is_whole:
@@ -345,7 +373,14 @@ class _Examiner:
                     state = advance_plainly(state, passed, dialect.modes)
                     held, index = _behind(held, index, len(passed.lines))
                     continue
-            view = _View(held, index)
+            view, item = _View(held, index), held[index]
+            if isinstance(item, Cast) and start is None and item.mould.fits(state):
+                pending = _Pending(item, Step((), state, findings=self._findings()), view, 1)
+                self.pending.append(pending)
+                yield pending
+                state = self._leave(pending)
+                index += 1
+                continue
             block = view[0]
             found = dialect.find(view, 0, state, dialect.modes)
             after = 1
@@ -360,12 +395,7 @@ class _Examiner:
             if isinstance(found, Claim) and found.form.is_contour:
                 self._check_units(start, start_unit, found)
                 start_unit = found.after.unit
-                pending = _Pending(
-                    found,
-                    Step(blocks_of_step, state, findings=self._findings()),
-                    partial(self._examine, found, view, after, state),
-                    partial(_after, found, dialect),
-                )
+                pending = _Pending(found, Step(blocks_of_step, state, findings=self._findings()), view, after)
                 self.pending.append(pending)
                 yield pending
                 state = self._leave(pending)
@@ -373,7 +403,7 @@ class _Examiner:
                 before = state
                 state = advance(state, block, dialect.modes)
                 if isinstance(found, Claim):
-                    answer = self._examine(found, view, after, before)
+                    answer = self._examine(found, _Pending(found, Step((), before), view, after))
                     self.diagnostics += answer.diagnostics if answer.start.is_known else ()
                     self._check_units(start, start_unit, found)
                     start_unit = found.after.unit
@@ -399,9 +429,9 @@ class _Examiner:
         findings, self.diagnostics = tuple(self.diagnostics), []
         return findings
 
-    def _examine(self, found: Claim, blocks: Sequence[Block], after: int, state: State) -> Answer:
-        """The answer to a contour that ends before a block, with the values that it asks for filled in."""
-        dialect = self.dialect
+    def _examine(self, found: Claim, pending: _Pending) -> Answer:
+        """The answer to a contour, with the values that it asks for filled in."""
+        dialect, blocks, after, state = self.dialect, pending.view, pending.after, pending.step.before
         if dialect is None:
             raise ValueError("without a control there is no contour")
         answer = examine(
@@ -453,18 +483,24 @@ class _Examiner:
             self.diagnostics += explain_words(context, lexicon, _repeated(axis_words), axis_words)
 
 
-def _after(claim: Claim, dialect: Dialect, answer: Answer) -> State:
+def _after(claim: Claim, modes: Modes, answer: Answer) -> State:
     """The state that a contour leaves."""
     if answer.contour is not None:
-        return leave(claim, answer.contour.end, dialect.modes)
+        return leave(claim, answer.contour.end, modes)
     lines = " and ".join(str(line) for line in answer.lines)
-    return leave(claim, None, dialect.modes, f"the contour of line {lines} before it is not solved")
+    return leave(claim, None, modes, f"the contour of line {lines} before it is not solved")
+
+
+def _behind_cast(answer: Moulded) -> State:
+    """The state that a block of a mould leaves."""
+    span, axes, end = answer.blocks[0].span, answer.plane.axes, answer.contour.end
+    return answer.after.move({axis: end_of_contour(value, span) for axis, value in zip(axes, end, strict=True)})
 
 
 class _View(Sequence[Block]):
     """The blocks from a place on; plain lines are read into words when somebody looks at them."""
 
-    def __init__(self, held: list[Block | Passage], index: int) -> None:
+    def __init__(self, held: list[Line], index: int) -> None:
         self.held, self.first = held, index
         self.blocks: list[Block] = []
         self.rest = _each(held, index)
@@ -495,18 +531,20 @@ class _View(Sequence[Block]):
         return False
 
 
-def _each(held: Sequence[Block | Passage], index: int) -> Iterator[Block]:
+def _each(held: Sequence[Line], index: int) -> Iterator[Block]:
     """The blocks from an index on."""
     for place in range(index, len(held)):
         each = held[place]
         if isinstance(each, Passage):
             for number, line in enumerate(each.lines, each.line):
                 yield parse_block(line.rstrip("\r\n"), number)
+        elif isinstance(each, Cast):
+            yield parse_block(each.text, each.line)
         else:
             yield each
 
 
-def _pass(held: Sequence[Block | Passage], index: int, *, moves: bool, joins: bool) -> Passage | None:
+def _pass(held: Sequence[Line], index: int, *, moves: bool, joins: bool) -> Passage | None:
     """The plain lines in a row from an index on that need not be read into words: up to the last one that moves if
     the next contour may begin with it (`joins`); if lines that move need be (not `moves`), up to the first one."""
     lines: list[str] = []
@@ -519,11 +557,10 @@ def _pass(held: Sequence[Block | Passage], index: int, *, moves: bool, joins: bo
         order = range(len(lines)) if not moves else range(len(lines) - 1, -1, -1)
         stop = next((place for place in order if words_of(lines[place])), len(lines))
         lines = lines[:stop]
-    first = held[index]
-    return Passage(first.line, tuple(lines)) if lines else None
+    return Passage(held[index].line, tuple(lines)) if lines else None
 
 
-def _behind(held: list[Block | Passage], index: int, rest: int) -> tuple[list[Block | Passage], int]:
+def _behind(held: list[Line], index: int, rest: int) -> tuple[list[Line], int]:
     """The lines that are held, and the index behind so many of them; a passage that goes on there is cut."""
     while rest:
         each = held[index]
@@ -535,8 +572,10 @@ def _behind(held: list[Block | Passage], index: int, rest: int) -> tuple[list[Bl
     return held, index
 
 
-def _says_something(line: Block | str) -> bool:
+def _says_something(line: Block | Cast | str) -> bool:
     """Whether a line has more than its number."""
+    if isinstance(line, Cast):
+        return True
     if isinstance(line, str):
         return bool(words_of(line))
     return bool(line.faults or line.macro) or any(word.address not in "NO" for word in line.words)

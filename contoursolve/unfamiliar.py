@@ -3,6 +3,7 @@
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 from contoursolve.dialects import Dialect
 from contoursolve.posts import Post, Reading
@@ -24,8 +25,11 @@ class Unfamiliar:
 _WITHOUT_POINT = re.compile(r"[XYZ][ \t]*[+-]?[0-9]+(?![0-9.])", re.IGNORECASE)
 """A coordinate without a point, or something in a comment that looks like one."""
 
-_STATED = {address: re.compile(rf"{address}[ \t]*[+-]?[.0-9]", re.IGNORECASE) for address in "FST"}
-"""A word of an address, or something in a comment that looks like one."""
+
+@lru_cache(maxsize=8)
+def _stated(addresses: str) -> re.Pattern[str]:
+    """A word of one of some addresses, or something in a comment that looks like one."""
+    return re.compile(rf"[{addresses}][ \t]*[+-]?[.0-9]", re.IGNORECASE)
 
 
 class Watch:
@@ -50,7 +54,7 @@ class Watch:
             return False
         if self.counts is not None and "without point" not in self._named and _WITHOUT_POINT.search(text):
             return True
-        return any(_STATED[address].search(text) for address in self._open)
+        return bool(self._open) and bool(_stated("".join(sorted(self._open))).search(text))
 
     def minds(self, state: State) -> bool:
         """Whether what is in force may be worth a note at any block."""

@@ -30,7 +30,7 @@ FLOORS = (
     "examine",
     "dialects",
     "diagnosis",
-    "fill commas",
+    "fill commas moulds",
     "pipeline project verification unfamiliar",
     "lines comparison families outcome",
     "batch",

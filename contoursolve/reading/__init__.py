@@ -1,7 +1,7 @@
 """Modal state, and the way from blocks to profiles."""
 
 from contoursolve.reading.advance import Modes, advance, apply_modes, codes_of, positions
-from contoursolve.reading.beyond import leave, next_place
+from contoursolve.reading.beyond import end_of_contour, leave, next_place
 from contoursolve.reading.claim import Claim, Selector, Trouble, read, unused_words
 from contoursolve.reading.codes import Code, Effect
 from contoursolve.reading.form import CornerRow, FactRow, Form, Sample, lay_out, stated_sets
@@ -34,6 +34,7 @@ __all__ = [
     "advance_plainly",
     "apply_modes",
     "codes_of",
+    "end_of_contour",
     "is_plain",
     "lay_out",
     "leave",

@@ -7,6 +7,7 @@ from decimal import Decimal
 from contoursolve.reading.advance import Modes, apply_modes, positions
 from contoursolve.reading.claim import Claim
 from contoursolve.reading.state import Position, State
+from contoursolve.source import Span
 from contoursolve.syntax import Block, Word
 
 
@@ -21,13 +22,18 @@ def leave(claim: Claim, end: tuple[float, float] | None, modes: Modes, reason: s
         is_skippable = any(block.is_skippable for block in claim.blocks) or any(
             before[axis].is_skippable for axis in axes
         )
-        first, second = (Position(Decimal(value), "the end of this contour", last.span, is_skippable) for value in end)
-        return state.move({axes[0]: first, axes[1]: second})
+        ends = zip(axes, end, strict=True)
+        return state.move({axis: end_of_contour(value, last.span, is_skippable=is_skippable) for axis, value in ends})
     lost = state.lose(state.plane.axes, reason, last.span)
     if last.faults:
         return lost
     absolute = replace(state, is_incremental=False)
     return lost.move(positions(absolute, _axis_words(last, modes), modes, last.is_skippable))
+
+
+def end_of_contour(value: float, span: Span, *, is_skippable: bool = False) -> Position:
+    """Where a contour ends on an axis, mm; `span` is its last block."""
+    return Position(Decimal(value), "the end of this contour", span, is_skippable)
 
 
 def next_place(blocks: Sequence[Block], claim: Claim, modes: Modes) -> tuple[Decimal, Decimal] | None:

@@ -7,7 +7,7 @@ from functools import partial
 from contoursolve.model import Length
 from contoursolve.reading.advance import Modes, absolute_positions
 from contoursolve.reading.state import Awaited, Position, State
-from contoursolve.syntax import Passage, parse_block
+from contoursolve.syntax import Passage, find_words
 
 _NUMBER = r"[ \t]*[+-]?(?:[0-9]{1,12}\.?[0-9]{0,12}|\.[0-9]{1,12})"
 _COMMENTS = re.compile(r"\([^()]*\)")
@@ -71,7 +71,6 @@ class _Moved:
     def position(self, axis: str) -> Position:
         """Its end on an axis that it programs."""
         if self.positions is None:
-            block = parse_block(self.text.rstrip("\r\n"), self.line)
-            words = [word for word in block.words if word.address in self.modes.axes]
+            words = find_words(self.text.rstrip("\r\n"), self.line, self.modes.axes)
             self.positions = absolute_positions(words, self.unit, self.modes)
         return self.positions[axis]

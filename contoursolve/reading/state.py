@@ -96,8 +96,8 @@ class State:
 
     def start(self) -> Start:
         """The position in the plane."""
-        first, second = (self.axes[axis].value for axis in self.plane.axes)
-        return Start((first, second))
+        first, second = self.plane.axes
+        return Start((self.axes[first].value, self.axes[second].value))
 
     def move(self, changes: Mapping[str, Position]) -> "State":
         """The state with other positions on some axes."""

@@ -85,8 +85,9 @@ def is_refused_by_values(rules: tuple[Rule, ...], roles: Sequence[Role], stated:
     for role in roles:
         by_values = _rules_of(rules, role.name)[1]
         if by_values:
-            own = {call: stated[name] for call, name in role.names(stated).items()}
-            if any(rule.holds(own) for rule in by_values):
+            is_all = role.prefixes == ("",)
+            own = stated if is_all else {call: stated[name] for call, name in role.names(stated).items()}
+            if any([rule.holds(own) for rule in by_values]):
                 return True
     return False
 

@@ -1,6 +1,6 @@
 """Solves a determined profile and believes nothing: every answer is held against the original equations."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from decimal import Decimal
 from functools import lru_cache
@@ -23,7 +23,7 @@ from contoursolve.constraints import (
     assemble,
     headed_lines,
 )
-from contoursolve.model import FIRST, SECOND, Corner, Fact, Profile, Unit, scalar
+from contoursolve.model import FIRST, SECOND, Corner, Fact, Profile, Start, Unit, scalar
 from contoursolve.solving.certificate import Certificate, up_to_one_digit
 from contoursolve.solving.certify import certify
 from contoursolve.solving.compile import compile_system
@@ -131,22 +131,30 @@ def compare(fact: Fact, profile: Profile, at: Values) -> dict[str, float]:
 
 
 def inputs_of(profile: Profile, system: System) -> dict[str, float]:
-    """All inputs of the function of a system. Coordinates are counted from the start point, and the difference is
-    taken in decimals: a shifted program has the same numbers, to the last bit. Raises ValueError without a start."""
-    start = profile.start.values
-    if start[FIRST] is None or start[SECOND] is None:
+    """All inputs of the function of a system. Raises ValueError without a start."""
+    givens = [(given.name, given.unit, given.value) for given in profile.givens.values()]
+    inputs = inputs_at(system, profile.start, givens)
+    for choice in profile.choices:
+        inputs[f"side:{choice.point}"] = float(choice.side.sign)
+    return inputs
+
+
+def inputs_at(system: System, start: Start, givens: Iterable[tuple[str, Unit, Decimal]]) -> dict[str, float]:
+    """The inputs of the function of a system from givens (name, unit, value). Coordinates are counted from the start
+    point, and the difference is taken in decimals: a shifted program has the same numbers, to the last bit. Raises
+    ValueError without a start."""
+    first, second = start.values
+    if first is None or second is None:
         raise ValueError("the start point is not known")
     inputs = {scalar(system.figure.start, axis): 0.0 for axis in (FIRST, SECOND)}
     absolute = _axes(system)
-    for given in profile.givens.values():
-        if given.unit is Unit.DEGREE:
-            inputs[given.name + COSINE], inputs[given.name + SINE] = direction(given.value)
-        elif given.name in absolute:
-            inputs[given.name] = float(given.value - (start[absolute[given.name]] or 0))
+    for name, unit, value in givens:
+        if unit is Unit.DEGREE:
+            inputs[name + COSINE], inputs[name + SINE] = direction(value)
+        elif name in absolute:
+            inputs[name] = float(value - (second if absolute[name] else first))
         else:
-            inputs[given.name] = float(given.value)
-    for choice in profile.choices:
-        inputs[f"side:{choice.point}"] = float(choice.side.sign)
+            inputs[name] = float(value)
     return inputs
 
 
@@ -203,7 +211,7 @@ class _Attempt:
             self.remarks.append(Remark(RemarkKind.SENSITIVE, "", (), {"limit": ERROR_BOUND_WARNING, "actual": bound}))
         agrees = any(remark.kind is RemarkKind.WORDS_AGREE for remark in self.remarks)
         return replace(
-            solution_at(self.profile, self.system, self.out),
+            solution_at(self.system, self.profile.start, sizes_of(self.profile), self.out),
             status=Status.OVERDETERMINED if agrees else Status.SOLVED,
             remarks=tuple(self.remarks),
             error_bound=bound,
@@ -399,9 +407,10 @@ class _Attempt:
         return up_to_one_digit(bound) if isfinite(bound) else inf
 
 
-def solution_at(profile: Profile, system: System, out: Mapping[str, float]) -> Solution:
-    """The values among the outputs of a compiled system, which count coordinates from the start point."""
-    figure, (first, second) = system.figure, profile.start.values
+def solution_at(system: System, start: Start, sizes: Mapping[str, float], out: Mapping[str, float]) -> Solution:
+    """The values among the outputs of a compiled system, which count coordinates from the start point; `sizes` are
+    those of the corners by the words that state them, mm."""
+    figure, (first, second) = system.figure, start.values
     one, other = float(first or 0), float(second or 0)
 
     def absolute(point: Point) -> Point:
@@ -413,10 +422,7 @@ def solution_at(profile: Profile, system: System, out: Mapping[str, float]) -> S
         Status.SOLVED,
         points=points,
         radii={name: out[name] for name in figure.radii},
-        corners={
-            corner.name: corner_of(corner, float(profile.givens[corner.size].value), out, absolute)
-            for corner in figure.corners
-        },
+        corners={corner.name: corner_of(corner, sizes[corner.size], out, absolute) for corner in figure.corners},
     )
 
 

@@ -1,6 +1,7 @@
 """Reads characters into words: one table of tokens, no knowledge of any control."""
 
 import re
+from collections.abc import Container
 from decimal import Decimal
 
 from contoursolve.source import Span
@@ -62,9 +63,10 @@ def split_lines(text: str) -> list[str]:
 
 def parse_block(text: str, line: int) -> Block:
     """Read one line (without its end) into words and faults."""
-    if len(text) <= LONGEST_BLOCK and _SIMPLE.fullmatch(text):
+    simple = read_simply(text, line)
+    if simple:
         # Most blocks; they need nothing of what follows.
-        return Block(line, text, tuple([_simple_word(token, line) for token in _SIMPLE_WORDS.finditer(text)]))
+        return Block(line, text, simple)
     if len(text) > LONGEST_BLOCK and len(_COMMENTS.sub("", text)) > LONGEST_BLOCK:
         span = Span(line, 1, len(text) + 1)
         return Block(line, text, (), (Fault(FaultKind.BLOCK_TOO_LONG, f"{len(text):,} characters", span),))
@@ -103,6 +105,34 @@ def parse_block(text: str, line: int) -> Block:
         unmarked=tuple(unmarked),
         is_skippable=skip is not None,
     )
+
+
+def read_simply(text: str, line: int, chosen: Container[int] | None = None) -> tuple[Word, ...]:
+    """The words of a line that is nothing but words, without blanks inside them, or some of them by their index; none
+    of another line."""
+    if not _is_simple(text):
+        return ()
+    tokens = _SIMPLE_WORDS.finditer(text)
+    if chosen is None:
+        return tuple([_simple_word(token, line) for token in tokens])
+    return tuple([_simple_word(token, line) for index, token in enumerate(tokens) if index in chosen])
+
+
+def find_words(text: str, line: int, addresses: Container[str]) -> list[Word]:
+    """The words of a line that have one of some addresses."""
+    if not _is_simple(text):
+        return [word for word in parse_block(text, line).words if word.address in addresses]
+    tokens = _SIMPLE_WORDS.finditer(text)
+    return [_simple_word(token, line) for token in tokens if token[1].upper() in addresses]
+
+
+def split_simply(text: str) -> list[tuple[str, str]]:
+    """Such words as addresses and numbers, as typed; none of another line."""
+    return _SIMPLE_WORDS.findall(text) if _is_simple(text) else []
+
+
+def _is_simple(text: str) -> bool:
+    return len(text) <= LONGEST_BLOCK and _SIMPLE.fullmatch(text) is not None
 
 
 def _simple_word(token: re.Match[str], line: int) -> Word:
