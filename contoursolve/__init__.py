@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     from contoursolve.contour import ArcSegment, Contour, LineSegment
     from contoursolve.diagnostic import Basis, Diagnosis, Diagnostic, Severity
     from contoursolve.examine import Answer, Depth, Policy
-    from contoursolve.expansion import Expansion
     from contoursolve.families import Family, FamilyError, Sensitivity, family, sensitivity
+    from contoursolve.outcome import Expansion
     from contoursolve.pipeline import Result, UnknownControlError
     from contoursolve.sketch import Drawings, Drawn, Sketch
     from contoursolve.solving import Status
@@ -82,8 +82,8 @@ _ROOMS = {
     "contour": ("ArcSegment", "Contour", "LineSegment"),
     "diagnostic": ("Basis", "Diagnosis", "Diagnostic", "Severity"),
     "examine": ("Answer", "Depth", "Policy"),
-    "expansion": ("Expansion",),
     "families": ("Family", "FamilyError", "Sensitivity", "family", "sensitivity"),
+    "outcome": ("Expansion",),
     "pipeline": ("Result", "UnknownControlError"),
     "sketch": ("Drawings", "Drawn", "Sketch"),
     "solving": ("Status",),

@@ -13,13 +13,14 @@ from contoursolve.diagnostic import Diagnostic, Severity
 from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.examine import Depth, Policy
 from contoursolve.model import Length
+from contoursolve.numbering import Numbers
 from contoursolve.pipeline import Result, UnknownControlError, recognise, run
 from contoursolve.project import configure, find_settings
 from contoursolve.reading import Trouble
 from contoursolve.syntax import STANDARD_INPUT, Directive, Program, UnreadableProgramError
 
 if TYPE_CHECKING:
-    from contoursolve.expansion import Expansion
+    from contoursolve.outcome import Expansion
     from contoursolve.statements import Statement
 
 __all__ = [
@@ -226,6 +227,7 @@ def expand(
     decimals: int | None = None,
     comments: bool = True,
     keep_going: bool = False,
+    block_numbers: str = "first",
     control: str | None = None,
     start: str | None = None,
     units: str = "mm",
@@ -243,6 +245,8 @@ def expand(
         decimals: decimals of a length; the target's own without.
         comments: whether the original blocks are kept as comments.
         keep_going: whether to expand the other contours where one cannot be expanded.
+        block_numbers: `first` (the number of a block stands in the first line in its place), or `all` (the others
+            have numbers that the program does not use).
         control: and all others as for `solve`, with the same errors.
 
     >>> print(expand("G00 X40. Z0.\\nG111 X100. A180. K-30. B120. C5. F0.2").text)
@@ -253,25 +257,20 @@ def expand(
     G01 X100. Z-47.321
     """
     # Only this function needs them.
-    from contoursolve.expansion import (  # noqa: PLC0415
-        OPENING,
-        Expansion,
-        Options,
-        Summary,
-        expand_lines,
-        lines_of_facts,
-        opening_of,
-    )
-    from contoursolve.posts import Arcs, find_post  # noqa: PLC0415
+    from contoursolve.expansion import OPENING, expand_lines, lines_of_facts, opening_of  # noqa: PLC0415
+    from contoursolve.outcome import Expansion, Options, Summary, left_unread  # noqa: PLC0415
+    from contoursolve.posts import Arcs, Numbering, find_post  # noqa: PLC0415
 
     program = syntax.parse(text, name)
     dialect = find_dialect(control) if control else recognise(program)
     if decimals is not None and (isinstance(decimals, bool) or decimals not in range(1, MOST_DECIMALS + 1)):
         raise ValueError(f"decimals cannot be {decimals!r}; choose 1 to {MOST_DECIMALS}, or None for the target's own")
-    options = Options(find_post(post), choice_of(Arcs, arcs, "arcs"), decimals, comments, keep_going)
+    numbering = choice_of(Numbering, block_numbers, "block_numbers")
+    options = Options(find_post(post), choice_of(Arcs, arcs, "arcs"), decimals, comments, keep_going, numbering)
     summary, unit, policy = Summary(), choice_of(Length, units, "units"), choice_of(Policy, rules, "rules")
     if dialect is None:
-        return Expansion(text, None, summary)
+        summary.left += filter(None, map(left_unread, program.blocks))
+        return Expansion(text if keep_going or not summary.left else None, None, summary)
     dialect = (configure(settings) if settings else {}).get(dialect.name, dialect)
     beginning = syntax.parse(start, name, first_line=0) if start is not None else None
     further = lines_of_facts(program, dialect, unit, beginning, _facts(facts))
@@ -285,6 +284,7 @@ def expand(
             policy=policy,
             start=beginning,
             facts=further,
+            numbers=Numbers(syntax.split_lines(text)) if numbering is Numbering.ALL else None,
         )
     )
     opening = opening_of(options, dialect, unit, summary)

@@ -5,6 +5,7 @@ import re
 _COMMENT = re.compile(r"\([^)]*\)|;.*")
 _DIRECTIVE = re.compile(r"\(\s*contoursolve\s*:", re.IGNORECASE)
 _NOT_PRINTED = re.compile(r"[\x00-\x1f\x7f\ufeff%]")
+_BRACKETS = str.maketrans("()", "[]")
 _LONGEST_COMMENT = 200
 """Characters; LinuxCNC reads lines of up to 255."""
 
@@ -14,7 +15,9 @@ LEFT_MARK = "(NOT EXPANDED: "
 
 def comment_out(text: str) -> list[str]:
     """A text as comments, without what would end them or be read on a tape."""
-    text = _NOT_PRINTED.sub(" ", text.translate(str.maketrans("()", "[]"))).strip()
+    text = _NOT_PRINTED.sub(" ", text.translate(_BRACKETS)).strip()
+    if 0 < len(text) <= _LONGEST_COMMENT:
+        return [f"({text})"]
     parts = (text[at : at + _LONGEST_COMMENT] for at in range(0, len(text), _LONGEST_COMMENT))
     return [f"({part})" for part in parts]
 

@@ -1,8 +1,9 @@
 """Writes a contour as plain G-code: rounded so that every arc stays valid, with the deviation that this costs."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
-from math import atan2, ceil, cos, floor, hypot, pi, radians, sin, sqrt, tau
+from dataclasses import dataclass, field, replace
+from math import atan2, ceil, cos, floor, hypot, inf, pi, radians, sin, sqrt, tau
+from typing import NamedTuple
 
 from contoursolve.contour import ArcSegment, LineSegment, Segment
 from contoursolve.model import Length, Plane, Turn
@@ -27,10 +28,27 @@ class Format:
     has_point: bool
     arcs: Arcs
     is_incremental: bool = False
+    mm: float = field(init=False)
+    """Millimetres of one unit."""
+    step: float = field(init=False)
+    """One of the last decimal."""
+    scales: tuple[int, int] = field(init=False)
+    """What a radius on each axis is multiplied by."""
+    spec: str = field(init=False)
+
+    def __post_init__(self) -> None:
+        scales = tuple(2 if is_diameter else 1 for is_diameter in self.plane.diameters)
+        for name, value in (
+            ("mm", float(self.unit.in_mm)),
+            ("step", 10.0**-self.decimals),
+            ("scales", scales),
+            ("spec", f"%.{self.decimals}f"),
+        ):
+            object.__setattr__(self, name, value)
 
     def number(self, value: float) -> str:
         """A number with its decimals, without zeros at its end."""
-        text = f"{value:.{self.decimals}f}"
+        text = self.spec % value
         if "." in text:
             text = text.rstrip("0")
         elif self.has_point:
@@ -40,8 +58,7 @@ class Format:
         return text if self.has_point else text.removesuffix(".")
 
 
-@dataclass(frozen=True, slots=True)
-class Move:
+class Move(NamedTuple):
     """One block of plain G-code: its motion code, its words, where it ends and how far its path is from the exact
     one; mm, X of a lathe as radius."""
 
@@ -56,19 +73,18 @@ def emit(segment: Segment, here: Point, form: Format, *, is_rapid: bool = False)
 
     A last move without words tells how far off that is.
     """
-    whole = [segment]
-    if isinstance(segment, ArcSegment):
-        limit = LONGEST_BY_RADIUS if form.arcs is Arcs.RADIUS else LONGEST_BY_CENTER
-        parts = ceil(segment.sweep / limit)
-        whole = [*_split(segment, parts)] if parts > 1 else whole
-    for part in whole:
+    limit = LONGEST_BY_RADIUS if form.arcs is Arcs.RADIUS else LONGEST_BY_CENTER
+    parts = ceil(segment.sweep / limit) if isinstance(segment, ArcSegment) else 1
+    for part in (segment,) if parts <= 1 else _split(segment, parts):
         move = _Writer(part, here, form).move(is_rapid)
         here = move.end
         yield move
 
 
-def _split(arc: ArcSegment, parts: int) -> Iterator[Segment]:
+def _split(arc: Segment, parts: int) -> Iterator[Segment]:
     """An arc as so many equal ones."""
+    if isinstance(arc, LineSegment):
+        raise TypeError("a line is not split")
     begin, start = atan2(arc.start[1] - arc.center[1], arc.start[0] - arc.center[0]), arc.start
     for number in range(1, parts + 1):
         angle = begin + arc.turn.sign * radians(arc.sweep) * number / parts
@@ -83,25 +99,22 @@ class _Writer:
 
     def __init__(self, segment: Segment, here: Point, form: Format) -> None:
         self.form = form
-        self.mm = float(form.unit.in_mm)
+        self.mm = form.mm
         self.segment = segment
         self.here = here[0] / self.mm, here[1] / self.mm
-        self.scales = tuple(2 if is_diameter else 1 for is_diameter in form.plane.diameters)
-        self.step = 10.0**-form.decimals
+        self.step = form.step
 
     def move(self, is_rapid: bool) -> Move:
-        words: list[tuple[str, str]] = []
-        more: list[tuple[str, str]] = []
-        ends: list[float] = []
-        for axis, address in enumerate(self.form.plane.axes):
-            base, scale = self.here[axis] if self.form.is_incremental else 0.0, self.scales[axis]
-            text = self.form.number((self.segment.end[axis] / self.mm - base) * scale)
-            words.append((address, text))
-            ends.append(base + float(text) / scale)
-        end = ends[0], ends[1]
-        off = self._distance(self.segment.end, end)
-        if hypot(end[0] - self.here[0], end[1] - self.here[1]) < self.step / 4:
+        form, mm, (here, there) = self.form, self.mm, self.here
+        (one, two), exact = form.scales, self.segment.end
+        base, other = (here, there) if form.is_incremental else (0.0, 0.0)
+        first, second = form.number((exact[0] / mm - base) * one), form.number((exact[1] / mm - other) * two)
+        end = base + float(first) / one, other + float(second) / two
+        off = hypot(exact[0] - end[0] * mm, exact[1] - end[1] * mm)
+        if hypot(end[0] - here, end[1] - there) < self.step / 4:
             return Move(1, (), self._in_mm(self.here), off)
+        words = sorted((form.plane.axes[0] + first, form.plane.axes[1] + second))
+        more: list[str] = []
         if isinstance(self.segment, LineSegment):
             code = 0 if is_rapid else 1
         else:
@@ -109,9 +122,9 @@ class _Writer:
             by_radius = self.form.arcs is Arcs.RADIUS
             more, center, radius = self._by_radius(end) if by_radius else self._by_center(end)
             off = max(off, _arc_deviation(self.segment, self._in_mm(center), radius * self.mm))
-        return Move(code, tuple(map("".join, (*sorted(words), *sorted(more)))), self._in_mm(end), off)
+        return Move(code, (*words, *sorted(more)), (end[0] * mm, end[1] * mm), off)
 
-    def _by_center(self, end: Point) -> tuple[list[tuple[str, str]], Point, float]:
+    def _by_center(self, end: Point) -> tuple[list[str], Point, float]:
         """I J K for a centre that is as far from one end as from the other, to one unit of the last decimal; of those,
         the one nearest to the exact centre."""
         arc, start = self._arc(), self.here
@@ -119,22 +132,26 @@ class _Writer:
         chord = end[0] - start[0], end[1] - start[1]
         along = (chord[0] / 2 - exact[0]) * chord[0] + (chord[1] / 2 - exact[1]) * chord[1]
         along /= chord[0] ** 2 + chord[1] ** 2
-        best: tuple[float, float, float, float] | None = None
+        step, (across, rise), (to_first, to_second) = self.step, chord, exact
+        best = (inf, inf, 0.0, 0.0)
         for share in (0.0, along):
-            first, second = ((exact[axis] + share * chord[axis]) / self.step for axis in (0, 1))
+            first, second = (to_first + share * across) / step, (to_second + share * rise) / step
             for one in {floor(first), ceil(first)}:
+                i = one * step
                 for two in {floor(second), ceil(second)}:
-                    i, j = one * self.step, two * self.step
-                    mismatch = abs(hypot(i, j) - hypot(chord[0] - i, chord[1] - j))
-                    key = (max(mismatch, self.step), hypot(i - exact[0], j - exact[1]), i, j)
-                    best = min(best, key) if best else key
-        if best is None:
+                    j = two * step
+                    mismatch = abs(hypot(i, j) - hypot(across - i, rise - j))
+                    key = (max(step, mismatch), hypot(i - to_first, j - to_second), i, j)
+                    if key < best:
+                        best = key
+        if best[0] == inf:
             raise ValueError("an arc without a center")
         texts = [self.form.number(best[2]), self.form.number(best[3])]
         center = start[0] + float(texts[0]), start[1] + float(texts[1])
-        return list(zip(self.form.plane.centers, texts, strict=True)), center, hypot(float(texts[0]), float(texts[1]))
+        words = [address + text for address, text in zip(self.form.plane.centers, texts, strict=True)]
+        return words, center, hypot(float(texts[0]), float(texts[1]))
 
-    def _by_radius(self, end: Point) -> tuple[list[tuple[str, str]], Point, float]:
+    def _by_radius(self, end: Point) -> tuple[list[str], Point, float]:
         """R, large enough to reach both ends."""
         arc, start = self._arc(), self.here
         chord = end[0] - start[0], end[1] - start[1]
@@ -145,7 +162,7 @@ class _Writer:
         text = self.form.number(radius)
         height = sqrt(max(radius**2 - half**2, 0.0)) * arc.turn.sign / (2 * half)
         center = (start[0] + end[0]) / 2 - chord[1] * height, (start[1] + end[1]) / 2 + chord[0] * height
-        return [("R", text)], center, radius
+        return ["R" + text], center, radius
 
     def _arc(self) -> ArcSegment:
         if isinstance(self.segment, LineSegment):
@@ -154,9 +171,6 @@ class _Writer:
 
     def _in_mm(self, point: Point) -> Point:
         return point[0] * self.mm, point[1] * self.mm
-
-    def _distance(self, exact: Point, written: Point) -> float:
-        return hypot(exact[0] - written[0] * self.mm, exact[1] - written[1] * self.mm)
 
 
 def _arc_deviation(arc: ArcSegment, center: Point, radius: float) -> float:

@@ -1,86 +1,41 @@
 """A program with its contours written as plain G-code, and everything else byte for byte as it was."""
 
 import re
+from collections import deque
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from itertools import chain
 
+from contoursolve.batch import Batch
 from contoursolve.comments import LEFT_MARK, comment_out, own_comments, remark
 from contoursolve.contour import Segment
-from contoursolve.diagnostic import Diagnostic, Severity
+from contoursolve.diagnostic import Severity
 from contoursolve.dialects import Dialect
 from contoursolve.emit import Format, Move, emit
 from contoursolve.examine import Answer, Depth, Policy
 from contoursolve.lines import Lines
 from contoursolve.model import Length
+from contoursolve.moulds import Moulded
+from contoursolve.numbering import Numberer, Numbers
+from contoursolve.outcome import Left, Options, Summary, left_unread
 from contoursolve.pipeline import Step, attach, walk
-from contoursolve.posts import SAME, Arcs, Machine, Post
-from contoursolve.reading import Effect, State, apply_modes, codes_of
+from contoursolve.posts import Machine
+from contoursolve.reading import Effect, State, apply_modes, codes_of, motion_of, words_of
+from contoursolve.reliance import MOTIONS, STANDING_ALONE, Reliance, reliance, restate, why_unmet
 from contoursolve.solving import Point
-from contoursolve.syntax import Block, Directive, Macro, PlainLine, Program, Word, parse_block
-from contoursolve.unfamiliar import Unfamiliar, Watch
-
-
-@dataclass(frozen=True, slots=True)
-class Options:
-    """What is asked of an expansion: the target, how it writes arcs, decimals (None: the target's own), whether the
-    original blocks are kept as comments, and whether to go on past a contour that cannot be expanded."""
-
-    post: Post = SAME
-    arcs: Arcs = Arcs.CENTER
-    decimals: int | None = None
-    has_comments: bool = True
-    keeps_going: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class Left:
-    """A contour that was left as it is: its lines with their texts, why, and the findings about it."""
-
-    lines: tuple[int, ...]
-    reason: str
-    diagnostics: tuple[Diagnostic, ...]
-    sources: Mapping[int, str]
-
-
-@dataclass(slots=True)
-class Summary:
-    """What became of a program's contours, as far as it has been read; `deviation` is the largest distance of what
-    was written from the exact contours, mm."""
-
-    replaced: int = 0
-    warnings: int = 0
-    """Findings about contours that were replaced."""
-    deviation: float = 0.0
-    left: list[Left] = field(default_factory=list)
-    unfamiliar: list[Unfamiliar] = field(default_factory=list)
-    line_end: str = "\n"
-    """How the first line that has an end ends."""
-
-
-@dataclass(frozen=True, slots=True)
-class Expansion:
-    """A program in plain G-code; `text` is None where a contour could not be expanded."""
-
-    text: str | None
-    control: str | None
-    summary: Summary
-
+from contoursolve.syntax import Block, Directive, Passage, Program, Word, parse_block
+from contoursolve.unfamiliar import Watch
 
 OPENING = object()
 """Stands where the words belong that the target needs before anything else."""
 
 _BLANK = r"[ \t\f\v\x02\x03\x11-\x14\x1a\ufeff%]*"
+_NO_MOTION = -1
+"""The motion that is in force where none is: the control starts with it."""
+
 _FRAME = re.compile(rf"(?P<head>{_BLANK})(?P<skip>/[1-9]?(?!\d)[ \t]*)?.*?(?P<tail>{_BLANK})", re.DOTALL)
 
 _AFTER_MOTION = frozenset({0, 1, 2, 5, 9, 30, 60, 98, 99})
 """M codes that act after the motion of their block: stop, end, spindle and coolant off, pallet, calls."""
-
-_MOTIONS = (Effect.MOTION, Effect.CYCLE, Effect.CANCEL)
-_OWN_WORDS = (Effect.NO_MOTION, Effect.PRESET, Effect.FRAME, Effect.CONTOUR)
-"""G codes whose blocks use their words themselves, whatever motion is in force."""
-
-_RESTORABLE = (0, 1)
-"""Motions whose G code may stand alone in a block."""
 
 
 def expand_lines(
@@ -94,15 +49,17 @@ def expand_lines(
     start: Program | None = None,
     facts: Mapping[int, tuple[Directive, ...]] | None = None,
     is_certain: bool = True,
+    numbers: Numbers | None = None,
 ) -> Iterator[str | object]:
     """The lines of a program (each with its end) with every contour replaced, and `OPENING` once.
 
-    `facts` are further facts by line. Unless the control `is_certain`, raises UnknownControlError if some block is for
-    another one.
+    `facts` are further facts by line; `numbers` are those of the whole program, where every line is to have one.
+    Unless the control `is_certain`, raises UnknownControlError if some block is for another one.
     """
-    reel = Lines(lines, dialect, facts or {}, is_certain=is_certain)
-    steps = walk(reel.blocks(), dialect, unit, policy, Depth.PATH, start)
-    yield from _Expander(dialect, options, summary, reel).expand(steps)
+    together = Batch(dialect, policy, is_proven=False)
+    reel = Lines(lines, dialect, facts or {}, together.moulds, is_certain=is_certain)
+    steps = walk(reel.blocks(), dialect, unit, policy, Depth.PATH, start, together)
+    yield from _Expander(dialect, options, summary, reel, numbers).expand(steps)
 
 
 def lines_of_facts(
@@ -128,7 +85,9 @@ def _machine(dialect: Dialect) -> Machine:
 class _Expander:
     """One pass over one program. Offsets are how far the tool is from where the original program has it."""
 
-    def __init__(self, dialect: Dialect, options: Options, summary: Summary, lines: Lines) -> None:
+    def __init__(
+        self, dialect: Dialect, options: Options, summary: Summary, lines: Lines, numbers: Numbers | None
+    ) -> None:
         self.dialect = dialect
         self.modes = dialect.modes
         self.options = options
@@ -136,6 +95,8 @@ class _Expander:
         self.lines = lines
         self.watch = Watch(options.post, dialect, options.post.readings.get(_machine(dialect)))
         summary.unfamiliar = self.watch.found
+        self.numberer = Numberer(self.modes, numbers)
+        self.formats: dict[tuple[str, bool, bool], Format] = {}
         self.offsets: dict[str, float] = {}
         self.motion: int | None = None
         """The motion that is in force in the expanded program, where it differs from the original."""
@@ -144,19 +105,21 @@ class _Expander:
         """Whether the last line says why what follows is not expanded."""
 
     def expand(self, steps: Iterable[Step]) -> Iterator[str | object]:
-        for step in steps:
-            if not self.is_opened and ((step.line and step.line.moves) or any(map(_is_active, step.blocks))):
+        coming, rest = deque[Step](), iter(steps)
+        for step in _in_turn(rest, coming):
+            if not self.is_opened and any(map(_is_active, step.blocks)):
                 self.is_opened = True
-                self.summary.line_end = self.lines.end_of((step.line or step.blocks[0]).line)
+                self.summary.line_end = self.lines.end_of(step.blocks[0].line)
                 yield OPENING
-            if step.line is not None:
-                yield from self._pass(step.line, step.before)
+            if step.passage is not None:
+                yield from self._pass(step.passage, step.before)
                 continue
             if step.answer is None:
                 for block in step.blocks:
                     yield from self._keep(block, step.before)
                 continue
-            reason = self._obstacle(step.answer)
+            reason = self._obstacle(step.answer) if isinstance(step.answer, Answer) else ""
+            reason = reason or self._relying(step.answer, rest, coming)
             if reason:
                 yield from self._leave(step, step.answer, reason)
             else:
@@ -164,46 +127,72 @@ class _Expander:
 
     # What stays as it is
 
-    def _pass(self, line: PlainLine, state: State) -> Iterator[str]:
-        """A line that only moves, as it is; it is read into words only if they matter."""
-        if line.moves and (self.motion is not None or self.offsets or self.watch.asks(line.text)):
-            yield from self._keep(parse_block(line.text, line.line), state)
-        else:
-            self.is_marked = line.text.startswith(LEFT_MARK)
-            yield line.text + self.lines.take_end(line.line)
+    def _pass(self, passage: Passage, state: State) -> Iterator[str | object]:
+        """Lines that only move, as they are; they are read into words only if they matter."""
+        is_asking = self.watch.asks("".join(passage.lines)) or self.watch.minds(state)
+        texts: list[str] = []
+        for place, line in enumerate(passage.lines):
+            if self.is_opened and self.motion is None and not self.offsets and not is_asking:
+                self.is_marked = passage.lines[-1].startswith(LEFT_MARK)
+                texts.append(self.lines.take(passage, place))
+                break
+            words, number = words_of(line), passage.line + place
+            if words and not self.is_opened:
+                self.is_opened = True
+                self.summary.line_end = self.lines.end_of(number)
+                yield "".join(texts)
+                yield OPENING
+                texts = []
+            if words and is_asking and (self.watch.asks(line) or self.watch.minds(state)):
+                texts += self._keep(parse_block(line.rstrip("\r\n"), number), state)
+                continue
+            if words:
+                if self.motion is not None and motion_of(words) is None:
+                    texts.append(f"G{state.motion:02}" + self.lines.end)
+                self.motion = None
+                if self.offsets:
+                    self.offsets = {axis: offset for axis, offset in self.offsets.items() if axis not in words}
+            self.is_marked = line.startswith(LEFT_MARK)
+            texts.append(line.rstrip("\r\n") + self.lines.take_end(number))
+        yield "".join(texts)
 
     def _keep(self, block: Block, state: State) -> Iterator[str]:
         if block.words or block.macro or block.faults:
             if self.motion is not None:
-                yield from self._restore(block, state)
+                before, block = self._restore(block, state)
+                yield from before
             if self.offsets:
                 self._update_offsets(block, state)
             self.watch.look(block, block.words, state)
+            self._tell(block, self.numberer.look(block))
+            unread = left_unread(block)
+            if unread:
+                self.summary.left.append(unread)
+                if not self.is_marked:
+                    yield remark(unread.reason) + self.lines.end
         self.is_marked = block.text.startswith(LEFT_MARK)
         yield block.text + self.lines.take_end(block.line)
 
-    def _restore(self, block: Block, state: State) -> Iterator[str]:
-        """The motion code that a block relies on, if a contour before it has left another one in force."""
-        codes = codes_of(block, self.modes)
-        known = [code for code in codes if not isinstance(code, Word)]
-        if any(code.effect in _MOTIONS for code in known) and not block.is_skippable:
-            self.motion = None
-            return
-        calls = any(word.address == "M" and word.number in self.modes.calls for word in block.words)
-        uses = any(word.address in self.modes.lexicon.addresses for word in block.words)
-        own = any(code.effect in _OWN_WORDS for code in known)
-        others = len(known) < len(codes) or any(code.effect in (Effect.SINGLE, *_MOTIONS) for code in known)
-        if not (calls or others or block.faults or block.macro is Macro.FLOW or block.find("O") or (uses and not own)):
-            return
-        if state.motion in _RESTORABLE:
-            yield f"G{state.motion:02}" + self.lines.end
-        else:
-            relied = f"G{state.motion}" if state.motion is not None else "the motion that the control starts with"
-            reason = f"line {block.line} relies on {relied}, which the contour before it ends: write its G code into it"
+    def _tell(self, block: Block, reason: str) -> None:
+        """Keep in mind what is wrong with a block, if anything is."""
+        if reason:
             self.summary.left.append(Left((block.line,), reason, (), {block.line: block.text}))
-            if self.options.keeps_going:
-                yield remark(reason) + self.lines.end
+
+    def _restore(self, block: Block, state: State) -> tuple[list[str], Block]:
+        """What goes before a block, and the block itself, so that the motion that it relies on is in force although a
+        contour before it has left another one."""
+        need, motion, before = reliance(block, self.modes), state.motion, []
+        if need is Reliance.NONE:
+            return [], block
+        if need is not Reliance.ENDS and motion is not None:
+            if motion in STANDING_ALONE:
+                before = [f"G{motion:02}" + self.lines.end]
+            else:
+                block = restate(block, motion)
+                if block.is_skippable:
+                    return [], block
         self.motion = None
+        return before, block
 
     def _update_offsets(self, block: Block, state: State) -> None:
         """An absolute word puts an axis where it belongs again."""
@@ -216,16 +205,22 @@ class _Expander:
             if row and row.axis and not (row.is_increment or here.is_incremental):
                 self.offsets.pop(row.axis, None)
 
-    def _leave(self, step: Step, answer: Answer, reason: str) -> Iterator[str]:
+    def _leave(self, step: Step, answer: Answer | Moulded, reason: str) -> Iterator[str]:
         """A contour as it was, below a comment that says why."""
         sources = {block.line: block.text for block in step.blocks}
-        self.summary.left.append(Left(answer.lines, reason, answer.diagnostics, sources))
+        lines = tuple(block.line for block in answer.claim.blocks)
+        self.summary.left.append(Left(lines, reason, answer.diagnostics, sources))
+        blocks = (
+            step.blocks if isinstance(answer, Answer) else [parse_block(each.text, each.line) for each in step.blocks]
+        )
+        first, *others = blocks
         if self.motion is not None:
-            yield from self._restore(step.blocks[0], step.before)
+            before, first = self._restore(first, step.before)
+            yield from before
         if not self.is_marked:
             yield remark(reason) + self.lines.end
         state = step.before
-        for block in step.blocks:
+        for block in (first, *others):
             yield from self._keep(block, state)
             state = apply_modes(state, block, self.modes)
 
@@ -248,14 +243,25 @@ class _Expander:
         ]
         return f"{beside[0]} moves an axis outside the plane: move it in a block of its own" if beside else ""
 
+    def _relying(self, answer: Answer | Moulded, steps: Iterator[Step], coming: deque[Step]) -> str:
+        """Why a contour has to stay because of a block behind it, for which the motion that is in force before it
+        cannot be put in force again; empty if there is none. What is read to see that is added to `coming`."""
+        motion = answer.claim.after.motion
+        if motion in STANDING_ALONE:
+            return ""
+        blocks = (block for step in chain(list(coming), _read_on(steps, coming)) for block in _blocks_of(step))
+        return why_unmet(motion, blocks, self.modes)
+
     # What is replaced
 
-    def _replace(self, step: Step, answer: Answer) -> Iterator[str]:
+    def _replace(self, step: Step, answer: Answer | Moulded) -> Iterator[str]:
         claim, state = answer.claim, step.before
         groups = _groups(answer)
         axes = answer.plane.axes
         here = self._place(answer)
         members = {block.line for block in claim.blocks}
+        had_ended = self.motion is not None
+        motion = self.motion if had_ended else state.motion
         for block in step.blocks:
             if block.line not in members:
                 yield from self._keep(block, state)
@@ -273,17 +279,17 @@ class _Expander:
             end = self.lines.take_end(block.line)
             yield from self._write(block, moves, end, state)
             if moves:
-                self.motion = moves[-1].code
+                motion = moves[-1].code
         self.is_marked = False
-        if self.motion == claim.after.motion:
-            self.motion = None
+        is_same = motion == claim.after.motion and not (had_ended and claim.blocks[0].is_skippable)
+        self.motion = None if is_same else _NO_MOTION if motion is None else motion
         contour = answer.contour
         if contour is not None:
             self.offsets |= {axis: here[n] - contour.end[n] for n, axis in enumerate(axes) if here[n] != contour.end[n]}
         self.summary.replaced += 1
-        self.summary.warnings += sum(each.severity is Severity.WARNING for each in answer.diagnostics)
+        self.summary.warn(answer.diagnostics)
 
-    def _place(self, answer: Answer) -> Point:
+    def _place(self, answer: Answer | Moulded) -> Point:
         """Where the tool is at the start of a contour, in the expanded program."""
         first, second = (
             float(value or 0) + self.offsets.pop(axis, 0.0)
@@ -292,12 +298,15 @@ class _Expander:
         return first, second
 
     def _format(self, state: State) -> Format:
-        numbers, post = self.modes.lexicon.numbers, self.options.post
-        decimals = self.options.decimals
-        digits = post.digits(state.unit, numbers) if decimals is None else decimals
-        return Format(
-            state.plane, state.unit, digits, post.writes_point(numbers), self.options.arcs, state.is_incremental
-        )
+        key = state.plane.code, state.unit is Length.INCH, state.is_incremental
+        if key not in self.formats:
+            numbers, post = self.modes.lexicon.numbers, self.options.post
+            decimals = self.options.decimals
+            digits = post.digits(state.unit, numbers) if decimals is None else decimals
+            self.formats[key] = Format(
+                state.plane, state.unit, digits, post.writes_point(numbers), self.options.arcs, state.is_incremental
+            )
+        return self.formats[key]
 
     def _is_own_motion(self, block: Block) -> bool:
         """Whether a code of the block itself makes it a contour, so that the motion in force has no part in it."""
@@ -308,29 +317,28 @@ class _Expander:
         """The lines in place of a block. Its number and what it sets stand in the first, what ends it in the last."""
         frame = _FRAME.fullmatch(block.text)
         head, skip, tail = (frame["head"], frame["skip"] or "", frame["tail"]) if frame else ("", "", "")
-        indent, specials = "".join(c for c in head if c in " \t"), "".join(c for c in head if c not in " \t")
+        indent, specials = _split(head) if head else ("", "")
         lines = [indent + text for text in comment_out(block.text.strip())] if self.options.has_comments else []
         numbers, codes, words, last = self._carried(block, state)
         comments = [] if self.options.has_comments else own_comments(block.text)
         texts = [[f"G{move.code:02}", *move.words] for move in moves]
         texts = texts or ([[]] if numbers or codes or words or last or comments else [])
         if texts:
-            texts[0] = [*numbers, *codes, *texts[0], *words, *comments]
+            texts[0] = [*codes, *texts[0], *words, *comments]
             texts[-1] += last
+            self._tell(block, self.numberer.number(block, numbers, texts))
         lines += [indent + skip + " ".join(text) for text in texts]
         if lines:
             lines[0] = specials + lines[0]
             lines[-1] += tail.strip(" \t")
-        between = end or self.lines.end
-        yield from (line + between for line in lines[:-1])
-        yield from (line + end for line in lines[-1:])
+            yield (end or self.lines.end).join(lines) + end
 
     def _carried(self, block: Block, state: State) -> tuple[list[str], list[str], list[str], list[str]]:
         """What a block says besides its contour: its numbers, G codes, words for its first and for its last line."""
         numbers, codes, words, last = [], [], [], []
         kept = []
         rows = iter(codes_of(block, self.modes))
-        dropped = (*_MOTIONS, Effect.CONTOUR)
+        dropped = (*MOTIONS, Effect.CONTOUR)
         for word in block.words:
             text = word.text.strip()
             if word.address == "G":
@@ -351,23 +359,46 @@ class _Expander:
         return numbers, codes, words, last
 
 
-def _is_active(block: Block | PlainLine) -> bool:
-    """Whether a block is more than the name of the program."""
+def _in_turn(steps: Iterator[Step], coming: deque[Step]) -> Iterator[Step]:
+    """Every step, those that have been read ahead first."""
+    for step in steps:
+        yield step
+        while coming:
+            yield coming.popleft()
+
+
+def _read_on(steps: Iterator[Step], coming: deque[Step]) -> Iterator[Step]:
+    for step in steps:
+        coming.append(step)
+        yield step
+
+
+def _blocks_of(step: Step) -> Iterable[Block]:
+    if step.passage is None:
+        return step.blocks
     return (
-        isinstance(block, PlainLine)
-        or bool(block.faults or block.macro)
-        or any(word.address != "O" for word in block.words)
+        parse_block(line.rstrip("\r\n"), number) for number, line in enumerate(step.passage.lines, step.passage.line)
     )
 
 
-def _groups(answer: Answer) -> dict[int, list[Segment]]:
+def _split(head: str) -> tuple[str, str]:
+    """What stands before the words of a block: blanks, and what is for a tape reader."""
+    return "".join(c for c in head if c in " \t"), "".join(c for c in head if c not in " \t")
+
+
+def _is_active(block: Block) -> bool:
+    """Whether a block is more than the name of the program."""
+    return bool(block.faults or block.macro) or any(word.address != "O" for word in block.words)
+
+
+def _groups(answer: Answer | Moulded) -> dict[int, list[Segment]]:
     """The elements of a contour by the line of the block that makes them; a corner belongs to the element before it.
 
     A form has either one block, or one element a block.
     """
     claim, contour = answer.claim, answer.contour
     elements = contour.elements if contour else ()
-    if len(claim.blocks) == 1:
+    if isinstance(claim, Moulded) or len(claim.blocks) == 1:
         return {claim.blocks[0].line: list(elements)}
     owner = {each.name: block.line for each, block in zip(claim.form.path, claim.blocks, strict=True)}
     owner |= {row.name: owner[row.before] for row in claim.form.corners}

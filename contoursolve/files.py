@@ -42,7 +42,8 @@ class Tape:
             for line in text:  # noqa: UP028 - `yield from` would close the file when it is not read to its end
                 yield line
         finally:
-            text.detach()
+            if not self.data.closed:
+                text.detach()
 
     def read(self) -> str:
         """All of it."""
@@ -159,18 +160,31 @@ def write_whole(target: Path, pieces: Iterable[bytes], *, keeps_backup: bool) ->
 
 
 def _back_up(file: Path) -> Path:
-    """A copy beside a file, under the first name that is free: .bak, .bak2, ..."""
+    """A whole copy beside a file, under the first name that is free: .bak, .bak2, ..."""
     import shutil  # noqa: PLC0415 - most commands write nothing
 
-    for number in count(1):
-        backup = file.with_name(f"{file.name}.bak{number if number > 1 else ''}")
-        try:
-            with backup.open("xb") as copy, file.open("rb") as original:
-                shutil.copyfileobj(original, copy)
-                copy.flush()
-                os.fsync(copy.fileno())
-        except FileExistsError:
-            continue
-        shutil.copystat(file, backup)
-        return backup
+    copy = file.with_name(f".{file.name}.{os.urandom(4).hex()}.bak.tmp")
+    try:
+        with copy.open("xb") as target, file.open("rb") as original:
+            shutil.copyfileobj(original, target)
+            target.flush()
+            os.fsync(target.fileno())
+        shutil.copystat(file, copy)
+        for number in count(1):
+            backup = file.with_name(f"{file.name}.bak{number if number > 1 else ''}")
+            if not backup.exists() and _take_name(copy, backup):
+                return backup
+    finally:
+        copy.unlink(missing_ok=True)
     raise AssertionError("there is always a free number")
+
+
+def _take_name(file: Path, name: Path) -> bool:
+    """Give a file another name, unless somebody has just taken that."""
+    try:
+        os.link(file, name)
+    except FileExistsError:
+        return False
+    except (OSError, NotImplementedError):  # a file system without links
+        file.rename(name)
+    return True

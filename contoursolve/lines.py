@@ -4,50 +4,103 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
 from contoursolve.dialects import DIALECTS, Dialect
-from contoursolve.pipeline import UnknownControlError
+from contoursolve.moulds import Cast, Mould, Pattern, pattern_of
+from contoursolve.pipeline import Line, several_controls, sign_of
 from contoursolve.reading import plain_lines
-from contoursolve.syntax import Block, Directive, PlainLine, parse_block
+from contoursolve.syntax import LONGEST_BLOCK, Block, Directive, Passage, parse_block, split_simply
+
+_USUAL = "\n"
+"""How a line ends of which nothing else is noted."""
+
+
+_LONGEST = 1_000
+"""Plain lines in a row that go by together."""
 
 
 class Lines:
     """The lines of a program as blocks; how each of them ends is kept until it is asked for."""
 
     def __init__(
-        self, lines: Iterable[str], dialect: Dialect, facts: Mapping[int, tuple[Directive, ...]], *, is_certain: bool
+        self,
+        lines: Iterable[str],
+        dialect: Dialect,
+        facts: Mapping[int, tuple[Directive, ...]],
+        moulds: Mapping[Pattern, Mould],
+        *,
+        is_certain: bool,
     ) -> None:
         self._lines = lines
         self._facts = facts
+        self._moulds = moulds
         self._plain = plain_lines(dialect.modes).fullmatch
+        self._longest = 1 if dialect.has_runs else _LONGEST
         self._others = [other for other in DIALECTS.values() if not is_certain and other.name != dialect.name]
-        self._control = dialect.name
+        self._dialect, self._own = dialect, ""
         self._ends: dict[int, str] = {}
-        self.end = "\n"
+        self.end = _USUAL
         """The end of the last line that has one."""
 
-    def blocks(self) -> Iterator[Block | PlainLine]:
+    def blocks(self) -> Iterator[Line]:
+        plain, facts = self._plain, self._facts
+        held: list[str] = []
         for number, line in enumerate(self._lines, 1):
-            size = 2 if line.endswith("\r\n") else 1 if line.endswith(("\n", "\r")) else 0
-            text, end = line[: len(line) - size], line[len(line) - size :]
-            self._ends[number] = end
-            plain = self._plain(text)
-            if plain and number not in self._facts:
-                yield PlainLine(number, text, plain["moves"] is not None)
+            if plain(line) and len(line) <= LONGEST_BLOCK and number not in facts:
+                held.append(line)
+                if line[-1:] != _USUAL or line[-2:-1] == "\r":
+                    self._put(line, number)
+                if len(held) >= self._longest:
+                    yield Passage(number + 1 - len(held), tuple(held))
+                    held = []
                 continue
-            block = parse_block(text, number)
-            if number in self._facts:
-                block = replace(block, directives=(*block.directives, *self._facts[number]))
-            for other in self._others:
-                if other.signs(block):
-                    controls = f"{self._control}, and {other.name} by line {number}"
-                    raise UnknownControlError(f"the program looks like more than one control ({controls})")
-            yield block
+            if held:
+                yield Passage(number - len(held), tuple(held))
+                held = []
+            yield self._read(line, number)
+        if held:
+            yield Passage(number + 1 - len(held), tuple(held))
+
+    def _read(self, line: str, number: int) -> Block | Cast:
+        text = self._put(line, number)
+        if self._moulds and number not in self._facts:
+            words = split_simply(text)
+            mould = self._moulds.get(pattern_of(words))
+            if mould is not None:
+                return Cast(number, text, tuple([each for _, each in words]), mould)
+        block = parse_block(text, number)
+        if number in self._facts:
+            block = replace(block, directives=(*block.directives, *self._facts[number]))
+        if self._others:
+            self._own = self._own or sign_of(block, self._dialect)
+        for other in self._others:
+            sign = sign_of(block, other)
+            if sign:
+                raise several_controls({self._dialect.name: self._own, other.name: sign})
+        return block
+
+    def _put(self, line: str, number: int) -> str:
+        """The text of a line; its end is kept."""
+        text = line.rstrip("\r\n")
+        end = line[len(text) :]
+        if end != _USUAL:
+            self._ends[number] = end
+        return text
 
     def end_of(self, line: int) -> str:
         """The end of a line that is not taken yet; if it has none, as the lines before it end."""
-        return self._ends[line] or self.end
+        return self._ends.get(line, _USUAL) or self.end
 
     def take_end(self, line: int) -> str:
         """The end of a line, which is asked for once."""
-        end = self._ends.pop(line)
+        end = self._ends.pop(line, _USUAL)
         self.end = end or self.end
         return end
+
+    def take(self, passage: Passage, place: int) -> str:
+        """The lines of a passage from a place on, with their ends, which are asked for once."""
+        lines = passage.lines[place:]
+        if self._ends:
+            return "".join(
+                line.rstrip("\r\n") + self.take_end(passage.line + place + n) for n, line in enumerate(lines)
+            )
+        self.end = _USUAL
+        return "".join(lines)

@@ -17,6 +17,15 @@ class Arcs(Enum):
     """By R; an arc of more than 120 degrees is written as several."""
 
 
+class Numbering(Enum):
+    """Which of the lines in the place of a block with a number have one."""
+
+    FIRST = "first"
+    """The first one has that of the block; in the last block of a profile that a cycle calls, the last one."""
+    ALL = "all"
+    """All, the others with numbers that the program does not use."""
+
+
 class Machine(Enum):
     """What a control is for; lathes of the family of G-code system A share their codes."""
 

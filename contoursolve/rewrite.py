@@ -8,15 +8,18 @@ from typing import IO
 
 from contoursolve.api import find_dialect
 from contoursolve.examine import Policy
-from contoursolve.expansion import OPENING, Options, Summary, expand_lines, lines_of_facts, opening_of
+from contoursolve.expansion import OPENING, expand_lines, lines_of_facts, opening_of
 from contoursolve.files import Tape
 from contoursolve.model import Length
+from contoursolve.numbering import Numbers
+from contoursolve.outcome import Left, Options, Summary, left_unread
 from contoursolve.pipeline import first_sign
+from contoursolve.posts import Numbering
 from contoursolve.project import configure
 from contoursolve.syntax import Block, Directive, Program, parse, parse_block
 
-_BATCH = 2_000
-"""Lines that are encoded at once."""
+_BATCH = 1 << 16
+"""Characters that are encoded at once."""
 
 _CHUNK = 1 << 20
 _REPORTED = 0.01
@@ -60,10 +63,12 @@ def rewrite(
     Raises UnknownControlError, SettingError and FactPlaceError, as `solve` does. With facts, all of the program is
     held in memory, to see which contour they are about.
     """
-    dialect = find_dialect(control) if control else first_sign(_blocks(tape))
+    unread: list[Left] = []
+    dialect = find_dialect(control) if control else first_sign(_blocks(tape, unread))
     summary = Summary()
     body.write(tape.mark)
     if dialect is None:
+        summary.left += unread
         lines: Iterable[str | object] = tape.lines()
     else:
         dialect = (configure(settings) if settings else {}).get(dialect.name, dialect)
@@ -78,18 +83,20 @@ def rewrite(
             start=start,
             facts=places,
             is_certain=control is not None,
+            numbers=Numbers(tape.lines()) if options.numbering is Numbering.ALL else None,
         )
     held: list[str] = []
-    place, told = len(tape.mark), 0.0
+    size, place, told = 0, len(tape.mark), 0.0
     for line in lines:
         if line is OPENING:
             body.write("".join(held).encode(tape.encoding))
-            held, place = [], body.tell()
+            held, size, place = [], 0, body.tell()
             continue
         held.append(str(line))
-        if len(held) == _BATCH:
+        size += len(held[-1])
+        if size >= _BATCH:
             body.write("".join(held).encode(tape.encoding))
-            held = []
+            held, size = [], 0
             if tape.share - told >= _REPORTED:
                 told = tape.share
                 progress(told)
@@ -98,5 +105,9 @@ def rewrite(
     return Rewritten(body, place, opening.encode(tape.encoding), dialect.name if dialect else None, summary)
 
 
-def _blocks(tape: Tape) -> Iterator[Block]:
-    return (parse_block(line.rstrip("\r\n"), number) for number, line in enumerate(tape.lines(), 1))
+def _blocks(tape: Tape, unread: list[Left]) -> Iterator[Block]:
+    """The blocks of a program; those that are too long to be read are added to `unread`."""
+    for number, line in enumerate(tape.lines(), 1):
+        block = parse_block(line.rstrip("\r\n"), number)
+        unread += filter(None, [left_unread(block)])
+        yield block

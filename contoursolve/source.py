@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from enum import Enum
+from typing import NamedTuple
 
 
 class Evidence(Enum):
@@ -27,8 +28,7 @@ class Source:
         return f"{self.manual}, {self.place} ({self.evidence.value})"
 
 
-@dataclass(frozen=True, slots=True, order=True)
-class Span:
+class Span(NamedTuple):
     """A stretch of one line; line and columns count from 1, `end_column` is the first one after it.
 
     Line 0 is the start point that was given apart from the program.

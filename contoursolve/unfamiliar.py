@@ -3,6 +3,7 @@
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 from contoursolve.dialects import Dialect
 from contoursolve.posts import Post, Reading
@@ -25,6 +26,12 @@ _WITHOUT_POINT = re.compile(r"[XYZ][ \t]*[+-]?[0-9]+(?![0-9.])", re.IGNORECASE)
 """A coordinate without a point, or something in a comment that looks like one."""
 
 
+@lru_cache(maxsize=8)
+def _stated(addresses: str) -> re.Pattern[str]:
+    """A word of one of some addresses, or something in a comment that looks like one."""
+    return re.compile(rf"[{addresses}][ \t]*[+-]?[.0-9]", re.IGNORECASE)
+
+
 class Watch:
     """Looks at every block that is not replaced."""
 
@@ -42,13 +49,17 @@ class Watch:
         self._verdicts: dict[tuple[str, str], str] = {}
 
     def asks(self, text: str) -> bool:
-        """Whether a line that only moves may say something that is not noted yet."""
-        reading = self.reading
-        if reading is None:
+        """Whether lines that only move may say something that is not noted yet."""
+        if self.reading is None:
             return False
         if self.counts is not None and "without point" not in self._named and _WITHOUT_POINT.search(text):
             return True
-        return any(address in text.upper() for address in self._open)
+        return bool(self._open) and bool(_stated("".join(sorted(self._open))).search(text))
+
+    def minds(self, state: State) -> bool:
+        """Whether what is in force may be worth a note at any block."""
+        is_flat = self.reading is not None and self.reading.flat_compensation
+        return is_flat and state.plane.code == "G19" and state.compensation != _NO_COMPENSATION
 
     def look(self, block: Block, words: Sequence[Word], state: State) -> None:
         """Note what a block, with the state before it, says in words that the target does not read like this."""
@@ -73,7 +84,7 @@ class Watch:
                     else "is taken as written where it has no point"
                 )
                 self._note("without point", word.text, problem, block.line)
-        if reading.flat_compensation and state.plane.code == "G19" and state.compensation != _NO_COMPENSATION:
+        if self.minds(state):
             self._note("G19 compensation", f"G{state.compensation} in G19", "is not known", block.line)
 
     def _judge(self, word: Word, reading: Reading) -> str:

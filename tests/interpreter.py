@@ -20,8 +20,10 @@ needs_rs274 = pytest.mark.skipif(
     reason="rs274 is not installed (Debian package linuxcnc-uspace); CONTOURSOLVE_RS274=1 makes this an error",
 )
 
-_CALL = re.compile(r"\b(STRAIGHT_TRAVERSE|STRAIGHT_FEED|ARC_FEED|SELECT_PLANE|USE_LENGTH_UNITS)\((.*)\)")
+_CALL = re.compile(r"\b(STRAIGHT_TRAVERSE|STRAIGHT_FEED|ARC_FEED|SELECT_PLANE|MESSAGE)\((.*)\)")
 _AXES = {"XY": (0, 1), "XZ": (2, 0), "YZ": (1, 2)}
+_MARK = "(MSG,PROGRAM)\n"
+_BETWEEN = f"G40\n{_MARK}G17 G8 G21 G90 G91.1 G94 F100\nG00 X0 Y0 Z0\n{_MARK}"
 _TOOLS = "".join(f"T{number} P{number} D0 Z0\n" for number in range(1, 20))
 
 
@@ -40,6 +42,16 @@ class Motion(NamedTuple):
 
 def interpret(program: str, folder: Path) -> list[Motion]:
     """The motions of a program, without those of no length, in its own units."""
+    return _run(program, folder)[0]
+
+
+def interpret_all(programs: Sequence[str], folder: Path) -> list[list[Motion]]:
+    """The motions of each of many programs without an end, run one after the other in one process, which is quicker."""
+    return _run("".join(_BETWEEN + program for program in programs) + "G40\nM2\n", folder)[2::2]
+
+
+def _run(program: str, folder: Path) -> list[list[Motion]]:
+    """The motions before the first message, and after each."""
     folder = Path(mkdtemp(dir=folder))  # it keeps a file of variables, and renames it
     file, tools = folder / "program.ngc", folder / "tools.tbl"
     file.write_text(program, encoding="utf-8", newline="")
@@ -56,13 +68,16 @@ def interpret(program: str, folder: Path) -> list[Motion]:
     )
     said = [line for line in done.stderr.splitlines() if line.strip() and line != "executing"]
     if said or done.returncode:
-        raise RefusedError("\n".join((*said, program)))
-    place, axes, motions = [0.0, 0.0, 0.0], _AXES["XY"], []
+        reached = program.split(_MARK)[done.stdout.count("MESSAGE(")]
+        raise RefusedError("\n".join((*said, reached)))
+    place, axes = [0.0, 0.0, 0.0], _AXES["XY"]
+    runs: list[list[Motion]] = [[]]
     for name, arguments in _CALL.findall(done.stdout):
         if name == "SELECT_PLANE":
             axes = _AXES[arguments.removeprefix("CANON_PLANE_")]
             continue
-        if name == "USE_LENGTH_UNITS":
+        if name == "MESSAGE":
+            runs.append([])
             continue
         values = [float(text) for text in arguments.split(",")]
         start, center = complex(place[axes[0]], place[axes[1]]), None
@@ -73,8 +88,8 @@ def interpret(program: str, folder: Path) -> list[Motion]:
             place[:], kind = values[:3], "traverse" if name == "STRAIGHT_TRAVERSE" else "line"
         end = complex(place[axes[0]], place[axes[1]])
         if center is not None or end != start:
-            motions.append(Motion(kind, start, end, center))
-    return motions
+            runs[-1].append(Motion(kind, start, end, center))
+    return runs
 
 
 def assert_path(motions: Sequence[Motion], elements: Sequence[tuple], within: float) -> None:

@@ -1,32 +1,34 @@
 """Whole programs in plain G-code: what replaces a contour, and that nothing else changes."""
 
+import os
 import re
 import subprocess
 import sys
 import time
+from configparser import ConfigParser
 from math import cos, hypot, radians, sin
 from pathlib import Path
-from random import Random
 
 import pytest
 from click.testing import CliRunner
-from generate_lx3 import random_g11, random_g112
-from generate_nct import FORMS, random_chain, random_cornered, random_pair
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from interpreter import assert_path, interpret, needs_rs274
-from oracle import g111
 
 import contoursolve
+from contoursolve.api import only_findings
 from contoursolve.cli import main
+from contoursolve.comparison import compare, follow
 from contoursolve.contour import ArcSegment, LineSegment
 from contoursolve.dialects import DIALECTS
 from contoursolve.emit import Format, emit
 from contoursolve.examine import Depth, Policy
 from contoursolve.lines import Lines
 from contoursolve.model import Length, Plane, Turn
+from contoursolve.pipeline import run as solved
 from contoursolve.pipeline import walk
 from contoursolve.posts import Arcs
+from contoursolve.syntax import parse
 
 PROGRAMS = Path(__file__).parent.parent / "notebooks" / "programs"
 TAPER = "G111 A180. K-30. B120. X100."
@@ -42,78 +44,7 @@ def expand(text, **options):
     return expansion.text.split("\n")
 
 
-# --- The judge: LinuxCNC runs what we write, and goes where the contour goes ---------------------------
-
-
-def judge(text, path, tmp_path, control, arcs):
-    expansion = contoursolve.expand(text, post="linuxcnc", control=control, arcs=arcs)
-    assert expansion.text is not None, expansion.summary.left
-    motions = interpret(expansion.text, tmp_path)[1:]
-    assert_path(motions, [(each.start, each.end, each.center, each.turn) for each in path], WITHIN)
-
-
-@needs_rs274
-@pytest.mark.parametrize("seed", range(60))
-def test_linuxcnc_runs_nct_contours_where_they_were_drawn(seed, tmp_path):
-    rng = Random(seed)
-    plane = rng.choice((17, 18, 19))
-    drawn = rng.choice(
-        (
-            lambda: random_pair(rng, rng.choice(FORMS[:4]), plane, rng.choice(("", "C", "R"))),
-            lambda: random_chain(rng, rng.randint(2, 5), plane),
-            lambda: random_cornered(rng, plane),
-        )
-    )()
-    text = "F100\n" + drawn.text + "M30\n"
-    for arcs in ("center", "radius"):
-        expansion = contoursolve.expand(text, post="linuxcnc", control="nct-99m", arcs=arcs)
-        # LinuxCNC has no compensation in G19, and says so; with D0, it changes nothing.
-        written = re.sub(r"G4[12] |D0", "", expansion.text) if plane == 19 else expansion.text
-        assert [each.text[4:] for each in expansion.summary.unfamiliar] == ["in G19"] * (plane == 19)
-        path = [(each.start, each.end, each.center, each.turn) for each in drawn.elements]
-        assert_path(interpret(written, tmp_path)[1:], path, WITHIN)
-
-
-@needs_rs274
-@pytest.mark.parametrize("seed", range(60))
-def test_linuxcnc_runs_tapers_where_the_closed_form_goes(seed, tmp_path):
-    rng = Random(seed)
-    while True:
-        start = complex(rng.uniform(-20, 20), rng.uniform(10, 40))
-        start = complex(round(start.real, 3), round(2 * start.imag, 3) / 2)
-        words = {
-            "A": rng.choice((180, 135, 90, round(rng.uniform(91, 269), 3))),
-            "K": -round(rng.uniform(2, 40), 3),
-            "B": round(rng.uniform(91, 179), 3),
-            rng.choice("XU"): round(rng.uniform(20, 160), 3),
-            rng.choice("CP"): round(rng.uniform(0, 5), 3),
-            rng.choice("DQ"): round(rng.uniform(0, 5), 3),
-        }
-        outcome = g111(start, words)
-        if outcome.status == "solved" and not outcome.is_near:
-            break
-    block = " ".join(
-        f"{address}{value}." if value == int(value) else f"{address}{value}" for address, value in words.items()
-    )
-    text = f"F100\nG00 X{2 * start.imag:.4f} Z{start.real:.4f}\nG111 {block.replace('..', '.')}\nM30\n"
-    for arcs in ("center", "radius"):
-        judge(text, outcome.elements, tmp_path, "yasnac-lx3", arcs)
-
-
-@needs_rs274
-@pytest.mark.parametrize("seed", range(60))
-def test_linuxcnc_runs_other_lathe_contours_where_they_were_drawn(seed, tmp_path):
-    rng = Random(seed)
-    name = rng.choice(("G112", "G11"))
-    if not any(form.name.split("-")[0] == name for form in DIALECTS["yasnac-lx3"].forms):
-        pytest.skip(f"{name} is not resolved by this version")
-    if name == "G112":
-        corners = rng.choice(("", "P", "C")), rng.choice(("", "Q", "D"))
-        drawn = random_g112(rng, rng.choice(("turning", "facing")), *corners)
-    else:
-        drawn = random_g11(rng, rng.randint(1, 4))
-    for arcs in ("center", "radius"):
-        judge("F100\n" + drawn.text + "M30\n", drawn.elements, tmp_path, "yasnac-lx3", arcs)
+# --- The judge: LinuxCNC runs what we write, and goes where the contour goes (more in test_interpreted.py) ---
 
 
 @needs_rs274
@@ -265,6 +196,24 @@ def test_an_element_that_rounds_to_nothing_is_left_out_and_its_deviation_counted
             id="a subprogram finds the motion that it expects",
         ),
         pytest.param(
+            f"G00 X40. Z0.\nG02 X40. Z-10. R30.\n{TAPER}\nM08\nG28 U0\n/2 N7X50. Z-90. R40.\nX50. Z-95. R9.",
+            [
+                *("G00 X40. Z0.", "G02 X40. Z-10. R30.", "G01 X40. Z-40.", "G01 X100. Z-57.321"),
+                *("M08", "G28 U0", "/2 N7 G02 X50. Z-90. R40.", "G02 X50. Z-95. R9."),
+            ],
+            id="an arc is said in the block that relies on it, and again if that may be skipped",
+        ),
+        pytest.param(
+            "G17 G41 G0 X10 Y20 D1\nG1 X20\nX10 Y20 ,A225\nX2 Y2",
+            ["G17 G41 G0 X10 Y20 D1", "G01", "X2 Y2"],
+            id="a contour of no length still puts its motion in force",
+        ),
+        pytest.param(
+            f"{START}{TAPER}\nM30\nO2\nG00 X1.",
+            ["G00 X40. Z0.", "G01 X40. Z-30.", "G01 X100. Z-47.321", "M30", "O2", "G00 X1."],
+            id="the name of a program relies on nothing",
+        ),
+        pytest.param(
             f"{START}G111 A180. K-30. B120. X100. Q5.\nG01 W-1.\nG111 I0 K-5. U10. W-10.",
             [
                 *("G00 X40. Z0.", "G01 X40. Z-30.", "G01 X95. Z-45.877", "G03 X100. Z-50.207 I-2.5 K-4.33"),
@@ -315,7 +264,12 @@ def test_the_original_block_stays_as_a_comment_that_nothing_ends():
     [
         (START + "G111 A180. B120. X100.", "g111-line-1"),
         (f"{TAPER}", "position-unknown"),
-        (f"G00 X40. Z0.\nG02 X40. Z-10. R30.\n{TAPER}\nX50. Z-90. R40.", "line 4 relies on G2"),
+        (f"G00 X40. Z0.\nG02 X40. Z-10. R30.\n{TAPER}\nG28 U0\nM98 P7", "line 5 relies on the G2 before it"),
+        ("G00 X40. Z0.\nG90 X30. Z-10.\nG00 X40. Z0.\nG11 Z-20. I8.\nX80. K-7.\nM99", "line 6 relies on the G11"),
+        (f"G00 X40. Z0.\nG90 X40. Z-10.\nG50 X40. Z0.\n{TAPER}\nX30.", "line 5 relies on the G90 before it"),
+        (f"{START}{TAPER}\n{TAPER}{2000 * ' '}", "the block has 2,028 characters and was not read"),
+        (f"G00 X40. Z0.\n{TAPER}{2000 * ' '}", "the block has 2,028 characters and was not read"),
+        (f"G50 X40. Z0.\n{TAPER}\nX50.", "line 3 relies on what the control starts with"),
         ("G17 G41 G0 X50 Y0\nG3 X-50 Y0 R50\n/G1 X-50 Y42.857 ,A171.87 Q-1", "some of its blocks begin with /"),
         (f"{START}/G01 X50.\n{TAPER}", "it begins where a block with / leads"),
     ],
@@ -325,7 +279,7 @@ def test_what_cannot_be_expanded_is_told_and_nothing_is_written(text, reason):
     assert expansion.text is None
     assert expansion.summary.left[0].reason.startswith(reason)
     kept = contoursolve.expand(text, keep_going=True)
-    assert f"(NOT EXPANDED: {reason}" in kept.text
+    assert f"(NOT EXPANDED: {reason}" in kept.text or kept.control is None
     assert contoursolve.expand(kept.text, keep_going=True, control=kept.control).text == kept.text
 
 
@@ -343,7 +297,44 @@ def test_what_the_target_reads_otherwise_is_named_once():
 def test_a_word_that_the_control_ignores_is_not_passed_over():
     text = f"{START}G111 A135. I10. K-12. B180. Z-40."
     assert contoursolve.expand(text).summary.warnings == 1
-    assert "1 warning: contoursolve check shows it" in run("expand", "-", stdin=text)[2]
+    said = run("expand", "-", stdin=text)[2]
+    assert "line 2: warning[g111-a-ignored]: A135. is ignored" in said
+    assert "1 warning: contoursolve check says more about it" in said
+    said = run("expand", "-", stdin=f"{text}\n" * 30)[2]
+    assert said.count("warning[g111-a-ignored]") == 20
+    assert "and 10 warnings more" in said
+
+
+BEFORE = "G00 X40. Z0.\nG71 P100 Q0120 U.5 F.2\nN100 G00 X40. Z0.\n"
+ROUNDED = "N0120 G111 A180. K-30. B120. X100. P5."
+
+
+@pytest.mark.parametrize(
+    ("text", "numbers", "written"),
+    [
+        (START + "N20 G111 A180. K-30. B120. X100. P5.\nN21 M01\nGOTO 22", "first", ["N20", "", ""]),
+        (START + "N20 G111 A180. K-30. B120. X100. P5.\nN21 M01\nGOTO 22", "all", ["N20", "N23", "N24"]),
+        (START + "N0020 G111 A180. K-30. B120. X100. P5.\nM99 P23", "all", ["N0020", "N0021", "N0022"]),
+        (START + "N9999 G111 A180. K-30. B120. X100. P5.", "all", ["N9999", "N0001", "N0002"]),
+        (START + "G111 A180. K-30. B120. X100. P5.", "all", ["", "", ""]),
+        (BEFORE + ROUNDED, "first", ["", "", "N0120"]),
+        (BEFORE + ROUNDED, "all", ["N0121", "N0122", "N0120"]),
+    ],
+    ids=["first", "all, not what is there", "width", "from 1", "no number", "end of a profile", "profile, all"],
+)
+def test_numbers_of_new_lines_are_those_that_nothing_else_uses(text, numbers, written):
+    lines = expand(text, block_numbers=numbers)
+    at = next(n for n, line in enumerate(lines) if "Z-27.113" in line)
+    assert [line.partition("G")[0].strip() for line in lines[at : at + 3]] == written
+
+
+def test_numbers_that_cannot_stand_where_they_are_needed_are_told():
+    text = START + ROUNDED + "\nG70 P100 Q120"
+    (left,) = contoursolve.expand(text).summary.left
+    assert left.reason == "the profile of line 3 ends with N120 of line 2, which is more than one line now"
+    full = START + ROUNDED + "\n(" + " ".join(f"N{n}" for n in range(1, 9999)) + ")"
+    (left,) = contoursolve.expand(full, block_numbers="all").summary.left
+    assert "no block number up to 9999 is free" in left.reason
 
 
 # --- What stays as it is -------------------------------------------------------------------------------
@@ -421,6 +412,17 @@ LATHE_LINES = (
     "G12 U10. K1.",
     "G01 X50. K-2.",
 )
+KEPT_BY_THEIR_MODES = (
+    "X44. Z-4. R9.",
+    "X20. K7.",
+    "U1. K7.",
+    "G32 X30. Z-20. F1.",
+    "Z-30.",
+    "IF [#1 GT 2] GOTO 5",
+    "M99",
+    "M30",
+    "G04 X1.",
+)
 MILL_LINES = (
     "",
     "(A COMMENT)",
@@ -460,15 +462,45 @@ def test_a_program_that_is_read_as_a_stream_has_the_same_contours(program, batch
     text = "\n".join(lines)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("contoursolve.pipeline._BATCH", batch)
-        blocks = Lines([line + "\n" for line in lines], dialect, {}, is_certain=True).blocks()
+        blocks = Lines([line + "\n" for line in lines], dialect, {}, {}, is_certain=True).blocks()
         steps = list(walk(blocks, dialect, Length.MM, Policy.ENFORCE, Depth.VERDICT))
     answers = [step.answer for step in steps if step.answer]
     expected = contoursolve.solve(text, control=control, depth="verdict").answers
     assert [(each.lines, each.start, each.contour) for each in answers] == [
         (each.lines, each.start, each.contour) for each in expected
     ]
-    seen = [block for step in steps for block in (step.blocks or (step.line,))]
-    assert [(each.line, each.text) for each in seen] == list(enumerate(lines, 1))
+    seen = [(block.line, block.text + "\n") for step in steps for block in step.blocks]
+    seen += [each for step in steps if step.passage for each in enumerate(step.passage.lines, step.passage.line)]
+    assert sorted(seen) == [(number, line + "\n") for number, line in enumerate(lines, 1)]
+
+
+def path_of(text, control):
+    """The path of a program; blocks that are not solved are a part of it, with the modes that they rely on."""
+    dialect = DIALECTS[control]
+    result = only_findings(solved(parse(text), dialect, Length.MM, Policy.ENFORCE))
+    return follow(result, dialect, Length.MM, dialect.modes.axes)
+
+
+@given(
+    st.sampled_from(("yasnac-lx3", "nct-99m")).flatmap(
+        lambda control: st.tuples(
+            st.just(control),
+            st.lists(
+                st.sampled_from(LATHE_LINES + KEPT_BY_THEIR_MODES if control == "yasnac-lx3" else MILL_LINES),
+                min_size=2,
+                max_size=10,
+            ),
+        )
+    )
+)
+@settings(deadline=None, max_examples=300)
+def test_what_is_left_means_the_same_and_expanding_again_changes_nothing(program):
+    control, lines = program
+    text = "\n".join(("G00 X40. Z0." if control == "yasnac-lx3" else "G17 G41 G0 X50 Y0 D1", *lines))
+    once = contoursolve.expand(text, control=control, keep_going=True)
+    assert contoursolve.expand(once.text, control=control, keep_going=True).text == once.text
+    found = compare(path_of(text, control), path_of(once.text, control), 0.003)
+    assert found.is_equal, found.difference
 
 
 # --- Files ---------------------------------------------------------------------------------------------
@@ -498,6 +530,36 @@ def test_every_other_byte_stays(before, after, tmp_path):
     comment = b"(" + TAPER.encode() + b")" + end
     replaced = comment + b"G01 X40. Z-30." + end + b"G01 X100. Z-47.321"
     assert new.read_bytes() == before + b"G00 X40. Z0." + end + replaced + after
+
+
+PIECES = [
+    b"G01X1.",
+    b"g00 x40.0\tz+0.50",
+    b"\t",
+    b" ",
+    b"(\xe4\xb5)",
+    b"(\xc3\xa4)",
+    b"%",
+    b"\x1a",
+    b"\x0c",
+    b"N5",
+    b"#1=2",
+]
+TAILS = [b"\n", b"\r\n", b"\r", b""]
+
+
+@given(
+    st.lists(st.sampled_from(PIECES + TAILS) | st.text(st.characters(exclude_categories=("Cc", "Cs"))), max_size=30),
+    st.sampled_from(["same", "linuxcnc", "fanuc"]),
+    st.sampled_from([b"", b"\xef\xbb\xbf"]),
+)
+@settings(deadline=None, max_examples=100)
+def test_a_file_without_a_contour_keeps_every_byte(pieces, post, mark):
+    data = mark + b"".join(each if isinstance(each, bytes) else each.encode() for each in pieces)
+    for arguments in ((), ("--control", "yasnac-lx3")):
+        status, output, errors = run("expand", "-", "--post", post, "--rules", "off", *arguments, stdin=data)
+        if "nothing to expand" in errors:
+            assert (status, output) == (0, data)
 
 
 def test_a_target_is_not_replaced_unless_that_is_asked_for(tmp_path):
@@ -559,28 +621,146 @@ def test_killed_at_any_moment_a_file_is_the_old_one_or_the_whole_new_one(tmp_pat
     assert text in outcomes
 
 
+DIES = """
+import os, signal, sys
+left = int(sys.argv[1])
+def hook(event, arguments):
+    global left
+    if event.partition(".")[0] in ("open", "os", "shutil") and any("old.nc" in str(each) for each in arguments):
+        left -= 1
+        if not left:
+            os.kill(os.getpid(), signal.SIGKILL)
+sys.addaudithook(hook)
+from contoursolve.cli import main
+main(["expand", "--in-place", sys.argv[2]])
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there is no SIGKILL")
+def test_killed_before_any_step_on_a_file_nothing_is_lost(tmp_path):
+    text = START + TAPER + "\n"
+    whole = contoursolve.expand(text).text
+    outcomes = []
+    for step in range(1, 40):
+        folder = tmp_path / str(step)
+        folder.mkdir()
+        old = folder / "old.nc"
+        old.write_text(text)
+        done = subprocess.run([sys.executable, "-c", DIES, str(step), str(old)], capture_output=True, check=False)
+        backups = [each.read_text() for each in folder.glob("old.nc.bak*")]
+        assert old.read_text() in (text, whole)
+        assert backups in ([], [text])  # never a part of it
+        assert backups or old.read_text() == text
+        outcomes.append((done.returncode, old.read_text() == whole))
+        if not done.returncode:
+            break
+    assert {code for code, _ in outcomes[:-1]} == {-9}
+    assert [done for _, done in outcomes] == sorted(done for _, done in outcomes)
+    assert len(outcomes) > 8
+    assert outcomes[-1] == (0, True)
+
+
+# --- Progress ------------------------------------------------------------------------------------------
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there are no pseudo-terminals")
+def test_progress_is_shown_on_a_terminal_and_nowhere_else(tmp_path):
+    import pty  # noqa: PLC0415 - only where there are terminals
+
+    old, new = tmp_path / "old.nc", tmp_path / "new.nc"
+    for lines, is_terminal, is_shown in ((30_000, True, True), (30_000, False, False), (30, True, False)):
+        old.write_text(START + "G01 X41. F.1\n" * lines + START + TAPER + "\n")
+        with new.open("wb") as out:
+            mine, its = pty.openpty() if is_terminal else os.pipe()
+            process = subprocess.Popen(
+                [sys.executable, "-m", "contoursolve", "expand", str(old)], stdout=out, stderr=its
+            )
+            os.close(its)
+            said = b""
+            while piece := _read(mine):
+                said += piece
+            os.close(mine)
+            assert process.wait() == 0
+        assert (b"expanding  [" in said) == is_shown
+        assert (b"100%" in said) == is_shown
+        assert said.decode().splitlines()[-1] == "1 contour expanded, at most 0.0005 mm off"
+        assert new.read_text() == contoursolve.expand(old.read_text()).text
+
+
+def _read(descriptor):
+    try:
+        return os.read(descriptor, 4096)
+    except OSError:  # a pseudo-terminal of which the other end is closed
+        return b""
+
+
 # --- LinuxCNC's filter ---------------------------------------------------------------------------------
 
 
+def open_in_linuxcnc(file, folder):
+    """What LinuxCNC's screen AXIS does with a file whose ending its INI file names: the status, the program that it
+    loads, what it tells the user, and how the bar moves. The lines of the INI file are those of the README."""
+    text = PROGRAMS.parent.parent.joinpath("README.md").read_text()
+    ini = ConfigParser()
+    ini.read_string(re.search(r"^    \[FILTER\]\n(?:    .+\n)+", text, re.MULTILINE)[0].replace("    ", ""))
+    assert ini["FILTER"]["PROGRAM_EXTENSION"].startswith(f"{file.suffix} ")
+    (folder / "bin").mkdir(exist_ok=True)
+    command = folder / "bin" / "contoursolve"
+    command.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m contoursolve "$@"\n')
+    command.chmod(0o755)
+    quoted = str(file).replace("'", "'\\''")
+    done = subprocess.run(
+        ["sh", "-c", f"{ini['FILTER'][file.suffix[1:]]} '{quoted}'"],
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        check=False,
+        env={**os.environ, "AXIS_PROGRESS_BAR": "1", "PATH": f"{command.parent}:{os.environ['PATH']}"},
+    )
+    said, steps = [], []
+    for line in done.stderr.decode().splitlines():
+        progress = re.match(r"^FILTER_PROGRESS=(\d*)$", line)
+        (steps if progress else said).append(int(progress[1]) if progress else line)
+    return done.returncode, done.stdout, "\n".join(said), steps
+
+
 @needs_rs274
+@pytest.mark.skipif(sys.platform == "win32", reason="LinuxCNC has a shell")
 def test_linuxcnc_opens_an_old_program_through_the_filter(tmp_path):
-    old = tmp_path / "an old one.nc"
-    old.write_text("F100\n" + START + TAPER + " P5. Q5.\nM30\n")
-    filter_ = f"{sys.executable} -m contoursolve filter"
-    done = subprocess.run(["sh", "-c", f"{filter_} '{old}'"], capture_output=True, text=True, check=True)
-    assert "FILTER_PROGRESS=100" in done.stderr.splitlines()
-    motions = interpret(done.stdout, tmp_path)
-    assert [motion.kind for motion in motions] == ["traverse", "line", "cw", "line", "ccw"]
+    old = tmp_path / "an old one's.nc"
+    lines = "G01 X41. F100.\nG00 X40. Z0.\n" * 6_000
+    old.write_text(START + lines + TAPER + " P5. Q5.\nM30\n")
+    status, program, said, steps = open_in_linuxcnc(old, tmp_path)
+    assert status == 0
+    assert len(steps) > 1
+    assert steps == sorted(steps)
+    assert steps[-1] == 100
+    assert said.splitlines()[-1] == "1 contour expanded, at most 6e-05 mm off"
+    motions = interpret(program.decode(), tmp_path)[-4:]
+    assert [motion.kind for motion in motions] == ["line", "cw", "line", "ccw"]
     assert abs(motions[-1].end - (-50.2073 + 50j)) < 1e-4
 
 
-def test_the_filter_fails_with_the_findings_and_no_program(tmp_path):
+@pytest.mark.skipif(sys.platform == "win32", reason="LinuxCNC has a shell")
+@pytest.mark.parametrize(
+    ("data", "status", "message"),
+    [
+        (START.encode() + b"G111 A180. B120. X100.\n", 1, "error[g111-line-1]"),
+        (b"G111 A1.\nG1 X1 Y1 ,A5\n", 2, "say which with --control yasnac-lx3|nct-99m"),
+        (b"\x00\x01binary", 2, "is not a text file"),
+        (None, 2, "no such file"),
+        (b"", 0, "nothing to expand"),
+        (b"(ONLY A COMMENT)", 0, "nothing to expand"),
+    ],
+    ids=["not solved", "two controls", "binary", "missing", "empty", "comment"],
+)
+def test_linuxcnc_is_told_why_the_filter_fails(data, status, message, tmp_path):
     old = tmp_path / "old.nc"
-    old.write_text(START + "G111 A180. B120. X100.\n")
-    status, output, errors = run("filter", old)
-    assert (status, output) == (1, b"")
-    assert "error[g111-line-1]" in errors
-    assert run("filter", tmp_path / "none.nc")[:2] == (2, b"")
+    if data is not None:
+        old.write_bytes(data)
+    outcome, program, said, _ = open_in_linuxcnc(old, tmp_path)
+    assert (outcome, program) == (status, b"" if status else data)
+    assert message in said
+    assert "Traceback" not in said
 
 
 def test_the_filter_leaves_a_program_of_linuxcnc_alone(tmp_path):

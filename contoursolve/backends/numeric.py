@@ -6,6 +6,7 @@ from typing import Any
 
 import casadi
 import numpy
+from numpy.typing import NDArray
 
 
 class Expression:
@@ -251,6 +252,23 @@ class Compiled:
 
     def __call__(self, values: Mapping[str, float]) -> dict[str, float]:
         """All outputs by name at the inputs by name."""
+        local = self._ready()
+        local.arguments[:] = [values[name] for name in self.inputs]
+        local.trigger()
+        return dict(zip(self.outputs, local.results.tolist(), strict=True))
+
+    def rows(self, inputs: Sequence[Sequence[float]]) -> NDArray[numpy.float64]:
+        """All outputs (row, output) at rows of inputs, to the last bit as one by one."""
+        local = self._ready()
+        found = numpy.empty((len(inputs), len(self.outputs)))
+        for row, result in zip(inputs, found, strict=True):
+            local.arguments[:] = row
+            local.trigger()
+            result[:] = local.results
+        return found
+
+    def _ready(self) -> Any:
+        """The buffer of this thread."""
         local = self._local
         if not hasattr(local, "trigger"):
             local.arguments = numpy.zeros(len(self.inputs))
@@ -258,9 +276,7 @@ class Compiled:
             local.buffer, local.trigger = self._function.buffer()
             local.buffer.set_arg(0, memoryview(local.arguments))
             local.buffer.set_res(0, memoryview(local.results))
-        local.arguments[:] = [values[name] for name in self.inputs]
-        local.trigger()
-        return dict(zip(self.outputs, local.results.tolist(), strict=True))
+        return local
 
 
 def inverse_norm(entries: Mapping[tuple[int, int], float], size: int) -> float:
@@ -273,6 +289,19 @@ def inverse_norm(entries: Mapping[tuple[int, int], float], size: int) -> float:
         return float(numpy.maximum.reduce(numpy.add.reduce(numpy.abs(numpy.linalg.inv(matrix)), axis=1)))
     except numpy.linalg.LinAlgError:
         return float("inf")
+
+
+def inverse_norms(
+    entries: Mapping[tuple[int, int], NDArray[numpy.float64]], size: int, rows: int
+) -> NDArray[numpy.float64]:
+    """`inverse_norm` of so many matrices, whose entries are columns; infinite for all if one is singular."""
+    matrices = numpy.zeros((rows, size, size))
+    for (row, column), values in entries.items():
+        matrices[:, row, column] = values
+    try:
+        return numpy.asarray(numpy.abs(numpy.linalg.inv(matrices)).sum(axis=2).max(axis=1))
+    except numpy.linalg.LinAlgError:
+        return numpy.full(rows, numpy.inf)
 
 
 def inverse(rows: Sequence[Sequence[float]]) -> list[list[float]] | None:

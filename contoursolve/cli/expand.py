@@ -1,8 +1,8 @@
 """The commands that write programs: expand, and the filter of LinuxCNC."""
 
 import sys
-from collections.abc import Callable, Mapping
-from contextlib import AbstractContextManager
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import AbstractContextManager, ExitStack, contextmanager
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryFile
@@ -17,13 +17,13 @@ from contoursolve.cli.options import FOUND_ERRORS, CouldNotRunError, common_opti
 from contoursolve.cli.printing import style_of_output
 from contoursolve.dialects import DIALECTS
 from contoursolve.examine import Policy
-from contoursolve.expansion import Options, Summary
 from contoursolve.files import CannotWriteError, Tape, check_target, open_tape, tape_of, write_whole
 from contoursolve.model import Length
+from contoursolve.outcome import Options, Summary
 from contoursolve.output.findings import Style, finding_lines, plain
 from contoursolve.output.layout import count
 from contoursolve.pipeline import FactPlaceError, UnknownControlError
-from contoursolve.posts import POSTS, Arcs, Post
+from contoursolve.posts import POSTS, Arcs, Numbering, Post
 from contoursolve.project import SettingError
 from contoursolve.rewrite import Rewritten, rewrite
 from contoursolve.syntax import UnreadableProgramError
@@ -43,21 +43,35 @@ STANDARD = "-"
     type=click.Choice(list(POSTS)),
     default="same",
     show_default=True,
-    help="For which control: the one that the program is for, LinuxCNC, or Fanuc.",
+    help="For which control: the one that OLD is for, LinuxCNC, or Fanuc.",
 )
 @click.option(
     "--arcs",
     type=click.Choice([arcs.value for arcs in Arcs]),
     default="center",
     show_default=True,
-    help="Arcs by I J K, or by R.",
+    help="The centre of an arc by I J K from where it begins, or by R.",
 )
 @click.option(
-    "--decimals", type=click.IntRange(1, MOST_DECIMALS), help="Decimals of a length; the target's own without."
+    "--decimals",
+    type=click.IntRange(1, MOST_DECIMALS),
+    metavar="COUNT",
+    help="Decimals of a length. Without it, as many as the target has.",
+)
+@click.option(
+    "--block-numbers",
+    type=click.Choice([numbering.value for numbering in Numbering]),
+    default="first",
+    show_default=True,
+    help="Which lines in the place of a block with a number N have one: the first (in the last block of a profile that "
+    "G70 to G73 calls, the last), or all, with numbers that OLD neither has nor jumps to. No other line is renumbered.",
 )
 @click.option("--no-comments", is_flag=True, help="Do not keep the original blocks as comments.")
 @click.option(
-    "--keep-going", "keeps_going", is_flag=True, help="Leave a contour that cannot be expanded, with a comment why."
+    "--keep-going",
+    "keeps_going",
+    is_flag=True,
+    help="Write the others where a contour cannot be expanded; it stays, below a comment why.",
 )
 @click.pass_context
 def expand(
@@ -72,6 +86,7 @@ def expand(
     post: str,
     arcs: str,
     decimals: int | None,
+    block_numbers: str,
     no_comments: bool,
     keeps_going: bool,
     **options: Any,
@@ -79,8 +94,11 @@ def expand(
     """Write OLD (a file, or - for standard input) with every contour as plain G00, G01, G02 and G03.
 
     Everything else stays as it is, byte for byte, and each original block is kept as a comment above what replaces
-    it. End points are rounded first, and then the centre of each arc; the largest deviation is reported, and what
-    OLD says that the target does not know. If a contour cannot be expanded, nothing is written.
+    it. End points are rounded first, and then the centre of each arc; the largest deviation is reported. The rest is
+    not translated: what OLD says that the target does not know is named. If a contour cannot be expanded, nothing is
+    written.
+
+    Exit status: 0 all contours are expanded, 1 one is left or nothing was written, 2 could not run.
 
     \b
     contoursolve expand shaft.nc -o shaft_plain.nc
@@ -92,17 +110,11 @@ def expand(
     if start is not None and not blocks:
         raise click.UsageError("--start goes with --block; a PROGRAM states its own positions")
     target = _target(program, output, is_in_place, is_forced)
-    wish = Options(POSTS[post], Arcs(arcs), decimals, not no_comments, keeps_going)
+    wish = Options(POSTS[post], Arcs(arcs), decimals, not no_comments, keeps_going, Numbering(block_numbers))
     source = tape_of("".join(f"{block}\n" for block in blocks), "<block>") if blocks else open_tape(program or "-")
-    length = 100
-    with (
-        TemporaryFile() as body,
-        click.progressbar(length=length, label="expanding", file=sys.stderr, hidden=not sys.stderr.isatty()) as bar,
-    ):
-        rewritten = _rewrite(
-            source, body, wish, start, options, lambda share: bar.update(int(share * length) - bar.pos)
-        )
-        bar.update(length - bar.pos)
+    with TemporaryFile() as body:
+        with _progress_bar() as progress:
+            rewritten = _rewrite(source, body, wish, start, options, progress)
         summary = rewritten.summary
         _report_left(summary, program or "<block>", style_of_output())
         if summary.left and not keeps_going:
@@ -116,7 +128,7 @@ def expand(
             except CannotWriteError as error:
                 raise CouldNotRunError(str(error)) from None
             click.echo(f"{target} written" + (f"; the old one is {backup}" if backup else ""), err=True)
-    _report_expansion(summary, POSTS[post])
+    _report_expansion(summary, POSTS[post], style_of_output())
     context.exit(FOUND_ERRORS if summary.left else 0)
 
 
@@ -130,7 +142,7 @@ def filter_(context: click.Context, /, program: str, **options: Any) -> None:
     """Write FILE for LinuxCNC to standard output, as LinuxCNC asks a filter to.
 
     Progress goes to standard error as FILTER_PROGRESS=n. If a contour cannot be expanded, nothing is written, the
-    findings go to standard error, and the exit status is 1. In LinuxCNC's INI file:
+    findings go to standard error, and the exit status is 1 (2: could not run). In LinuxCNC's INI file:
 
     \b
     [FILTER]
@@ -149,7 +161,7 @@ def filter_(context: click.Context, /, program: str, **options: Any) -> None:
             context.exit(FOUND_ERRORS)
         progress(1.0)
         _print(rewritten)
-    _report_expansion(rewritten.summary, POSTS["linuxcnc"])
+    _report_expansion(rewritten.summary, POSTS["linuxcnc"], plain)
 
 
 def _target(program: str | None, output: str | None, is_in_place: bool, is_forced: bool) -> Path | None:
@@ -203,6 +215,23 @@ def _rewrite(
         raise CouldNotRunError(f"{name}: {error}") from None
 
 
+@contextmanager
+def _progress_bar() -> Iterator[Callable[[float], None]]:
+    """A bar on standard error if that is a terminal; a program that is done before it tells anything needs none."""
+    with ExitStack() as stack:
+        bars: list[Any] = []
+
+        def show(share: float) -> None:
+            if not bars and sys.stderr.isatty():
+                bars.append(stack.enter_context(click.progressbar(length=100, label="expanding", file=sys.stderr)))
+            for bar in bars:
+                bar.update(int(share * 100) - bar.pos)
+
+        yield show
+        for bar in bars:
+            bar.update(100 - bar.pos)
+
+
 def _print(rewritten: Rewritten) -> None:
     """The bytes of the program on standard output."""
     stream = sys.stdout.buffer
@@ -222,8 +251,15 @@ def _report_left(summary: Summary, name: str, style: Style) -> None:
             click.echo("\n".join(lines), err=True)
 
 
-def _report_expansion(summary: Summary, post: Post) -> None:
+def _report_expansion(summary: Summary, post: Post, style: Style) -> None:
     """What was done, and what is left to do, on standard error."""
+    for finding in summary.warned:
+        place = (
+            f"line {finding.span.line}" if finding.span.line > 0 else "--start" if not finding.span.line else "--fact"
+        )
+        click.echo(f"{place}: {style('warning', 'warning')}[{finding.code}]: {finding.message}", err=True)
+    if summary.warnings > len(summary.warned):
+        click.echo(f"and {count(summary.warnings - len(summary.warned), 'warning')} more", err=True)
     for each in summary.unfamiliar:
         click.echo(f"line {each.line}: {each.text} {each.problem} on {post.title}", err=True)
     done = f"{count(summary.replaced, 'contour')} expanded"
@@ -233,5 +269,5 @@ def _report_expansion(summary: Summary, post: Post) -> None:
         done += f"; {len(summary.left)} left"
     if summary.warnings:
         them = "it" if summary.warnings == 1 else "them"
-        done += f"; {count(summary.warnings, 'warning')}: contoursolve check shows {them}"
+        done += f"; {count(summary.warnings, 'warning')}: contoursolve check says more about {them}"
     click.echo(done if summary.replaced or summary.left else "no contour block: nothing to expand", err=True)

@@ -13,7 +13,8 @@ from contoursolve.dialects.plain import SWITCHES, Centers, Switch
 from contoursolve.examine import Answer
 from contoursolve.model import Length, Turn
 from contoursolve.pipeline import Result
-from contoursolve.reading import Effect, Lexicon, State, WithoutPoint, advance, apply_modes, codes_of, leave
+from contoursolve.reading import Code, Effect, Lexicon, State, WithoutPoint, advance, apply_modes, codes_of, leave
+from contoursolve.reliance import MOTIONS, Reliance, reliance
 from contoursolve.syntax import Block, Macro, Program, Word
 from contoursolve.tolerance import LENGTH, RADIUS_DIFFERENCE
 
@@ -66,7 +67,7 @@ class _Follower:
             if answer is not None:
                 inside = answer.lines[-1]
                 yield from self._contour(answer)
-            elif block.line > inside and (block.words or block.macro):
+            elif block.line > inside and (block.words or block.macro or block.faults):
                 yield from self._block(self._switch(block))
 
     def _contour(self, answer: Answer) -> Iterator[Step]:
@@ -264,11 +265,20 @@ class _Follower:
             modes.append("".join(_BESIDE_MACRO.sub("", block.text.upper()).split()))
         if any(word.address not in _NAMES for word in block.words):
             modes += [state.unit.value, "incremental" if state.is_incremental else "absolute"]
-        modal = self.modes.codes.get(state.motion) if state.motion is not None else None
-        if modal and modal.effect is Effect.CYCLE:
-            modes += [f"modal G{modal.number}", state.plane.code]
+        motion = self._motion(block, state)
+        if motion:
+            modes += [f"G{motion.number}", *([] if motion.number in _LINES else [state.plane.code])]
+            own = [word for word in block.words if word.address == "G" and word.number == motion.number]
+            block = replace(block, words=tuple(word for word in block.words if word not in own))
         words = sorted(self._canonical(word) for word in block.words if word.address not in "NO")
         return Unfollowed(block.line, block.text.strip(), (*modes, *words), reason)
+
+    def _motion(self, block: Block, state: State) -> Code | None:
+        """The motion that a block states, or that is in force and that the block relies on."""
+        own = [code for code in codes_of(block, self.modes) if isinstance(code, Code) and code.effect in MOTIONS]
+        relies = reliance(block, self.modes) in (Reliance.WORDS, Reliance.BESIDE)
+        modal = self.modes.codes.get(state.motion) if relies and state.motion is not None else None
+        return own[0] if own else modal
 
     def _canonical(self, word: Word) -> str:
         if word.number is None:

@@ -29,6 +29,8 @@ class Dialect:
     """What shows a contour block, for a reader."""
     settings: tuple[Setting, ...] = ()
     """Conventions on which the manual is silent."""
+    has_runs: bool = True
+    """Whether a contour may be several blocks in a row."""
 
     def configure(self, values: Mapping[str, str]) -> "Dialect":
         """The control with other values of its settings.

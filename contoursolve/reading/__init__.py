@@ -1,17 +1,18 @@
 """Modal state, and the way from blocks to profiles."""
 
 from contoursolve.reading.advance import Modes, advance, apply_modes, codes_of, positions
-from contoursolve.reading.beyond import leave, next_place
+from contoursolve.reading.beyond import end_of_contour, leave, next_place
 from contoursolve.reading.claim import Claim, Selector, Trouble, read, unused_words
 from contoursolve.reading.codes import Code, Effect
 from contoursolve.reading.form import CornerRow, FactRow, Form, Sample, lay_out, stated_sets
 from contoursolve.reading.lexicon import Address, Lexicon, NumberFormat, WithoutPoint
-from contoursolve.reading.plain import advance_plainly, is_plain, plain_lines
+from contoursolve.reading.plain import advance_plainly, is_plain, motion_of, plain_lines, words_of
 from contoursolve.reading.setting import Convention, Setting
-from contoursolve.reading.state import Position, State
+from contoursolve.reading.state import Awaited, Position, State
 
 __all__ = [
     "Address",
+    "Awaited",
     "Claim",
     "Code",
     "Convention",
@@ -33,13 +34,16 @@ __all__ = [
     "advance_plainly",
     "apply_modes",
     "codes_of",
+    "end_of_contour",
     "is_plain",
     "lay_out",
     "leave",
+    "motion_of",
     "next_place",
     "plain_lines",
     "positions",
     "read",
     "stated_sets",
     "unused_words",
+    "words_of",
 ]

@@ -2,11 +2,14 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from decimal import Decimal
+from functools import partial
 
+from contoursolve.model import Length
 from contoursolve.reading.codes import Code, Effect
 from contoursolve.reading.lexicon import Lexicon
 from contoursolve.reading.setting import Convention, Setting
-from contoursolve.reading.state import Position, State
+from contoursolve.reading.state import Awaited, Position, State
 from contoursolve.source import Span
 from contoursolve.syntax import Block, FaultKind, Macro, Word
 
@@ -33,8 +36,7 @@ def codes_of(block: Block, modes: Modes) -> list[Code | Word]:
     found: list[Code | Word] = []
     for word in block.words:
         if word.address == "G":
-            number = None if word.number is None else int(word.number)
-            row = modes.codes.get(number) if number is not None and number == word.number else None
+            row = None if word.number is None else modes.codes.get(word.number)  # type: ignore[call-overload]
             found.append(row or word)
     return found
 
@@ -99,19 +101,41 @@ def positions(state: State, words: list[Word], modes: Modes, is_skippable: bool)
     moved: dict[str, Position] = {}
     for word in words:
         axis = _axis(word, modes)
-        row, before = modes.lexicon.addresses[word.address], state.axes[axis]
-        value = modes.lexicon.value(word, state.unit)
-        if axis in moved:
-            moved[axis] = Position(None, f"{axis} is given twice", word.span)
-        elif value is None:
-            moved[axis] = Position(None, f"{word.text} depends on a variable", word.span)
-        elif not (row.is_increment or state.is_incremental):
-            moved[axis] = Position(value, word.text, word.span, is_skippable)
-        elif before.value is None:
-            moved[axis] = before
-        else:
-            moved[axis] = Position(before.value + value, word.text, word.span, is_skippable or before.is_skippable)
+        is_step = state.is_incremental or modes.lexicon.addresses[word.address].is_increment
+        moved[axis] = _led(word, axis in moved, state.axes[axis] if is_step else None, state.unit, modes, is_skippable)
     return moved
+
+
+def absolute_positions(words: list[Word], unit: Length, modes: Modes) -> dict[str, Position]:
+    """Where absolute axis words lead."""
+    moved: dict[str, Position] = {}
+    for word in words:
+        axis = _axis(word, modes)
+        moved[axis] = _led(word, axis in moved, None, unit, modes, is_skippable=False)
+    return moved
+
+
+def _led(
+    word: Word, is_second: bool, before: Position | None, unit: Length, modes: Modes, is_skippable: bool
+) -> Position:
+    """Where an axis word leads; `before` is where an increment counts from, None for a coordinate."""
+    if is_second:
+        return Position(None, f"{_axis(word, modes)} is given twice", word.span)
+    value = modes.lexicon.value(word, unit)
+    if value is None:
+        return Position(None, f"{word.text} depends on a variable", word.span)
+    if before is None:
+        return Position(value, word.text, word.span, is_skippable)
+    if isinstance(before, Awaited):
+        return before.then(partial(_step, by=value, word=word, is_skippable=is_skippable))
+    return _step(before, value, word, is_skippable)
+
+
+def _step(before: Position, by: Decimal, word: Word, is_skippable: bool) -> Position:
+    """Where an increment leads, mm."""
+    if before.value is None:
+        return before
+    return Position(before.value + by, word.text, word.span, is_skippable or before.is_skippable)
 
 
 def _axis(word: Word, modes: Modes) -> str:

@@ -7,27 +7,33 @@ from decimal import Decimal
 from contoursolve.reading.advance import Modes, apply_modes, positions
 from contoursolve.reading.claim import Claim
 from contoursolve.reading.state import Position, State
+from contoursolve.source import Span
 from contoursolve.syntax import Block, Word
 
 
-def leave(claim: Claim, end: tuple[float, float] | None, modes: Modes, reason: str) -> State:
+def leave(claim: Claim, end: tuple[float, float] | None, modes: Modes, reason: str = "") -> State:
     """The modes of a contour's blocks, and the position where it ends, mm.
 
     Where it has no end, for this reason, an axis that its last block programs is still known.
     """
     state, last = claim.after, claim.blocks[-1]
     if end is not None:
-        is_skippable = any(block.is_skippable for block in claim.blocks)
-        is_skippable |= any(claim.before.axes[axis].is_skippable for axis in state.plane.axes)
-        ends = zip(state.plane.axes, map(Decimal, end), strict=True)
-        return state.move(
-            {axis: Position(value, "the end of this contour", last.span, is_skippable) for axis, value in ends}
+        axes, before = state.plane.axes, claim.before.axes
+        is_skippable = any(block.is_skippable for block in claim.blocks) or any(
+            before[axis].is_skippable for axis in axes
         )
+        ends = zip(axes, end, strict=True)
+        return state.move({axis: end_of_contour(value, last.span, is_skippable=is_skippable) for axis, value in ends})
     lost = state.lose(state.plane.axes, reason, last.span)
     if last.faults:
         return lost
     absolute = replace(state, is_incremental=False)
     return lost.move(positions(absolute, _axis_words(last, modes), modes, last.is_skippable))
+
+
+def end_of_contour(value: float, span: Span, *, is_skippable: bool = False) -> Position:
+    """Where a contour ends on an axis, mm; `span` is its last block."""
+    return Position(Decimal(value), "the end of this contour", span, is_skippable)
 
 
 def next_place(blocks: Sequence[Block], claim: Claim, modes: Modes) -> tuple[Decimal, Decimal] | None:

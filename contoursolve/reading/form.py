@@ -68,6 +68,8 @@ class Form:
     meanings: Mapping[str, str] = field(default_factory=dict)
     """What a given means in this form, where its address does not say it."""
     lines: tuple[Line, ...] = ()
+    is_literal: bool = False
+    """Whether each word states one value, whatever the values are."""
     is_contour: bool = True
     """False for what a control calculates nothing for: it is checked, and not listed."""
 

@@ -1,7 +1,7 @@
 """Addresses as rows of a table: what the value of a word means, and in which unit it is written."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from decimal import Decimal
 from enum import Enum
 
@@ -51,16 +51,26 @@ class Lexicon:
 
     addresses: Mapping[str, Address]
     numbers: NumberFormat
+    factors: dict[tuple[str, bool, bool], Decimal] = field(default_factory=dict, init=False, repr=False, compare=False)
+    """What numbers are multiplied by, as far as that was asked for: by address, point or not, inches or not."""
 
     def value(self, word: Word, unit: Length) -> Decimal | None:
         """The value of a word in mm (diameters halved) or degrees; None for a variable."""
-        row = self.addresses[word.address]
-        return None if word.number is None else word.number * self._factor(row, word.has_point, unit)
+        if word.number is None:
+            return None
+        key = word.address, word.has_point, unit is Length.INCH
+        factor = self.factors.get(key)
+        if factor is None:
+            factor = self.factors[key] = self._factor(self.addresses[word.address], word.has_point, unit)
+        return word.number * factor
 
     def given(self, name: str, word: Word, unit: Length) -> Given | None:
         """The value of a word as a given; None for a variable."""
-        row, value = self.addresses[word.address], self.value(word, unit)
-        return None if value is None else Given(name, value, row.unit, word, row.is_diameter)
+        value = self.value(word, unit)
+        if value is None:
+            return None
+        row = self.addresses[word.address]
+        return Given(name, value, row.unit, word, row.is_diameter)
 
     def _factor(self, row: Address, has_point: bool, unit: Length) -> Decimal:
         factor = _HALF if row.is_diameter else _ONE

@@ -1,6 +1,6 @@
 """The modal state of a control: where the tool is, and what is in force."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from decimal import Decimal
 
@@ -22,6 +22,66 @@ class Position:
     """The block that set it begins with `/`."""
 
 
+class Awaited(Position):
+    """A coordinate that is found when somebody looks at it.
+
+    `is_known` tells whether the contour is solved that it follows from, if any; `find` has it solved.
+    """
+
+    __slots__ = ("_depth", "_find", "_found", "_is_known")
+    _is_known: Callable[[], bool] | None
+    _find: Callable[[], Position] | None
+    _found: Position | None
+    _depth: int
+
+    def __init__(
+        self, find: Callable[[], Position], is_known: Callable[[], bool] | None = None, depth: int = 0
+    ) -> None:
+        for name, value in (("_find", find), ("_found", None), ("_is_known", is_known), ("_depth", depth)):
+            object.__setattr__(self, name, value)
+
+    @property
+    def is_ready(self) -> bool:
+        """Whether what it follows from is known."""
+        return self._is_known is None or self._is_known()
+
+    def found(self) -> Position:
+        """The position."""
+        if self._found is None and self._find is not None:
+            object.__setattr__(self, "_found", self._find())
+            object.__setattr__(self, "_find", None)
+            object.__setattr__(self, "_is_known", None)
+        if self._found is None:
+            raise ValueError("the position has not been found")
+        return self._found
+
+    def then(self, follow: Callable[[Position], Position]) -> Position:
+        """A position that follows from this one."""
+        if self._found is not None or self._depth >= _DEEPEST:
+            return follow(self.found())
+        return Awaited(lambda: follow(self.found()), self._is_known, self._depth + 1)
+
+    @property
+    def value(self) -> Decimal | None:
+        return self.found().value
+
+    @property
+    def reason(self) -> str:
+        return self.found().reason
+
+    @property
+    def span(self) -> Span | None:
+        return self.found().span
+
+    @property
+    def is_skippable(self) -> bool:
+        return self.found().is_skippable
+
+
+_DEEPEST = 50
+"""Positions that each follow from the one before, of which none is looked at."""
+
+
 @dataclass(frozen=True, slots=True)
 class State:
     """What is in force before a block."""
@@ -36,8 +96,8 @@ class State:
 
     def start(self) -> Start:
         """The position in the plane."""
-        first, second = (self.axes[axis].value for axis in self.plane.axes)
-        return Start((first, second))
+        first, second = self.plane.axes
+        return Start((self.axes[first].value, self.axes[second].value))
 
     def move(self, changes: Mapping[str, Position]) -> "State":
         """The state with other positions on some axes."""

@@ -89,15 +89,14 @@ class Value(Condition):
         return True
 
     def holds(self, stated: Stated) -> bool:
-        return bool(self.offenders(stated))
+        for name in self.names:
+            value = stated.get(name)
+            if value is not None and not (self.least <= value <= self.most and value != self.excluding):
+                return True
+        return False
 
     def offenders(self, stated: Stated) -> tuple[str, ...]:
-        return tuple(
-            name
-            for name in self.names
-            for value in (stated.get(name),)
-            if value is not None and not (self.least <= value <= self.most and value != self.excluding)
-        )
+        return tuple(name for name in self.names if name in stated and self.holds({name: stated[name]}))
 
 
 def some(*names: str) -> Condition:

@@ -80,6 +80,18 @@ def check(rules: tuple[Rule, ...], roles: Sequence[Role], stated: Stated) -> tup
     return tuple(offence for role in roles for offence in _check_role(rules, role, stated))
 
 
+def is_refused_by_values(rules: tuple[Rule, ...], roles: Sequence[Role], stated: Stated) -> bool:
+    """Whether `check` finds something that depends on values and not on names alone."""
+    for role in roles:
+        by_values = _rules_of(rules, role.name)[1]
+        if by_values:
+            is_all = role.prefixes == ("",)
+            own = stated if is_all else {call: stated[name] for call, name in role.names(stated).items()}
+            if any([rule.holds(own) for rule in by_values]):
+                return True
+    return False
+
+
 def _check_role(rules: tuple[Rule, ...], role: Role, stated: Stated) -> tuple[Offence, ...]:
     by_names, by_values = _rules_of(rules, role.name)
     offences = _offences_by_names(by_names, role, frozenset(stated))

@@ -1,8 +1,9 @@
 """Solves a determined profile and believes nothing: every answer is held against the original equations."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from decimal import Decimal
+from functools import lru_cache
 from itertools import combinations
 from math import asin, atan2, degrees, hypot, inf, isfinite
 
@@ -22,7 +23,7 @@ from contoursolve.constraints import (
     assemble,
     headed_lines,
 )
-from contoursolve.model import FIRST, SECOND, Corner, Fact, Profile, Unit, scalar
+from contoursolve.model import FIRST, SECOND, Corner, Fact, Profile, Start, Unit, scalar
 from contoursolve.solving.certificate import Certificate, up_to_one_digit
 from contoursolve.solving.certify import certify
 from contoursolve.solving.compile import compile_system
@@ -130,23 +131,37 @@ def compare(fact: Fact, profile: Profile, at: Values) -> dict[str, float]:
 
 
 def inputs_of(profile: Profile, system: System) -> dict[str, float]:
-    """All inputs of the function of a system. Coordinates are counted from the start point, and the difference is
-    taken in decimals: a shifted program has the same numbers, to the last bit. Raises ValueError without a start."""
-    start = profile.start.values
-    if start[FIRST] is None or start[SECOND] is None:
-        raise ValueError("the start point is not known")
-    inputs = {scalar(system.figure.start, axis): 0.0 for axis in (FIRST, SECOND)}
-    absolute = {fact.given: fact.axis for fact in system.facts if isinstance(fact, Coordinate)}
-    for given in profile.givens.values():
-        if given.unit is Unit.DEGREE:
-            inputs[given.name + COSINE], inputs[given.name + SINE] = direction(given.value)
-        elif given.name in absolute:
-            inputs[given.name] = float(given.value - (start[absolute[given.name]] or 0))
-        else:
-            inputs[given.name] = float(given.value)
+    """All inputs of the function of a system. Raises ValueError without a start."""
+    givens = [(given.name, given.unit, given.value) for given in profile.givens.values()]
+    inputs = inputs_at(system, profile.start, givens)
     for choice in profile.choices:
         inputs[f"side:{choice.point}"] = float(choice.side.sign)
     return inputs
+
+
+def inputs_at(system: System, start: Start, givens: Iterable[tuple[str, Unit, Decimal]]) -> dict[str, float]:
+    """The inputs of the function of a system from givens (name, unit, value). Coordinates are counted from the start
+    point, and the difference is taken in decimals: a shifted program has the same numbers, to the last bit. Raises
+    ValueError without a start."""
+    first, second = start.values
+    if first is None or second is None:
+        raise ValueError("the start point is not known")
+    inputs = {scalar(system.figure.start, axis): 0.0 for axis in (FIRST, SECOND)}
+    absolute = _axes(system)
+    for name, unit, value in givens:
+        if unit is Unit.DEGREE:
+            inputs[name + COSINE], inputs[name + SINE] = direction(value)
+        elif name in absolute:
+            inputs[name] = float(value - (second if absolute[name] else first))
+        else:
+            inputs[name] = float(value)
+    return inputs
+
+
+@lru_cache(maxsize=4096)
+def _axes(system: System) -> Mapping[str, int]:
+    """The axis of each given that is a coordinate."""
+    return {fact.given: fact.axis for fact in system.facts if isinstance(fact, Coordinate)}
 
 
 class _Attempt:
@@ -195,11 +210,9 @@ class _Attempt:
         if not bound - self.split <= ERROR_BOUND_WARNING:
             self.remarks.append(Remark(RemarkKind.SENSITIVE, "", (), {"limit": ERROR_BOUND_WARNING, "actual": bound}))
         agrees = any(remark.kind is RemarkKind.WORDS_AGREE for remark in self.remarks)
-        return Solution(
-            Status.OVERDETERMINED if agrees else Status.SOLVED,
-            points={name: self._absolute(point) for name, point in points.items()},
-            radii={name: self.out[name] for name in self.system.figure.radii},
-            corners={corner.name: self._corner(corner) for corner in self.system.figure.corners},
+        return replace(
+            solution_at(self.system, self.profile.start, sizes_of(self.profile), self.out),
+            status=Status.OVERDETERMINED if agrees else Status.SOLVED,
             remarks=tuple(self.remarks),
             error_bound=bound,
             certificate=self._certificate(bound) if is_proven else None,
@@ -225,10 +238,6 @@ class _Attempt:
 
     def _absolute(self, point: Point) -> Point:
         return self.origin[FIRST] + point[FIRST], self.origin[SECOND] + point[SECOND]
-
-    def _corner(self, corner: Corner) -> CornerSolution:
-        size = float(self.profile.givens[corner.size].value)
-        return corner_of(corner, size, self.out, self._absolute)
 
     def _examine_step(self, number: int, step: Step) -> Refusal | None:
         if isinstance(step, AffineStep):
@@ -396,6 +405,25 @@ class _Attempt:
         worst = max(abs(self.out[f"residual:{number}"]) for number in range(size))
         bound = inverse_norm(entries, size) * (worst + ROUNDING * largest) + self.split
         return up_to_one_digit(bound) if isfinite(bound) else inf
+
+
+def solution_at(system: System, start: Start, sizes: Mapping[str, float], out: Mapping[str, float]) -> Solution:
+    """The values among the outputs of a compiled system, which count coordinates from the start point; `sizes` are
+    those of the corners by the words that state them, mm."""
+    figure, (first, second) = system.figure, start.values
+    one, other = float(first or 0), float(second or 0)
+
+    def absolute(point: Point) -> Point:
+        return one + point[FIRST], other + point[SECOND]
+
+    points = {figure.start: absolute((0.0, 0.0))}
+    points |= {name: absolute((out[scalar(name, FIRST)], out[scalar(name, SECOND)])) for name in figure.points}
+    return Solution(
+        Status.SOLVED,
+        points=points,
+        radii={name: out[name] for name in figure.radii},
+        corners={corner.name: corner_of(corner, sizes[corner.size], out, absolute) for corner in figure.corners},
+    )
 
 
 def givens_of(fact: Fact, system: System) -> tuple[str, ...]:

@@ -1,27 +1,40 @@
 """Blocks and words as typed."""
 
-from contoursolve.syntax.lexer import parse, parse_block, read_directive, split_lines
+from contoursolve.syntax.lexer import (
+    LONGEST_BLOCK,
+    find_words,
+    parse,
+    parse_block,
+    read_directive,
+    read_simply,
+    split_lines,
+    split_simply,
+)
 from contoursolve.syntax.text import BINARY, STANDARD_INPUT, UnreadableProgramError, decode, is_folder, read_bytes
-from contoursolve.syntax.word import FACT, Block, Directive, Fault, FaultKind, Macro, PlainLine, Program, Word
+from contoursolve.syntax.word import FACT, Block, Directive, Fault, FaultKind, Macro, Passage, Program, Word
 
 __all__ = [
     "BINARY",
     "FACT",
+    "LONGEST_BLOCK",
     "STANDARD_INPUT",
     "Block",
     "Directive",
     "Fault",
     "FaultKind",
     "Macro",
-    "PlainLine",
+    "Passage",
     "Program",
     "UnreadableProgramError",
     "Word",
     "decode",
+    "find_words",
     "is_folder",
     "parse",
     "parse_block",
     "read_bytes",
     "read_directive",
+    "read_simply",
     "split_lines",
+    "split_simply",
 ]

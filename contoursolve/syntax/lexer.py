@@ -1,6 +1,7 @@
 """Reads characters into words: one table of tokens, no knowledge of any control."""
 
 import re
+from collections.abc import Container
 from decimal import Decimal
 
 from contoursolve.source import Span
@@ -30,6 +31,10 @@ _TOKEN = re.compile(
     """,
     re.VERBOSE | re.ASCII,
 )
+_SIMPLE_WORD = r"[ \t]*([A-DF-Za-df-z])([+-]?(?:[0-9]{1,16}\.?[0-9]{0,15}|\.[0-9]{1,16}))(?=[ \tA-Za-z]|$)"
+_SIMPLE = re.compile(rf"(?:{_SIMPLE_WORD})+[ \t]*")
+"""Nothing but words without blanks inside them; E may be an exponent."""
+_SIMPLE_WORDS = re.compile(_SIMPLE_WORD)
 _SKIP = re.compile(r"[ \t]*/[1-9]?(?!\d)")
 _MACRO = re.compile(
     r"[ \t/]*(?:[Nn]\d+)?[ \t]*(?:(?P<assignment>\#)|(?P<flow>(?:IF|WHILE|GOTO|DO|END|THEN|ELSE)\b"
@@ -58,6 +63,10 @@ def split_lines(text: str) -> list[str]:
 
 def parse_block(text: str, line: int) -> Block:
     """Read one line (without its end) into words and faults."""
+    simple = read_simply(text, line)
+    if simple:
+        # Most blocks; they need nothing of what follows.
+        return Block(line, text, simple)
     if len(text) > LONGEST_BLOCK and len(_COMMENTS.sub("", text)) > LONGEST_BLOCK:
         span = Span(line, 1, len(text) + 1)
         return Block(line, text, (), (Fault(FaultKind.BLOCK_TOO_LONG, f"{len(text):,} characters", span),))
@@ -96,6 +105,40 @@ def parse_block(text: str, line: int) -> Block:
         unmarked=tuple(unmarked),
         is_skippable=skip is not None,
     )
+
+
+def read_simply(text: str, line: int, chosen: Container[int] | None = None) -> tuple[Word, ...]:
+    """The words of a line that is nothing but words, without blanks inside them, or some of them by their index; none
+    of another line."""
+    if not _is_simple(text):
+        return ()
+    tokens = _SIMPLE_WORDS.finditer(text)
+    if chosen is None:
+        return tuple([_simple_word(token, line) for token in tokens])
+    return tuple([_simple_word(token, line) for index, token in enumerate(tokens) if index in chosen])
+
+
+def find_words(text: str, line: int, addresses: Container[str]) -> list[Word]:
+    """The words of a line that have one of some addresses."""
+    if not _is_simple(text):
+        return [word for word in parse_block(text, line).words if word.address in addresses]
+    tokens = _SIMPLE_WORDS.finditer(text)
+    return [_simple_word(token, line) for token in tokens if token[1].upper() in addresses]
+
+
+def split_simply(text: str) -> list[tuple[str, str]]:
+    """Such words as addresses and numbers, as typed; none of another line."""
+    return _SIMPLE_WORDS.findall(text) if _is_simple(text) else []
+
+
+def _is_simple(text: str) -> bool:
+    return len(text) <= LONGEST_BLOCK and _SIMPLE.fullmatch(text) is not None
+
+
+def _simple_word(token: re.Match[str], line: int) -> Word:
+    letter, number = token.groups()
+    begin, end = token.start(1), token.end()
+    return Word(letter.upper(), Decimal(number), "." in number, letter + number, Span(line, begin + 1, end + 1))
 
 
 def read_directive(text: str, line: int, column: int = 1) -> Directive:

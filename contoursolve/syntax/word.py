@@ -4,12 +4,12 @@ import re
 from dataclasses import dataclass
 from decimal import Decimal
 from enum import Enum
+from typing import NamedTuple
 
 from contoursolve.source import Span
 
 
-@dataclass(frozen=True, slots=True)
-class Word:
+class Word(NamedTuple):
     """An address with its value, such as `X40.` or `,A150`.
 
     `address` is upper case with its comma; `number` is None when the value is a variable or a macro
@@ -110,12 +110,12 @@ class Block:
 
 
 @dataclass(frozen=True, slots=True)
-class PlainLine:
-    """One line of a program that does nothing but move, or nothing at all, and that nobody has read into words yet."""
+class Passage:
+    """Lines of a program in a row that do nothing but move, or nothing at all, and that nobody has read into words
+    yet: the number of the first one, and all of them with their ends."""
 
     line: int
-    text: str
-    moves: bool
+    lines: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True)

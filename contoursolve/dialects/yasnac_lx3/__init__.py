@@ -32,4 +32,5 @@ YASNAC_LX3 = Dialect(
     signs=_signs,
     contours="G111, G112, G11, G12, and G01 with I or K",
     settings=(BEVEL,),
+    has_runs=False,
 )

@@ -40,39 +40,56 @@ def claim_of(
     `refused` are addresses that a rule refuses; `supplied` are givens that the control derives from the words.
     """
     codes = (code for code in codes_of(block, modes) if isinstance(code, Code))
-    others = {code.number for code in codes if code.effect in AXIS_EFFECTS and code.number != own}
+    others = [code.number for code in codes if code.number != own and code.effect in AXIS_EFFECTS]
     words: dict[str, Word] = {}
     repeated: list[Word] = []
     for word in block.words:
         name = word.address
         if name == "G":
             name = OTHER_G if word.number in others else f"G{word.number}"
-        if name in words and name != "M":
-            repeated.append(word)
-        words.setdefault(name, word)
-    lexicon = modes.lexicon
-    known = {name: word for name, word in words.items() if name in lexicon.addresses and name in form.allowed}
-    givens = {name: lexicon.given(name, word, after.unit) for name, word in known.items()}
-    named = refused | {OTHER_G}
-    bevels = (word for row in form.corners for word, shape in row.shapes.items() if shape in _CONVENTIONAL)
+        if name in words:
+            if name != "M":
+                repeated.append(word)
+        else:
+            words[name] = word
+    lexicon, allowed = modes.lexicon, form.allowed
+    stated: dict[str, Word] = {}
+    beside: dict[str, Word] = {}
+    givens: dict[str, Given] = {}
+    unknown: list[Word] = []
+    for name, word in words.items():
+        if name in allowed and name in lexicon.addresses:
+            stated[name] = word
+            given = lexicon.given(name, word, after.unit)
+            if given is not None:
+                givens[name] = given
+        if name == OTHER_G or name in refused:
+            beside[name] = word
+        elif word.address != "G" and word.address not in allowed:
+            unknown.append(word)
+    for each in supplied:
+        givens[each.name] = each
     return Claim(
         form=form,
         lexicon=lexicon,
         blocks=(block,),
         before=before if before.unit is after.unit else replace(before, unit=after.unit),
         after=after,
-        words={**known, **{name: word for name, word in words.items() if name in named}},
-        givens={
-            **{name: given for name, given in givens.items() if given is not None},
-            **{given.name: given for given in supplied},
-        },
+        words={**stated, **beside},
+        givens=givens,
         vocabulary=_vocabulary(form),
-        unknown=tuple(word for word in words.values() if word.address not in form.allowed | named | {"G"}),
+        unknown=tuple(unknown),
         repeated=tuple(repeated),
         circumstances=frozenset(circumstances),
         choices=tuple(choices),
-        conventions=(modes.convention(BEVEL),) if any(word in known for word in bevels) else (),
+        conventions=() if stated.keys().isdisjoint(_bevels(form)) else (modes.convention(BEVEL),),
     )
+
+
+@lru_cache(maxsize=32)
+def _bevels(form: Form) -> frozenset[str]:
+    """The words whose meaning is a convention."""
+    return frozenset(word for row in form.corners for word, shape in row.shapes.items() if shape in _CONVENTIONAL)
 
 
 @lru_cache(maxsize=32)

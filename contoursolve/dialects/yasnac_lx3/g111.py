@@ -57,6 +57,7 @@ def g111(bevel: CornerShape) -> Form:
             "G00 X40. Z0.",
             ("G111 {A160.} {B120.} {C2.} {D2.} {I10.919} {K-30.} {P2.} {Q2.} {U60.} {W-41.016} {X100.} {Z-41.016}",),
         ),
+        is_literal=True,
     )
 
 

@@ -1,0 +1,308 @@
+"""Contours that differ in their values alone, solved together; whatever is not plainly solved is left alone."""
+
+from collections.abc import Callable, Hashable, Mapping, Sequence
+from dataclasses import dataclass, field
+from decimal import Decimal
+from functools import lru_cache
+
+import numpy
+from numpy.typing import NDArray
+
+from contoursolve.backends.numeric import inverse_norms
+from contoursolve.constraints import System, assemble
+from contoursolve.contour import Contour, trace
+from contoursolve.dialects import Dialect
+from contoursolve.examine import Answer, Policy
+from contoursolve.explain import context_of
+from contoursolve.families.verdict import Code, Verdict
+from contoursolve.model import Length, Line, Profile, Start, Unit
+from contoursolve.moulds import Cast, Mould, Pattern, mould_of, pattern_of
+from contoursolve.reading import Claim, Form, State, WithoutPoint
+from contoursolve.rules import Rule, is_refused_by_values
+from contoursolve.solving import Status
+from contoursolve.solving.certificate import Proof, up_to_one_digit
+from contoursolve.solving.certify import certify
+from contoursolve.solving.compile import Machine, compile_system
+from contoursolve.solving.plan import LineCircleStep, TwoCirclesStep
+from contoursolve.solving.solve import ROUNDING, inputs_at, inputs_of, sizes_of, solution_at
+from contoursolve.spelling import without_point
+from contoursolve.syntax import Word, split_simply
+from contoursolve.tolerance import AGREEMENT, ERROR_BOUND_WARNING, LARGEST, LENGTH, TOUCHING
+
+Columns = Mapping[str, NDArray[numpy.float64]]
+
+FEWEST = 2
+"""Contours of one kind below which columns take longer than one by one."""
+
+_FAR_BELOW = 0.25
+"""Share of a limit up to which a value is within it, however the limit is rounded or measured."""
+
+_MOST_MOULDS = 4_096
+"""Patterns that are noted; a program has few, unless its numbers have no points."""
+
+_SMALL = 30_000
+"""A number that is no larger is below the largest value in every unit."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Kind:
+    """Contours with the same words and choices, by one of them about which there is nothing to say."""
+
+    answer: Answer
+    system: System
+    machine: Machine
+
+
+@dataclass(slots=True)
+class Batch:
+    """Solves contours that a control's rules allow and that differ from one that was examined in their values alone.
+
+    The answers are those of `examine`: the same outputs of the same function, checked in columns.
+    """
+
+    dialect: Dialect
+    policy: Policy
+    is_proven: bool
+    kinds: dict[Hashable, Kind] = field(default_factory=dict)
+    moulds: dict[Pattern, Mould] = field(default_factory=dict)
+
+    @property
+    def rules(self) -> tuple[Rule, ...]:
+        """The rules of the control."""
+        return self.dialect.rules
+
+    def solve(self, claims: Sequence[Claim], examine: Sequence[Callable[[], Answer]]) -> list[Answer]:
+        """The answers to contours whose start is known; `examine` gives that to each of them."""
+        answers: dict[int, Answer] = {}
+        groups: dict[Hashable, list[int]] = {}
+        for number, claim in enumerate(claims):
+            key = self._key(claim)
+            if key is None:
+                answers[number] = examine[number]()
+            else:
+                groups.setdefault(key, []).append(number)
+        for key, numbers in groups.items():
+            rest = list(numbers)
+            while rest and (key not in self.kinds or len(rest) < FEWEST):
+                first = rest.pop(0)
+                answers[first] = examine[first]()
+                self._learn(key, answers[first])
+            if rest:
+                together = self._solve(self.kinds[key], [claims[number] for number in rest])
+                self._make_mould(key, claims[rest[0]])
+                answers |= {number: answer or examine[number]() for number, answer in zip(rest, together, strict=True)}
+        return [answers[number] for number in range(len(claims))]
+
+    def _learn(self, key: Hashable, answer: Answer) -> None:
+        """Whether others can be solved as one that was examined."""
+        if answer.status is Status.SOLVED and not answer.diagnostics and answer.contour and not answer.alternatives:
+            system = assemble(answer.profile)
+            self.kinds.setdefault(key, Kind(answer, system, compile_system(system)))
+            self._make_mould(key, answer.claim)
+
+    def _make_mould(self, key: Hashable, claim: Claim) -> None:
+        """Note the pattern of a block of a kind."""
+        words = split_simply(claim.blocks[0].text) if claim.form.is_literal and not self.is_proven else []
+        pattern = pattern_of(words)
+        if words and pattern not in self.moulds and len(self.moulds) < _MOST_MOULDS:
+            mould = mould_of(claim, key, self.dialect)
+            if mould is not None:
+                self.moulds[pattern] = mould
+
+    def _key(self, claim: Claim) -> Hashable:
+        """What contours of one kind have in common; None where more than the words and their values counts."""
+        if claim.unknown or claim.repeated:
+            return None
+        for block in claim.blocks:
+            if block.faults or block.directives or block.unmarked or block.is_skippable:
+                return None
+            for word in block.words:
+                if word.number is None or (not -_SMALL <= word.number <= _SMALL and self._is_large(word, claim)):
+                    return None
+        before, after = claim.before, claim.after
+        for axis in before.plane.axes:
+            position = before.axes[axis]
+            if position.value is None or position.is_skippable:
+                return None
+        sharp = []
+        for size in _sizes(claim.form):
+            given = claim.givens.get(size)
+            if given is not None and given.value <= 0:
+                if given.value < 0:
+                    return None
+                sharp.append(size)
+        if self.policy is not Policy.OFF:
+            values = {name: given.value for name, given in claim.givens.items()}
+            if is_refused_by_values(self.rules, claim.form.roles, values):
+                return None
+        if claim.lexicon.numbers.without_point is WithoutPoint.LEAST_INCREMENTS and self._lacks_points(claim):
+            return None
+        return (
+            claim.form,
+            frozenset(claim.words),
+            frozenset(claim.givens),
+            claim.choices,
+            claim.circumstances,
+            after.unit is Length.INCH,
+            after.plane.code,
+            before.plane.code,
+            *sharp,
+        )
+
+    def _lacks_points(self, claim: Claim) -> bool:
+        """Whether there is something to say of numbers without points."""
+        for given in claim.givens.values():
+            if given.word is not None and not given.word.has_point:
+                return any(True for _ in without_point(context_of(claim, self.rules), claim, ()))
+        return False
+
+    @staticmethod
+    def _is_large(word: Word, claim: Claim) -> bool:
+        """Whether a number is larger than any control travels."""
+        if word.address not in claim.lexicon.addresses:
+            return False
+        value = claim.lexicon.value(word, claim.after.unit)
+        return value is None or abs(value) > LARGEST
+
+    def _solve(self, kind: Kind, claims: Sequence[Claim]) -> list[Answer | None]:
+        """The answers to contours of a kind, as far as nothing speaks against them."""
+        profiles = [_profile_of(claim, kind.answer.profile) for claim in claims]
+        found = _evaluate(kind, [inputs_of(profile, kind.system) for profile in profiles])
+        return [
+            None if row is None else self._answer(kind, claim, profile, *row)
+            for claim, profile, row in zip(claims, profiles, found, strict=True)
+        ]
+
+    def cast(self, mould: Mould, casts: Sequence[tuple[Cast, State]]) -> list[tuple[Start, Contour] | None]:
+        """The start points and the paths of blocks of a mould in states whose positions are known, as far as nothing speaks against them."""
+        kind, answers = self.kinds[mould.kind], list[tuple[Start, Contour] | None]()
+        like, sizes = kind.answer.profile, _sizes(kind.answer.claim.form)
+        units = [(name, unit) for name, unit, _, _ in mould.givens]
+        starts = [state.start() for _, state in casts]
+        stated = [each.values() for each, _ in casts]
+        rows = [
+            self._inputs(kind, values, start, state, sizes, units)
+            for values, start, (_, state) in zip(stated, starts, casts, strict=True)
+        ]
+        found = iter(_evaluate(kind, [row for row in rows if row is not None]))
+        for values, start, inputs in zip(stated, starts, rows, strict=True):
+            row = next(found) if inputs is not None else None
+            if row is None:
+                answers.append(None)
+                continue
+            corners = {name: float(values[name]) for name in sizes if name in values}
+            answers.append((start, trace(like, solution_at(kind.system, start, corners, row[0]))))
+        return answers
+
+    def _inputs(
+        self,
+        kind: Kind,
+        values: Mapping[str, Decimal],
+        start: Start,
+        state: State,
+        sizes: Sequence[str],
+        units: Sequence[tuple[str, Unit]],
+    ) -> dict[str, float] | None:
+        """The inputs of a block of a mould; None where more than its values counts, or it is not known where it
+        begins."""
+        if None in start.values:
+            return None
+        for size in sizes:
+            if size in values and values[size] <= 0:
+                return None
+        for value in values.values():
+            if not -_SMALL <= value <= _SMALL:
+                return None
+        for axis in state.plane.axes:
+            if state.axes[axis].is_skippable:
+                return None
+        if self.policy is not Policy.OFF and is_refused_by_values(self.rules, kind.answer.claim.form.roles, values):
+            return None
+        return inputs_at(kind.system, start, [(name, unit, values[name]) for name, unit in units])
+
+    def _answer(
+        self, kind: Kind, claim: Claim, profile: Profile, out: Mapping[str, float], bound: float
+    ) -> Answer | None:
+        certificate = certify(profile, kind.system, out, up_to_one_digit(bound)) if self.is_proven else None
+        if certificate is not None and certificate.proof not in (Proof.EXACT, Proof.UNIQUE):
+            return None
+        like, bound = kind.answer, up_to_one_digit(bound)
+        return Answer(
+            form=like.form,
+            lines=tuple([block.line for block in claim.blocks]),
+            claim=claim,
+            status=like.status,
+            plane=like.plane,
+            unit=like.unit,
+            start=profile.start,
+            profile=profile,
+            contour=trace(profile, solution_at(kind.system, profile.start, sizes_of(profile), out)),
+            sides=like.sides,
+            error_bound=bound,
+            diagnostics=(),
+            certificate=certificate,
+        )
+
+
+def _profile_of(claim: Claim, like: Profile) -> Profile:
+    """The profile of a claim that differs from another one in its values alone."""
+    return Profile(
+        form=like.form,
+        blocks=claim.blocks,
+        plane=like.plane,
+        unit=like.unit,
+        layout=like.layout,
+        start=claim.before.start(),
+        givens=claim.givens,
+        intersections=like.intersections,
+        choices=claim.choices,
+    )
+
+
+@lru_cache(maxsize=4096)
+def _sizes(form: Form) -> tuple[str, ...]:
+    """The words that are sizes of corners."""
+    return tuple(word for row in form.corners for word in row.shapes)
+
+
+def _evaluate(kind: Kind, inputs: Sequence[Mapping[str, float]]) -> list[tuple[dict[str, float], float] | None]:
+    """The outputs at many inputs and a bound of their errors, mm; None where something speaks against them."""
+    if not inputs:
+        return []
+    function = kind.machine.function
+    rows = [[each[name] for name in function.inputs] for each in inputs]
+    found = function.rows(rows)
+    out = dict(zip(function.outputs, numpy.ascontiguousarray(found.T), strict=True))
+    plain, bounds = _examine(kind, dict(zip(function.inputs, numpy.array(rows).T, strict=True)), out, len(rows))
+    return [
+        (dict(zip(function.outputs, row, strict=True)), bound) if is_plain else None
+        for row, is_plain, bound in zip(found.tolist(), plain.tolist(), bounds.tolist(), strict=True)
+    ]
+
+
+def _examine(
+    kind: Kind, inputs: Columns, out: Columns, rows: int
+) -> tuple[NDArray[numpy.bool_], NDArray[numpy.float64]]:
+    """Which rows are solved without anything to say of them, and bounds of the errors of those, mm."""
+    figure, plan = kind.system.figure, kind.machine.plan
+    verdict = Verdict(figure, plan, kind.machine.corner_residuals, inputs, out, rows)
+    plain = (verdict.status == Code.SOLVED) & (verdict.reason == 0) & ~verdict.again
+    for element in figure.path:
+        if isinstance(element, Line):
+            plain &= numpy.abs(out[f"length:{element.name}"]) > LENGTH
+    for number, step in enumerate(plan.steps):
+        if isinstance(step, LineCircleStep | TwoCirclesStep):
+            gap = numpy.abs(numpy.abs(out[f"offset:{number}"]) - out[f"radius:{number}"])
+            plain &= gap > TOUCHING * out[f"scale:{number}"]
+    for number in range(len(plan.basis), len(plan.basis) + len(plan.checks)):
+        plain &= numpy.abs(out[f"residual:{number}"]) <= _FAR_BELOW * AGREEMENT
+    bounds = numpy.zeros(rows)
+    chosen = numpy.flatnonzero(plain)
+    unknowns = kind.system.unknowns
+    if chosen.size and unknowns:
+        entries = {(row, column): out[name][chosen] for row, column, name in kind.machine.slopes}
+        largest = numpy.max([numpy.ones(chosen.size), *(numpy.abs(out[name][chosen]) for name in unknowns)], axis=0)
+        worst = numpy.max([numpy.abs(out[f"residual:{number}"][chosen]) for number in range(len(unknowns))], axis=0)
+        bounds[chosen] = inverse_norms(entries, len(unknowns), chosen.size) * (worst + ROUNDING * largest)
+        plain &= bounds <= _FAR_BELOW * ERROR_BOUND_WARNING
+    return plain, bounds

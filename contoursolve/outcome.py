@@ -1,0 +1,74 @@
+"""What is asked of an expansion, and what became of the contours of the program."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from contoursolve.diagnostic import Diagnostic, Severity
+from contoursolve.posts import SAME, Arcs, Numbering, Post
+from contoursolve.syntax import Block, FaultKind
+from contoursolve.unfamiliar import Unfamiliar
+
+_KEPT_WARNINGS = 20
+"""Warnings that are kept to be shown."""
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """What is asked of an expansion: the target, how it writes arcs, decimals (None: the target's own), whether the
+    original blocks are kept as comments, whether to go on past a contour that cannot be expanded, and block numbers."""
+
+    post: Post = SAME
+    arcs: Arcs = Arcs.CENTER
+    decimals: int | None = None
+    has_comments: bool = True
+    keeps_going: bool = False
+    numbering: Numbering = Numbering.FIRST
+
+
+@dataclass(frozen=True, slots=True)
+class Left:
+    """A contour that was left as it is: its lines with their texts, why, and the findings about it."""
+
+    lines: tuple[int, ...]
+    reason: str
+    diagnostics: tuple[Diagnostic, ...]
+    sources: Mapping[int, str]
+
+
+@dataclass(slots=True)
+class Summary:
+    """What became of a program's contours, as far as it has been read; `deviation` is the largest distance of what
+    was written from the exact contours, mm."""
+
+    replaced: int = 0
+    warnings: int = 0
+    """How many warnings there are about contours that were replaced."""
+    warned: list[Diagnostic] = field(default_factory=list)
+    """The first of them."""
+    deviation: float = 0.0
+    left: list[Left] = field(default_factory=list)
+    unfamiliar: list[Unfamiliar] = field(default_factory=list)
+    line_end: str = "\n"
+    """How the first line that has an end ends."""
+
+    def warn(self, findings: Sequence[Diagnostic]) -> None:
+        """Note the warnings among the findings about a contour that was replaced."""
+        warnings = [each for each in findings if each.severity is Severity.WARNING]
+        self.warnings += len(warnings)
+        self.warned += warnings[: max(0, _KEPT_WARNINGS - len(self.warned))]
+
+
+@dataclass(frozen=True, slots=True)
+class Expansion:
+    """A program in plain G-code; `text` is None where a contour could not be expanded."""
+
+    text: str | None
+    control: str | None
+    summary: Summary
+
+
+def left_unread(block: Block) -> Left | None:
+    """A block that is too long to be read, and may be a contour."""
+    if all(fault.kind is not FaultKind.BLOCK_TOO_LONG for fault in block.faults):
+        return None
+    return Left((block.line,), f"the block has {len(block.text):,} characters and was not read", (), {})

@@ -1,0 +1,193 @@
+"""Programs that were drawn first, expanded, and run: by LinuxCNC's interpreter, and as a Fanuc control reads them."""
+
+import re
+from collections.abc import Iterator
+from functools import cache
+from random import Random
+from typing import NamedTuple
+
+import pytest
+from fanuc import read
+from generate_lx3 import FORMS as ARC_FORMS
+from generate_lx3 import random_g11, random_g112
+from generate_nct import FORMS, Drawn, random_chain, random_cornered, random_pair
+from interpreter import assert_path, interpret_all, needs_rs274
+from oracle import Element, g111
+
+import contoursolve
+from contoursolve.api import only_findings
+from contoursolve.comparison import Path, compare, follow
+from contoursolve.dialects import DIALECTS, PLAIN
+from contoursolve.examine import Policy
+from contoursolve.model import Length
+from contoursolve.pipeline import run
+from contoursolve.syntax import parse
+
+LX3, NCT = "yasnac-lx3", "nct-99m"
+AT_LEAST = 200
+"""Programs."""
+
+
+class Drawing(NamedTuple):
+    """A program, the path that it was written from, and what it shows."""
+
+    control: str
+    text: str
+    path: list[Element]
+    plane: int
+    shows: frozenset[str]
+
+
+@cache
+def drawings() -> list[Drawing]:
+    """Every form of both controls, each with every corner, every third one in inches."""
+    rng = Random(6)
+    found = []
+    for number, (control, program, path, plane, shows) in enumerate(_all(rng)):
+        unit = "G20" if number % 3 == 2 else "G21"
+        found.append(Drawing(control, f"{unit} F100\n{program}", list(path), plane, frozenset({unit, *shows})))
+    return found
+
+
+def _all(rng: Random) -> Iterator[tuple[str, str, list[Element], int, set[str]]]:
+    for line_1 in ("AI", "AK", "IK"):
+        for line_2 in ("BX", "BU", "BZ", "BW", "XZ", "UW", "XW"):
+            for corners in ("", "C", "P") if "B" not in line_2 else ("", "C", "P", "D", "Q", "CD", "CQ", "PD", "PQ"):
+                text, path = _taper(rng, line_1, line_2, corners)
+                shows = {"G111", f"G111 {line_2}", f"G111 {corners or 'sharp'}", f"G111 {line_1}"}
+                yield LX3, text, path, 18, shows
+    for form in ARC_FORMS:
+        for first in ("", "P", "C"):
+            for second in ("", "Q", "D"):
+                drawn = random_g112(rng, form, first, second)
+                yield LX3, drawn.text, list(drawn.elements), 18, {f"G112 {form}", f"G112 {first}{second}"}
+    for count in range(24):
+        drawn = random_g11(rng, 1 + count % 4)
+        yield LX3, drawn.text, list(drawn.elements), 18, {kind[:3] for kind in drawn.kind}
+    for plane in (17, 18, 19):
+        for form in FORMS:
+            for corner in ("", "C", "R"):
+                yield _nct(random_pair(rng, form, plane, corner), form, f",{corner}" if corner else "sharp")
+        for length in (2, 3, 4, 5):
+            yield _nct(random_chain(rng, length, plane), f"chain of {length + 1}")
+        for _ in range(10):
+            drawn = random_cornered(rng, plane)
+            yield _nct(drawn, "16.2" if len(drawn.kind) == 1 else "16.1")
+
+
+def _nct(drawn: Drawn, *shows: str) -> tuple[str, str, list[Element], int, set[str]]:
+    parts = {part for kind in drawn.kind for part in (kind.split(" ,")[0], *re.findall(r",[CR]|G91", kind))}
+    return NCT, drawn.text, list(drawn.elements), drawn.plane, {*shows, *parts, f"G{drawn.plane}"}
+
+
+def _taper(rng: Random, line_1: str, line_2: str, corners: str) -> tuple[str, list[Element]]:
+    """A taper of the closed form that the control accepts."""
+    while True:
+        start = complex(round(rng.uniform(-20, 20), 3), round(rng.uniform(20, 80), 3) / 2)
+        words = {
+            "A": rng.choice((180, 135, 90, round(rng.uniform(91, 269), 3))),
+            "K": -round(rng.uniform(2, 40), 3),
+            "I": round(rng.uniform(-5, 20), 3),
+            "B": round(rng.uniform(91, 179), 3),
+            "X": round(rng.uniform(20, 160), 3),
+            "U": round(rng.uniform(-20, 80), 3),
+            "Z": -round(rng.uniform(20, 120), 3),
+            "W": -round(rng.uniform(20, 120), 3),
+            **{name: round(rng.uniform(0.2, 5), 3) for name in "CPDQ"},
+        }
+        words = {name: words[name] for name in line_1 + line_2 + corners}
+        outcome = g111(start, words)
+        if outcome.status == "solved" and not outcome.is_near:
+            break
+    block = " ".join(f"{name}{value:.3f}" for name, value in words.items())
+    return f"G00 X{2 * start.imag:.4f} Z{start.real:.4f}\nG111 {block}\n", list(outcome.elements)
+
+
+def test_every_form_of_both_controls_is_among_the_programs():
+    shown = frozenset[str]().union(*(each.shows for each in drawings()))
+    wanted = {"G20", "G21", "G17", "G18", "G19", "G91", "G11", "G12", "G01", "16.1", "16.2", ",C", ",R", *FORMS}
+    wanted |= {f"G111 {corners}" for corners in ("sharp", "C", "P", "D", "Q", "CD", "CQ", "PD", "PQ")}
+    wanted |= {f"G112 {form}" for form in ARC_FORMS} | {f"G112 {pair}" for pair in ("", "P", "CD", "PQ", "CQ", "PD")}
+    wanted |= {f"chain of {count}" for count in (3, 4, 5, 6)}
+    wanted |= {"arc by center and point", "arc by R+", "arc by R-", "line by one coordinate and", "line to end"}
+    assert wanted - shown == set()
+    for control in (LX3, NCT):
+        assert {"G20", "G21"} <= frozenset().union(*(each.shows for each in drawings() if each.control == control))
+    assert len(drawings()) >= AT_LEAST
+
+
+def expanded(post: str, arcs: str) -> list[str]:
+    """The programs for a target, and that it knows all that is in them."""
+    programs = []
+    for each in drawings():
+        expansion = contoursolve.expand(each.text, post=post, arcs=arcs, control=each.control)
+        assert expansion.text is not None, (each.text, expansion.summary.left)
+        text = expansion.text
+        unfamiliar = [found.text[4:] for found in expansion.summary.unfamiliar if found.text[0] == "G"]
+        assert unfamiliar == ["in G19"] * (each.plane == 19 and post == "linuxcnc"), each.text
+        if post == "linuxcnc":
+            assert ("G7 " if each.control == LX3 else "G8 ") in text
+            # LinuxCNC has no compensation in G19, and says so; with D0, it changes nothing.
+            text = re.sub(r"G4[12] |D0", "", text) if each.plane == 19 else text
+        programs.append(text)
+    return programs
+
+
+def within(each: Drawing, post: str) -> float:
+    """How far off in the program's unit: half the last decimal, for start and end, and four decimals of rs274."""
+    if post == "linuxcnc":
+        return 2e-4
+    return 1.5e-4 + 1e-4 if "G20" in each.shows else 1.5e-3
+
+
+@needs_rs274
+@pytest.mark.parametrize("arcs", ["center", "radius"])
+@pytest.mark.parametrize("post", ["linuxcnc", "fanuc"])
+def test_linuxcnc_runs_every_program_where_it_was_drawn(post, arcs, tmp_path):
+    programs = expanded(post, arcs)
+    if post == "fanuc":
+        # What a Fanuc control has in force by itself is said once before each.
+        modes = ["G7 G18" if each.control == LX3 else "G8 G17" for each in drawings()]
+        programs = [
+            f"{mode} G90 G91.1\n" + (re.sub(r"G4[12] |D0", "", text) if each.plane == 19 else text)
+            for mode, text, each in zip(modes, programs, drawings(), strict=True)
+        ]
+    for each, motions in zip(drawings(), interpret_all(programs, tmp_path), strict=True):
+        path = [(part.start, part.end, part.center, part.turn) for part in each.path]
+        assert_path(motions[1:], path, within(each, post))
+
+
+@pytest.mark.parametrize("arcs", ["center", "radius"])
+def test_a_fanuc_control_runs_every_program_where_it_was_drawn(arcs):
+    for each, text in zip(drawings(), expanded("fanuc", arcs), strict=True):
+        motions = list(read(text, is_lathe=each.control == LX3))
+        path = [(part.start, part.end, part.center, part.turn) for part in each.path]
+        assert_path(motions[1:], path, within(each, "fanuc"))
+
+
+@pytest.mark.parametrize("post", ["same", "linuxcnc", "fanuc"])
+def test_diff_finds_every_program_equal_and_each_coordinate_that_is_off_by_a_hundredth(post):
+    rng = Random(10)
+    targets = {"same": (LX3, NCT), "linuxcnc": ("linuxcnc", "linuxcnc"), "fanuc": ("fanuc-lathe", "fanuc-mill")}
+    for each in drawings():
+        arcs, target = rng.choice(("center", "radius")), targets[post][each.control == NCT]
+        new = contoursolve.expand(each.text, post=post, arcs=arcs, control=each.control).text
+        old = path_of(each.text, each.control)
+        inches = "G20" in each.shows
+        tolerance = 0.0005 if post == "linuxcnc" else 0.003 if inches else 0.0015
+        found = compare(old, path_of(new, target), tolerance)
+        assert found.is_equal, (each.text, new, found.difference and found.difference.reason, found.difference)
+        place = rng.choice(list(re.finditer(r"(?<=[XYZUW])-?\d*\.?\d+", re.sub(r"\(.*\)", hide, new))))
+        value = float(place[0]) + rng.choice((-1, 1)) * (0.0004 if inches else 0.01)
+        changed = f"{new[: place.start()]}{value:.12f}{new[place.end() :]}"
+        assert not compare(old, path_of(changed, target), tolerance).is_equal, (place, new)
+
+
+def hide(comment: re.Match[str]) -> str:
+    return " " * len(comment[0])
+
+
+def path_of(text: str, control: str) -> Path:
+    dialect = {**DIALECTS, **PLAIN}[control]
+    result = only_findings(run(parse(text), dialect, Length.MM, Policy.ENFORCE))
+    return follow(result, dialect, Length.MM, ("X", "Y", "Z"))
