@@ -49,6 +49,8 @@ def compose(answer: Answer, title: str | None = None) -> Scene:
     }
     noted_givens = frozenset(given for words in noted.values() for _, given in words.values())
     faults = list(draw_faults(answer, known))
+    broken = [each for each in faults if isinstance(each, Ring)]
+    circles = {(each.center, each.radius) for each in broken}
     ends = [segment.end for trail in main for segment in trail.segments]
     marks = _marks(answer, known, roles, noted, labels, ends[-1] if ends else None)
     return Scene(
@@ -59,7 +61,7 @@ def compose(answer: Answer, title: str | None = None) -> Scene:
             *_construction(profile, known),
             *(each for each in faults if isinstance(each, Thin)),
         ),
-        rings=(*_rings(answer, known), *(each for each in faults if isinstance(each, Ring))),
+        rings=(*(each for each in _rings(answer, known) if (each.center, each.radius) not in circles), *broken),
         marks=tuple(marks),
         dimensions=(
             *list_dimensions(answer, known, roles, elements, noted_givens),
@@ -106,6 +108,8 @@ def roles_of(answer: Answer) -> dict[str, Role]:
 def _blamed(answer: Answer) -> set[Span]:
     """The words that errors are about; not those beside which a word is missing."""
     is_short = any(finding.about is Trouble.UNDERDETERMINED for finding in answer.diagnostics)
+    claim = answer.claim
+    words = {word.span: word for word in (*claim.words.values(), *claim.unknown, *claim.repeated)}
     return {
         label.span
         for finding in answer.diagnostics
@@ -113,6 +117,8 @@ def _blamed(answer: Answer) -> set[Span]:
         and not isinstance(finding.about, RemarkKind)
         and (isinstance(finding.about, RefusalKind) or not is_short)
         for label in finding.labels
+        if label.span in words
+        and (isinstance(finding.about, RefusalKind) or words[label.span].address in finding.addresses)
     }
 
 
@@ -197,9 +203,9 @@ def _marks(
     done = [start]
     final = next((name for name in reversed(list(known.points)) if end is not None and known.points[name] == end), "")
     if end is not None:
-        about = stated(final) or ([] if final in known.placed else [computed(end)])
-        label = "end" if final not in known.placed else "end (free)"
-        role = Role.INK if final not in known.placed else Role.FREE
+        is_free = bool(known.placed)
+        about = stated(final) or ([] if is_free else [computed(end)])
+        label, role = ("end (free)", Role.FREE) if is_free else ("end", Role.INK)
         yield Mark(end, Kind.END, (Run(label, role), *about), (Run(label, role),))
         done.append(end)
     cut = {corner.at for corner in profile.figure.corners}
@@ -265,6 +271,11 @@ def _rings(answer: Answer, known: Known) -> Iterator[Ring]:
         is_wanted = chosen & {element.tail, element.head} or answer.contour is None
         if center is not None and radius is not None and is_wanted:
             yield Ring(center, radius, Role.MUTED)
+    for circle in profile.figure.circles:
+        given = [profile.givens.get(name) for name in (f"{circle.center}.0", f"{circle.center}.1", circle.radius)]
+        values = [float(each.value) for each in given if each is not None]
+        if len(values) == len(given):
+            yield Ring((values[0], values[1]), values[2], Role.GIVEN)
 
 
 def _slides(answer: Answer, known: Known) -> Iterator[Slide]:

@@ -4,7 +4,7 @@ import io
 from typing import TYPE_CHECKING, Any
 
 from contoursolve.pictures.sheet import Anchor, Dot, Shape, Sheet, Stroke, Sweep, Text
-from contoursolve.pictures.svg import HALO, points_on
+from contoursolve.pictures.svg import points_on
 from contoursolve.pictures.theme import Role, Theme
 
 if TYPE_CHECKING:
@@ -113,9 +113,6 @@ class _Painter:
         self._add(disc, number)
 
     def _text(self, text: Text, number: int) -> None:
-        from matplotlib.patheffects import Normal  # noqa: PLC0415
-        from matplotlib.patheffects import Stroke as Halo  # noqa: PLC0415
-
         from contoursolve.pictures.metrics import width_of  # noqa: PLC0415
 
         x, y = text.at
@@ -129,7 +126,7 @@ class _Painter:
         align = {Anchor.START: "left", Anchor.MIDDLE: "center", Anchor.END: "right"}[anchor]
         pieces = [(run.text, run.role) for run in text.runs] if several else [(text.words, text.runs[0].role)]
         for words, role in pieces:
-            artist = self.figure.text(
+            self.figure.text(
                 x,
                 y,
                 words,
@@ -145,6 +142,4 @@ class _Painter:
                 parse_math=False,
                 zorder=number,
             )
-            halo = Halo(linewidth=HALO * _POINTS, foreground=self.colors[Role.PAPER])
-            artist.set_path_effects([halo, Normal()])
             x += width_of(words, text.size, is_bold=text.is_bold, is_mono=text.is_mono)

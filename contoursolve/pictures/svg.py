@@ -15,9 +15,6 @@ from contoursolve.pictures.theme import DARK_COLORS, LIGHT_COLORS, Role, Theme
 SANS = "'DejaVu Sans', Verdana, 'Liberation Sans', Arial, sans-serif"
 MONO = "'DejaVu Sans Mono', Menlo, Consolas, 'Liberation Mono', monospace"
 
-HALO = 3.0
-"""Pixels of paper around a text, so that it is read over thin lines."""
-
 _FLAT = 3_000.0
 """Pixels. Viewers round large numbers: an arc of a larger radius is drawn in straight pieces."""
 
@@ -104,14 +101,8 @@ def _text(text: Text, theme: Theme) -> str:
             f"<tspan {_paint('fill', run.role, theme)}>{_clean(run.text)}</tspan>" for run in text.runs if run.text
         )
         fill = ""
-    halo = f'stroke-width="{_number(HALO)}" stroke-linejoin="round" paint-order="stroke"'
-    if theme is Theme.PAGE:
-        # One class attribute for both.
-        fill = fill.replace('class="', 'class="s-paper ') if fill else ' class="s-paper"'
-        halo += f' stroke="{theme.colors[Role.PAPER]}"'
-    else:
-        halo += " " + _paint("stroke", Role.PAPER, theme)
-    return f'<text {place} xml:space="preserve" {halo}{fill}>{inside}</text>'
+    blanks = ' xml:space="preserve"' if "  " in text.words or text.words != text.words.strip() else ""
+    return f"<text {place}{blanks}{fill}>{inside}</text>"
 
 
 def _steps(stroke: Stroke) -> Iterator[str]:
