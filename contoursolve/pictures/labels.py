@@ -64,7 +64,8 @@ class Grid:
             share = number * CELL / length
             column = int((a[0] + (b[0] - a[0]) * share - self.page.left) / CELL)
             row = int((a[1] + (b[1] - a[1]) * share - self.page.top) / CELL)
-            total += self.cells[row * self.columns + column]
+            place = row * self.columns + column
+            total += self.cells[place] if 0 <= place < len(self.cells) else 0.0
         return total
 
     def is_crossed(self, a: Spot, b: Spot) -> bool:
