@@ -1,29 +1,18 @@
-"""Pictures: every kind of contour is drawn, labels stand apart, numbers are the contour's, and any reader can see it."""
+"""Pictures: every contour is drawn, labels stand apart, numbers are the contour's, and any reader can see it."""
 
-import io
 import os
 import random
 import re
-import struct
-import subprocess
-import sys
-import time
 from pathlib import Path
 from xml.etree import ElementTree
 
-import numpy
 import pytest
-from click.testing import CliRunner
 from test_fuzz import mutate, windows
 from test_rules import examine, examples
 
 import contoursolve
-from contoursolve.cli import main
-from contoursolve.contour import ArcSegment
-from contoursolve.pictures import Picture, Theme, draw_answer, draw_family_fan, draw_family_map, draw_result
-from contoursolve.pictures.png import PIXELS
-from contoursolve.pictures.sheet import Box, Stroke, Text
-from contoursolve.pictures.theme import DARK_COLORS, DASHES, LIGHT_COLORS, Role
+from contoursolve.pictures import Picture, Theme, draw_answer, draw_result
+from contoursolve.pictures.sheet import Box
 
 PROGRAMS = sorted((Path(__file__).parent.parent / "notebooks" / "programs").glob("*.nc"))
 RANDOM = int(os.environ.get("CONTOURSOLVE_PICTURES", "240"))
@@ -118,9 +107,9 @@ def random_block(draw: random.Random) -> tuple[str, str]:
     """Any words of G111 at any size, and a start point."""
     size = 10.0 ** draw.uniform(-3, 5)
     letters = draw.sample("XUZWABIKPQCD", draw.randrange(2, 9))
+    angles = (0, 45, 90, 120, 180, -30, 359.999)
     words = [
-        f"{letter}{draw.choice((0, 45, 90, 120, 180, -30, 359.999)) if letter in 'AB' else draw.uniform(-size, size):.4f}"
-        for letter in letters
+        f"{letter}{draw.choice(angles) if letter in 'AB' else draw.uniform(-size, size):.4f}" for letter in letters
     ]
     return f"G111 {' '.join(words)}", f"X{draw.uniform(0, size):.4f} Z{draw.uniform(-size, size):.4f}"
 
@@ -136,7 +125,10 @@ def test_random_blocks_of_every_status_are_drawn(seed):
         if number % 2:
             text, start = random_block(draw)
             result = contoursolve.solve(
-                f"{text} {HOSTILE}", start=start, rules=draw.choice(("enforce", "off")), depth=draw.choice(("full", "verdict"))
+                f"{text} {HOSTILE}",
+                start=start,
+                rules=draw.choice(("enforce", "off")),
+                depth=draw.choice(("full", "verdict")),
             )
         else:
             text, control = draw.choice(near)

@@ -14,7 +14,7 @@ from contoursolve.pictures.known import Known, find_known
 from contoursolve.pictures.scene import Aligned, Kind, Mark, Ring, Scene, Slide, Thin, Trail
 from contoursolve.pictures.sheet import Run
 from contoursolve.pictures.theme import Role
-from contoursolve.pictures.tracing import corner_segment, trace_known
+from contoursolve.pictures.tracing import trace_known
 from contoursolve.pictures.vectors import distance
 from contoursolve.pictures.wording import coordinate, word_text
 from contoursolve.reading import Trouble
@@ -39,7 +39,7 @@ def compose(answer: Answer, title: str | None = None) -> Scene:
     known = find_known(answer)
     roles = roles_of(answer)
     main = main_trails(answer, known)
-    elements = _elements(answer, known, main)
+    elements = _elements(main)
     ghosts, labels = _ghosts(answer, known)
     facts = (*profile.facts, *profile.ignored)
     noted = {
@@ -58,7 +58,7 @@ def compose(answer: Answer, title: str | None = None) -> Scene:
         axes=(axis_name(plane, FIRST), axis_name(plane, SECOND)),
         trails=(*ghosts, *main),
         thins=(
-            *_construction(profile, known),
+            *_construction(profile, known, elements),
             *(each for each in faults if isinstance(each, Thin)),
         ),
         rings=(*(each for each in _rings(answer, known) if (each.center, each.radius) not in circles), *broken),
@@ -135,14 +135,9 @@ def main_trails(answer: Answer, known: Known) -> list[Trail]:
     return trails
 
 
-def _elements(answer: Answer, known: Known, trails: list[Trail]) -> dict[str, Segment]:
+def _elements(trails: list[Trail]) -> dict[str, Segment]:
     """What is drawn, by name."""
-    found = {
-        corner.name: corner_segment(corner, known.corners[corner.name])
-        for corner in answer.profile.figure.corners
-        if corner.name in known.corners
-    }
-    return found | {segment.name: segment for trail in trails for segment in trail.segments}
+    return {segment.name: segment for trail in trails for segment in trail.segments}
 
 
 def _ghosts(answer: Answer, known: Known) -> tuple[list[Trail], dict[str, list[tuple[Point, str]]]]:
@@ -247,12 +242,12 @@ def _trimmed(runs: list[Run] | tuple[Run, ...]) -> tuple[Run, ...]:
     return (Run(runs[0].text.lstrip(), runs[0].role), *runs[1:])
 
 
-def _construction(profile: Profile, known: Known) -> Iterator[Thin]:
+def _construction(profile: Profile, known: Known, elements: Mapping[str, Segment]) -> Iterator[Thin]:
     """From the path to the virtual intersections that its corners cut off."""
     lines = {element.name for element in (*profile.figure.path, *profile.figure.lines) if isinstance(element, Line)}
     for corner in profile.figure.corners:
         built, at = known.corners.get(corner.name), known.points.get(corner.at)
-        if built is None or at is None:
+        if built is None or at is None or corner.name not in elements:
             continue
         if corner.before in lines:
             yield Thin(built.begin, at, Role.MUTED)

@@ -113,7 +113,7 @@ def lay_out(scene: Scene) -> Sheet:
     is_free = canvas.grid.cost(Box(frame.left, bottom - 34.0, _CORNER, bottom)) == 0.0
     foot = list(_foot(scene, canvas, bottom - (26.0 if is_free else -4.0)))
     height = max((_bottom(item) for item in foot), default=bottom) + 12.0
-    return Sheet(WIDTH, round(height, 1), frame, (*canvas.items, *top, *foot))
+    return Sheet(WIDTH, round(height, 1), frame, canvas.items, (*top, *foot))
 
 
 def _bottom(item: Item) -> float:
@@ -216,7 +216,7 @@ def _draw_path(canvas: Canvas, scene: Scene) -> None:
     for thin in scene.thins:
         ends = _ends_of(canvas, thin)
         if ends is not None:
-            canvas.draw(line(*ends, thin.role, 1.0 if thin.role is Role.MUTED else 1.4, is_clipped=True))
+            canvas.draw(line(*ends, thin.role, 1.0 if thin.role is Role.MUTED else 1.4))
     for trail in sorted(scene.trails, key=lambda each: each.is_main):
         width = (THICK if trail.role is Role.INK else THICK - 0.4) if trail.is_main else 1.5
         dash = () if trail.role is Role.INK else DASHES.get(trail.role, ())
@@ -355,10 +355,12 @@ def _directions(canvas: Canvas, scene: Scene) -> dict[tuple[int, int], list[Spot
 
 def stack_sheets(sheets: list[Sheet]) -> Sheet:
     """Pages under each other as one."""
-    items: list[Item] = []
+    drawing: list[Item] = []
+    around: list[Item] = []
     height = 0.0
     for sheet in sheets:
-        items += [shift(item, height) for item in sheet.items]
+        drawing += [shift(item, height) for item in sheet.drawing]
+        around += [shift(item, height) for item in sheet.around]
         height += sheet.height
     frame = Box(4.0, sheets[0].frame.top, WIDTH - 4.0, height)
-    return sheets[0] if len(sheets) == 1 else Sheet(WIDTH, round(height, 1), frame, tuple(items))
+    return sheets[0] if len(sheets) == 1 else Sheet(WIDTH, round(height, 1), frame, tuple(drawing), tuple(around))

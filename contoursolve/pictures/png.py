@@ -66,9 +66,10 @@ class _Painter:
 
     def paint(self) -> None:
         """Everything, each item over those before it."""
-        for number, item in enumerate(self.sheet.items):
+        inside = len(self.sheet.drawing)
+        for number, item in enumerate((*self.sheet.drawing, *self.sheet.around)):
             if isinstance(item, Stroke):
-                self._stroke(item, number)
+                self._stroke(item, number, is_clipped=number < inside)
             elif isinstance(item, Text):
                 self._text(item, number)
             else:
@@ -78,7 +79,7 @@ class _Painter:
         artist.set_zorder(number)
         self.figure.add_artist(artist)
 
-    def _stroke(self, stroke: Stroke, number: int) -> None:
+    def _stroke(self, stroke: Stroke, number: int, *, is_clipped: bool) -> None:
         from matplotlib.patches import PathPatch  # noqa: PLC0415
         from matplotlib.path import Path  # noqa: PLC0415
 
@@ -97,7 +98,7 @@ class _Painter:
             transform=self.transform,
         )
         self._add(patch, number)
-        if stroke.is_clipped:
+        if is_clipped:
             patch.set_clip_path(self.clip)
 
     def _patch(self, item: Shape | Dot, number: int) -> None:
