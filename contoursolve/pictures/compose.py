@@ -11,12 +11,12 @@ from contoursolve.output.solutions import list_solutions
 from contoursolve.pictures.dimensions import list_dimensions, words_at_points
 from contoursolve.pictures.faults import draw_faults
 from contoursolve.pictures.known import Known, find_known
-from contoursolve.pictures.scene import Aligned, Kind, Mark, Ring, Scene, Slide, Thin, Trail
+from contoursolve.pictures.scene import Aligned, Kind, Mark, Ring, Scene, Slide, Thin, Trail, Weight
 from contoursolve.pictures.sheet import Run
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.tracing import trace_known
 from contoursolve.pictures.vectors import distance
-from contoursolve.pictures.wording import coordinate, word_text
+from contoursolve.pictures.wording import coordinate, visible, word_text
 from contoursolve.reading import Trouble
 from contoursolve.solving import Point, RefusalKind, RemarkKind
 from contoursolve.source import Span
@@ -144,7 +144,7 @@ def _ghosts(answer: Answer, known: Known) -> tuple[list[Trail], dict[str, list[t
     """Other contours, and where their computed intersections are with what selects each."""
     profile = answer.profile
     places: dict[str, list[tuple[Point, str]]] = {}
-    trails = [Trail(trace(profile, other).elements, Role.GHOST, is_main=False) for other in known.others]
+    trails = [Trail(trace(profile, other).elements, Role.GHOST, Weight.GHOST) for other in known.others]
     listing = list_solutions(answer) if answer.alternatives is not None else None
     if listing is None:
         return trails, places
@@ -157,7 +157,7 @@ def _ghosts(answer: Answer, known: Known) -> tuple[list[Trail], dict[str, list[t
         own = [name for name, at in each.contour.points.items() if name in first and distance(at, first[name]) > _SAME]
         is_drawn = answer.contour is None and not own and _is_path(each.contour, known)
         if not is_drawn:
-            trails.append(Trail(each.contour.elements, Role.GHOST, selects, is_main=False))
+            trails.append(Trail(each.contour.elements, Role.GHOST, Weight.GHOST))
         for name in own or [name for name in each.contour.points if name.startswith("P")]:
             places.setdefault(name, []).append((each.contour.points[name], selects))
     return trails, places
@@ -323,7 +323,7 @@ def _lines(answer: Answer, roles: Mapping[str, Role]) -> Iterator[tuple[Run, ...
 
 def _shown(run: Run) -> Run:
     """A run with nothing that cannot be seen."""
-    return Run("".join(each if each.isprintable() else (" " if each == "\t" else "·") for each in run.text), run.role)
+    return Run(visible(run.text), run.role)
 
 
 def _remarks(answer: Answer) -> Iterator[tuple[Run, ...]]:
