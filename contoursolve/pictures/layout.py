@@ -27,7 +27,7 @@ from contoursolve.pictures.rows import (
     side_of,
     stack,
 )
-from contoursolve.pictures.scene import Aligned, Angle, Kind, Leader, Linear, Ordinate, Scene, Thin, Trail, Weight
+from contoursolve.pictures.scene import Aligned, Angle, Leader, Linear, Ordinate, Scene, Thin, Trail, Weight
 from contoursolve.pictures.sheet import Box, Item, Run, Sheet, Spot, Stroke, Sweep, Text, shift
 from contoursolve.pictures.theme import DASHES, MEANINGS, Role
 from contoursolve.pictures.vectors import middle, sweep_of
@@ -321,7 +321,7 @@ def _draw_labels(canvas: Canvas, scene: Scene) -> None:
             number += 1
     directions = _directions(canvas, scene)
     for mark in scene.marks:
-        if mark.label and number < _MOST_LABELS and mark.kind is not Kind.CENTER:
+        if mark.label and number < _MOST_LABELS:
             at = canvas.view.place(mark.at)
             away = away_from(directions.get((round(at[0]), round(at[1])), []))
             canvas.label(at, [mark.label, mark.short], away, Role.MUTED)
