@@ -6,7 +6,7 @@ from dataclasses import replace
 from contoursolve.examine import Answer
 from contoursolve.model import FIRST, SECOND
 from contoursolve.pictures.compose import axis_name, main_trails
-from contoursolve.pictures.known import find_known
+from contoursolve.pictures.finding import find_known
 from contoursolve.pictures.moves import Move, list_moves
 from contoursolve.pictures.scene import Kind, Mark, Scene, Trail, Weight
 from contoursolve.pictures.sheet import Run

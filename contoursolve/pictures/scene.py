@@ -3,7 +3,7 @@
 Nothing here knows how large the picture is, or where a label finds room.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from enum import Enum
 
 from contoursolve.contour import Segment
@@ -155,5 +155,3 @@ class Scene:
     remarks: tuple[tuple[Run, ...], ...] = ()
     has_turning_axis: bool = False
     """Whether the second axis begins at the axis about which the work turns."""
-    roles: frozenset[Role] = field(default=frozenset())
-    """The states that a legend must name besides those of what is drawn."""
