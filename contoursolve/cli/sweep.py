@@ -13,6 +13,7 @@ import numpy
 
 from contoursolve.cli.loading import settings_of
 from contoursolve.cli.options import CouldNotRunError, rules_option, settings_option, units_option
+from contoursolve.cli.pictured import bytes_of, check_picture
 from contoursolve.cli.varied import read_range
 from contoursolve.dialects import DIALECTS
 from contoursolve.families import (
@@ -31,8 +32,9 @@ from contoursolve.families import (
     sweep,
     write_parquet,
 )
-from contoursolve.files import CannotWriteError, check_target
+from contoursolve.files import CannotWriteError, check_target, write_whole
 from contoursolve.output.layout import columns
+from contoursolve.pictures import MissingPainterError, draw_sweep
 from contoursolve.pipeline import FactPlaceError, UnknownControlError
 from contoursolve.project import SettingError
 
@@ -53,6 +55,13 @@ from contoursolve.project import SettingError
 @click.option("--fact", "facts", multiple=True, metavar="FACT", help="A fact besides the words; may be repeated.")
 @click.option("--paired", "is_paired", is_flag=True, help="Values side by side; without it, every combination.")
 @click.option("-o", "--output", metavar="FILE", help="Where to write every row: FILE.parquet or FILE.csv.")
+@click.option(
+    "--plot",
+    "picture",
+    metavar="FILE",
+    type=click.Path(path_type=Path),
+    help="Where to draw the contours of one word that varies, or the outcomes over two: FILE.svg or FILE.png.",
+)
 @click.option("--force", "is_forced", is_flag=True, help="Replace FILE if it exists.")
 @click.option("--workers", type=click.IntRange(1, 256), default=1, show_default=True, help="Threads.")
 @click.option("--dask", metavar="ADDRESS", help="Solve on the cluster of the Dask scheduler at this address.")
@@ -67,6 +76,7 @@ def sweep_(
     facts: tuple[str, ...],
     is_paired: bool,
     output: str | None,
+    picture: Path | None,
     is_forced: bool,
     workers: int,
     dask: str | None,
@@ -86,6 +96,8 @@ def sweep_(
       --vary A=170:190:0.1 --vary P=1,2,5 -o family.parquet
     """
     target = _target(output, is_forced)
+    if picture is not None:
+        check_picture(picture, is_forced=is_forced)
     try:
         vary: dict[str, Any] = {}
         for text in varied:
@@ -104,15 +116,25 @@ def sweep_(
             rules=rules,
             settings=settings_of(Path(), assignments),
         )
+        drawn = bytes_of(draw_sweep(ready), picture) if picture is not None else b""
         with _cluster(dask) as executor:
             counts = _run(ready, workers if executor is None else None, executor, target)
-    except (FamilyError, SettingError, MissingExtraError, CannotWriteError, FactPlaceError) as error:
+        if picture is not None:
+            write_whole(picture, [drawn], keeps_backup=False)
+    except (
+        FamilyError,
+        SettingError,
+        MissingExtraError,
+        MissingPainterError,
+        CannotWriteError,
+        FactPlaceError,
+    ) as error:
         raise CouldNotRunError(str(error)) from None
     except UnknownControlError as error:
         raise CouldNotRunError(f"{error}; say which with --control {'|'.join(DIALECTS)}") from None
     click.echo("\n".join(_summary(counts)))
-    if target is not None:
-        click.echo(f"{target} written", err=True)
+    for path in filter(None, (target, picture)):
+        click.echo(f"{path} written", err=True)
 
 
 def _target(output: str | None, is_forced: bool) -> Path | None:

@@ -69,6 +69,7 @@ def compose(answer: Answer, title: str | None = None) -> Scene:
         slides=tuple(list_slides(answer, known)),
         lines=tuple(_lines(answer, roles)),
         remarks=tuple(_remarks(answer)),
+        meanings={Role.GHOST: "other values"} if known.others else {},
         has_turning_axis=plane.diameters[SECOND],
     )
 

@@ -3,7 +3,8 @@
 Nothing here knows how large the picture is, or where a label finds room.
 """
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from enum import Enum
 
 from contoursolve.contour import Segment
@@ -153,5 +154,7 @@ class Scene:
     slides: tuple[Slide, ...] = ()
     lines: tuple[tuple[Run, ...], ...] = ()
     remarks: tuple[tuple[Run, ...], ...] = ()
+    meanings: Mapping[Role, str] = field(default_factory=dict)
+    """What the legend says of a role, where that is not what it says of a contour's words."""
     has_turning_axis: bool = False
     """Whether the second axis begins at the axis about which the work turns."""
