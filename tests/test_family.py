@@ -1,5 +1,6 @@
 """A family says of every row what a single solve says of the block with these values."""
 
+import re
 import sys
 
 import click
@@ -9,7 +10,7 @@ from click.testing import CliRunner
 
 import contoursolve
 from contoursolve.cli import main
-from contoursolve.cli.sweep import read_range
+from contoursolve.cli.varied import read_range
 from contoursolve.families import REASONS, Code, FamilyError, family, sensitivity
 
 LATHE, MILL = {"start": "X40. Z0."}, {}
@@ -185,7 +186,10 @@ def test_types_are_as_documented_and_reasons_have_names():
         (BLOCK, {"A": ["x"]}, "the values of A are not numbers"),
         (BLOCK, {"A": [float("nan")]}, "the values of A must be finite"),
         (BLOCK, {"A": [1, 2], "P": [1, 2, 3]}, "A has 2, P has 3"),
-        (BLOCK + " (contoursolve: length of line 1 = 30)", {"A": [180]}, "about words alone"),
+        (BLOCK, {"length of line 1": [180]}, "no fact says what length of line 1 is; there are none"),
+        (BLOCK, {"start.U": [180]}, "the start point has no word U; its words are X, Z"),
+        (BLOCK + " (contoursolve: length of line 1 = ?)", {"length of line 1": [1]}, "? is no number"),
+        ("G112 X100. K-30. I10. R20.", {"X": [1], "start.X": [1]}, "vary one of them at a time"),
         (BLOCK + "\n" + BLOCK, {"1:A": [180]}, "2 contours"),
         (BLOCK + "\n" + BLOCK, {"A": [180]}, "2 words A; its words are 1:X, 1:A"),
         ("G112 X100. K-30. I10. R20.", {"X": [1], "I": [1]}, "vary one of them at a time"),
@@ -197,10 +201,88 @@ def test_what_makes_no_family_is_refused_with_its_reason(block, vary, message):
     assert message in str(caught.value)
 
 
-def test_a_choice_that_nothing_makes_is_refused():
-    block = "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87"
-    with pytest.raises(FamilyError, match="nothing chooses between the two places of P1"):
-        family(block, vary={",A": [170, 171]}, rules="off")
+SEVERAL = {
+    "a radius asked for, from a straight part": (
+        "G111 X100. A180. K-30. B120. P?",
+        LATHE | {"facts": ["straight part of line 2 = 20"]},
+        {"K": (-60, 5), "straight part of line 2": (-5, 60), "B": (60, 200)},
+    ),
+    "an angle asked for, from a length, with two answers": (
+        "G111 X100. A? K-30. B120. (contoursolve: length of line 1 = 35.)",
+        LATHE,
+        {"K": (-60, 5), "length of line 1": (5, 70)},
+    ),
+    "a choice that nothing makes": (
+        _NCT.format(comp="G41", x=50, y=0) + "G3 X-50 Y0 R50 ,R3\nG1 X-50 Y42.857 ,A171.87",
+        MILL | {"rules": "off"},
+        {"R": (-70, 80), ",A": (100, 260), ",R": (0, 30)},
+    ),
+    "two angles asked for, by a search": (
+        "G111 X100. A? K-30. B?",
+        LATHE | {"facts": ["length of line 1 = 35", "angle from line 1 to line 2 = -50"]},
+        {"length of line 1": (25, 60), "angle from line 1 to line 2": (-120, -10)},
+    ),
+    "a start point, in diameters": (
+        "G111 X100. A180. K-30. B120. P5. Q5.",
+        LATHE,
+        {"start.X": (-10, 120), "start.Z": (-20, 20), "X": (60, 120), "P": (0, 20)},
+    ),
+    "a start point, of facts": (
+        "G111 X100. A180. K-30. B120. P?",
+        LATHE | {"facts": ["straight part of line 2 = 20"]},
+        {"start.X": (10, 120), "B": (60, 170)},
+    ),
+    "a start point that is a block": (
+        _NCT.format(comp="G41", x=50, y=0) + "G3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q-1",
+        MILL,
+        {"1:X": (45, 55), ",A": (100, 260)},
+    ),
+}
+
+
+def filled(block, options, values):
+    """The block, the start point and the facts with values in place, by plain text."""
+    facts, start = list(options.get("facts", ())), options.get("start")
+    words = {}
+    for name, value in values.items():
+        if " " in name:
+            facts = [f"{name} = {value:.3f}" if each.startswith(name) else each for each in facts]
+            block = re.sub(rf"{name} = [-\d.]+", f"{name} = {value:.3f}", block)
+        elif name.startswith("start."):
+            start = text_of(start, [name[6:]], [value])
+        else:
+            words[name] = value
+    return text_of(block, words, words.values()), options | {"facts": facts, "start": start}
+
+
+@pytest.mark.parametrize("name", SEVERAL)
+def test_facts_choices_and_start_points_vary_as_words_do(name):
+    block, options, ranges = SEVERAL[name]
+    values = draw(ranges, 40 if "search" in name else 150, sorted(SEVERAL).index(name))
+    found = family(block, vary=values, paired=True, **options)
+    seen, compared = set(), 0
+    for row, each in enumerate(zip(*values.values(), strict=True)):
+        text, more = filled(block, options, dict(zip(values, each, strict=True)))
+        answer = contoursolve.solve(text, depth="verdict", **more).answers[0]
+        assert Code(int(found["status"][row])).status is answer.status, (text, more)
+        seen.add(answer.status)
+        if answer.contour is None:
+            continue
+        assert found["residual"][row] < 1e-9
+        for key, value in expected_points(answer):
+            if key in found.names:
+                compared += 1
+                assert abs(found[key][row] - value) <= 1e-12 * max(1.0, abs(value)), (text, key)
+    assert compared > 20
+    assert len(seen) > 1
+
+
+def test_a_value_that_is_asked_for_is_a_column():
+    options = {"start": START, "facts": ["straight part of line 2 = 20", "length of line 1 = ?"]}
+    found = family("G111 X100. A180. K-30. B120. P?", vary={"K": [-30, -40]}, **options)
+    answers = contoursolve.solve("G111 X100. A180. K-30. B120. P?", **options).answers[0].answers
+    assert [found["asked.P"][0], found["asked.length of line 1"][0]] == pytest.approx([each.value for each in answers])
+    assert found["asked.length of line 1"][1] == pytest.approx(40)
 
 
 def test_the_start_point_must_be_known():
@@ -250,8 +332,47 @@ def test_a_sweep_counts_what_becomes_of_the_contours():
 def test_a_range_has_both_ends_and_no_rounding_adds_up():
     word, values = read_range("a=170:190:0.01")
     assert (word, len(values), values[0], values[-1], values[1733]) == ("A", 2001, 170.0, 190.0, 187.33)
-    assert read_range("2:,A=3:1:-1") == ("2:,A", [3.0, 2.0, 1.0])
-    assert read_range("P=1, 2.5")[1] == [1.0, 2.5]
+    word, values = read_range("2:,a=3:1:-1")
+    assert (word, values.tolist()) == ("2:,A", [3.0, 2.0, 1.0])
+    assert read_range("P=1, 2.5")[1].tolist() == [1.0, 2.5]
+    assert read_range("length  of line 1=1:2:1")[0] == "length of line 1"
+    assert read_range("Start.x=1")[0] == "start.X"
+
+
+def test_values_come_from_a_column_of_a_file(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    found = family(BLOCK, start=START, vary={"A": [170, 180.5], "P": [1, 60]}, paired=True)
+    (tmp_path / "in.csv").write_text("A;radius\n170;1\n180.5;60\n", encoding="utf-8-sig")
+    assert run(*ON_BLOCK, "--vary", "A=@in.csv", "--vary", "P=@in.csv:radius", "--paired", "-o", "out.csv")[0] == 0
+    rows = [line.split(",") for line in (tmp_path / "out.csv").read_text().splitlines()]
+    assert [row[:3] for row in rows[1:]] == [["170.0", "1.0", "solved"], ["180.5", "60.0", "no-solution"]]
+    pytest.importorskip("pyarrow")
+    found.to_parquet(tmp_path / "in.parquet")
+    assert read_range("P=@in.parquet")[1].tolist() == [1, 60]
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("A=@in.txt", "ends with .csv or .parquet"),
+        ("A=@none.csv", "none.csv: no such file"),
+        ("A=@in.csv:B", "has no column B; there are A, C"),
+        ("A=@in.csv", "line 3, column A: 'x' is no number"),
+        ("C=@in.csv", "line 3, column C: there is no number"),
+        ("V1.Z=@in.parquet", "row 1: there is no number"),
+        ("A=@broken.parquet", "broken.parquet, column A: "),
+    ],
+)
+def test_a_column_that_is_none_is_one_line_and_status_2(text, message, tmp_path, monkeypatch):
+    pytest.importorskip("pyarrow")
+    from pyarrow import parquet, table  # noqa: PLC0415
+
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "in.csv").write_text("A,C\n1,2\nx,\n")
+    (tmp_path / "broken.parquet").write_text("no parquet")
+    parquet.write_table(table({"V1.Z": [None, 1.0]}), "in.parquet")
+    status, _, errors = run(*ON_BLOCK, "--vary", text)
+    assert (status, message in errors) == (2, True), errors
 
 
 @pytest.mark.parametrize("text", ["A", "A=", "A=1:2", "A=1:2:0", "A=1:2:-1", "A=1:2,3", "A=x", "A=nan", "A=0:1:1e-12"])

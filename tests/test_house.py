@@ -36,7 +36,7 @@ FLOORS = (
     "batch",
     "expansion",
     "output api",
-    "trial rewrite",
+    "trial rewrite pictures",
     "__init__",
     "cli",
     "__main__",
