@@ -285,7 +285,8 @@ def _examine(
 ) -> tuple[NDArray[numpy.bool_], NDArray[numpy.float64]]:
     """Which rows are solved without anything to say of them, and bounds of the errors of those, mm."""
     figure, plan = kind.system.figure, kind.machine.plan
-    verdict = Verdict(figure, plan, kind.machine.corner_residuals, inputs, out, rows)
+    residuals = kind.machine.corner_residuals
+    verdict = Verdict(figure, len(plan.basis), plan.checks, plan.steps, residuals, inputs, out, rows)
     plain = (verdict.status == Code.SOLVED) & (verdict.reason == 0) & ~verdict.again
     for element in figure.path:
         if isinstance(element, Line):
