@@ -16,6 +16,7 @@ _COMMANDS = {
     "diff": "diff:diff",
     "plot": "plot:plot",
     "sweep": "sweep:sweep_",
+    "range": "range:range_",
     "verify": "verify:verify",
     "rules": "catalogue:rules",
     "explain": "catalogue:explain",
