@@ -29,7 +29,17 @@ if TYPE_CHECKING:
     from contoursolve.diagnostic import Basis, Diagnosis, Diagnostic, Severity
     from contoursolve.examine import Answer, Depth, Policy
     from contoursolve.expansion import Expansion
-    from contoursolve.families import Family, FamilyError, Feasible, Sensitivity, family, feasible, sensitivity
+    from contoursolve.families import (
+        Family,
+        FamilyError,
+        Feasible,
+        Found,
+        Sensitivity,
+        family,
+        feasible,
+        find_word,
+        sensitivity,
+    )
     from contoursolve.pipeline import Result, UnknownControlError
     from contoursolve.sketch import Drawings, Drawn, Sketch
     from contoursolve.solving import Status
@@ -54,6 +64,7 @@ __all__ = [
     "Family",
     "FamilyError",
     "Feasible",
+    "Found",
     "LineSegment",
     "Policy",
     "Program",
@@ -71,6 +82,7 @@ __all__ = [
     "expand",
     "family",
     "feasible",
+    "find_word",
     "parse",
     "read_program",
     "sensitivity",
@@ -85,7 +97,17 @@ _ROOMS = {
     "diagnostic": ("Basis", "Diagnosis", "Diagnostic", "Severity"),
     "examine": ("Answer", "Depth", "Policy"),
     "expansion": ("Expansion",),
-    "families": ("Family", "FamilyError", "Feasible", "Sensitivity", "family", "feasible", "sensitivity"),
+    "families": (
+        "Family",
+        "FamilyError",
+        "Feasible",
+        "Found",
+        "Sensitivity",
+        "family",
+        "feasible",
+        "find_word",
+        "sensitivity",
+    ),
     "pipeline": ("Result", "UnknownControlError"),
     "sketch": ("Drawings", "Drawn", "Sketch"),
     "solving": ("Status",),

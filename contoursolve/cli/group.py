@@ -17,6 +17,7 @@ _COMMANDS = {
     "plot": "plot:plot",
     "sweep": "sweep:sweep_",
     "range": "range:range_",
+    "find": "find:find",
     "verify": "verify:verify",
     "rules": "catalogue:rules",
     "explain": "catalogue:explain",
