@@ -35,10 +35,12 @@ if TYPE_CHECKING:
         Feasible,
         Found,
         Sensitivity,
+        Tolerances,
         family,
         feasible,
         find_word,
         sensitivity,
+        tolerances,
     )
     from contoursolve.pipeline import Result, UnknownControlError
     from contoursolve.sketch import Drawings, Drawn, Sketch
@@ -73,6 +75,7 @@ __all__ = [
     "Severity",
     "Sketch",
     "Status",
+    "Tolerances",
     "UnknownControlError",
     "UnreadableProgramError",
     "Word",
@@ -89,6 +92,7 @@ __all__ = [
     "solve",
     "solve_file",
     "solve_program",
+    "tolerances",
     "what_if",
 ]
 
@@ -103,10 +107,12 @@ _ROOMS = {
         "Feasible",
         "Found",
         "Sensitivity",
+        "Tolerances",
         "family",
         "feasible",
         "find_word",
         "sensitivity",
+        "tolerances",
     ),
     "pipeline": ("Result", "UnknownControlError"),
     "sketch": ("Drawings", "Drawn", "Sketch"),

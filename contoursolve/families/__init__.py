@@ -10,11 +10,13 @@ from contoursolve.families.prepared import Sweep
 from contoursolve.families.ranges import FamilyError
 from contoursolve.families.result import Family, summary_of
 from contoursolve.families.slopes import Sensitivity, Spread, sensitivity
+from contoursolve.families.tolerance import Effect, Limits, Tolerances, tolerances
 from contoursolve.families.verdict import REASONS, Code
 
 __all__ = [
     "REASONS",
     "Code",
+    "Effect",
     "End",
     "Family",
     "FamilyError",
@@ -23,11 +25,13 @@ __all__ = [
     "Goal",
     "Hit",
     "Interval",
+    "Limits",
     "MissingExtraError",
     "Reason",
     "Sensitivity",
     "Spread",
     "Sweep",
+    "Tolerances",
     "Way",
     "csv_lines",
     "family",
@@ -38,5 +42,6 @@ __all__ = [
     "sensitivity",
     "summary_of",
     "sweep",
+    "tolerances",
     "write_parquet",
 ]
