@@ -8,6 +8,7 @@ from contoursolve.families.goals import Goal
 from contoursolve.families.inverse import Found, Hit, find_word
 from contoursolve.families.prepared import Sweep
 from contoursolve.families.ranges import FamilyError
+from contoursolve.families.regions import Boundary, Region, region
 from contoursolve.families.result import Family, summary_of
 from contoursolve.families.slopes import Sensitivity, Spread, sensitivity
 from contoursolve.families.tolerance import Effect, Limits, Tolerances, tolerances
@@ -15,6 +16,7 @@ from contoursolve.families.verdict import REASONS, Code
 
 __all__ = [
     "REASONS",
+    "Boundary",
     "Code",
     "Effect",
     "End",
@@ -28,6 +30,7 @@ __all__ = [
     "Limits",
     "MissingExtraError",
     "Reason",
+    "Region",
     "Sensitivity",
     "Spread",
     "Sweep",
@@ -39,6 +42,7 @@ __all__ = [
     "find_word",
     "need",
     "pieces",
+    "region",
     "sensitivity",
     "summary_of",
     "sweep",
