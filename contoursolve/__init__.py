@@ -28,7 +28,21 @@ if TYPE_CHECKING:
     from contoursolve.contour import ArcSegment, Contour, LineSegment
     from contoursolve.diagnostic import Basis, Diagnosis, Diagnostic, Severity
     from contoursolve.examine import Answer, Depth, Policy
-    from contoursolve.families import Family, FamilyError, Sensitivity, family, sensitivity
+    from contoursolve.families import (
+        Family,
+        FamilyError,
+        Feasible,
+        Found,
+        Region,
+        Sensitivity,
+        Tolerances,
+        family,
+        feasible,
+        find_word,
+        region,
+        sensitivity,
+        tolerances,
+    )
     from contoursolve.outcome import Expansion
     from contoursolve.pipeline import Result, UnknownControlError
     from contoursolve.sketch import Drawings, Drawn, Sketch
@@ -53,14 +67,18 @@ __all__ = [
     "Expansion",
     "Family",
     "FamilyError",
+    "Feasible",
+    "Found",
     "LineSegment",
     "Policy",
     "Program",
+    "Region",
     "Result",
     "Sensitivity",
     "Severity",
     "Sketch",
     "Status",
+    "Tolerances",
     "UnknownControlError",
     "UnreadableProgramError",
     "Word",
@@ -69,12 +87,16 @@ __all__ = [
     "completions",
     "expand",
     "family",
+    "feasible",
+    "find_word",
     "parse",
     "read_program",
+    "region",
     "sensitivity",
     "solve",
     "solve_file",
     "solve_program",
+    "tolerances",
     "what_if",
 ]
 
@@ -82,8 +104,22 @@ _ROOMS = {
     "contour": ("ArcSegment", "Contour", "LineSegment"),
     "diagnostic": ("Basis", "Diagnosis", "Diagnostic", "Severity"),
     "examine": ("Answer", "Depth", "Policy"),
-    "families": ("Family", "FamilyError", "Sensitivity", "family", "sensitivity"),
     "outcome": ("Expansion",),
+    "families": (
+        "Family",
+        "FamilyError",
+        "Feasible",
+        "Found",
+        "Region",
+        "Sensitivity",
+        "Tolerances",
+        "family",
+        "feasible",
+        "find_word",
+        "region",
+        "sensitivity",
+        "tolerances",
+    ),
     "pipeline": ("Result", "UnknownControlError"),
     "sketch": ("Drawings", "Drawn", "Sketch"),
     "solving": ("Status",),

@@ -15,7 +15,7 @@ from contoursolve.dialects import DIALECTS
 from contoursolve.examine import Policy
 from contoursolve.families.distribute import in_order
 from contoursolve.families.prepared import Examples, Kinds, Sweep, Table, examples_of, kinds_of
-from contoursolve.families.ranges import FamilyError, Ranges, ranges_of, stretches
+from contoursolve.families.ranges import FamilyError, Ranges, name_of, ranges_of, stretches
 from contoursolve.families.result import Family
 from contoursolve.families.template import Template, find_words
 from contoursolve.model import Length
@@ -94,6 +94,20 @@ def template_of(
     beginning = syntax.parse(start, "<start>", first_line=0) if start is not None else None
     apart = tuple(syntax.read_directive(fact, -number) for number, fact in enumerate(facts, 1))
     return Template(program, dialect, Length(units), Policy(rules), beginning, free(program), apart)
+
+
+def template_with(
+    word: str,
+    block: str,
+    start: str | None,
+    control: str | None,
+    units: str,
+    rules: str,
+    settings: Mapping[str, str] | None,
+) -> Template:
+    """A block with one word free; arguments and errors as for `family`."""
+    template = template_of(block, start, control, units, rules, settings, lambda _: {})
+    return replace(template, words=find_words(template, [name_of(word)]))
 
 
 def family(

@@ -1,12 +1,13 @@
 """Rows of a family that the rules treat alike: one system, one choice of branches, one function."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from decimal import Decimal
 
 import numpy
 
 from contoursolve.analysis import judge
+from contoursolve.backends.chart import Following
 from contoursolve.backends.columns import Array, difference, directions
 from contoursolve.backends.inputs import COSINE, SINE
 from contoursolve.constraints import Coordinate, System, assemble
@@ -23,6 +24,9 @@ from contoursolve.solving.compile import Machine, compile_system
 from contoursolve.solving.solve import inputs_of, solve
 from contoursolve.syntax import FACT, Word
 from contoursolve.tolerance import LARGEST
+
+Follows = tuple[tuple[str, Following], ...]
+"""The values that follow words, by name."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -107,6 +111,29 @@ class Kind:
                 value = float(self.profile.givens[given].value)
                 found[given] = Input(self.moves[axis][0], difference(value, self.begins(axis, ranges)))
         return found
+
+    def follows(self, words: Sequence[str]) -> Follows:
+        """The values that follow the free words, and those that count from a start point that does."""
+        found = {
+            given: Following(words.index(word), float(factor), self.profile.givens[given].unit is Unit.DEGREE)
+            for given, (word, factor) in self.free.items()
+        }
+        for given, axis in self._counted.items():
+            if axis in self.moves and given not in self.free:
+                word, factor, _ = self.moves[axis]
+                found[given] = Following(words.index(word), -float(factor), is_angle=False)
+        return tuple(found.items())
+
+    def fixed(self, names: Iterable[str]) -> list[float]:
+        """What a chart of the free words needs besides them, by name; of a value that follows a word, what is added."""
+        numbers, counted = self.numbers(), self._counted
+        for given in (*self.free, *counted):
+            value = Decimal(0) if given in self.free else self.profile.givens[given].value
+            if given in counted:
+                start = self.profile.start.values[counted[given]] or Decimal(0)
+                value -= self.moves[counted[given]][2] if counted[given] in self.moves else start
+            numbers[given] = float(value)
+        return [numbers[name] for name in names]
 
     def begins(self, axis: int, ranges: Ranges) -> Array:
         """The coordinates of the start point at the values of its word, mm."""
