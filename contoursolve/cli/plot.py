@@ -11,9 +11,10 @@ from contoursolve.cli.options import (
     CouldNotRunError,
     common_options,
 )
-from contoursolve.cli.printing import lines_of_findings, print_lines, print_summary, style_of_output
+from contoursolve.cli.printing import print_lines, style_of_output
 from contoursolve.files import CannotWriteError, check_target, write_whole
 from contoursolve.output.layout import count
+from contoursolve.output.listing import lines_of_findings, summary_line
 
 
 @click.command(short_help="Draw the contours for CAD (DXF).")
@@ -65,6 +66,6 @@ def plot(
         raise CouldNotRunError(str(error)) from None
     elements = count(sum(len(contour.elements) for contour in contours), "element")
     written = f"{output}: {elements} of {count(len(contours), 'contour')}" if contours else f"{output}: not written"
-    print_summary([result])
+    click.echo(summary_line([result]))
     click.echo(written)
     context.exit(FOUND_ERRORS if result.has_errors or not contours else 0)
