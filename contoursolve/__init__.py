@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from contoursolve.examine import Answer, Depth, Policy
     from contoursolve.expansion import Expansion
     from contoursolve.families import Family, FamilyError, Sensitivity, family, sensitivity
+    from contoursolve.notebook import explore
     from contoursolve.pipeline import Result, UnknownControlError
     from contoursolve.sketch import Drawings, Drawn, Sketch
     from contoursolve.solving import Status
@@ -68,6 +69,7 @@ __all__ = [
     "check_file",
     "completions",
     "expand",
+    "explore",
     "family",
     "parse",
     "read_program",
@@ -84,6 +86,7 @@ _ROOMS = {
     "examine": ("Answer", "Depth", "Policy"),
     "expansion": ("Expansion",),
     "families": ("Family", "FamilyError", "Sensitivity", "family", "sensitivity"),
+    "notebook": ("explore",),
     "pipeline": ("Result", "UnknownControlError"),
     "sketch": ("Drawings", "Drawn", "Sketch"),
     "solving": ("Status",),

@@ -36,6 +36,7 @@ FLOORS = (
     "expansion",
     "output api",
     "trial rewrite",
+    "pictures",
     "markup",
     "notebook report",
     "__init__",

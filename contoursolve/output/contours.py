@@ -102,7 +102,7 @@ def solution_rows(answer: Answer, listing: Listing) -> list[tuple[Listed, tuple[
     for each in listing.solutions:
         where = ", ".join(each.reasons)
         if each.contour:
-            places = (f"{point} {' '.join(_place(each.contour.points[point], answer))}" for point in differing)
+            places = (f"{point} {place_text(answer, each.contour.points[point])}" for point in differing)
             where = "  ".join((*places, *(_asked_text(asked, answer) for asked in each.asked)))
         label = "" if each.contour else "no contour:"
         row = (each.name or "only solution", label, where, " ".join(each.selects), str(each.certificate))
@@ -120,12 +120,13 @@ def _asked_text(asked: AskedValue, answer: Answer) -> str:
     return f"{name} = {length_of(asked.value * (2 if question.is_diameter else 1), answer.unit)}"
 
 
-def _place(at: Point, answer: Answer) -> list[str]:
+def place_text(answer: Answer, at: Point) -> str:
+    """A place as words, in the unit and the axes of the program."""
     plane = answer.plane
-    return [
+    return " ".join(
         f"{axis}{length_of(value * (2 if is_diameter else 1), answer.unit)}"
         for axis, value, is_diameter in zip(plane.axes, at, plane.diameters, strict=True)
-    ]
+    )
 
 
 def given_rows(answer: Answer, dialect: Dialect) -> list[tuple[str, str, str, str]]:

@@ -31,7 +31,7 @@ def plain(text: str, _role: str) -> str:
 
 
 def finding_lines(finding: Diagnostic, name: str, sources: Mapping[int, str], style: Style = plain) -> list[str]:
-    """The lines of one finding; `sources` are the texts of the program's lines by number."""
+    """The lines of one finding; `sources` are the texts of the program's lines by number, as far as they are known."""
     lines = finding_pieces(finding, name, sources)
     return ["".join(style(text, role) if role else text for text, role in line) for line in lines]
 
@@ -53,7 +53,11 @@ def finding_pieces(finding: Diagnostic, name: str, sources: Mapping[int, str]) -
     for label in finding.labels:
         by_line.setdefault(label.span.line, []).append(label)
     for number in sorted(by_line):
-        text, labels, shift = _window(sources.get(number, ""), by_line[number])
+        if number not in sources:
+            places = (f"{_margin(number)}:{each.span.column}: {each.text}" for each in by_line[number] if each.text)
+            lines += [[*bar, (f" {place}", "")] for place in places]
+            continue
+        text, labels, shift = _window(sources[number], by_line[number])
         lines.append([(f"{_margin(number):>{gutter}} |", "frame"), (f" {text}", "")])
         primary = finding.labels[0]
         lines += [[*bar, (" ", ""), *marks] for marks in _marks(labels, shift, primary, len(text), role)]
