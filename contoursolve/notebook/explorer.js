@@ -53,7 +53,8 @@ function render({ model, el }) {
   const path = make("details", { class: "path" }, make("summary", { text: "The path as a table" }));
   const view = make(
     "div",
-    { class: "contoursolve explorer" },
+    // JupyterLab keeps Enter and the arrow keys to itself elsewhere.
+    { class: "contoursolve explorer", "data-lm-suppress-shortcuts": "true", onkeydown: (event) => event.stopPropagation() },
     make("div", { class: "desk" }, drawing, make("div", { class: "panel" }, status, words)),
     make("div", { class: "block" }, text, copy, again, copied),
     solutions,
@@ -71,8 +72,6 @@ function render({ model, el }) {
   text.addEventListener("input", () => (isTyping = true));
   text.addEventListener("change", writeText);
   text.addEventListener("keydown", (event) => {
-    // JupyterLab must not take Enter for a command.
-    event.stopPropagation();
     if (event.key === "Enter" && !event.shiftKey) {
       event.preventDefault();
       writeText();
@@ -138,7 +137,7 @@ function render({ model, el }) {
     number.addEventListener("blur", () => (shown.isTyping = false));
     number.addEventListener("change", () => {
       shown.isTyping = false;
-      if (number.value !== "") act({ do: "move", key: field.key, value: number.valueAsNumber });
+      if (number.value !== "") act({ do: "move", key: field.key, value: number.value });
     });
     const shown = { row, slider, number, free, band, range, label, scale: null, text: "", isTyping: false };
     return shown;
