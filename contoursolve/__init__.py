@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from contoursolve.diagnostic import Basis, Diagnosis, Diagnostic, Severity
     from contoursolve.examine import Answer, Depth, Policy
     from contoursolve.expansion import Expansion
-    from contoursolve.families import Family, FamilyError, Sensitivity, family, sensitivity
+    from contoursolve.families import Family, FamilyError, Feasible, Sensitivity, family, feasible, sensitivity
     from contoursolve.notebook import explore
     from contoursolve.pipeline import Result, UnknownControlError
     from contoursolve.sketch import Drawings, Drawn, Sketch
@@ -54,6 +54,7 @@ __all__ = [
     "Expansion",
     "Family",
     "FamilyError",
+    "Feasible",
     "LineSegment",
     "Policy",
     "Program",
@@ -71,6 +72,7 @@ __all__ = [
     "expand",
     "explore",
     "family",
+    "feasible",
     "parse",
     "read_program",
     "sensitivity",
@@ -85,7 +87,7 @@ _ROOMS = {
     "diagnostic": ("Basis", "Diagnosis", "Diagnostic", "Severity"),
     "examine": ("Answer", "Depth", "Policy"),
     "expansion": ("Expansion",),
-    "families": ("Family", "FamilyError", "Sensitivity", "family", "sensitivity"),
+    "families": ("Family", "FamilyError", "Feasible", "Sensitivity", "family", "feasible", "sensitivity"),
     "notebook": ("explore",),
     "pipeline": ("Result", "UnknownControlError"),
     "sketch": ("Drawings", "Drawn", "Sketch"),

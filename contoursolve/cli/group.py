@@ -17,6 +17,7 @@ _COMMANDS = {
     "plot": "plot:plot",
     "report": "report:report",
     "sweep": "sweep:sweep_",
+    "range": "range:range_",
     "verify": "verify:verify",
     "rules": "catalogue:rules",
     "explain": "catalogue:explain",
