@@ -73,9 +73,10 @@ class Explorer(anywidget.AnyWidget):
 
     def _tell_range(self, key: str) -> None:
         """Where one word has a contour. It is worked out when nothing else is to do, and kept while it holds."""
-        frame = frames_of(self._exploration).get(key)
-        if frame is not None and self.ranges.get(key, {}).get("frame") != frame:
-            self.ranges = {**self.ranges, key: {"frame": frame, **range_of(self._exploration, key)}}
+        fields = {field["key"]: field for field in self.view["fields"]}
+        frame = self.view["frames"].get(key)
+        if frame is not None and key in fields and self.ranges.get(key, {}).get("frame") != frame:
+            self.ranges = {**self.ranges, key: {"frame": frame, **range_of(self._exploration, fields[key])}}
 
     def _viewed(self, number: int, trouble: str = "", *, is_new: bool = False) -> dict[str, Any]:
         view = view_of(self._exploration)

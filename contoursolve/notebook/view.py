@@ -87,6 +87,7 @@ def _fields(answer: Answer) -> Iterator[Data]:
             "low": low,
             "high": high,
             "step": step,
+            "size": TURN if row.unit is Unit.DEGREE else size,
         }
 
 
