@@ -118,7 +118,7 @@ function render({ model, el }) {
     const band = make("div", { class: "band", "aria-hidden": "true" });
     const range = make("span", { class: "range" });
     const label = make("code", { class: "word" });
-    const meaning = make("span", { class: "meaning", text: field.meaning });
+    const meaning = make("span", { class: "meaning", text: field.meaning, title: field.meaning });
     const row = make(
       "div",
       { class: "row" },

@@ -81,14 +81,16 @@ def _contour_of(answer: Answer, result: Result) -> Iterator[h.Node]:
     yield h.h3[short(f"{result.program.name}:{answer.lines[0]}: {form.name} ({form.title}): {answer.status.value}")]
     yield figure(answer)
     yield path_table(answer)
-    yield h.details[h.summary["What was given"], words_table(answer, dialect)]
-    yield from solutions_table(answer)
     yield from remarks(answer, dialect)
-    yield checks_table(answer)
     for finding in answer.diagnostics[:MOST_ITEMS]:
         yield finding_element(finding, result.program.name, sources_of(result, finding))
     if len(answer.diagnostics) > MOST_ITEMS:
         yield h.p[f"and {count(len(answer.diagnostics) - MOST_ITEMS, 'finding')} more"]
+    yield from solutions_table(answer)
+    yield h.details[h.summary["What was given"], words_table(answer, dialect)]
+    checks = checks_table(answer)
+    if checks:
+        yield h.details[h.summary["What was checked"], checks]
 
 
 def _finding(finding: Diagnostic) -> h.Node:

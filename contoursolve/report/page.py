@@ -126,6 +126,7 @@ def _contour(
     answer: Answer, number: int, result: Result, places: Places, dialect: Dialect, progress: Progress
 ) -> h.Element:
     found = [_finding(each, result, places) for each in answer.diagnostics]
+    path, words = path_table(answer), words_table(answer, dialect)
     element = h.article(id=f"contour-{number}")[
         h.h3[short(contour_name(answer, number)), ": ", _status(answer)],
         h.div(".blocks")[
@@ -134,11 +135,11 @@ def _contour(
                 for block in answer.profile.blocks
             )
         ],
-        h.div(".beside")[figure(answer), h.div[path_table(answer), *remarks(answer, dialect)]],
-        words_table(answer, dialect),
-        solutions_table(answer),
-        checks_table(answer),
+        h.div(".beside")[figure(answer), h.div[path or words, *remarks(answer, dialect)]],
         found,
+        solutions_table(answer),
+        words if path else None,
+        checks_table(answer),
     ]
     progress()
     return element
