@@ -157,7 +157,7 @@ function render({ model, el }) {
       row.slider.max = row.scale.high;
       row.slider.step = row.scale.step;
       const isFree = field.state === "free";
-      row.slider.disabled = row.number.disabled = isFree;
+      row.slider.disabled = isFree;
       row.free.setAttribute("aria-pressed", String(isFree));
       row.label.textContent = field.word;
       row.row.dataset.state = field.state;

@@ -4,6 +4,7 @@ runs no script, so that it opens anywhere and says the same in ten years."""
 from collections import Counter
 from collections.abc import Callable, Iterator
 from importlib.resources import files
+from pathlib import PurePath
 
 import htpy as h
 from markupsafe import Markup
@@ -51,7 +52,7 @@ def report_page(result: Result, version: str, progress: Progress = lambda: None)
 
 def _page(result: Result, version: str, progress: Progress) -> h.Element:
     places = find_places(result)
-    name = short(result.program.name)
+    name = short(PurePath(result.program.name).name)
     return h.html(lang="en")[
         h.head[
             h.meta(charset="utf-8"),
@@ -86,7 +87,8 @@ def _own_style() -> str:
 def _conditions(result: Result) -> h.Element:
     """The control, and everything apart from the program that the result depends on."""
     dialect = DIALECTS.get(result.control or "")
-    rows = [("control", f"{dialect.title} ({dialect.name})" if dialect else "not known")]
+    rows = [("program", result.program.name)]
+    rows.append(("control", f"{dialect.title} ({dialect.name})" if dialect else "not known"))
     if result.policy is not Policy.ENFORCE:
         rows.append(("rules of the manual", result.policy.value))
     rows += [("setting", f"{result.control}.{name}={value}") for name, value in sorted(result.settings.items())]
