@@ -4,9 +4,9 @@ from collections.abc import Mapping
 from math import cos, fmod, hypot, pi, radians, sin
 
 from contoursolve.pictures.arrows import arc, cross, direction, head, line
-from contoursolve.pictures.canvas import Canvas
+from contoursolve.pictures.canvas import FAINT_WEIGHT, Canvas
 from contoursolve.pictures.scene import Aligned, Angle, Kind, Leader, Mark, Slide
-from contoursolve.pictures.sheet import Dot, Run, Spot
+from contoursolve.pictures.sheet import Box, Dot, Run, Spot
 from contoursolve.pictures.theme import Role
 
 _RADIUS, _STEP = 34.0, 13.0
@@ -16,6 +16,9 @@ _SMALL = 4.0
 """Degrees. A smaller angle has no room for an arc."""
 
 _SLIDE = 34.0
+_BESIDE = 20.0
+"""Pixels from a line to its dimension line."""
+
 _SHORT = 22.0
 
 
@@ -25,7 +28,7 @@ def draw_angle(canvas: Canvas, angle: Angle, number: int) -> tuple[Spot, Spot]:
     radius = _RADIUS + number * _STEP
     turn = fmod(angle.degrees, 360.0)
     reference = at[0] + radius + 14.0, at[1]
-    canvas.draw(line((at[0] + 5.0, at[1]), reference, Role.MUTED, 0.8), 0.8)
+    canvas.draw(line((at[0] + 5.0, at[1]), reference, Role.MUTED, 0.8), FAINT_WEIGHT)
     if abs(turn) < _SMALL:
         return (at[0] + radius, at[1]), (0.4, -0.9)
     sweep = -radians(turn)
@@ -44,6 +47,16 @@ def draw_aligned(canvas: Canvas, aligned: Aligned) -> tuple[Spot, Spot]:
     a, b = canvas.view.place(aligned.start), canvas.view.place(aligned.end)
     way = direction(a, b)
     length = hypot(b[0] - a[0], b[1] - a[1])
+    side = (-way[1], way[0]) if way[0] < 0 or (way[0] == 0 and way[1] > 0) else (way[1], -way[0])
+    if aligned.is_beside:
+        beside = _emptier(canvas, a, b, side)
+        side = beside
+        ends = [(at[0] + beside[0] * _BESIDE, at[1] + beside[1] * _BESIDE) for at in (a, b)]
+        for at, end in zip((a, b), ends, strict=True):
+            begin = at[0] + beside[0] * 4.0, at[1] + beside[1] * 4.0
+            stop = end[0] + beside[0] * 4.0, end[1] + beside[1] * 4.0
+            canvas.draw(line(begin, stop, Role.MUTED, 0.7, is_dashed=False), FAINT_WEIGHT)
+        a, b = ends
     canvas.draw(line(a, b, aligned.role, 1.3))
     if length >= _SHORT:
         canvas.fill(head(a, (-way[0], -way[1]), aligned.role))
@@ -53,8 +66,22 @@ def draw_aligned(canvas: Canvas, aligned: Aligned) -> tuple[Spot, Spot]:
             tail = tip[0] - sign * way[0] * 16.0, tip[1] - sign * way[1] * 16.0
             canvas.draw(line(tail, tip, aligned.role, 1.3, is_dashed=False))
             canvas.fill(head(tip, (way[0] * sign, way[1] * sign), aligned.role))
-    side = (-way[1], way[0]) if way[0] < 0 or (way[0] == 0 and way[1] > 0) else (way[1], -way[0])
     return ((a[0] + b[0]) / 2, (a[1] + b[1]) / 2), side
+
+
+def _emptier(canvas: Canvas, a: Spot, b: Spot, side: Spot) -> Spot:
+    """The side of a line on which less is drawn."""
+
+    def cost(way: Spot) -> float:
+        shares = (0.1, 0.3, 0.5, 0.7, 0.9)
+        places = (
+            (a[0] + (b[0] - a[0]) * share + way[0] * _BESIDE, a[1] + (b[1] - a[1]) * share + way[1] * _BESIDE)
+            for share in shares
+        )
+        return sum(canvas.grid.cost(Box(x - 3.0, y - 3.0, x + 3.0, y + 3.0)) for x, y in places)
+
+    other = -side[0], -side[1]
+    return side if cost(side) <= cost(other) else other
 
 
 def draw_leader(canvas: Canvas, leader: Leader) -> None:
@@ -73,14 +100,14 @@ def draw_point(canvas: Canvas, mark: Mark) -> None:
     role = mark.short[0].role if mark.short else Role.INK
     role = role if role in (Role.FREE, Role.GHOST) else Role.INK
     if mark.kind is Kind.START:
-        canvas.items.append(Dot(at, 4.2, role, is_filled=False))
+        canvas.thick.append(Dot(at, 4.2, role, is_filled=False))
     elif mark.kind is Kind.END:
-        canvas.items.append(Dot(at, 4.0, role))
+        canvas.thick.append(Dot(at, 4.0, role))
     elif mark.kind is Kind.PLACE:
-        canvas.items.append(Dot(at, 2.8, role))
+        canvas.thick.append(Dot(at, 2.8, role))
     else:
         for stroke in cross(at, 5.0, Role.MUTED):
-            canvas.draw(stroke)
+            canvas.thick.append(stroke)
 
 
 def draw_slide(canvas: Canvas, slide: Slide) -> None:

@@ -13,26 +13,28 @@ from contoursolve.pictures.view import View
 SIZE = 12.0
 """Pixels. Font size of labels."""
 
-PATH_WEIGHT, THIN_WEIGHT = 8.0, 1.5
-"""How little a label likes to stand on a path, and on a thin line."""
+PATH_WEIGHT, THIN_WEIGHT, FAINT_WEIGHT = 40.0, 4.0, 1.5
+"""How little a label likes to stand on a path, on a thin line of a word, and on a line of construction."""
 
 _PIECES = 10
 
 
 class Canvas:
-    """Items in the order in which they are painted; texts come last, over all lines."""
+    """Items in the order in which they are painted: thin lines, paper behind labels, the path, labels."""
 
     def __init__(self, view: View, frame: Box) -> None:
         self.view, self.frame = view, frame
         self.grid = Grid(frame)
-        self.items: list[Item] = []
+        self.thin: list[Item] = []
+        self.papers: list[Item] = []
+        self.thick: list[Item] = []
         self.texts: list[Text] = []
         self.homeless: list[str] = []
         """Labels for which there was no room."""
 
     def draw(self, item: Stroke, weight: float = THIN_WEIGHT) -> None:
-        """A stroke, with what it weighs against labels."""
-        self.items.append(item)
+        """A stroke, with what it weighs against labels; what weighs most is painted over the paper of labels."""
+        (self.thick if weight >= PATH_WEIGHT else self.thin).append(item)
         here = item.start
         for step in item.steps:
             spots = points_on(here, step, _PIECES) if isinstance(step, Sweep) else [step]
@@ -42,7 +44,7 @@ class Canvas:
 
     def fill(self, shape: Shape) -> None:
         """An arrowhead."""
-        self.items.append(shape)
+        self.thick.append(shape)
         first = shape.corners[0]
         for corner in shape.corners[1:]:
             self.grid.mark(first, corner, THIN_WEIGHT)
@@ -52,9 +54,23 @@ class Canvas:
         box = text.box.grow(1.0)
         if not self.frame.holds(box) or any(box.meets(other) for other in self.grid.taken):
             return False
-        self.texts.append(text)
-        self.grid.take(box)
+        self._add(text, box)
         return True
+
+    def _add(self, text: Text, box: Box) -> None:
+        """A text on paper, so that thin lines stop at it."""
+        self.texts.append(text)
+        self.papers.append(
+            Shape(
+                ((box.left, box.top), (box.right, box.top), (box.right, box.bottom), (box.left, box.bottom)), Role.PAPER
+            )
+        )
+        self.grid.take(box)
+
+    @property
+    def items(self) -> tuple[Item, ...]:
+        """Everything, in the order in which it is painted."""
+        return (*self.thin, *self.papers, *self.thick, *self.texts)
 
     def label(
         self, at: Spot, choices: Sequence[tuple[Run, ...]], away: Spot, role: Role, *, leads: bool = False
@@ -73,10 +89,10 @@ class Canvas:
             self.homeless.append("".join(run.text for run in wordings[0]))
             return None
         index, box = found
-        self.grid.take(box)
         if leads or needs_leader(box, at):
             self.draw(line(nearest(box, at), at, role, 0.9, is_dashed=leads))
-        self.texts.append(
-            Text(((box.left + box.right) / 2, box.bottom - 1.0 - DESCENT * SIZE), wordings[index], SIZE, Anchor.MIDDLE)
+        self._add(
+            Text(((box.left + box.right) / 2, box.bottom - 1.0 - DESCENT * SIZE), wordings[index], SIZE, Anchor.MIDDLE),
+            box,
         )
         return box

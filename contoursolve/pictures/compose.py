@@ -14,7 +14,7 @@ from contoursolve.pictures.known import Known, find_known
 from contoursolve.pictures.scene import Aligned, Kind, Mark, Ring, Scene, Slide, Thin, Trail
 from contoursolve.pictures.sheet import Run
 from contoursolve.pictures.theme import Role
-from contoursolve.pictures.tracing import corner_segment, trace_known
+from contoursolve.pictures.tracing import trace_known
 from contoursolve.pictures.vectors import distance
 from contoursolve.pictures.wording import coordinate, word_text
 from contoursolve.reading import Trouble
@@ -39,7 +39,7 @@ def compose(answer: Answer, title: str | None = None) -> Scene:
     known = find_known(answer)
     roles = roles_of(answer)
     main = main_trails(answer, known)
-    elements = _elements(answer, known, main)
+    elements = _elements(main)
     ghosts, labels = _ghosts(answer, known)
     facts = (*profile.facts, *profile.ignored)
     noted = {
@@ -49,6 +49,8 @@ def compose(answer: Answer, title: str | None = None) -> Scene:
     }
     noted_givens = frozenset(given for words in noted.values() for _, given in words.values())
     faults = list(draw_faults(answer, known))
+    broken = [each for each in faults if isinstance(each, Ring)]
+    circles = {(each.center, each.radius) for each in broken}
     ends = [segment.end for trail in main for segment in trail.segments]
     marks = _marks(answer, known, roles, noted, labels, ends[-1] if ends else None)
     return Scene(
@@ -56,10 +58,10 @@ def compose(answer: Answer, title: str | None = None) -> Scene:
         axes=(axis_name(plane, FIRST), axis_name(plane, SECOND)),
         trails=(*ghosts, *main),
         thins=(
-            *_construction(profile, known),
+            *_construction(profile, known, elements),
             *(each for each in faults if isinstance(each, Thin)),
         ),
-        rings=(*_rings(answer, known), *(each for each in faults if isinstance(each, Ring))),
+        rings=(*(each for each in _rings(answer, known) if (each.center, each.radius) not in circles), *broken),
         marks=tuple(marks),
         dimensions=(
             *list_dimensions(answer, known, roles, elements, noted_givens),
@@ -106,6 +108,8 @@ def roles_of(answer: Answer) -> dict[str, Role]:
 def _blamed(answer: Answer) -> set[Span]:
     """The words that errors are about; not those beside which a word is missing."""
     is_short = any(finding.about is Trouble.UNDERDETERMINED for finding in answer.diagnostics)
+    claim = answer.claim
+    words = {word.span: word for word in (*claim.words.values(), *claim.unknown, *claim.repeated)}
     return {
         label.span
         for finding in answer.diagnostics
@@ -113,6 +117,8 @@ def _blamed(answer: Answer) -> set[Span]:
         and not isinstance(finding.about, RemarkKind)
         and (isinstance(finding.about, RefusalKind) or not is_short)
         for label in finding.labels
+        if label.span in words
+        and (isinstance(finding.about, RefusalKind) or words[label.span].address in finding.addresses)
     }
 
 
@@ -129,14 +135,9 @@ def main_trails(answer: Answer, known: Known) -> list[Trail]:
     return trails
 
 
-def _elements(answer: Answer, known: Known, trails: list[Trail]) -> dict[str, Segment]:
+def _elements(trails: list[Trail]) -> dict[str, Segment]:
     """What is drawn, by name."""
-    found = {
-        corner.name: corner_segment(corner, known.corners[corner.name])
-        for corner in answer.profile.figure.corners
-        if corner.name in known.corners
-    }
-    return found | {segment.name: segment for trail in trails for segment in trail.segments}
+    return {segment.name: segment for trail in trails for segment in trail.segments}
 
 
 def _ghosts(answer: Answer, known: Known) -> tuple[list[Trail], dict[str, list[tuple[Point, str]]]]:
@@ -197,9 +198,9 @@ def _marks(
     done = [start]
     final = next((name for name in reversed(list(known.points)) if end is not None and known.points[name] == end), "")
     if end is not None:
-        about = stated(final) or ([] if final in known.placed else [computed(end)])
-        label = "end" if final not in known.placed else "end (free)"
-        role = Role.INK if final not in known.placed else Role.FREE
+        is_free = bool(known.placed)
+        about = stated(final) or ([] if is_free else [computed(end)])
+        label, role = ("end (free)", Role.FREE) if is_free else ("end", Role.INK)
         yield Mark(end, Kind.END, (Run(label, role), *about), (Run(label, role),))
         done.append(end)
     cut = {corner.at for corner in profile.figure.corners}
@@ -241,12 +242,12 @@ def _trimmed(runs: list[Run] | tuple[Run, ...]) -> tuple[Run, ...]:
     return (Run(runs[0].text.lstrip(), runs[0].role), *runs[1:])
 
 
-def _construction(profile: Profile, known: Known) -> Iterator[Thin]:
+def _construction(profile: Profile, known: Known, elements: Mapping[str, Segment]) -> Iterator[Thin]:
     """From the path to the virtual intersections that its corners cut off."""
     lines = {element.name for element in (*profile.figure.path, *profile.figure.lines) if isinstance(element, Line)}
     for corner in profile.figure.corners:
         built, at = known.corners.get(corner.name), known.points.get(corner.at)
-        if built is None or at is None:
+        if built is None or at is None or corner.name not in elements:
             continue
         if corner.before in lines:
             yield Thin(built.begin, at, Role.MUTED)
@@ -265,6 +266,11 @@ def _rings(answer: Answer, known: Known) -> Iterator[Ring]:
         is_wanted = chosen & {element.tail, element.head} or answer.contour is None
         if center is not None and radius is not None and is_wanted:
             yield Ring(center, radius, Role.MUTED)
+    for circle in profile.figure.circles:
+        given = [profile.givens.get(name) for name in (f"{circle.center}.0", f"{circle.center}.1", circle.radius)]
+        values = [float(each.value) for each in given if each is not None]
+        if len(values) == len(given):
+            yield Ring((values[0], values[1]), values[2], Role.GIVEN)
 
 
 def _slides(answer: Answer, known: Known) -> Iterator[Slide]:

@@ -10,9 +10,13 @@ from contoursolve.model import FIRST, SECOND, Arc, CornerShape, Fact, Profile, U
 from contoursolve.pictures.known import Known
 from contoursolve.pictures.scene import Aligned, Angle, Dimension, Leader, Linear, Ordinate
 from contoursolve.pictures.theme import Role
-from contoursolve.pictures.vectors import along, distance, middle, minus, unit
+from contoursolve.pictures.vectors import along, distance, middle, minus, on_arc, unit
 from contoursolve.pictures.wording import number, word_text
+from contoursolve.source import Span
 from contoursolve.syntax import Word
+
+_BESIDE_ARROW = 0.36
+"""Of an arc, from its start: where its radius is written, off the arrow in its middle."""
 
 
 def list_dimensions(
@@ -22,6 +26,7 @@ def list_dimensions(
     their points (`noted`)."""
     profile = answer.profile
     seen: set[tuple[str, type]] = set()
+    measured: set[Span] = set()
     for fact in (*profile.facts, *profile.ignored):
         given = profile.givens.get(fact.given)
         if given is None or given.word is None or fact.given in noted or (fact.given, type(fact)) in seen:
@@ -30,8 +35,9 @@ def list_dimensions(
         drawn = dimension_of(fact, profile, known, elements, text, roles.get(fact.given, Role.GIVEN))
         if drawn is not None:
             seen.add((fact.given, type(fact)))
+            measured.add(given.word.span)
             yield drawn
-    yield from _corners(profile, known, roles, elements)
+    yield from _corners(profile, known, roles, elements, measured)
     for asked in answer.answers:
         question = asked.question
         if asked.value is None:
@@ -99,16 +105,19 @@ def pointing_at(segment: Segment, text: str, role: Role) -> Leader:
     """A word that points at the middle of an element; at an arc from outside."""
     at, way = middle(segment)
     if isinstance(segment, ArcSegment):
+        if not segment.name.startswith("corner"):
+            at, way = on_arc(segment, _BESIDE_ARROW)
         return Leader(at, unit(minus(at, segment.center)), text, role, segment.center)
     return Leader(at, (-way[1], way[0]), text, role)
 
 
 def _corners(
-    profile: Profile, known: Known, roles: Mapping[str, Role], elements: Mapping[str, Segment]
+    profile: Profile, known: Known, roles: Mapping[str, Role], elements: Mapping[str, Segment], shown: set[Span]
 ) -> Iterator[Dimension]:
+    """The sizes of corners, but for those that a distance shows."""
     for corner in profile.figure.corners:
         given = profile.givens.get(corner.size)
-        if given is None or given.word is None:
+        if given is None or given.word is None or given.word.span in shown:
             continue
         text = word_text(given.word.text)
         text += " x 45°" if corner.shape is CornerShape.CHAMFER_AXIS_45 else ""
@@ -144,7 +153,7 @@ def _further(
     points = known.points
     if isinstance(fact, Distance | Extent):
         tail, head = points.get(fact.tail), points.get(fact.head)
-        return Aligned(tail, head, text, role) if tail is not None and head is not None else None
+        return Aligned(tail, head, text, role, is_beside=True) if tail is not None and head is not None else None
     if isinstance(fact, Directed):
         try:
             line = profile.figure.line(fact.line)

@@ -92,13 +92,11 @@ def _boundaries(shown: Outcomes) -> list[Item]:
     for row, column in zip(*_starts(shown[1:] != shown[:-1]), strict=True):
         length = _run((shown[1:] != shown[:-1])[row, column:])
         y = _TOP + (row + 1) * high
-        items.append(
-            Stroke((_LEFT + column * wide, y), ((_LEFT + (column + length) * wide, y),), Role.INK, 1.4, (), False)
-        )
+        items.append(Stroke((_LEFT + column * wide, y), ((_LEFT + (column + length) * wide, y),), Role.INK, 1.4))
     for column, row in zip(*_starts((shown[:, 1:] != shown[:, :-1]).T), strict=True):
         length = _run((shown[:, 1:] != shown[:, :-1])[row:, column])
         x = _LEFT + (column + 1) * wide
-        items.append(Stroke((x, _TOP + row * high), ((x, _TOP + (row + length) * high),), Role.INK, 1.4, (), False))
+        items.append(Stroke((x, _TOP + row * high), ((x, _TOP + (row + length) * high),), Role.INK, 1.4))
     return items[:_MOST_RUNS]
 
 
@@ -158,7 +156,7 @@ def _axes(words: tuple[str, ...], across: NDArray[numpy.float64], up: NDArray[nu
     """The frame with values of both words."""
     right, bottom = _LEFT + _WIDE, _TOP + _HIGH
     corners = ((right, _TOP), (right, bottom), (_LEFT, bottom), (_LEFT, _TOP))
-    items: list[Item] = [Stroke((_LEFT, _TOP), corners, Role.INK, 1.2, (), False)]
+    items: list[Item] = [Stroke((_LEFT, _TOP), corners, Role.INK, 1.2)]
     for value, share in _ticks(across):
         x = _LEFT + share * _WIDE
         items.append(line((x, bottom), (x, bottom + 5.0), Role.INK))

@@ -39,7 +39,7 @@ MOST_TRIED = 40
 MOST_GHOSTS = 3
 """Completions that are shown."""
 
-_STEPS = (0.6, -0.6, 1.0, -1.0, 0.3, -0.3, 1.5, -1.5)
+_STEPS = (0.6, 1.0, 0.35, 1.5, -0.6, -1.0, -0.35, -1.5)
 """Where a free coordinate is put, from where the line begins, in lengths of the drawing."""
 
 
@@ -253,32 +253,57 @@ def _is_apart(one: Point, other: Point, size: float) -> bool:
 def _completions(profile: Profile, known: Known, size: float) -> Iterator[tuple[Profile, frozenset[str]]]:
     """The profile with further facts that determine it, and the points that these are about."""
     names: list[str] = []
-    extended = _with(profile, {})
+    extended, moves = profile, _moves(profile)
     while free := judge(assemble(extended)).free:
-        wanted = next((name for name in free if name not in names), None)
-        if wanted is None or len(names) >= MOST_FREE:
+        open_ = [
+            name for name in free if name not in names and name not in known.scalars and _is_placeable(name, profile)
+        ]
+        if not open_ or len(names) >= MOST_FREE:
             return
-        names.append(wanted)
+        names.append(max(open_, key=lambda name: round(moves.get(name, 1.0), 6)))
         extended = _with(profile, dict.fromkeys(names, 0.0))
-    points = frozenset(name.rpartition(".")[0] for name in names if "." in name)
-    origin = [float(value or 0) for value in profile.start.values]
+    points = frozenset(name.rpartition(".")[0] for name in names if name not in profile.figure.radii)
     for steps in sorted(product(_STEPS, repeat=len(names)), key=lambda each: sum(map(_STEPS.index, each)))[:MOST_TRIED]:
         values: dict[str, float] = {}
         for name, step in zip(names, steps, strict=True):
+            if name in profile.figure.radii:
+                values[name] = abs(step) * size
+                continue
             point, _, axis = name.rpartition(".")
-            base = 0.0
-            if point:
-                base = origin[int(axis)] if axis.isdigit() else 0.0
-                before = _before(profile, point)
-                at = values.get(f"{before}.{axis}", known.coordinate(before, int(axis)) if axis.isdigit() else None)
-                base = base if at is None else at
-            values[name] = base + step * size if point else abs(step) * size
+            base, lead = _lead(profile, known, values, point, int(axis))
+            values[name] = base + lead * step * size
         yield _with(profile, values), points
 
 
-def _before(profile: Profile, point: str) -> str:
-    """The point from which the element to a point comes."""
-    return next((element.tail for element in profile.figure.path if element.head == point), profile.figure.start)
+def _is_placeable(name: str, profile: Profile) -> bool:
+    return name in profile.figure.radii or name.rpartition(".")[2] in (str(FIRST), str(SECOND))
+
+
+def _moves(profile: Profile) -> dict[str, float]:
+    """How much each coordinate changes when what is free moves by 1; 1 for what is not known."""
+    affine = affine_facts(profile, profile.facts)
+    freedoms = affine.freedoms() if affine is not None else ()
+    return {
+        scalar(freedom.point, axis): abs(freedom.direction[axis])
+        for freedom in freedoms
+        if freedom.direction is not None
+        for axis in (FIRST, SECOND)
+    }
+
+
+def _lead(profile: Profile, known: Known, values: Mapping[str, float], point: str, axis: int) -> tuple[float, float]:
+    """Where the element to a point comes from, on an axis, and the way (+1 or -1) in which the path leads on."""
+
+    def get(name: str) -> float | None:
+        return values.get(scalar(name, axis), known.coordinate(name, axis))
+
+    comes = {element.head: element.tail for element in profile.figure.path}
+    before = comes.get(point, profile.figure.start)
+    base = get(before)
+    earlier = get(comes[before]) if before in comes else None
+    if base is None:
+        return float(profile.start.values[axis] or 0), 1.0
+    return base, -1.0 if earlier is not None and base < earlier else 1.0
 
 
 def _with(profile: Profile, values: Mapping[str, float]) -> Profile:

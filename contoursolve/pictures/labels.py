@@ -55,6 +55,19 @@ class Grid:
             total += sum(self.cells[row * self.columns + first : row * self.columns + last + 1])
         return total
 
+    def crossings(self, a: Spot, b: Spot) -> float:
+        """What a line to a place `b` runs over, without what is right there."""
+        length = hypot(b[0] - a[0], b[1] - a[1])
+        steps = int((length - CELL * 1.5) / CELL)
+        total = 0.0
+        for number in range(steps):
+            share = number * CELL / length
+            column = int((a[0] + (b[0] - a[0]) * share - self.page.left) / CELL)
+            row = int((a[1] + (b[1] - a[1]) * share - self.page.top) / CELL)
+            place = row * self.columns + column
+            total += self.cells[place] if 0 <= place < len(self.cells) else 0.0
+        return total
+
     def is_crossed(self, a: Spot, b: Spot) -> bool:
         """Whether a line would run through a text."""
         return any(clip(a, b, box) is not None for box in self.taken)
@@ -113,6 +126,8 @@ def place_label(
             cost = own + grid.cost(box.grow(1.5))
             if cost == float("inf") or (far > _TOUCHING and grid.is_crossed(at, nearest(box, at))):
                 continue
+            if far > _TOUCHING:
+                cost += grid.crossings(nearest(box, at), at)
             if best is None or cost < best[0]:
                 best = cost, box
             if far > 100.0 and best is not None:  # noqa: PLR2004 - no better one is to come

@@ -14,10 +14,19 @@ from contoursolve.pictures.callouts import (
     draw_point,
     draw_slide,
 )
-from contoursolve.pictures.canvas import PATH_WEIGHT, SIZE, THIN_WEIGHT, Canvas
+from contoursolve.pictures.canvas import FAINT_WEIGHT, PATH_WEIGHT, SIZE, THIN_WEIGHT, Canvas
 from contoursolve.pictures.labels import clip
 from contoursolve.pictures.metrics import MONO, shorten, width_of, wrap
-from contoursolve.pictures.rows import FIRST_ROW, PITCH, Side, draw_coordinates, draw_distances, side_of, stack
+from contoursolve.pictures.rows import (
+    FIRST_ROW,
+    PITCH,
+    Side,
+    draw_coordinates,
+    draw_distances,
+    is_nothing,
+    side_of,
+    stack,
+)
 from contoursolve.pictures.scene import Aligned, Angle, Kind, Leader, Linear, Ordinate, Scene, Thin, Trail
 from contoursolve.pictures.sheet import Box, Item, Run, Sheet, Spot, Stroke, Sweep, Text, shift
 from contoursolve.pictures.theme import DASHES, MEANINGS, Role
@@ -28,10 +37,10 @@ WIDTH = 760.0
 """Pixels of a page."""
 
 _PAD = 18.0
-_TALLEST, _LOWEST = 430.0, 110.0
+_TALLEST, _LOWEST = 350.0, 110.0
 """Pixels of the drawing itself, without what stands in its margins."""
 
-_MARGIN_X, _MARGIN_Y = 84.0, 44.0
+_MARGIN_X, _MARGIN_Y = 84.0, 40.0
 """Pixels around the drawing for labels of points."""
 
 _TITLE, _LINE, _SMALL = 14.0, 17.0, 11.0
@@ -45,6 +54,9 @@ _LEAST = 0.4
 _MOST_LABELS = 90
 """Labels on one page; more cannot be read, and what they say is in the head as well."""
 
+_CORNER = 130.0
+"""Pixels that the axes take of the width."""
+
 _SIDES = (Side(FIRST, -1), Side(FIRST, 1), Side(SECOND, -1), Side(SECOND, 1))
 
 
@@ -53,7 +65,7 @@ def lay_out(scene: Scene) -> Sheet:
     top = list(_head(scene))
     start = max((item.box.bottom for item in top), default=0.0) + 6.0
     span = _with_turning_axis(scene, span_of(scene))
-    linear = [each for each in scene.dimensions if isinstance(each, Linear)]
+    linear = [each for each in scene.dimensions if isinstance(each, Linear) and not is_nothing(each)]
     ordinates = [each for each in scene.dimensions if isinstance(each, Ordinate)]
     by_side = {side: [each for each in linear if side_of(each, span) == side] for side in _SIDES}
     edges = {axis: _edge_of(ordinates, axis, by_side, span) for axis in (FIRST, SECOND)}
@@ -71,14 +83,12 @@ def lay_out(scene: Scene) -> Sheet:
     flat = View((0.0, 0.0), scale, (0.0, 0.0))
     stacked = {side: stack(each, flat) for side, each in by_side.items()}
     rows = {side: max((row for _, row in each), default=-1) + 1 for side, each in stacked.items()}
-    high = {
-        sign: _MARGIN_Y + (PITCH * rows[Side(FIRST, sign)] + 8.0 if rows[Side(FIRST, sign)] else 0.0)
-        for sign in (-1, 1)
-    }
+    # Rows need no more room than labels of points, but for the text beyond the last one.
+    high = {sign: max(_MARGIN_Y, FIRST_ROW + PITCH * rows[Side(FIRST, sign)] + 4.0) for sign in (-1, 1)}
     for sign in (-1, 1):
         if edges[FIRST] == sign and any(each.axis == FIRST for each in ordinates):
             high[sign] += 18.0
-    tall = max(span.size[SECOND] * scale, _LOWEST)
+    tall = max(span.size[SECOND] * scale, _LOWEST) if scene.trails or scene.dimensions else 0.0
     bottom = start + high[1] + tall + high[-1]
     frame = Box(4.0, start, WIDTH - 4.0, bottom)
     view = View(span.middle, scale, (wide[-1] + room / 2, start + high[1] + tall / 2))
@@ -94,17 +104,16 @@ def lay_out(scene: Scene) -> Sheet:
     for side in _SIDES:
         draw_distances(canvas, stacked[side], side, outer[side])
     for axis in (FIRST, SECOND):
-        edge = Side(1 - axis, edges[axis])
-        # Coordinates on the second axis stand at the left or right edge.
         along = Side(FIRST, edges[axis]) if axis == FIRST else Side(SECOND, edges[axis])
         outward = edges[axis] if axis == SECOND else -edges[axis]
         level = outer[along] + outward * (FIRST_ROW + PITCH * rows[along] - (0 if rows[along] else 4.0))
         draw_coordinates(canvas, [each for each in ordinates if each.axis == axis], axis, edges[axis], level)
-        del edge
     _draw_labels(canvas, scene)
-    foot = list(_foot(scene, canvas, bottom + 4.0))
+    # The axes stand beside the drawing's lower end where nothing else is.
+    is_free = canvas.grid.cost(Box(frame.left, bottom - 34.0, _CORNER, bottom)) == 0.0
+    foot = list(_foot(scene, canvas, bottom - (26.0 if is_free else -4.0)))
     height = max((_bottom(item) for item in foot), default=bottom) + 12.0
-    return Sheet(WIDTH, round(height, 1), frame, (*canvas.items, *canvas.texts, *top, *foot))
+    return Sheet(WIDTH, round(height, 1), frame, canvas.items, (*top, *foot))
 
 
 def _bottom(item: Item) -> float:
@@ -195,24 +204,24 @@ def _legend(scene: Scene) -> list[Role]:
 def _draw_path(canvas: Canvas, scene: Scene) -> None:
     """Construction, other contours, and the path over them."""
     view = canvas.view
-    if scene.has_turning_axis:
+    if scene.has_turning_axis and scene.trails:
         y = view.place((0.0, 0.0))[1]
         if canvas.frame.top + 4.0 < y < canvas.frame.bottom - 4.0:
-            canvas.draw(line((canvas.frame.left, y), (canvas.frame.right, y), Role.MUTED, 0.9))
+            canvas.draw(line((canvas.frame.left, y), (canvas.frame.right, y), Role.MUTED, 0.9), FAINT_WEIGHT)
     for ring in scene.rings:
         radius = ring.radius * view.scale
         if radius < 20 * WIDTH:
             stroke = arc(view.place(ring.center), radius, 0.0, 6.283185307179586, ring.role)
-            canvas.draw(stroke, THIN_WEIGHT)
+            canvas.draw(stroke, FAINT_WEIGHT if ring.role is Role.MUTED else THIN_WEIGHT)
     for thin in scene.thins:
         ends = _ends_of(canvas, thin)
         if ends is not None:
-            canvas.draw(line(*ends, thin.role, 1.0 if thin.role is Role.MUTED else 1.4, is_clipped=True))
+            canvas.draw(line(*ends, thin.role, 1.0 if thin.role is Role.MUTED else 1.4))
     for trail in sorted(scene.trails, key=lambda each: each.is_main):
         width = (THICK if trail.role is Role.INK else THICK - 0.4) if trail.is_main else 1.5
         dash = () if trail.role is Role.INK else DASHES.get(trail.role, ())
         for stroke in _strokes(canvas, trail, width, dash):
-            canvas.draw(stroke, PATH_WEIGHT if trail.is_main else 3.0)
+            canvas.draw(stroke, PATH_WEIGHT if trail.is_main else THIN_WEIGHT)
     for trail in scene.trails:
         if trail.is_main:
             for segment in _pointed(trail.segments, view):
@@ -224,8 +233,12 @@ def _draw_path(canvas: Canvas, scene: Scene) -> None:
 
 def _pointed(segments: tuple[Segment, ...], view: View) -> list[Segment]:
     """The elements that are long enough for an arrow, or the longest."""
-    long = [segment for segment in segments if segment.length * view.scale > _ARROWED]
+    long = [segment for segment in segments if segment.length * view.scale > _ARROWED and not _is_corner(segment)]
     return long or [max(segments, key=lambda each: each.length)]
+
+
+def _is_corner(segment: Segment) -> bool:
+    return segment.name.startswith("corner")
 
 
 def _ends_of(canvas: Canvas, thin: Thin) -> tuple[Spot, Spot] | None:
@@ -287,6 +300,8 @@ def _draw_labels(canvas: Canvas, scene: Scene) -> None:
             spot, away = draw_angle(canvas, dimension, counts[at])
         elif isinstance(dimension, Aligned):
             spot, away = draw_aligned(canvas, dimension)
+        elif isinstance(dimension, Linear) and is_nothing(dimension):
+            spot, away = canvas.view.place(dimension.start), (0.7, -0.7)
         else:
             continue
         wanted.append((spot, [(Run(dimension.text, dimension.role),)], away, dimension.role))
@@ -340,10 +355,12 @@ def _directions(canvas: Canvas, scene: Scene) -> dict[tuple[int, int], list[Spot
 
 def stack_sheets(sheets: list[Sheet]) -> Sheet:
     """Pages under each other as one."""
-    items: list[Item] = []
+    drawing: list[Item] = []
+    around: list[Item] = []
     height = 0.0
     for sheet in sheets:
-        items += [shift(item, height) for item in sheet.items]
+        drawing += [shift(item, height) for item in sheet.drawing]
+        around += [shift(item, height) for item in sheet.around]
         height += sheet.height
     frame = Box(4.0, sheets[0].frame.top, WIDTH - 4.0, height)
-    return sheets[0] if len(sheets) == 1 else Sheet(WIDTH, round(height, 1), frame, tuple(items))
+    return sheets[0] if len(sheets) == 1 else Sheet(WIDTH, round(height, 1), frame, tuple(drawing), tuple(around))

@@ -4,7 +4,7 @@ import io
 from typing import TYPE_CHECKING, Any
 
 from contoursolve.pictures.sheet import Anchor, Dot, Shape, Sheet, Stroke, Sweep, Text
-from contoursolve.pictures.svg import HALO, points_on
+from contoursolve.pictures.svg import points_on
 from contoursolve.pictures.theme import Role, Theme
 
 if TYPE_CHECKING:
@@ -66,9 +66,10 @@ class _Painter:
 
     def paint(self) -> None:
         """Everything, each item over those before it."""
-        for number, item in enumerate(self.sheet.items):
+        inside = len(self.sheet.drawing)
+        for number, item in enumerate((*self.sheet.drawing, *self.sheet.around)):
             if isinstance(item, Stroke):
-                self._stroke(item, number)
+                self._stroke(item, number, is_clipped=number < inside)
             elif isinstance(item, Text):
                 self._text(item, number)
             else:
@@ -78,7 +79,7 @@ class _Painter:
         artist.set_zorder(number)
         self.figure.add_artist(artist)
 
-    def _stroke(self, stroke: Stroke, number: int) -> None:
+    def _stroke(self, stroke: Stroke, number: int, *, is_clipped: bool) -> None:
         from matplotlib.patches import PathPatch  # noqa: PLC0415
         from matplotlib.path import Path  # noqa: PLC0415
 
@@ -97,7 +98,7 @@ class _Painter:
             transform=self.transform,
         )
         self._add(patch, number)
-        if stroke.is_clipped:
+        if is_clipped:
             patch.set_clip_path(self.clip)
 
     def _patch(self, item: Shape | Dot, number: int) -> None:
@@ -113,9 +114,6 @@ class _Painter:
         self._add(disc, number)
 
     def _text(self, text: Text, number: int) -> None:
-        from matplotlib.patheffects import Normal  # noqa: PLC0415
-        from matplotlib.patheffects import Stroke as Halo  # noqa: PLC0415
-
         from contoursolve.pictures.metrics import width_of  # noqa: PLC0415
 
         x, y = text.at
@@ -129,7 +127,7 @@ class _Painter:
         align = {Anchor.START: "left", Anchor.MIDDLE: "center", Anchor.END: "right"}[anchor]
         pieces = [(run.text, run.role) for run in text.runs] if several else [(text.words, text.runs[0].role)]
         for words, role in pieces:
-            artist = self.figure.text(
+            self.figure.text(
                 x,
                 y,
                 words,
@@ -145,6 +143,4 @@ class _Painter:
                 parse_math=False,
                 zorder=number,
             )
-            halo = Halo(linewidth=HALO * _POINTS, foreground=self.colors[Role.PAPER])
-            artist.set_path_effects([halo, Normal()])
             x += width_of(words, text.size, is_bold=text.is_bold, is_mono=text.is_mono)

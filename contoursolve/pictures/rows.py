@@ -34,6 +34,11 @@ class Side:
     sign: int
 
 
+def is_nothing(dimension: Linear) -> bool:
+    """Whether it is a distance of 0, which has no two ends."""
+    return dimension.start[dimension.axis] == dimension.end[dimension.axis]
+
+
 def side_of(dimension: Linear, span: Span) -> Side:
     """The edge that is nearer to the points of a distance."""
     across = 1 - dimension.axis

@@ -76,12 +76,13 @@ class Linear:
 
 @dataclass(frozen=True, slots=True)
 class Aligned:
-    """A distance straight from one point to another."""
+    """A distance straight from one point to another; on the line between them, or beside it."""
 
     start: Point
     end: Point
     text: str
     role: Role
+    is_beside: bool = False
 
 
 @dataclass(frozen=True, slots=True)

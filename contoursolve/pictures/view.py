@@ -12,6 +12,8 @@ from contoursolve.solving import Point
 MOST_TIMES = 3.0
 """How many times as large as what it is about a picture may become for the sake of what stands beside."""
 
+_ROUNDING = 1.001
+
 
 @dataclass(frozen=True, slots=True)
 class View:
@@ -72,8 +74,8 @@ def span_of(scene: Scene) -> Span:
     own = _around(must or more or [(0.0, 0.0)])
     reach = max(*own.size, 1e-9)
     if max(own.size) <= 0:
-        reach = max(*_around([*must, *more]).size, 1.0) if more else 1.0
-    room = reach * (MOST_TIMES - 1) / 2
+        reach = max(*_around([*must, *more]).size, 1e-9)
+    room = reach * (MOST_TIMES - 1) / 2 * _ROUNDING
     near = [
         at
         for at in more
