@@ -14,12 +14,12 @@ from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.examine import Answer, Policy
 from contoursolve.markup.answers import (
     checks_table,
-    figure,
     path_table,
     remarks,
     solutions_table,
     words_table,
 )
+from contoursolve.markup.figure import figure
 from contoursolve.markup.findings import finding_element
 from contoursolve.markup.style import page_style
 from contoursolve.markup.tables import short, table
