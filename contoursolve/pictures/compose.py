@@ -8,15 +8,16 @@ from contoursolve.diagnostic import Severity
 from contoursolve.examine import Answer
 from contoursolve.model import FIRST, SECOND, Arc, Line, Plane, Profile
 from contoursolve.output.solutions import list_solutions
-from contoursolve.pictures.dimensions import list_dimensions, words_at_points
+from contoursolve.pictures.dimensions import list_dimensions
 from contoursolve.pictures.faults import draw_faults
 from contoursolve.pictures.known import Known, find_known
-from contoursolve.pictures.scene import Aligned, Kind, Mark, Ring, Scene, Slide, Thin, Trail
+from contoursolve.pictures.marks import givens_at_points, list_marks
+from contoursolve.pictures.scene import Aligned, Ring, Scene, Slide, Thin, Trail, Weight
 from contoursolve.pictures.sheet import Run
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.tracing import trace_known
-from contoursolve.pictures.vectors import distance
-from contoursolve.pictures.wording import coordinate, word_text
+from contoursolve.pictures.vectors import SAME, distance
+from contoursolve.pictures.wording import visible
 from contoursolve.reading import Trouble
 from contoursolve.solving import Point, RefusalKind, RemarkKind
 from contoursolve.source import Span
@@ -29,9 +30,6 @@ MOST_REMARKS = 3
 MOST_SOLUTIONS = 6
 """Other solutions that are drawn."""
 
-_SAME = 1e-6
-"""mm. Points nearer to each other get one label."""
-
 
 def compose(answer: Answer, title: str | None = None) -> Scene:
     """The scene of one contour, whatever its status."""
@@ -40,19 +38,18 @@ def compose(answer: Answer, title: str | None = None) -> Scene:
     roles = roles_of(answer)
     main = main_trails(answer, known)
     elements = _elements(main)
-    ghosts, labels = _ghosts(answer, known)
-    facts = (*profile.facts, *profile.ignored)
+    ghosts, places = _ghosts(answer, known)
     noted = {
-        point: words
-        for point, words in words_at_points(profile, facts).items()
-        if len(words) > 1 and point in known.points
+        point: givens
+        for point, givens in givens_at_points(profile).items()
+        if len(givens) > 1 and point in known.points
     }
-    noted_givens = frozenset(given for words in noted.values() for _, given in words.values())
+    noted_givens = frozenset(given for givens in noted.values() for given in givens)
     faults = list(draw_faults(answer, known))
     broken = [each for each in faults if isinstance(each, Ring)]
     circles = {(each.center, each.radius) for each in broken}
     ends = [segment.end for trail in main for segment in trail.segments]
-    marks = _marks(answer, known, roles, noted, labels, ends[-1] if ends else None)
+    marks = list_marks(answer, known, roles, noted, places, ends[-1] if ends else None)
     return Scene(
         title=title if title is not None else title_of(answer),
         axes=(axis_name(plane, FIRST), axis_name(plane, SECOND)),
@@ -144,7 +141,7 @@ def _ghosts(answer: Answer, known: Known) -> tuple[list[Trail], dict[str, list[t
     """Other contours, and where their computed intersections are with what selects each."""
     profile = answer.profile
     places: dict[str, list[tuple[Point, str]]] = {}
-    trails = [Trail(trace(profile, other).elements, Role.GHOST, is_main=False) for other in known.others]
+    trails = [Trail(trace(profile, other).elements, Role.GHOST, Weight.GHOST) for other in known.others]
     listing = list_solutions(answer) if answer.alternatives is not None else None
     if listing is None:
         return trails, places
@@ -154,92 +151,17 @@ def _ghosts(answer: Answer, known: Known) -> tuple[list[Trail], dict[str, list[t
         if each.contour is None:
             continue
         selects = " ".join(each.selects)
-        own = [name for name, at in each.contour.points.items() if name in first and distance(at, first[name]) > _SAME]
+        own = [name for name, at in each.contour.points.items() if name in first and distance(at, first[name]) > SAME]
         is_drawn = answer.contour is None and not own and _is_path(each.contour, known)
         if not is_drawn:
-            trails.append(Trail(each.contour.elements, Role.GHOST, selects, is_main=False))
+            trails.append(Trail(each.contour.elements, Role.GHOST, Weight.GHOST))
         for name in own or [name for name in each.contour.points if name.startswith("P")]:
             places.setdefault(name, []).append((each.contour.points[name], selects))
     return trails, places
 
 
 def _is_path(contour: Contour, known: Known) -> bool:
-    return all(
-        name in known.points and distance(at, known.points[name]) <= _SAME for name, at in contour.points.items()
-    )
-
-
-def _marks(
-    answer: Answer,
-    known: Known,
-    roles: Mapping[str, Role],
-    noted: Mapping[str, Mapping[int, tuple[object, str]]],
-    others: Mapping[str, list[tuple[Point, str]]],
-    end: Point | None,
-) -> Iterator[Mark]:
-    profile, plane, unit = answer.profile, answer.plane, answer.unit
-    choices = {choice.point: choice.given for choice in profile.choices if choice.given}
-
-    def computed(at: Point) -> Run:
-        return Run("  " + " ".join(coordinate(at, axis, plane, unit) for axis in (FIRST, SECOND)), Role.DERIVED)
-
-    def stated(name: str) -> list[Run]:
-        words = noted.get(name, {})
-        return [
-            Run("  " + word_text(profile.givens[given].word.text), roles.get(given, Role.GIVEN))  # type: ignore[union-attr]
-            for _, (_, given) in sorted(words.items())
-        ]
-
-    start = known.points.get(profile.figure.start)
-    if start is None:
-        return
-    places = " ".join(coordinate(start, axis, plane, unit) for axis in (FIRST, SECOND))
-    yield Mark(start, Kind.START, (Run("start", Role.INK), Run("  " + places, Role.MUTED)), (Run("start", Role.INK),))
-    done = [start]
-    final = next((name for name in reversed(list(known.points)) if end is not None and known.points[name] == end), "")
-    if end is not None:
-        is_free = bool(known.placed)
-        about = stated(final) or ([] if is_free else [computed(end)])
-        label, role = ("end (free)", Role.FREE) if is_free else ("end", Role.INK)
-        yield Mark(end, Kind.END, (Run(label, role), *about), (Run(label, role),))
-        done.append(end)
-    cut = {corner.at for corner in profile.figure.corners}
-    for name, at in known.points.items():
-        if any(distance(at, other) <= _SAME for other in done):
-            continue
-        is_shown = name in profile.intersections
-        words = stated(name)
-        if not is_shown and not words:
-            continue
-        runs = [Run(name, Role.INK if name not in known.placed else Role.FREE)] if is_shown else []
-        if name in choices and choices[name] in profile.givens:
-            word = profile.givens[choices[name]].word
-            runs += [Run("  " + word_text(word.text), roles.get(choices[name], Role.GIVEN))] if word else []
-        selects = next((text for place, text in others.get(name, []) if distance(place, at) <= _SAME), "")
-        runs += [Run("  " + selects, Role.GIVEN)] if selects else []
-        short = tuple(runs)
-        runs += words or ([computed(at)] if name not in known.placed else [])
-        kind = Kind.VIRTUAL if name in cut else Kind.PLACE
-        is_center = not is_shown and any(isinstance(each, Arc) and each.center == name for each in profile.figure.path)
-        yield Mark(at, Kind.CENTER if is_center else kind, _trimmed(runs), _trimmed(short))
-        done.append(at)
-    for name, places_of in others.items():
-        for at, selects in places_of:
-            if name in known.points and distance(at, known.points[name]) <= _SAME:
-                continue
-            runs = [Run(name, Role.GHOST), *([Run("  " + selects, Role.GHOST)] if selects else []), computed(at)]
-            yield Mark(at, Kind.PLACE, tuple(runs), tuple(runs[:-1]))
-    for element in profile.figure.path:
-        center = known.points.get(element.center) if isinstance(element, Arc) else None
-        if center is not None and all(distance(center, other) > _SAME for other in done):
-            yield Mark(center, Kind.CENTER)
-            done.append(center)
-
-
-def _trimmed(runs: list[Run] | tuple[Run, ...]) -> tuple[Run, ...]:
-    if not runs:
-        return ()
-    return (Run(runs[0].text.lstrip(), runs[0].role), *runs[1:])
+    return all(name in known.points and distance(at, known.points[name]) <= SAME for name, at in contour.points.items())
 
 
 def _construction(profile: Profile, known: Known, elements: Mapping[str, Segment]) -> Iterator[Thin]:
@@ -323,7 +245,7 @@ def _lines(answer: Answer, roles: Mapping[str, Role]) -> Iterator[tuple[Run, ...
 
 def _shown(run: Run) -> Run:
     """A run with nothing that cannot be seen."""
-    return Run("".join(each if each.isprintable() else (" " if each == "\t" else "·") for each in run.text), run.role)
+    return Run(visible(run.text), run.role)
 
 
 def _remarks(answer: Answer) -> Iterator[tuple[Run, ...]]:

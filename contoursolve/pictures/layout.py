@@ -27,11 +27,12 @@ from contoursolve.pictures.rows import (
     side_of,
     stack,
 )
-from contoursolve.pictures.scene import Aligned, Angle, Kind, Leader, Linear, Ordinate, Scene, Thin, Trail
+from contoursolve.pictures.scene import Aligned, Angle, Leader, Linear, Ordinate, Scene, Thin, Trail, Weight
 from contoursolve.pictures.sheet import Box, Item, Run, Sheet, Spot, Stroke, Sweep, Text, shift
 from contoursolve.pictures.theme import DASHES, MEANINGS, Role
 from contoursolve.pictures.vectors import middle, sweep_of
 from contoursolve.pictures.view import Span, View, span_of
+from contoursolve.pictures.wording import visible
 
 WIDTH = 760.0
 """Pixels of a page."""
@@ -144,7 +145,10 @@ def _head(scene: Scene) -> Iterator[Text]:
     """The title and the program's lines."""
     y = _PAD + 6.0
     yield Text(
-        (_PAD, y), (Run(shorten(scene.title, WIDTH - 2 * _PAD, _TITLE, is_bold=True), Role.INK),), _TITLE, is_bold=True
+        (_PAD, y),
+        (Run(shorten(visible(scene.title), WIDTH - 2 * _PAD, _TITLE, is_bold=True), Role.INK),),
+        _TITLE,
+        is_bold=True,
     )
     most = int((WIDTH - 2 * _PAD) / (MONO * SIZE))
     for runs in scene.lines:
@@ -217,13 +221,14 @@ def _draw_path(canvas: Canvas, scene: Scene) -> None:
         ends = _ends_of(canvas, thin)
         if ends is not None:
             canvas.draw(line(*ends, thin.role, 1.0 if thin.role is Role.MUTED else 1.4))
-    for trail in sorted(scene.trails, key=lambda each: each.is_main):
-        width = (THICK if trail.role is Role.INK else THICK - 0.4) if trail.is_main else 1.5
+    for trail in sorted(scene.trails, key=lambda each: each.weight is Weight.MAIN):
+        is_main = trail.weight is Weight.MAIN
+        width = (THICK if trail.role is Role.INK else THICK - 0.4) if is_main else 1.4
         dash = () if trail.role is Role.INK else DASHES.get(trail.role, ())
         for stroke in _strokes(canvas, trail, width, dash):
-            canvas.draw(stroke, PATH_WEIGHT if trail.is_main else THIN_WEIGHT)
+            canvas.draw(stroke, PATH_WEIGHT if is_main else THIN_WEIGHT)
     for trail in scene.trails:
-        if trail.is_main:
+        if trail.weight is Weight.MAIN:
             for segment in _pointed(trail.segments, view):
                 at, way = middle(segment)
                 tip, step = view.place(at), (way[0], -way[1])
@@ -316,15 +321,11 @@ def _draw_labels(canvas: Canvas, scene: Scene) -> None:
             number += 1
     directions = _directions(canvas, scene)
     for mark in scene.marks:
-        if mark.label and number < _MOST_LABELS and mark.kind is not Kind.CENTER:
+        if mark.label and number < _MOST_LABELS:
             at = canvas.view.place(mark.at)
             away = away_from(directions.get((round(at[0]), round(at[1])), []))
             canvas.label(at, [mark.label, mark.short], away, Role.MUTED)
             number += 1
-    for trail in scene.trails:
-        if trail.label and not scene.marks:
-            at, _ = middle(trail.segments[len(trail.segments) // 2])
-            canvas.label(canvas.view.place(at), [(Run(trail.label, trail.role),)], (0.0, -1.0), trail.role)
 
 
 def _directions(canvas: Canvas, scene: Scene) -> dict[tuple[int, int], list[Spot]]:

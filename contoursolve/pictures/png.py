@@ -2,6 +2,7 @@
 
 import io
 from typing import TYPE_CHECKING, Any
+from warnings import catch_warnings, simplefilter
 
 from contoursolve.pictures.sheet import Anchor, Dot, Shape, Sheet, Stroke, Sweep, Text
 from contoursolve.pictures.svg import points_on
@@ -38,7 +39,8 @@ def write_png(sheet: Sheet, theme: Theme, title: str, dpi: float) -> bytes:
             "a PNG picture needs matplotlib; install it with: pip install 'contoursolve[picture]'"
         ) from None
     # A user's own settings change nothing.
-    with rc_context({"path.simplify": False, "font.family": ["DejaVu Sans"], "text.usetex": False}):
+    with catch_warnings(), rc_context({"path.simplify": False, "font.family": ["DejaVu Sans"], "text.usetex": False}):
+        simplefilter("ignore")  # about characters that the font lacks; they are boxes then
         figure = Figure(figsize=(sheet.width / PIXELS, sheet.height / PIXELS), facecolor=theme.colors[Role.PAPER])
         canvas = FigureCanvasAgg(figure)
         _Painter(figure, sheet, theme).paint()

@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from math import inf
 
-from contoursolve.pictures.scene import Aligned, Angle, Kind, Leader, Linear, Ordinate, Scene
+from contoursolve.pictures.scene import Aligned, Angle, Kind, Leader, Linear, Ordinate, Scene, Weight
 from contoursolve.pictures.sheet import Spot
 from contoursolve.pictures.vectors import extent
 from contoursolve.solving import Point
@@ -53,7 +53,7 @@ def span_of(scene: Scene) -> Span:
     """What a picture must show: the path and its points, and as much else as does not make the path small."""
     must: list[Point] = []
     for trail in scene.trails:
-        if trail.is_main:
+        if trail.weight is not Weight.GHOST:
             must += [at for segment in trail.segments for at in extent(segment)]
     must += [mark.at for mark in scene.marks if mark.kind is not Kind.CENTER]
     more: list[Point] = [mark.at for mark in scene.marks]
