@@ -45,8 +45,7 @@ Progress = Callable[[], object]
 
 def report_page(result: Result, version: str, progress: Progress = lambda: None) -> Iterator[str]:
     """The page in pieces; `progress` is called after each contour."""
-    yield "<!doctype html>\n"
-    yield from _page(result, version, progress)
+    yield from _page(result, version, progress).iter_chunks()
     yield "\n"
 
 
