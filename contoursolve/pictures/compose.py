@@ -6,7 +6,7 @@ from dataclasses import replace
 from contoursolve.contour import Contour, Segment, trace
 from contoursolve.diagnostic import Severity
 from contoursolve.examine import Answer
-from contoursolve.model import FIRST, SECOND, Arc, Line, Plane, Profile
+from contoursolve.model import FIRST, SECOND, Arc, Line, Plane, Profile, scalar
 from contoursolve.output.solutions import list_solutions
 from contoursolve.pictures.dimensions import list_dimensions
 from contoursolve.pictures.faults import draw_faults
@@ -16,7 +16,7 @@ from contoursolve.pictures.scene import Aligned, Ring, Scene, Slide, Thin, Trail
 from contoursolve.pictures.sheet import Run
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.tracing import trace_known
-from contoursolve.pictures.vectors import SAME, distance
+from contoursolve.pictures.vectors import SAME, distance, foot, minus, unit
 from contoursolve.pictures.wording import visible
 from contoursolve.reading import Trouble
 from contoursolve.solving import Point, RefusalKind, RemarkKind
@@ -122,7 +122,7 @@ def _blamed(answer: Answer) -> set[Span]:
 def main_trails(answer: Answer, known: Known) -> list[Trail]:
     """The path; in several roles where a part of it is refused or free."""
     if answer.contour is not None:
-        return [Trail(answer.contour.elements, Role.INK)]
+        return [Trail(answer.contour.elements, Role.INK)] if answer.contour.elements else []
     trails: list[Trail] = []
     for traced in trace_known(answer.profile, known):
         if trails and trails[-1].role is traced.role and trails[-1].segments[-1].end == traced.segment.start:
@@ -141,7 +141,8 @@ def _ghosts(answer: Answer, known: Known) -> tuple[list[Trail], dict[str, list[t
     """Other contours, and where their computed intersections are with what selects each."""
     profile = answer.profile
     places: dict[str, list[tuple[Point, str]]] = {}
-    trails = [Trail(trace(profile, other).elements, Role.GHOST, Weight.GHOST) for other in known.others]
+    others = (trace(profile, other).elements for other in known.others)
+    trails = [Trail(elements, Role.GHOST, Weight.GHOST) for elements in others if elements]
     listing = list_solutions(answer) if answer.alternatives is not None else None
     if listing is None:
         return trails, places
@@ -153,7 +154,7 @@ def _ghosts(answer: Answer, known: Known) -> tuple[list[Trail], dict[str, list[t
         selects = " ".join(each.selects)
         own = [name for name, at in each.contour.points.items() if name in first and distance(at, first[name]) > SAME]
         is_drawn = answer.contour is None and not own and _is_path(each.contour, known)
-        if not is_drawn:
+        if not is_drawn and each.contour.elements:
             trails.append(Trail(each.contour.elements, Role.GHOST, Weight.GHOST))
         for name in own or [name for name in each.contour.points if name.startswith("P")]:
             places.setdefault(name, []).append((each.contour.points[name], selects))
@@ -175,6 +176,35 @@ def _construction(profile: Profile, known: Known, elements: Mapping[str, Segment
             yield Thin(built.begin, at, Role.MUTED)
         if corner.after is None or corner.after in lines:
             yield Thin(at, built.end, Role.MUTED)
+    if profile.is_extended:
+        yield from _tangents(profile, known)
+
+
+def _tangents(profile: Profile, known: Known) -> Iterator[Thin]:
+    """From where a line of the path ends to where it touches a circle beyond."""
+    from contoursolve.constraints import TangentLine  # noqa: PLC0415 - see `constraints`
+
+    for fact in profile.facts:
+        if not isinstance(fact, TangentLine):
+            continue
+        line = next((each for each in profile.figure.path if each.name == fact.line), None)
+        if line is None or not {line.tail, line.head} <= known.points.keys():
+            continue
+        tail, head = known.points[line.tail], known.points[line.head]
+        center = known.points.get(fact.center, place_of(profile, fact.center))
+        if center is None or distance(tail, head) <= SAME:
+            continue
+        there = foot(center, tail, unit(minus(head, tail)))
+        near = min((tail, head), key=lambda end: distance(end, there))
+        if max(distance(tail, there), distance(head, there)) > distance(tail, head) + SAME:
+            yield Thin(near, there, Role.MUTED)
+
+
+def place_of(profile: Profile, name: str) -> Point | None:
+    """A point whose coordinates are given."""
+    given = [profile.givens.get(scalar(name, axis)) for axis in (FIRST, SECOND)]
+    values = [float(each.value) for each in given if each is not None]
+    return (values[0], values[1]) if len(values) == len(given) else None
 
 
 def _rings(answer: Answer, known: Known) -> Iterator[Ring]:
@@ -189,10 +219,9 @@ def _rings(answer: Answer, known: Known) -> Iterator[Ring]:
         if center is not None and radius is not None and is_wanted:
             yield Ring(center, radius, Role.MUTED)
     for circle in profile.figure.circles:
-        given = [profile.givens.get(name) for name in (f"{circle.center}.0", f"{circle.center}.1", circle.radius)]
-        values = [float(each.value) for each in given if each is not None]
-        if len(values) == len(given):
-            yield Ring((values[0], values[1]), values[2], Role.GIVEN)
+        center, radius = place_of(profile, circle.center), profile.givens.get(circle.radius)
+        if center is not None and radius is not None:
+            yield Ring(center, float(radius.value), Role.GIVEN)
 
 
 def _slides(answer: Answer, known: Known) -> Iterator[Slide]:

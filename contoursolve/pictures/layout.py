@@ -1,5 +1,6 @@
 """Lays a scene out on a page: how large it is drawn, what stands in its margins, head and foot."""
 
+import re
 from collections.abc import Iterable, Iterator
 from math import hypot
 
@@ -45,6 +46,9 @@ _MARGIN_X, _MARGIN_Y = 84.0, 40.0
 """Pixels around the drawing for labels of points."""
 
 _TITLE, _LINE, _SMALL = 14.0, 17.0, 11.0
+_MOST_ROWS = 3
+"""Rows that a line of a program takes."""
+
 _ARROWED = 34.0
 """Pixels of an element that is long enough for an arrow."""
 
@@ -150,17 +154,42 @@ def _head(scene: Scene) -> Iterator[Text]:
         _TITLE,
         is_bold=True,
     )
-    most = int((WIDTH - 2 * _PAD) / (MONO * SIZE))
+    y += 3.0
     for runs in scene.lines:
-        y += _LINE if y > _PAD + 6.0 else _LINE + 3.0
-        shown, left = [], most
-        for run in runs:
-            text = shorten(run.text, left * MONO * SIZE, SIZE, is_mono=True)
-            shown.append(Run(text, run.role))
-            left -= len(text)
-            if text != run.text or left <= 1:
-                break
-        yield Text((_PAD, y), tuple(shown) or (Run(" ", Role.MUTED),), SIZE, is_mono=True)
+        for row, shown in enumerate(_rows(runs)):
+            y += _LINE
+            yield Text((_PAD + (14.0 if row else 0.0), y), shown, SIZE, is_mono=True)
+
+
+def _rows(runs: tuple[Run, ...]) -> list[tuple[Run, ...]]:
+    """A line of a program in as many rows as it takes, up to `_MOST_ROWS`."""
+    most = (WIDTH - 2 * _PAD - 14.0) / (MONO * SIZE)
+    rows: list[list[Run]] = [[]]
+    used = 0.0
+    for run in runs:
+        # Broken before a word where it does not fit, or anywhere where it is longer than a row.
+        for piece in re.split(r"(?<=\s)(?=\S)", run.text):
+            wide = width_of(piece, 1.0, is_mono=True) / MONO
+            if used and used + wide > most:
+                rows.append([])
+                used = 0.0
+            rows[-1].append(Run(shorten(piece, most * MONO, 1.0, is_mono=True), run.role))
+            used += wide
+    kept = [row for row in rows if row][:_MOST_ROWS]
+    if len(rows) > _MOST_ROWS:
+        kept[-1] = [*kept[-1][:-1], Run("…", Role.MUTED)]
+    return [_merged(row) for row in kept]
+
+
+def _merged(row: list[Run]) -> tuple[Run, ...]:
+    """Neighbours in one role as one run."""
+    found: list[Run] = []
+    for run in row:
+        if found and found[-1].role is run.role:
+            found[-1] = Run(found[-1].text + run.text, run.role)
+        else:
+            found.append(run)
+    return tuple(found)
 
 
 def _foot(scene: Scene, canvas: Canvas, top: float) -> Iterator[Item]:
