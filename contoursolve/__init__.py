@@ -29,7 +29,19 @@ if TYPE_CHECKING:
     from contoursolve.diagnostic import Basis, Diagnosis, Diagnostic, Severity
     from contoursolve.examine import Answer, Depth, Policy
     from contoursolve.expansion import Expansion
-    from contoursolve.families import Family, FamilyError, Feasible, Sensitivity, family, feasible, sensitivity
+    from contoursolve.families import (
+        Family,
+        FamilyError,
+        Feasible,
+        Found,
+        Sensitivity,
+        Tolerances,
+        family,
+        feasible,
+        find_word,
+        sensitivity,
+        tolerances,
+    )
     from contoursolve.notebook import explore
     from contoursolve.pipeline import Result, UnknownControlError
     from contoursolve.sketch import Drawings, Drawn, Sketch
@@ -55,6 +67,7 @@ __all__ = [
     "Family",
     "FamilyError",
     "Feasible",
+    "Found",
     "LineSegment",
     "Policy",
     "Program",
@@ -63,6 +76,7 @@ __all__ = [
     "Severity",
     "Sketch",
     "Status",
+    "Tolerances",
     "UnknownControlError",
     "UnreadableProgramError",
     "Word",
@@ -73,12 +87,14 @@ __all__ = [
     "explore",
     "family",
     "feasible",
+    "find_word",
     "parse",
     "read_program",
     "sensitivity",
     "solve",
     "solve_file",
     "solve_program",
+    "tolerances",
     "what_if",
 ]
 
@@ -87,7 +103,19 @@ _ROOMS = {
     "diagnostic": ("Basis", "Diagnosis", "Diagnostic", "Severity"),
     "examine": ("Answer", "Depth", "Policy"),
     "expansion": ("Expansion",),
-    "families": ("Family", "FamilyError", "Feasible", "Sensitivity", "family", "feasible", "sensitivity"),
+    "families": (
+        "Family",
+        "FamilyError",
+        "Feasible",
+        "Found",
+        "Sensitivity",
+        "Tolerances",
+        "family",
+        "feasible",
+        "find_word",
+        "sensitivity",
+        "tolerances",
+    ),
     "notebook": ("explore",),
     "pipeline": ("Result", "UnknownControlError"),
     "sketch": ("Drawings", "Drawn", "Sketch"),

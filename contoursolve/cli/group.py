@@ -18,6 +18,8 @@ _COMMANDS = {
     "report": "report:report",
     "sweep": "sweep:sweep_",
     "range": "range:range_",
+    "find": "find:find",
+    "sensitivity": "sensitivity:sensitivity",
     "verify": "verify:verify",
     "rules": "catalogue:rules",
     "explain": "catalogue:explain",

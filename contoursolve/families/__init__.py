@@ -4,33 +4,44 @@ from contoursolve.families.boundary import End, Feasible, Interval, Way, feasibl
 from contoursolve.families.ends import Reason
 from contoursolve.families.evaluate import family, pieces, sweep
 from contoursolve.families.export import MissingExtraError, csv_lines, need, write_parquet
+from contoursolve.families.goals import Goal
+from contoursolve.families.inverse import Found, Hit, find_word
 from contoursolve.families.prepared import Sweep
 from contoursolve.families.ranges import FamilyError
 from contoursolve.families.result import Family, summary_of
 from contoursolve.families.slopes import Sensitivity, Spread, sensitivity
+from contoursolve.families.tolerance import Effect, Limits, Tolerances, tolerances
 from contoursolve.families.verdict import REASONS, Code
 
 __all__ = [
     "REASONS",
     "Code",
+    "Effect",
     "End",
     "Family",
     "FamilyError",
     "Feasible",
+    "Found",
+    "Goal",
+    "Hit",
     "Interval",
+    "Limits",
     "MissingExtraError",
     "Reason",
     "Sensitivity",
     "Spread",
     "Sweep",
+    "Tolerances",
     "Way",
     "csv_lines",
     "family",
     "feasible",
+    "find_word",
     "need",
     "pieces",
     "sensitivity",
     "summary_of",
     "sweep",
+    "tolerances",
     "write_parquet",
 ]

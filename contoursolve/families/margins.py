@@ -1,7 +1,7 @@
 """What must hold of a contour, as numbers: each check of `solving.solve` and `solving.path` as a margin that ends where
 the check fails."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from enum import Enum
 from functools import lru_cache
@@ -11,11 +11,12 @@ from typing import Any
 import numpy
 from numpy.typing import NDArray
 
-from contoursolve.backends.chart import Bounds, Chart, Following
+from contoursolve.backends.chart import Bounds, Chart
 from contoursolve.backends.inputs import COSINE, SINE
 from contoursolve.backends.intervals import Array
 from contoursolve.backends.numeric import angle, larger, magnitude, sqrt
 from contoursolve.constraints import Heading, OnCircle, System
+from contoursolve.families.kinds import Follows
 from contoursolve.model import FIRST, SECOND, Arc, Corner, CornerShape, Fact, Line, scalar
 from contoursolve.solving import RefusalKind
 from contoursolve.solving.compile import Machine, compile_system
@@ -86,10 +87,6 @@ class Margins:
         return passes.all(axis=0) & bounds.is_defined, fails.any(axis=0) | bounds.is_undefined
 
 
-Follows = tuple[tuple[str, Following], ...]
-"""The values that follow words, by name."""
-
-
 @lru_cache(maxsize=256)
 def compile_margins(system: System, words: int, follows: Follows) -> Margins:
     """The margins of a system that has a closed form as functions of some words."""
@@ -100,10 +97,12 @@ def compile_margins(system: System, words: int, follows: Follows) -> Margins:
 
 
 @lru_cache(maxsize=256)
-def compile_results(system: System, words: int, follows: Follows, names: tuple[str, ...]) -> Chart:
-    """Some outputs of a system as functions of some words."""
+def compile_results(
+    system: System, words: int, follows: Follows, names: tuple[str, ...], *, is_rate: bool = False
+) -> Chart:
+    """Some outputs of a system, or their derivatives by the first word, as functions of some words."""
     tape = compile_system(system).tape
-    return Chart(tape, {name: tape.expression(name) for name in names}, words, dict(follows))
+    return Chart(tape, {name: tape.expression(name) for name in names}, words, dict(follows), is_rate=is_rate)
 
 
 _Found = Iterator[tuple[Margin, Any]]
@@ -235,10 +234,3 @@ def _least(kind: RefusalKind, subject: str, limit: float, element: str = "") -> 
 
 def _apart(kind: RefusalKind, subject: str, limit: float, givens: tuple[str, ...] = ()) -> Margin:
     return Margin(kind, subject, "", Test.APART, limit, givens)
-
-
-def follows_of(free: Mapping[str, tuple[str, Any]], words: tuple[str, ...], angles: frozenset[str]) -> Follows:
-    """The values that follow free words, of which `angles` are in degrees."""
-    return tuple(
-        (given, Following(words.index(word), float(factor), given in angles)) for given, (word, factor) in free.items()
-    )
