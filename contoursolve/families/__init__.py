@@ -6,8 +6,9 @@ from contoursolve.families.evaluate import family, pieces, sweep
 from contoursolve.families.export import MissingExtraError, csv_lines, need, write_parquet
 from contoursolve.families.goals import Goal
 from contoursolve.families.inverse import Found, Hit, find_word
+from contoursolve.families.parts import WHOLE, Parts, others, parts_of
 from contoursolve.families.prepared import Sweep
-from contoursolve.families.ranges import FamilyError
+from contoursolve.families.ranges import FamilyError, name_of
 from contoursolve.families.result import Family, summary_of
 from contoursolve.families.slopes import Sensitivity, Spread, sensitivity
 from contoursolve.families.tolerance import Effect, Limits, Tolerances, tolerances
@@ -15,6 +16,7 @@ from contoursolve.families.verdict import REASONS, Code
 
 __all__ = [
     "REASONS",
+    "WHOLE",
     "Code",
     "Effect",
     "End",
@@ -27,6 +29,7 @@ __all__ = [
     "Interval",
     "Limits",
     "MissingExtraError",
+    "Parts",
     "Reason",
     "Sensitivity",
     "Spread",
@@ -37,7 +40,10 @@ __all__ = [
     "family",
     "feasible",
     "find_word",
+    "name_of",
     "need",
+    "others",
+    "parts_of",
     "pieces",
     "sensitivity",
     "summary_of",
