@@ -43,6 +43,7 @@ if TYPE_CHECKING:
         sensitivity,
         tolerances,
     )
+    from contoursolve.notebook import explore
     from contoursolve.outcome import Expansion
     from contoursolve.pipeline import Result, UnknownControlError
     from contoursolve.sketch import Drawings, Drawn, Sketch
@@ -86,6 +87,7 @@ __all__ = [
     "check_file",
     "completions",
     "expand",
+    "explore",
     "family",
     "feasible",
     "find_word",
@@ -120,6 +122,7 @@ _ROOMS = {
         "sensitivity",
         "tolerances",
     ),
+    "notebook": ("explore",),
     "pipeline": ("Result", "UnknownControlError"),
     "sketch": ("Drawings", "Drawn", "Sketch"),
     "solving": ("Status",),

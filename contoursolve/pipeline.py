@@ -28,6 +28,7 @@ from contoursolve.reading import (
     next_place,
     words_of,
 )
+from contoursolve.shown import Shown
 from contoursolve.source import Span
 from contoursolve.spelling import (
     explain_asked_outside,
@@ -43,7 +44,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
-class Result:
+class Result(Shown):
     """All contours and findings of a program; `control` is None where there was nothing to tell it by."""
 
     program: Program

@@ -11,7 +11,7 @@ import pytest
 import contoursolve
 
 FLOORS = (
-    "source tolerance",
+    "source tolerance shown",
     "diagnostic",
     "syntax comments",
     "files",
@@ -37,6 +37,8 @@ FLOORS = (
     "expansion",
     "output api",
     "trial rewrite pictures",
+    "markup",
+    "notebook report",
     "__init__",
     "cli",
     "__main__",

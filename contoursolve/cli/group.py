@@ -15,6 +15,7 @@ _COMMANDS = {
     "filter": "expand:filter_",
     "diff": "diff:diff",
     "plot": "plot:plot",
+    "report": "report:report",
     "sweep": "sweep:sweep_",
     "range": "range:range_",
     "find": "find:find",
