@@ -6,12 +6,11 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import IO
 
-from contoursolve.api import find_dialect
 from contoursolve.examine import Policy
 from contoursolve.expansion import OPENING, Options, Summary, expand_lines, lines_of_facts, opening_of
 from contoursolve.files import Tape
 from contoursolve.model import Length
-from contoursolve.pipeline import first_sign
+from contoursolve.pipeline import find_dialect, first_sign
 from contoursolve.project import configure
 from contoursolve.syntax import Block, Directive, Program, parse, parse_block
 

@@ -7,14 +7,14 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from numpy.typing import ArrayLike
 
 from contoursolve import syntax
-from contoursolve.dialects import DIALECTS
+from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.examine import Policy
 from contoursolve.families.prepared import Sweep, Table, prepare
 from contoursolve.families.ranges import FamilyError, ranges_of, stretches
 from contoursolve.families.result import Family
 from contoursolve.families.template import Template, find_words
 from contoursolve.model import Length
-from contoursolve.pipeline import UnknownControlError, recognise
+from contoursolve.pipeline import UnknownControlError, choose
 from contoursolve.project import configure
 from contoursolve.syntax import Program, Word
 
@@ -27,7 +27,7 @@ def sweep(
     *,
     vary: Mapping[str, ArrayLike],
     start: str | None = None,
-    control: str | None = None,
+    control: str | Dialect | None = None,
     paired: bool = False,
     units: str = "mm",
     rules: str = "enforce",
@@ -44,7 +44,7 @@ def sweep(
 def template_of(
     block: str,
     start: str | None,
-    control: str | None,
+    control: str | Dialect | None,
     units: str,
     rules: str,
     settings: Mapping[str, str] | None,
@@ -52,11 +52,10 @@ def template_of(
 ) -> Template:
     """A block with those of its words free that are asked for; arguments and errors as for `family`."""
     program = syntax.parse(block, "<block>")
-    dialect = DIALECTS.get(control) if control else recognise(program)
+    dialect = choose(control, program)
     if dialect is None:
-        told = f"unknown control {control!r}" if control else "the block does not tell its control; name it"
-        raise UnknownControlError(f"{told}; choose from {', '.join(DIALECTS)}")
-    dialect = (configure(settings) if settings else {}).get(dialect.name, dialect)
+        raise UnknownControlError(f"the block does not tell its control; name it; choose from {', '.join(DIALECTS)}")
+    dialect = (configure(settings, dialect) if settings else {}).get(dialect.name, dialect)
     beginning = syntax.parse(start, "<start>", first_line=0) if start is not None else None
     return Template(program, dialect, Length(units), Policy(rules), beginning, free(program))
 
@@ -66,7 +65,7 @@ def family(
     *,
     vary: Mapping[str, ArrayLike],
     start: str | None = None,
-    control: str | None = None,
+    control: str | Dialect | None = None,
     paired: bool = False,
     units: str = "mm",
     rules: str = "enforce",
@@ -80,7 +79,8 @@ def family(
         vary: the values of each free word, as written in the block: by its letter (`A`, `,A`), or with its line where
             several have it (`2:,A`).
         start: words that give the start point, such as `"X40. Z0."`, as the control reads them.
-        control: `yasnac-lx3` or `nct-99m`; found from the block where it is clear.
+        control: `yasnac-lx3` or `nct-99m`, or a control of your own as its tables; found from the block where it is
+            clear.
         paired: the values stand side by side, a row each; without it, every combination is a row.
         units: `mm` or `inch`, for numbers before any G20 or G21.
         rules: `enforce`, `warn` or `off` (see `Policy`).

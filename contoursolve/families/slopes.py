@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from math import hypot, pi
 
 from contoursolve.backends.inputs import COSINE, SINE
+from contoursolve.dialects import Dialect
 from contoursolve.families.evaluate import template_of
 from contoursolve.families.kinds import Kind, kind_in
 from contoursolve.families.prepared import results_of
@@ -47,7 +48,7 @@ def sensitivity(
     block: str,
     *,
     start: str | None = None,
-    control: str | None = None,
+    control: str | Dialect | None = None,
     units: str = "mm",
     rules: str = "enforce",
     settings: Mapping[str, str] | None = None,

@@ -5,7 +5,6 @@ from dataclasses import replace
 
 from contoursolve.contour import ArcSegment
 from contoursolve.diagnostic import Verdict
-from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.examine import Answer, AskedValue, list_alternatives
 from contoursolve.model import Length, Turn, Unit
 from contoursolve.output.layout import columns, length_of, printable
@@ -23,7 +22,6 @@ SMALLEST = 0.0001
 
 def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False) -> list[str]:
     """The listing of one contour, in the unit and the axes of its program; explained with its construction."""
-    dialect = DIALECTS[result.control or ""]
     alternatives = list_alternatives(answer)
     if alternatives is not answer.alternatives:
         # Found here once, for the construction and for the list.
@@ -31,7 +29,7 @@ def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False)
     form = answer.claim.form
     lines = [f"{result.program.name}:{answer.lines[0]}: {form.name} ({form.title}): {answer.status.value}"]
     lines += [f"  {printable(block.text.strip())[:160]}" for block in answer.profile.blocks]
-    lines += ["", *columns(_given_rows(answer, form, dialect), left=(0, 3))]
+    lines += ["", *columns(_given_rows(answer, form), left=(0, 3))]
     if is_explained:
         from contoursolve.output.construction import construction_lines  # noqa: PLC0415 - only on demand
 
@@ -121,7 +119,7 @@ def _place(at: Point, answer: Answer) -> list[str]:
     ]
 
 
-def _given_rows(answer: Answer, form: Form, dialect: Dialect) -> list[tuple[str, str, str, str]]:
+def _given_rows(answer: Answer, form: Form) -> list[tuple[str, str, str, str]]:
     """Word, value, unit and meaning of everything that was given."""
     rows = []
     for axis, value, is_diameter in zip(answer.plane.axes, answer.start.values, answer.plane.diameters, strict=True):
@@ -136,24 +134,24 @@ def _given_rows(answer: Answer, form: Form, dialect: Dialect) -> list[tuple[str,
         if id(word) in seen:
             continue
         seen.add(id(word))
-        row = dialect.modes.lexicon.addresses.get(word.address)
+        row = answer.claim.lexicon.addresses.get(word.address)
         meaning = form.meanings.get(name) or (row.meaning if row else "")
         meaning += " - ignored" if name in ignored else ""
         if word.address == FACT:
             rows.append((printable(word.text), "", "", "further fact"))
         else:
-            rows.append((word.text, *_value(word, dialect.modes.lexicon, answer.unit), meaning))
-    rows += [_asked_row(each, answer, form, dialect) for each in answer.answers]
+            rows.append((word.text, *_value(word, answer.claim.lexicon, answer.unit), meaning))
+    rows += [_asked_row(each, answer, form) for each in answer.answers]
     by_point = {choice.point: words[choice.given].text for choice in answer.profile.choices if choice.given in words}
     for point, side in answer.sides.items():
         rows.append((f"choice {point}", side.value, "", f"of two intersections, by {by_point[point]}"))
     return rows
 
 
-def _asked_row(asked: AskedValue, answer: Answer, form: Form, dialect: Dialect) -> tuple[str, str, str, str]:
+def _asked_row(asked: AskedValue, answer: Answer, form: Form) -> tuple[str, str, str, str]:
     """A value that was asked for."""
     question = asked.question
-    row = dialect.modes.lexicon.addresses.get(question.word.address)
+    row = answer.claim.lexicon.addresses.get(question.word.address)
     meaning = form.meanings.get(question.name) or (row.meaning if row else "")
     text = printable(question.word.text)
     if asked.value is None:
