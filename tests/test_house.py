@@ -35,7 +35,7 @@ FLOORS = (
     "lines comparison families",
     "expansion",
     "output api",
-    "trial rewrite",
+    "trial rewrite pictures",
     "__init__",
     "cli",
     "__main__",

@@ -139,8 +139,8 @@ def test_a_write_that_fails_leaves_the_old_drawing_and_nothing_else(tmp_path, mo
 @pytest.mark.parametrize(
     ("output", "said"),
     [
-        ("part.svg", "SVG and PNG are not made yet"),
-        ("part", "drawings end in .dxf"),
+        ("part.jpg", "drawings end in .svg, .png or .dxf"),
+        ("part", "drawings end in .svg, .png or .dxf"),
         ("missing/part.dxf", "is no directory"),
         ("folder.dxf", "is a directory"),
         ("program.dxf", "is the program itself"),

@@ -1,5 +1,6 @@
 """The command that draws contours."""
 
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -12,59 +13,160 @@ from contoursolve.cli.options import (
     common_options,
 )
 from contoursolve.cli.printing import lines_of_findings, print_lines, print_summary, style_of_output
+from contoursolve.examine import Answer
 from contoursolve.files import CannotWriteError, check_target, write_whole
 from contoursolve.output.layout import count
+from contoursolve.pictures import Picture, Theme, draw_answer, draw_result
+from contoursolve.pictures.png import MissingExtraError
+from contoursolve.pipeline import Result
+from contoursolve.syntax import STANDARD_INPUT
+
+_SVG, _PNG, _DXF = ".svg", ".png", ".dxf"
+_FILE_THEMES = [Theme.LIGHT.value, Theme.DARK.value, Theme.PAGE.value]
+
+Written = tuple[Path, bytes, str]
+"""A file, its bytes, and what is in it."""
 
 
-@click.command(short_help="Draw the contours for CAD (DXF).")
+@click.command(short_help="Draw the contours (SVG, PNG), or write them for CAD (DXF).")
 @click.argument("program", required=False)
 @click.option(
-    "-o", "--output", required=True, metavar="OUT.dxf", type=click.Path(path_type=Path), help="The drawing to write."
+    "-o",
+    "--output",
+    metavar="OUT.svg|.png|.dxf",
+    type=click.Path(path_type=Path),
+    help="The drawing to write; without it, an SVG with the name of PROGRAM in this folder.",
 )
-@click.option("--force", "is_forced", is_flag=True, help="Replace the drawing if it exists.")
+@click.option("--line", type=click.IntRange(1), help="Draw the contour that this line of PROGRAM belongs to, alone.")
+@click.option("--each", "is_each", is_flag=True, help="Draw every contour in a file of its own: OUT-LINE.svg.")
+@click.option(
+    "--theme",
+    type=click.Choice(_FILE_THEMES),
+    default=Theme.LIGHT.value,
+    show_default=True,
+    help="Colours; page follows the page or the reader of an SVG.",
+)
+@click.option("--force", "is_forced", is_flag=True, help="Replace drawings that exist.")
 @common_options
 @click.pass_context
 def plot(
     context: click.Context,
     /,
     program: str | None,
-    output: Path,
+    output: Path | None,
+    line: int | None,
+    is_each: bool,
+    theme: str,
     is_forced: bool,
     blocks: tuple[str, ...],
     start: str | None,
     assignments: tuple[str, ...],
     **options: Any,
 ) -> None:
-    """Draw every solved contour of PROGRAM (a file, or - for standard input) into a DXF file.
+    """Draw the contours of PROGRAM (a file, or - for standard input).
 
-    Lines and arcs in full precision, each element on a layer of its own; virtual and computed intersections on the
-    layer construction. The drawing's X and Y are the plane's axes: on a lathe Z to the right and X up, as radius. It
-    is in mm, or in inches if all contours are. Needs the extra contoursolve[dxf].
+    SVG and PNG show a contour with every word as a dimension: given, worked out, ignored, conflicting or still free.
+    One that cannot be solved is drawn, too: what is missing, both places of a point, the line that misses its circle.
+    A program with several contours is drawn as a whole, each with its number and line; --line and --each draw them one
+    by one. PNG needs the extra contoursolve[picture].
+
+    DXF is for CAD and needs the extra contoursolve[dxf]: every solved contour in full precision, each element on a
+    layer of its own; virtual and computed intersections on the layer construction. The drawing's X and Y are the
+    plane's axes: on a lathe Z to the right and X up, as radius. It is in mm, or in inches if all contours are.
 
     \b
-    contoursolve plot shaft.nc -o shaft.dxf
-    contoursolve plot --block "G111 X100. A180. K-30. B120. P5." --start "X40. Z0." -o block.dxf --force
+    contoursolve plot shaft.nc
+    contoursolve plot shaft.nc --line 71 -o journal.png
+    contoursolve plot --block "G111 X100. A180. K-30. B120. P5." --start "X40. Z0." -o block.dxf
     """
-    if output.suffix.lower() != ".dxf":
-        raise CouldNotRunError(f"{output}: drawings end in .dxf; SVG and PNG are not made yet")
     loader = load([program] if program else [], blocks, start)[0]
+    target = output if output is not None else _default(program)
+    kind = target.suffix.lower()
+    if kind not in (_SVG, _PNG, _DXF):
+        raise CouldNotRunError(f"{target}: drawings end in .svg, .png or .dxf")
+    if kind == _DXF and (line is not None or is_each):
+        raise click.UsageError("a DXF drawing has every contour on layers of its own: leave out --line and --each")
+    if line is not None and is_each:
+        raise click.UsageError("give either --line or --each, not both")
+    source = Path(program) if program else None
+    try:
+        if not is_each:
+            check_target(target, source, is_forced=is_forced)
+        result = examine(loader(), start, assignments, options)
+        print_lines(lines_of_findings(result, result.diagnostics, style_of_output()))
+        if kind == _DXF:
+            files = _drawings_for_cad(result, target)
+        else:
+            files = list(_pictures(result, target, line, Theme(theme), is_each=is_each))
+        for path, _, _ in files if is_each else ():
+            check_target(path, source, is_forced=is_forced)
+        for path, data, _ in files:
+            write_whole(path, [data], keeps_backup=False)
+    except (CannotWriteError, MissingExtraError) as error:
+        raise CouldNotRunError(str(error)) from None
+    print_summary([result])
+    for path, _, content in files:
+        click.echo(f"{path}: {content}")
+    if not files:
+        click.echo(f"{target}: not written")
+    context.exit(FOUND_ERRORS if result.has_errors or not files else 0)
+
+
+def _default(program: str | None) -> Path:
+    """The drawing of a program whose name nobody gave."""
+    is_named = program is not None and program != STANDARD_INPUT
+    return Path(f"{Path(program).stem if program and is_named else 'contour'}{_SVG}")
+
+
+def _pictures(result: Result, target: Path, line: int | None, theme: Theme, *, is_each: bool) -> Iterator[Written]:
+    """The pictures that are asked for."""
+    if not result.answers:
+        return
+    if is_each:
+        for answer in result.answers:
+            path = target.with_name(f"{target.stem}-{answer.lines[0]}{target.suffix}")
+            yield path, _bytes(draw_answer(answer, theme=theme), target), _about(answer)
+        return
+    if line is not None:
+        answer = _at(result.answers, line)
+        yield target, _bytes(draw_answer(answer, theme=theme), target), _about(answer)
+        return
+    picture = draw_result(result, theme=theme)
+    yield target, _bytes(picture, target), count(len(result.answers), "contour")
+
+
+def _about(answer: Answer) -> str:
+    return f"line {answer.lines[0]}, {answer.status.value}"
+
+
+def _at(answers: Sequence[Answer], line: int) -> Answer:
+    """The contour to which a line of the program belongs."""
+    for answer in answers:
+        if answer.lines[0] <= line <= answer.lines[-1]:
+            return answer
+    have = ", ".join(str(answer.lines[0]) for answer in answers)
+    raise CouldNotRunError(f"line {line} belongs to no contour; contours begin in lines {have}")
+
+
+def _bytes(picture: Picture, target: Path) -> bytes:
+    return picture.png() if target.suffix.lower() == _PNG else picture.svg.encode()
+
+
+def _drawings_for_cad(result: Result, target: Path) -> list[Written]:
+    """The DXF drawing, if anything is solved."""
+    to_dxf = _writer_of_dxf()
+    contours = [answer.contour for answer in result.answers if answer.contour]
+    if not contours:
+        return []
+    elements = count(sum(len(contour.elements) for contour in contours), "element")
+    return [(target, to_dxf(result.answers), f"{elements} of {count(len(contours), 'contour')}")]
+
+
+def _writer_of_dxf() -> Callable[[Sequence[Answer]], bytes]:
     try:
         from contoursolve.output.drawing_dxf import to_dxf  # noqa: PLC0415 - needs an extra
     except ModuleNotFoundError as error:
         if error.name != "ezdxf":
             raise
         raise CouldNotRunError("a DXF drawing needs ezdxf; install it with: pip install 'contoursolve[dxf]'") from None
-    try:
-        check_target(output, Path(program) if program else None, is_forced=is_forced)
-        result = examine(loader(), start, assignments, options)
-        print_lines(lines_of_findings(result, result.diagnostics, style_of_output()))
-        contours = [answer.contour for answer in result.answers if answer.contour]
-        if contours:
-            write_whole(output, [to_dxf(result.answers)], keeps_backup=False)
-    except CannotWriteError as error:
-        raise CouldNotRunError(str(error)) from None
-    elements = count(sum(len(contour.elements) for contour in contours), "element")
-    written = f"{output}: {elements} of {count(len(contours), 'contour')}" if contours else f"{output}: not written"
-    print_summary([result])
-    click.echo(written)
-    context.exit(FOUND_ERRORS if result.has_errors or not contours else 0)
+    return to_dxf

@@ -1,0 +1,69 @@
+"""Pictures: a contour with its words as dimensions, whatever its status; SVG, and PNG with the extra `picture`."""
+
+from collections.abc import Sequence
+
+from contoursolve.examine import Answer
+from contoursolve.families import Family
+from contoursolve.pictures.compose import compose
+from contoursolve.pictures.describe import describe, describe_result
+from contoursolve.pictures.layout import lay_out, stack_sheets
+from contoursolve.pictures.picture import Picture, finish
+from contoursolve.pictures.theme import Theme
+from contoursolve.pipeline import Result
+
+__all__ = ["Picture", "Theme", "draw_answer", "draw_family_fan", "draw_family_map", "draw_result"]
+
+
+def draw_answer(answer: Answer, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
+    """The picture of one contour: its path where there is one, and what is missing or wrong where there is none.
+
+    >>> import contoursolve
+    >>> answer = contoursolve.solve("G111 X100. A180. K-30. B120. P5. Q5.", start="X40. Z0.").answers[0]
+    >>> draw_answer(answer).title
+    'G111 (taper multiple cornering), line 1: solved'
+    """
+    scene = compose(answer, title)
+    return finish(lay_out(scene), theme, scene.title, describe(answer))
+
+
+def draw_result(result: Result, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
+    """The picture of a whole program: its only contour, or all of them in one drawing for each plane."""
+    from contoursolve.pictures.overview import compose_overview  # noqa: PLC0415 - see `draw_answer`
+
+    if len(result.answers) == 1:
+        return draw_answer(result.answers[0], theme=theme, title=title)
+    scenes = compose_overview(result, title)
+    return finish(stack_sheets([lay_out(scene) for scene in scenes]), theme, scenes[0].title, describe_result(result))
+
+
+def draw_family_fan(
+    word: str,
+    values: Sequence[float],
+    answers: Sequence[Answer],
+    *,
+    theme: Theme = Theme.LIGHT,
+    title: str | None = None,
+) -> Picture:
+    """The picture of a block for several values of one of its words, each with its answer.
+
+    Raises ValueError for no contour, or for more than can be told apart.
+    """
+    from contoursolve.pictures.family_fan import compose_fan  # noqa: PLC0415 - numpy is not needed for a contour
+
+    scene = compose_fan(word, values, answers, title)
+    return finish(lay_out(scene), theme, scene.title, scene.title)
+
+
+def draw_family_map(
+    family: Family, words: tuple[str, str] | None = None, *, theme: Theme = Theme.LIGHT, title: str | None = None
+) -> Picture:
+    """The picture of what becomes of a block over two of its words: a field for each status, and the boundaries.
+
+    `words` go to the right and up; without them, the two words of the family. Raises ValueError where these are not
+    two words of a grid.
+    """
+    from contoursolve.pictures.family_map import lay_out_map, map_title  # noqa: PLC0415 - numpy
+
+    chosen = words if words is not None else tuple(family.ranges.values)[:2]
+    told = title if title is not None else map_title(family, chosen)
+    return finish(lay_out_map(family, chosen, told), theme, told, told)

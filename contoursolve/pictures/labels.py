@@ -1,0 +1,151 @@
+"""Where labels find room: off the path, off other labels, near what they belong to."""
+
+from collections.abc import Iterable, Sequence
+from math import ceil, cos, hypot, pi, sin
+
+from contoursolve.pictures.sheet import Box, Spot
+
+CELL = 6.0
+"""Pixels of a side of a cell in which what is drawn is counted."""
+
+_FAR = (9.0, 15.0, 24.0, 36.0, 52.0, 72.0, 100.0, 140.0, 190.0)
+"""Pixels from a place to the nearest point of its label, tried in this order."""
+
+_WAYS = 16
+_TOUCHING = 20.0
+"""Pixels. A label that is no farther needs no leader."""
+
+
+class Grid:
+    """How much is drawn in each cell of a page, and which boxes are taken by texts."""
+
+    def __init__(self, page: Box) -> None:
+        self.page = page
+        self.columns = ceil((page.right - page.left) / CELL) + 1
+        self.rows = ceil((page.bottom - page.top) / CELL) + 1
+        self.cells = [0.0] * (self.columns * self.rows)
+        self.taken: list[Box] = []
+
+    def mark(self, a: Spot, b: Spot, weight: float) -> None:
+        """A line is drawn."""
+        clipped = clip(a, b, self.page)
+        if clipped is None:
+            return
+        (x, y), (u, v) = clipped
+        steps = max(1, ceil(hypot(u - x, v - y) / (CELL * 0.7)))
+        for number in range(steps + 1):
+            share = number / steps
+            column = int((x + (u - x) * share - self.page.left) / CELL)
+            row = int((y + (v - y) * share - self.page.top) / CELL)
+            place = row * self.columns + column
+            if 0 <= place < len(self.cells):
+                self.cells[place] = max(self.cells[place], weight)
+
+    def take(self, box: Box) -> None:
+        """A text is here."""
+        self.taken.append(box)
+
+    def cost(self, box: Box) -> float:
+        """How much a text would cover; infinite where another text is, or outside the page."""
+        if not self.page.holds(box) or any(box.meets(other) for other in self.taken):
+            return float("inf")
+        total = 0.0
+        first, last = int((box.left - self.page.left) / CELL), int((box.right - self.page.left) / CELL)
+        for row in range(int((box.top - self.page.top) / CELL), int((box.bottom - self.page.top) / CELL) + 1):
+            total += sum(self.cells[row * self.columns + first : row * self.columns + last + 1])
+        return total
+
+    def crossings(self, a: Spot, b: Spot) -> float:
+        """What a line to a place `b` runs over, without what is right there."""
+        length = hypot(b[0] - a[0], b[1] - a[1])
+        steps = int((length - CELL * 1.5) / CELL)
+        total = 0.0
+        for number in range(steps):
+            share = number * CELL / length
+            column = int((a[0] + (b[0] - a[0]) * share - self.page.left) / CELL)
+            row = int((a[1] + (b[1] - a[1]) * share - self.page.top) / CELL)
+            total += self.cells[row * self.columns + column]
+        return total
+
+    def is_crossed(self, a: Spot, b: Spot) -> bool:
+        """Whether a line would run through a text."""
+        return any(clip(a, b, box) is not None for box in self.taken)
+
+
+def clip(a: Spot, b: Spot, box: Box) -> tuple[Spot, Spot] | None:
+    """The part of a line inside a box (Liang and Barsky 1984); None if it is outside."""
+    low, high = 0.0, 1.0
+    for start, step, least, most in (
+        (a[0], b[0] - a[0], box.left, box.right),
+        (a[1], b[1] - a[1], box.top, box.bottom),
+    ):
+        if step == 0:
+            if not least <= start <= most:
+                return None
+            continue
+        near, far = sorted(((least - start) / step, (most - start) / step))
+        low, high = max(low, near), min(high, far)
+    if low > high:
+        return None
+    return (
+        (a[0] + (b[0] - a[0]) * low, a[1] + (b[1] - a[1]) * low),
+        (a[0] + (b[0] - a[0]) * high, a[1] + (b[1] - a[1]) * high),
+    )
+
+
+def boxes_around(at: Spot, width: float, height: float, away: Spot) -> Iterable[tuple[Box, float, float]]:
+    """Boxes of a size near a place with their distance and how far they are turned from the wanted direction
+    (radians), nearest first."""
+    turns = sorted(range(_WAYS), key=lambda number: (min(number, _WAYS - number), number))
+    for far in _FAR:
+        for number in turns:
+            angle = number * 2 * pi / _WAYS
+            way = away[0] * cos(angle) - away[1] * sin(angle), away[0] * sin(angle) + away[1] * cos(angle)
+            # The box stands so that its nearest point is as far as it should be.
+            middle = at[0] + way[0] * (far + width / 2), at[1] + way[1] * (far + height / 2)
+            if abs(way[0]) < 0.2:  # noqa: PLR2004 - right above or below
+                middle = at[0], middle[1]
+            box = Box(middle[0] - width / 2, middle[1] - height / 2, middle[0] + width / 2, middle[1] + height / 2)
+            yield box, far, min(number, _WAYS - number) * 2 * pi / _WAYS
+
+
+def place_label(
+    grid: Grid, at: Spot, sizes: Sequence[tuple[float, float]], away: Spot, leads: bool
+) -> tuple[int, Box] | None:
+    """Where a label of one of these sizes stands best near a place, the first size if there is any room; None if there
+    is none. `leads` for a label that always has a leader."""
+    for index, (width, height) in enumerate(sizes):
+        best: tuple[float, Box] | None = None
+        for box, far, turned in boxes_around(at, width, height, away):
+            if leads and far < _TOUCHING:
+                continue
+            own = far * 0.35 + turned * 2.0 + (8.0 if far > _TOUCHING and not leads else 0.0)
+            if best is not None and own >= best[0]:
+                continue
+            cost = own + grid.cost(box.grow(1.5))
+            if cost == float("inf") or (far > _TOUCHING and grid.is_crossed(at, nearest(box, at))):
+                continue
+            if far > _TOUCHING:
+                cost += grid.crossings(nearest(box, at), at)
+            if best is None or cost < best[0]:
+                best = cost, box
+            if far > 100.0 and best is not None:  # noqa: PLR2004 - no better one is to come
+                break
+        if best is not None:
+            return index, best[1]
+    return None
+
+
+def nearest(box: Box, at: Spot) -> Spot:
+    """The point of a box where a leader from a place ends: the middle of a side, or a point of the nearer side."""
+    x = min(max(at[0], box.left), box.right)
+    y = min(max(at[1], box.top), box.bottom)
+    if at[0] < box.left or at[0] > box.right:
+        return x, (box.top + box.bottom) / 2
+    return x, y
+
+
+def needs_leader(box: Box, at: Spot) -> bool:
+    """Whether a label is so far from its place that a line must join them."""
+    x, y = nearest(box, at)
+    return hypot(x - at[0], y - at[1]) > _TOUCHING

@@ -1,0 +1,364 @@
+"""Lays a scene out on a page: how large it is drawn, what stands in its margins, head and foot."""
+
+from collections.abc import Iterable, Iterator
+from math import hypot
+
+from contoursolve.contour import ArcSegment, LineSegment, Segment
+from contoursolve.model import FIRST, SECOND
+from contoursolve.pictures.arrows import THICK, arc, head, line
+from contoursolve.pictures.callouts import (
+    away_from,
+    draw_aligned,
+    draw_angle,
+    draw_leader,
+    draw_point,
+    draw_slide,
+)
+from contoursolve.pictures.canvas import FAINT_WEIGHT, PATH_WEIGHT, SIZE, THIN_WEIGHT, Canvas
+from contoursolve.pictures.labels import clip
+from contoursolve.pictures.metrics import MONO, shorten, width_of, wrap
+from contoursolve.pictures.rows import (
+    FIRST_ROW,
+    PITCH,
+    Side,
+    draw_coordinates,
+    draw_distances,
+    is_nothing,
+    side_of,
+    stack,
+)
+from contoursolve.pictures.scene import Aligned, Angle, Kind, Leader, Linear, Ordinate, Scene, Thin, Trail
+from contoursolve.pictures.sheet import Box, Item, Run, Sheet, Spot, Stroke, Sweep, Text, shift
+from contoursolve.pictures.theme import DASHES, MEANINGS, Role
+from contoursolve.pictures.vectors import middle, sweep_of
+from contoursolve.pictures.view import Span, View, span_of
+
+WIDTH = 760.0
+"""Pixels of a page."""
+
+_PAD = 18.0
+_TALLEST, _LOWEST = 350.0, 110.0
+"""Pixels of the drawing itself, without what stands in its margins."""
+
+_MARGIN_X, _MARGIN_Y = 84.0, 40.0
+"""Pixels around the drawing for labels of points."""
+
+_TITLE, _LINE, _SMALL = 14.0, 17.0, 11.0
+_ARROWED = 34.0
+"""Pixels of an element that is long enough for an arrow."""
+
+_GAP = 0.5
+_LEAST = 0.4
+"""Pixels. Elements that are smaller are drawn with the next one."""
+
+_MOST_LABELS = 90
+"""Labels on one page; more cannot be read, and what they say is in the head as well."""
+
+_CORNER = 130.0
+"""Pixels that the axes take of the width."""
+
+_SIDES = (Side(FIRST, -1), Side(FIRST, 1), Side(SECOND, -1), Side(SECOND, 1))
+
+
+def lay_out(scene: Scene) -> Sheet:
+    """The page of one scene."""
+    top = list(_head(scene))
+    start = max((item.box.bottom for item in top), default=0.0) + 6.0
+    span = _with_turning_axis(scene, span_of(scene))
+    linear = [each for each in scene.dimensions if isinstance(each, Linear) and not is_nothing(each)]
+    ordinates = [each for each in scene.dimensions if isinstance(each, Ordinate)]
+    by_side = {side: [each for each in linear if side_of(each, span) == side] for side in _SIDES}
+    edges = {axis: _edge_of(ordinates, axis, by_side, span) for axis in (FIRST, SECOND)}
+    columns = {sign: len(by_side[Side(SECOND, sign)]) for sign in (-1, 1)}
+    wide = {sign: _MARGIN_X + (PITCH * columns[sign] + 16.0 if columns[sign] else 0.0) for sign in (-1, 1)}
+    for sign in (-1, 1):
+        texts = [width_of(each.text, SIZE) for each in ordinates if each.axis == SECOND and edges[SECOND] == sign]
+        wide[sign] = max(wide[sign], max(texts, default=0.0) + 34.0 + (PITCH * columns[sign]))
+    room = WIDTH - wide[-1] - wide[1]
+    scale = min(
+        room / span.size[FIRST] if span.size[FIRST] > 0 else float("inf"),
+        _TALLEST / span.size[SECOND] if span.size[SECOND] > 0 else float("inf"),
+    )
+    scale = scale if scale < float("inf") else 1.0
+    flat = View((0.0, 0.0), scale, (0.0, 0.0))
+    stacked = {side: stack(each, flat) for side, each in by_side.items()}
+    rows = {side: max((row for _, row in each), default=-1) + 1 for side, each in stacked.items()}
+    # Rows need no more room than labels of points, but for the text beyond the last one.
+    high = {sign: max(_MARGIN_Y, FIRST_ROW + PITCH * rows[Side(FIRST, sign)] + 4.0) for sign in (-1, 1)}
+    for sign in (-1, 1):
+        if edges[FIRST] == sign and any(each.axis == FIRST for each in ordinates):
+            high[sign] += 18.0
+    tall = max(span.size[SECOND] * scale, _LOWEST) if scene.trails or scene.dimensions else 0.0
+    bottom = start + high[1] + tall + high[-1]
+    frame = Box(4.0, start, WIDTH - 4.0, bottom)
+    view = View(span.middle, scale, (wide[-1] + room / 2, start + high[1] + tall / 2))
+    canvas = Canvas(view, frame)
+    _draw_path(canvas, scene)
+    half = span.size[FIRST] * scale / 2, span.size[SECOND] * scale / 2
+    outer = {
+        Side(FIRST, 1): view.spot[1] - half[1],
+        Side(FIRST, -1): view.spot[1] + half[1],
+        Side(SECOND, -1): view.spot[0] - half[0],
+        Side(SECOND, 1): view.spot[0] + half[0],
+    }
+    for side in _SIDES:
+        draw_distances(canvas, stacked[side], side, outer[side])
+    for axis in (FIRST, SECOND):
+        along = Side(FIRST, edges[axis]) if axis == FIRST else Side(SECOND, edges[axis])
+        outward = edges[axis] if axis == SECOND else -edges[axis]
+        level = outer[along] + outward * (FIRST_ROW + PITCH * rows[along] - (0 if rows[along] else 4.0))
+        draw_coordinates(canvas, [each for each in ordinates if each.axis == axis], axis, edges[axis], level)
+    _draw_labels(canvas, scene)
+    # The axes stand beside the drawing's lower end where nothing else is.
+    is_free = canvas.grid.cost(Box(frame.left, bottom - 34.0, _CORNER, bottom)) == 0.0
+    foot = list(_foot(scene, canvas, bottom - (26.0 if is_free else -4.0)))
+    height = max((_bottom(item) for item in foot), default=bottom) + 12.0
+    return Sheet(WIDTH, round(height, 1), frame, (*canvas.items, *top, *foot))
+
+
+def _bottom(item: Item) -> float:
+    return item.box.bottom if isinstance(item, Text) else 0.0
+
+
+def _with_turning_axis(scene: Scene, span: Span) -> Span:
+    """The rectangle with the axis about which the work turns, where that is near."""
+    low = span.low[SECOND]
+    reach = max(*span.size, 1e-9) * 0.3
+    if scene.has_turning_axis and 0 < low <= reach:
+        return Span((span.low[FIRST], 0.0), span.high)
+    return span
+
+
+def _edge_of(ordinates: list[Ordinate], axis: int, by_side: dict[Side, list[Linear]], span: Span) -> int:
+    """The edge for the coordinates on an axis: where there are fewer distances, else where the points are."""
+    own = [each for each in ordinates if each.axis == axis]
+    counts = {sign: len(by_side[Side(axis, sign)]) for sign in (-1, 1)}
+    if not own or counts[-1] != counts[1]:
+        return -1 if counts[-1] < counts[1] else 1
+    across = 1 - axis
+    mean = sum(each.at[across] for each in own) / len(own)
+    return 1 if mean > span.middle[across] else -1
+
+
+def _head(scene: Scene) -> Iterator[Text]:
+    """The title and the program's lines."""
+    y = _PAD + 6.0
+    yield Text(
+        (_PAD, y), (Run(shorten(scene.title, WIDTH - 2 * _PAD, _TITLE, is_bold=True), Role.INK),), _TITLE, is_bold=True
+    )
+    most = int((WIDTH - 2 * _PAD) / (MONO * SIZE))
+    for runs in scene.lines:
+        y += _LINE if y > _PAD + 6.0 else _LINE + 3.0
+        shown, left = [], most
+        for run in runs:
+            text = shorten(run.text, left * MONO * SIZE, SIZE, is_mono=True)
+            shown.append(Run(text, run.role))
+            left -= len(text)
+            if text != run.text or left <= 1:
+                break
+        yield Text((_PAD, y), tuple(shown) or (Run(" ", Role.MUTED),), SIZE, is_mono=True)
+
+
+def _foot(scene: Scene, canvas: Canvas, top: float) -> Iterator[Item]:
+    """The axes, the legend, and remarks."""
+    corner = _PAD + 12.0, top + 34.0
+    for way, name in (((1.0, 0.0), scene.axes[FIRST]), ((0.0, -1.0), scene.axes[SECOND])):
+        tip = corner[0] + way[0] * 30.0, corner[1] + way[1] * 30.0
+        yield line(corner, tip, Role.INK, 1.2)
+        yield head(tip, way, Role.INK)
+        at = (tip[0] + 5.0, tip[1] + 4.0) if way[0] else (tip[0] + 7.0, tip[1] + 8.0)
+        yield Text(at, (Run(name, Role.INK),), _SMALL)
+    x = corner[0] + 30.0 + 5.0 + max(width_of(name, _SMALL) for name in scene.axes) + 26.0
+    y = corner[1] + 4.0
+    begin = x
+    for role in _legend(scene):
+        text = MEANINGS[role] if role is not Role.GHOST or scene.slides == () else "other values"
+        wide = 34.0 + width_of(text, _SMALL) + 18.0
+        if x + wide > WIDTH - _PAD and x > begin:
+            x, y = begin, y + 16.0
+        yield line((x, y - 4.0), (x + 28.0, y - 4.0), role, 1.6)
+        yield Text((x + 34.0, y), (Run(text, role),), _SMALL)
+        x += wide
+    y += 20.0
+    remarks = list(scene.remarks)
+    if canvas.homeless:
+        remarks.append((Run("no room for: " + ", ".join(canvas.homeless), Role.MUTED),))
+    for runs in remarks:
+        for text in wrap("".join(run.text for run in runs), WIDTH - 2 * _PAD, SIZE, 2):
+            yield Text((_PAD, y), (Run(text, runs[0].role),), SIZE)
+            y += 16.0
+
+
+_STATES = (Role.GIVEN, Role.DERIVED, Role.IGNORED, Role.CONFLICTING, Role.FREE, Role.GHOST)
+
+
+def _legend(scene: Scene) -> list[Role]:
+    """The states that are used."""
+    used = {each.role for each in (*scene.trails, *scene.thins, *scene.rings, *scene.dimensions)}
+    used |= {run.role for mark in scene.marks for run in mark.label}
+    used |= {run.role for runs in scene.lines for run in runs}
+    used |= {Role.FREE} if scene.slides else set()
+    return [role for role in _STATES if role in used]
+
+
+def _draw_path(canvas: Canvas, scene: Scene) -> None:
+    """Construction, other contours, and the path over them."""
+    view = canvas.view
+    if scene.has_turning_axis and scene.trails:
+        y = view.place((0.0, 0.0))[1]
+        if canvas.frame.top + 4.0 < y < canvas.frame.bottom - 4.0:
+            canvas.draw(line((canvas.frame.left, y), (canvas.frame.right, y), Role.MUTED, 0.9), FAINT_WEIGHT)
+    for ring in scene.rings:
+        radius = ring.radius * view.scale
+        if radius < 20 * WIDTH:
+            stroke = arc(view.place(ring.center), radius, 0.0, 6.283185307179586, ring.role)
+            canvas.draw(stroke, FAINT_WEIGHT if ring.role is Role.MUTED else THIN_WEIGHT)
+    for thin in scene.thins:
+        ends = _ends_of(canvas, thin)
+        if ends is not None:
+            canvas.draw(line(*ends, thin.role, 1.0 if thin.role is Role.MUTED else 1.4, is_clipped=True))
+    for trail in sorted(scene.trails, key=lambda each: each.is_main):
+        width = (THICK if trail.role is Role.INK else THICK - 0.4) if trail.is_main else 1.5
+        dash = () if trail.role is Role.INK else DASHES.get(trail.role, ())
+        for stroke in _strokes(canvas, trail, width, dash):
+            canvas.draw(stroke, PATH_WEIGHT if trail.is_main else THIN_WEIGHT)
+    for trail in scene.trails:
+        if trail.is_main:
+            for segment in _pointed(trail.segments, view):
+                at, way = middle(segment)
+                tip, step = view.place(at), (way[0], -way[1])
+                ahead = tip[0] + step[0] * 5.0, tip[1] + step[1] * 5.0
+                canvas.fill(head(ahead, step, trail.role, 11.0, 4.6))
+
+
+def _pointed(segments: tuple[Segment, ...], view: View) -> list[Segment]:
+    """The elements that are long enough for an arrow, or the longest."""
+    long = [segment for segment in segments if segment.length * view.scale > _ARROWED and not _is_corner(segment)]
+    return long or [max(segments, key=lambda each: each.length)]
+
+
+def _is_corner(segment: Segment) -> bool:
+    return segment.name.startswith("corner")
+
+
+def _ends_of(canvas: Canvas, thin: Thin) -> tuple[Spot, Spot] | None:
+    a, b = canvas.view.place(thin.start), canvas.view.place(thin.end)
+    if not thin.is_endless:
+        return a, b
+    length = hypot(b[0] - a[0], b[1] - a[1])
+    if length == 0:
+        return None
+    way, reach = ((b[0] - a[0]) / length, (b[1] - a[1]) / length), 4 * WIDTH
+    return clip(
+        (a[0] - way[0] * reach, a[1] - way[1] * reach), (a[0] + way[0] * reach, a[1] + way[1] * reach), canvas.frame
+    )
+
+
+def _strokes(canvas: Canvas, trail: Trail, width: float, dash: tuple[float, ...]) -> Iterator[Stroke]:
+    """A path as strokes; one where it has no gap."""
+    view = canvas.view
+    steps: list[Spot | Sweep] = []
+    begin: Spot | None = None
+    last = None
+    for segment in trail.segments:
+        start = view.place(segment.start)
+        if begin is None or (last is not None and hypot(start[0] - last[0], start[1] - last[1]) > _GAP):
+            if begin is not None and steps:
+                yield Stroke(begin, tuple(steps), trail.role, width, dash)
+            begin, steps = start, []
+        end = view.place(segment.end)
+        last = end
+        here = steps[-1].end if steps and isinstance(steps[-1], Sweep) else steps[-1] if steps else begin
+        if isinstance(here, Sweep):
+            here = here.end
+        is_small = segment.length * view.scale < _LEAST and segment is not trail.segments[-1]
+        if is_small:
+            continue
+        steps.append(_step(view, segment, end))
+    if begin is not None and steps:
+        yield Stroke(begin, tuple(steps), trail.role, width, dash)
+
+
+def _step(view: View, segment: Segment, end: Spot) -> Spot | Sweep:
+    if isinstance(segment, LineSegment):
+        return end
+    return Sweep(view.place(segment.center), segment.radius * view.scale, end, -sweep_of(segment))
+
+
+def _draw_labels(canvas: Canvas, scene: Scene) -> None:
+    """Everything that has a label in the drawing: first all lines, then the labels, those of words first."""
+    wanted: list[tuple[Spot, list[tuple[Run, ...]], Spot, Role]] = []
+    counts: dict[Spot, int] = {}
+    for slide in scene.slides:
+        draw_slide(canvas, slide)
+    for mark in scene.marks:
+        draw_point(canvas, mark)
+    for dimension in scene.dimensions:
+        if isinstance(dimension, Angle):
+            at = canvas.view.place(dimension.at)
+            counts[at] = counts.get(at, -1) + 1
+            spot, away = draw_angle(canvas, dimension, counts[at])
+        elif isinstance(dimension, Aligned):
+            spot, away = draw_aligned(canvas, dimension)
+        elif isinstance(dimension, Linear) and is_nothing(dimension):
+            spot, away = canvas.view.place(dimension.start), (0.7, -0.7)
+        else:
+            continue
+        wanted.append((spot, [(Run(dimension.text, dimension.role),)], away, dimension.role))
+    number = 0
+    for spot, runs, away, role in wanted:
+        if number < _MOST_LABELS:
+            canvas.label(spot, runs, away, role)
+            number += 1
+    for dimension in scene.dimensions:
+        if isinstance(dimension, Leader) and number < _MOST_LABELS:
+            draw_leader(canvas, dimension)
+            number += 1
+    directions = _directions(canvas, scene)
+    for mark in scene.marks:
+        if mark.label and number < _MOST_LABELS and mark.kind is not Kind.CENTER:
+            at = canvas.view.place(mark.at)
+            away = away_from(directions.get((round(at[0]), round(at[1])), []))
+            canvas.label(at, [mark.label, mark.short], away, Role.MUTED)
+            number += 1
+    for trail in scene.trails:
+        if trail.label and not scene.marks:
+            at, _ = middle(trail.segments[len(trail.segments) // 2])
+            canvas.label(canvas.view.place(at), [(Run(trail.label, trail.role),)], (0.0, -1.0), trail.role)
+
+
+def _directions(canvas: Canvas, scene: Scene) -> dict[tuple[int, int], list[Spot]]:
+    """By place on the page, the directions in which lines leave it."""
+    found: dict[tuple[int, int], list[Spot]] = {}
+
+    def note(a: Spot, b: Spot) -> None:
+        length = hypot(b[0] - a[0], b[1] - a[1])
+        if length > 0:
+            found.setdefault((round(a[0]), round(a[1])), []).append(((b[0] - a[0]) / length, (b[1] - a[1]) / length))
+
+    pairs: Iterable[tuple[Segment | Thin, bool]] = (
+        *((segment, True) for trail in scene.trails for segment in trail.segments),
+        *((thin, False) for thin in scene.thins),
+    )
+    for item, _ in pairs:
+        a, b = canvas.view.place(item.start), canvas.view.place(item.end)
+        if isinstance(item, ArcSegment):
+            sign = item.turn.sign
+            for at, other, way in ((a, item.start, sign), (b, item.end, -sign)):
+                spoke = other[0] - item.center[0], other[1] - item.center[1]
+                note(at, (at[0] - spoke[1] * way, at[1] - spoke[0] * way))
+        else:
+            note(a, b)
+            note(b, a)
+    return found
+
+
+def stack_sheets(sheets: list[Sheet]) -> Sheet:
+    """Pages under each other as one."""
+    items: list[Item] = []
+    height = 0.0
+    for sheet in sheets:
+        items += [shift(item, height) for item in sheet.items]
+        height += sheet.height
+    frame = Box(4.0, sheets[0].frame.top, WIDTH - 4.0, height)
+    return sheets[0] if len(sheets) == 1 else Sheet(WIDTH, round(height, 1), frame, tuple(items))

@@ -1,0 +1,65 @@
+"""A whole program in one picture: every contour where it is, with its number and line."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from contoursolve.examine import Answer
+from contoursolve.model import FIRST, SECOND
+from contoursolve.pictures.compose import axis_name, main_trails
+from contoursolve.pictures.known import find_known
+from contoursolve.pictures.scene import Kind, Mark, Scene, Trail
+from contoursolve.pictures.sheet import Run
+from contoursolve.pictures.theme import Role
+from contoursolve.pipeline import Result
+from contoursolve.solving import Status
+
+MOST_CONTOURS = 400
+"""Contours that are drawn; a picture of more says how many it leaves out."""
+
+MOST_LABELED = 60
+
+
+def compose_overview(result: Result, title: str | None) -> list[Scene]:
+    """A scene for each plane in which the program has contours, in their order."""
+    answers = list(enumerate(result.answers, 1))
+    planes = dict.fromkeys(answer.plane for _, answer in answers)
+    told = title if title is not None else _title(result)
+    if not answers:
+        return [Scene(told, ("", ""), remarks=((Run("The program has no contour.", Role.MUTED),),))]
+    scenes: list[Scene] = []
+    for plane in planes:
+        own = [(number, answer) for number, answer in answers if answer.plane == plane]
+        scene = _scene(own)
+        scenes.append(replace(scene, title=told if not scenes else f"{plane.code}: {' and '.join(plane.axes)}"))
+    return scenes
+
+
+def _title(result: Result) -> str:
+    counts = {status: sum(answer.status is status for answer in result.answers) for status in Status}
+    told = ", ".join(f"{counts[status]} {status.value}" for status in reversed(Status) if counts[status])
+    number = len(result.answers)
+    return f"{result.program.name}: {number} contour{'' if number == 1 else 's'}" + (f" ({told})" if told else "")
+
+
+def _scene(answers: Sequence[tuple[int, Answer]]) -> Scene:
+    trails: list[Trail] = []
+    marks: list[Mark] = []
+    remarks = []
+    for place, (number, answer) in enumerate(answers[:MOST_CONTOURS]):
+        own = main_trails(answer, find_known(answer))
+        is_solved = answer.contour is not None
+        role = Role.INK if is_solved else Role.CONFLICTING
+        trails += [replace(trail, role=role) for trail in own]
+        label = (Run(f"{number}", role), Run(f"  line {answer.lines[0]}", Role.MUTED))
+        if not is_solved:
+            remarks.append((Run(f"{number}, line {answer.lines[0]}: {answer.status.value}", Role.CONFLICTING),))
+        if own and place < MOST_LABELED:
+            marks.append(Mark(own[0].segments[0].start, Kind.START, label, label[:1]))
+            marks.append(Mark(own[-1].segments[-1].end, Kind.END))
+    if len(answers) > MOST_CONTOURS:
+        remarks.append((Run(f"... and {len(answers) - MOST_CONTOURS} more contours, which are not drawn", Role.MUTED),))
+    plane = answers[0][1].plane
+    names = axis_name(plane, FIRST), axis_name(plane, SECOND)
+    return Scene(
+        "", names, tuple(trails), marks=tuple(marks), remarks=tuple(remarks), has_turning_axis=plane.diameters[SECOND]
+    )

@@ -1,0 +1,145 @@
+"""A page as PNG, painted by matplotlib without a window or any state: the same bytes for the same page."""
+
+import io
+from typing import TYPE_CHECKING, Any
+
+from contoursolve.pictures.sheet import Anchor, Dot, Shape, Sheet, Stroke, Sweep, Text
+from contoursolve.pictures.svg import points_on
+from contoursolve.pictures.theme import Role, Theme
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+PIXELS = 96.0
+"""Of a page in an inch, as in CSS."""
+
+_POINTS = 72.0 / PIXELS
+_PIECES = 96
+_MOST = 12_000
+"""Pixels of a side; a larger picture is no use to anybody and fills the memory."""
+
+
+class MissingExtraError(ImportError):
+    """The package that paints PNG is missing; the message says what to install."""
+
+
+def write_png(sheet: Sheet, theme: Theme, title: str, dpi: float) -> bytes:
+    """The page as PNG. Raises MissingExtraError without matplotlib, ValueError for a resolution out of range."""
+    if not 1 <= dpi <= _MOST * PIXELS / max(sheet.width, sheet.height):
+        raise ValueError(f"a picture of {sheet.width:.0f} x {sheet.height:.0f} pixels cannot be painted at {dpi:g} dpi")
+    try:
+        from matplotlib import rc_context  # noqa: PLC0415 - an extra, and slow to import
+        from matplotlib.backends.backend_agg import FigureCanvasAgg  # noqa: PLC0415
+        from matplotlib.figure import Figure  # noqa: PLC0415
+    except ModuleNotFoundError as error:
+        if error.name is None or error.name.partition(".")[0] != "matplotlib":
+            raise
+        raise MissingExtraError(
+            "a PNG picture needs matplotlib; install it with: pip install 'contoursolve[picture]'"
+        ) from None
+    # A user's own settings change nothing.
+    with rc_context({"path.simplify": False, "font.family": ["DejaVu Sans"], "text.usetex": False}):
+        figure = Figure(figsize=(sheet.width / PIXELS, sheet.height / PIXELS), facecolor=theme.colors[Role.PAPER])
+        canvas = FigureCanvasAgg(figure)
+        _Painter(figure, sheet, theme).paint()
+        stream = io.BytesIO()
+        canvas.print_figure(
+            stream, format="png", dpi=dpi, metadata={"Software": None, "Title": title}, facecolor=figure.get_facecolor()
+        )
+    return stream.getvalue()
+
+
+class _Painter:
+    """Adds what is on a page to a figure."""
+
+    def __init__(self, figure: "Figure", sheet: Sheet, theme: Theme) -> None:
+        from matplotlib.patches import Rectangle  # noqa: PLC0415
+        from matplotlib.transforms import Affine2D  # noqa: PLC0415
+
+        self.figure, self.sheet, self.colors = figure, sheet, theme.colors
+        to_inches = Affine2D().scale(1 / PIXELS, -1 / PIXELS).translate(0, sheet.height / PIXELS)
+        self.transform = to_inches + figure.dpi_scale_trans
+        frame = sheet.frame
+        self.clip = Rectangle(
+            (frame.left, frame.top), frame.right - frame.left, frame.bottom - frame.top, transform=self.transform
+        )
+
+    def paint(self) -> None:
+        """Everything, each item over those before it."""
+        for number, item in enumerate(self.sheet.items):
+            if isinstance(item, Stroke):
+                self._stroke(item, number)
+            elif isinstance(item, Text):
+                self._text(item, number)
+            else:
+                self._patch(item, number)
+
+    def _add(self, artist: Any, number: int) -> None:
+        artist.set_zorder(number)
+        self.figure.add_artist(artist)
+
+    def _stroke(self, stroke: Stroke, number: int) -> None:
+        from matplotlib.patches import PathPatch  # noqa: PLC0415
+        from matplotlib.path import Path  # noqa: PLC0415
+
+        places = [stroke.start]
+        for step in stroke.steps:
+            places += points_on(places[-1], step, _PIECES) if isinstance(step, Sweep) else [step]
+        dash = [each / stroke.width for each in stroke.dash]
+        patch = PathPatch(
+            Path(places),
+            fill=False,
+            edgecolor=self.colors[stroke.role],
+            linewidth=stroke.width * _POINTS,
+            linestyle=(0, dash) if dash else "solid",
+            capstyle="butt" if dash else "round",
+            joinstyle="round",
+            transform=self.transform,
+        )
+        self._add(patch, number)
+        if stroke.is_clipped:
+            patch.set_clip_path(self.clip)
+
+    def _patch(self, item: Shape | Dot, number: int) -> None:
+        from matplotlib.patches import Circle, Polygon  # noqa: PLC0415
+
+        color, paper = self.colors[item.role], self.colors[Role.PAPER]
+        if isinstance(item, Shape):
+            self._add(Polygon(item.corners, facecolor=color, edgecolor="none", transform=self.transform), number)
+            return
+        filled = color if item.is_filled else paper
+        edge, width = ("none", 0.0) if item.is_filled else (color, 1.4 * _POINTS)
+        disc = Circle(item.at, item.radius, facecolor=filled, edgecolor=edge, linewidth=width, transform=self.transform)
+        self._add(disc, number)
+
+    def _text(self, text: Text, number: int) -> None:
+        from contoursolve.pictures.metrics import width_of  # noqa: PLC0415
+
+        x, y = text.at
+        wide = width_of(text.words, text.size, is_bold=text.is_bold, is_mono=text.is_mono)
+        several = len({run.role for run in text.runs}) > 1
+        anchor = text.anchor
+        if several:
+            # Texts of several colours are painted one after the other.
+            x -= {Anchor.START: 0.0, Anchor.MIDDLE: wide / 2, Anchor.END: wide}[anchor]
+            anchor = Anchor.START
+        align = {Anchor.START: "left", Anchor.MIDDLE: "center", Anchor.END: "right"}[anchor]
+        pieces = [(run.text, run.role) for run in text.runs] if several else [(text.words, text.runs[0].role)]
+        for words, role in pieces:
+            self.figure.text(
+                x,
+                y,
+                words,
+                fontsize=text.size * _POINTS,
+                fontfamily="DejaVu Sans Mono" if text.is_mono else "DejaVu Sans",
+                fontweight="bold" if text.is_bold else "normal",
+                color=self.colors[role],
+                ha=align,
+                va="baseline",
+                rotation=90 if text.is_turned else 0,
+                rotation_mode="anchor",
+                transform=self.transform,
+                parse_math=False,
+                zorder=number,
+            )
+            x += width_of(words, text.size, is_bold=text.is_bold, is_mono=text.is_mono)

@@ -1,0 +1,166 @@
+"""A page as SVG: a few hundred short elements, the same bytes for the same page, with a title and a description.
+
+Texts stay texts, so that they can be found and read aloud. Colours are attributes that every viewer knows; for a page
+of HTML a style sheet overrules them, under an identity that is made of the picture itself.
+"""
+
+from collections.abc import Iterator
+from hashlib import sha256
+from math import pi
+from xml.sax.saxutils import escape
+
+from contoursolve.pictures.sheet import FULL_TURN, Dot, Item, Shape, Sheet, Spot, Stroke, Sweep, Text
+from contoursolve.pictures.theme import DARK_COLORS, LIGHT_COLORS, Role, Theme
+
+SANS = "'DejaVu Sans', Verdana, 'Liberation Sans', Arial, sans-serif"
+MONO = "'DejaVu Sans Mono', Menlo, Consolas, 'Liberation Mono', monospace"
+
+_FLAT = 3_000.0
+"""Pixels. Viewers round large numbers: an arc of a larger radius is drawn in straight pieces."""
+
+_PIECES = 48
+
+
+def write_svg(sheet: Sheet, theme: Theme, title: str, description: str) -> str:
+    """The page as one SVG element, without an XML declaration, so that it can stand in HTML."""
+    body = "".join(_element(item, theme) for item in sheet.items)
+    name = "cs-" + sha256("\0".join((theme.value, title, description, body)).encode()).hexdigest()[:12]
+    size = f'width="{_number(sheet.width)}" height="{_number(sheet.height)}"'
+    frame = sheet.frame
+    clip = (
+        f'<clipPath id="{name}-frame"><rect x="{_number(frame.left)}" y="{_number(frame.top)}" '
+        f'width="{_number(frame.right - frame.left)}" height="{_number(frame.bottom - frame.top)}"/></clipPath>'
+    )
+    style = _style(name) if theme is Theme.PAGE else ""
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" id="{name}" role="img" aria-labelledby="{name}-title {name}-text" '
+        f'{size} viewBox="0 0 {_number(sheet.width)} {_number(sheet.height)}" font-family="{SANS}" fill="none">'
+        f'<title id="{name}-title">{_clean(title)}</title><desc id="{name}-text">{_clean(description)}</desc>'
+        f"<defs>{clip}</defs>{style}"
+        f'<rect width="{_number(sheet.width)}" height="{_number(sheet.height)}" {_paint("fill", Role.PAPER, theme)}/>'
+        f"{body.replace('url(#frame)', f'url(#{name}-frame)')}</svg>\n"
+    )
+
+
+def _style(name: str) -> str:
+    """Rules that colour one picture as the page or its reader wants it."""
+    light = "".join(_rule(f"#{name}", role, LIGHT_COLORS[role]) for role in Role)
+    dark = "".join(_rule(f"#{name}", role, DARK_COLORS[role]) for role in Role)
+    return f"<style>{light}@media (prefers-color-scheme:dark){{{dark}}}</style>"
+
+
+def _rule(name: str, role: Role, color: str) -> str:
+    value = f"var(--cs-{role.value},{color})"
+    return f"{name} .s-{role.value}{{stroke:{value}}}{name} .f-{role.value}{{fill:{value}}}"
+
+
+def _paint(what: str, role: Role, theme: Theme) -> str:
+    """A colour as an attribute, and as a class where the page may change it."""
+    attribute = f'{what}="{theme.colors[role]}"'
+    return f'{attribute} class="{what[0]}-{role.value}"' if theme is Theme.PAGE else attribute
+
+
+def _element(item: Item, theme: Theme) -> str:
+    if isinstance(item, Stroke):
+        dash = f' stroke-dasharray="{" ".join(map(_number, item.dash))}"' if item.dash else ""
+        clip = ' clip-path="url(#frame)"' if item.is_clipped else ""
+        shape = "".join(_steps(item))
+        join = ' stroke-linejoin="round" stroke-linecap="round"' if not item.dash else ""
+        return (
+            f'<path d="{shape}" {_paint("stroke", item.role, theme)} stroke-width="{_number(item.width)}"'
+            f"{join}{dash}{clip}/>"
+        )
+    if isinstance(item, Shape):
+        places = " ".join(map(_place, item.corners))
+        return f'<polygon points="{places}" {_paint("fill", item.role, theme)}/>'
+    if isinstance(item, Dot):
+        fill = _paint("fill", item.role, theme) if item.is_filled else ""
+        circle = f'<circle cx="{_number(item.at[0])}" cy="{_number(item.at[1])}" r="{_number(item.radius)}" '
+        if item.is_filled:
+            return f"{circle}{fill}/>"
+        ring = f'{_paint("stroke", item.role, theme)} stroke-width="1.4"'
+        disc = f"{circle}{_paint('fill', Role.PAPER, theme)}/>"
+        return f"{disc}{circle}{ring}/>"
+    return _text(item, theme)
+
+
+def _text(text: Text, theme: Theme) -> str:
+    kind = ' font-weight="bold"' if text.is_bold else ""
+    if text.is_mono:
+        kind += f' font-family="{MONO}"'
+    if text.anchor.value != "start":
+        kind += f' text-anchor="{text.anchor.value}"'
+    if text.is_turned:
+        kind += f' transform="rotate(-90 {_place(text.at, " ")})"'
+    place = f'x="{_number(text.at[0])}" y="{_number(text.at[1])}" font-size="{_number(text.size)}"{kind}'
+    roles = {run.role for run in text.runs}
+    if len(roles) == 1:
+        inside, fill = _clean(text.words), " " + _paint("fill", next(iter(roles)), theme)
+    else:
+        inside = "".join(
+            f"<tspan {_paint('fill', run.role, theme)}>{_clean(run.text)}</tspan>" for run in text.runs if run.text
+        )
+        fill = ""
+    blanks = ' xml:space="preserve"' if "  " in text.words or text.words != text.words.strip() else ""
+    return f"<text {place}{blanks}{fill}>{inside}</text>"
+
+
+def _steps(stroke: Stroke) -> Iterator[str]:
+    yield f"M{_place(stroke.start)}"
+    here = stroke.start
+    for step in stroke.steps:
+        if not isinstance(step, Sweep):
+            yield f"L{_place(step)}"
+            here = step
+            continue
+        yield from _arc(here, step)
+        here = step.end
+
+
+def _arc(here: Spot, sweep: Sweep) -> Iterator[str]:
+    if sweep.radius > _FLAT:
+        yield from (f"L{_place(spot)}" for spot in points_on(here, sweep, _PIECES))
+        return
+    flag = 1 if sweep.angle > 0 else 0
+    radius = _number(sweep.radius)
+    if abs(sweep.angle) > FULL_TURN * 0.99:
+        # The end of an arc command may not be its beginning.
+        middle = 2 * sweep.center[0] - here[0], 2 * sweep.center[1] - here[1]
+        yield f"A{radius} {radius} 0 0 {flag} {_place(middle)}A{radius} {radius} 0 0 {flag} {_place(sweep.end)}"
+        return
+    large = 1 if abs(sweep.angle) > pi else 0
+    yield f"A{radius} {radius} 0 {large} {flag} {_place(sweep.end)}"
+
+
+def points_on(here: Spot, sweep: Sweep, pieces: int) -> Iterator[Spot]:
+    """Places on an arc that starts here, its end the last."""
+    from math import cos, sin  # noqa: PLC0415
+
+    first, second = here[0] - sweep.center[0], here[1] - sweep.center[1]
+    for number in range(1, pieces):
+        turned = sweep.angle * number / pieces
+        yield (
+            sweep.center[0] + first * cos(turned) - second * sin(turned),
+            sweep.center[1] + first * sin(turned) + second * cos(turned),
+        )
+    yield sweep.end
+
+
+def _place(spot: Spot, between: str = ",") -> str:
+    return f"{_number(spot[0])}{between}{_number(spot[1])}"
+
+
+def _number(value: float) -> str:
+    """A number of pixels to a hundredth, without a negative zero."""
+    text = f"{value:.2f}".rstrip("0").rstrip(".")
+    return "0" if text == "-0" else text
+
+
+def _clean(text: str) -> str:
+    """A text as XML holds it: escaped, and without the characters that XML does not know."""
+    return escape("".join(each if _is_character(ord(each)) else "�" for each in text))
+
+
+def _is_character(code: int) -> bool:
+    """Char of XML 1.0, section 2.2."""
+    return code in (9, 10, 13) or 0x20 <= code <= 0xD7FF or 0xE000 <= code <= 0xFFFD or 0x10000 <= code <= 0x10FFFF  # noqa: PLR2004

@@ -1,0 +1,92 @@
+"""How a picture is coloured and dashed: one table a theme, one dash a role."""
+
+from collections.abc import Mapping
+from enum import Enum
+
+
+class Role(Enum):
+    """What a stroke or a text of a picture is; the value names it in a page's style sheet."""
+
+    PAPER = "paper"
+    INK = "ink"
+    """The path, points and titles."""
+    MUTED = "muted"
+    """Construction lines, axes and remarks."""
+    GHOST = "ghost"
+    """Other contours that the block would allow."""
+    GIVEN = "given"
+    DERIVED = "derived"
+    IGNORED = "ignored"
+    CONFLICTING = "conflicting"
+    FREE = "free"
+    SOLVED_FIELD = "solved-field"
+    REFUSED_FIELD = "refused-field"
+    OTHER_FIELD = "other-field"
+    """Fields of a map."""
+
+
+MEANINGS: Mapping[Role, str] = {
+    Role.GIVEN: "given",
+    Role.DERIVED: "worked out",
+    Role.IGNORED: "ignored",
+    Role.CONFLICTING: "conflicting or refused",
+    Role.FREE: "still free",
+    Role.GHOST: "another solution",
+    Role.MUTED: "construction",
+}
+"""What a legend says of a role."""
+
+DASHES: Mapping[Role, tuple[float, ...]] = {
+    Role.MUTED: (9.0, 2.5, 2.0, 2.5),
+    Role.GHOST: (7.0, 4.0),
+    Role.DERIVED: (8.0, 2.0),
+    Role.IGNORED: (1.5, 3.0),
+    Role.CONFLICTING: (10.0, 3.0, 2.0, 3.0, 2.0, 3.0),
+    Role.FREE: (4.0, 3.0),
+}
+"""Pixels on and off of a role's thin lines; solid without. They tell the states apart without colour."""
+
+LIGHT_COLORS: Mapping[Role, str] = {
+    Role.PAPER: "#ffffff",
+    Role.INK: "#111827",
+    Role.MUTED: "#5b6472",
+    Role.GHOST: "#6b7280",
+    Role.GIVEN: "#1d4ed8",
+    Role.DERIVED: "#15693a",
+    Role.IGNORED: "#8a4b00",
+    Role.CONFLICTING: "#b91c1c",
+    Role.FREE: "#7e22ce",
+    Role.SOLVED_FIELD: "#d9e6fb",
+    Role.REFUSED_FIELD: "#f7dfdc",
+    Role.OTHER_FIELD: "#ece4f5",
+}
+
+DARK_COLORS: Mapping[Role, str] = {
+    Role.PAPER: "#10151f",
+    Role.INK: "#f3f4f6",
+    Role.MUTED: "#9aa5b5",
+    Role.GHOST: "#8e99a9",
+    Role.GIVEN: "#93c5fd",
+    Role.DERIVED: "#86efac",
+    Role.IGNORED: "#fcd34d",
+    Role.CONFLICTING: "#fca5a5",
+    Role.FREE: "#d8b4fe",
+    Role.SOLVED_FIELD: "#1b3050",
+    Role.REFUSED_FIELD: "#45201f",
+    Role.OTHER_FIELD: "#322447",
+}
+
+
+class Theme(Enum):
+    """The colours of a picture."""
+
+    LIGHT = "light"
+    DARK = "dark"
+    PAGE = "page"
+    """For a page of HTML: light or dark as the reader prefers; a page overrules it with `--cs-ink`, `--cs-paper`, ...
+    Where style sheets are taken out, and in PNG, it is light."""
+
+    @property
+    def colors(self) -> Mapping[Role, str]:
+        """The colour of every role; for a page those of the light theme."""
+        return DARK_COLORS if self is Theme.DARK else LIGHT_COLORS

@@ -1,0 +1,74 @@
+"""Plane geometry of a drawing, in mm: directions, feet of perpendiculars, how far arcs reach."""
+
+from math import atan2, cos, hypot, pi, sin, tau
+
+from contoursolve.contour import ArcSegment, Segment
+from contoursolve.solving import Point
+
+
+def minus(a: Point, b: Point) -> Point:
+    """From b to a."""
+    return a[0] - b[0], a[1] - b[1]
+
+
+def along(at: Point, way: Point, by: float) -> Point:
+    """The place so far from another along a direction."""
+    return at[0] + by * way[0], at[1] + by * way[1]
+
+
+def distance(a: Point, b: Point) -> float:
+    """How far apart two points are."""
+    return hypot(a[0] - b[0], a[1] - b[1])
+
+
+def unit(vector: Point) -> Point:
+    """The direction of a vector; to the right for one of no length."""
+    length = hypot(*vector)
+    return (vector[0] / length, vector[1] / length) if length > 0 else (1.0, 0.0)
+
+
+def toward(degrees_: float) -> Point:
+    """The direction at an angle from the first axis."""
+    return cos(degrees_ * pi / 180), sin(degrees_ * pi / 180)
+
+
+def foot(at: Point, on: Point, way: Point) -> Point:
+    """The foot of the perpendicular from a point onto the line through another along a unit direction."""
+    step = minus(at, on)
+    return along(on, way, step[0] * way[0] + step[1] * way[1])
+
+
+def sweep_of(arc: ArcSegment) -> float:
+    """The angle travelled, radians, positive counter-clockwise; a whole turn where it ends as it begins."""
+    begin = atan2(arc.start[1] - arc.center[1], arc.start[0] - arc.center[0])
+    end = atan2(arc.end[1] - arc.center[1], arc.end[0] - arc.center[0])
+    return (((end - begin) * arc.turn.sign) % tau or tau) * arc.turn.sign
+
+
+def middle(segment: Segment) -> tuple[Point, Point]:
+    """The place halfway along an element, and the direction of travel there."""
+    if not isinstance(segment, ArcSegment):
+        between = minus(segment.end, segment.start)
+        return along(segment.start, between, 0.5), unit(between)
+    return on_arc(segment, 0.5)
+
+
+def on_arc(arc: ArcSegment, share: float) -> tuple[Point, Point]:
+    """The place after a share of an arc, and the direction of travel there."""
+    begin = atan2(arc.start[1] - arc.center[1], arc.start[0] - arc.center[0])
+    angle = begin + sweep_of(arc) * share
+    spoke = cos(angle), sin(angle)
+    return along(arc.center, spoke, arc.radius), (-spoke[1] * arc.turn.sign, spoke[0] * arc.turn.sign)
+
+
+def extent(segment: Segment) -> list[Point]:
+    """Points that span the same upright rectangle as an element."""
+    found = [segment.start, segment.end]
+    if isinstance(segment, ArcSegment):
+        begin = atan2(segment.start[1] - segment.center[1], segment.start[0] - segment.center[0])
+        sweep = sweep_of(segment)
+        for quarter in range(4):
+            angle = quarter * pi / 2
+            if ((angle - begin) * segment.turn.sign) % tau < abs(sweep):
+                found.append(along(segment.center, (cos(angle), sin(angle)), segment.radius))
+    return found
