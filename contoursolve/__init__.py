@@ -30,7 +30,8 @@ if TYPE_CHECKING:
     from contoursolve.dialects import Dialect
     from contoursolve.examine import Answer, Depth, Policy
     from contoursolve.expansion import Expansion
-    from contoursolve.families import Family, FamilyError, Sensitivity, family, sensitivity
+    from contoursolve.families import Family, FamilyError, Feasible, Sensitivity, family, feasible, sensitivity
+    from contoursolve.notebook import explore
     from contoursolve.pipeline import Result, UnknownControlError
     from contoursolve.sketch import Drawings, Drawn, Sketch
     from contoursolve.solving import Status
@@ -55,6 +56,7 @@ __all__ = [
     "Expansion",
     "Family",
     "FamilyError",
+    "Feasible",
     "LineSegment",
     "Policy",
     "Program",
@@ -70,7 +72,9 @@ __all__ = [
     "check_file",
     "completions",
     "expand",
+    "explore",
     "family",
+    "feasible",
     "parse",
     "read_program",
     "sensitivity",
@@ -86,7 +90,8 @@ _ROOMS = {
     "dialects": ("Dialect",),
     "examine": ("Answer", "Depth", "Policy"),
     "expansion": ("Expansion",),
-    "families": ("Family", "FamilyError", "Sensitivity", "family", "sensitivity"),
+    "families": ("Family", "FamilyError", "Feasible", "Sensitivity", "family", "feasible", "sensitivity"),
+    "notebook": ("explore",),
     "pipeline": ("Result", "UnknownControlError"),
     "sketch": ("Drawings", "Drawn", "Sketch"),
     "solving": ("Status",),

@@ -1,10 +1,11 @@
 """The solved path: lines and arcs with all their numbers, checked once more as a path."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import atan2, degrees, hypot, tau
 
-from contoursolve.model import Line, Profile, Turn
+from contoursolve.model import Line, Plane, Profile, Turn
+from contoursolve.shown import Shown
 from contoursolve.solving import Point, Solution
 from contoursolve.tolerance import LENGTH
 
@@ -56,13 +57,46 @@ Segment = LineSegment | ArcSegment
 
 
 @dataclass(frozen=True, slots=True)
-class Contour:
-    """The path of one contour from `start` to `end` without gaps, and its named points."""
+class Contour(Shown):
+    """The path of one contour from `start` to `end` without gaps, and its named points. Contours with the same numbers
+    are equal, whatever their plane."""
 
     start: Point
     end: Point
     points: Mapping[str, Point]
     elements: tuple[Segment, ...]
+    plane: Plane = field(compare=False)
+
+    def table(self) -> list[dict[str, str | float | None]]:
+        """A row for each element, as `pandas.DataFrame` takes them; None for what an element does not have.
+
+        The names of the columns have the axes of the plane and the units: `end_Z_mm`, `end_X_radius_mm`, `radius_mm`,
+        `angle_deg` (the direction of a line, counter-clockwise from the plane's first axis), `sweep_deg` (the angle
+        that an arc travels).
+        """
+        return [_row(element, self.plane) for element in self.elements]
+
+
+def _row(element: Segment, plane: Plane) -> dict[str, str | float | None]:
+    def place(name: str, at: Point | None) -> dict[str, float | None]:
+        return {
+            f"{name}_{axis}{'_radius' if is_diameter else ''}_mm": at[number] if at else None
+            for number, (axis, is_diameter) in enumerate(zip(plane.axes, plane.diameters, strict=True))
+        }
+
+    arc = element if isinstance(element, ArcSegment) else None
+    return {
+        "name": element.name,
+        "kind": "arc" if arc else "line",
+        **place("start", element.start),
+        **place("end", element.end),
+        **place("center", arc.center if arc else None),
+        "radius_mm": arc.radius if arc else None,
+        "turn": arc.turn.value if arc else None,
+        "angle_deg": element.angle if isinstance(element, LineSegment) else None,
+        "sweep_deg": arc.sweep if arc else None,
+        "length_mm": element.length,
+    }
 
 
 def trace(profile: Profile, solution: Solution) -> Contour:
@@ -98,4 +132,4 @@ def trace(profile: Profile, solution: Solution) -> Contour:
                 turn = Turn.CCW if built.turn > 0 else Turn.CW
                 here = add(ArcSegment(corner.name, here, built.end, built.center, built.radius, turn))
     shown = {name: points[name] for name in profile.figure.points if name in profile.intersections}
-    return Contour(start, here, shown, tuple(elements))
+    return Contour(start, here, shown, tuple(elements), profile.plane)

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 from math import atan2, degrees
 
+from contoursolve.shown import Shown
 from contoursolve.source import Evidence, Source, Span
 
 
@@ -63,7 +64,7 @@ class Alarm:
 
 
 @dataclass(frozen=True, slots=True)
-class Diagnostic:
+class Diagnostic(Shown):
     """One finding.
 
     `message` stands alone on one line; `labels` mark the words, the first one is the place of the
@@ -136,7 +137,7 @@ class Tie:
 
 
 @dataclass(frozen=True, slots=True)
-class Diagnosis:
+class Diagnosis(Shown):
     """What the equations of one contour say: the checks it went through, what can still move, and which
     words say the same.
 

@@ -43,6 +43,7 @@ from contoursolve.solving.certificate import Certificate
 
 if TYPE_CHECKING:
     from contoursolve.solving.alternatives import Alternatives
+from contoursolve.shown import Shown
 from contoursolve.source import Span
 from contoursolve.spelling import (
     explain_skippable,
@@ -94,7 +95,7 @@ class Filled:
 
 
 @dataclass(frozen=True, slots=True)
-class Answer:
+class Answer(Shown):
     """What became of one contour of a program.
 
     `contour` is None unless the status is solved or overdetermined. `sides` are the solutions that the

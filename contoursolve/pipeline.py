@@ -20,6 +20,7 @@ from contoursolve.reading import (
     leave,
     next_place,
 )
+from contoursolve.shown import Shown
 from contoursolve.source import Span
 from contoursolve.spelling import (
     explain_asked_outside,
@@ -35,7 +36,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
-class Result:
+class Result(Shown):
     """All contours and findings of a program; `control` is None where there was nothing to tell it by."""
 
     program: Program

@@ -11,7 +11,7 @@ import pytest
 import contoursolve
 
 FLOORS = (
-    "source tolerance",
+    "source tolerance shown",
     "diagnostic",
     "syntax comments",
     "files",
@@ -36,6 +36,8 @@ FLOORS = (
     "expansion",
     "output api",
     "trial rewrite pictures",
+    "markup",
+    "notebook report",
     "__init__",
     "cli",
     "__main__",

@@ -133,3 +133,51 @@ def _wave(value: Intervals, crest: float) -> Intervals:
         numpy.where(is_far | holds(crest + numpy.pi), -1.0, numpy.maximum(bottom, -1.0)),
         numpy.where(is_far | holds(crest), 1.0, numpy.minimum(top, 1.0)),
     )
+
+
+def angle(first: Intervals, second: Intervals) -> Intervals:
+    """The angle with this sine and cosine (of any common length), -pi to pi."""
+    corners = [numpy.arctan2(y, x) for y in (first.low, first.high) for x in (second.low, second.high)]
+    low = numpy.minimum(numpy.minimum(*corners[:2]), numpy.minimum(*corners[2:])) - TRIGONOMETRY
+    high = numpy.maximum(numpy.maximum(*corners[:2]), numpy.maximum(*corners[2:])) + TRIGONOMETRY
+    is_open = ~((first.low > 0) | (first.high < 0) | (second.low > 0))  # about the origin, or where the angle jumps
+    return Intervals(numpy.where(is_open, -numpy.pi, low), numpy.where(is_open, numpy.pi, high))
+
+
+def larger(first: Intervals, second: Intervals) -> Intervals:
+    """The larger of two."""
+    return Intervals(numpy.maximum(first.low, second.low), numpy.maximum(first.high, second.high))
+
+
+def _truth(surely: Any, possibly: Any) -> Intervals:
+    """0 or 1, or both where it is not known."""
+    return Intervals(surely * 1.0, possibly * 1.0)
+
+
+def equal(first: Intervals, second: Intervals) -> Intervals:
+    """Whether they are the same number."""
+    is_one = (first.low == first.high) & (second.low == second.high) & (first.low == second.low)
+    return _truth(is_one, (first.low <= second.high) & (second.low <= first.high))
+
+
+def at_most(first: Intervals, second: Intervals) -> Intervals:
+    """Whether the first is not larger."""
+    return _truth(first.high <= second.low, first.low <= second.high)
+
+
+def below(first: Intervals, second: Intervals) -> Intervals:
+    """Whether the first is smaller."""
+    return _truth(first.high < second.low, first.low < second.high)
+
+
+def opposite(value: Intervals) -> Intervals:
+    """0 for 1, and 1 for 0."""
+    return Intervals(1.0 - value.high, 1.0 - value.low)
+
+
+def chosen(condition: Intervals, value: Intervals) -> Intervals:
+    """The value where the condition is true, 0 where it is not, and what lies between where it is not known."""
+    low = numpy.where(condition.low == 1, value.low, numpy.minimum(value.low, 0.0))
+    high = numpy.where(condition.low == 1, value.high, numpy.maximum(value.high, 0.0))
+    is_false = condition.high == 0
+    return Intervals(numpy.where(is_false, 0.0, low), numpy.where(is_false, 0.0, high))

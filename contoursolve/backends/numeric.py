@@ -108,6 +108,11 @@ def magnitude(value: Any) -> Expression:
     return _unary(casadi.OP_FABS, value)
 
 
+def larger(first: Any, second: Any) -> Expression:
+    """The larger of two."""
+    return _binary(casadi.OP_FMAX, first, second)
+
+
 def where(condition: Any, then: Any, otherwise: Any) -> Expression:
     """`then` where the condition is true."""
     return Expression(casadi.if_else(_sx(condition), _sx(then), _sx(otherwise)))
@@ -139,6 +144,18 @@ class Tape:
     def inputs(self) -> tuple[str, ...]:
         """The names of the inputs, in order."""
         return tuple(self._inputs)
+
+    def expression(self, name: str) -> Any:
+        """The expression of an output."""
+        return self._outputs[name]
+
+    def replaced(self, inputs: Mapping[str, Any], outputs: Mapping[str, Any]) -> tuple[list[Any], list[Any]]:
+        """The inputs that stay, and expressions of this tape with the others replaced."""
+        names = [name for name in self._inputs if name in inputs]
+        known, new = _stack(self._inputs[name] for name in names), _stack(inputs[name] for name in names)
+        expressions = casadi.substitute(_stack(outputs.values()), known, new)
+        stay = [each for name, each in self._inputs.items() if name not in inputs]
+        return stay, [Expression(expressions[number]) for number in range(len(outputs))]
 
     def function(self) -> Any:
         """The CasADi function of all inputs, as one vector, to all outputs, as another."""

@@ -22,7 +22,13 @@ _OF_ITSELF: Mapping[int, Callable[[Any, Any], Any]] = {
     casadi.OP_TWICE: operator.add,
 }
 """One operand that is both."""
-_CHOICES = (casadi.OP_EQ, casadi.OP_LE, casadi.OP_NOT, casadi.OP_IF_ELSE_ZERO)
+_CHOICES: Mapping[int, str] = {
+    casadi.OP_EQ: "equal",
+    casadi.OP_LE: "at_most",
+    casadi.OP_LT: "below",
+    casadi.OP_NOT: "opposite",
+    casadi.OP_IF_ELSE_ZERO: "chosen",
+}
 _POWERS = (casadi.OP_POW, casadi.OP_CONSTPOW)
 _FUNCTIONS: Mapping[int, str] = {
     casadi.OP_SQRT: "root",
@@ -30,14 +36,17 @@ _FUNCTIONS: Mapping[int, str] = {
     casadi.OP_SIN: "sine",
     casadi.OP_FABS: "magnitude",
     casadi.OP_SIGN: "sign",
+    casadi.OP_ATAN2: "angle",
+    casadi.OP_FMAX: "larger",
 }
 
 
 class Replay:
     """The instructions of a function of one vector to one vector, as a list to run through.
 
-    `functions` gives what is not arithmetic, as attributes `root`, `cosine`, `sine`, `magnitude`, `sign`; `constant`
-    makes a number of the wanted kind from a float.
+    `functions` gives what is not arithmetic, as attributes `root`, `cosine`, `sine`, `magnitude`, `sign`, `angle`,
+    `larger`, as far as they occur; `constant` makes a number of the wanted kind from a float. Comparisons are those of
+    `functions` (`equal`, `at_most`, `below`, `opposite`, `chosen`), or else give True or False.
     """
 
     def __init__(self, function: Any, functions: Any, constant: Callable[[float], Any]) -> None:
@@ -97,7 +106,8 @@ def _operation(kind: int, functions: Any) -> Callable[..., Any]:
     if kind in _POWERS:
         return operator.pow
     if kind in _CHOICES:
-        return _choice(kind, functions)
+        own: Callable[..., Any] | None = getattr(functions, _CHOICES[kind], None)
+        return own if own is not None and hasattr(functions, "chosen") else _choice(kind, functions)
     raise ValueError(f"CasADi instruction {kind} has no counterpart here")
 
 
@@ -110,4 +120,6 @@ def _choice(kind: int, functions: Any) -> Callable[..., Any]:
         return compare
     if kind == casadi.OP_NOT:
         return operator.not_
+    if kind == casadi.OP_LT:
+        raise ValueError("what is below what is not decided here")
     return lambda condition, value: value if condition else value * 0

@@ -13,10 +13,11 @@ from contoursolve.cli.options import (
     settings_option,
     units_option,
 )
-from contoursolve.cli.printing import lines_of_findings, print_lines, style_of_output
+from contoursolve.cli.printing import print_lines, style_of_output
 from contoursolve.dialects import DIALECTS, PLAIN, Dialect
 from contoursolve.examine import Policy
 from contoursolve.model import Length
+from contoursolve.output.listing import lines_of_findings
 from contoursolve.pipeline import Result, UnknownControlError, recognise, run
 from contoursolve.project import SettingError, configure
 from contoursolve.syntax import Program

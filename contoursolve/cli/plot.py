@@ -12,10 +12,11 @@ from contoursolve.cli.options import (
     CouldNotRunError,
     common_options,
 )
-from contoursolve.cli.printing import lines_of_findings, print_lines, print_summary, style_of_output
+from contoursolve.cli.printing import print_lines, style_of_output
 from contoursolve.examine import Answer
 from contoursolve.files import CannotWriteError, check_target, write_whole
 from contoursolve.output.layout import count
+from contoursolve.output.listing import lines_of_findings, summary_line
 from contoursolve.pictures import Picture, Theme, draw_answer, draw_result
 from contoursolve.pictures.png import MissingExtraError
 from contoursolve.pipeline import Result
@@ -104,7 +105,7 @@ def plot(
             write_whole(path, [data], keeps_backup=False)
     except (CannotWriteError, MissingExtraError) as error:
         raise CouldNotRunError(str(error)) from None
-    print_summary([result])
+    click.echo(summary_line([result]))
     for path, _, content in files:
         click.echo(f"{path}: {content}")
     if not files:

@@ -1,7 +1,6 @@
 """The commands that examine contours: solve and check."""
 
 import sys
-from collections.abc import Iterator
 from typing import Any
 
 import click
@@ -15,13 +14,10 @@ from contoursolve.cli.options import (
     CouldNotRunError,
     common_options,
 )
-from contoursolve.cli.printing import lines_of_findings, print_lines, print_summary, style_of_output
-from contoursolve.diagnostic import Diagnostic, Severity
-from contoursolve.examine import Answer
-from contoursolve.output.contours import contour_lines
+from contoursolve.cli.printing import print_lines, style_of_output
+from contoursolve.diagnostic import Severity
 from contoursolve.output.document import findings_to_json, to_json
-from contoursolve.output.findings import Style
-from contoursolve.pipeline import Result
+from contoursolve.output.listing import lines_of_findings, listing_lines, summary_line
 
 
 @click.command(short_help="Solve every contour block of a program.")
@@ -63,8 +59,8 @@ def solve(
     if format_ == "json":
         click.echo(to_json(result))
     else:
-        print_lines(_solved(result, style_of_output(), is_explained))
-        print_summary([result])
+        print_lines(listing_lines(result, style_of_output(), is_explained=is_explained))
+        click.echo(summary_line([result]))
     context.exit(FOUND_ERRORS if result.has_errors else 0)
 
 
@@ -132,20 +128,7 @@ def check(
         case _:
             for result in results:
                 print_lines(lines_of_findings(result, result.diagnostics, style_of_output()))
-            print_summary(results)
+            click.echo(summary_line(results))
     failing = {"error": (Severity.ERROR,), "warning": (Severity.ERROR, Severity.WARNING), "never": ()}[fail_on]
     found = {finding.severity for result in results for finding in result.diagnostics}
     context.exit(COULD_NOT_RUN if failures else FOUND_ERRORS if found & set(failing) else 0)
-
-
-def _solved(result: Result, style: Style, is_explained: bool) -> Iterator[str]:
-    """Contours in order, each followed by its findings, between the findings about other blocks."""
-    own = {id(finding) for answer in result.answers for finding in answer.diagnostics}
-    items: list[Diagnostic | Answer] = [finding for finding in result.diagnostics if id(finding) not in own]
-    items += result.answers
-    for item in sorted(items, key=lambda each: each.lines[0] if isinstance(each, Answer) else each.span.line):
-        if isinstance(item, Answer):
-            yield from contour_lines(item, result, is_explained=is_explained)
-            yield from lines_of_findings(result, item.diagnostics, style)
-        else:
-            yield from lines_of_findings(result, [item], style)

@@ -1,5 +1,7 @@
 """Families: one block with some words free, a million contours at once."""
 
+from contoursolve.families.boundary import End, Feasible, Interval, Way, feasible
+from contoursolve.families.ends import Reason
 from contoursolve.families.evaluate import family, pieces, sweep
 from contoursolve.families.export import MissingExtraError, csv_lines, need, write_parquet
 from contoursolve.families.prepared import Sweep
@@ -11,14 +13,20 @@ from contoursolve.families.verdict import REASONS, Code
 __all__ = [
     "REASONS",
     "Code",
+    "End",
     "Family",
     "FamilyError",
+    "Feasible",
+    "Interval",
     "MissingExtraError",
+    "Reason",
     "Sensitivity",
     "Spread",
     "Sweep",
+    "Way",
     "csv_lines",
     "family",
+    "feasible",
     "need",
     "pieces",
     "sensitivity",

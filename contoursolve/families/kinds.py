@@ -54,18 +54,32 @@ class Kind:
     def columns(self, ranges: Ranges) -> dict[str, tuple[str, Array]]:
         """The inputs of the function that vary: the word that each follows, and its values in the order of that
         word's."""
-        absolute = {fact.given: fact.axis for fact in self.system.facts if isinstance(fact, Coordinate)}
-        found: dict[str, tuple[str, Array]] = {}
+        offsets, found = self.offsets(), dict[str, tuple[str, Array]]()
         for given, (word, factor) in self.free.items():
             values = ranges.values[word] * float(factor)
             if self.profile.givens[given].unit is Unit.DEGREE:
                 for name, part in zip((COSINE, SINE), directions(values), strict=True):
                     found[given + name] = word, part
-            elif given in absolute:
-                found[given] = word, values - float(self.profile.start.values[absolute[given]] or 0)
             else:
-                found[given] = word, values
+                found[given] = word, values + offsets[given]
         return found
+
+    def offsets(self) -> dict[str, float]:
+        """What is added to each value that follows a free word: the function counts coordinates from the start."""
+        absolute = {fact.given: fact.axis for fact in self.system.facts if isinstance(fact, Coordinate)}
+        return {
+            given: -float(self.profile.start.values[absolute[given]] or 0) if given in absolute else 0.0
+            for given in self.free
+        }
+
+    def angles(self) -> frozenset[str]:
+        """The values in degrees that follow a free word."""
+        return frozenset(name for name in self.free if self.profile.givens[name].unit is Unit.DEGREE)
+
+    def fixed(self, names: Iterable[str]) -> list[float]:
+        """What a chart of the free words needs besides them, by name."""
+        numbers = self.numbers() | self.offsets()
+        return [numbers[name] for name in names]
 
     def solve(self, values: Mapping[str, float]) -> Solution:
         """A single solve of one row, as `examine` does it, without a proof."""
@@ -86,7 +100,18 @@ def classify(template: Template, ranges: Ranges) -> dict[str, Codes]:
     """For each free word, the number of the interval between two limits of the rules in which each value lies; a limit
     is an interval of its own. Raises FamilyError where the limits of two words depend on each other."""
     answer = template.solve({name: float(values[0]) for name, values in ranges.values.items()})
-    claim, found, tied = answer.claim, dict[str, Codes](), list[str]()
+    found: dict[str, Codes] = {}
+    for name, bounds in limits_of(template, answer).items():
+        values = ranges.values[name] * float(unit_of(template.words[name], answer))
+        places = numpy.searchsorted(bounds, values, "left") + numpy.searchsorted(bounds, values, "right")
+        found[name] = places.astype(numpy.uint8)
+    return found
+
+
+def limits_of(template: Template, answer: Answer) -> dict[str, Array]:
+    """The values of each free word, mm or degrees, on whose two sides rules may say different things. Raises
+    FamilyError where those of two words depend on each other."""
+    claim, found, tied = answer.claim, dict[str, Array](), list[str]()
     for name, word in template.words.items():
         if word.address not in claim.lexicon.addresses:
             raise FamilyError(f"{word.text} is no word of the contour")
@@ -95,13 +120,16 @@ def classify(template: Template, ranges: Ranges) -> dict[str, Codes]:
             if given.name in claim.limits:
                 limits.add(claim.limits[given.name])
                 tied.append(word.text)
-        one = claim.lexicon.value(replace(word, number=Decimal(1), has_point=True), answer.unit)
-        bounds, values = numpy.array(sorted(map(float, limits))), ranges.values[name] * float(one or 1)
-        places = numpy.searchsorted(bounds, values, "left") + numpy.searchsorted(bounds, values, "right")
-        found[name] = places.astype(numpy.uint8)
+        found[name] = numpy.array(sorted(map(float, limits)))
     if len(tied) > 1:
         raise FamilyError(f"{' and '.join(tied)} are read together: vary one of them at a time")
     return found
+
+
+def unit_of(word: Word, answer: Answer) -> Decimal:
+    """The mm or degrees for each unit of a word with a decimal point."""
+    one = answer.claim.lexicon.value(replace(word, number=Decimal(1), has_point=True), answer.unit)
+    return one or Decimal(1)
 
 
 def _limits(rules: Iterable[Rule]) -> Iterable[Decimal]:

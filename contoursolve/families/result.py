@@ -11,11 +11,12 @@ from numpy.typing import NDArray
 from contoursolve.families.export import to_arrow, to_parquet, to_xarray
 from contoursolve.families.ranges import Ranges
 from contoursolve.families.verdict import Code
+from contoursolve.shown import Shown
 from contoursolve.solving import Status
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Family:
+class Family(Shown):
     """Every contour of a family as named arrays.
 
     `family[name]` has the shape (rows,) for paired words, and one axis for each word, in their order, for a grid. The

@@ -4,11 +4,11 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from contoursolve.contour import ArcSegment
-from contoursolve.diagnostic import Verdict
+from contoursolve.diagnostic import Diagnosis, Verdict
 from contoursolve.examine import Answer, AskedValue, list_alternatives
 from contoursolve.model import Length, Turn, Unit
-from contoursolve.output.layout import columns, length_of, printable
-from contoursolve.output.solutions import list_solutions, printed_certificate
+from contoursolve.output.layout import columns, count, length_of, printable
+from contoursolve.output.solutions import Listed, Listing, list_solutions, printed_certificate
 from contoursolve.pipeline import Result
 from contoursolve.reading import Convention, Form, Lexicon
 from contoursolve.solving import Point
@@ -29,39 +29,44 @@ def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False)
     form = answer.claim.form
     lines = [f"{result.program.name}:{answer.lines[0]}: {form.name} ({form.title}): {answer.status.value}"]
     lines += [f"  {printable(block.text.strip())[:160]}" for block in answer.profile.blocks]
-    lines += ["", *columns(_given_rows(answer, form), left=(0, 3))]
+    lines += ["", *columns(given_rows(answer), left=(0, 3))]
     if is_explained:
         from contoursolve.output.construction import construction_lines  # noqa: PLC0415 - only on demand
 
         lines += ["", *construction_lines(answer)]
     if answer.contour:
-        lines += ["", *columns(_path_rows(answer), left=(0, 1))]
+        lines += ["", *columns(path_rows(answer), left=(0, 1))]
     if answer.contour:
-        lines += [line for each in answer.claim.conventions for line in _convention_lines(each, result.control or "")]
+        lines += [
+            line
+            for each in answer.claim.conventions
+            for line in ("", f"  {convention_text(each, result.control or '')}")
+        ]
     if answer.filled:
-        lines += ["", f"  filled in (the contour moves by {_small(answer.filled.deviation)}):"]
+        lines += ["", f"  filled in (the contour moves by {small(answer.filled.deviation)}):"]
         lines += [f"    {printable(text.strip())}" for text in answer.filled.blocks]
     lines += _solution_lines(answer)
     if answer.contour is None and answer.diagnosis:
-        lines += ["", *_check_lines(answer)]
+        lines += ["", *columns(check_rows(answer.diagnosis), left=(0, 1, 2))]
     return [*lines, ""]
 
 
-def _convention_lines(convention: Convention, control: str) -> list[str]:
-    """What the manual does not say and this contour rests on."""
+def convention_text(convention: Convention, control: str) -> str:
+    """What the manual does not say and a contour rests on."""
     setting = convention.setting
     evidence = setting.source.evidence.value
-    return ["", f"  {evidence}: {convention.meaning} (--set {control}.{setting.name}={convention.value})"]
+    name = f"{control}.{setting.name}" if control else setting.name
+    return f"{evidence}: {convention.meaning} (--set {name}={convention.value})"
 
 
-def _check_lines(answer: Answer) -> list[str]:
-    diagnosis = answer.diagnosis
-    layers = diagnosis.layers if diagnosis else ()
-    rows = [(layer.name, _VERDICT[layer.verdict], layer.remark) for layer in layers]
-    return columns([("check", "verdict", "what was checked"), *rows], left=(0, 1, 2))
+def check_rows(diagnosis: Diagnosis) -> list[tuple[str, str, str]]:
+    """A header, and the checks that a contour went through."""
+    rows = [(layer.name, _VERDICT[layer.verdict], layer.remark) for layer in diagnosis.layers]
+    return [("check", "verdict", "what was checked"), *rows]
 
 
-def _small(mm: float) -> str:
+def small(mm: float) -> str:
+    """A deviation, as far as a listing can show it."""
     return "less than 0.0001 mm" if mm < SMALLEST else f"{mm:.4f} mm"
 
 
@@ -72,29 +77,38 @@ def _solution_lines(answer: Answer) -> list[str]:
         return []
     if len(listing.solutions) == 1 and listing.is_complete:
         return ["", f"  certificate: {printed_certificate(answer.certificate)}"] if answer.contour else []
-    count, shown = len(listing.solutions), f"by {listing.method}"
-    known = f"these are all ({shown})" if listing.is_complete else f"there may be more ({shown})"
-    lines = ["", f"  {'at least ' if not listing.is_complete else ''}{_plural(count)}; {known}"]
+    lines = ["", f"  {count_text(listing)}"]
     lines += [f"  not decided: {doubt}" for doubt in listing.doubts]
-    rows = []
-    contours = [each.contour for each in listing.solutions if each.contour]
-    differing = (
-        [point for point in contours[0].points if len({contour.points[point] for contour in contours}) > 1]
-        if contours
-        else []
-    )
-    for each in listing.solutions:
-        mark = "->" if each.is_chosen else ""
-        where = ", ".join(each.reasons)
-        if each.contour:
-            places = (f"{point} {' '.join(_place(each.contour.points[point], answer))}" for point in differing)
-            where = "  ".join((*places, *(_asked_text(asked, answer) for asked in each.asked)))
-        label = "" if each.contour else "no contour:"
-        rows.append((mark, each.name or "only solution", label, where, " ".join(each.selects), str(each.certificate)))
+    rows = [("->" if each.is_chosen else "", *row) for each, row in solution_rows(answer, listing)]
     lines += columns(rows, left=(0, 1, 2, 3, 4, 5))
     if listing.chosen_by:
         lines.append(f"  -> chosen by {listing.chosen_by}")
     return lines
+
+
+def count_text(listing: Listing) -> str:
+    """How many solutions there are, and whether these are all."""
+    number, shown = len(listing.solutions), f"by {listing.method}"
+    known = f"these are all ({shown})" if listing.is_complete else f"there may be more ({shown})"
+    return f"{'' if listing.is_complete else 'at least '}{count(number, 'solution')}; {known}"
+
+
+def solution_rows(answer: Answer, listing: Listing) -> list[tuple[Listed, tuple[str, str, str, str, str]]]:
+    """Each solution with its name, whether it is no contour, where it differs from the others or why there is none,
+    what selects it, and its certificate."""
+    contours = [each.contour for each in listing.solutions if each.contour]
+    points = contours[0].points if contours else ()
+    differing = [point for point in points if len({contour.points[point] for contour in contours}) > 1]
+    rows = []
+    for each in listing.solutions:
+        where = ", ".join(each.reasons)
+        if each.contour:
+            places = (f"{point} {place_text(answer, each.contour.points[point])}" for point in differing)
+            where = "  ".join((*places, *(_asked_text(asked, answer) for asked in each.asked)))
+        label = "" if each.contour else "no contour:"
+        row = (each.name or "only solution", label, where, " ".join(each.selects), str(each.certificate))
+        rows.append((each, row))
+    return rows
 
 
 def _asked_text(asked: AskedValue, answer: Answer) -> str:
@@ -107,21 +121,18 @@ def _asked_text(asked: AskedValue, answer: Answer) -> str:
     return f"{name} = {length_of(asked.value * (2 if question.is_diameter else 1), answer.unit)}"
 
 
-def _plural(count: int) -> str:
-    return f"{count} solution{'' if count == 1 else 's'}"
-
-
-def _place(at: Point, answer: Answer) -> list[str]:
+def place_text(answer: Answer, at: Point) -> str:
+    """A place as words, in the unit and the axes of the program."""
     plane = answer.plane
-    return [
+    return " ".join(
         f"{axis}{length_of(value * (2 if is_diameter else 1), answer.unit)}"
         for axis, value, is_diameter in zip(plane.axes, at, plane.diameters, strict=True)
-    ]
+    )
 
 
-def _given_rows(answer: Answer, form: Form) -> list[tuple[str, str, str, str]]:
+def given_rows(answer: Answer) -> list[tuple[str, str, str, str]]:
     """Word, value, unit and meaning of everything that was given."""
-    rows = []
+    form, rows = answer.claim.form, []
     for axis, value, is_diameter in zip(answer.plane.axes, answer.start.values, answer.plane.diameters, strict=True):
         shown = "unknown" if value is None else length_of(float(value) * (2 if is_diameter else 1), answer.unit)
         rows.append(
@@ -176,8 +187,8 @@ def _axis_meaning(is_diameter: bool) -> str:
     return "where the contour begins" + (" (diameter)" if is_diameter else "")
 
 
-def _path_rows(answer: Answer) -> list[tuple[str, ...]]:
-    """A header, the named points, and the elements with their end points."""
+def path_rows(answer: Answer) -> list[tuple[str, ...]]:
+    """A header, the named points, and the elements with their end points, in the unit and the axes of the program."""
     contour = answer.contour
     if contour is None:
         return []

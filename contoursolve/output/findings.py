@@ -11,14 +11,18 @@ WIDTH = 100
 SHOWN_FIXES = 4
 """Fixes shown in text."""
 
-_APPLICABILITY = {
+APPLICABILITY = {
     Applicability.SAFE: "same contour",
     Applicability.CHANGES_CONTOUR: "changes the contour",
     Applicability.PLACEHOLDER: "needs a number",
 }
+"""What applying a fix does, in words."""
+
+Piece = tuple[str, str]
+"""A text and its role: error, warning, info, frame, bold, place (line and column of the program), or none."""
 
 Style = Callable[[str, str], str]
-"""(text, role) to styled text; roles are error, warning, info, frame and bold."""
+"""(text, role) to styled text."""
 
 
 def plain(text: str, _role: str) -> str:
@@ -27,37 +31,52 @@ def plain(text: str, _role: str) -> str:
 
 
 def finding_lines(finding: Diagnostic, name: str, sources: Mapping[int, str], style: Style = plain) -> list[str]:
-    """The lines of one finding; `sources` are the texts of the program's lines by number."""
+    """The lines of one finding; `sources` are the texts of the program's lines by number, as far as they are known."""
+    lines = finding_pieces(finding, name, sources)
+    return ["".join(style(text, role) if role else text for text, role in line) for line in lines]
+
+
+def finding_pieces(finding: Diagnostic, name: str, sources: Mapping[int, str]) -> list[list[Piece]]:
+    """The same lines, each as the pieces that a style may set apart."""
     role = finding.severity.value
-    title = style(f"{role}[{finding.code}]", role) + style(f": {finding.message}", "bold")
     gutter = max((len(_margin(label.span.line)) for label in finding.labels), default=1)
-    bar = " " * (gutter + 1) + style("|", "frame")
+    bar: list[Piece] = [(" " * (gutter + 1), ""), ("|", "frame")]
     place = f"{name}:{finding.span.line}:{finding.span.column}"
     if finding.span.line <= 0:
         place = f"{_margin(finding.span.line)}:{finding.span.column}"
-    lines = [title, " " * gutter + style("-->", "frame") + f" {place}", bar]
+    lines: list[list[Piece]] = [
+        [(f"{role}[{finding.code}]", role), (f": {finding.message}", "bold")],
+        [(" " * gutter, ""), ("-->", "frame"), (" ", ""), (place, "place")],
+        bar,
+    ]
     by_line: dict[int, list[Label]] = {}
     for label in finding.labels:
         by_line.setdefault(label.span.line, []).append(label)
     for number in sorted(by_line):
-        text, labels, shift = _window(sources.get(number, ""), by_line[number])
-        lines.append(style(f"{_margin(number):>{gutter}} |", "frame") + f" {text}")
+        if number not in sources:
+            places = (f"{_margin(number)}:{each.span.column}: {each.text}" for each in by_line[number] if each.text)
+            lines += [[*bar, (f" {place}", "")] for place in places]
+            continue
+        text, labels, shift = _window(sources[number], by_line[number])
+        lines.append([(f"{_margin(number):>{gutter}} |", "frame"), (f" {text}", "")])
         primary = finding.labels[0]
-        lines += [f"{bar} {line}" for line in _marks(labels, shift, primary, len(text), style, role)]
-    foot = " " * (gutter + 1) + style("=", "frame")
-    lines += [f"{foot} {note}" for note in finding.notes]
+        lines += [[*bar, (" ", ""), *marks] for marks in _marks(labels, shift, primary, len(text), role)]
+    foot: list[Piece] = [(" " * (gutter + 1), ""), ("=", "frame")]
+    lines += [[*foot, (f" {note}", "")] for note in finding.notes]
     if finding.help and not any(fix.applicability is Applicability.SAFE for fix in finding.fixes):
-        lines.append(f"{foot} help: {finding.help}")
+        lines.append([*foot, (f" help: {finding.help}", "")])
     for fix in finding.fixes[:SHOWN_FIXES]:
-        lines.append(f"{foot} fix [{_APPLICABILITY[fix.applicability]}]: {fix.description}")
+        lines.append([*foot, (f" fix [{APPLICABILITY[fix.applicability]}]: {fix.description}", "")])
         if fix.applicability is not Applicability.PLACEHOLDER:
-            lines += [f"{' ' * (gutter + 4)} {printable(line.strip())[:WIDTH]}" for line in fix.replacement.split("\n")]
+            shown = (printable(line.strip())[:WIDTH] for line in fix.replacement.split("\n"))
+            lines += [[(f"{' ' * (gutter + 4)} {line}", "")] for line in shown]
     if len(finding.fixes) > SHOWN_FIXES:
-        lines.append(f"{foot} and {len(finding.fixes) - SHOWN_FIXES} more fixes (--format json lists all)")
-    lines.append(f"{foot} source: {finding.source}")
+        more = len(finding.fixes) - SHOWN_FIXES
+        lines.append([*foot, (f" and {more} more fixes (--format json lists all)", "")])
+    lines.append([*foot, (f" source: {finding.source}", "")])
     if finding.alarm:
-        lines.append(f"{foot} control: alarm {finding.alarm.number} ({finding.alarm.evidence.value})")
-    return [*lines, ""]
+        lines.append([*foot, (f" control: alarm {finding.alarm.number} ({finding.alarm.evidence.value})", "")])
+    return [*lines, []]
 
 
 def _margin(line: int) -> str:
@@ -79,17 +98,21 @@ def _window(text: str, labels: list[Label]) -> tuple[str, list[Label], int]:
     return head + part + ("..." if start + WIDTH < len(shown) else ""), visible, start - len(head)
 
 
-def _marks(labels: list[Label], shift: int, primary: Label, width: int, style: Style, role: str) -> list[str]:
+def _marks(labels: list[Label], shift: int, primary: Label, width: int, role: str) -> list[list[Piece]]:
     """Underlines of all labels on one line, then their texts from the last to the first."""
     ordered = sorted(labels, key=lambda label: label.span)
-    marks, column = "", 0
+    marks: list[Piece] = []
+    column = 0
     for label in ordered:
         begin = max(label.span.column - 1 - shift, column)
         length = max(1, min(label.span.end_column - 1 - shift, width) - begin)
-        mark = ("^" if label == primary else "-") * length
-        marks += " " * (begin - column) + style(mark, role if label == primary else "frame")
+        is_primary = label == primary
+        marks += [
+            (" " * (begin - column), ""),
+            (("^" if is_primary else "-") * length, role if is_primary else "frame"),
+        ]
         column = begin + length
     texts = [label for label in reversed(ordered) if label.text]
     if texts and texts[0] is ordered[-1]:
-        marks += f" {texts.pop(0).text}"
-    return [marks, *(" " * max(label.span.column - 1 - shift, 0) + label.text for label in texts)]
+        marks.append((f" {texts.pop(0).text}", ""))
+    return [marks, *([(" " * max(label.span.column - 1 - shift, 0) + label.text, "")] for label in texts)]

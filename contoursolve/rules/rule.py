@@ -9,11 +9,12 @@ from functools import lru_cache
 from contoursolve.diagnostic import Alarm, Severity
 from contoursolve.model import Role
 from contoursolve.rules.conditions import Condition, Stated
+from contoursolve.shown import Shown
 from contoursolve.source import Source
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Rule:
+class Rule(Shown):
     """One row of the catalogue.
 
     `message` is a template; its fields are listed in `explain`. A rule finds something in one of two

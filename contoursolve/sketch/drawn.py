@@ -6,6 +6,7 @@ from math import atan2, degrees
 
 from contoursolve.contour import ArcSegment, Contour
 from contoursolve.model import Unit
+from contoursolve.shown import Shown
 from contoursolve.solving.certificate import Certificate
 from contoursolve.solving.solution import Status
 
@@ -24,7 +25,7 @@ class Asked:
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Drawn:
+class Drawn(Shown):
     """One way to draw a sketch, in mm: points, radii, and lines by their direction (cosine, sine) and how far the
     origin lies to the right of them. `contour` is the path, if there is one. `asked` are the values of the facts
     that ask for one, in the order in which they were stated."""
@@ -64,7 +65,7 @@ class Drawn:
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Drawings(Sequence[Drawn]):
+class Drawings(Shown, Sequence[Drawn]):
     """All ways to draw a sketch.
 
     The list is complete, with proof, if `is_complete`; else `doubts` says what could not be decided. `reach` is how

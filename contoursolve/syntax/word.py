@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from decimal import Decimal
 from enum import Enum
 
+from contoursolve.shown import Shown
 from contoursolve.source import Span
 
 
@@ -80,7 +81,7 @@ class Macro(Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class Block:
+class Block(Shown):
     """One line of a program; `text` is the line without its end."""
 
     line: int
@@ -119,7 +120,7 @@ class PlainLine:
 
 
 @dataclass(frozen=True, slots=True)
-class Program:
+class Program(Shown):
     """A program as typed: its name, text and blocks (one for each line, empty ones included)."""
 
     name: str

@@ -1,0 +1,174 @@
+"""Numbers of a contour as functions of the words that vary: at many values at once, their derivatives, and bounds that
+hold for whole ranges of values."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from math import pi
+from typing import Any
+
+import casadi
+import numpy
+from numpy.typing import NDArray
+
+from contoursolve.backends import intervals
+from contoursolve.backends.inputs import COSINE, SINE
+from contoursolve.backends.intervals import Array, Intervals, constant, down, up
+from contoursolve.backends.numeric import Tape, cosine, sine, symbol
+from contoursolve.backends.replay import Replay
+
+NO_ROOT = -1e-10
+"""mm squared. A root's operand above this has a root: what touches by construction is off by rounding."""
+
+
+@dataclass(frozen=True, slots=True)
+class Following:
+    """A value that follows a word: the word's number, and mm or degrees for each unit of the word."""
+
+    word: int
+    factor: float
+    is_angle: bool
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Bounds:
+    """What outputs lie between in each of many boxes, by (output, box); and in which boxes every root has a value for
+    certain, and in which none has."""
+
+    low: Array
+    high: Array
+    is_defined: NDArray[numpy.bool_]
+    is_undefined: NDArray[numpy.bool_]
+    is_smooth: NDArray[numpy.bool_]
+    """Whether nothing jumps in the box."""
+
+    def __getitem__(self, boxes: NDArray[numpy.bool_]) -> "Bounds":
+        rest = (self.is_defined[boxes], self.is_undefined[boxes], self.is_smooth[boxes])
+        return Bounds(self.low[:, boxes], self.high[:, boxes], *rest)
+
+
+_JUMPING = (casadi.OP_SIGN, casadi.OP_EQ, casadi.OP_LE, casadi.OP_LT)
+"""Instructions whose results are steps."""
+
+
+class _Floats:
+    """The functions of plain arrays; what has no value is NaN."""
+
+    root, cosine, sine, magnitude, sign = numpy.sqrt, numpy.cos, numpy.sin, numpy.abs, numpy.sign
+    angle, larger = numpy.arctan2, numpy.maximum
+    equal, at_most, below = numpy.equal, numpy.less_equal, numpy.less
+    opposite = numpy.logical_not
+
+    @staticmethod
+    def chosen(condition: Any, value: Any) -> Any:
+        """The value where the condition is true, else 0."""
+        return numpy.where(condition, value, 0.0)
+
+
+class _Enclosure(Replay):
+    """The instructions on intervals, and what roots are taken of."""
+
+    def __init__(self, function: Any) -> None:
+        super().__init__(function, intervals, constant)
+        kinds = {target: function.instruction_id(target) for *_, target in self._steps}
+        self._roots = [first for _, first, _, target in self._steps if kinds[target] == casadi.OP_SQRT]
+        self._steps_of_value = [target for target, kind in kinds.items() if kind in _JUMPING]
+        self._angles = [(first, second) for _, first, second, target in self._steps if kinds[target] == casadi.OP_ATAN2]
+
+    def bounds(self, inputs: Sequence[Intervals], count: int) -> Bounds:
+        """What the outputs lie between."""
+        work = self._constants.copy()
+        for source, target in self._inputs:
+            work[target] = inputs[source]
+        with numpy.errstate(all="ignore"):
+            for operation, first, second, target in self._steps:
+                work[target] = operation(work[first], work[second]) if second >= 0 else operation(work[first])
+        low, high = numpy.zeros((self._count, count)), numpy.zeros((self._count, count))
+        for source, target in self._outputs:
+            low[target], high[target] = work[source].low, work[source].high
+        is_defined, is_undefined = numpy.ones(count, bool), numpy.zeros(count, bool)
+        for place in self._roots:
+            is_defined &= work[place].low >= NO_ROOT
+            is_undefined |= work[place].high < NO_ROOT
+        is_smooth = is_defined.copy()
+        for place in self._steps_of_value:
+            is_smooth &= work[place].low == work[place].high
+        for first, second in self._angles:
+            is_smooth &= (work[first].low > 0) | (work[first].high < 0) | (work[second].low > 0)
+        return Bounds(low, high, is_defined, is_undefined, is_smooth)
+
+
+class Chart:
+    """Some outputs as functions of some words, at fixed values of the other inputs.
+
+    `fixed` names those inputs; one that follows a word is what is added to it.
+    """
+
+    def __init__(self, tape: Tape, outputs: Mapping[str, Any], words: int, follows: Mapping[str, Following]) -> None:
+        symbols = [symbol(f"word {number}") for number in range(words)]
+        added, inputs = dict[str, Any](), dict[str, Any]()
+        for given, each in follows.items():
+            if each.is_angle:
+                turned = symbols[each.word] * (each.factor * pi / 180)
+                inputs |= {given + COSINE: cosine(turned), given + SINE: sine(turned)}
+            else:
+                added[given] = symbol(given)
+                inputs[given] = symbols[each.word] * each.factor + added[given]
+        stay, expressions = tape.replaced(inputs, outputs)
+        self.outputs = tuple(outputs)
+        self.fixed = (*added, *(name for name in tape.inputs if name not in inputs))
+        self._words = words
+        arguments = casadi.vertcat(*(each.sx for each in (*symbols, *added.values(), *stay)))
+        values = casadi.SX(casadi.vertcat(*(each.sx for each in expressions)))
+        slopes = casadi.densify(casadi.jacobian(values, casadi.vertcat(*(each.sx for each in symbols))))
+        self._function = casadi.Function("chart", [arguments], [casadi.cse(casadi.densify(values))])
+        self._derivative = casadi.Function("slopes", [arguments], [casadi.cse(casadi.vec(slopes))])
+        rates = casadi.which_depends(casadi.vec(slopes), casadi.vertcat(*(each.sx for each in symbols)), 2, True)
+        count = len(self.outputs)
+        self.is_quadratic = [not any(rates[number::count]) for number in range(count)]
+        """Which outputs are polynomials of degree 2 at most in the words."""
+        self._values = Replay(self._function, _Floats, numpy.float64)
+        self._slopes = Replay(self._derivative, _Floats, numpy.float64)
+        self._enclosure = _Enclosure(self._function)
+        self._steepness: _Enclosure | None = None
+
+    def at(self, words: Sequence[Array], fixed: Sequence[float]) -> Array:
+        """The outputs at these values of the words, by (output, place)."""
+        return _run(self._values, words, fixed)
+
+    def slopes_at(self, words: Sequence[Array], fixed: Sequence[float]) -> Array:
+        """The derivatives of the outputs by the words, by (word, output, place)."""
+        return _run(self._slopes, words, fixed).reshape(self._words, len(self.outputs), -1)
+
+    def between(self, words: Sequence[Intervals], fixed: Sequence[float]) -> Bounds:
+        """What the outputs lie between in boxes of the words."""
+        return self._enclosure.bounds([*words, *map(constant, fixed)], words[0].low.size)
+
+    def narrowed(self, bounds: Bounds, words: Sequence[Intervals], fixed: Sequence[float]) -> Bounds:
+        """The bounds narrowed by the mean value theorem, where nothing jumps: about the middle of each box, by the
+        derivatives in it. It takes twice as long as the bounds themselves."""
+        middles = [each.low / 2 + each.high / 2 for each in words]
+        center = self.between([Intervals(each, each) for each in middles], fixed)
+        slopes = self.slopes_between(words, fixed)
+        found, count = Intervals(center.low, center.high), len(self.outputs)
+        with numpy.errstate(all="ignore"):
+            for number, (each, middle) in enumerate(zip(words, middles, strict=True)):
+                rows = slice(number * count, (number + 1) * count)
+                away = Intervals(down(each.low - middle), up(each.high - middle))
+                found = found + Intervals(slopes.low[rows], slopes.high[rows]) * away
+        usable = bounds.is_smooth & numpy.isfinite(found.low) & numpy.isfinite(found.high)
+        low = numpy.where(usable, numpy.fmax(bounds.low, found.low), bounds.low)
+        high = numpy.where(usable, numpy.fmin(bounds.high, found.high), bounds.high)
+        return Bounds(low, high, bounds.is_defined, bounds.is_undefined, bounds.is_smooth)
+
+    def slopes_between(self, words: Sequence[Intervals], fixed: Sequence[float]) -> Bounds:
+        """What the derivatives lie between, by (word and output, box)."""
+        if self._steepness is None:
+            self._steepness = _Enclosure(self._derivative)
+        return self._steepness.bounds([*words, *map(constant, fixed)], words[0].low.size)
+
+
+def _run(replay: Replay, words: Sequence[Array], fixed: Sequence[float]) -> Array:
+    with numpy.errstate(all="ignore"):
+        found = replay([*words, *map(numpy.float64, fixed)])
+    size = words[0].size
+    return numpy.stack([numpy.broadcast_to(numpy.asarray(each, dtype=float), size) for each in found])

@@ -1,0 +1,81 @@
+"""What the commands about one block and its words share."""
+
+import json
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import click
+
+from contoursolve.cli.loading import settings_of
+from contoursolve.cli.options import CouldNotRunError, rules_option, settings_option, units_option
+from contoursolve.dialects import DIALECTS
+from contoursolve.families import FamilyError
+from contoursolve.pipeline import UnknownControlError
+from contoursolve.project import SettingError
+
+
+def block_options(command: Callable[..., None]) -> Callable[..., None]:
+    """The options that say which block is meant, how it is read, and what to print."""
+    for option in reversed(
+        (
+            click.option(
+                "--block", "blocks", multiple=True, required=True, metavar="TEXT", help="The block; may be repeated."
+            ),
+            click.option("--start", metavar="WORDS", help='The start point, such as "X40. Z0.".'),
+            click.option(
+                "--control", type=click.Choice(list(DIALECTS)), help="The control; found from the block without it."
+            ),
+            units_option,
+            rules_option,
+            settings_option,
+            click.option(
+                "--format",
+                "format_",
+                type=click.Choice(["text", "json"]),
+                default="text",
+                show_default=True,
+                help="What to print.",
+            ),
+        )
+    ):
+        command = option(command)
+    return command
+
+
+def read_options(options: dict[str, Any]) -> dict[str, Any]:
+    """The arguments of a function about a block, from the options of a command."""
+    rest = {name: options[name] for name in ("start", "control", "units", "rules")}
+    return {"block": "\n".join(options["blocks"]), **rest, "settings": settings_of(Path(), options["assignments"])}
+
+
+@contextmanager
+def usage() -> Iterator[None]:
+    """Errors of what was asked for as one line and exit status 2."""
+    try:
+        yield
+    except (FamilyError, SettingError) as error:
+        raise CouldNotRunError(str(error)) from None
+    except UnknownControlError as error:
+        raise CouldNotRunError(f"{error}; say which with --control {'|'.join(DIALECTS)}") from None
+
+
+def read_within(text: str | None) -> tuple[float, float] | None:
+    """The range of `--within LOW:HIGH`."""
+    if text is None:
+        return None
+    low, colon, high = text.partition(":")
+    try:
+        found = float(low), float(high)
+    except ValueError:
+        colon = ""
+        found = 0.0, 0.0
+    if not colon:
+        raise click.UsageError(f"--within {text}: write LOW:HIGH, such as 0.1:50")
+    return found
+
+
+def print_json(document: dict[str, Any]) -> None:
+    """One JSON document."""
+    click.echo(json.dumps(document, indent=1, ensure_ascii=True, allow_nan=False))

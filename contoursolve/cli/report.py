@@ -1,0 +1,66 @@
+"""The command that makes a page about a program."""
+
+import sys
+from pathlib import Path
+from typing import Any
+
+import click
+
+from contoursolve import __version__
+from contoursolve.cli.loading import examine, load
+from contoursolve.cli.options import FOUND_ERRORS, CouldNotRunError, common_options
+from contoursolve.files import CannotWriteError, check_target, write_whole
+from contoursolve.output.listing import summary_line
+
+
+@click.command(short_help="Make a page about a program, to read, send and print.")
+@click.argument("program", required=False)
+@click.option(
+    "-o", "--output", required=True, metavar="OUT.html", type=click.Path(path_type=Path), help="The page to write."
+)
+@click.option("--force", "is_forced", is_flag=True, help="Replace the page if it exists.")
+@common_options
+@click.pass_context
+def report(
+    context: click.Context,
+    /,
+    program: str | None,
+    output: Path,
+    is_forced: bool,
+    blocks: tuple[str, ...],
+    start: str | None,
+    assignments: tuple[str, ...],
+    **options: Any,
+) -> None:
+    """Make one page of HTML about PROGRAM (a file, or - for standard input).
+
+    Every contour with its picture, its elements and its findings with their fixes; the program's text, linked with
+    them; and the manual's places with how well each is known. The page opens without a network, in light and dark,
+    and prints. Needs the extra contoursolve[report].
+
+    \b
+    contoursolve report shaft.nc -o shaft.html
+    contoursolve report --block "G111 X100. A180. K-30. B120. P5." --start "X40. Z0." -o block.html --force
+    """
+    if output.suffix.lower() not in (".html", ".htm"):
+        raise click.UsageError(f"{output}: name a page that ends with .html")
+    loader = load([program] if program else [], blocks, start)[0]
+    try:
+        from contoursolve.report import report_page  # noqa: PLC0415 - needs an extra
+    except ModuleNotFoundError as error:
+        if error.name not in ("htpy", "markupsafe"):
+            raise
+        raise CouldNotRunError("a report needs htpy; install it with: pip install 'contoursolve[report]'") from None
+    try:
+        check_target(output, Path(program) if program else None, is_forced=is_forced)
+        result = examine(loader(), start, assignments, options)
+        with click.progressbar(
+            length=len(result.answers), label="drawing", file=sys.stderr, hidden=not sys.stderr.isatty()
+        ) as bar:
+            pieces = report_page(result, __version__, lambda: bar.update(1))
+            write_whole(output, (piece.encode("utf-8", "replace") for piece in pieces), keeps_backup=False)
+    except CannotWriteError as error:
+        raise CouldNotRunError(str(error)) from None
+    click.echo(summary_line([result]))
+    click.echo(f"{output} written")
+    context.exit(FOUND_ERRORS if result.has_errors else 0)

@@ -1,0 +1,212 @@
+"""Where a contour exists: every range of one word's values in which it is solved, and what ends each."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from enum import Enum
+
+from contoursolve.diagnostic import Severity
+from contoursolve.families.ends import About, Reason, phrase, same
+from contoursolve.families.evaluate import template_of
+from contoursolve.families.survey import LEAST_GAP, Crossing, Piece, Survey
+from contoursolve.families.template import find_words
+from contoursolve.solving import RefusalKind
+
+__all__ = ["LEAST_GAP", "End", "Feasible", "Interval", "Way", "feasible"]
+
+ASIDE = (1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4)
+"""Share of an end (at least of 1). How far beside it single solves are tried, until they tell its two sides apart."""
+
+
+class Way(Enum):
+    """How an end was found."""
+
+    CLOSED_FORM = "closed form"
+    """What ends there is a polynomial of degree 1 or 2 in the word."""
+    BISECTION = "bisection"
+    """By dividing a stretch outside of which it is proven that there is no end."""
+    RULE = "rule"
+    """A rule begins to refuse there, or the words are read in another way."""
+    RANGE = "range"
+    """The range that was asked about ends there; the contour goes on."""
+
+
+@dataclass(frozen=True, slots=True)
+class End:
+    """One end of a range of values with a contour.
+
+    `value` is as the word is written. `reason` says what fails beyond it; None where only the range that was asked
+    about ends. At `inside` a single solve has the contour, at `outside` it has none; None where no values close to the
+    end tell so. `is_included` tells whether the value itself has the contour.
+    """
+
+    value: float
+    way: Way
+    reason: Reason | None
+    is_included: bool
+    inside: float | None
+    outside: float | None
+
+    @property
+    def is_verified(self) -> bool:
+        """Whether single solves agree on its two sides, as far as it has two."""
+        return self.way is Way.RANGE or None not in (self.inside, self.outside)
+
+
+@dataclass(frozen=True, slots=True)
+class Interval:
+    """A range of a word's values in all of which the contour is solved; both ends are the same for a single value."""
+
+    low: End
+    high: End
+
+    def __contains__(self, value: float) -> bool:
+        for end in (self.low, self.high):
+            if value == end.value:
+                return end.is_included
+        return self.low.value < value < self.high.value
+
+
+@dataclass(frozen=True, slots=True)
+class Feasible:
+    """All values of a word, within a range, with which its block has a contour.
+
+    `unit` is what the word is written in (mm, inch or deg), `stated` the value that the block has. `is_complete` tells
+    whether it is proven that nothing wider than `LEAST_GAP` is missing; if not, these are some of the ranges.
+    """
+
+    word: str
+    unit: str
+    stated: float
+    within: tuple[float, float]
+    intervals: tuple[Interval, ...]
+    is_complete: bool
+
+    def __contains__(self, value: float) -> bool:
+        return any(value in each for each in self.intervals)
+
+
+def feasible(
+    block: str,
+    word: str,
+    *,
+    start: str | None = None,
+    within: tuple[float, float] | None = None,
+    control: str | None = None,
+    units: str = "mm",
+    rules: str = "enforce",
+    settings: Mapping[str, str] | None = None,
+) -> Feasible:
+    """Every range of a word's values, as it is written, in which the contour is solved.
+
+    Args:
+        block: the block, or the blocks of one contour.
+        word: the word by its letter (`P`, `,A`), or with its line where several have it (`2:,A`).
+        within: the range to look at; without it, an angle turns once (0 to 360, or -360 to 0 for a negative one), and
+            a length is anything that is read.
+        start: and all others as for `family`, with the same errors.
+
+    The range is divided into stretches in each of which all that is checked of a contour is bounded by intervals, so
+    that no part with or without a contour is overlooked. Each end is computed, and solved on both sides.
+
+    >>> found = feasible("G111 X100. A180. K-30. B120. P5. Q5.", "P", start="X40. Z0.")
+    >>> [(round(each.low.value, 4), round(each.high.value, 4)) for each in found.intervals]
+    [(0.0, 51.9615)]
+    >>> found.intervals[0].high.reason.text
+    'P too large for line 1: 51.962 mm at most'
+    """
+    name = word.strip().upper()
+    template = template_of(block, start, control, units, rules, settings, lambda program: find_words(program, [name]))
+    survey = Survey(template, name)
+    low, high = survey.range_of(within)
+    pieces = survey.pieces(low, high)
+    intervals = tuple(
+        Interval(_end(survey, pieces, first, -1), _end(survey, pieces, last, +1)) for first, last in _runs(pieces)
+    )
+    return Feasible(name, survey.unit, survey.stated, (low, high), intervals, survey.is_complete)
+
+
+def _runs(pieces: Sequence[Piece]) -> list[tuple[int, int]]:
+    """The first and the last of the pieces of each range with a contour."""
+    runs: list[tuple[int, int]] = []
+    for number, piece in enumerate(pieces):
+        if piece.is_solved and runs and runs[-1][1] == number - 1:
+            runs[-1] = runs[-1][0], number
+        elif piece.is_solved:
+            runs.append((number, number))
+    return runs
+
+
+def _end(survey: Survey, pieces: Sequence[Piece], number: int, way: int) -> End:
+    """The lower (-1) or upper (+1) end of a range that begins or ends with a piece."""
+    value = pieces[number].low if way < 0 else pieces[number].high
+    if not 0 <= number + way < len(pieces):
+        return End(value, Way.RANGE, None, True, None, None)
+    beyond = pieces[number + way]
+    is_alone = pieces[number].is_value and not (0 <= number - way < len(pieces) and pieces[number - way].is_solved)
+    inside, outside = _sides(survey, value, way, beyond, is_alone=is_alone)
+    crossing = survey.crossings.get(value)
+    reason, is_rule = _reason(survey, value, way, outside, crossing, (beyond, pieces[number]))
+    how = Way.CLOSED_FORM if crossing is not None and crossing.is_closed else Way.BISECTION
+    return End(value, Way.RULE if is_rule else how, reason, survey.is_solved(value), inside, outside)
+
+
+def _sides(
+    survey: Survey, value: float, way: int, beyond: Piece, *, is_alone: bool
+) -> tuple[float | None, float | None]:
+    """Values close to an end on its two sides that single solves tell apart."""
+    for share in ASIDE:
+        step = way * share * max(1.0, abs(value))
+        inside = value if is_alone else value - step
+        outside = value if beyond.is_value else value + step
+        if survey.is_solved(inside) and not survey.is_solved(outside):
+            return inside, outside
+    return None, None
+
+
+def _reason(
+    survey: Survey, value: float, way: int, outside: float | None, crossing: Crossing | None, near: Sequence[Piece]
+) -> tuple[Reason, bool]:
+    """What fails beyond an end, and whether it is a rule or the reading of the words; `near` are the pieces on its two
+    sides, the one beyond it first."""
+    at, limit = shown(survey, value), ""
+    limit = f"at {at}" if near[0].is_value else f"{at} at {'most' if way > 0 else 'least'}"
+    beyond = "at" if near[0].is_value else "above" if way > 0 else "below"
+    there = outside if outside is not None else (near[0].low + near[0].high) / 2
+    finding = next((each for each in survey.solve(there).diagnostics if each.severity is Severity.ERROR), None)
+    code, message = (finding.code, finding.message) if finding is not None else ("", "")
+    kind = finding.about if finding is not None and isinstance(finding.about, RefusalKind) else None
+    if kind is RefusalKind.NOT_VERIFIED:
+        # Close to a singular case rounding alone keeps the equations from holding.
+        kind, code, message = None, "", ""
+    read_as = crossing.kind if crossing is not None else next((each.kind for each in near if each.kind), None)
+    if finding is not None and kind is None and code:
+        says = f"rule {code} refuses" if finding.about is None else f"{code} is found for"
+        return Reason(f"{says} {called(survey.word)} {beyond} {at}", code, message), crossing is None
+    if read_as is None:
+        return Reason(f"{message or 'there is no contour'}: {limit}", code, message), True
+    about = About(called(survey.word), frozenset(read_as.free), read_as.profile)
+    failing = survey.failing(read_as, there) if read_as.status is None else []
+    if crossing is not None:
+        failing.insert(0, crossing.check)
+    check = next((each for each in failing if kind is None or same(each.kind, kind)), None)
+    if check is None:
+        return Reason(f"{message or 'there is no contour'}: {limit}", code, message), crossing is None
+    text = phrase(check, kind or check.kind, about)
+    is_singular = crossing is not None and crossing.check.kind is RefusalKind.LINES_PARALLEL
+    if crossing is not None and is_singular and not same(crossing.check.kind, check.kind):
+        text, limit = f"{phrase(crossing.check, crossing.check.kind, about)}: {limit}", f"beyond it {text}"
+        return Reason(f"{text}; {limit}", code, message), False
+    return Reason(f"{text}: {limit}", code, message), crossing is None and not near[0].is_value
+
+
+def shown(survey: Survey, value: float) -> str:
+    """A value with the unit in which the word is written."""
+    decimals, unit = (4, "in") if survey.unit == "inch" else (3, survey.unit)
+    is_small = 0 < abs(value) < 0.5 * 10**-decimals
+    return f"{value:.1e} {unit}" if is_small else f"{value + 0.0:.{decimals}f} {unit}"
+
+
+def called(word: str) -> str:
+    """The name of a word in a sentence."""
+    line, _, address = word.rpartition(":")
+    return f"{address} of block {line}" if line else address

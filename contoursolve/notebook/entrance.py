@@ -1,0 +1,42 @@
+"""The explorer's front door."""
+
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING
+
+from contoursolve.notebook.exploration import begin
+
+if TYPE_CHECKING:
+    from contoursolve.notebook.explorer import Explorer
+
+
+class MissingExtraError(ImportError):
+    """A package of the extra `contoursolve[notebook]` is missing."""
+
+
+def explore(
+    block: str,
+    *,
+    start: str | None = None,
+    control: str | None = None,
+    units: str = "mm",
+    rules: str = "enforce",
+    facts: Iterable[str] = (),
+    settings: Mapping[str, str] | None = None,
+) -> "Explorer":
+    """A contour to move, in a notebook: a slider for each word, the picture, the findings and their fixes.
+
+    Arguments and errors as for `solve`; `block` may be several lines, with one contour. The widget's `text` is the
+    block as it is now, `result` what it comes to. Without a kernel the notebook shows the picture as it last was.
+
+    Raises MissingExtraError without the packages of `contoursolve[notebook]`, ValueError for several contours.
+    """
+    try:
+        from contoursolve.notebook.explorer import Explorer  # noqa: PLC0415 - needs an extra
+    except ModuleNotFoundError as error:
+        if error.name is None or error.name.partition(".")[0] not in ("anywidget", "htpy", "markupsafe", "traitlets"):
+            raise
+        raise MissingExtraError(
+            f"exploring a contour needs {error.name}; install it with: pip install 'contoursolve[notebook]'"
+        ) from None
+    options = {"start": start, "control": control, "units": units, "rules": rules, "settings": settings}
+    return Explorer(begin(block, facts, **options))

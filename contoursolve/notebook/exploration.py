@@ -1,0 +1,199 @@
+"""A contour that is being explored: the block's text, and every way to change it. Nothing here knows a notebook."""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from decimal import Decimal, InvalidOperation
+from itertools import islice, product
+from math import hypot
+from typing import Any
+
+from contoursolve.api import solve
+from contoursolve.diagnosis.edits import Edit, EditKind, apply_edits, write_word
+from contoursolve.diagnostic import Diagnostic, Fix
+from contoursolve.examine import Answer
+from contoursolve.model import Unit
+from contoursolve.output.solutions import Listed, list_solutions
+from contoursolve.pipeline import Result
+from contoursolve.syntax import FACT, Word, parse
+
+SAME = 1e-3
+"""mm. Contours whose points are this close are one: a fact that selects is written with three decimals."""
+
+MOST_DIGITS = 8
+"""Of a number; controls read no more."""
+
+MOST_TRIED = 16
+"""Ways to write what selects a solution that are tried."""
+
+
+@dataclass(frozen=True, slots=True)
+class Exploration:
+    """The text of a contour as it is now, what it comes to, and what it was first."""
+
+    text: str
+    options: Mapping[str, Any]
+    """How it is read: the other arguments of `solve`."""
+    result: Result
+    origin: str
+    last: Mapping[str, str] = field(default_factory=dict)
+    """What a word was before it was freed, by its key."""
+
+    @property
+    def answer(self) -> Answer | None:
+        """The contour; None while the text holds none."""
+        return self.result.answers[0] if self.result.answers else None
+
+
+def begin(text: str, facts: Iterable[str] = (), **options: Any) -> Exploration:
+    """An exploration of the only contour of a text. Facts are written into it as comments.
+
+    Raises ValueError if the text has several contours, and as `solve`.
+    """
+    several = [facts] if isinstance(facts, str) else list(facts)
+    if several:
+        text = _with_facts(text, several)
+    result = solve(text, **options)
+    if len(result.answers) > 1:
+        lines = ", ".join(str(answer.lines[0]) for answer in result.answers)
+        raise ValueError(f"one contour can be explored at a time; this text has {len(result.answers)} (lines {lines})")
+    return Exploration(text, options, result, text)
+
+
+def _with_facts(text: str, facts: Sequence[str]) -> str:
+    stated = "; ".join(facts).replace("(", "[").replace(")", "]")
+    blocks = parse(text).blocks
+    last = max((block.line for block in blocks if block.words), default=1)
+    return "\n".join(apply_edits(blocks, [Edit(EditKind.ADD, FACT, text=f"(contoursolve: {stated})", line=last)]))
+
+
+def write(exploration: Exploration, text: str) -> Exploration:
+    """The same contour with another text. Raises as `solve`."""
+    return replace(exploration, text=text, result=solve(text, **exploration.options))
+
+
+def reset(exploration: Exploration) -> Exploration:
+    """The contour as it was first."""
+    return write(exploration, exploration.origin)
+
+
+def words_of(answer: Answer) -> dict[str, Word]:
+    """The words of a contour by their keys, in the order of the program: `A` where only one block of the contour has
+    that address, else with its line, `2:,A`."""
+    words = {word.span: word for word in answer.claim.words.values() if word.address != FACT}
+    ordered = [words[span] for span in sorted(words)]
+    addresses = [word.address for word in ordered]
+    return {
+        word.address if addresses.count(word.address) == 1 else f"{word.span.line}:{word.address}": word
+        for word in ordered
+    }
+
+
+def set_word(exploration: Exploration, key: str, value: float | str) -> Exploration:
+    """The contour with a word at another value, in the unit in which the word is written, rounded to the least
+    increment of the control. Raises ValueError if there is no such word, or this is no number."""
+    answer, word = _find(exploration, key)
+    return _change(exploration, word, _written(answer, word, value))
+
+
+def free(exploration: Exploration, key: str) -> Exploration:
+    """The contour with `?` for a word; a word that was freed gets back the value that the others give it, or the one
+    that it had."""
+    answer, word = _find(exploration, key)
+    if not word.is_asked:
+        freed = _change(exploration, word, f"{word.address}?")
+        return replace(freed, last={**exploration.last, key: word.text})
+    found = next((each for each in answer.answers if each.question.word.span == word.span), None)
+    text = exploration.last.get(key, f"{word.address}0.")
+    if found is not None and found.value is not None:
+        text = write_word(word.address, found.value, answer.claim.lexicon, answer.unit)
+    return _change(exploration, word, text)
+
+
+def apply_fix(exploration: Exploration, finding: int, number: int) -> Exploration:
+    """The contour with a fix of one of the result's findings. Raises ValueError if there is none."""
+    findings = exploration.result.diagnostics
+    if not (0 <= finding < len(findings) and 0 <= number < len(findings[finding].fixes)):
+        raise ValueError(f"there is no fix {number} of finding {finding}")
+    return write(exploration, fixed_text(exploration, findings[finding], findings[finding].fixes[number]))
+
+
+def fixed_text(exploration: Exploration, finding: Diagnostic, fix: Fix) -> str:
+    """The whole text with a fix."""
+    own = next((each for each in exploration.result.answers if finding in each.diagnostics), None)
+    lines = own.lines if own else (finding.span.line,)
+    new = dict(zip(lines, fix.replacement.split("\n"), strict=False))
+    return "\n".join(new.get(block.line, block.text) for block in exploration.result.program.blocks)
+
+
+def select(exploration: Exploration, number: int) -> Exploration:
+    """The contour with the words or the fact that select one of its solutions. Raises ValueError if nothing does."""
+    answer = exploration.answer
+    listing = list_solutions(answer) if answer else None
+    if answer is None or listing is None or not 0 <= number < len(listing.solutions):
+        raise ValueError(f"there is no solution {number}")
+    wanted = listing.solutions[number]
+    first = None
+    for text in islice(_selecting(exploration, answer, wanted), MOST_TRIED):
+        tried = write(exploration, text)
+        first = first or tried
+        if _is_chosen(tried, wanted):
+            return tried
+    if first is None:
+        raise ValueError(f"no word selects {wanted.name}")
+    return first
+
+
+def _selecting(exploration: Exploration, answer: Answer, wanted: Listed) -> Iterator[str]:
+    """The text with what selects a solution, in every block in which that can be written."""
+    ways = []
+    for text in wanted.selects:
+        address = next((word.address for word in parse(text).blocks[0].words), FACT)
+        present = [word for word in words_of(answer).values() if word.address == address]
+        lines = [block.line for block in reversed(answer.claim.blocks) if block.words]
+        ways.append(
+            [Edit(EditKind.CHANGE, address, word.span, word.text, text) for word in present]
+            or [Edit(EditKind.ADD, address, text=text, line=line) for line in lines]
+        )
+    for edits in product(*ways) if ways else ():
+        yield _text(exploration, edits)
+
+
+def _text(exploration: Exploration, edits: Iterable[Edit]) -> str:
+    return "\n".join(apply_edits(exploration.result.program.blocks, edits))
+
+
+def _change(exploration: Exploration, word: Word, text: str) -> Exploration:
+    return write(exploration, _text(exploration, [Edit(EditKind.CHANGE, word.address, word.span, word.text, text)]))
+
+
+def _find(exploration: Exploration, key: str) -> tuple[Answer, Word]:
+    answer = exploration.answer
+    words = words_of(answer) if answer else {}
+    if answer is None or key not in words:
+        raise ValueError(f"the contour has no word {key}; there are {', '.join(words) or 'none'}")
+    return answer, words[key]
+
+
+def _written(answer: Answer, word: Word, value: float | str) -> str:
+    """A word with another number, as the control reads it."""
+    try:
+        number = Decimal(str(value))
+    except InvalidOperation:
+        number = Decimal("NaN")
+    if not number.is_finite() or number.adjusted() > MOST_DIGITS:
+        raise ValueError(f"{word.address} needs a number, not {value!r}")
+    lexicon = answer.claim.lexicon
+    if lexicon.addresses[word.address].unit is Unit.SIGN:
+        return f"{word.address}{'-' if number < 0 else ''}1"
+    meant = lexicon.value(replace(word, number=number, has_point=True, is_asked=False), answer.unit)
+    return write_word(word.address, float(meant or 0), lexicon, answer.unit)
+
+
+def _is_chosen(exploration: Exploration, wanted: Listed) -> bool:
+    """Whether the contour is now the one that was wanted."""
+    contour = exploration.answer.contour if exploration.answer else None
+    if contour is None or wanted.contour is None or contour.points.keys() != wanted.contour.points.keys():
+        return False
+    pairs = [(contour.end, wanted.contour.end)]
+    pairs += [(at, wanted.contour.points[name]) for name, at in contour.points.items()]
+    return all(hypot(one[0] - other[0], one[1] - other[1]) < SAME for one, other in pairs)

@@ -1,0 +1,183 @@
+"""An exploration as plain data: what a front end shows, with nothing left for it to work out."""
+
+from collections.abc import Iterator, Sequence
+from math import floor, log10
+from typing import Any
+
+from contoursolve.diagnostic import Applicability, Severity
+from contoursolve.examine import Answer
+from contoursolve.markup.findings import bounded
+from contoursolve.markup.picture import picture_of
+from contoursolve.markup.tables import short
+from contoursolve.model import Length, Unit
+from contoursolve.notebook.exploration import Exploration, words_of
+from contoursolve.output.contours import count_text, path_rows, solution_rows
+from contoursolve.output.findings import APPLICABILITY, finding_pieces
+from contoursolve.output.listing import sources_of
+from contoursolve.output.solutions import list_solutions
+from contoursolve.syntax import Word
+
+MOST_FINDINGS, MOST_FIXES, MOST_SOLUTIONS = 12, 8, 24
+
+TURN = 90.0
+"""Degrees on both sides of an angle that its slider covers."""
+
+STEPS = 400
+"""Steps of a slider, at least."""
+
+Data = dict[str, Any]
+
+
+def view_of(exploration: Exploration) -> Data:
+    """Everything that is shown but the ranges in which words have a contour."""
+    answer = exploration.answer
+    return {
+        "text": exploration.text,
+        "is_changed": exploration.text != exploration.origin,
+        "status": _status(exploration),
+        "picture": _picture(answer) if answer else "",
+        "fields": list(_fields(answer)) if answer else [],
+        "findings": list(_findings(exploration)),
+        "solutions": _solutions(answer) if answer else {"text": "", "items": []},
+        "path": _path(answer) if answer else [],
+    }
+
+
+def _status(exploration: Exploration) -> Data:
+    severities = {each.severity for each in exploration.result.diagnostics}
+    worst = next((each.value for each in Severity if each in severities), "fine")
+    answer = exploration.answer
+    if answer is None:
+        return {"kind": worst, "text": "no contour"}
+    form = answer.claim.form
+    return {"kind": worst, "text": answer.status.value, "form": short(f"{form.name} ({form.title})")}
+
+
+def _picture(answer: Answer) -> str:
+    try:
+        return picture_of(answer)
+    except Exception:  # the tables say the same, and the next value may be drawn again
+        return ""
+
+
+def _fields(answer: Answer) -> Iterator[Data]:
+    """A field for each word."""
+    claim, size = answer.claim, _size(answer)
+    names = {word.span: name for name, word in claim.words.items()}
+    ignored = {answer.profile.givens[fact.given].word for fact in answer.profile.ignored if fact.given}
+    found = {each.question.word.span: each for each in answer.answers}
+    for key, word in words_of(answer).items():
+        row = claim.lexicon.addresses.get(word.address)
+        if row is None or (word.number is None and not word.is_asked):
+            continue  # a variable has no value to move
+        value = number_of(answer, word)
+        asked = found.get(word.span)
+        if asked is not None and asked.value is not None:
+            is_angle = asked.question.unit is Unit.DEGREE
+            scale = 1.0 if is_angle else (2 if asked.question.is_diameter else 1) / float(answer.unit.in_mm)
+            value = asked.value * scale
+        low, high, step = _scale(answer, word, value or 0.0, size)
+        yield {
+            "key": key,
+            "word": short(word.text),
+            "meaning": claim.form.meanings.get(names[word.span]) or row.meaning,
+            "unit": unit_of(answer, word),
+            "value": None if value is None else round(value, 6) + 0.0,
+            "state": "free" if word.is_asked else "ignored" if word in ignored else "given",
+            "low": low,
+            "high": high,
+            "step": step,
+            "size": TURN if row.unit is Unit.DEGREE else size,
+        }
+
+
+def number_of(answer: Answer, word: Word) -> float | None:
+    """What a word states, in the unit in which it is written."""
+    value = answer.claim.lexicon.value(word, answer.unit)
+    if value is None:
+        return None
+    row = answer.claim.lexicon.addresses[word.address]
+    if row.unit is not Unit.MM:
+        return float(value)
+    return float(value) * (2 if row.is_diameter else 1) / float(answer.unit.in_mm)
+
+
+def unit_of(answer: Answer, word: Word) -> str:
+    """The unit in which a word is written; nothing for one of which only the sign counts."""
+    unit = answer.claim.lexicon.addresses[word.address].unit
+    if unit is Unit.MM:
+        return "in" if answer.unit is Length.INCH else "mm"
+    return "deg" if unit is Unit.DEGREE else ""
+
+
+def _size(answer: Answer) -> float:
+    """How large the contour is about, in the unit of the program."""
+    lengths = [number_of(answer, word) or 0.0 for word in words_of(answer).values() if unit_of(answer, word) != "deg"]
+    places = [float(value or 0) / float(answer.unit.in_mm) for value in answer.start.values]
+    return max(map(abs, (*lengths, *places, 1.0)))
+
+
+def _scale(answer: Answer, word: Word, value: float, size: float) -> tuple[float, float, float]:
+    """The ends of a slider about a value, and its step."""
+    row = answer.claim.lexicon.addresses[word.address]
+    if row.unit is Unit.SIGN:
+        return -1.0, 1.0, 2.0
+    if row.unit is Unit.DEGREE:
+        return value - TURN, value + TURN, 0.25
+    if row.axis or row.is_increment:
+        reach = _round_up(size) / 2
+        low, high = value - reach, value + reach
+    else:
+        reach = _round_up(2 * abs(value) or size / 4)
+        low, high = (-reach, 0.0) if value < 0 else (0.0, reach)
+    return low, high, 10.0 ** floor(log10((high - low) / STEPS))
+
+
+def _round_up(size: float) -> float:
+    """1, 2 or 5 times a power of ten, not less than a size."""
+    power = 10.0 ** floor(log10(size))
+    return next(power * each for each in (1.0, 2.0, 5.0, 10.0) if power * each >= size)
+
+
+def _findings(exploration: Exploration) -> Iterator[Data]:
+    """Findings as the terminal prints them, each with its fixes."""
+    result = exploration.result
+    for number, finding in enumerate(result.diagnostics[:MOST_FINDINGS]):
+        lines = finding_pieces(finding, "block", sources_of(result, finding))
+        yield {
+            "kind": finding.severity.value,
+            "lines": [[list(piece) for piece in bounded(line)] for line in lines if line],
+            "fixes": [
+                {
+                    "finding": number,
+                    "number": place,
+                    "text": short(fix.description),
+                    "effect": APPLICABILITY[fix.applicability],
+                    "is_safe": fix.applicability is Applicability.SAFE,
+                }
+                for place, fix in enumerate(finding.fixes[:MOST_FIXES])
+            ],
+        }
+
+
+def _solutions(answer: Answer) -> Data:
+    listing = list_solutions(answer)
+    if listing is None or (len(listing.solutions) == 1 and listing.is_complete):
+        return {"text": "", "items": []}
+    items = [
+        {
+            "number": number,
+            "name": short(name),
+            "where": short(f"{label} {where}".strip()),
+            "selects": short(selects),
+            "is_chosen": each.is_chosen,
+        }
+        for number, (each, (name, label, where, selects, _)) in enumerate(solution_rows(answer, listing))
+    ]
+    return {"text": count_text(listing), "items": items[:MOST_SOLUTIONS]}
+
+
+def _path(answer: Answer) -> list[Sequence[str]]:
+    """The table of the path, its header first."""
+    rows = path_rows(answer)
+    return [("element", "move", *rows[0][2:]), *rows[1:]] if rows else []

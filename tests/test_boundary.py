@@ -1,0 +1,172 @@
+"""Where a contour exists: every range of a word's values, with what ends it."""
+
+import json
+from math import asin, atan2, degrees, hypot, radians, sin, tan
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from test_family import CASES, text_of
+
+import contoursolve
+from contoursolve.cli import main
+from contoursolve.families import FamilyError, Way, feasible
+
+BLOCK, START = "G111 X100. A180. K-30. B120. P5. Q5.", "X40. Z0."
+WORDS = [(name, word) for name, (_, _, ranges) in CASES.items() for word in ranges if not word.endswith("Q")]
+WORDS += [("G111, two roundings", "Q"), ("G111, every start word", "B")]
+
+
+def has_contour(block, word, value, options):
+    text = text_of(block, [word], [value])
+    assert value == round(value, 3), "text_of writes three decimals"
+    return contoursolve.solve(text, depth="verdict", **options).answers[0].contour is not None
+
+
+@pytest.mark.parametrize(("name", "word"), WORDS)
+def test_a_value_is_in_a_range_exactly_if_a_single_solve_has_a_contour(name, word):
+    block, options, ranges = CASES[name]
+    low, high = ranges.get(word, (0, 360))
+    found = feasible(block, word, within=(low, high), **options)
+    assert found.is_complete
+    ends = [end for each in found.intervals for end in (each.low, each.high)]
+    assert all(end.is_verified for end in ends), [end for end in ends if not end.is_verified]
+    rng = np.random.default_rng(len(name))
+    values = {round(float(value), 3) for value in rng.uniform(low, high, 250)}
+    values |= {round(end.value + step, 3) for end in ends for step in (-0.003, -0.001, 0, 0.001, 0.003)}
+    for value in sorted(values):
+        if low <= value <= high and all(abs(value - end.value) > 2e-5 for end in ends):
+            assert (value in found) is has_contour(block, word, value, options), (word, value)
+    for end in ends:
+        if end.inside is not None and end.outside is not None:
+            assert abs(end.inside - end.outside) <= 4e-4 * max(1, abs(end.value))
+
+
+def only(found):
+    (interval,) = found.intervals
+    return interval
+
+
+def test_ends_are_those_of_the_formulas():
+    """Line 1 has 30 mm, line 2 runs at 120 deg from X40 to X100 and has 30/sin(120): a rounding takes tan(30) of its
+    radius from each."""
+    share = tan(radians(30))
+    assert only(feasible(BLOCK, "P", start=START)).high.value == pytest.approx(30 / share, abs=1e-9)
+    assert only(feasible(BLOCK, "K", start=START)).high.value == pytest.approx(-5 * share, abs=1e-9)
+    lines = 30 / sin(radians(120))
+    assert only(feasible(BLOCK, "Q", start=START)).high.value == pytest.approx(lines / share - 5, abs=1e-9)
+    assert only(feasible(BLOCK, "X", start=START)).low.value == pytest.approx(
+        40 + 2 * 10 * share * sin(radians(120)), abs=1e-9
+    )
+    inches = feasible("G111 X4. A180. K-1.2 B120. P.2 Q.2", "P", start="X1.6 Z0.", units="inch")
+    assert (inches.unit, only(inches).high.value) == ("inch", pytest.approx(1.2 / share, abs=1e-9))
+
+
+def test_a_line_meets_a_circle_up_to_its_tangent():
+    """Seen from the end of the line, the circle of 50 mm about the origin reaches from the direction of its centre to
+    either side by the arc sine of radius over distance."""
+    block = "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q-1"
+    found = feasible(block, ",A", within=(160, 200))
+    to_center = degrees(atan2(42.857, -50))
+    tangent = to_center + degrees(asin(50 / hypot(50, 42.857)))
+    assert only(found).high.value == pytest.approx(tangent, abs=1e-9)
+    assert only(found).high.reason.text == "the line misses the circle: 188.798 deg at most"
+
+
+@pytest.mark.parametrize(
+    ("block", "word", "within", "texts"),
+    [
+        (
+            BLOCK,
+            "P",
+            None,
+            ["rule g111-corner-sign refuses P below 0.000 mm", "P too large for line 1: 51.962 mm at most"],
+        ),
+        (BLOCK, "Q", (0, 99), ["", "Q too large for line 2: 55.000 mm at most"]),
+        (BLOCK, "K", (-60, 9), ["", "P5. too large for line 1: -2.887 mm at most"]),
+        (
+            "G111 A180. K-30. B120. Z-60.",
+            "Z",
+            (-90, 0),
+            ["", "line 2 would run against B120.: -30.000 mm at most"],
+        ),
+    ],
+)
+def test_an_end_says_what_fails_beyond_it(block, word, within, texts):
+    ends = only(
+        feasible(
+            block,
+            word,
+            start=START,
+            within=within,
+        )
+    )
+    assert [end.reason.text if end.reason else "" for end in (ends.low, ends.high)] == texts
+
+
+def test_a_single_value_without_a_contour_parts_two_ranges():
+    found = feasible("G111 A160. B120. I10. Z-60. P2. Q2.", "A", start=START, within=(100, 150))
+    first, second = found.intervals
+    assert first.high.value == second.low.value == 120
+    assert 120 not in found
+    assert 120.001 in found
+    assert first.high.reason.code == "g111-no-corner"
+
+
+def test_ranges_of_a_few_thousandths_are_found_in_a_wide_range():
+    block = "G111 X100. A180. K-30. B120. I0. P5."
+    found = only(feasible(block, "I", start=START, rules="off", within=(-5000, 5000)))
+    assert (found.low.value, found.high.value) == (pytest.approx(-0.001), pytest.approx(0.001))
+
+
+def test_parallel_lines_end_a_range():
+    found = feasible("G111 A180. B120. X100. Z-60.", "A", start=START, within=(160, 350))
+    assert "line 1 and line 2 are parallel: 300.000 deg at most" in only(found).high.reason.text
+    assert (only(found).high.value, only(found).high.is_included) == (300, False)
+
+
+def test_the_range_itself_ends_without_a_reason():
+    found = only(feasible(BLOCK, "P", start=START, within=(1, 9)))
+    assert (found.low.way, found.low.reason, found.high.value) == (Way.RANGE, None, 9)
+
+
+@pytest.mark.parametrize(
+    ("word", "within", "message"),
+    [
+        ("R", None, "the block has no word R"),
+        ("P", (5, 1), "no range"),
+        ("P", (1, float("inf")), "no range"),
+    ],
+)
+def test_a_range_that_makes_no_sense_is_refused(word, within, message):
+    with pytest.raises(FamilyError, match=message):
+        feasible(BLOCK, word, start=START, within=within)
+
+
+def test_a_word_that_chooses_has_no_range():
+    block = CASES["circle-line"][0]
+    with pytest.raises(FamilyError, match="it has no range"):
+        feasible(block, "Q")
+
+
+def run(*arguments):
+    done = CliRunner().invoke(main, ["range", *map(str, arguments)])
+    assert done.exception is None or isinstance(done.exception, SystemExit), done.exception
+    return done.exit_code, done.stdout, done.stderr
+
+
+def test_the_command_prints_the_ranges():
+    on_block = ("--block", BLOCK, "--start", START)
+    status, output, _ = run(*on_block, "--word", "p")
+    assert status == 0
+    assert "P too large for line 1: 51.962 mm at most" in output
+    status, output, _ = run(*on_block, "--word", "P", "--within", "1:60", "--format", "json")
+    data = json.loads(output)
+    assert (status, data["schema"], data["complete"]) == (0, "contoursolve/range/1", True)
+    (each,) = data["ranges"]
+    assert (each["low"]["value"], each["low"]["reason"], each["high"]["found_by"]) == (1.0, None, "closed form")
+    assert run(*on_block, "--word", "P", "--within", "55:60")[0] == 1
+    for wrong, message in ((("--word", "R"), "no word R"), (("--word", "P", "--within", "5"), "LOW:HIGH")):
+        status, output, errors = run(*on_block, *wrong)
+        assert (status, output) == (2, "")
+        assert message in errors

@@ -1,0 +1,209 @@
+"""A real browser: the explorer in JupyterLab, and the report in light and dark. Nothing leaves the machine."""
+
+import json
+import os
+import secrets
+import shutil
+import socket
+import subprocess
+import sys
+import time
+import urllib.error
+import urllib.request
+from contextlib import contextmanager
+from importlib.util import find_spec
+from pathlib import Path
+from urllib.parse import urlsplit
+
+import pytest
+
+import contoursolve
+
+IS_WANTED = os.environ.get("CONTOURSOLVE_BROWSER") == "1"
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
+MISSING = [
+    *([] if CHROMIUM else ["chromium (Debian: apt-get install chromium)"]),
+    *(name for name in ("playwright", "jupyterlab", "ipykernel", "anywidget", "htpy") if find_spec(name) is None),
+]
+pytestmark = pytest.mark.skipif(
+    bool(MISSING) and not IS_WANTED, reason=f"a browser test needs {', '.join(MISSING)}; CONTOURSOLVE_BROWSER=1 insists"
+)
+
+HOUSE = Path(contoursolve.__file__).parent.parent
+PROGRAMS = HOUSE / "notebooks" / "programs"
+FLAGS = [
+    "--no-sandbox",  # as root in a container
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
+BLOCK = "G111 X100. A180. K-30. B120. P5. Q5."
+NOTEBOOK = HOUSE / "notebooks" / "01_first_contour.ipynb"
+SECONDS = 40
+
+
+@pytest.fixture(scope="module")
+def browser():
+    from playwright.sync_api import sync_playwright  # noqa: PLC0415 - skipped without it
+
+    with sync_playwright() as play:
+        found = play.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
+        yield found
+        found.close()
+
+
+@pytest.fixture
+def artefacts(tmp_path):
+    folder = Path(os.environ.get("CONTOURSOLVE_ARTEFACTS") or tmp_path)
+    folder.mkdir(parents=True, exist_ok=True)
+    return folder
+
+
+class Watched:
+    """A page of the browser; afterwards it has asked nobody but this machine, and complained about nothing."""
+
+    def __init__(self, browser, **options):
+        self.page = browser.new_page(**options)
+        self.page.set_default_timeout(SECONDS * 1000)
+        self.asked, self.complaints = [], []
+        self.page.on("request", lambda request: self.asked.append(request.url))
+        self.page.on("websocket", lambda channel: self.asked.append(channel.url))
+        self.page.on("console", lambda line: self.complaints.append(line.text) if line.type == "error" else None)
+        self.page.on("pageerror", lambda error: self.complaints.append(str(error)))
+
+    def check(self):
+        strangers = [
+            url
+            for url in self.asked
+            if urlsplit(url).scheme not in ("data", "blob", "file", "about") and urlsplit(url).hostname != "127.0.0.1"
+        ]
+        assert strangers == []
+        assert self.complaints == []
+        assert self.asked
+
+
+@contextmanager
+def jupyterlab(folder):
+    """The address of a JupyterLab with a home of its own."""
+    home = folder / "home"
+    settings = home / "settings" / "@jupyterlab" / "apputils-extension"
+    settings.mkdir(parents=True)
+    # Otherwise it asks a server for news.
+    quiet = {"fetchNews": "false", "checkForUpdates": False}
+    (settings / "notification.jupyterlab-settings").write_text(json.dumps(quiet))
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+    token = secrets.token_hex(16)
+    own = {
+        "HOME": home,
+        "IPYTHONDIR": home / "ipython",
+        "JUPYTER_CONFIG_DIR": home / "config",
+        "JUPYTER_DATA_DIR": home / "data",
+        "JUPYTER_RUNTIME_DIR": home / "runtime",
+        "JUPYTERLAB_SETTINGS_DIR": home / "settings",
+        "JUPYTERLAB_WORKSPACES_DIR": home / "workspaces",
+        "JUPYTER_PREFER_ENV_PATH": "1",
+        "JUPYTER_TOKEN": token,
+        "PYTHONPATH": HOUSE,
+    }
+    command = [
+        sys.executable, "-m", "jupyterlab", "--no-browser", "--allow-root", "--ServerApp.ip=127.0.0.1",
+        f"--ServerApp.port={port}", "--ServerApp.port_retries=0", f"--ServerApp.root_dir={folder}",
+        "--LabApp.expose_app_in_browser=True", "--LabApp.extension_manager=readonly",
+    ]  # fmt: skip
+    log = folder / "jupyterlab.log"
+    environment = {**os.environ, **{name: str(value) for name, value in own.items()}}
+    with log.open("wb") as output:
+        server = subprocess.Popen(command, env=environment, stdout=output, stderr=output)
+    try:
+        wait_for(f"http://127.0.0.1:{port}/api/status?token={token}", server, log)
+        yield lambda path: f"http://127.0.0.1:{port}/doc/tree/{path}?token={token}"
+    finally:
+        server.terminate()
+        server.wait(SECONDS)
+
+
+def wait_for(address, server, log):
+    for _ in range(SECONDS * 5):
+        assert server.poll() is None, log.read_text()
+        try:
+            with urllib.request.urlopen(address, timeout=SECONDS):
+                return
+        except urllib.error.URLError:
+            time.sleep(0.2)
+    raise AssertionError(log.read_text())
+
+
+def write_notebook(path):
+    """A notebook with the explorer and a result."""
+    cells = [f"import contoursolve\ncontoursolve.explore({BLOCK!r}, start='X40. Z0.')", BROKEN]
+    kind = {"cell_type": "code", "metadata": {}, "outputs": [], "execution_count": None}
+    document = {
+        "cells": [{**kind, "id": f"cell-{number}", "source": text} for number, text in enumerate(cells)],
+        "metadata": {"kernelspec": {"name": "python3", "display_name": "Python 3", "language": "python"}},
+        "nbformat": 4,
+        "nbformat_minor": 5,
+    }
+    path.write_text(json.dumps(document))
+
+
+BROKEN = "contoursolve.solve('N310 G111 A180. K-20. P4. B90. X66. D0.5', start='X60. Z-55.')"
+LOADED = "window.jupyterapp?.shell.currentWidget?.content?.widgets?.length > 0"
+IDLE = "window.jupyterapp.shell.currentWidget.sessionContext.session?.kernel?.status === 'idle'"
+DIFFERS = "([selector, before]) => document.querySelector(selector).innerHTML !== before"
+READS = "([selector, value]) => document.querySelector(selector).value === value"
+EXPLORER = ".contoursolve.explorer"
+
+
+def test_in_jupyterlab_a_slider_moves_the_path_and_a_finding_comes_and_goes(browser, tmp_path, artefacts):
+    write_notebook(tmp_path / "explore.ipynb")
+    with jupyterlab(tmp_path) as address:
+        watched = Watched(browser, viewport={"width": 1400, "height": 1500})
+        page = watched.page
+        page.goto(address("explore.ipynb"))
+        page.wait_for_function(LOADED)
+        page.wait_for_function(IDLE)
+        page.evaluate("window.jupyterapp.commands.execute('notebook:run-all-cells')")
+        explorer = page.locator(".contoursolve.explorer").first
+        explorer.locator("figure svg").wait_for()
+        page.locator(".jp-OutputArea-output .contoursolve .finding.error").first.wait_for()
+        before = explorer.locator("figure").inner_html()
+        page.screenshot(path=artefacts / "jupyterlab-solved.png")
+
+        slider = explorer.locator("input[type=range][aria-label^='P:']")
+        slider.focus()
+        slider.press("End")
+        slider.press("ArrowLeft")
+        explorer.locator(".state strong.fine").wait_for()
+        page.wait_for_function(DIFFERS, arg=[f"{EXPLORER} figure", before])
+        assert explorer.locator(".finding").count() == 0
+
+        number = explorer.locator("input[type=number][aria-label^='P:']")
+        number.fill("60")
+        number.press("Enter")
+        finding = explorer.locator(".finding.error")
+        finding.wait_for()
+        assert "corner 1 does not fit" in finding.inner_text()
+        page.screenshot(path=artefacts / "jupyterlab-refused.png")
+
+        fix = explorer.locator("button.fix", has_text="write P")
+        fix.click()
+        finding.wait_for(state="detached")
+        assert "P51." in explorer.locator("textarea").input_value()
+
+        explorer.locator("button.free[aria-label='free A']").click()
+        explorer.locator(".row[data-state='free']").wait_for()
+        page.screenshot(path=artefacts / "jupyterlab-free.png")
+        explorer.locator("button.reset").click()
+        page.wait_for_function(READS, arg=[f"{EXPLORER} textarea", BLOCK])
+
+        page.evaluate("window.jupyterapp.commands.execute('apputils:change-theme', {theme: 'JupyterLab Dark'})")
+        page.wait_for_selector("body[data-jp-theme-light='false']")
+        page.wait_for_selector("[data-theme='dark'] > .contoursolve.explorer")
+        page.screenshot(path=artefacts / "jupyterlab-dark.png")
+        watched.check()
+        page.close()
