@@ -73,6 +73,17 @@ def test_every_door_takes_a_control_as_its_tables():
     assert found["N1.Y"].tolist() == pytest.approx([0, 30])
     slopes = contoursolve.sensitivity(line, start=start, control=MINE).slopes
     assert slopes["N1.Y"]["X"] == pytest.approx(1)
+    assert contoursolve.feasible(line, "X", start=start, control=MINE).intervals[0].low.value == 0
+    assert contoursolve.explore(PAIR, control=MINE).result.control == "mine"
+
+
+def test_its_contours_show_themselves_with_a_lexicon_of_their_own():
+    lexicon = replace(NCT_99M.modes.lexicon)
+    result = contoursolve.solve(PAIR, control=replace(MINE, modes=replace(MINE.modes, lexicon=lexicon)))
+    for shown in (result, result.answers[0]):
+        bundle = shown._repr_mimebundle_()
+        assert {"text/plain", "text/html", "image/svg+xml"} <= bundle.keys()
+        assert "circular-linear intersection" in bundle["text/plain"]
 
 
 def test_expand_takes_a_control_and_a_target_as_their_tables():
