@@ -30,7 +30,17 @@ if TYPE_CHECKING:
     from contoursolve.dialects import Dialect
     from contoursolve.examine import Answer, Depth, Policy
     from contoursolve.expansion import Expansion
-    from contoursolve.families import Family, FamilyError, Feasible, Sensitivity, family, feasible, sensitivity
+    from contoursolve.families import (
+        Family,
+        FamilyError,
+        Feasible,
+        Found,
+        Sensitivity,
+        family,
+        feasible,
+        find_word,
+        sensitivity,
+    )
     from contoursolve.notebook import explore
     from contoursolve.pipeline import Result, UnknownControlError
     from contoursolve.sketch import Drawings, Drawn, Sketch
@@ -57,6 +67,7 @@ __all__ = [
     "Family",
     "FamilyError",
     "Feasible",
+    "Found",
     "LineSegment",
     "Policy",
     "Program",
@@ -75,6 +86,7 @@ __all__ = [
     "explore",
     "family",
     "feasible",
+    "find_word",
     "parse",
     "read_program",
     "sensitivity",
@@ -90,7 +102,17 @@ _ROOMS = {
     "dialects": ("Dialect",),
     "examine": ("Answer", "Depth", "Policy"),
     "expansion": ("Expansion",),
-    "families": ("Family", "FamilyError", "Feasible", "Sensitivity", "family", "feasible", "sensitivity"),
+    "families": (
+        "Family",
+        "FamilyError",
+        "Feasible",
+        "Found",
+        "Sensitivity",
+        "family",
+        "feasible",
+        "find_word",
+        "sensitivity",
+    ),
     "notebook": ("explore",),
     "pipeline": ("Result", "UnknownControlError"),
     "sketch": ("Drawings", "Drawn", "Sketch"),

@@ -100,10 +100,19 @@ class _Enclosure(Replay):
 class Chart:
     """Some outputs as functions of some words, at fixed values of the other inputs.
 
-    `fixed` names those inputs; one that follows a word is what is added to it.
+    `fixed` names those inputs; one that follows a word is what is added to it. With `is_rate` it is about the
+    derivatives of the outputs by the first word in place of the outputs.
     """
 
-    def __init__(self, tape: Tape, outputs: Mapping[str, Any], words: int, follows: Mapping[str, Following]) -> None:
+    def __init__(
+        self,
+        tape: Tape,
+        outputs: Mapping[str, Any],
+        words: int,
+        follows: Mapping[str, Following],
+        *,
+        is_rate: bool = False,
+    ) -> None:
         symbols = [symbol(f"word {number}") for number in range(words)]
         added, inputs = dict[str, Any](), dict[str, Any]()
         for given, each in follows.items():
@@ -119,6 +128,8 @@ class Chart:
         self._words = words
         arguments = casadi.vertcat(*(each.sx for each in (*symbols, *added.values(), *stay)))
         values = casadi.SX(casadi.vertcat(*(each.sx for each in expressions)))
+        if is_rate:
+            values = casadi.SX(casadi.densify(casadi.jacobian(values, symbols[0].sx)))
         slopes = casadi.densify(casadi.jacobian(values, casadi.vertcat(*(each.sx for each in symbols))))
         self._function = casadi.Function("chart", [arguments], [casadi.cse(casadi.densify(values))])
         self._derivative = casadi.Function("slopes", [arguments], [casadi.cse(casadi.vec(slopes))])

@@ -18,6 +18,7 @@ _COMMANDS = {
     "report": "report:report",
     "sweep": "sweep:sweep_",
     "range": "range:range_",
+    "find": "find:find",
     "verify": "verify:verify",
     "rules": "catalogue:rules",
     "explain": "catalogue:explain",

@@ -111,11 +111,8 @@ def write_word(address: str, value: float, lexicon: Lexicon, unit: Length, is_li
     A limit is rounded towards zero, so that the value still fits.
     """
     row, numbers = lexicon.addresses[address], lexicon.numbers
-    number = Decimal(repr(value))
-    if row.unit is Unit.DEGREE:
-        step = numbers.degree
-    else:
-        step = numbers.inch if unit is Length.INCH else numbers.mm
+    number, step = Decimal(repr(value)), numbers.step(row.unit, unit)
+    if row.unit is not Unit.DEGREE:
         number = number / unit.in_mm * (2 if row.is_diameter else 1)
     number = number.quantize(step, ROUND_DOWN if is_limit else ROUND_HALF_EVEN)
     if number == 0:

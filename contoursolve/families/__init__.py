@@ -4,6 +4,8 @@ from contoursolve.families.boundary import End, Feasible, Interval, Way, feasibl
 from contoursolve.families.ends import Reason
 from contoursolve.families.evaluate import family, pieces, sweep
 from contoursolve.families.export import MissingExtraError, csv_lines, need, write_parquet
+from contoursolve.families.goals import Goal
+from contoursolve.families.inverse import Found, Hit, find_word
 from contoursolve.families.prepared import Sweep
 from contoursolve.families.ranges import FamilyError
 from contoursolve.families.result import Family, summary_of
@@ -17,6 +19,9 @@ __all__ = [
     "Family",
     "FamilyError",
     "Feasible",
+    "Found",
+    "Goal",
+    "Hit",
     "Interval",
     "MissingExtraError",
     "Reason",
@@ -27,6 +32,7 @@ __all__ = [
     "csv_lines",
     "family",
     "feasible",
+    "find_word",
     "need",
     "pieces",
     "sensitivity",

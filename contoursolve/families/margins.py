@@ -100,10 +100,12 @@ def compile_margins(system: System, words: int, follows: Follows) -> Margins:
 
 
 @lru_cache(maxsize=256)
-def compile_results(system: System, words: int, follows: Follows, names: tuple[str, ...]) -> Chart:
-    """Some outputs of a system as functions of some words."""
+def compile_results(
+    system: System, words: int, follows: Follows, names: tuple[str, ...], *, is_rate: bool = False
+) -> Chart:
+    """Some outputs of a system, or their derivatives by the first word, as functions of some words."""
     tape = compile_system(system).tape
-    return Chart(tape, {name: tape.expression(name) for name in names}, words, dict(follows))
+    return Chart(tape, {name: tape.expression(name) for name in names}, words, dict(follows), is_rate=is_rate)
 
 
 _Found = Iterator[tuple[Margin, Any]]

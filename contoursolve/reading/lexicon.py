@@ -44,6 +44,12 @@ class NumberFormat:
     inch: Decimal = Decimal("0.0001")
     degree: Decimal = Decimal("0.001")
 
+    def step(self, unit: Unit, length: Length) -> Decimal:
+        """The least increment of a word of some unit."""
+        if unit is Unit.DEGREE:
+            return self.degree
+        return self.inch if length is Length.INCH else self.mm
+
 
 @dataclass(frozen=True, slots=True)
 class Lexicon:

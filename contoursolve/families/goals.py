@@ -1,0 +1,131 @@
+"""Where a point of a contour is wanted, and how far it is from there as a function of one word."""
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from decimal import Decimal, InvalidOperation
+from math import hypot
+
+import numpy
+from numpy.typing import NDArray
+
+from contoursolve.backends.chart import Chart
+from contoursolve.backends.intervals import Array, Intervals, constant
+from contoursolve.contour import Contour
+from contoursolve.families.ranges import FamilyError
+from contoursolve.model import Figure, Plane
+from contoursolve.solving import Point
+
+PLACES, CONSTANT = 64, 1e-10
+"""A coordinate whose rate, mm for each unit of the word, is less at so many places drawn at random never changes."""
+
+
+@dataclass(frozen=True, slots=True)
+class Goal:
+    """Where a point is wanted: its name, and a value for one axis or both, mm, X of a lathe as radius."""
+
+    point: str
+    place: tuple[float | None, float | None]
+
+    @property
+    def is_nearest(self) -> bool:
+        """Whether both coordinates are wanted, which one word alone may only come near to."""
+        return None not in self.place
+
+    def away(self, at: Point) -> float:
+        """How far a point is from there, mm."""
+        return hypot(*(have - want for have, want in zip(at, self.place, strict=True) if want is not None))
+
+
+def read_goal(text: str, plane: Plane, in_mm: float) -> Goal:
+    """The goal that a text states. Raises FamilyError for one that is none."""
+    match = re.fullmatch(r"\s*(\S.*?)((?:\s+[A-Za-z]\s*[-+]?[\d.]+)+)\s*", text)
+    if match is None:
+        raise FamilyError(f"{text!r} is no goal; write a point and where it is wanted, such as 'end Z-50.'")
+    place: list[float | None] = [None, None]
+    for letter, number in re.findall(r"([A-Za-z])\s*([-+]?[\d.]+)", match[2]):
+        if letter.upper() not in plane.axes:
+            raise FamilyError(f"{letter}{number}: the axes of this contour are {' and '.join(plane.axes)}")
+        axis = plane.axes.index(letter.upper())
+        try:
+            value = float(Decimal(number)) * in_mm / (2 if plane.diameters[axis] else 1)
+        except InvalidOperation:
+            raise FamilyError(f"{letter}{number} is no number") from None
+        if place[axis] is not None:
+            raise FamilyError(f"{text!r} states {letter.upper()} twice")
+        place[axis] = value
+    return Goal(match[1], (place[0], place[1]))
+
+
+def place_of(name: str, contour: Contour) -> Point | None:
+    """Where a named point of a solved contour lies."""
+    if name == "end":
+        return contour.end
+    if name in contour.points:
+        return contour.points[name]
+    element, _, part = name.rpartition(".")
+    for each in contour.elements:
+        if each.name == element:
+            found: Point | None = getattr(each, {"begin": "start"}.get(part, part), None)
+            return found
+    return None
+
+
+def end_name(figure: Figure) -> str:
+    """The name of the point at which a figure's path ends."""
+    last = figure.path[-1]
+    landing = next((corner.name for corner in figure.corners if corner.at == last.head), None)
+    return last.head if landing is None else f"{landing}.end"
+
+
+class Curve:
+    """A function of the word whose zeros are sought: a coordinate less its goal, or half the rate at which the square
+    of the distance to the goal grows."""
+
+    def __init__(
+        self, chart: Chart, rate: Chart, fixed: tuple[list[float], list[float]], place: Sequence[float]
+    ) -> None:
+        self.chart, self.rate, self.fixed, self.place = chart, rate, fixed, place
+        self.is_nearest = len(place) > 1
+
+    def is_constant(self, low: float, high: float) -> bool:
+        """Whether the word does not move the point."""
+        places = numpy.random.default_rng(PLACES).uniform(low, high, PLACES)
+        return bool((numpy.abs(self.chart.slopes_at([places], self.fixed[0])) <= CONSTANT).all())
+
+    def at(self, places: Array) -> Array:
+        values = self.chart.at([places], self.fixed[0]) - numpy.array(self.place)[:, None]
+        if not self.is_nearest:
+            first: Array = values[0]
+            return first
+        total: Array = (values * self.chart.slopes_at([places], self.fixed[0])[0]).sum(axis=0)
+        return total
+
+    def between(self, cells: Intervals) -> tuple[Intervals, NDArray[numpy.bool_]]:
+        away, is_smooth = self._away(cells)
+        if not self.is_nearest:
+            return away[0], is_smooth
+        rates = self._rates(cells)
+        return away[0] * rates[0] + away[1] * rates[1], is_smooth
+
+    def slopes(self, cells: Intervals) -> Intervals:
+        rates = self._rates(cells)
+        if not self.is_nearest:
+            return rates[0]
+        away, _ = self._away(cells)
+        bends = self.rate.slopes_between([cells], self.fixed[1])
+        parts = [
+            rate * rate + gap * Intervals(low, high)
+            for rate, gap, low, high in zip(rates, away, bends.low, bends.high, strict=True)
+        ]
+        return parts[0] + parts[1]
+
+    def _away(self, cells: Intervals) -> tuple[list[Intervals], NDArray[numpy.bool_]]:
+        bounds = self.chart.between([cells], self.fixed[0])
+        bounds = self.chart.narrowed(bounds, [cells], self.fixed[0])
+        rows = zip(bounds.low, bounds.high, self.place, strict=True)
+        return [Intervals(low, high) - constant(want) for low, high, want in rows], bounds.is_smooth
+
+    def _rates(self, cells: Intervals) -> list[Intervals]:
+        bounds = self.chart.slopes_between([cells], self.fixed[0])
+        return [Intervals(low, high) for low, high in zip(bounds.low, bounds.high, strict=True)]

@@ -1,0 +1,226 @@
+"""The inverse question: which value of a word brings a point to a place, or as near to it as it gets."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy
+
+from contoursolve.contour import Contour
+from contoursolve.diagnosis.edits import write_word
+from contoursolve.dialects import Dialect
+from contoursolve.families.evaluate import template_of
+from contoursolve.families.goals import Curve, Goal, end_name, place_of, read_goal
+from contoursolve.families.kinds import Kind, unit_of
+from contoursolve.families.margins import compile_results
+from contoursolve.families.prepared import results_of
+from contoursolve.families.ranges import FamilyError
+from contoursolve.families.roots import find_zeros
+from contoursolve.families.survey import Piece, Survey, short
+from contoursolve.families.template import find_words
+from contoursolve.model import Length, Plane
+from contoursolve.solving import Point
+from contoursolve.solving.certificate import Certificate
+
+ARRIVED = 1e-9
+"""mm. A point this close to the place where it is wanted is there."""
+
+BESIDE = 1e-5
+"""Share of a value (at least of 1). How far beside it others are looked at, whether they are nearer to the goal."""
+
+
+@dataclass(frozen=True, slots=True)
+class Hit:
+    """A value of the word that brings the point where it is wanted, or nearer than its neighbours do.
+
+    `point` is where the point is then, `away` how far from the goal (mm). `certificate` is that of the single solve.
+    `block` is the text with the value rounded to the control's least increment, which is `rounded`, and
+    `rounded_away` how far from the goal the point is then; None where the block with the rounded value has no contour.
+    """
+
+    value: float
+    point: Point
+    away: float
+    certificate: Certificate | None
+    rounded: float
+    block: str
+    rounded_away: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """All values of a word, within a range, that meet a goal, in order; for a goal of two coordinates, all that are
+    nearer to it than their neighbours, the nearest first. `is_complete` tells whether these are proven to be all.
+
+    `unit` is what the word is written in (mm, inch or deg), `length` what the program is."""
+
+    word: str
+    unit: str
+    stated: float
+    goal: Goal
+    plane: Plane
+    length: Length
+    within: tuple[float, float]
+    hits: tuple[Hit, ...]
+    is_complete: bool
+
+
+def find_word(
+    block: str,
+    word: str,
+    goal: str,
+    *,
+    start: str | None = None,
+    within: tuple[float, float] | None = None,
+    control: str | Dialect | None = None,
+    units: str = "mm",
+    rules: str = "enforce",
+    settings: Mapping[str, str] | None = None,
+) -> Found:
+    """Every value of a word, as it is written, with which a point of the contour lies where it is wanted.
+
+    Args:
+        block: the block, or the blocks of one contour; the word stands in it with any value.
+        word: the word by its letter (`A`, `,A`), or with its line where several have it (`2:,A`).
+        goal: a point and where it is wanted, as the control writes it: `end Z-50.`, `V1 X44.`, `corner 1.center Z-30.`.
+            With both coordinates, such as `end Z-50. X100.`, the values are found at which it is nearest to there.
+        within: and all others as for `feasible`, with the same errors; also raises FamilyError for a point that the
+            contour does not have, or that does not depend on the word.
+
+    Where the contour exists, interval arithmetic isolates every zero; each is solved and certified by itself.
+
+    >>> found = find_word("G111 X100. A180. K-30. B120. P5. Q5.", "B", "end Z-50.", start="X40. Z0.")
+    >>> [(round(each.value, 4), each.block) for each in found.hits]
+    [(119.6749, 'G111 X100. A180. K-30. B119.675 P5. Q5.')]
+    """
+    name = word.strip().upper()
+    template = template_of(block, start, control, units, rules, settings, lambda program: find_words(program, [name]))
+    survey = Survey(template, name)
+    answer = survey.solve(survey.stated)
+    wanted = read_goal(goal, answer.plane, float(answer.unit.in_mm))
+    low, high = survey.range_of(within)
+    search = _Search(survey, wanted)
+    values = search.values(survey.pieces(low, high))
+    hits = [hit for value in values if (hit := search.hit(value)) is not None]
+    if wanted.is_nearest:
+        hits.sort(key=lambda each: each.away)
+    is_complete = survey.is_complete and search.is_complete
+    return Found(
+        name, survey.unit, survey.stated, wanted, answer.plane, answer.unit, (low, high), tuple(hits), is_complete
+    )
+
+
+class _Search:
+    """One goal for one word."""
+
+    def __init__(self, survey: Survey, goal: Goal) -> None:
+        self.survey, self.goal = survey, goal
+        self.is_complete = True
+
+    def values(self, pieces: Sequence[Piece]) -> list[float]:
+        """The values that may meet the goal, in order."""
+        found: list[float] = []
+        moves = is_there = False
+        for piece in pieces:
+            if piece.kind is None or not piece.is_solved:
+                found += [piece.low] if piece.is_value and piece.is_solved else []
+                continue
+            curve = self._curve(piece.kind)
+            if curve is None:
+                continue
+            is_there = True
+            if curve.is_constant(piece.low, piece.high):
+                continue
+            moves = True
+            zeros, is_complete = find_zeros(curve, piece.low, piece.high)
+            self.is_complete = self.is_complete and is_complete
+            found += [
+                short(zero.value, zero.width) if zero.width else zero.value
+                for zero in zeros
+                if not self.goal.is_nearest or zero.way >= 0
+            ]
+            found += self._ends(curve, piece)
+        if not is_there and any(piece.is_solved and not piece.is_value for piece in pieces):
+            raise FamilyError(
+                f"the contour has no point {self.goal.point}; there are {', '.join(self._points(pieces))}"
+            )
+        if is_there and not moves:
+            raise FamilyError(f"{self.survey.word} does not move {self.goal.point} in this direction")
+        return self._once(found)
+
+    def _ends(self, curve: Curve, piece: Piece) -> Iterator[float]:
+        """Ends of a piece that may meet the goal."""
+        step = ARRIVED * max(1.0, abs(piece.low), abs(piece.high))
+        inner = numpy.array([piece.low + step, piece.high - step])
+        low, high = curve.at(inner)
+        for value, rises in ((piece.low, low), (piece.high, -high)):
+            if not self.goal.is_nearest or rises >= 0:
+                yield value
+
+    def _points(self, pieces: Sequence[Piece]) -> list[str]:
+        """The names of the points of the contour."""
+        kind = next(piece.kind for piece in pieces if piece.kind and piece.is_solved)
+        letter = "." + kind.profile.plane.axes[0]
+        return ["end", *(name.removesuffix(letter) for name in results_of(kind) if name.endswith(letter))]
+
+    def _once(self, values: Sequence[float]) -> list[float]:
+        """Values in order, those that rounding alone parts taken as one."""
+        found: list[float] = []
+        for value in sorted(map(short, values)):
+            if not found or value - found[-1] > ARRIVED * max(1.0, abs(value)):
+                found.append(value)
+        return found
+
+    def _curve(self, kind: Kind) -> Curve | None:
+        """The curve of a kind of contour; None where it has no such point, or the word does not move it."""
+        results, axes = results_of(kind), kind.profile.plane.axes
+        point = end_name(kind.system.figure) if self.goal.point == "end" else self.goal.point
+        wanted = [(f"{point}.{letter}", value) for letter, value in zip(axes, self.goal.place, strict=True)]
+        wanted = [(name, value) for name, value in wanted if value is not None]
+        if any(name not in results for name, _ in wanted):
+            return None
+        names = tuple(results[name][0] for name, _ in wanted)
+        place = [float(value or 0) - results[name][1] for name, value in wanted]
+        follows = self.survey.follows(kind)
+        chart, rate = (compile_results(kind.system, 1, follows, names, is_rate=each) for each in (False, True))
+        return Curve(chart, rate, (kind.fixed(chart.fixed), kind.fixed(rate.fixed)), place)
+
+    def hit(self, value: float) -> Hit | None:
+        """What becomes of a value by its single solve; None if it does not meet the goal."""
+        contour, certificate = self._solved(value)
+        at = place_of(self.goal.point, contour) if contour is not None else None
+        if at is None:
+            return None
+        away = self.goal.away(at)
+        if not (self._is_least(value, away) if self.goal.is_nearest else away <= ARRIVED):
+            return None
+        rounded, block, there = self._rounded(value)
+        reached = place_of(self.goal.point, there) if there is not None else None
+        return Hit(value, at, away, certificate, rounded, block, self.goal.away(reached) if reached else None)
+
+    def _is_least(self, value: float, away: float) -> bool:
+        """Whether the point is no nearer to the goal at values beside this one."""
+        step = BESIDE * max(1.0, abs(value))
+        contours = [self._solved(value + way * step)[0] for way in (-1, 1)]
+        places = [place_of(self.goal.point, contour) for contour in contours if contour is not None]
+        return all(away <= self.goal.away(at) + ARRIVED for at in places if at is not None)
+
+    def _solved(self, value: float) -> tuple[Contour | None, Certificate | None]:
+        answer = self.survey.solve(value)
+        return answer.contour, answer.certificate
+
+    def _rounded(self, value: float) -> tuple[float, str, Contour | None]:
+        """The value in least increments of the control, the block with it, and its contour; rounded to the other side
+        if only that has one."""
+        typed, answer = self.survey.template.words[self.survey.word], self.survey.solve(self.survey.stated)
+        lexicon, scale = answer.claim.lexicon, float(unit_of(typed, answer))
+        nearest = write_word(typed.address, value * scale, lexicon, answer.unit)
+        step = float(lexicon.numbers.step(lexicon.addresses[typed.address].unit, answer.unit))
+        number = float(nearest[len(typed.address) :])
+        other = number + (step if number < value else -step)
+        texts = [nearest, write_word(typed.address, other * scale, lexicon, answer.unit)]
+        numbers = [number, float(texts[1][len(typed.address) :])]
+        chosen = next((each for each in (0, 1) if self._solved(numbers[each])[0] is not None), 0)
+        lines = {block.line: block.text for block in self.survey.template.program.blocks}
+        line, span = lines[typed.span.line], typed.span
+        lines[span.line] = line[: span.column - 1] + texts[chosen] + line[span.end_column - 1 :]
+        return numbers[chosen], "\n".join(lines.values()), self._solved(numbers[chosen])[0]

@@ -1,0 +1,73 @@
+"""Values of a word that bring a point where it is wanted, as text and as plain data."""
+
+from collections.abc import Iterator
+from typing import Any
+
+from contoursolve.families import Found, Goal, Hit
+from contoursolve.output.layout import count, length_of
+from contoursolve.output.ranges import written
+from contoursolve.output.solutions import printed_certificate
+
+
+def found_lines(found: Found) -> Iterator[str]:
+    """The values, each with where the point is then, and the block to write."""
+    low, high = (written(value, found.unit) for value in found.within)
+    number = count(len(found.hits), "value") if found.hits else "no value"
+    proof = "proven to be all" if found.is_complete else "at least; that these are all is not proven"
+    aim = "nearest to" if found.goal.is_nearest else "at"
+    goal = _place(found.goal.place, found)
+    yield f"{found.goal.point} {aim} {goal}, by {found.word} from {low} to {high}: {number} ({proof})"
+    for place, hit in enumerate(found.hits, 1):
+        away = f", {hit.away:.4f} mm away" if found.goal.is_nearest else ""
+        yield f"  {place}. {found.word} {written(hit.value, found.unit)}: {_place(hit.point, found)}{away}"
+        certificate = printed_certificate(hit.certificate)
+        if certificate is not None:
+            yield f"     {certificate}"
+        yield from (f"     {line}" for line in hit.block.split("\n"))
+        yield f"     {_rounding(hit, found.goal)}"
+
+
+def _rounding(hit: Hit, goal: Goal) -> str:
+    if hit.rounded_away is None:
+        return "rounded like this, the block has no contour"
+    off = "away" if goal.is_nearest else "off"
+    return f"rounded like this, the point is {hit.rounded_away:.4f} mm {off}"
+
+
+def _place(place: tuple[float | None, float | None], found: Found) -> str:
+    """Coordinates as the control writes them."""
+    return " ".join(
+        f"{letter}{length_of(value * (2 if is_diameter else 1), found.length)}"
+        for letter, value, is_diameter in zip(found.plane.axes, place, found.plane.diameters, strict=True)
+        if value is not None
+    )
+
+
+def found_data(found: Found) -> dict[str, Any]:
+    """The values as plain data: schema contoursolve/find/1. Points are in mm, X of a lathe as radius."""
+    return {
+        "schema": "contoursolve/find/1",
+        "word": found.word,
+        "unit": found.unit,
+        "stated": found.stated,
+        "within": list(found.within),
+        "plane": list(found.plane.axes),
+        "point": found.goal.point,
+        "goal": list(found.goal.place),
+        "aim": "nearest" if found.goal.is_nearest else "reach",
+        "complete": found.is_complete,
+        "values": [_hit(hit) for hit in found.hits],
+    }
+
+
+def _hit(hit: Hit) -> dict[str, Any]:
+    certificate = printed_certificate(hit.certificate)
+    return {
+        "value": hit.value,
+        "at": list(hit.point),
+        "away_mm": hit.away,
+        "certificate": {"kind": certificate.proof.value, "radius": certificate.radius} if certificate else None,
+        "rounded": hit.rounded,
+        "block": hit.block,
+        "rounded_away_mm": hit.rounded_away,
+    }

@@ -1,0 +1,171 @@
+"""The inverse question: which values of a word bring a point where it is wanted."""
+
+import json
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from test_family import CASES, text_of
+
+import contoursolve
+from contoursolve.cli import main
+from contoursolve.families import FamilyError, family, find_word
+from contoursolve.families.goals import place_of
+from contoursolve.output.solutions import list_solutions
+
+BLOCK, START = "G111 X100. A180. K-30. B120. P5. Q5.", "X40. Z0."
+WORDS = [
+    ("G111, two roundings", "A", "end"),
+    ("G111, two roundings", "B", "corner 2.begin"),
+    ("G111, two roundings", "P", "corner 1.center"),
+    ("G111, bevels", "B", "end"),
+    ("G111, every start word", "A", "V1"),
+    ("G112, bevels", "X", "end"),
+    ("circle-line", "R", "P1"),
+    ("circle-line", ",A", "P1"),
+    ("line-circle with a corner", "2:,A", "P1"),
+    ("chain of three with corners", "3:,A", "corner 2.end"),
+    ("circle-circle", "2:R", "P1"),
+    ("G112 landing beyond the centre", "R", "V2"),
+    ("G11", "X", "corner 1.begin"),
+    ("inches", "A", "corner 1.end"),
+]
+
+
+def solved(name, word, value):
+    block, options, _ = CASES[name]
+    return contoursolve.solve(text_of(block, [word], [value]), depth="verdict", **options).answers[0]
+
+
+def goal_of(point, answer, axes=(0, 1)):
+    """Where a point is, as the control writes it."""
+    at, in_mm = place_of(point, answer.contour), float(answer.unit.in_mm)
+    words = (f"{answer.plane.axes[axis]}{at[axis] * (1 + answer.plane.diameters[axis]) / in_mm!r}" for axis in axes)
+    return f"{point} {' '.join(words)}"
+
+
+@pytest.mark.parametrize(("name", "word", "point"), WORDS)
+def test_the_value_with_which_a_point_was_computed_is_found_again(name, word, point):
+    block, options, ranges = CASES[name]
+    low, high = ranges.get(word, (0, 360))
+    rng, compared = np.random.default_rng(len(name + word)), 0
+    for value in np.round(rng.uniform(low, high, 60), 3).tolist():
+        answer = solved(name, word, value)
+        if answer.contour is None or place_of(point, answer.contour) is None or compared == 2:
+            continue
+        aside = solved(name, word, round(value + 0.003, 3))
+        if aside.contour is None:
+            continue
+        here, there = (place_of(point, each.contour) for each in (answer, aside))
+        axes = tuple(axis for axis in (0, 1) if abs(here[axis] - there[axis]) > 1e-6)
+        if not axes:
+            continue
+        compared += 1
+        for goal in (goal_of(point, answer, axes[:1]), goal_of(point, answer)):
+            found = find_word(block, word, goal, within=(low, high), **options)
+            near = [hit for hit in found.hits if abs(hit.value - value) <= 1e-6 * max(1, abs(value))]
+            assert near, (goal, value, found.hits)
+            assert near[0].away <= 1e-9
+            assert near[0].rounded_away <= 1e-9
+            assert near[0].certificate is not None
+    assert compared
+
+
+@pytest.mark.parametrize(("name", "word", "point"), WORDS)
+def test_no_value_is_missed_that_a_fine_grid_shows(name, word, point):
+    """Between neighbours on a grid a coordinate passes its goal, or the distance has a least value."""
+    block, options, ranges = CASES[name]
+    low, high = ranges.get(word, (0, 360))
+    values = np.round(np.linspace(low, high, 1501), 6)
+    grid = family(block, vary={word: values}, **options)
+    answer = next(each for value in values if (each := solved(name, word, round(value, 3))).contour is not None)
+    letters, diameters = answer.plane.axes, answer.plane.diameters
+    names = [f"{'corner 2.end' if point == 'end' else point}.{letter}" for letter in letters]
+    if np.nanmax(grid[names[0]]) - np.nanmin(grid[names[0]]) < 1e-6:
+        letters, diameters, names = letters[::-1], diameters[::-1], names[::-1]  # the word moves the other coordinate
+    one, two = (grid[each] for each in names)
+    rng = np.random.default_rng(len(name + word))
+    scale = [(1 + is_diameter) / float(answer.unit.in_mm) for is_diameter in diameters]
+    known = np.flatnonzero(~np.isnan(one + two))
+    for row in rng.choice(known, 2):
+        want = one[row] + 0.0123
+        found = find_word(block, word, f"{point} {letters[0]}{float(want * scale[0])!r}", within=(low, high), **options)
+        off = one - want
+        passes = np.flatnonzero((off[1:] * off[:-1] < 0) & (np.abs(np.diff(off)) < 1))
+        for place in passes:
+            inside = [hit for hit in found.hits if values[place] - 1e-9 <= hit.value <= values[place + 1] + 1e-9]
+            assert len(inside) == 1, (values[place], found.hits)
+        assert found.is_complete
+        assert all(hit.away <= 1e-9 for hit in found.hits)
+        goal = f"{point} {letters[0]}{float(want * scale[0])!r} {letters[1]}{float((two[row] + 1.234) * scale[1])!r}"
+        found = find_word(block, word, goal, within=(low, high), **options)
+        away = np.hypot(off, two - two[row] - 1.234)
+        least = [
+            place for place in range(1, values.size - 1) if away[place] < min(away[place - 1], away[place + 1]) - 1e-9
+        ]
+        step = values[1] - values[0]
+        for place in least:
+            near = [hit for hit in found.hits if abs(hit.value - values[place]) <= step]
+            assert near, (goal, values[place], found.hits)
+            assert min(hit.away for hit in near) <= away[place] + 1e-9
+        assert min(hit.away for hit in found.hits) <= np.nanmin(away) + 1e-9
+
+
+def test_the_solver_of_facts_finds_the_same_values():
+    """Asked for by `?`, with a fact in place of the goal: another way through the equations."""
+    block = "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 {} Q-1"
+    found = find_word(block.format(",A171.87"), ",A", "P1 X30.", within=(100, 200))
+    asked = contoursolve.solve(block.format(",A?"), facts=["X of P1 = 30."]).answers[0]
+    expected = [each.value for listed in list_solutions(asked).solutions for each in listed.asked]
+    assert [hit.value for hit in found.hits] == pytest.approx(sorted(expected), abs=1e-9)
+    assert len(expected) == 2
+
+
+def test_the_block_to_write_has_the_value_in_least_increments():
+    (hit,) = find_word(BLOCK, "A", "end Z-50.", start=START).hits
+    assert (hit.rounded, hit.block) == (179.314, "G111 X100. A179.314 K-30. B120. P5. Q5.")
+    again = contoursolve.solve(hit.block, start=START).answers[0].contour
+    assert hit.rounded_away == pytest.approx(abs(again.end[0] + 50), abs=1e-12)
+    assert 0 < hit.rounded_away < 0.001
+
+
+def test_a_value_at_an_end_is_rounded_to_the_side_with_a_contour():
+    """The largest rounding is 51.96152 mm: written as 51.962 it would not fit."""
+    hits = find_word(BLOCK.replace(" Q5.", ""), "P", "corner 1.begin Z9. X40.", start=START, within=(1, 60)).hits
+    assert hits[0].value == pytest.approx(51.961524227)
+    assert (hits[0].rounded, hits[0].rounded_away is not None) == (51.961, True)
+
+
+@pytest.mark.parametrize(
+    ("word", "goal", "message"),
+    [
+        ("A", "end", "no goal"),
+        ("A", "end Y3", "the axes of this contour are Z and X"),
+        ("A", "end Z3 Z4", "twice"),
+        ("A", "end Z3..4", "no number"),
+        ("A", "V9 Z3", "no point V9; there are end, V1, V2"),
+        ("A", "end X100.", "A does not move end"),
+    ],
+)
+def test_a_goal_that_makes_no_sense_is_refused(word, goal, message):
+    with pytest.raises(FamilyError, match=message):
+        find_word(BLOCK, word, goal, start=START)
+
+
+def run(*arguments):
+    done = CliRunner().invoke(main, ["find", "--block", BLOCK, "--start", START, *map(str, arguments)])
+    assert done.exception is None or isinstance(done.exception, SystemExit), done.exception
+    return done.exit_code, done.stdout, done.stderr
+
+
+def test_the_command_prints_the_values():
+    status, output, _ = run("--word", "A", "--bring", "end Z-50.")
+    assert status == 0
+    assert "1 value (proven to be all)" in output
+    assert "G111 X100. A179.314 K-30. B120. P5. Q5." in output
+    status, output, _ = run("--word", "A", "--bring", "end Z-50. X90.", "--format", "json")
+    data = json.loads(output)
+    assert (status, data["schema"], data["aim"], data["complete"]) == (0, "contoursolve/find/1", "nearest", True)
+    assert run("--word", "A", "--bring", "end Z900.")[0] == 1
+    status, output, errors = run("--word", "A", "--bring", "nowhere")
+    assert (status, output, "is no goal" in errors) == (2, "", True)
