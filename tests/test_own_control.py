@@ -1,6 +1,7 @@
 """A control that is not built in goes through every door; the notebook 07 writes one from scratch."""
 
 from dataclasses import replace
+from inspect import isfunction, signature
 
 import pytest
 
@@ -56,6 +57,12 @@ def test_a_missing_row_is_named():
     bare = replace(MINE, rules=tuple(rule for rule in MINE.rules if rule.about is not RefusalKind.LINES_PARALLEL))
     with pytest.raises(LookupError, match=r"no row about RefusalKind.LINES_PARALLEL; .*GEOMETRY_RULES"):
         contoursolve.check("G17 G41 G0 X90 Y10\nG1 ,A150\nG1 X10 Y20 ,A150", control=bare)
+
+
+def test_every_public_function_with_a_control_says_that_it_takes_tables():
+    functions = [each for name in contoursolve.__all__ if isfunction(each := getattr(contoursolve, name))]
+    controls = [signature(each).parameters.get("control") for each in functions]
+    assert {str(each.annotation).count("Dialect") for each in controls if each} == {1}
 
 
 def test_every_door_takes_a_control_as_its_tables():
