@@ -20,19 +20,17 @@ def head(tip: Spot, way: Spot, role: Role, length: float = _LENGTH, half: float 
     )
 
 
-def line(
-    a: Spot, b: Spot, role: Role, width: float = THIN, *, is_dashed: bool = True, is_clipped: bool = False
-) -> Stroke:
+def line(a: Spot, b: Spot, role: Role, width: float = THIN, *, is_dashed: bool = True) -> Stroke:
     """A thin line in the dash of its role."""
-    return Stroke(a, (b,), role, width, DASHES.get(role, ()) if is_dashed else (), is_clipped)
+    return Stroke(a, (b,), role, width, DASHES.get(role, ()) if is_dashed else ())
 
 
 def cross(at: Spot, size: float, role: Role) -> list[Stroke]:
     """Two short lines through a place."""
     x, y = at
     return [
-        Stroke((x - size, y), ((x + size, y),), role, THIN, (), False),
-        Stroke((x, y - size), ((x, y + size),), role, THIN, (), False),
+        Stroke((x - size, y), ((x + size, y),), role, THIN),
+        Stroke((x, y - size), ((x, y + size),), role, THIN),
     ]
 
 

@@ -6,17 +6,18 @@ from dataclasses import replace
 from contoursolve.contour import Contour, Segment, trace
 from contoursolve.diagnostic import Severity
 from contoursolve.examine import Answer
-from contoursolve.model import FIRST, SECOND, Arc, Line, Plane, Profile
+from contoursolve.model import FIRST, SECOND, Arc, Line, Plane, Profile, scalar
 from contoursolve.output.solutions import list_solutions
-from contoursolve.pictures.dimensions import list_dimensions, words_at_points
+from contoursolve.pictures.dimensions import list_dimensions
 from contoursolve.pictures.faults import draw_faults
 from contoursolve.pictures.known import Known, find_known
-from contoursolve.pictures.scene import Aligned, Kind, Mark, Ring, Scene, Slide, Thin, Trail
+from contoursolve.pictures.marks import givens_at_points, list_marks
+from contoursolve.pictures.scene import Aligned, Ring, Scene, Slide, Thin, Trail, Weight
 from contoursolve.pictures.sheet import Run
 from contoursolve.pictures.theme import Role
-from contoursolve.pictures.tracing import corner_segment, trace_known
-from contoursolve.pictures.vectors import distance
-from contoursolve.pictures.wording import coordinate, word_text
+from contoursolve.pictures.tracing import trace_known
+from contoursolve.pictures.vectors import SAME, distance, foot, minus, unit
+from contoursolve.pictures.wording import visible
 from contoursolve.reading import Trouble
 from contoursolve.solving import Point, RefusalKind, RemarkKind
 from contoursolve.source import Span
@@ -29,9 +30,6 @@ MOST_REMARKS = 3
 MOST_SOLUTIONS = 6
 """Other solutions that are drawn."""
 
-_SAME = 1e-6
-"""mm. Points nearer to each other get one label."""
-
 
 def compose(answer: Answer, title: str | None = None) -> Scene:
     """The scene of one contour, whatever its status."""
@@ -39,26 +37,25 @@ def compose(answer: Answer, title: str | None = None) -> Scene:
     known = find_known(answer)
     roles = roles_of(answer)
     main = main_trails(answer, known)
-    elements = _elements(answer, known, main)
-    ghosts, labels = _ghosts(answer, known)
-    facts = (*profile.facts, *profile.ignored)
+    elements = _elements(main)
+    ghosts, places = _ghosts(answer, known)
     noted = {
-        point: words
-        for point, words in words_at_points(profile, facts).items()
-        if len(words) > 1 and point in known.points
+        point: givens
+        for point, givens in givens_at_points(profile).items()
+        if len(givens) > 1 and point in known.points
     }
-    noted_givens = frozenset(given for words in noted.values() for _, given in words.values())
+    noted_givens = frozenset(given for givens in noted.values() for given in givens)
     faults = list(draw_faults(answer, known))
     broken = [each for each in faults if isinstance(each, Ring)]
     circles = {(each.center, each.radius) for each in broken}
     ends = [segment.end for trail in main for segment in trail.segments]
-    marks = _marks(answer, known, roles, noted, labels, ends[-1] if ends else None)
+    marks = list_marks(answer, known, roles, noted, places, ends[-1] if ends else None)
     return Scene(
         title=title if title is not None else title_of(answer),
         axes=(axis_name(plane, FIRST), axis_name(plane, SECOND)),
         trails=(*ghosts, *main),
         thins=(
-            *_construction(profile, known),
+            *_construction(profile, known, elements),
             *(each for each in faults if isinstance(each, Thin)),
         ),
         rings=(*(each for each in _rings(answer, known) if (each.center, each.radius) not in circles), *broken),
@@ -125,7 +122,7 @@ def _blamed(answer: Answer) -> set[Span]:
 def main_trails(answer: Answer, known: Known) -> list[Trail]:
     """The path; in several roles where a part of it is refused or free."""
     if answer.contour is not None:
-        return [Trail(answer.contour.elements, Role.INK)]
+        return [Trail(answer.contour.elements, Role.INK)] if answer.contour.elements else []
     trails: list[Trail] = []
     for traced in trace_known(answer.profile, known):
         if trails and trails[-1].role is traced.role and trails[-1].segments[-1].end == traced.segment.start:
@@ -135,21 +132,17 @@ def main_trails(answer: Answer, known: Known) -> list[Trail]:
     return trails
 
 
-def _elements(answer: Answer, known: Known, trails: list[Trail]) -> dict[str, Segment]:
+def _elements(trails: list[Trail]) -> dict[str, Segment]:
     """What is drawn, by name."""
-    found = {
-        corner.name: corner_segment(corner, known.corners[corner.name])
-        for corner in answer.profile.figure.corners
-        if corner.name in known.corners
-    }
-    return found | {segment.name: segment for trail in trails for segment in trail.segments}
+    return {segment.name: segment for trail in trails for segment in trail.segments}
 
 
 def _ghosts(answer: Answer, known: Known) -> tuple[list[Trail], dict[str, list[tuple[Point, str]]]]:
     """Other contours, and where their computed intersections are with what selects each."""
     profile = answer.profile
     places: dict[str, list[tuple[Point, str]]] = {}
-    trails = [Trail(trace(profile, other).elements, Role.GHOST, is_main=False) for other in known.others]
+    others = (trace(profile, other).elements for other in known.others)
+    trails = [Trail(elements, Role.GHOST, Weight.GHOST) for elements in others if elements]
     listing = list_solutions(answer) if answer.alternatives is not None else None
     if listing is None:
         return trails, places
@@ -159,105 +152,59 @@ def _ghosts(answer: Answer, known: Known) -> tuple[list[Trail], dict[str, list[t
         if each.contour is None:
             continue
         selects = " ".join(each.selects)
-        own = [name for name, at in each.contour.points.items() if name in first and distance(at, first[name]) > _SAME]
+        own = [name for name, at in each.contour.points.items() if name in first and distance(at, first[name]) > SAME]
         is_drawn = answer.contour is None and not own and _is_path(each.contour, known)
-        if not is_drawn:
-            trails.append(Trail(each.contour.elements, Role.GHOST, selects, is_main=False))
+        if not is_drawn and each.contour.elements:
+            trails.append(Trail(each.contour.elements, Role.GHOST, Weight.GHOST))
         for name in own or [name for name in each.contour.points if name.startswith("P")]:
             places.setdefault(name, []).append((each.contour.points[name], selects))
     return trails, places
 
 
 def _is_path(contour: Contour, known: Known) -> bool:
-    return all(
-        name in known.points and distance(at, known.points[name]) <= _SAME for name, at in contour.points.items()
-    )
+    return all(name in known.points and distance(at, known.points[name]) <= SAME for name, at in contour.points.items())
 
 
-def _marks(
-    answer: Answer,
-    known: Known,
-    roles: Mapping[str, Role],
-    noted: Mapping[str, Mapping[int, tuple[object, str]]],
-    others: Mapping[str, list[tuple[Point, str]]],
-    end: Point | None,
-) -> Iterator[Mark]:
-    profile, plane, unit = answer.profile, answer.plane, answer.unit
-    choices = {choice.point: choice.given for choice in profile.choices if choice.given}
-
-    def computed(at: Point) -> Run:
-        return Run("  " + " ".join(coordinate(at, axis, plane, unit) for axis in (FIRST, SECOND)), Role.DERIVED)
-
-    def stated(name: str) -> list[Run]:
-        words = noted.get(name, {})
-        return [
-            Run("  " + word_text(profile.givens[given].word.text), roles.get(given, Role.GIVEN))  # type: ignore[union-attr]
-            for _, (_, given) in sorted(words.items())
-        ]
-
-    start = known.points.get(profile.figure.start)
-    if start is None:
-        return
-    places = " ".join(coordinate(start, axis, plane, unit) for axis in (FIRST, SECOND))
-    yield Mark(start, Kind.START, (Run("start", Role.INK), Run("  " + places, Role.MUTED)), (Run("start", Role.INK),))
-    done = [start]
-    final = next((name for name in reversed(list(known.points)) if end is not None and known.points[name] == end), "")
-    if end is not None:
-        is_free = bool(known.placed)
-        about = stated(final) or ([] if is_free else [computed(end)])
-        label, role = ("end (free)", Role.FREE) if is_free else ("end", Role.INK)
-        yield Mark(end, Kind.END, (Run(label, role), *about), (Run(label, role),))
-        done.append(end)
-    cut = {corner.at for corner in profile.figure.corners}
-    for name, at in known.points.items():
-        if any(distance(at, other) <= _SAME for other in done):
-            continue
-        is_shown = name in profile.intersections
-        words = stated(name)
-        if not is_shown and not words:
-            continue
-        runs = [Run(name, Role.INK if name not in known.placed else Role.FREE)] if is_shown else []
-        if name in choices and choices[name] in profile.givens:
-            word = profile.givens[choices[name]].word
-            runs += [Run("  " + word_text(word.text), roles.get(choices[name], Role.GIVEN))] if word else []
-        selects = next((text for place, text in others.get(name, []) if distance(place, at) <= _SAME), "")
-        runs += [Run("  " + selects, Role.GIVEN)] if selects else []
-        short = tuple(runs)
-        runs += words or ([computed(at)] if name not in known.placed else [])
-        kind = Kind.VIRTUAL if name in cut else Kind.PLACE
-        is_center = not is_shown and any(isinstance(each, Arc) and each.center == name for each in profile.figure.path)
-        yield Mark(at, Kind.CENTER if is_center else kind, _trimmed(runs), _trimmed(short))
-        done.append(at)
-    for name, places_of in others.items():
-        for at, selects in places_of:
-            if name in known.points and distance(at, known.points[name]) <= _SAME:
-                continue
-            runs = [Run(name, Role.GHOST), *([Run("  " + selects, Role.GHOST)] if selects else []), computed(at)]
-            yield Mark(at, Kind.PLACE, tuple(runs), tuple(runs[:-1]))
-    for element in profile.figure.path:
-        center = known.points.get(element.center) if isinstance(element, Arc) else None
-        if center is not None and all(distance(center, other) > _SAME for other in done):
-            yield Mark(center, Kind.CENTER)
-            done.append(center)
-
-
-def _trimmed(runs: list[Run] | tuple[Run, ...]) -> tuple[Run, ...]:
-    if not runs:
-        return ()
-    return (Run(runs[0].text.lstrip(), runs[0].role), *runs[1:])
-
-
-def _construction(profile: Profile, known: Known) -> Iterator[Thin]:
+def _construction(profile: Profile, known: Known, elements: Mapping[str, Segment]) -> Iterator[Thin]:
     """From the path to the virtual intersections that its corners cut off."""
     lines = {element.name for element in (*profile.figure.path, *profile.figure.lines) if isinstance(element, Line)}
     for corner in profile.figure.corners:
         built, at = known.corners.get(corner.name), known.points.get(corner.at)
-        if built is None or at is None:
+        if built is None or at is None or corner.name not in elements:
             continue
         if corner.before in lines:
             yield Thin(built.begin, at, Role.MUTED)
         if corner.after is None or corner.after in lines:
             yield Thin(at, built.end, Role.MUTED)
+    if profile.is_extended:
+        yield from _tangents(profile, known)
+
+
+def _tangents(profile: Profile, known: Known) -> Iterator[Thin]:
+    """From where a line of the path ends to where it touches a circle beyond."""
+    from contoursolve.constraints import TangentLine  # noqa: PLC0415 - see `constraints`
+
+    for fact in profile.facts:
+        if not isinstance(fact, TangentLine):
+            continue
+        line = next((each for each in profile.figure.path if each.name == fact.line), None)
+        if line is None or not {line.tail, line.head} <= known.points.keys():
+            continue
+        tail, head = known.points[line.tail], known.points[line.head]
+        center = known.points.get(fact.center, place_of(profile, fact.center))
+        if center is None or distance(tail, head) <= SAME:
+            continue
+        there = foot(center, tail, unit(minus(head, tail)))
+        near = min((tail, head), key=lambda end: distance(end, there))
+        if max(distance(tail, there), distance(head, there)) > distance(tail, head) + SAME:
+            yield Thin(near, there, Role.MUTED)
+
+
+def place_of(profile: Profile, name: str) -> Point | None:
+    """A point whose coordinates are given."""
+    given = [profile.givens.get(scalar(name, axis)) for axis in (FIRST, SECOND)]
+    values = [float(each.value) for each in given if each is not None]
+    return (values[0], values[1]) if len(values) == len(given) else None
 
 
 def _rings(answer: Answer, known: Known) -> Iterator[Ring]:
@@ -272,10 +219,9 @@ def _rings(answer: Answer, known: Known) -> Iterator[Ring]:
         if center is not None and radius is not None and is_wanted:
             yield Ring(center, radius, Role.MUTED)
     for circle in profile.figure.circles:
-        given = [profile.givens.get(name) for name in (f"{circle.center}.0", f"{circle.center}.1", circle.radius)]
-        values = [float(each.value) for each in given if each is not None]
-        if len(values) == len(given):
-            yield Ring((values[0], values[1]), values[2], Role.GIVEN)
+        center, radius = place_of(profile, circle.center), profile.givens.get(circle.radius)
+        if center is not None and radius is not None:
+            yield Ring(center, float(radius.value), Role.GIVEN)
 
 
 def _slides(answer: Answer, known: Known) -> Iterator[Slide]:
@@ -328,7 +274,7 @@ def _lines(answer: Answer, roles: Mapping[str, Role]) -> Iterator[tuple[Run, ...
 
 def _shown(run: Run) -> Run:
     """A run with nothing that cannot be seen."""
-    return Run("".join(each if each.isprintable() else (" " if each == "\t" else "·") for each in run.text), run.role)
+    return Run(visible(run.text), run.role)
 
 
 def _remarks(answer: Answer) -> Iterator[tuple[Run, ...]]:

@@ -1,6 +1,6 @@
 """Every word as a dimension where it belongs on the drawing."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from math import atan2, degrees
 
 from contoursolve.constraints import Coordinate, Heading, Offset, Radius
@@ -13,7 +13,6 @@ from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import along, distance, middle, minus, on_arc, unit
 from contoursolve.pictures.wording import number, word_text
 from contoursolve.source import Span
-from contoursolve.syntax import Word
 
 _BESIDE_ARROW = 0.36
 """Of an arc, from its start: where its radius is written, off the arrow in its middle."""
@@ -168,13 +167,3 @@ def _further(
             angle = degrees(atan2(head[1] - tail[1], head[0] - tail[0]))
         return Angle(tail, angle, text, role) if angle is not None else None
     return None
-
-
-def words_at_points(profile: Profile, facts: Iterable[Fact]) -> dict[str, dict[int, tuple[Word, str]]]:
-    """The words that state coordinates, by point and axis, with their givens."""
-    found: dict[str, dict[int, tuple[Word, str]]] = {}
-    for fact in facts:
-        given = profile.givens.get(fact.given)
-        if isinstance(fact, Coordinate) and given is not None and given.word is not None:
-            found.setdefault(fact.point, {}).setdefault(fact.axis, (given.word, fact.given))
-    return found

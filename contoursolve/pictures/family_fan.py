@@ -7,7 +7,7 @@ from contoursolve.examine import Answer
 from contoursolve.model import FIRST, SECOND
 from contoursolve.pictures.compose import axis_name, main_trails
 from contoursolve.pictures.known import find_known
-from contoursolve.pictures.scene import Kind, Mark, Scene, Trail
+from contoursolve.pictures.scene import Kind, Mark, Scene, Trail, Weight
 from contoursolve.pictures.sheet import Run
 from contoursolve.pictures.theme import Role
 from contoursolve.solving import Status
@@ -33,9 +33,11 @@ def compose_fan(word: str, values: Sequence[float], answers: Sequence[Answer], t
         own = main_trails(answer, find_known(answer))
         is_solved = answer.contour is not None
         role = Role.GIVEN if is_solved else Role.CONFLICTING
-        trails += [replace(trail, role=role, is_main=is_solved) for trail in own]
         is_edge = number and (answers[number - 1].contour is None) == is_solved
-        if own and (number % every == 0 or number == len(answers) - 1 or is_edge):
+        is_named = bool(own) and (number % every == 0 or number == len(answers) - 1 or is_edge)
+        weight = Weight.GHOST if not is_solved else Weight.MAIN if is_named else Weight.BESIDE
+        trails += [replace(trail, role=role, weight=weight) for trail in own]
+        if is_named:
             text = Run(f"{word}{value:g}", role)
             marks.append(Mark(own[-1].segments[-1].end, Kind.END, (text,), (text,)))
     plane = answers[0].plane

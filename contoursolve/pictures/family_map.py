@@ -8,15 +8,16 @@ from numpy.typing import NDArray
 
 from contoursolve.families import REASONS, Code, Family
 from contoursolve.pictures.arrows import line
-from contoursolve.pictures.metrics import shorten
+from contoursolve.pictures.metrics import shorten, wrap
 from contoursolve.pictures.sheet import Anchor, Box, Item, Run, Shape, Sheet, Spot, Stroke, Text
 from contoursolve.pictures.theme import Role
+from contoursolve.pictures.wording import visible
 
 _WIDTH, _WIDE, _HIGH = 760.0, 610.0, 400.0
 """Pixels of the page, and of the map itself."""
 
 _LEFT, _TOP = 92.0, 56.0
-_COLUMNS, _ROWS = 122, 80
+_COLUMNS, _ROWS = 305, 200
 """Cells of a map; of more values, the one nearest to the middle of each cell is shown."""
 
 _SIZE, _TITLE = 12.0, 14.0
@@ -25,6 +26,7 @@ _TICKS = 6
 _MOST_RUNS = 9_000
 
 Outcomes = NDArray[numpy.int64]
+Mask = NDArray[numpy.bool_]
 
 
 def map_title(family: Family, words: tuple[str, ...]) -> str:
@@ -41,23 +43,31 @@ def lay_out_map(family: Family, words: tuple[str, ...], title: str) -> Sheet:
     across, up = (family.ranges.values[word] for word in words)
     outcomes = family["status"].astype(numpy.int64) * len(REASONS) + family["reason"]
     outcomes = outcomes if own == tuple(words) else outcomes.T
-    columns, rows = _picks(across), _picks(up)
+    columns, rows = _picks(across, _COLUMNS), _picks(up, _ROWS)
     shown = outcomes[numpy.ix_(columns, rows)].T[::-1]
     items: list[Item] = [
-        Text((18.0, 26.0), (Run(shorten(title, _WIDTH - 36.0, _TITLE, is_bold=True), Role.INK),), _TITLE, is_bold=True)
+        Text(
+            (18.0, 26.0),
+            (Run(shorten(visible(title), _WIDTH - 36.0, _TITLE, is_bold=True), Role.INK),),
+            _TITLE,
+            is_bold=True,
+        )
     ]
     items += _fields(shown)
     items += _boundaries(shown)
     items += _axes(words, across[columns], up[rows])
-    items += _names(shown)
+    names, others = _names(shown)
+    items += names
     height = _TOP + _HIGH + 56.0
+    for told in wrap("too narrow to be named: " + "; ".join(others), _WIDTH - 36.0, _SIZE, 3) if others else ():
+        items.append(Text((18.0, height + 4.0), (Run(told, Role.MUTED),), _SIZE))
+        height += 17.0
     return Sheet(_WIDTH, height, Box(0.0, 0.0, _WIDTH, height), tuple(items))
 
 
-def _picks(values: NDArray[numpy.float64]) -> NDArray[numpy.int64]:
+def _picks(values: NDArray[numpy.float64], most: int) -> NDArray[numpy.int64]:
     """Which values are shown, in rising order."""
     order = numpy.argsort(values, kind="stable")
-    most = _COLUMNS
     if order.size <= most:
         return order
     return order[((numpy.arange(most) + 0.5) * order.size / most).astype(numpy.int64)]
@@ -92,13 +102,11 @@ def _boundaries(shown: Outcomes) -> list[Item]:
     for row, column in zip(*_starts(shown[1:] != shown[:-1]), strict=True):
         length = _run((shown[1:] != shown[:-1])[row, column:])
         y = _TOP + (row + 1) * high
-        items.append(
-            Stroke((_LEFT + column * wide, y), ((_LEFT + (column + length) * wide, y),), Role.INK, 1.4, (), False)
-        )
+        items.append(Stroke((_LEFT + column * wide, y), ((_LEFT + (column + length) * wide, y),), Role.INK, 1.4))
     for column, row in zip(*_starts((shown[:, 1:] != shown[:, :-1]).T), strict=True):
         length = _run((shown[:, 1:] != shown[:, :-1])[row:, column])
         x = _LEFT + (column + 1) * wide
-        items.append(Stroke((x, _TOP + row * high), ((x, _TOP + (row + length) * high),), Role.INK, 1.4, (), False))
+        items.append(Stroke((x, _TOP + row * high), ((x, _TOP + (row + length) * high),), Role.INK, 1.4))
     return items[:_MOST_RUNS]
 
 
@@ -116,39 +124,63 @@ def _run(values: NDArray[numpy.bool_]) -> int:
     return int(stops[0]) if stops.size else int(values.size)
 
 
-def _names(shown: Outcomes) -> list[Item]:
-    """The name of each field where it is widest."""
-    wide, high = _cell(shown)
+def _names(shown: Outcomes) -> tuple[list[Item], list[str]]:
+    """The name of each field in it, where there is room, and the names of the others."""
     items: list[Item] = []
-    taken: list[Box] = []
+    others: list[str] = []
     counts = {int(each): int((shown == each).sum()) for each in numpy.unique(shown)}
     for outcome in sorted(counts, key=lambda each: -counts[each]):
         code, reason = Code(outcome // len(REASONS)), REASONS[outcome % len(REASONS)]
-        texts = [code.status.value] + ([reason.value] if reason is not None else [])
-        spot = _deepest(shown == outcome, wide, high)
-        lines = [
-            Text(
-                (spot[0], spot[1] + 4.0 + 15.0 * number - 7.5 * (len(texts) - 1)),
-                (Run(text, Role.INK),),
-                _SIZE,
-                Anchor.MIDDLE,
-            )
-            for number, text in enumerate(texts)
-        ]
-        page = Box(_LEFT, _TOP, _LEFT + _WIDE, _TOP + _HIGH)
-        if all(page.holds(each.box) and not any(each.box.meets(box) for box in taken) for each in lines):
-            items += lines
-            taken += [each.box for each in lines]
-    return items
+        words = [code.status.value.replace("-", " "), *([reason.value.replace("-", " ")] if reason is not None else [])]
+        found = _fitting(words, shown == outcome, shown.shape)
+        items += found
+        if not found:
+            others.append(f"{', '.join(words)} ({counts[outcome] / shown.size:.1%})")
+    return items, others
 
 
-def _deepest(mask: NDArray[numpy.bool_], wide: float, high: float) -> Spot:
-    """The middle of the cell that is farthest from all others, counted more across than up, for texts are wide."""
+def _fitting(words: list[str], mask: Mask, shape: tuple[int, ...]) -> list[Item]:
+    """A name as texts that lie in their field: in lines, or turned in one line; nothing where neither does."""
+    wide, high = _WIDE / shape[1], _HIGH / shape[0]
+    for is_turned in (False, True):
+        x, y = _deepest(mask, (1, 4) if is_turned else (4, 1), wide, high)
+        if is_turned:
+            runs = (Run(", ".join(words), Role.INK),)
+            texts = [Text((x + 4.0, y), runs, _SIZE, Anchor.MIDDLE, is_turned=True)]
+        else:
+            first = y + 4.0 - 7.5 * (len(words) - 1)
+            texts = [
+                Text((x, first + 15.0 * number), (Run(word, Role.INK),), _SIZE, Anchor.MIDDLE)
+                for number, word in enumerate(words)
+            ]
+        if all(_holds(mask, text.box, wide, high) for text in texts):
+            return list(texts)
+    return []
+
+
+def _holds(mask: Mask, box: Box, wide: float, high: float) -> bool:
+    """Whether a box lies in a field."""
+    left, right = floor((box.left - _LEFT) / wide), floor((box.right - _LEFT) / wide)
+    top, bottom = floor((box.top - _TOP) / high), floor((box.bottom - _TOP) / high)
+    is_inside = left >= 0 and top >= 0 and right < mask.shape[1] and bottom < mask.shape[0]
+    return is_inside and bool(mask[top : bottom + 1, left : right + 1].all())
+
+
+def _deepest(mask: Mask, shape: tuple[int, int], wide: float, high: float) -> Spot:
+    """The middle of the place that is farthest from all other fields, where being far counts in a ratio across and
+    up, for a text is longer one way."""
+    across, up = shape
     inner, last = mask, mask
     while inner.any():
         last = inner
-        wider = numpy.pad(inner, ((1, 1), (3, 3)))
-        inner = inner & wider[:-2, 3:-3] & wider[2:, 3:-3] & wider[1:-1, :-6] & wider[1:-1, 6:]
+        wider = numpy.pad(inner, ((up, up), (across, across)))
+        inner = (
+            inner
+            & wider[: -2 * up, across:-across]
+            & wider[2 * up :, across:-across]
+            & wider[up:-up, : -2 * across]
+            & wider[up:-up, 2 * across :]
+        )
     rows, columns = numpy.nonzero(last)
     pick = len(rows) // 2
     return _LEFT + (int(columns[pick]) + 0.5) * wide, _TOP + (int(rows[pick]) + 0.5) * high
@@ -158,7 +190,7 @@ def _axes(words: tuple[str, ...], across: NDArray[numpy.float64], up: NDArray[nu
     """The frame with values of both words."""
     right, bottom = _LEFT + _WIDE, _TOP + _HIGH
     corners = ((right, _TOP), (right, bottom), (_LEFT, bottom), (_LEFT, _TOP))
-    items: list[Item] = [Stroke((_LEFT, _TOP), corners, Role.INK, 1.2, (), False)]
+    items: list[Item] = [Stroke((_LEFT, _TOP), corners, Role.INK, 1.2)]
     for value, share in _ticks(across):
         x = _LEFT + share * _WIDE
         items.append(line((x, bottom), (x, bottom + 5.0), Role.INK))

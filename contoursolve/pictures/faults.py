@@ -10,14 +10,11 @@ from contoursolve.model import FIRST, Fact, Line, Profile, Unit
 from contoursolve.pictures.known import Known
 from contoursolve.pictures.scene import Aligned, Ring, Thin
 from contoursolve.pictures.theme import Role
-from contoursolve.pictures.vectors import along, distance, foot, minus, toward, unit
+from contoursolve.pictures.vectors import SAME, along, distance, foot, minus, toward, unit
 from contoursolve.pictures.wording import number
 from contoursolve.solving import Point, Refusal, RefusalKind
 
 Drawn = Thin | Ring | Aligned
-
-_CLOSE = 1e-6
-"""mm. Places nearer to each other are one."""
 
 Ray = tuple[Point, Point]
 """A place on a line and its unit direction."""
@@ -47,7 +44,7 @@ def draw_faults(answer: Answer, known: Known) -> Iterator[Drawn]:
 
 
 def _gap(one: Point, other: Point, profile: Profile, role: Role) -> Iterator[Drawn]:
-    if distance(one, other) > _CLOSE:
+    if distance(one, other) > SAME:
         yield Aligned(one, other, number(distance(one, other), profile.unit) + " off", role)
 
 
@@ -58,7 +55,7 @@ def _both_places(fact: Fact, profile: Profile, known: Known, role: Role) -> Iter
         return
     if isinstance(fact, Heading):
         tail, head = known.points.get(fact.tail), known.points.get(fact.head)
-        if tail is not None and head is not None and distance(tail, head) > _CLOSE:
+        if tail is not None and head is not None and distance(tail, head) > SAME:
             way = toward(float(given.value))
             there = foot(head, tail, way)
             reach = distance(tail, head) * 1.15
@@ -150,9 +147,9 @@ def _parallel(refusal: Refusal, profile: Profile, known: Known) -> Iterator[Draw
     shown: list[Ray] = []
     for on, way in rays:
         for other, direction in shown:
-            is_same = abs(way[0] * direction[1] - way[1] * direction[0]) < _CLOSE
+            is_same = abs(way[0] * direction[1] - way[1] * direction[0]) < SAME
             there = foot(on, other, direction)
-            if is_same and distance(on, there) > _CLOSE:
+            if is_same and distance(on, there) > SAME:
                 yield Thin(other, along(other, direction, 1.0), Role.CONFLICTING, is_endless=True)
                 yield Thin(on, along(on, way, 1.0), Role.CONFLICTING, is_endless=True)
                 yield Aligned(there, on, number(distance(on, there), profile.unit) + " apart", Role.CONFLICTING)
@@ -164,7 +161,7 @@ def _off_circle(refusal: Refusal, profile: Profile, known: Known) -> Iterator[Dr
     at = known.points.get(refusal.subject)
     for center, radius in _circles_through(refusal.subject, profile, known)[:1]:
         yield Ring(center, radius, Role.CONFLICTING)
-        if at is not None and hypot(*minus(at, center)) > _CLOSE:
+        if at is not None and hypot(*minus(at, center)) > SAME:
             yield from _gap(along(center, unit(minus(at, center)), radius), at, profile, Role.CONFLICTING)
 
 

@@ -64,7 +64,8 @@ class Grid:
             share = number * CELL / length
             column = int((a[0] + (b[0] - a[0]) * share - self.page.left) / CELL)
             row = int((a[1] + (b[1] - a[1]) * share - self.page.top) / CELL)
-            total += self.cells[row * self.columns + column]
+            place = row * self.columns + column
+            total += self.cells[place] if 0 <= place < len(self.cells) else 0.0
         return total
 
     def is_crossed(self, a: Spot, b: Spot) -> bool:
@@ -103,10 +104,13 @@ def boxes_around(at: Spot, width: float, height: float, away: Spot) -> Iterable[
             way = away[0] * cos(angle) - away[1] * sin(angle), away[0] * sin(angle) + away[1] * cos(angle)
             # The box stands so that its nearest point is as far as it should be.
             middle = at[0] + way[0] * (far + width / 2), at[1] + way[1] * (far + height / 2)
+            turned = min(number, _WAYS - number) * 2 * pi / _WAYS
+            shifts: tuple[float, ...] = (0.0,)
             if abs(way[0]) < 0.2:  # noqa: PLR2004 - right above or below
-                middle = at[0], middle[1]
-            box = Box(middle[0] - width / 2, middle[1] - height / 2, middle[0] + width / 2, middle[1] + height / 2)
-            yield box, far, min(number, _WAYS - number) * 2 * pi / _WAYS
+                middle, shifts = (at[0], middle[1]), (0.0, width / 2 - 8.0, 8.0 - width / 2)
+            for shift in shifts:
+                x, y = middle[0] + shift, middle[1]
+                yield Box(x - width / 2, y - height / 2, x + width / 2, y + height / 2), far, turned
 
 
 def place_label(

@@ -1,5 +1,6 @@
 """Lays a scene out on a page: how large it is drawn, what stands in its margins, head and foot."""
 
+import re
 from collections.abc import Iterable, Iterator
 from math import hypot
 
@@ -27,11 +28,12 @@ from contoursolve.pictures.rows import (
     side_of,
     stack,
 )
-from contoursolve.pictures.scene import Aligned, Angle, Kind, Leader, Linear, Ordinate, Scene, Thin, Trail
+from contoursolve.pictures.scene import Aligned, Angle, Leader, Linear, Ordinate, Scene, Thin, Trail, Weight
 from contoursolve.pictures.sheet import Box, Item, Run, Sheet, Spot, Stroke, Sweep, Text, shift
 from contoursolve.pictures.theme import DASHES, MEANINGS, Role
 from contoursolve.pictures.vectors import middle, sweep_of
 from contoursolve.pictures.view import Span, View, span_of
+from contoursolve.pictures.wording import visible
 
 WIDTH = 760.0
 """Pixels of a page."""
@@ -44,6 +46,9 @@ _MARGIN_X, _MARGIN_Y = 84.0, 40.0
 """Pixels around the drawing for labels of points."""
 
 _TITLE, _LINE, _SMALL = 14.0, 17.0, 11.0
+_MOST_ROWS = 3
+"""Rows that a line of a program takes."""
+
 _ARROWED = 34.0
 """Pixels of an element that is long enough for an arrow."""
 
@@ -113,7 +118,7 @@ def lay_out(scene: Scene) -> Sheet:
     is_free = canvas.grid.cost(Box(frame.left, bottom - 34.0, _CORNER, bottom)) == 0.0
     foot = list(_foot(scene, canvas, bottom - (26.0 if is_free else -4.0)))
     height = max((_bottom(item) for item in foot), default=bottom) + 12.0
-    return Sheet(WIDTH, round(height, 1), frame, (*canvas.items, *top, *foot))
+    return Sheet(WIDTH, round(height, 1), frame, canvas.items, (*top, *foot))
 
 
 def _bottom(item: Item) -> float:
@@ -144,19 +149,47 @@ def _head(scene: Scene) -> Iterator[Text]:
     """The title and the program's lines."""
     y = _PAD + 6.0
     yield Text(
-        (_PAD, y), (Run(shorten(scene.title, WIDTH - 2 * _PAD, _TITLE, is_bold=True), Role.INK),), _TITLE, is_bold=True
+        (_PAD, y),
+        (Run(shorten(visible(scene.title), WIDTH - 2 * _PAD, _TITLE, is_bold=True), Role.INK),),
+        _TITLE,
+        is_bold=True,
     )
-    most = int((WIDTH - 2 * _PAD) / (MONO * SIZE))
+    y += 3.0
     for runs in scene.lines:
-        y += _LINE if y > _PAD + 6.0 else _LINE + 3.0
-        shown, left = [], most
-        for run in runs:
-            text = shorten(run.text, left * MONO * SIZE, SIZE, is_mono=True)
-            shown.append(Run(text, run.role))
-            left -= len(text)
-            if text != run.text or left <= 1:
-                break
-        yield Text((_PAD, y), tuple(shown) or (Run(" ", Role.MUTED),), SIZE, is_mono=True)
+        for row, shown in enumerate(_rows(runs)):
+            y += _LINE
+            yield Text((_PAD + (14.0 if row else 0.0), y), shown, SIZE, is_mono=True)
+
+
+def _rows(runs: tuple[Run, ...]) -> list[tuple[Run, ...]]:
+    """A line of a program in as many rows as it takes, up to `_MOST_ROWS`."""
+    most = (WIDTH - 2 * _PAD - 14.0) / (MONO * SIZE)
+    rows: list[list[Run]] = [[]]
+    used = 0.0
+    for run in runs:
+        # Broken before a word where it does not fit, or anywhere where it is longer than a row.
+        for piece in re.split(r"(?<=\s)(?=\S)", run.text):
+            wide = width_of(piece, 1.0, is_mono=True) / MONO
+            if used and used + wide > most:
+                rows.append([])
+                used = 0.0
+            rows[-1].append(Run(shorten(piece, most * MONO, 1.0, is_mono=True), run.role))
+            used += wide
+    kept = [row for row in rows if row][:_MOST_ROWS]
+    if len(rows) > _MOST_ROWS:
+        kept[-1] = [*kept[-1][:-1], Run("…", Role.MUTED)]
+    return [_merged(row) for row in kept]
+
+
+def _merged(row: list[Run]) -> tuple[Run, ...]:
+    """Neighbours in one role as one run."""
+    found: list[Run] = []
+    for run in row:
+        if found and found[-1].role is run.role:
+            found[-1] = Run(found[-1].text + run.text, run.role)
+        else:
+            found.append(run)
+    return tuple(found)
 
 
 def _foot(scene: Scene, canvas: Canvas, top: float) -> Iterator[Item]:
@@ -216,14 +249,15 @@ def _draw_path(canvas: Canvas, scene: Scene) -> None:
     for thin in scene.thins:
         ends = _ends_of(canvas, thin)
         if ends is not None:
-            canvas.draw(line(*ends, thin.role, 1.0 if thin.role is Role.MUTED else 1.4, is_clipped=True))
-    for trail in sorted(scene.trails, key=lambda each: each.is_main):
-        width = (THICK if trail.role is Role.INK else THICK - 0.4) if trail.is_main else 1.5
+            canvas.draw(line(*ends, thin.role, 1.0 if thin.role is Role.MUTED else 1.4))
+    for trail in sorted(scene.trails, key=lambda each: each.weight is Weight.MAIN):
+        is_main = trail.weight is Weight.MAIN
+        width = (THICK if trail.role is Role.INK else THICK - 0.4) if is_main else 1.4
         dash = () if trail.role is Role.INK else DASHES.get(trail.role, ())
         for stroke in _strokes(canvas, trail, width, dash):
-            canvas.draw(stroke, PATH_WEIGHT if trail.is_main else THIN_WEIGHT)
+            canvas.draw(stroke, PATH_WEIGHT if is_main else THIN_WEIGHT)
     for trail in scene.trails:
-        if trail.is_main:
+        if trail.weight is Weight.MAIN:
             for segment in _pointed(trail.segments, view):
                 at, way = middle(segment)
                 tip, step = view.place(at), (way[0], -way[1])
@@ -316,15 +350,11 @@ def _draw_labels(canvas: Canvas, scene: Scene) -> None:
             number += 1
     directions = _directions(canvas, scene)
     for mark in scene.marks:
-        if mark.label and number < _MOST_LABELS and mark.kind is not Kind.CENTER:
+        if mark.label and number < _MOST_LABELS:
             at = canvas.view.place(mark.at)
             away = away_from(directions.get((round(at[0]), round(at[1])), []))
             canvas.label(at, [mark.label, mark.short], away, Role.MUTED)
             number += 1
-    for trail in scene.trails:
-        if trail.label and not scene.marks:
-            at, _ = middle(trail.segments[len(trail.segments) // 2])
-            canvas.label(canvas.view.place(at), [(Run(trail.label, trail.role),)], (0.0, -1.0), trail.role)
 
 
 def _directions(canvas: Canvas, scene: Scene) -> dict[tuple[int, int], list[Spot]]:
@@ -355,10 +385,12 @@ def _directions(canvas: Canvas, scene: Scene) -> dict[tuple[int, int], list[Spot
 
 def stack_sheets(sheets: list[Sheet]) -> Sheet:
     """Pages under each other as one."""
-    items: list[Item] = []
+    drawing: list[Item] = []
+    around: list[Item] = []
     height = 0.0
     for sheet in sheets:
-        items += [shift(item, height) for item in sheet.items]
+        drawing += [shift(item, height) for item in sheet.drawing]
+        around += [shift(item, height) for item in sheet.around]
         height += sheet.height
     frame = Box(4.0, sheets[0].frame.top, WIDTH - 4.0, height)
-    return sheets[0] if len(sheets) == 1 else Sheet(WIDTH, round(height, 1), frame, tuple(items))
+    return sheets[0] if len(sheets) == 1 else Sheet(WIDTH, round(height, 1), frame, tuple(drawing), tuple(around))

@@ -7,7 +7,8 @@ from contoursolve.examine import Answer
 from contoursolve.model import FIRST, SECOND
 from contoursolve.pictures.compose import axis_name, main_trails
 from contoursolve.pictures.known import find_known
-from contoursolve.pictures.scene import Kind, Mark, Scene, Trail
+from contoursolve.pictures.moves import Move, list_moves
+from contoursolve.pictures.scene import Kind, Mark, Scene, Trail, Weight
 from contoursolve.pictures.sheet import Run
 from contoursolve.pictures.theme import Role
 from contoursolve.pipeline import Result
@@ -27,9 +28,10 @@ def compose_overview(result: Result, title: str | None) -> list[Scene]:
     if not answers:
         return [Scene(told, ("", ""), remarks=((Run("The program has no contour.", Role.MUTED),),))]
     scenes: list[Scene] = []
+    moves = list_moves(result)
     for plane in planes:
         own = [(number, answer) for number, answer in answers if answer.plane == plane]
-        scene = _scene(own)
+        scene = _scene(own, moves)
         scenes.append(replace(scene, title=told if not scenes else f"{plane.code}: {' and '.join(plane.axes)}"))
     return scenes
 
@@ -41,10 +43,13 @@ def _title(result: Result) -> str:
     return f"{result.program.name}: {number} contour{'' if number == 1 else 's'}" + (f" ({told})" if told else "")
 
 
-def _scene(answers: Sequence[tuple[int, Answer]]) -> Scene:
-    trails: list[Trail] = []
+def _scene(answers: Sequence[tuple[int, Answer]], moves: Sequence[Move]) -> Scene:
+    plane = answers[0][1].plane
+    trails = [Trail((move.segment,), Role.INK, Weight.BESIDE) for move in moves if move.axes == plane.axes]
     marks: list[Mark] = []
     remarks = []
+    if trails:
+        remarks.append((Run("thin: the moves that lead to contours and away from them", Role.MUTED),))
     for place, (number, answer) in enumerate(answers[:MOST_CONTOURS]):
         own = main_trails(answer, find_known(answer))
         is_solved = answer.contour is not None
@@ -58,7 +63,6 @@ def _scene(answers: Sequence[tuple[int, Answer]]) -> Scene:
             marks.append(Mark(own[-1].segments[-1].end, Kind.END))
     if len(answers) > MOST_CONTOURS:
         remarks.append((Run(f"... and {len(answers) - MOST_CONTOURS} more contours, which are not drawn", Role.MUTED),))
-    plane = answers[0][1].plane
     names = axis_name(plane, FIRST), axis_name(plane, SECOND)
     return Scene(
         "", names, tuple(trails), marks=tuple(marks), remarks=tuple(remarks), has_turning_axis=plane.diameters[SECOND]

@@ -2,6 +2,7 @@
 
 import io
 from typing import TYPE_CHECKING, Any
+from warnings import catch_warnings, simplefilter
 
 from contoursolve.pictures.sheet import Anchor, Dot, Shape, Sheet, Stroke, Sweep, Text
 from contoursolve.pictures.svg import points_on
@@ -38,7 +39,8 @@ def write_png(sheet: Sheet, theme: Theme, title: str, dpi: float) -> bytes:
             "a PNG picture needs matplotlib; install it with: pip install 'contoursolve[picture]'"
         ) from None
     # A user's own settings change nothing.
-    with rc_context({"path.simplify": False, "font.family": ["DejaVu Sans"], "text.usetex": False}):
+    with catch_warnings(), rc_context({"path.simplify": False, "font.family": ["DejaVu Sans"], "text.usetex": False}):
+        simplefilter("ignore")  # about characters that the font lacks; they are boxes then
         figure = Figure(figsize=(sheet.width / PIXELS, sheet.height / PIXELS), facecolor=theme.colors[Role.PAPER])
         canvas = FigureCanvasAgg(figure)
         _Painter(figure, sheet, theme).paint()
@@ -66,9 +68,10 @@ class _Painter:
 
     def paint(self) -> None:
         """Everything, each item over those before it."""
-        for number, item in enumerate(self.sheet.items):
+        inside = len(self.sheet.drawing)
+        for number, item in enumerate((*self.sheet.drawing, *self.sheet.around)):
             if isinstance(item, Stroke):
-                self._stroke(item, number)
+                self._stroke(item, number, is_clipped=number < inside)
             elif isinstance(item, Text):
                 self._text(item, number)
             else:
@@ -78,7 +81,7 @@ class _Painter:
         artist.set_zorder(number)
         self.figure.add_artist(artist)
 
-    def _stroke(self, stroke: Stroke, number: int) -> None:
+    def _stroke(self, stroke: Stroke, number: int, *, is_clipped: bool) -> None:
         from matplotlib.patches import PathPatch  # noqa: PLC0415
         from matplotlib.path import Path  # noqa: PLC0415
 
@@ -97,7 +100,7 @@ class _Painter:
             transform=self.transform,
         )
         self._add(patch, number)
-        if stroke.is_clipped:
+        if is_clipped:
             patch.set_clip_path(self.clip)
 
     def _patch(self, item: Shape | Dot, number: int) -> None:

@@ -12,15 +12,24 @@ from contoursolve.pictures.theme import Role
 from contoursolve.solving import Point
 
 
+class Weight(Enum):
+    """How much a picture is about a path."""
+
+    MAIN = "main"
+    """Drawn thick, with its direction."""
+    BESIDE = "beside"
+    """One of many."""
+    GHOST = "ghost"
+    """What might be instead; drawn where it does not make the others small."""
+
+
 @dataclass(frozen=True, slots=True)
 class Trail:
-    """A path, or a part of it. `label` says what selects it."""
+    """A path, or a part of it."""
 
     segments: tuple[Segment, ...]
     role: Role
-    label: str = ""
-    is_main: bool = True
-    """Whether it is what the picture is about; it is drawn thick, with its direction."""
+    weight: Weight = Weight.MAIN
 
 
 @dataclass(frozen=True, slots=True)

@@ -30,8 +30,6 @@ class Stroke:
     role: Role
     width: float
     dash: tuple[float, ...] = ()
-    is_clipped: bool = True
-    """Whether it ends where the drawing ends."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,17 +129,18 @@ Item = Stroke | Shape | Dot | Text
 
 @dataclass(frozen=True, slots=True)
 class Sheet:
-    """A page with everything on it, in the order in which it is painted; `frame` is where clipped strokes end."""
+    """A page: the drawing, which ends at its frame, and what stands around it, each as it is painted."""
 
     width: float
     height: float
     frame: Box
-    items: tuple[Item, ...] = field(repr=False)
+    drawing: tuple[Item, ...] = field(repr=False)
+    around: tuple[Item, ...] = field(default=(), repr=False)
 
     @property
     def texts(self) -> tuple[Text, ...]:
         """All texts."""
-        return tuple(item for item in self.items if isinstance(item, Text))
+        return tuple(item for item in (*self.drawing, *self.around) if isinstance(item, Text))
 
 
 FULL_TURN = 2 * pi

@@ -23,7 +23,8 @@ _PIECES = 48
 
 def write_svg(sheet: Sheet, theme: Theme, title: str, description: str) -> str:
     """The page as one SVG element, without an XML declaration, so that it can stand in HTML."""
-    body = "".join(_element(item, theme) for item in sheet.items)
+    drawing, around = ("".join(_element(item, theme) for item in items) for items in (sheet.drawing, sheet.around))
+    body = drawing + around
     name = "cs-" + sha256("\0".join((theme.value, title, description, body)).encode()).hexdigest()[:12]
     size = f'width="{_number(sheet.width)}" height="{_number(sheet.height)}"'
     frame = sheet.frame
@@ -38,7 +39,7 @@ def write_svg(sheet: Sheet, theme: Theme, title: str, description: str) -> str:
         f'<title id="{name}-title">{_clean(title)}</title><desc id="{name}-text">{_clean(description)}</desc>'
         f"<defs>{clip}</defs>{style}"
         f'<rect width="{_number(sheet.width)}" height="{_number(sheet.height)}" {_paint("fill", Role.PAPER, theme)}/>'
-        f"{body.replace('url(#frame)', f'url(#{name}-frame)')}</svg>\n"
+        f'<g clip-path="url(#{name}-frame)">{drawing}</g>{around}</svg>\n'
     )
 
 
@@ -63,12 +64,10 @@ def _paint(what: str, role: Role, theme: Theme) -> str:
 def _element(item: Item, theme: Theme) -> str:
     if isinstance(item, Stroke):
         dash = f' stroke-dasharray="{" ".join(map(_number, item.dash))}"' if item.dash else ""
-        clip = ' clip-path="url(#frame)"' if item.is_clipped else ""
         shape = "".join(_steps(item))
         join = ' stroke-linejoin="round" stroke-linecap="round"' if not item.dash else ""
         return (
-            f'<path d="{shape}" {_paint("stroke", item.role, theme)} stroke-width="{_number(item.width)}"'
-            f"{join}{dash}{clip}/>"
+            f'<path d="{shape}" {_paint("stroke", item.role, theme)} stroke-width="{_number(item.width)}"{join}{dash}/>'
         )
     if isinstance(item, Shape):
         places = " ".join(map(_place, item.corners))

@@ -56,9 +56,9 @@ LIGHT_COLORS: Mapping[Role, str] = {
     Role.IGNORED: "#8a4b00",
     Role.CONFLICTING: "#b91c1c",
     Role.FREE: "#7e22ce",
-    Role.SOLVED_FIELD: "#d9e6fb",
-    Role.REFUSED_FIELD: "#f7dfdc",
-    Role.OTHER_FIELD: "#ece4f5",
+    Role.SOLVED_FIELD: "#eaf1fd",
+    Role.REFUSED_FIELD: "#f0cdc8",
+    Role.OTHER_FIELD: "#dccfee",
 }
 
 DARK_COLORS: Mapping[Role, str] = {
@@ -72,8 +72,8 @@ DARK_COLORS: Mapping[Role, str] = {
     Role.CONFLICTING: "#fca5a5",
     Role.FREE: "#d8b4fe",
     Role.SOLVED_FIELD: "#1b3050",
-    Role.REFUSED_FIELD: "#45201f",
-    Role.OTHER_FIELD: "#322447",
+    Role.REFUSED_FIELD: "#5a2a27",
+    Role.OTHER_FIELD: "#3a2a55",
 }
 
 

@@ -5,6 +5,9 @@ from math import atan2, cos, hypot, pi, sin, tau
 from contoursolve.contour import ArcSegment, Segment
 from contoursolve.solving import Point
 
+SAME = 1e-6
+"""mm. Points nearer to each other are one on a drawing."""
+
 
 def minus(a: Point, b: Point) -> Point:
     """From b to a."""

@@ -4,13 +4,15 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from math import inf
 
-from contoursolve.pictures.scene import Aligned, Angle, Kind, Leader, Linear, Ordinate, Scene
+from contoursolve.pictures.scene import Aligned, Angle, Kind, Leader, Linear, Ordinate, Scene, Weight
 from contoursolve.pictures.sheet import Spot
 from contoursolve.pictures.vectors import extent
 from contoursolve.solving import Point
 
 MOST_TIMES = 3.0
 """How many times as large as what it is about a picture may become for the sake of what stands beside."""
+
+_ROUNDING = 1.001
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +53,7 @@ def span_of(scene: Scene) -> Span:
     """What a picture must show: the path and its points, and as much else as does not make the path small."""
     must: list[Point] = []
     for trail in scene.trails:
-        if trail.is_main:
+        if trail.weight is not Weight.GHOST:
             must += [at for segment in trail.segments for at in extent(segment)]
     must += [mark.at for mark in scene.marks if mark.kind is not Kind.CENTER]
     more: list[Point] = [mark.at for mark in scene.marks]
@@ -72,8 +74,8 @@ def span_of(scene: Scene) -> Span:
     own = _around(must or more or [(0.0, 0.0)])
     reach = max(*own.size, 1e-9)
     if max(own.size) <= 0:
-        reach = max(*_around([*must, *more]).size, 1.0) if more else 1.0
-    room = reach * (MOST_TIMES - 1) / 2
+        reach = max(*_around([*must, *more]).size, 1e-9)
+    room = reach * (MOST_TIMES - 1) / 2 * _ROUNDING
     near = [
         at
         for at in more

@@ -26,5 +26,10 @@ def coordinate(at: Point, axis: int, plane: Plane, unit: Length) -> str:
 
 def word_text(text: str) -> str:
     """A word as it is shown: without blanks around, not too long, and with nothing that cannot be seen."""
-    shown = "".join(each if each.isprintable() else "·" for each in " ".join(text.split()))
+    shown = visible(" ".join(text.split()))
     return shown if len(shown) <= LONGEST else shown[: LONGEST - 1] + "…"
+
+
+def visible(text: str) -> str:
+    """The text with what cannot be seen as dots, tabs as blanks: one character each."""
+    return "".join(each if each.isprintable() else (" " if each == "\t" else "·") for each in text)

@@ -1,0 +1,457 @@
+"""Pictures: every contour is drawn, labels stand apart, numbers are the contour's, and any reader can see it."""
+
+import os
+import random
+import re
+import struct
+import subprocess
+import sys
+import time
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy
+import pytest
+from click.testing import CliRunner
+from test_fuzz import mutate, windows
+from test_rules import examine, examples
+
+import contoursolve
+from contoursolve.cli import main
+from contoursolve.contour import ArcSegment
+from contoursolve.pictures import Picture, Theme, draw_answer, draw_family_fan, draw_family_map, draw_result
+from contoursolve.pictures.png import PIXELS
+from contoursolve.pictures.sheet import Box, Stroke, Text
+from contoursolve.pictures.theme import DARK_COLORS, DASHES, LIGHT_COLORS, Role
+
+PROGRAMS = sorted((Path(__file__).parent.parent / "notebooks" / "programs").glob("*.nc"))
+RANDOM = int(os.environ.get("CONTOURSOLVE_PICTURES", "240"))
+"""Random blocks that are drawn; 2,000 for a thorough run."""
+
+MOST_BYTES = 60_000
+SVG = "{http://www.w3.org/2000/svg}"
+CIRCLE = "G17 G41 G0 X50 Y0\nG3 X-50 Y0 R50\n"
+
+KINDS = {
+    "solved": ("G111 X100. A180. K-30. B120. P5. Q5.", "X40. Z0.", {}),
+    "bevels": ("G111 X100. A180. K-30. B120. C5. D5.", "X40. Z0.", {}),
+    "inches": ("G20\nG111 X4. A180. K-1. B120. P.2 Q.2", "G20 X2. Z0.", {"units": "inch"}),
+    "corner too large": ("G111 A180. K-20. P4. B90. X66. D0.5", "X60. Z-55.", {}),
+    "ignored": ("G111 A135. I10. K-12. B180. Z-40. X70. P2.", "X40. Z0.", {}),
+    "free": ("G111 X100. A180. K-30.", "X40. Z0.", {}),
+    "quite free": ("G111 A90. C2. Q3.", "X20. Z0.", {}),
+    "parallel": ("G111 X100. A180. K-30. B180.", "X40. Z0.", {}),
+    "reversed": ("G111 X100. A180. K-30. B-120.", "X40. Z0.", {}),
+    "conflicting": ("G111 A135. I10. K-12. B180. Z-40. P2.", "X40. Z0.", {"rules": "off"}),
+    "overlap": ("G111 X50. A180. K-30. B120. P9. Q9.", "X40. Z0.", {}),
+    "asked": ("G111 X100. A180. K-30. B120. P?", "X40. Z0.", {"facts": ["straight part of line 2 = 20"]}),
+    "without a start": ("G111 X100. A180. K-30. B120.", None, {}),
+    "G112": ("G112 U0 I10. K-50. P5. Q5. R30.", "X100. Z-50.", {}),
+    "G11": ("G11 Z-20. I8.", "X30. Z0.", {}),
+    "G01": ("G01 X80. K-7.", "X46. Z-20.", {"control": "yasnac-lx3"}),
+    "circle-line": (CIRCLE + "G1 X-50 Y42.857 ,A171.87 Q-1", None, {}),
+    "ambiguous": (CIRCLE + "G1 X-50 Y42.857 ,A171.87", None, {"rules": "off"}),
+    "missed": (CIRCLE + "G1 X-50 Y80 ,A171.87 Q1", None, {}),
+    "apart": (CIRCLE + "G3 X200 Y0 I200 J-20 R20 Q1", None, {}),
+    "radii differ": ("G17 G41 G0 X50 Y0\nG3 X-52 Y0 I-50 J0\nG1 X-50 Y42.857 ,A171.87 Q1", None, {}),
+    "G18": ("G18 G41 G0 Z50 X0\nG3 Z-50 X0 R50\nG1 Z-50 X42.857 ,A171.87 Q1", None, {}),
+    "tiny": ("G111 X0.002 A180. K-0.003 B120.", "X0. Z0.", {}),
+    "huge": ("G111 X100000. A180. K-30000. B120. P5. Q5.", "X99000. Z-90000.", {}),
+}
+
+
+def answers_of(name: str):
+    text, start, options = KINDS[name]
+    return contoursolve.solve(text, start=start, **options).answers
+
+
+def check(picture: Picture) -> ElementTree.Element:
+    """What holds for every picture; its SVG as a tree."""
+    sheet = picture.sheet
+    page = Box(0.0, 0.0, sheet.width, sheet.height)
+    texts = [text for text in sheet.texts if text.words.strip()]
+    for number, text in enumerate(texts):
+        assert page.grow(0.5).holds(text.box), text
+        for other in texts[:number]:
+            assert not text.box.meets(other.box), (text, other)
+    assert len(picture.svg.encode()) < MOST_BYTES
+    assert not re.search(r"nan|inf(?![a-z])", re.sub(r"<(title|desc|text|tspan)[^>]*>[^<]*", "", picture.svg))
+    tree = ElementTree.fromstring(picture.svg)
+    assert tree.tag == f"{SVG}svg"
+    assert tree.get("role") == "img"
+    title, description = tree[0], tree[1]
+    assert [title.tag, description.tag] == [f"{SVG}title", f"{SVG}desc"]
+    assert tree.get("aria-labelledby").split() == [title.get("id"), description.get("id")]
+    assert title.text
+    assert description.text
+    names = [each.get("id") for each in tree.iter() if each.get("id")]
+    assert len(names) == len(set(names))
+    return tree
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_every_kind_of_contour_is_drawn_with_labels_apart(name):
+    (answer,) = answers_of(name)
+    for theme in Theme:
+        tree = check(draw_answer(answer, theme=theme))
+        shown = " ".join("".join(each.itertext()) for each in tree.iter(f"{SVG}text"))
+        for word in answer.claim.words.values():
+            assert word.text.strip() in shown
+
+
+@pytest.mark.parametrize("path", PROGRAMS, ids=lambda path: path.stem)
+def test_labels_of_all_programs_in_the_repository_stand_apart(path):
+    result = contoursolve.solve_file(path)
+    check(draw_result(result))
+    for answer in result.answers:
+        check(draw_answer(answer))
+
+
+@pytest.mark.parametrize(("control", "code", "program"), examples("rejected"))
+def test_what_a_rule_refuses_is_drawn(control, code, program):
+    result = examine(program, control)
+    check(draw_result(result))
+
+
+def random_block(draw: random.Random) -> tuple[str, str]:
+    """Any words of G111 at any size, and a start point."""
+    size = 10.0 ** draw.uniform(-3, 5)
+    letters = draw.sample("XUZWABIKPQCD", draw.randrange(2, 9))
+    angles = (0, 45, 90, 120, 180, -30, 359.999)
+    words = [
+        f"{letter}{draw.choice(angles) if letter in 'AB' else draw.uniform(-size, size):.4f}" for letter in letters
+    ]
+    return f"G111 {' '.join(words)}", f"X{draw.uniform(0, size):.4f} Z{draw.uniform(-size, size):.4f}"
+
+
+HOSTILE = "(]]></svg><script>alert[1]</script> & \" ' \x0b \ud800 \u202e $x^2$ {0} %s \\ <!-- )"
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_random_blocks_of_every_status_are_drawn(seed):
+    draw, statuses = random.Random(seed), set()
+    near = windows()
+    for number in range(RANDOM // 8):
+        if number % 2:
+            text, start = random_block(draw)
+            result = contoursolve.solve(
+                f"{text} {HOSTILE}",
+                start=start,
+                rules=draw.choice(("enforce", "off")),
+                depth=draw.choice(("full", "verdict")),
+            )
+        else:
+            text, control = draw.choice(near)
+            for _ in range(draw.randrange(1, 4)):
+                text = mutate(text, draw)
+            result = contoursolve.solve(text, control=control, rules=draw.choice(("enforce", "off")))
+        for answer in result.answers:
+            statuses.add(answer.status.value)
+            check(draw_answer(answer, theme=draw.choice(list(Theme))))
+    assert len(statuses) > 3
+
+
+def labels(picture: Picture) -> list[str]:
+    return [text.words for text in picture.sheet.texts]
+
+
+def test_shown_numbers_are_those_of_the_contour():
+    draw = random.Random(5)
+    for _ in range(40):
+        angles = f"A{draw.uniform(140, 200):.1f} B{draw.uniform(100, 150):.1f}"
+        words = f"{angles} K-{draw.uniform(20, 40):.2f} X{draw.uniform(120, 200):.2f}"
+        answer = contoursolve.solve(f"G111 {words} P1. Q2.", start="X40. Z0.").answers[0]
+        if answer.contour is None:
+            continue
+        shown = labels(draw_answer(answer))
+        for name, at in {"end": answer.contour.end, **answer.contour.points}.items():
+            (label,) = [text for text in shown if text.startswith(f"{name}  ")]
+            z, x = map(float, re.fullmatch(rf"{name}  Z(\S+) X(\S+)", label).groups())
+            assert (z, x / 2) == pytest.approx(at, abs=6e-4)
+
+
+def test_inches_are_shown_as_the_program_has_them():
+    (answer,) = answers_of("inches")
+    assert "end  Z-1.6928 X4" in labels(draw_answer(answer))
+    assert answer.contour.end[0] / 25.4 == pytest.approx(-1.6928, abs=5e-5)
+
+
+def roles_of(name: str) -> dict[str, Role]:
+    """The roles of what is written in the drawing."""
+    (answer,) = answers_of(name)
+    sheet = draw_answer(answer).sheet
+    return {run.text.strip(): run.role for text in sheet.drawing if isinstance(text, Text) for run in text.runs}
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "role"),
+    [
+        ("solved", "A180.", Role.GIVEN),
+        ("bevels", "C5. x 45°", Role.GIVEN),
+        ("ignored", "A135.", Role.IGNORED),
+        ("ignored", "1.414 off", Role.IGNORED),
+        ("ignored", "5 off", Role.IGNORED),
+        ("corner too large", "P4. (max 2.5)", Role.CONFLICTING),
+        ("parallel", "30 apart", Role.CONFLICTING),
+        ("missed", "22.125 off", Role.CONFLICTING),
+        ("conflicting", "1.414 off", Role.CONFLICTING),
+        ("radii differ", "2 off", Role.CONFLICTING),
+        ("apart", "130.998 off", Role.CONFLICTING),
+        ("free", "end (free)", Role.FREE),
+        ("asked", "P = 25.359", Role.DERIVED),
+        ("ambiguous", "Q-1", Role.GHOST),
+        ("ambiguous", "Q1", Role.GIVEN),
+        ("circle-line", "Q-1", Role.GIVEN),
+        ("G18", ",A171.87", Role.GIVEN),
+    ],
+)
+def test_each_word_and_each_gap_is_shown_in_its_state(name, text, role):
+    assert roles_of(name).get(text) is role
+
+
+def test_what_is_free_has_arrows_and_other_completions_that_were_solved():
+    (answer,) = answers_of("free")
+    strokes = [item for item in draw_answer(answer).sheet.drawing if isinstance(item, Stroke)]
+    assert sum(stroke.role is Role.GHOST for stroke in strokes) == 3
+    arrows = [stroke for stroke in strokes if stroke.role is Role.FREE and not stroke.dash]
+    assert {round(stroke.start[1] - stroke.steps[0][1], 6) for stroke in arrows} == {0.0}  # along Z
+
+
+def luminance(color: str) -> float:
+    """WCAG 2.2, relative luminance."""
+    parts = [int(color[place : place + 2], 16) / 255 for place in (1, 3, 5)]
+    red, green, blue = (part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts)
+    return 0.2126 * red + 0.7152 * green + 0.0722 * blue
+
+
+def contrast(one: str, other: str) -> float:
+    low, high = sorted((luminance(one), luminance(other)))
+    return (high + 0.05) / (low + 0.05)
+
+
+@pytest.mark.parametrize("colors", [LIGHT_COLORS, DARK_COLORS], ids=["light", "dark"])
+def test_every_text_and_line_stands_out_from_its_ground(colors):
+    fields = {Role.SOLVED_FIELD, Role.REFUSED_FIELD, Role.OTHER_FIELD}
+    for role in set(Role) - fields - {Role.PAPER}:
+        assert contrast(colors[role], colors[Role.PAPER]) >= 4.5
+    for field in fields:
+        assert contrast(colors[Role.INK], colors[field]) >= 7
+
+
+def test_states_are_told_apart_without_colour():
+    states = (Role.GIVEN, Role.DERIVED, Role.IGNORED, Role.CONFLICTING, Role.FREE, Role.GHOST, Role.MUTED)
+    assert len({DASHES.get(role, ()) for role in states}) == len(states)
+
+
+def test_several_pictures_stand_in_one_page():
+    names = [
+        each.get("id")
+        for name in KINDS
+        for each in check(draw_answer(answers_of(name)[0], theme=Theme.PAGE)).iter()
+        if each.get("id")
+    ]
+    assert len(names) == len(set(names))
+
+
+def test_a_page_can_colour_its_pictures_and_a_file_needs_no_style_sheet():
+    (answer,) = answers_of("solved")
+    page, file = (draw_answer(answer, theme=theme).svg for theme in (Theme.PAGE, Theme.DARK))
+    (name,) = re.findall(r'^<svg[^>]* id="([^"]+)"', page)
+    assert f"#{name} .f-ink{{fill:var(--cs-ink,{LIGHT_COLORS[Role.INK]})}}" in page
+    assert f"@media (prefers-color-scheme:dark){{#{name} .s-paper" in page
+    assert not re.search("<style|class=|var", file)
+    assert DARK_COLORS[Role.PAPER] in file
+    # Where style sheets are taken out, a page has the light picture.
+    plain = re.sub(r"<style>.*?</style>| class=\"[^\"]*\"", "", page)
+    assert re.sub(name, "", plain) == re.sub("cs-[0-9a-f]{12}", "", draw_answer(answer).svg)
+
+
+def test_text_of_a_program_is_escaped():
+    text = f"G111 X100. A180. K-30. B120. P5. {HOSTILE}"
+    (answer,) = contoursolve.solve(text, start="X40. Z0.", facts=["line 2 passes through (Z-47.3205 X100.)"]).answers
+    picture = draw_answer(answer, title="<b>&\"'\x00")
+    tree = check(picture)
+    assert tree[0].text == "<b>&\"'�"
+    tags = "svg title desc defs clipPath rect g path polygon circle text tspan"
+    assert {each.tag for each in tree.iter()} <= {f"{SVG}{tag}" for tag in tags.split()}
+    assert picture.png(50)
+
+
+def test_the_same_contour_gives_the_same_bytes_in_every_process():
+    program = (
+        "import contoursolve, sys; from contoursolve.pictures import draw_result; "
+        "p = draw_result(contoursolve.solve_file(sys.argv[1])); sys.stdout.buffer.write(p.svg.encode() + p.png(60))"
+    )
+    found = {
+        subprocess.run(
+            [sys.executable, "-c", program, str(PROGRAMS[0])],
+            check=True,
+            capture_output=True,
+            env={**os.environ, "PYTHONHASHSEED": seed, "PYTHONPATH": ":".join(sys.path), "MPLBACKEND": backend},
+        ).stdout
+        for seed, backend in (("0", "agg"), ("7", "svg"))
+    }
+    assert len(found) == 1
+
+
+def test_a_png_has_the_size_that_is_asked_for():
+    picture = draw_answer(answers_of("solved")[0])
+    for dpi in (48, 96, 200):
+        data = picture.png(dpi)
+        assert data.startswith(b"\x89PNG")
+        size = struct.unpack(">II", data[16:24])
+        assert size == pytest.approx((picture.width * dpi / PIXELS, picture.height * dpi / PIXELS), abs=1)
+        assert b"tIME" not in data
+    for wrong in (0, -1, 1e9, float("nan")):
+        with pytest.raises(ValueError, match="cannot be painted"):
+            picture.png(wrong)
+
+
+def test_svg_needs_no_package_and_png_names_the_one_it_needs(monkeypatch):
+    program = (
+        "import sys, contoursolve; from contoursolve.pictures import draw_answer\n"
+        "a = contoursolve.solve('G111 X100. A180. K-30. B120.', start='X40. Z0.').answers[0]\n"
+        "draw_answer(a).svg; print(*({'matplotlib', 'sympy', 'scipy', 'PIL'} & sys.modules.keys()))"
+    )
+    assert subprocess.run([sys.executable, "-c", program], check=True, capture_output=True).stdout.split() == []
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    with pytest.raises(ImportError, match=r"pip install 'contoursolve\[picture\]'"):
+        draw_answer(answers_of("solved")[0]).png()
+
+
+def test_a_picture_is_made_in_less_than_25_ms():
+    for name in ("solved", "ignored", "ambiguous", "G112"):
+        (answer,) = answers_of(name)
+        times = []
+        for _ in range(12):
+            begin = time.perf_counter()
+            draw_answer(answer)
+            times.append(time.perf_counter() - begin)
+        assert min(times) < 0.025
+
+
+def test_arcs_keep_their_radius_and_sense():
+    (answer,) = answers_of("G112")
+    tree = check(draw_answer(answer))
+    (path,) = [each for each in tree.iter(f"{SVG}path") if each.get("stroke-width") == "2.6"]
+    arcs = re.findall(r"A([\d.]+) [\d.]+ 0 ([01]) ([01])", path.get("d"))
+    wanted = [each for each in answer.contour.elements if isinstance(each, ArcSegment)]
+    scale = float(arcs[0][0]) / wanted[0].radius
+    assert len(arcs) == len(wanted)
+    for (radius, large, clockwise), element in zip(arcs, wanted, strict=True):
+        assert float(radius) == pytest.approx(element.radius * scale, rel=1e-2)
+        assert (large, clockwise) == (str(int(element.sweep > 180)), str(int(element.turn.value == "cw")))
+
+
+# Families.
+
+BLOCK, START = "G111 X100. A180. K-30. B120. P5. Q5.", "X40. Z0."
+
+
+def test_a_map_names_every_outcome_with_its_boundary():
+    family = contoursolve.family(
+        BLOCK, start=START, vary={"A": numpy.arange(100, 260, 1.0), "P": numpy.arange(0, 40, 0.5)}
+    )
+    picture = draw_family_map(family)
+    check(picture)
+    told = " ".join(labels(picture))
+    for name in ("solved", "line reversed", "corner too large", "corners overlap"):
+        assert name in told
+    turned = draw_family_map(family, ("P", "A"), theme=Theme.PAGE)
+    assert check(turned).tag
+    assert turned.sheet != picture.sheet
+    with pytest.raises(ValueError, match="a grid of two words"):
+        draw_family_map(contoursolve.family(BLOCK, start=START, vary={"A": [170, 180]}))
+    with pytest.raises(ValueError, match="a grid of two words"):
+        draw_family_map(family, ("A", "Q"))
+
+
+def test_a_map_of_one_value_each_and_one_of_many_are_drawn():
+    for count in (1, 2, 700):
+        values = numpy.linspace(3.0, 4.0, count)
+        family = contoursolve.family(BLOCK, start=START, vary={"P": values, "Q": values})
+        check(draw_family_map(family))
+
+
+def test_a_fan_shows_each_contour_and_names_where_the_outcome_changes():
+    values = [120.0, 130.0, 140.0, 150.0, 160.0, 180.0, 200.0]
+    answers = [contoursolve.solve(BLOCK.replace("A180.", f"A{value}"), start=START).answers[0] for value in values]
+    picture = draw_family_fan("A", values, answers)
+    check(picture)
+    assert {"A120", "A140", "A200"} <= set(labels(picture))
+    with pytest.raises(ValueError, match="a value for each"):
+        draw_family_fan("A", values[:2], answers)
+    with pytest.raises(ValueError, match="cannot be read"):
+        draw_family_fan("A", values * 9, answers * 9)
+
+
+# The command.
+
+
+def plot(*arguments, **options):
+    done = CliRunner().invoke(main, ["plot", *map(str, arguments)], **options)
+    assert done.exception is None or isinstance(done.exception, SystemExit), done.exception
+    return done.exit_code, done.output
+
+
+SHAFT = next(path for path in PROGRAMS if path.stem == "shaft")
+
+
+def test_plot_writes_an_svg_of_the_whole_program_with_its_name(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    status, output = plot(SHAFT)
+    assert status == 0
+    assert "shaft.svg: 7 contours" in output
+    written = Path("shaft.svg").read_bytes()
+    assert written == draw_result(contoursolve.solve_file(SHAFT)).svg.encode()
+    assert plot(SHAFT)[0] == 2
+    assert plot(SHAFT, "--force")[0] == 0
+    assert plot("--block", BLOCK, "--start", START)[0] == 0
+    assert Path("contour.svg").is_file()
+
+
+def test_plot_writes_one_contour_or_each_in_the_theme_that_is_asked_for(tmp_path):
+    result = contoursolve.solve_file(SHAFT)
+    status, output = plot(SHAFT, "--line", 69, "-o", tmp_path / "a.PNG", "--theme", "dark")
+    assert (status, "a.PNG: line 69, solved" in output) == (0, True)
+    wanted = next(answer for answer in result.answers if answer.lines[0] == 69)
+    assert (tmp_path / "a.PNG").read_bytes() == draw_answer(wanted, theme=Theme.DARK).png()
+    status, output = plot(SHAFT, "--each", "-o", tmp_path / "b.svg")
+    assert sorted(path.name for path in tmp_path.glob("b*")) == sorted(
+        f"b-{answer.lines[0]}.svg" for answer in result.answers
+    )
+    status, output = plot(SHAFT, "--line", 1, "-o", tmp_path / "c.svg")
+    assert status == 2
+    assert "line 1 belongs to no contour; contours begin in lines 53, 67" in output
+    assert not (tmp_path / "c.svg").exists()
+    for wrong in (("--line", 69, "--each"), ("--each", "-o", "x.dxf"), ("--line", 69, "-o", "x.dxf")):
+        assert plot(SHAFT, *wrong)[0] == 2
+
+
+def test_plot_draws_what_cannot_be_solved_and_says_so(tmp_path):
+    target = tmp_path / "broken.svg"
+    status, output = plot("--block", "G111 X100. A180. K-30. B180.", "--start", START, "-o", target)
+    assert status == 1
+    assert "30 apart" in target.read_text()
+    assert "1 contour (1 no-solution)" in output
+    status, output = plot("--block", "G00 X1.", "--start", START, "--control", "yasnac-lx3", "-o", tmp_path / "no.svg")
+    assert status == 1
+    assert "no.svg: not written" in output
+
+
+def test_plot_of_a_png_without_matplotlib_says_what_to_install(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    status, output = plot(SHAFT, "-o", tmp_path / "a.png")
+    assert status == 2
+    assert "pip install 'contoursolve[picture]'" in output
+    assert not (tmp_path / "a.png").exists()
+
+
+@pytest.mark.parametrize(
+    ("name", "block", "start"),
+    [("g111", BLOCK, START), ("refused", "N310 G111 A180. K-20. P4. B90. X66. D0.5", "X60. Z-55.")],
+)
+def test_the_pictures_of_the_readme_are_what_the_command_draws(tmp_path, name, block, start):
+    target = tmp_path / "a.svg"
+    plot("--block", block, "--start", start, "--theme", "page", "-o", target)
+    assert target.read_bytes() == (PROGRAMS[0].parent.parent / "pictures" / f"{name}.svg").read_bytes()
