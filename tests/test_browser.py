@@ -174,22 +174,28 @@ def test_in_jupyterlab_a_slider_moves_the_path_and_a_finding_comes_and_goes(brow
         before = explorer.locator("figure").inner_html()
         page.screenshot(path=artefacts / "jupyterlab-solved.png")
 
-        slider = explorer.locator("input[type=range][aria-label^='P:']")
+        # Its range comes when nothing else is to do, and the slider then reaches beyond it.
+        row = explorer.locator(".row", has=page.locator("input[type=range][aria-label^='P:']"))
+        row.locator(".range", has_text="0 ≤ P ≤ 51.961").wait_for()
+        assert row.locator(".band span").count() == 1
+        slider = row.locator("input[type=range]")
         slider.focus()
-        slider.press("End")
-        slider.press("ArrowLeft")
-        explorer.locator(".state strong.fine").wait_for()
+        slider.press("PageUp")
         page.wait_for_function(DIFFERS, arg=[f"{EXPLORER} figure", before])
         assert explorer.locator(".finding").count() == 0
-
-        number = explorer.locator("input[type=number][aria-label^='P:']")
-        number.fill("60")
-        number.press("Enter")
+        slider.press("End")
         finding = explorer.locator(".finding.error")
         finding.wait_for()
         assert "corner 1 does not fit" in finding.inner_text()
         page.screenshot(path=artefacts / "jupyterlab-refused.png")
+        slider.press("PageDown")
+        finding.wait_for(state="detached")
+        assert explorer.locator(".state").inner_text().startswith("solved")
 
+        number = row.locator("input[type=number]")
+        number.fill("60")
+        number.press("Enter")
+        finding.wait_for()
         fix = explorer.locator("button.fix", has_text="write P")
         fix.click()
         finding.wait_for(state="detached")
@@ -202,8 +208,44 @@ def test_in_jupyterlab_a_slider_moves_the_path_and_a_finding_comes_and_goes(brow
         page.wait_for_function(READS, arg=[f"{EXPLORER} textarea", BLOCK])
 
         page.evaluate("window.jupyterapp.commands.execute('apputils:change-theme', {theme: 'JupyterLab Dark'})")
-        page.wait_for_selector("body[data-jp-theme-light='false']")
+        page.wait_for_selector("body[data-jp-theme-light='false']", state="attached")
         page.wait_for_selector("[data-theme='dark'] > .contoursolve.explorer")
         page.screenshot(path=artefacts / "jupyterlab-dark.png")
         watched.check()
         page.close()
+
+
+OVERFLOW = "document.documentElement.scrollWidth - document.documentElement.clientWidth"
+PAPER = "getComputedStyle(document.body).backgroundColor"
+
+
+@pytest.mark.parametrize("name", ["shaft_broken", "plate"])
+def test_the_report_opens_in_light_and_dark_and_prints(browser, tmp_path, artefacts, name):
+    written = tmp_path / f"{name}.html"
+    done = subprocess.run(
+        [sys.executable, "-m", "contoursolve", "report", str(PROGRAMS / f"{name}.nc"), "-o", str(written)],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == (name == "shaft_broken"), done.stderr
+    papers = []
+    for scheme in ("light", "dark"):
+        watched = Watched(browser, viewport={"width": 1280, "height": 1600}, color_scheme=scheme)
+        page = watched.page
+        page.goto(written.as_uri())
+        assert page.locator("article figure svg").count() == page.locator("article").count() >= 6
+        papers.append(page.evaluate(PAPER))
+        page.screenshot(path=artefacts / f"report-{name}-{scheme}.png")
+        page.screenshot(path=artefacts / f"report-{name}-{scheme}-all.png", full_page=True)
+        page.set_viewport_size({"width": 480, "height": 900})
+        assert page.evaluate(OVERFLOW) == 0
+        for target in page.locator("a[href^='#']").evaluate_all("links => links.map(link => link.hash)"):
+            assert page.locator(f"[id='{target[1:]}']").count() == 1, target
+        if scheme == "dark":
+            page.pdf(path=artefacts / f"report-{name}.pdf", format="A4")
+            page.emulate_media(media="print")
+            papers.append(page.evaluate(PAPER))
+        watched.check()
+        page.close()
+    assert papers == ["rgb(255, 255, 255)", "rgb(16, 21, 31)", "rgb(255, 255, 255)"]

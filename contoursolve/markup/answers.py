@@ -1,12 +1,10 @@
-"""A contour in HTML: its picture, and beside it as tables everything that the picture shows."""
+"""A contour in HTML: as tables everything that its picture shows."""
 
 from collections.abc import Iterator, Sequence
 
 import htpy as h
-from markupsafe import Markup
 
 from contoursolve.examine import Answer
-from contoursolve.markup.picture import picture_of
 from contoursolve.markup.tables import short, table
 from contoursolve.output.contours import (
     check_rows,
@@ -21,14 +19,6 @@ from contoursolve.output.solutions import list_solutions, printed_certificate
 
 MOST_ELEMENTS = 200
 """Rows of a table on a page."""
-
-
-def figure(answer: Answer) -> h.Element:
-    """The picture; where it cannot be drawn the page says so, and its tables say the same."""
-    try:
-        return h.figure[Markup(picture_of(answer))]  # our own painter escapes
-    except Exception as error:  # numbers that nobody draws must not keep the rest from the reader
-        return h.p[f"This contour cannot be drawn ({type(error).__name__})."]
 
 
 def words_table(answer: Answer) -> h.Element:

@@ -1,9 +1,20 @@
-"""The picture of a contour inside HTML."""
+"""Pictures for a page: SVG elements that take its colours."""
 
 from contoursolve.examine import Answer
-from contoursolve.pictures import Theme, draw_answer
+from contoursolve.families import Family
+from contoursolve.pictures import Theme, draw_answer, draw_family_map, draw_result
+from contoursolve.pipeline import Result
+
+Drawable = Answer | Result | Family
 
 
-def picture_of(answer: Answer) -> str:
-    """The picture as one SVG element that takes the colours of its page."""
-    return draw_answer(answer, theme=Theme.PAGE).svg
+def picture_of(record: Drawable) -> str:
+    """The picture of a contour, of all contours of a program, or of what becomes of a block over two of its words.
+
+    Raises ValueError for a family that is no grid of two words.
+    """
+    if isinstance(record, Result):
+        return draw_result(record, theme=Theme.PAGE).svg
+    if isinstance(record, Family):
+        return draw_family_map(record, theme=Theme.PAGE).svg
+    return draw_answer(record, theme=Theme.PAGE).svg

@@ -6,6 +6,7 @@ from importlib import import_module
 from itertools import islice
 
 from contoursolve.examine import Answer
+from contoursolve.families import Family
 from contoursolve.notebook.text import text_of
 from contoursolve.pipeline import Result
 from contoursolve.shown import Shown
@@ -25,18 +26,10 @@ def bundle(record: Shown) -> dict[str, str]:
     shown = {"text/plain": bounded(text_of(record))}
     if _is_terminal():
         return shown
-    answer = only_answer(record)
-    if answer is not None:
-        shown["image/svg+xml"] = _made("contoursolve.markup.picture", "picture_of", answer)
+    if isinstance(record, Answer | Result | Family) and (not isinstance(record, Result) or record.answers):
+        shown["image/svg+xml"] = _made("contoursolve.markup.picture", "picture_of", record)
     shown["text/html"] = _made("contoursolve.notebook.html", "html_of", record)
     return {kind: text for kind, text in shown.items() if kind == "text/plain" or 0 < len(text) <= MOST_CHARACTERS}
-
-
-def only_answer(record: Shown) -> Answer | None:
-    """The one contour that a record is about."""
-    if isinstance(record, Result) and len(record.answers) == 1:
-        return record.answers[0]
-    return record if isinstance(record, Answer) else None
 
 
 def bounded(lines: Iterable[str]) -> str:

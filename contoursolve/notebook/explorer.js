@@ -118,7 +118,7 @@ function render({ model, el }) {
     const band = make("div", { class: "band", "aria-hidden": "true" });
     const range = make("span", { class: "range" });
     const label = make("code", { class: "word" });
-    const meaning = make("span", { class: "meaning", text: field.meaning });
+    const meaning = make("span", { class: "meaning", text: field.meaning, title: field.meaning });
     const row = make(
       "div",
       { class: "row" },
@@ -157,7 +157,7 @@ function render({ model, el }) {
       row.slider.max = row.scale.high;
       row.slider.step = row.scale.step;
       const isFree = field.state === "free";
-      row.slider.disabled = row.number.disabled = isFree;
+      row.slider.disabled = isFree;
       row.free.setAttribute("aria-pressed", String(isFree));
       row.label.textContent = field.word;
       row.row.dataset.state = field.state;

@@ -13,12 +13,12 @@ from contoursolve.families import Family
 from contoursolve.markup.answers import (
     checks_table,
     cut,
-    figure,
     path_table,
     remarks,
     solutions_table,
     words_table,
 )
+from contoursolve.markup.figure import figure
 from contoursolve.markup.findings import finding_element
 from contoursolve.markup.style import notebook_style
 from contoursolve.markup.tables import short, table
@@ -44,6 +44,9 @@ from contoursolve.syntax import Block
 MOST_ITEMS = 20
 """Contours and findings that one output shows."""
 
+MAP_WORDS = 2
+"""Free words of a family that a map shows."""
+
 
 def html_of(record: Shown) -> str:
     """A record as one element with its style."""
@@ -59,6 +62,8 @@ def _text(record: Shown) -> Iterator[h.Node]:
 
 def _result(result: Result) -> Iterator[h.Node]:
     items = listed(result)
+    if len(result.answers) > 1:
+        yield figure(result)
     for item in items[:MOST_ITEMS]:
         if isinstance(item, Answer):
             yield from _contour_of(item, result)
@@ -80,14 +85,16 @@ def _contour_of(answer: Answer, result: Result) -> Iterator[h.Node]:
     yield h.h3[short(f"{result.program.name}:{answer.lines[0]}: {form.name} ({form.title}): {answer.status.value}")]
     yield figure(answer)
     yield path_table(answer)
-    yield h.details[h.summary["What was given"], words_table(answer)]
-    yield from solutions_table(answer)
     yield from remarks(answer, result.control or "")
-    yield checks_table(answer)
     for finding in answer.diagnostics[:MOST_ITEMS]:
         yield finding_element(finding, result.program.name, sources_of(result, finding))
     if len(answer.diagnostics) > MOST_ITEMS:
         yield h.p[f"and {count(len(answer.diagnostics) - MOST_ITEMS, 'finding')} more"]
+    yield from solutions_table(answer)
+    yield h.details[h.summary["What was given"], words_table(answer)]
+    checks = checks_table(answer)
+    if checks:
+        yield h.details[h.summary["What was checked"], checks]
 
 
 def _finding(finding: Diagnostic) -> h.Node:
@@ -134,6 +141,8 @@ def _examples(title: str, examples: Iterable[str]) -> Iterator[h.Node]:
 
 
 def _family(family: Family) -> Iterator[h.Node]:
+    if not family.ranges.is_paired and len(family.ranges.values) == MAP_WORDS:
+        yield figure(family)
     header, *rows = family_rows(family)
     yield table("Free words", header, rows, numbers=(1, 2, 3))
     header, *rows = status_rows(family)

@@ -62,7 +62,7 @@ def range_of(exploration: Exploration, field: Mapping[str, Any]) -> Data:
 
 
 def _note(found: Feasible, name: str) -> str:
-    """The ranges in a line, such as `0 <= P <= 51.961`."""
+    """The ranges in a line, such as `0 ≤ P ≤ 51.961`."""
     shown = " or ".join(filter(None, (_interval(each, name) for each in found.intervals)))
     known = "" if found.is_complete else " (at least)"
     if not found.intervals:
@@ -73,22 +73,22 @@ def _note(found: Feasible, name: str) -> str:
 def _interval(interval: Interval, name: str) -> str:
     if interval.low.value == interval.high.value:
         return f"{name} = {interval.low.value:.6g}"
-    low, high = _end(interval.low, ROUND_CEILING, "<"), _end(interval.high, ROUND_FLOOR, "<")
+    low, high = _end(interval.low, ROUND_CEILING), _end(interval.high, ROUND_FLOOR)
     if not low and high:
         return f"{name} {high}"
     if low and not high:
         value, _, sign = low.rpartition(" ")
-        return f"{name} {sign.replace('<', '>')} {value}"
+        return f"{name} {'>' if sign == '<' else '≥'} {value}"
     return f"{low} {name} {high}" if low and high else ""
 
 
-def _end(end: End, rounding: str, sign: str) -> str:
+def _end(end: End, rounding: str) -> str:
     """An end rounded into its range, with the sign that says whether it belongs to it."""
     if end.way is Way.RANGE:
         return ""
     exact = Decimal(repr(end.value))
     rounded = exact.quantize(_DIGITS, rounding)
-    sign = sign if rounded == exact and not end.is_included else f"{sign}="
+    sign = "<" if rounded == exact and not end.is_included else "≤"
     text = f"{rounded.normalize() + 0:f}"
     return f"{text} {sign}" if rounding == ROUND_CEILING else f"{sign} {text}"
 

@@ -123,7 +123,7 @@ def _number(word: Word) -> str:
 
 
 def _program(program: Program) -> Iterator[str]:
-    yield f"{program.name}: {count(len(program.blocks), 'line')}"
+    yield f"{printable(program.name)}: {count(len(program.blocks), 'line')}"
     width = len(str(len(program.blocks)))
     yield from (f"{block.line:>{width}} | {printable(block.text)}" for block in islice(program.blocks, 1_000))
 

@@ -27,7 +27,7 @@ def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False)
         # Found here once, for the construction and for the list.
         answer = replace(answer, alternatives=alternatives)
     form = answer.claim.form
-    lines = [f"{result.program.name}:{answer.lines[0]}: {form.name} ({form.title}): {answer.status.value}"]
+    lines = [f"{printable(result.program.name)}:{answer.lines[0]}: {form.name} ({form.title}): {answer.status.value}"]
     lines += [f"  {printable(block.text.strip())[:160]}" for block in answer.profile.blocks]
     lines += ["", *columns(given_rows(answer), left=(0, 3))]
     if is_explained:

@@ -41,7 +41,7 @@ def finding_pieces(finding: Diagnostic, name: str, sources: Mapping[int, str]) -
     role = finding.severity.value
     gutter = max((len(_margin(label.span.line)) for label in finding.labels), default=1)
     bar: list[Piece] = [(" " * (gutter + 1), ""), ("|", "frame")]
-    place = f"{name}:{finding.span.line}:{finding.span.column}"
+    place = f"{printable(name)}:{finding.span.line}:{finding.span.column}"
     if finding.span.line <= 0:
         place = f"{_margin(finding.span.line)}:{finding.span.column}"
     lines: list[list[Piece]] = [
@@ -76,7 +76,8 @@ def finding_pieces(finding: Diagnostic, name: str, sources: Mapping[int, str]) -
     lines.append([*foot, (f" source: {finding.source}", "")])
     if finding.alarm:
         lines.append([*foot, (f" control: alarm {finding.alarm.number} ({finding.alarm.evidence.value})", "")])
-    return [*lines, []]
+    # A message may quote what a fact says.
+    return [*([(printable(text), kind) for text, kind in line] for line in lines), []]
 
 
 def _margin(line: int) -> str:

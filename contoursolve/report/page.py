@@ -4,6 +4,7 @@ runs no script, so that it opens anywhere and says the same in ten years."""
 from collections import Counter
 from collections.abc import Callable, Iterator
 from importlib.resources import files
+from pathlib import PurePath
 
 import htpy as h
 from markupsafe import Markup
@@ -13,12 +14,12 @@ from contoursolve.dialects import DIALECTS
 from contoursolve.examine import Answer, Policy
 from contoursolve.markup.answers import (
     checks_table,
-    figure,
     path_table,
     remarks,
     solutions_table,
     words_table,
 )
+from contoursolve.markup.figure import figure
 from contoursolve.markup.findings import finding_element
 from contoursolve.markup.style import page_style
 from contoursolve.markup.tables import short, table
@@ -44,14 +45,13 @@ Progress = Callable[[], object]
 
 def report_page(result: Result, version: str, progress: Progress = lambda: None) -> Iterator[str]:
     """The page in pieces; `progress` is called after each contour."""
-    yield "<!doctype html>\n"
-    yield from _page(result, version, progress)
+    yield from _page(result, version, progress).iter_chunks()
     yield "\n"
 
 
 def _page(result: Result, version: str, progress: Progress) -> h.Element:
     places = find_places(result)
-    name = short(result.program.name)
+    name = short(PurePath(result.program.name).name)
     return h.html(lang="en")[
         h.head[
             h.meta(charset="utf-8"),
@@ -86,7 +86,8 @@ def _own_style() -> str:
 def _conditions(result: Result) -> h.Element:
     """The control, and everything apart from the program that the result depends on."""
     dialect = DIALECTS.get(result.control or "")
-    rows = [("control", f"{dialect.title} ({dialect.name})" if dialect else "not known")]
+    rows = [("program", result.program.name)]
+    rows.append(("control", f"{dialect.title} ({dialect.name})" if dialect else "not known"))
     if result.policy is not Policy.ENFORCE:
         rows.append(("rules of the manual", result.policy.value))
     rows += [("setting", f"{result.control}.{name}={value}") for name, value in sorted(result.settings.items())]
@@ -120,6 +121,7 @@ def _contours(result: Result, places: Places, progress: Progress) -> h.Element |
 
 def _contour(answer: Answer, number: int, result: Result, places: Places, progress: Progress) -> h.Element:
     found = [_finding(each, result, places) for each in answer.diagnostics]
+    path, words = path_table(answer), words_table(answer)
     element = h.article(id=f"contour-{number}")[
         h.h3[short(contour_name(answer, number)), ": ", _status(answer)],
         h.div(".blocks")[
@@ -128,11 +130,11 @@ def _contour(answer: Answer, number: int, result: Result, places: Places, progre
                 for block in answer.profile.blocks
             )
         ],
-        h.div(".beside")[figure(answer), h.div[path_table(answer), *remarks(answer, result.control or "")]],
-        words_table(answer),
-        solutions_table(answer),
-        checks_table(answer),
+        h.div(".beside")[figure(answer), h.div[path or words, *remarks(answer, result.control or "")]],
         found,
+        solutions_table(answer),
+        words if path else None,
+        checks_table(answer),
     ]
     progress()
     return element

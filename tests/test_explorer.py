@@ -1,0 +1,249 @@
+"""The explorer: a block is changed word by word, and what is shown is always what the block comes to."""
+
+import json
+import random
+import re
+import statistics
+import subprocess
+import sys
+import time
+from importlib.resources import files
+from pathlib import Path
+
+import pytest
+
+import contoursolve
+from contoursolve import Status
+from contoursolve.notebook import exploration as explore
+from contoursolve.notebook.reach import range_of
+from contoursolve.notebook.view import view_of
+
+WHOLE = "G111 X100. A180. K-30. B120. P5. Q5."
+START = {"start": "X40. Z0."}
+PAIR = "G17 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87"
+PROGRAMS = Path(__file__).parent.parent / "notebooks" / "programs"
+UPDATE = 0.05
+"""Seconds of the processor for a change and all that is shown of it."""
+
+
+def field(now, key):
+    return next(each for each in view_of(now)["fields"] if each["key"] == key)
+
+
+def test_a_word_is_written_as_the_control_reads_it():
+    now = explore.begin(WHOLE, **START)
+    assert explore.set_word(now, "P", 7.12349).text == "G111 X100. A180. K-30. B120. P7.123 Q5."
+    assert explore.set_word(now, "A", "-170").text == "G111 X100. A-170. K-30. B120. P5. Q5."
+    assert field(explore.set_word(now, "X", 90), "X")["value"] == 90
+    inch = explore.begin("G111 X4. A180. K-1. B120. P.2", start="X2. Z0.", units="inch")
+    moved = explore.set_word(inch, "P", 0.12345)
+    assert moved.text == "G111 X4. A180. K-1. B120. P0.1234"
+    assert (field(moved, "P")["value"], field(moved, "P")["unit"]) == (0.1234, "in")
+
+
+@pytest.mark.parametrize(("key", "value"), [("Z", 1), ("P", "x"), ("P", float("nan")), ("P", 1e300), ("P", "")])
+def test_what_is_no_word_or_no_number_is_refused(key, value):
+    with pytest.raises(ValueError, match=key):
+        explore.set_word(explore.begin(WHOLE, **START), key, value)
+
+
+def test_a_freed_word_gets_the_value_that_the_others_give_or_its_own_back():
+    now = explore.begin(WHOLE, facts=["straight part of line 2 = 20"], **START)
+    assert now.text.endswith("(contoursolve: straight part of line 2 = 20)")
+    free = explore.free(now, "P")
+    assert "P?" in free.text
+    assert field(free, "P")["state"] == "free"
+    assert field(free, "P")["value"] == pytest.approx(20.359, abs=1e-3)
+    given = explore.free(free, "P")
+    assert "P20.359 " in given.text
+    assert given.answer.contour is not None
+    open_ = explore.free(explore.begin(WHOLE, **START), "A")
+    assert open_.answer.status is Status.UNDERDETERMINED
+    assert field(open_, "A")["value"] is None
+    assert explore.free(open_, "A").text == WHOLE
+    assert explore.set_word(open_, "A", 175).text == WHOLE.replace("A180.", "A175.")
+
+
+def test_each_fix_gives_the_block_that_it_promises():
+    now = explore.begin("G111 X100. A180. K-30. B120. P60.", **START)
+    (found,) = view_of(now)["findings"]
+    for fix in found["fixes"]:
+        fixed = explore.apply_fix(now, fix["finding"], fix["number"])
+        assert fixed.answer.status is Status.SOLVED
+    chain = explore.begin(PAIR, rules="off")
+    texts = {explore.apply_fix(chain, 0, number).text for number in range(len(chain.result.diagnostics[0].fixes))}
+    assert texts == {f"{PAIR} Q-1", f"{PAIR} Q1"}
+    with pytest.raises(ValueError, match="no fix 9"):
+        explore.apply_fix(now, 0, 9)
+
+
+@pytest.mark.parametrize(
+    ("text", "facts", "options"),
+    [
+        (PAIR, (), {"rules": "off"}),
+        (f"{PAIR} Q1", (), {}),
+        ("G111 X100. A180. K-30. B?", ("line 2 tangent to circle (Z-40. X120. R10.)",), START),
+    ],
+    ids=["nothing chooses", "a word chooses", "a fact chooses"],
+)
+def test_each_solution_can_be_selected_and_is_then_the_contour(text, facts, options):
+    now = explore.begin(text, facts, **options)
+    items = view_of(now)["solutions"]["items"]
+    assert len(items) == 2
+    ends = set()
+    for item in items:
+        chosen = explore.select(now, item["number"])
+        assert chosen.answer.contour is not None, chosen.text
+        ends.add(tuple(round(value, 2) for at in chosen.answer.contour.points.values() for value in at))
+    assert len(ends) == 2
+
+
+def test_one_contour_is_explored_at_a_time():
+    with pytest.raises(ValueError, match=r"this text has 7 \(lines 53, 67"):
+        explore.begin((PROGRAMS / "shaft.nc").read_text())
+    with pytest.raises(contoursolve.UnknownControlError):
+        explore.begin("G111 A180.\nG3 X-50 Y0 R50 Q-1\nG1 X-50 Y42.857 ,A171.87")
+
+
+def act(now, rng):
+    """Something that a reader might do."""
+    view = view_of(now)
+    ways = [
+        lambda: explore.write(now, now.text[: rng.randrange(len(now.text) + 1)] + rng.choice(("P1.", "?", "(", "")))
+    ]
+    for each in view["fields"]:
+        share = rng.uniform(-0.2, 1.2)
+        value = each["low"] + share * (each["high"] - each["low"])
+        ways += [
+            lambda each=each, value=value: explore.set_word(now, each["key"], value),
+            lambda each=each: explore.free(now, each["key"]),
+        ]
+    for finding in view["findings"]:
+        ways += [lambda fix=fix: explore.apply_fix(now, fix["finding"], fix["number"]) for fix in finding["fixes"]]
+    for item in view["solutions"]["items"]:
+        if item["selects"]:
+            ways.append(lambda item=item: explore.select(now, item["number"]))
+    return rng.choice(ways)()
+
+
+@pytest.mark.parametrize(
+    "text", [WHOLE, f"{PAIR} Q-1", "G112 X60. I10. K-8. R10. P1. Q1."], ids=["G111", "pair", "G112"]
+)
+def test_whatever_the_reader_does_the_view_shows_what_the_text_comes_to(text):
+    rng = random.Random(f"explorer {text}")
+    options = {} if "G17" in text else START
+    seen = set()
+    for _ in range(4):
+        now = explore.begin(text, **options)
+        for _ in range(8):
+            now = act(now, rng)
+            view = view_of(now)
+            json.dumps(view, allow_nan=False)
+            assert view["text"] == now.text
+            fresh = contoursolve.solve(now.text, **options)
+            assert [each.message for each in fresh.diagnostics] == [each.message for each in now.result.diagnostics]
+            seen.add(view["status"]["text"])
+            for each in view["fields"]:
+                if each["state"] == "given":
+                    assert each["low"] <= each["value"] <= each["high"]
+        assert explore.reset(now).text == text
+    assert len(seen) > 1
+
+
+def test_a_range_on_a_slider_ends_where_single_solves_say_so():
+    now = explore.begin(WHOLE, **START)
+    for each in view_of(now)["fields"]:
+        found = range_of(now, each)
+        assert found["low"] <= each["low"] or found["low"] > -10_000
+        for low, high in found["intervals"]:
+            for end, inward in ((low, 1), (high, -1)):
+                if found["low"] < end < found["high"]:
+                    assert explore.set_word(now, each["key"], end + inward * 0.002).answer.contour is not None
+                    assert explore.set_word(now, each["key"], end - inward * 0.002).answer.contour is None
+    assert range_of(now, field(now, "P"))["note"] == "0 ≤ P ≤ 51.961"
+    assert range_of(now, field(now, "A"))["note"] == "138.219 ≤ A < 270"
+    assert range_of(explore.begin(f"{PAIR} Q-1"), {**field(explore.begin(f"{PAIR} Q-1"), "Q")}) == {}
+
+
+def test_an_update_takes_less_than_50_ms_of_python():
+    now = explore.begin(WHOLE, **START)
+    times = []
+    for number in range(24):
+        begin = time.process_time()
+        now = explore.set_word(now, "P", (5, 60, 20, 70)[number % 4] + number / 10)
+        json.dumps(view_of(now))
+        times.append(time.process_time() - begin)
+    assert statistics.median(times[4:]) < UPDATE
+
+
+@pytest.fixture
+def widget():
+    return contoursolve.explore(WHOLE, **START)
+
+
+def test_the_widget_answers_each_action_by_its_number(widget):
+    widget.action = {"do": "move", "key": "P", "value": 60, "number": 1}
+    assert (widget.view["number"], widget.view["status"]["text"], widget.view["trouble"]) == (1, "no-solution", "")
+    assert widget.text == WHOLE.replace("P5.", "P60.")
+    assert widget.result.answers[0].status is Status.NO_SOLUTION
+    widget.action = {"do": "range", "key": "P", "number": 2}
+    assert widget.ranges_number == 2
+    assert widget.ranges["P"]["intervals"][0][0] == 0
+    widget.action = {"do": "fix", "finding": 0, "fix": 0, "number": 3}
+    assert widget.view["status"]["text"] == "solved"
+    widget.action = {"do": "reset", "number": 4}
+    assert (widget.text, widget.view["is_changed"]) == (WHOLE, False)
+
+
+@pytest.mark.parametrize(
+    "action",
+    [
+        {"do": "move", "key": "P", "value": "?"},
+        {"do": "move", "key": "V", "value": 1},
+        {"do": "move", "key": "P"},
+        {"do": "fix", "finding": 7, "fix": 0},
+        {"do": "fix", "finding": None, "fix": 0},
+        {"do": "select", "solution": 3},
+        {"do": "write", "text": f"{WHOLE}\n{PAIR} Q-1"},
+        {"do": "nothing"},
+        {},
+    ],
+    ids=str,
+)
+def test_an_action_that_makes_no_sense_changes_nothing_and_is_told(widget, action):
+    widget.action = {**action, "number": 1}
+    assert widget.text == WHOLE
+    assert widget.view["number"] == 1
+    assert widget.view["trouble"]
+
+
+def test_without_a_kernel_the_picture_is_there(widget):
+    from nbconvert import HTMLExporter  # noqa: PLC0415 - slow to import
+    from nbformat import v4  # noqa: PLC0415
+
+    data, _ = widget._repr_mimebundle_()
+    assert {"application/vnd.jupyter.widget-view+json", "text/plain", "text/html", "image/svg+xml"} == set(data)
+    cell = v4.new_code_cell("explore", outputs=[v4.new_output("display_data", data)])
+    page, _ = HTMLExporter(embed_images=True).from_notebook_node(v4.new_notebook(cells=[cell]))
+    assert "<figure><svg" in page
+    assert "corner 1" in page
+
+
+def test_the_front_end_sets_texts_and_loads_nothing():
+    house = files("contoursolve.notebook")
+    script, sheet = (house.joinpath(f"explorer.{kind}").read_text() for kind in ("js", "css"))
+    assert not re.search(
+        r"innerHTML|outerHTML|insertAdjacentHTML|document\.write|eval\(|import\(|fetch\(|XMLHttp", script
+    )
+    assert not re.search(r"https?:|//cdn|@import|url\(", script.replace("// ", "") + sheet)
+
+
+def test_what_is_missing_is_named():
+    program = (
+        "import sys; sys.modules['anywidget'] = None; import contoursolve\n"
+        f"try:\n contoursolve.explore({WHOLE!r}, start='X40. Z0.')\nexcept ImportError as error: print(error)"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == (
+        "exploring a contour needs anywidget; install it with: pip install 'contoursolve[notebook]'"
+    )

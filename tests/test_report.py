@@ -1,0 +1,183 @@
+"""The report: one page that holds everything, loads nothing, and links both ways."""
+
+import re
+import subprocess
+import sys
+from html.parser import HTMLParser
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+import contoursolve
+from contoursolve.cli import main
+from contoursolve.output.contours import path_rows
+from contoursolve.report import report_page
+
+PROGRAMS = sorted((Path(__file__).parent.parent / "notebooks" / "programs").glob("*.nc"))
+BROKEN = next(path for path in PROGRAMS if path.stem == "shaft_broken")
+HOSTILE = "</style><script>alert(1)</script><img src=x onerror=alert(1)> &amp; \" ' \u202e \x07"
+VOID = ("meta",)
+
+
+def run(*arguments, **options):
+    done = CliRunner().invoke(main, ["report", *map(str, arguments)], **options)
+    assert done.exception is None or isinstance(done.exception, SystemExit), done.exception
+    return done.exit_code, done.output
+
+
+class Page(HTMLParser):
+    """What a browser makes of the page."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.text, self.elements, self.open, self.words, self.marked = text, [], [], [], []
+        self.feed(text)
+        self.close()
+        assert self.open == []
+
+    def handle_starttag(self, tag, attrs):
+        self.elements.append((tag, dict(attrs)))
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attrs):
+        self.elements.append((tag, dict(attrs)))
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        if "style" not in self.open:
+            self.words.append(data)
+        if self.elements and self.elements[-1][1].get("class", "").startswith("mark "):
+            self.marked.append(data)
+
+    def all(self, tag):
+        return [attributes for each, attributes in self.elements if each == tag]
+
+    @property
+    def shown(self):
+        return "".join(self.words)
+
+
+def page_of(result):
+    return Page("".join(report_page(result, "0")))
+
+
+@pytest.mark.parametrize("path", PROGRAMS, ids=lambda path: path.stem)
+def test_the_page_holds_every_number_every_finding_and_every_line(path):
+    result = contoursolve.solve_file(path)
+    page = page_of(result)
+    shown = page.shown
+    for block in result.program.blocks:
+        assert block.text in shown
+    for finding in result.diagnostics:
+        assert finding.message in shown
+        assert str(finding.source.place) in shown
+        assert all(note in shown for note in finding.notes)
+    for answer in result.answers:
+        assert all(cell in shown for row in path_rows(answer) for cell in row)
+    assert len(page.all("svg")) == len(page.all("figure")) == len(page.all("article")) == len(result.answers)
+    assert len(page.all("table")) >= 2 * len(result.answers)
+
+
+@pytest.mark.parametrize("path", PROGRAMS, ids=lambda path: path.stem)
+def test_the_page_loads_nothing_and_every_link_leads_somewhere(path):
+    page = page_of(contoursolve.solve_file(path))
+    assert page.text.startswith("<!doctype html><html")
+    assert "script" not in {tag for tag, _ in page.elements}
+    assert not re.search(r"https?://(?!www\.w3\.org/2000/svg)|@import|url\((?!#)", page.text)
+    names = [attributes["id"] for _, attributes in page.elements if attributes.get("id")]
+    assert len(names) == len(set(names))
+    links = {attributes["href"] for attributes in page.all("a")}
+    assert links <= {f"#{name}" for name in names}
+    spoken = [name for _, each in page.elements for name in each.get("aria-labelledby", "").split()]
+    assert set(spoken) <= set(names)
+
+
+def test_lines_lead_to_contours_and_findings_and_these_lead_back():
+    page = page_of(contoursolve.solve_file(BROKEN))
+    links = [each["href"] for each in page.all("a")]
+    assert {f"#contour-{number}" for number in range(1, 7)} <= set(links)
+    assert {f"#finding-{number}" for number in range(1, 8)} <= set(links)
+    assert links.count("#line-21") >= 3
+    assert {"A90.", "A135.", "P4.", "B-10.", "Z-95"} <= set(page.marked)
+
+
+def test_the_page_is_made_of_headings_in_order():
+    page = page_of(contoursolve.solve_file(BROKEN))
+    levels = [int(tag[1]) for tag, _ in page.elements if re.fullmatch("h[1-6]", tag)]
+    assert levels.count(1) == 1
+    assert all(after - before <= 1 for before, after in pairwise(levels))
+    assert all(each.get("scope") for each in page.all("th"))
+    assert page.elements[0] == ("html", {"lang": "en"})
+
+
+def test_whatever_stands_in_the_program_is_text_on_the_page():
+    inside = HOSTILE.replace("(", "[").replace(")", "]")
+    text = f"G00 X40. Z0. ({inside})\nG111 X100. A180. K-30. B120. (contoursolve: {inside})\nQ1{HOSTILE}"
+    page = page_of(contoursolve.solve(text, control="yasnac-lx3", name=f"{HOSTILE}.nc"))
+    assert {"script", "img"}.isdisjoint(tag for tag, _ in page.elements)
+    assert not any(name.startswith("on") for _, attributes in page.elements for name in attributes)
+    assert "<script>alert" in page.shown
+    assert "\x07" not in page.text
+
+
+@pytest.mark.parametrize("text", ["", "%\n%", "G0 X1 Y1\nM30", "(nothing)"], ids=["empty", "marks", "moves", "comment"])
+def test_a_program_without_a_contour_has_a_page(text):
+    page = page_of(contoursolve.solve(text))
+    assert "no contour" in page.shown
+
+
+def test_the_same_program_gives_the_same_bytes():
+    assert page_of(contoursolve.solve_file(BROKEN)).text == page_of(contoursolve.solve_file(BROKEN)).text
+
+
+def test_the_command_writes_one_page_and_tells_by_its_status_whether_there_are_errors(tmp_path):
+    target = tmp_path / "page.html"
+    code, output = run(BROKEN, "-o", target)
+    assert (code, output.splitlines()[-1]) == (1, f"{target} written")
+    assert "5 errors, 2 warnings" in output
+    code, output = run(BROKEN, "-o", target)
+    assert (code, "give --force to replace it" in output) == (2, True)
+    code, _ = run(PROGRAMS[0], "-o", target, "--force")
+    assert code == 0
+    assert PROGRAMS[0].name in target.read_text(encoding="utf-8")
+    block = ("--block", "G111 X100. A180. K-30. B120. P5.", "--start", "X40. Z0.", "-o", tmp_path / "b.html")
+    assert run(*block)[0] == 0
+    assert run("-", "-o", tmp_path / "c.html", input="G00 X40. Z0.\nG111 A180. B120.")[0] == 1
+    assert "Contour 1, line 2" in Page((tmp_path / "c.html").read_text(encoding="utf-8")).shown
+    warned = ("-", "--rules", "off", "--fact", "length of line 1 = 3", "-o", tmp_path / "d.html")
+    run(*warned, input="G00 X40. Z0.\nG111 A180. B120. X60.")
+    told = Page((tmp_path / "d.html").read_text(encoding="utf-8")).shown
+    assert "length of line 1 = 3" in told
+    assert "off" in told
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["x.nc"], "Missing option '-o'"),
+        (["x.nc", "-o", "x.pdf"], "name a page that ends with .html"),
+        (["absent.nc", "-o", "x.html"], "absent.nc: no such file"),
+        (["-o", "x.html"], "missing PROGRAM"),
+        (["-", "-o", "absent/x.html"], "is no directory"),
+        (["-", "--control", "fanuc", "-o", "x.html"], "'fanuc' is not one of"),
+    ],
+    ids=lambda value: " ".join(value) if isinstance(value, list) else None,
+)
+def test_what_cannot_be_done_is_said_in_a_line(tmp_path, monkeypatch, arguments, message):
+    monkeypatch.chdir(tmp_path)
+    code, output = run(*arguments, input="")
+    assert code == 2
+    assert message in output
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_without_htpy_the_extra_is_named(tmp_path):
+    program = "import sys; sys.modules['htpy'] = None\nfrom contoursolve.cli import main\nmain(sys.argv[1:])"
+    command = [sys.executable, "-c", program, "report", str(BROKEN), "-o", str(tmp_path / "x.html")]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (done.returncode, "contoursolve[report]" in done.stderr) == (2, True)

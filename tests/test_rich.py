@@ -1,0 +1,281 @@
+"""Records in notebooks: text, HTML and SVG of any block, whatever stands in it."""
+
+import os
+import random
+import re
+import subprocess
+import sys
+from html.parser import HTMLParser
+from xml.etree import ElementTree
+
+import pandas
+import pytest
+
+import contoursolve
+from contoursolve import Status
+from contoursolve.contour import ArcSegment
+from contoursolve.dialects import DIALECTS
+from contoursolve.markup import style
+from contoursolve.notebook import bundle as bundles
+
+BLOCKS = int(os.environ.get("CONTOURSOLVE_RICH", "160"))
+SHARDS = 4
+LARGEST = 400_000
+"""Characters of one kind of data of one block."""
+
+TEXT, HTML, SVG = "text/plain", "text/html", "image/svg+xml"
+HOSTILE = (
+    "<script>alert(1)</script>",
+    "</style><img src=x onerror=alert(1)>",
+    "]]> &amp; \" ' --> <!-- </svg>",
+    "\u202e\ufeff\x07\x1b[31m\x00",
+    "javascript:alert(1) {{7*7}} %s ${x}",
+    "\U0001f600 \ud7ff \ufffe" * 40,
+    "<" * 3000,
+)
+PICTURE = {
+    "style",
+    "svg",
+    "title",
+    "desc",
+    "defs",
+    "clippath",
+    "rect",
+    "path",
+    "polygon",
+    "circle",
+    "text",
+    "tspan",
+    "g",
+}
+LAYOUT = {"div", "section", "figure", "p", "pre", "code", "span", "h3", "h4", "details", "summary", "a"}
+TAGS = PICTURE | LAYOUT | {"table", "caption", "thead", "tbody", "tr", "th", "td"}
+WHOLE = "G111 X100. A180. K-30. B120. P5. Q5."
+BROKEN = "N310 G111 A180. K-20. P4. B90. X66. D0.5"
+
+
+class Page(HTMLParser):
+    """What a browser makes of a text: its elements, its attributes, and the text between them."""
+
+    VOID = ("br", "hr", "img", "input", "meta", "link")
+
+    def __init__(self, text):
+        super().__init__()
+        self.tags, self.attributes, self.open, self.words = [], [], [], []
+        self.feed(text)
+        self.close()
+        assert self.open == []
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.append(tag)
+        self.attributes += attrs
+        if tag not in self.VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attrs):
+        self.tags.append(tag)
+        self.attributes += attrs
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        if not self.open or self.open[-1] != "style":
+            self.words.append(data)
+
+    def handle_comment(self, data):
+        raise AssertionError(data)
+
+
+def check(data, has_picture=None):
+    """What holds for the data of any record."""
+    assert data[TEXT]
+    assert all(character == "\n" or character.isprintable() for character in data[TEXT]), data[TEXT]
+    assert all(len(text) < LARGEST for text in data.values())
+    page = Page(data[HTML])
+    assert set(page.tags) <= TAGS
+    assert [name for name, _ in page.attributes if name.startswith("on")] == []
+    links = [value for name, value in page.attributes if name in ("href", "src", "xlink:href")]
+    assert all(link.startswith("#") for link in links)
+    assert not re.search(r"https?://(?!www\.w3\.org/2000/svg)", "".join(value or "" for _, value in page.attributes))
+    assert data[HTML].count("<table") or not has_picture
+    if SVG in data:
+        root = ElementTree.fromstring(data[SVG])
+        names = {element.tag.rpartition("}")[2].lower() for element in root.iter()}
+        assert names <= PICTURE
+        spoken = root.get("aria-labelledby").split()
+        by_name = {element.get("id"): element.text for element in root.iter()}
+        assert all(by_name[name].strip() for name in spoken)
+    if has_picture:
+        assert SVG in data
+    return page
+
+
+def random_block(random):
+    """A block of either control with words left out, doubled and asked for, at any scale, with hostile comments."""
+    scale = 10 ** random.uniform(-3, 4.7)
+    length = lambda: f"{random.uniform(-1, 1) * scale:.{random.choice((0, 1, 3, 6))}f}."  # noqa: E731
+    number = lambda: length().replace("..", ".") if "." not in length()[:-1] else length().rstrip(".")  # noqa: E731
+    angle = lambda: f"{random.choice((180, 90, 120, 135, 0, 45, random.uniform(-360, 360))):g}."  # noqa: E731
+    comment = f"({random.choice(HOSTILE).replace(')', '').replace('(', '')})" if random.random() < 0.5 else ""
+    fact = random.choice(("", "", f"(contoursolve: {random.choice(('length of line 1 = 3', random.choice(HOSTILE)))})"))
+    if random.random() < 0.6:
+        sound = {"A": "180.", "K": f"-{scale:.4f}", "B": "120.", "X": f"{6 * scale:.4f}", "P": f"{scale / 9:.4f}"}
+        wild = {letter: angle() if letter in "AB" else number() for letter in random.sample("AIKBXZUWCDPQ", 4)}
+        words = {**sound, **(wild if random.random() < 0.5 else {})}
+        for letter in [*words]:
+            chance = random.random()
+            if chance < 0.1:
+                del words[letter]
+            elif chance < 0.14:
+                words[letter] = "?"
+        body = " ".join(f"{letter}{re.sub('[.]+$', '.', value)}" for letter, value in words.items())
+        return f"G00 X{2 * scale:.4f} Z0.\nG111 {body} {comment} {fact}", "yasnac-lx3"
+    side = random.choice(("", " Q1", " Q-1", " Q?"))
+    far = random.choice((42.857, 42.857, random.uniform(-100, 100))) / 50 * scale
+    tilt = random.choice(("171.87", "171.87", f"{random.uniform(0, 360):.2f}"))
+    line = f"G1 X{-scale:.4f} Y{far:.4f} ,A{tilt}{side} {comment} {fact}"
+    return f"G17 G41 G0 X{scale:.4f} Y0\nG3 X{-scale:.4f} Y0 R{scale:.4f}\n{line}", "nct-99m"
+
+
+@pytest.mark.parametrize("shard", range(SHARDS))
+def test_any_block_is_shown_as_text_html_and_svg_that_hold_nothing_but_what_they_should(shard):
+    rng = random.Random(f"rich {shard}")
+    seen = set()
+    for number in range(BLOCKS // SHARDS):
+        text, control = random_block(rng)
+        rules = rng.choice(("enforce", "warn", "off"))
+        result = contoursolve.solve(text, control=control, rules=rules, name=rng.choice(HOSTILE))
+        seen |= {answer.status for answer in result.answers}
+        for record in (result, *result.answers, *result.diagnostics[:2]):
+            data = record._repr_mimebundle_()
+            check(data, has_picture=record in result.answers)
+            if number % 8 == 0:
+                again = contoursolve.solve(text, control=control, rules=rules, name=result.program.name)
+                assert result is not record or again._repr_mimebundle_() == data
+        for record in (result.program, *result.program.blocks):
+            check(record._repr_mimebundle_())
+    assert len(seen) >= 5, seen
+
+
+UNUSUAL = {
+    Status.SOLVED: (WHOLE, "enforce"),
+    Status.REJECTED: ("G111 X100. A180. B120.", "enforce"),
+    Status.UNDERDETERMINED: ("G111 X100. A180. B120. K?", "enforce"),
+    Status.CONFLICTING: ("G111 X100. A180. K-30. B120. Z-60.", "off"),
+    Status.OVERDETERMINED: ("G111 A135. I10. K-10. B180. Z-40.", "off"),
+    Status.NO_SOLUTION: ("G111 X100. A180. K-30. B120. P60.", "enforce"),
+    Status.AMBIGUOUS: ("G17 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87", "off"),
+}
+
+
+@pytest.mark.parametrize("status", UNUSUAL, ids=lambda status: status.value)
+def test_a_contour_of_each_status_has_a_picture_and_a_table_beside_it(status):
+    text, rules = UNUSUAL[status]
+    start = None if "G17" in text else "X40. Z0."
+    result = contoursolve.solve(text, start=start, rules=rules)
+    (answer,) = result.answers
+    assert answer.status is status
+    for record in (result, answer):
+        page = check(record._repr_mimebundle_(), has_picture=True)
+        assert {"figure", "svg", "table", "caption"} <= set(page.tags)
+        shown = "".join(page.words)
+        assert status.value in shown
+        assert all(finding.message in shown for finding in answer.diagnostics)
+    if answer.diagnosis:
+        check(answer.diagnosis._repr_mimebundle_())
+
+
+def test_the_text_is_what_the_terminal_prints():
+    from click.testing import CliRunner  # noqa: PLC0415
+
+    from contoursolve.cli import main  # noqa: PLC0415
+
+    printed = CliRunner().invoke(main, ["solve", "--block", BROKEN, "--start", "X60. Z-55."]).output
+    result = contoursolve.solve(BROKEN, start="X60. Z-55.", name="<block>")
+    assert result._repr_mimebundle_()[TEXT] == printed.rstrip()
+
+
+def test_families_rules_and_paths_show_themselves():
+    family = contoursolve.family(WHOLE, start="X40. Z0.", vary={"A": range(150, 200, 5), "P": [1, 20, 60]})
+    data = family._repr_mimebundle_()
+    check(data, has_picture=True)
+    assert "30 contours" in data[TEXT]
+    alone = contoursolve.family(WHOLE, start="X40. Z0.", vary={"A": range(150, 200, 5)})
+    assert SVG not in alone._repr_mimebundle_()
+    check(alone._repr_mimebundle_())
+    contour = contoursolve.solve(WHOLE, start="X40. Z0.").answers[0].contour
+    assert "-50.2073" in "".join(check(contour._repr_mimebundle_()).words)
+    for dialect in DIALECTS.values():
+        for rule in dialect.rules:
+            assert rule.code in "".join(check(rule._repr_mimebundle_()).words)
+    sketch = contoursolve.Sketch()
+    sketch.circle("k", center=(0, 0), radius=3)
+    check(sketch.solve()._repr_mimebundle_())
+
+
+def test_a_large_program_stays_small():
+    text = "G00 X40. Z0.\n" + "G111 A180. K-3. B120. X60. P1.\nG00 X40. Z0.\n" * 400
+    data = contoursolve.solve(text)._repr_mimebundle_()
+    assert all(len(each) < bundles.MOST_CHARACTERS for each in data.values())
+    assert "381 more" in "".join(Page(data[HTML]).words) or "380 more" in "".join(Page(data[HTML]).words)
+    assert len(data[TEXT].splitlines()) <= bundles.MOST_LINES + 1
+
+
+def test_what_cannot_be_drawn_is_told_and_what_cannot_be_made_is_left_out(monkeypatch):
+    answer = contoursolve.solve(WHOLE, start="X40. Z0.").answers[0]
+
+    def fail(*_):
+        raise RuntimeError("no")
+
+    monkeypatch.setattr("contoursolve.markup.figure.picture_of", fail)
+    monkeypatch.setattr("contoursolve.markup.picture.draw_answer", fail)
+    data = answer._repr_mimebundle_()
+    assert SVG not in data
+    assert "cannot be drawn" in "".join(Page(data[HTML]).words)
+    monkeypatch.setattr("contoursolve.notebook.html.html_of", fail)
+    assert list(answer._repr_mimebundle_()) == [TEXT]
+    monkeypatch.setattr("contoursolve.notebook.bundle.text_of", fail)
+    assert answer._repr_mimebundle_() == {TEXT: repr(answer)}
+
+
+def test_without_htpy_there_are_text_and_picture():
+    program = (
+        "import sys; sys.modules['htpy'] = None; import contoursolve\n"
+        f"print(*contoursolve.solve({WHOLE!r}, start='X40. Z0.')._repr_mimebundle_())"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert done.stdout.split() == [TEXT, SVG]
+
+
+def test_only_the_wanted_kinds_are_given():
+    result = contoursolve.solve(WHOLE, start="X40. Z0.")
+    assert list(result._repr_mimebundle_(include={TEXT})) == [TEXT]
+    assert list(result._repr_mimebundle_(exclude={HTML})) == [TEXT, SVG]
+
+
+def test_the_table_of_a_path_becomes_a_data_frame_with_units_in_its_names():
+    contour = contoursolve.solve(WHOLE, start="X40. Z0.").answers[0].contour
+    frame = pandas.DataFrame(contour.table())
+    assert list(frame.columns[:6]) == [
+        "name", "kind", "start_Z_mm", "start_X_radius_mm", "end_Z_mm", "end_X_radius_mm",
+    ]  # fmt: skip
+    for row, element in zip(frame.itertuples(), contour.elements, strict=True):
+        assert (row.end_Z_mm, row.end_X_radius_mm) == element.end
+        assert row.length_mm == element.length
+        assert (row.kind == "arc") == isinstance(element, ArcSegment)
+    mill = contoursolve.solve("G17 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q-1").answers[0].contour
+    assert {"end_X_mm", "center_Y_mm"} <= set(pandas.DataFrame(mill.table()).columns)
+
+
+@pytest.mark.parametrize("colors", [style.LIGHT, style.DARK], ids=["light", "dark"])
+def test_every_text_can_be_read_on_its_ground(colors):
+    def luminance(color):
+        parts = [int(color[place : place + 2], 16) / 255 for place in (1, 3, 5)]
+        linear = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts]
+        return sum(weight * part for weight, part in zip((0.2126, 0.7152, 0.0722), linear, strict=True))
+
+    for ground in ("paper", "shade"):
+        for name in ("ink", "muted", "given", "derived", "ignored", "conflicting", "free"):
+            light, dark = sorted((luminance(colors[name]), luminance(colors[ground])), reverse=True)
+            assert (light + 0.05) / (dark + 0.05) >= 4.5, (name, ground)
