@@ -1,5 +1,6 @@
 """A family says of every row what a single solve says of the block with these values."""
 
+import re
 import sys
 
 import click
@@ -185,7 +186,10 @@ def test_types_are_as_documented_and_reasons_have_names():
         (BLOCK, {"A": ["x"]}, "the values of A are not numbers"),
         (BLOCK, {"A": [float("nan")]}, "the values of A must be finite"),
         (BLOCK, {"A": [1, 2], "P": [1, 2, 3]}, "A has 2, P has 3"),
-        (BLOCK + " (contoursolve: length of line 1 = 30)", {"A": [180]}, "about words alone"),
+        (BLOCK, {"length of line 1": [180]}, "no fact says what length of line 1 is; there are none"),
+        (BLOCK, {"start.U": [180]}, "the start point has no word U; its words are X, Z"),
+        (BLOCK + " (contoursolve: length of line 1 = ?)", {"length of line 1": [1]}, "? is no number"),
+        ("G112 X100. K-30. I10. R20.", {"X": [1], "start.X": [1]}, "vary one of them at a time"),
         (BLOCK + "\n" + BLOCK, {"1:A": [180]}, "2 contours"),
         (BLOCK + "\n" + BLOCK, {"A": [180]}, "2 words A; its words are 1:X, 1:A"),
         ("G112 X100. K-30. I10. R20.", {"X": [1], "I": [1]}, "vary one of them at a time"),
@@ -197,10 +201,88 @@ def test_what_makes_no_family_is_refused_with_its_reason(block, vary, message):
     assert message in str(caught.value)
 
 
-def test_a_choice_that_nothing_makes_is_refused():
-    block = "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87"
-    with pytest.raises(FamilyError, match="nothing chooses between the two places of P1"):
-        family(block, vary={",A": [170, 171]}, rules="off")
+SEVERAL = {
+    "a radius asked for, from a straight part": (
+        "G111 X100. A180. K-30. B120. P?",
+        LATHE | {"facts": ["straight part of line 2 = 20"]},
+        {"K": (-60, 5), "straight part of line 2": (-5, 60), "B": (60, 200)},
+    ),
+    "an angle asked for, from a length, with two answers": (
+        "G111 X100. A? K-30. B120. (contoursolve: length of line 1 = 35.)",
+        LATHE,
+        {"K": (-60, 5), "length of line 1": (5, 70)},
+    ),
+    "a choice that nothing makes": (
+        _NCT.format(comp="G41", x=50, y=0) + "G3 X-50 Y0 R50 ,R3\nG1 X-50 Y42.857 ,A171.87",
+        MILL | {"rules": "off"},
+        {"R": (-70, 80), ",A": (100, 260), ",R": (0, 30)},
+    ),
+    "two angles asked for, by a search": (
+        "G111 X100. A? K-30. B?",
+        LATHE | {"facts": ["length of line 1 = 35", "angle from line 1 to line 2 = -50"]},
+        {"length of line 1": (25, 60), "angle from line 1 to line 2": (-120, -10)},
+    ),
+    "a start point, in diameters": (
+        "G111 X100. A180. K-30. B120. P5. Q5.",
+        LATHE,
+        {"start.X": (-10, 120), "start.Z": (-20, 20), "X": (60, 120), "P": (0, 20)},
+    ),
+    "a start point, of facts": (
+        "G111 X100. A180. K-30. B120. P?",
+        LATHE | {"facts": ["straight part of line 2 = 20"]},
+        {"start.X": (10, 120), "B": (60, 170)},
+    ),
+    "a start point that is a block": (
+        _NCT.format(comp="G41", x=50, y=0) + "G3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q-1",
+        MILL,
+        {"1:X": (45, 55), ",A": (100, 260)},
+    ),
+}
+
+
+def filled(block, options, values):
+    """The block, the start point and the facts with values in place, by plain text."""
+    facts, start = list(options.get("facts", ())), options.get("start")
+    words = {}
+    for name, value in values.items():
+        if " " in name:
+            facts = [f"{name} = {value:.3f}" if each.startswith(name) else each for each in facts]
+            block = re.sub(rf"{name} = [-\d.]+", f"{name} = {value:.3f}", block)
+        elif name.startswith("start."):
+            start = text_of(start, [name[6:]], [value])
+        else:
+            words[name] = value
+    return text_of(block, words, words.values()), options | {"facts": facts, "start": start}
+
+
+@pytest.mark.parametrize("name", SEVERAL)
+def test_facts_choices_and_start_points_vary_as_words_do(name):
+    block, options, ranges = SEVERAL[name]
+    values = draw(ranges, 40 if "search" in name else 150, sorted(SEVERAL).index(name))
+    found = family(block, vary=values, paired=True, **options)
+    seen, compared = set(), 0
+    for row, each in enumerate(zip(*values.values(), strict=True)):
+        text, more = filled(block, options, dict(zip(values, each, strict=True)))
+        answer = contoursolve.solve(text, depth="verdict", **more).answers[0]
+        assert Code(int(found["status"][row])).status is answer.status, (text, more)
+        seen.add(answer.status)
+        if answer.contour is None:
+            continue
+        assert found["residual"][row] < 1e-9
+        for key, value in expected_points(answer):
+            if key in found.names:
+                compared += 1
+                assert abs(found[key][row] - value) <= 1e-12 * max(1.0, abs(value)), (text, key)
+    assert compared > 20
+    assert len(seen) > 1
+
+
+def test_a_value_that_is_asked_for_is_a_column():
+    options = {"start": START, "facts": ["straight part of line 2 = 20", "length of line 1 = ?"]}
+    found = family("G111 X100. A180. K-30. B120. P?", vary={"K": [-30, -40]}, **options)
+    answers = contoursolve.solve("G111 X100. A180. K-30. B120. P?", **options).answers[0].answers
+    assert [found["asked.P"][0], found["asked.length of line 1"][0]] == pytest.approx([each.value for each in answers])
+    assert found["asked.length of line 1"][1] == pytest.approx(40)
 
 
 def test_the_start_point_must_be_known():

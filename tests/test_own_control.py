@@ -1,5 +1,6 @@
 """A control that is not built in goes through every door; the notebook 07 writes one from scratch."""
 
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from inspect import isfunction, signature
 
@@ -91,6 +92,16 @@ def test_its_contours_show_themselves_with_a_lexicon_of_their_own():
         bundle = shown._repr_mimebundle_()
         assert {"text/plain", "text/html", "image/svg+xml"} <= bundle.keys()
         assert "circular-linear intersection" in bundle["text/plain"]
+
+
+def test_an_executor_takes_a_control_whose_functions_can_be_sent():
+    line, values = "G1 X30 ,A45", {",A": [0.0, 45.0]}
+    with ThreadPoolExecutor(1) as executor:
+        found = contoursolve.family(line, start="X0 Y0", vary=values, control=MINE, executor=executor)
+        assert found["N1.Y"].tolist() == pytest.approx([0, 30])
+        nameless = replace(MINE, signs=lambda _: ())
+        with pytest.raises(contoursolve.FamilyError, match="functions must stand in a module"):
+            contoursolve.family(line, start="X0 Y0", vary=values, control=nameless, executor=executor)
 
 
 def test_expand_takes_a_control_and_a_target_as_their_tables():

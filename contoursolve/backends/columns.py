@@ -1,6 +1,6 @@
 """One function for many rows at once: its instructions replayed over columns, called through a buffer."""
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -30,21 +30,26 @@ class ColumnFunction:
 
 def compile_columns(tape: Tape, names: Collection[str]) -> ColumnFunction:
     """The function of a tape for columns of the inputs of these names; some milliseconds."""
-    fixed = tuple(name for name in tape.inputs if name not in names)
-    varied = tuple(name for name in tape.inputs if name in names)
+    return columns_of(tape.shared(), tape.inputs, tape.outputs, names)
+
+
+def columns_of(function: Any, inputs: Sequence[str], outputs: Sequence[str], names: Collection[str]) -> ColumnFunction:
+    """The function of one vector to one vector for columns of the inputs of these names."""
+    fixed = tuple(name for name in inputs if name not in names)
+    varied = tuple(name for name in inputs if name in names)
     scalars, columns = casadi.MX.sym("fixed", len(fixed)), casadi.MX.sym("varied", ROWS, len(varied))
     places = {name: scalars[number] for number, name in enumerate(fixed)}
     places |= {name: columns[:, number] for number, name in enumerate(varied)}
-    results = _replay(tape.shared(), [places[name] for name in tape.inputs])
-    named = dict(zip(tape.outputs, results, strict=True))
+    results = _replay(function, [places[name] for name in inputs])
+    named = dict(zip(outputs, results, strict=True))
     single = tuple(name for name, each in named.items() if each.size1() == 1)
     many = tuple(name for name, each in named.items() if each.size1() != 1)
-    outputs = [
+    results = [
         casadi.vertcat(casadi.MX(0, 1), *(named[name] for name in single)),
         casadi.horzcat(casadi.MX(ROWS, 0), *(named[name] for name in many)),
     ]
-    function = casadi.Function("columns", [scalars, columns], [casadi.densify(each) for each in outputs])
-    return ColumnFunction(function, fixed, varied, single, many)
+    replayed = casadi.Function("columns", [scalars, columns], [casadi.densify(each) for each in results])
+    return ColumnFunction(replayed, fixed, varied, single, many)
 
 
 class Columns:
@@ -118,4 +123,15 @@ def directions(degrees: Array) -> tuple[Array, Array]:
     )
 
 
+def difference(value: Array | float, other: Array | float) -> Array:
+    """The difference of two numbers, rounded once where both have at most nine decimals: 0.3 - 0.1 is 0.2."""
+    one, two = numpy.rint(numpy.multiply(value, _BILLION)), numpy.rint(numpy.multiply(other, _BILLION))
+    is_decimal = (
+        (one / _BILLION == value) & (two / _BILLION == other) & (numpy.abs(one) < _WHOLE) & (numpy.abs(two) < _WHOLE)
+    )
+    return numpy.asarray(numpy.where(is_decimal, (one - two) / _BILLION, numpy.subtract(value, other)))
+
+
 _BILLION = 1e9
+_WHOLE = 2.0**52
+"""Whole numbers below this have exact differences."""

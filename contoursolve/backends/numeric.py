@@ -261,7 +261,7 @@ class Compiled:
     """
 
     def __init__(self, function: Any, inputs: tuple[str, ...], outputs: tuple[str, ...]) -> None:
-        self._function = function
+        self.function = function
         self._local = threading.local()
         self.inputs = inputs
         self.outputs = outputs
@@ -272,7 +272,7 @@ class Compiled:
         if not hasattr(local, "trigger"):
             local.arguments = numpy.zeros(len(self.inputs))
             local.results = numpy.zeros(len(self.outputs))
-            local.buffer, local.trigger = self._function.buffer()
+            local.buffer, local.trigger = self.function.buffer()
             local.buffer.set_arg(0, memoryview(local.arguments))
             local.buffer.set_res(0, memoryview(local.results))
         local.arguments[:] = [values[name] for name in self.inputs]

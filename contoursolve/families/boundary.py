@@ -7,9 +7,8 @@ from enum import Enum
 from contoursolve.diagnostic import Severity
 from contoursolve.dialects import Dialect
 from contoursolve.families.ends import About, Reason, phrase, same
-from contoursolve.families.evaluate import template_of
+from contoursolve.families.evaluate import template_with
 from contoursolve.families.survey import LEAST_GAP, Crossing, Piece, Survey
-from contoursolve.families.template import find_words
 from contoursolve.solving import RefusalKind
 
 __all__ = ["LEAST_GAP", "End", "Feasible", "Interval", "Way", "feasible"]
@@ -115,8 +114,8 @@ def feasible(
     >>> found.intervals[0].high.reason.text
     'P too large for line 1: 51.962 mm at most'
     """
-    name = word.strip().upper()
-    template = template_of(block, start, control, units, rules, settings, lambda program: find_words(program, [name]))
+    template = template_with(word, block, start, control, units, rules, settings)
+    name = next(iter(template.words))
     survey = Survey(template, name)
     low, high = survey.range_of(within)
     pieces = survey.pieces(low, high)

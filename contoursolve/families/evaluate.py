@@ -1,16 +1,21 @@
 """Solves a contour for many values of some of its words."""
 
-from collections import deque
-from collections.abc import Callable, Iterator, Mapping
-from concurrent.futures import Future, ThreadPoolExecutor
+import pickle
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from concurrent.futures import Executor, ThreadPoolExecutor
+from contextlib import nullcontext
+from dataclasses import dataclass, replace
+from functools import lru_cache, partial
 
 from numpy.typing import ArrayLike
 
 from contoursolve import syntax
+from contoursolve.backends.columns import Array
 from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.examine import Policy
-from contoursolve.families.prepared import Sweep, Table, prepare
-from contoursolve.families.ranges import FamilyError, ranges_of, stretches
+from contoursolve.families.distribute import in_order
+from contoursolve.families.prepared import Examples, Kinds, Sweep, Table, examples_of, kinds_of
+from contoursolve.families.ranges import FamilyError, Ranges, name_of, ranges_of, stretches
 from contoursolve.families.result import Family
 from contoursolve.families.template import Template, find_words
 from contoursolve.model import Length
@@ -21,6 +26,31 @@ from contoursolve.syntax import Program, Word
 STRETCH = 65_536
 """Rows that are evaluated, or written to a file, at once."""
 
+AHEAD = 8
+"""Stretches that an executor has under way at once, if `workers` does not say it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Recipe:
+    """What a family is made of but for its values: plain data, from which any process makes the same functions."""
+
+    block: str
+    start: str | None
+    control: str | Dialect | None
+    units: str
+    rules: str
+    settings: tuple[tuple[str, str], ...]
+    facts: tuple[str, ...]
+    names: tuple[str, ...]
+
+    def template(self) -> Template:
+        """The block with its free words. Raises FamilyError, UnknownControlError."""
+        settings = dict(self.settings)
+        template = template_of(
+            self.block, self.start, self.control, self.units, self.rules, settings, lambda _: {}, self.facts
+        )
+        return replace(template, words=find_words(template, self.names))
+
 
 def sweep(
     block: str,
@@ -28,6 +58,7 @@ def sweep(
     vary: Mapping[str, ArrayLike],
     start: str | None = None,
     control: str | Dialect | None = None,
+    facts: Iterable[str] = (),
     paired: bool = False,
     units: str = "mm",
     rules: str = "enforce",
@@ -35,10 +66,12 @@ def sweep(
 ) -> Sweep:
     """A family that is ready to be evaluated; arguments and errors as for `family`."""
     ranges = ranges_of(vary, is_paired=paired)
-    template = template_of(
-        block, start, control, units, rules, settings, lambda program: find_words(program, list(ranges.values))
-    )
-    return prepare(template, ranges)
+    options = tuple(sorted((settings or {}).items()))
+    stated = (facts,) if isinstance(facts, str) else tuple(facts)
+    recipe = Recipe(block, start, control, units, rules, options, stated, tuple(ranges.values))
+    template = recipe.template()
+    examples = examples_of(template, ranges)
+    return Sweep(recipe, examples, kinds_of(template, examples), ranges)
 
 
 def template_of(
@@ -49,6 +82,7 @@ def template_of(
     rules: str,
     settings: Mapping[str, str] | None,
     free: Callable[[Program], Mapping[str, Word]],
+    facts: Iterable[str] = (),
 ) -> Template:
     """A block with those of its words free that are asked for; arguments and errors as for `family`."""
     program = syntax.parse(block, "<block>")
@@ -57,7 +91,22 @@ def template_of(
         raise UnknownControlError(f"the block does not tell its control; name it; choose from {', '.join(DIALECTS)}")
     dialect = (configure(settings, dialect) if settings else {}).get(dialect.name, dialect)
     beginning = syntax.parse(start, "<start>", first_line=0) if start is not None else None
-    return Template(program, dialect, Length(units), Policy(rules), beginning, free(program))
+    apart = tuple(syntax.read_directive(fact, -number) for number, fact in enumerate(facts, 1))
+    return Template(program, dialect, Length(units), Policy(rules), beginning, free(program), apart)
+
+
+def template_with(
+    word: str,
+    block: str,
+    start: str | None,
+    control: str | Dialect | None,
+    units: str,
+    rules: str,
+    settings: Mapping[str, str] | None,
+) -> Template:
+    """A block with one word free; arguments and errors as for `family`."""
+    template = template_of(block, start, control, units, rules, settings, lambda _: {})
+    return replace(template, words=find_words(template, [name_of(word)]))
 
 
 def family(
@@ -66,32 +115,38 @@ def family(
     vary: Mapping[str, ArrayLike],
     start: str | None = None,
     control: str | Dialect | None = None,
+    facts: Iterable[str] = (),
     paired: bool = False,
     units: str = "mm",
     rules: str = "enforce",
     settings: Mapping[str, str] | None = None,
-    workers: int = 1,
+    workers: int | None = None,
+    executor: Executor | None = None,
 ) -> Family:
     """Solve a contour for many values of some of its words.
 
     Args:
         block: the block, or the blocks of one contour; their words stand for one of the values.
         vary: the values of each free word, as written in the block: by its letter (`A`, `,A`), or with its line where
-            several have it (`2:,A`).
+            several have it (`2:,A`); of a word of the start point as `start.X`; of a fact by what it gives the value
+            of (`length of line 1`).
         start: words that give the start point, such as `"X40. Z0."`, as the control reads them.
         control: `yasnac-lx3` or `nct-99m`, or a control of your own as its tables; found from the block where it is
             clear.
+        facts: further facts, as for `solve`.
         paired: the values stand side by side, a row each; without it, every combination is a row.
         units: `mm` or `inch`, for numbers before any G20 or G21.
         rules: `enforce`, `warn` or `off` (see `Policy`).
         settings: conventions of the controls by `control.name`; the default ones without.
-        workers: threads; the result is the same for any number.
+        workers: threads; with an executor, how many stretches of rows it has under way at once.
+        executor: any `concurrent.futures.Executor` (processes, loky, Dask's `Client.get_executor()`); its workers get
+            plain data and need this package.
 
-    Every row has the status, the branch and the contour that `solve` gives the block with these values.
+    Every row has the status, the branch and the contour that `solve` gives the block with these values; the result is
+    the same, byte for byte, for any number of workers and any executor.
 
     Raises:
-        FamilyError: a word is not there, the values are none, the blocks are no single contour with a known start, or
-            their words need a search or leave a choice.
+        FamilyError: a word is not there, the values are none, or the blocks are no single contour with a known start.
         UnknownControlError: the control is unknown, or the block does not tell it.
 
     >>> found = family("G111 X100. A180. K-30. B120. P5.", start="X40. Z0.", vary={"A": [180, 170], "P": [5, 20, 60]})
@@ -100,46 +155,85 @@ def family(
     >>> [f"{value:.4f}" for value in found["corner 1.end.X"][:, 0]]
     ['22.5000', '27.3090']
     """
-    _check_workers(workers)
     ready = sweep(
-        block, vary=vary, start=start, control=control, paired=paired, units=units, rules=rules, settings=settings
+        block,
+        vary=vary,
+        start=start,
+        control=control,
+        facts=facts,
+        paired=paired,
+        units=units,
+        rules=rules,
+        settings=settings,
     )
-    table = ready.empty(ready.ranges.count)
-
-    def fill(stretch: tuple[int, int]) -> None:
-        ready.evaluate(*stretch, {name: column[slice(*stretch)] for name, column in table.items()})
-
+    table, count = ready.empty(ready.ranges.count), _check_workers(workers)
     parts = stretches(ready.ranges.count, STRETCH)
-    if workers == 1 or len(parts) == 1:
-        for part in parts:
-            fill(part)
-    else:
-        with ThreadPoolExecutor(workers) as executor:
-            for _ in executor.map(fill, parts):
-                pass
+
+    def fill(first: int, last: int) -> None:
+        ready.evaluate(first, last, {name: column[first:last] for name, column in table.items()})
+
+    if executor is not None:
+        for (first, last), part in zip(parts, solve_parts(ready, parts, workers, executor), strict=True):
+            for name, column in table.items():
+                column[first:last] = part[name]
+        return Family(ready.ranges, table)
+    with ThreadPoolExecutor(count) if min(count, len(parts)) > 1 else nullcontext() as threads:
+        for _ in in_order((partial(fill, *part) for part in parts), threads, count):
+            pass
     return Family(ready.ranges, table)
 
 
-def pieces(ready: Sweep, workers: int = 1) -> Iterator[Table]:
+def pieces(ready: Sweep, workers: int | None = None, executor: Executor | None = None) -> Iterator[Table]:
     """The words and results of all rows in order, some thousands at a time, so that any number of rows takes no more
     memory than a few of these. Raises FamilyError for less than one worker."""
-    _check_workers(workers)
-
-    def fill(first: int, last: int) -> Table:
-        table = ready.empty(last - first)
-        ready.evaluate(first, last, table)
-        return {**ready.words(first, last), **table}
-
-    with ThreadPoolExecutor(workers) as executor:
-        waiting: deque[Future[Table]] = deque()
-        for part in stretches(ready.ranges.count, STRETCH):
-            waiting.append(executor.submit(fill, *part))
-            if len(waiting) > workers:
-                yield waiting.popleft().result()
-        while waiting:
-            yield waiting.popleft().result()
+    parts = stretches(ready.ranges.count, STRETCH)
+    for (first, last), part in zip(parts, solve_parts(ready, parts, workers, executor), strict=True):
+        yield {**ready.words(first, last), **part}
 
 
-def _check_workers(workers: int) -> None:
-    if workers < 1:
+def solve_parts(
+    ready: Sweep, parts: Collection[tuple[int, int]], workers: int | None = None, executor: Executor | None = None
+) -> Iterator[Table]:
+    """The results of some stretches of rows, in order. Raises FamilyError for less than one worker."""
+    count = _check_workers(workers)
+    if executor is not None:
+        packed = _pack(ready)
+        tasks = (partial(solve_rows, packed, dict(ready.ranges.rows(*part).values)) for part in parts)
+        yield from in_order(tasks, executor, AHEAD if workers is None else count)
+        return
+    with ThreadPoolExecutor(count) if min(count, len(parts)) > 1 else nullcontext() as threads:
+        yield from in_order((partial(_solve, ready, *part) for part in parts), threads, count)
+
+
+def _pack(ready: Sweep) -> bytes:
+    """What a family is made from; functions of CasADi cannot be sent. Raises FamilyError."""
+    try:
+        return pickle.dumps((ready.recipe, ready.examples))
+    except (pickle.PicklingError, AttributeError, TypeError) as error:
+        raise FamilyError(
+            f"this control cannot be sent to an executor ({error}); its functions must stand in a module, by name"
+        ) from None
+
+
+def solve_rows(packed: bytes, values: dict[str, Array]) -> Table:
+    """The results of some rows of a family, from plain data alone: what a worker is asked for."""
+    ranges = Ranges(values, is_paired=True)
+    return _solve(Sweep(*_unpack(packed), ranges), 0, ranges.count)
+
+
+@lru_cache(maxsize=16)
+def _unpack(packed: bytes) -> tuple[Recipe, Examples, Kinds]:
+    recipe, examples = pickle.loads(packed)
+    return recipe, examples, kinds_of(recipe.template(), examples)
+
+
+def _solve(ready: Sweep, first: int, last: int) -> Table:
+    table = ready.empty(last - first)
+    ready.evaluate(first, last, table)
+    return table
+
+
+def _check_workers(workers: int | None) -> int:
+    if workers is not None and workers < 1:
         raise FamilyError(f"workers is {workers}; it must be at least 1")
+    return workers or 1

@@ -8,15 +8,14 @@ import numpy
 from contoursolve.contour import Contour
 from contoursolve.diagnosis.edits import write_word
 from contoursolve.dialects import Dialect
-from contoursolve.families.evaluate import template_of
+from contoursolve.families.evaluate import template_with
 from contoursolve.families.goals import Curve, Goal, end_name, place_of, read_goal
-from contoursolve.families.kinds import Kind, unit_of
+from contoursolve.families.kinds import Kind
 from contoursolve.families.margins import compile_results
 from contoursolve.families.prepared import results_of
 from contoursolve.families.ranges import FamilyError
 from contoursolve.families.roots import find_zeros
 from contoursolve.families.survey import Piece, Survey, short
-from contoursolve.families.template import find_words
 from contoursolve.model import Length, Plane
 from contoursolve.solving import Point
 from contoursolve.solving.certificate import Certificate
@@ -92,8 +91,8 @@ def find_word(
     >>> [(round(each.value, 4), each.block) for each in found.hits]
     [(119.6749, 'G111 X100. A180. K-30. B119.675 P5. Q5.')]
     """
-    name = word.strip().upper()
-    template = template_of(block, start, control, units, rules, settings, lambda program: find_words(program, [name]))
+    template = template_with(word, block, start, control, units, rules, settings)
+    name = next(iter(template.words))
     survey = Survey(template, name)
     answer = survey.solve(survey.stated)
     wanted = read_goal(goal, answer.plane, float(answer.unit.in_mm))
@@ -174,13 +173,16 @@ class _Search:
         """The curve of a kind of contour; None where it has no such point, or the word does not move it."""
         results, axes = results_of(kind), kind.profile.plane.axes
         point = end_name(kind.system.figure) if self.goal.point == "end" else self.goal.point
-        wanted = [(f"{point}.{letter}", value) for letter, value in zip(axes, self.goal.place, strict=True)]
-        wanted = [(name, value) for name, value in wanted if value is not None]
+        if kind.moves:
+            raise FamilyError(f"{self.survey.word} moves the start point; name a word of the block")
+        triples = zip(axes, self.goal.place, kind.profile.start.values, strict=True)
+        wanted = [
+            (f"{point}.{letter}", value - float(start or 0)) for letter, value, start in triples if value is not None
+        ]
         if any(name not in results for name, _ in wanted):
             return None
-        names = tuple(results[name][0] for name, _ in wanted)
-        place = [float(value or 0) - results[name][1] for name, value in wanted]
-        follows = self.survey.follows(kind)
+        names, place = tuple(results[name][0] for name, _ in wanted), [value for _, value in wanted]
+        follows = kind.follows([self.survey.word])
         chart, rate = (compile_results(kind.system, 1, follows, names, is_rate=each) for each in (False, True))
         return Curve(chart, rate, (kind.fixed(chart.fixed), kind.fixed(rate.fixed)), place)
 
@@ -212,7 +214,7 @@ class _Search:
         """The value in least increments of the control, the block with it, and its contour; rounded to the other side
         if only that has one."""
         typed, answer = self.survey.template.words[self.survey.word], self.survey.solve(self.survey.stated)
-        lexicon, scale = answer.claim.lexicon, float(unit_of(typed, answer))
+        lexicon, scale = answer.claim.lexicon, self.survey.scale
         nearest = write_word(typed.address, value * scale, lexicon, answer.unit)
         step = float(lexicon.numbers.step(lexicon.addresses[typed.address].unit, answer.unit))
         number = float(nearest[len(typed.address) :])

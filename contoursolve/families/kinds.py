@@ -1,28 +1,49 @@
 """Rows of a family that the rules treat alike: one system, one choice of branches, one function."""
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from decimal import Decimal
 
 import numpy
 
 from contoursolve.analysis import judge
-from contoursolve.backends.columns import Array, directions
+from contoursolve.backends.chart import Following
+from contoursolve.backends.columns import Array, difference, directions
 from contoursolve.backends.inputs import COSINE, SINE
 from contoursolve.constraints import Coordinate, System, assemble
 from contoursolve.diagnostic import Basis, Severity
 from contoursolve.examine import MOST_CHOICES, Answer, count_choices
-from contoursolve.families.ranges import FamilyError, Ranges
-from contoursolve.families.template import Template
+from contoursolve.families.ranges import FamilyError, Places, Ranges
+from contoursolve.families.template import Template, is_same, unit_word
 from contoursolve.families.verdict import Codes
-from contoursolve.model import Given, Profile, Unit
+from contoursolve.model import Given, Profile, Start, Unit
 from contoursolve.reading import Trouble
 from contoursolve.rules import Rule, Value
 from contoursolve.solving import RemarkKind, Solution, Status, is_closed, points_with_two_solutions
 from contoursolve.solving.compile import Machine, compile_system
 from contoursolve.solving.solve import inputs_of, solve
-from contoursolve.syntax import Word
+from contoursolve.syntax import FACT, Word
 from contoursolve.tolerance import LARGEST
+
+Follows = tuple[tuple[str, Following], ...]
+"""The values that follow words, by name."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Input:
+    """An input of a function that varies: the values, and the word whose places they have; less those of a word of the
+    start point, where it counts from there."""
+
+    word: str
+    values: Array
+    since: str = ""
+    start: Array | None = None
+
+    def fill(self, places: Mapping[str, Places], out: Array) -> None:
+        """The values of some rows."""
+        numpy.take(self.values, places[self.word], out=out, mode="clip")
+        if self.start is not None:
+            out[:] = difference(out, self.start[places[self.since]])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -30,12 +51,16 @@ class Kind:
     """Rows that share a profile but for the values of the free words.
 
     `status` is the verdict where it does not depend on the values. `free` has, by the name of each value that follows
-    from a free word, the name of the word, and the mm or degrees for each unit of it.
+    from a free word, the name of the word, and the mm or degrees for each unit of it. `moves` has, by axis, the word
+    that the start point follows, with the mm for each unit of it and where it is for 0. `is_closed` tells that there is
+    one function for all rows; without it, every row may have several solutions.
     """
 
     profile: Profile
     status: Status | None
     free: Mapping[str, tuple[str, Decimal]]
+    moves: Mapping[int, tuple[str, Decimal, Decimal]] = field(default_factory=dict)
+    is_closed: bool = True
 
     @property
     def system(self) -> System:
@@ -51,85 +76,139 @@ class Kind:
         """The inputs of the function that stay."""
         return inputs_of(self.profile, self.system)
 
-    def columns(self, ranges: Ranges) -> dict[str, tuple[str, Array]]:
-        """The inputs of the function that vary: the word that each follows, and its values in the order of that
-        word's."""
-        offsets, found = self.offsets(), dict[str, tuple[str, Array]]()
+    @property
+    def _counted(self) -> dict[str, int]:
+        """The axis of each value that is stated as a coordinate, which counts from the start point inside."""
+        return {fact.given: fact.axis for fact in self.system.facts if isinstance(fact, Coordinate)}
+
+    @property
+    def varied(self) -> tuple[str, ...]:
+        """The names of the inputs that vary."""
+        names: list[str] = []
+        for given in self.free:
+            is_angle = self.profile.givens[given].unit is Unit.DEGREE
+            names += (given + COSINE, given + SINE) if is_angle else (given,)
+        counted = (given for given, axis in self._counted.items() if axis in self.moves and given not in self.free)
+        return (*names, *counted)
+
+    def columns(self, ranges: Ranges) -> dict[str, Input]:
+        """The inputs of the function that vary."""
+        found: dict[str, Input] = {}
+        counted = self._counted
         for given, (word, factor) in self.free.items():
             values = ranges.values[word] * float(factor)
             if self.profile.givens[given].unit is Unit.DEGREE:
                 for name, part in zip((COSINE, SINE), directions(values), strict=True):
-                    found[given + name] = word, part
+                    found[given + name] = Input(word, part)
+            elif given not in counted:
+                found[given] = Input(word, values)
+            elif counted[given] in self.moves:
+                found[given] = Input(word, values, self.moves[counted[given]][0], self.begins(counted[given], ranges))
             else:
-                found[given] = word, values + offsets[given]
+                found[given] = Input(word, difference(values, float(self.profile.start.values[counted[given]] or 0)))
+        for given, axis in counted.items():
+            if axis in self.moves and given not in self.free:
+                value = float(self.profile.givens[given].value)
+                found[given] = Input(self.moves[axis][0], difference(value, self.begins(axis, ranges)))
         return found
 
-    def offsets(self) -> dict[str, float]:
-        """What is added to each value that follows a free word: the function counts coordinates from the start."""
-        absolute = {fact.given: fact.axis for fact in self.system.facts if isinstance(fact, Coordinate)}
-        return {
-            given: -float(self.profile.start.values[absolute[given]] or 0) if given in absolute else 0.0
-            for given in self.free
+    def follows(self, words: Sequence[str]) -> Follows:
+        """The values that follow the free words, and those that count from a start point that does."""
+        found = {
+            given: Following(words.index(word), float(factor), self.profile.givens[given].unit is Unit.DEGREE)
+            for given, (word, factor) in self.free.items()
         }
-
-    def angles(self) -> frozenset[str]:
-        """The values in degrees that follow a free word."""
-        return frozenset(name for name in self.free if self.profile.givens[name].unit is Unit.DEGREE)
+        for given, axis in self._counted.items():
+            if axis in self.moves and given not in self.free:
+                word, factor, _ = self.moves[axis]
+                found[given] = Following(words.index(word), -float(factor), is_angle=False)
+        return tuple(found.items())
 
     def fixed(self, names: Iterable[str]) -> list[float]:
-        """What a chart of the free words needs besides them, by name."""
-        numbers = self.numbers() | self.offsets()
+        """What a chart of the free words needs besides them, by name; of a value that follows a word, what is added."""
+        numbers, counted = self.numbers(), self._counted
+        for given in (*self.free, *counted):
+            value = Decimal(0) if given in self.free else self.profile.givens[given].value
+            if given in counted:
+                start = self.profile.start.values[counted[given]] or Decimal(0)
+                value -= self.moves[counted[given]][2] if counted[given] in self.moves else start
+            numbers[given] = float(value)
         return [numbers[name] for name in names]
 
-    def solve(self, values: Mapping[str, float]) -> Solution:
-        """A single solve of one row, as `examine` does it, without a proof."""
+    def begins(self, axis: int, ranges: Ranges) -> Array:
+        """The coordinates of the start point at the values of its word, mm."""
+        word, factor, base = self.moves[axis]
+        return ranges.values[word] * float(factor) + float(base)
+
+    def origin(self, ranges: Ranges, places: Mapping[str, Places]) -> list[Array | float]:
+        """The coordinates of the start point in some rows."""
+        start = [float(value or 0) for value in self.profile.start.values]
+        return [
+            self.begins(axis, ranges)[places[self.moves[axis][0]]] if axis in self.moves else start[axis]
+            for axis in (0, 1)
+        ]
+
+    def at(self, values: Mapping[str, float]) -> Profile:
+        """The profile of one row."""
         givens = dict(self.profile.givens)
         for name, (word, factor) in self.free.items():
             givens[name] = replace(givens[name], value=Decimal(repr(values[word])) * factor)
-        profile = replace(self.profile, givens=givens)
+        start = list(self.profile.start.values)
+        for axis, (word, factor, base) in self.moves.items():
+            start[axis] = Decimal(repr(values[word])) * factor + base
+        return replace(self.profile, givens=givens, start=Start((start[0], start[1])))
+
+    def solve(self, values: Mapping[str, float]) -> Solution:
+        """A single solve of one row, as `examine` does it, without a proof."""
+        from contoursolve.settling import settle  # noqa: PLC0415 - few rows touch
+
+        profile = self.at(values)
+        if not self.is_closed:
+            return settle(profile).solution
         solution = solve(profile, is_proven=False)
         touches = any(remark.kind is RemarkKind.TOUCHES for remark in solution.remarks)
         if not touches or count_choices(profile) > MOST_CHOICES:
             return solution
-        from contoursolve.settling import settle  # noqa: PLC0415 - few rows touch
-
         return settle(profile).solution
 
 
-def classify(template: Template, ranges: Ranges) -> dict[str, Codes]:
-    """For each free word, the number of the interval between two limits of the rules in which each value lies; a limit
-    is an interval of its own. Raises FamilyError where the limits of two words depend on each other."""
-    answer = template.solve({name: float(values[0]) for name, values in ranges.values.items()})
-    found: dict[str, Codes] = {}
-    for name, bounds in limits_of(template, answer).items():
-        values = ranges.values[name] * float(unit_of(template.words[name], answer))
-        places = numpy.searchsorted(bounds, values, "left") + numpy.searchsorted(bounds, values, "right")
-        found[name] = places.astype(numpy.uint8)
-    return found
-
-
-def limits_of(template: Template, answer: Answer) -> dict[str, Array]:
-    """The values of each free word, mm or degrees, on whose two sides rules may say different things. Raises
-    FamilyError where those of two words depend on each other."""
-    claim, found, tied = answer.claim, dict[str, Array](), list[str]()
+def limits_of(template: Template, values: Mapping[str, float]) -> tuple[list[float], list[tuple[float, ...]]]:
+    """For each free word, the mm or degrees for each unit of it, and the limits of the rules, between which its values
+    are treated alike. Raises FamilyError where the limits of two words depend on each other."""
+    answer = template.solve(values)
+    claim, tied = answer.claim, list[str]()
+    scales: list[float] = []
+    bounds: list[tuple[float, ...]] = []
     for name, word in template.words.items():
-        if word.address not in claim.lexicon.addresses:
+        limits = {Decimal(0), -Decimal(LARGEST), Decimal(LARGEST)}
+        stated = list(_stated_by(word, answer.profile))
+        one: Decimal | None = None
+        if word.address in claim.lexicon.addresses:
+            limits |= {*_limits(template.dialect.rules)}
+            one = claim.lexicon.value(unit_word(word, has_point=True), answer.unit)
+        elif word.address != FACT:
             raise FamilyError(f"{word.text} is no word of the contour")
-        limits = {Decimal(0), -Decimal(LARGEST), Decimal(LARGEST), *_limits(template.dialect.rules)}
-        for given in _stated_by(word, answer.profile):
+        for given in stated:
             if given.name in claim.limits:
                 limits.add(claim.limits[given.name])
                 tied.append(word.text)
-        found[name] = numpy.array(sorted(map(float, limits)))
+        if not stated and claim.limits and word.address != FACT:
+            tied.append(name)
+        scales.append(float(one or 1))
+        bounds.append(tuple(sorted(map(float, limits))))
     if len(tied) > 1:
-        raise FamilyError(f"{' and '.join(tied)} are read together: vary one of them at a time")
-    return found
+        raise FamilyError(
+            f"{' and '.join(tied)} are read together, for on which side of its centre the arc ends depends on both: "
+            "vary one of them at a time"
+        )
+    return scales, bounds
 
 
-def unit_of(word: Word, answer: Answer) -> Decimal:
-    """The mm or degrees for each unit of a word with a decimal point."""
-    one = answer.claim.lexicon.value(replace(word, number=Decimal(1), has_point=True), answer.unit)
-    return one or Decimal(1)
+def intervals_of(values: Array, bounds: tuple[float, ...]) -> Codes:
+    """The number of the interval between two bounds in which each value lies; a bound is an interval of its own."""
+    limits = numpy.array(bounds)
+    places = numpy.searchsorted(limits, values, "left") + numpy.searchsorted(limits, values, "right")
+    return places.astype(numpy.uint8)
 
 
 def _limits(rules: Iterable[Rule]) -> Iterable[Decimal]:
@@ -141,8 +220,31 @@ def _limits(rules: Iterable[Rule]) -> Iterable[Decimal]:
 
 
 def kind_of(template: Template, values: Mapping[str, float]) -> Kind:
-    """The kind of the row with these values. Raises FamilyError where its equations need a search or leave a choice."""
-    return kind_in(template.solve(values), template.words, values)
+    """The kind of the row with these values. Raises FamilyError where a word cannot vary."""
+    answer = template.solve(values)
+    moving = [name for name, word in template.words.items() if not list(_stated_by(word, answer.profile))]
+    moves = {axis: move for name in moving for axis, move in _moves(template, values, name, answer)}
+    idle = [template.words[name].text for name in moving if name not in [word for word, _, _ in moves.values()]]
+    if idle and _verdict(answer) is None:
+        raise FamilyError(f"{idle[0]} cannot vary: the contour has no value of it")
+    words = {name: word for name, word in template.words.items() if name not in moving}
+    return replace(kind_in(answer, words, values), moves=moves)
+
+
+def _moves(
+    template: Template, values: Mapping[str, float], name: str, answer: Answer
+) -> Iterable[tuple[int, tuple[str, Decimal, Decimal]]]:
+    """How the start point follows a word, by axis. Raises FamilyError where other values follow it, too."""
+    other = template.solve({**values, name: values[name] + 1})
+    if {given.name: given.value for given in other.profile.givens.values()} != {
+        given.name: given.value for given in answer.profile.givens.values()
+    }:
+        raise FamilyError(f"{name} cannot vary: words that count from it change, too")
+    pairs = zip(answer.start.values, other.start.values, strict=True)
+    for axis, (value, changed) in enumerate(pairs):
+        if value is not None and changed is not None and value != changed:
+            factor = changed - value
+            yield axis, (name, factor, value - factor * Decimal(repr(values[name])))
 
 
 def kind_in(answer: Answer, words: Mapping[str, Word], values: Mapping[str, float]) -> Kind:
@@ -155,25 +257,33 @@ def kind_in(answer: Answer, words: Mapping[str, Word], values: Mapping[str, floa
         if not stated and status is None:
             raise FamilyError(f"{typed.text} cannot vary: the contour has no value of it")
         for given in stated:
-            one = replace(typed, number=Decimal(1), has_point=given.word is None or given.word.has_point)
-            factor = given.value / number if number else answer.claim.lexicon.value(one, answer.unit)
-            free[given.name] = word, factor or Decimal(1)
+            free[given.name] = word, _factor(answer, typed, given, number)
+    is_function = True
     if status is None:
         system = assemble(profile)
-        if not is_closed(system):
-            raise FamilyError("these words have no closed form; a family needs one, so solve such blocks one by one")
         chosen = {choice.point for choice in profile.choices}
-        open_points = [point for point in points_with_two_solutions(system) if point not in chosen]
-        if open_points:
-            raise FamilyError(f"nothing chooses between the two places of {open_points[0]}; add the word that does")
-    return Kind(profile, status, free)
+        is_function = (
+            not profile.is_extended
+            and is_closed(system)
+            and all(point in chosen for point in points_with_two_solutions(system))
+        )
+    return Kind(profile, status, free, is_closed=is_function)
+
+
+def _factor(answer: Answer, typed: Word, given: Given, number: Decimal) -> Decimal:
+    """The mm or degrees of a value for each unit of the word that states it."""
+    if number:
+        return given.value / number
+    if typed.address == FACT:
+        return answer.unit.in_mm if given.unit is Unit.MM and not given.is_diameter else Decimal(1)
+    one = unit_word(typed, has_point=given.word is None or given.word.has_point)
+    return answer.claim.lexicon.value(one, answer.unit) or Decimal(1)
 
 
 def _stated_by(typed: Word, profile: Profile) -> Iterable[Given]:
     """The values that follow from a word, wherever it now stands in its line."""
     for given in profile.givens.values():
-        word = given.word
-        if word is not None and (word.span.line, word.address) == (typed.span.line, typed.address):
+        if given.word is not None and is_same(typed, given.word):
             yield given
 
 
@@ -182,11 +292,18 @@ def alike(one: Kind, other: Kind) -> bool:
     if one.status is not None or other.status is not None:
         return one.status is other.status
     return (
-        one.profile.layout is other.profile.layout
+        _drawing(one) == _drawing(other)
         and one.profile.choices == other.profile.choices
-        and one.free == other.free
-        and _fixed(one) == _fixed(other)
+        and (one.free, one.moves, _fixed(one)) == (other.free, other.moves, _fixed(other))
+        and all(
+            axis in one.moves or one.profile.start.values[axis] == other.profile.start.values[axis] for axis in (0, 1)
+        )
     )
+
+
+def _drawing(kind: Kind) -> object:
+    """What is drawn and stated; profiles with further facts have layouts of their own."""
+    return kind.system if kind.profile.is_extended else kind.profile.layout
 
 
 def _fixed(kind: Kind) -> dict[str, Decimal]:

@@ -1,7 +1,7 @@
 """What must hold of a contour, as numbers: each check of `solving.solve` and `solving.path` as a margin that ends where
 the check fails."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from enum import Enum
 from functools import lru_cache
@@ -11,11 +11,12 @@ from typing import Any
 import numpy
 from numpy.typing import NDArray
 
-from contoursolve.backends.chart import Bounds, Chart, Following
+from contoursolve.backends.chart import Bounds, Chart
 from contoursolve.backends.inputs import COSINE, SINE
 from contoursolve.backends.intervals import Array
 from contoursolve.backends.numeric import angle, larger, magnitude, sqrt
 from contoursolve.constraints import Heading, OnCircle, System
+from contoursolve.families.kinds import Follows
 from contoursolve.model import FIRST, SECOND, Arc, Corner, CornerShape, Fact, Line, scalar
 from contoursolve.solving import RefusalKind
 from contoursolve.solving.compile import Machine, compile_system
@@ -84,10 +85,6 @@ class Margins:
         passes = numpy.where(is_apart, (bounds.low > limits) | (bounds.high < -limits), passes)
         fails = numpy.where(is_apart, numpy.maximum(-bounds.low, bounds.high) <= limits, bounds.high < limits)
         return passes.all(axis=0) & bounds.is_defined, fails.any(axis=0) | bounds.is_undefined
-
-
-Follows = tuple[tuple[str, Following], ...]
-"""The values that follow words, by name."""
 
 
 @lru_cache(maxsize=256)
@@ -237,10 +234,3 @@ def _least(kind: RefusalKind, subject: str, limit: float, element: str = "") -> 
 
 def _apart(kind: RefusalKind, subject: str, limit: float, givens: tuple[str, ...] = ()) -> Margin:
     return Margin(kind, subject, "", Test.APART, limit, givens)
-
-
-def follows_of(free: Mapping[str, tuple[str, Any]], words: tuple[str, ...], angles: frozenset[str]) -> Follows:
-    """The values that follow free words, of which `angles` are in degrees."""
-    return tuple(
-        (given, Following(words.index(word), float(factor), given in angles)) for given, (word, factor) in free.items()
-    )

@@ -1,7 +1,7 @@
 """A family that is ready to be evaluated, any stretch of its rows at a time."""
 
 import threading
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import product
@@ -12,19 +12,19 @@ from numpy.typing import NDArray
 
 from contoursolve.backends.columns import ROWS, Array, ColumnFunction, Columns, compile_columns
 from contoursolve.constraints import System
-from contoursolve.families.kinds import Kind, alike, classify, kind_of
-from contoursolve.families.ranges import Ranges, stretches
+from contoursolve.families.kinds import Input, Kind, alike, intervals_of, kind_of, limits_of
+from contoursolve.families.ranges import Places, Ranges, stretches
+from contoursolve.families.several import BLOCK, Several, asked_of
 from contoursolve.families.template import Template
 from contoursolve.families.verdict import Code, Verdict, code_of, reason_of
 from contoursolve.model import FIRST, SECOND, CornerShape, scalar
-from contoursolve.solving import RemarkKind, Solution
+from contoursolve.solving import RemarkKind
 from contoursolve.solving.compile import compile_system
 
 Table = dict[str, NDArray[Any]]
 Results = Mapping[str, NDArray[Any]]
-Rows = NDArray[numpy.int64]
-Target = slice | Rows
-_Ready = tuple[Columns, Mapping[str, tuple[str, Array]], Mapping[str, tuple[str, float]]]
+Target = slice | Places
+_Ready = tuple[Columns, Mapping[str, tuple[str, int | None]]]
 
 _OUTPUTS = (
     "determinant:", "offset:", "radius:", "scale:", "distance:", "residual:", "length:", "turn:", "cosine:",
@@ -33,33 +33,66 @@ _OUTPUTS = (
 """What the verdict and the result read."""
 
 
+@dataclass(frozen=True, slots=True)
+class Examples:
+    """One row of each kind that the rules may tell apart, as plain data.
+
+    Each word has a scale and bounds: its values, scaled, lie between two bounds or on one, which gives a number;
+    `rows` are the numbers of all words, with values that have them.
+    """
+
+    scales: tuple[float, ...]
+    bounds: tuple[tuple[float, ...], ...]
+    rows: tuple[tuple[tuple[int, ...], tuple[float, ...]], ...]
+
+    def key(self, values: Sequence[Array], places: Sequence[Places]) -> NDArray[numpy.int64]:
+        """The numbers of all words as one, row by row."""
+        key = numpy.zeros(places[0].size, numpy.int64)
+        for each, at, scale, bounds in zip(values, places, self.scales, self.bounds, strict=True):
+            key = key * (2 * len(bounds) + 1) + intervals_of(each * scale, bounds)[at]
+        return key
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Kinds:
+    """The kinds of rows of a family; `keys`, in order, are the keys of `Examples`, and `numbers` the kind of each."""
+
+    template: Template
+    items: tuple[Kind, ...]
+    keys: NDArray[numpy.int64]
+    numbers: NDArray[numpy.int64]
+
+
 @dataclass(slots=True, eq=False)
 class Sweep:
     """The kinds of rows of a family, and how to evaluate them; every thread has functions of its own."""
 
-    template: Template
+    recipe: Any
+    """Plain data from which the same kinds can be made elsewhere."""
+    examples: Examples
+    found: Kinds
     ranges: Ranges
-    kinds: tuple[Kind, ...]
-    codes: Mapping[str, NDArray[numpy.uint8]]
-    """The interval in which each value of a word lies, by the word."""
-    by_code: NDArray[numpy.int64]
-    """The number of the kind by the intervals of all words."""
     local: threading.local = field(default_factory=threading.local)
+
+    @property
+    def kinds(self) -> tuple[Kind, ...]:
+        """The kinds of rows."""
+        return self.found.items
 
     def columns(self) -> dict[str, type[numpy.generic]]:
         """The names and types of all results, in order."""
         found: dict[str, type[numpy.generic]] = {"status": numpy.uint8, "reason": numpy.uint8}
         for kind in self.kinds:
             if kind.status is None:
-                found |= {f"branch.{point}": numpy.int8 for point in _branches(kind)}
+                found |= {f"branch.{point}": numpy.int8 for point in branches_of(kind)}
         for kind in self.kinds:
             if kind.status is None:
-                found |= dict.fromkeys(results_of(kind), numpy.float64)
+                found |= dict.fromkeys((*results_of(kind), *asked_of(kind)), numpy.float64)
         return {**found, "residual": numpy.float64}
 
     def empty(self, rows: int) -> Table:
         """Room for the results of so many rows; NaN and 0 where not every kind has all of them."""
-        if len(self.kinds) == 1 and self.kinds[0].status is None:
+        if len(self.kinds) == 1 and self.kinds[0].status is None and self.kinds[0].is_closed:
             return {name: numpy.empty(rows, kind) for name, kind in self.columns().items()}
         return {
             name: numpy.full(rows, numpy.nan) if kind is numpy.float64 else numpy.zeros(rows, kind)
@@ -72,49 +105,66 @@ class Sweep:
 
     def evaluate(self, first: int, last: int, table: Results) -> None:
         """Fill in the results of the rows from `first` to before `last`."""
-        places = {word: self.ranges.places(word, first, last) for word in self.ranges.values}
+        ranges = self.ranges
+        if ranges.is_long:
+            ranges, first, last = ranges.rows(first, last), 0, last - first
+            self.local.__dict__.pop("inputs", None)
+        places = {word: ranges.places(word, first, last) for word in ranges.values}
         number = numpy.zeros(last - first, numpy.int64)
         if len(self.kinds) > 1:
-            number = self.by_code[tuple(codes[places[word]] for word, codes in self.codes.items())]
+            key = self.examples.key(list(ranges.values.values()), list(places.values()))
+            number = self.found.numbers[numpy.searchsorted(self.found.keys, key)]
+        is_all = len(self.kinds) == 1
         for each, kind in enumerate(self.kinds):
-            is_all = len(self.kinds) == 1
             own = numpy.arange(last - first) if is_all else numpy.flatnonzero(number == each)
             if kind.status is not None:
                 table["status"][own] = code_of(kind.status)
                 continue
+            if not kind.is_closed:
+                for begin, end in stretches(own.size, BLOCK):
+                    part = {word: place[own[begin:end]] for word, place in places.items()}
+                    self._solve_several(each, kind, ranges, part, own[begin:end], table)
+                continue
             for begin, end in stretches(own.size, ROWS):
                 target: Target = slice(begin, end) if is_all else own[begin:end]
                 part = {word: place[target] for word, place in places.items()}
-                self._evaluate(each, kind, part, target, end - begin, table)
+                self._evaluate(each, kind, ranges, part, target, end - begin, table)
 
     def _evaluate(
         self,
         number: int,
         kind: Kind,
-        places: Mapping[str, Rows],
+        ranges: Ranges,
+        places: Mapping[str, Places],
         target: Target,
         rows: int,
         table: Results,
     ) -> None:
-        function, inputs, results = self._function(number, kind)
+        function, results = self._function(number, kind)
+        inputs = self._inputs(number, kind, ranges)
         cosines: dict[str, Array] = {
             name: function.numbers[place : place + 1] for place, name in enumerate(function.compiled.fixed)
         }
         for place, name in enumerate(function.compiled.varied):
-            word, values = inputs[name]
-            numpy.take(values, places[word], out=function.inputs[place, :rows], mode="clip")
-            cosines[name] = function.inputs[place, :rows]
+            column = function.inputs[place, :rows]
+            inputs[name].fill(places, column)
+            cosines[name] = column
         out = function.evaluate(rows)
         machine, figure = kind.machine, kind.system.figure
-        verdict = Verdict(figure, machine.plan, machine.corner_residuals, cosines, out, rows)
+        plan = machine.plan
+        verdict = Verdict(
+            figure, len(plan.basis), plan.checks, plan.steps, machine.corner_residuals, cosines, out, rows
+        )
         status, reason = verdict.status, verdict.reason
         again = numpy.flatnonzero(verdict.again)
         is_path = (status <= Code.OVERDETERMINED) & (reason == 0) & ~verdict.again
         without = numpy.flatnonzero(~is_path)
-        for name, (output, offset) in results.items():
+        origin = kind.origin(ranges, places)
+        for name, (output, axis) in results.items():
             if name.endswith(".room"):
                 table[name][target] = out[output]
                 continue
+            offset = 0.0 if axis is None else origin[axis]
             if isinstance(target, slice):
                 values = table[name][target]
                 numpy.add(out[output], offset, out=values)
@@ -124,24 +174,55 @@ class Sweep:
                 values[without] = numpy.nan
                 table[name][target] = values
         table["residual"][target] = verdict.worst
-        for point, side in _branches(kind).items():
+        for point, side in branches_of(kind).items():
             table[f"branch.{point}"][target] = numpy.where(is_path, side, 0)
         table["status"][target] = status
         table["reason"][target] = reason
         at = numpy.arange(rows)[again] + target.start if isinstance(target, slice) else target[again]
         for row, place in zip(again.tolist(), at.tolist(), strict=True):
-            single = {word: float(self.ranges.values[word][each[row]]) for word, each in places.items()}
-            _fill(kind, kind.solve(single), place, table)
+            fill_row(kind, ranges.row(places, row), place, table)
+
+    def _solve_several(
+        self, number: int, kind: Kind, ranges: Ranges, places: Mapping[str, Places], target: Places, table: Results
+    ) -> None:
+        """The rows of a kind without one function for all of them."""
+        made = self.local.__dict__.setdefault("several", {})
+        if number not in made:
+            made[number] = Several(kind)
+        several: Several = made[number]
+        settled = several.solve(ranges, places)
+        table["status"][target], table["reason"][target] = settled.status, settled.reason
+        for point, side in branches_of(kind).items():
+            table[f"branch.{point}"][target] = numpy.where(settled.is_path, side, 0)
+        shown = numpy.flatnonzero(settled.is_shown)
+        for first, last in stretches(shown.size, ROWS):
+            rows = shown[first:last]
+            out, worst = several.path_of(settled, rows, ranges, places)
+            origin = kind.origin(ranges, {word: place[rows] for word, place in places.items()})
+            is_path = settled.is_path[rows]
+            results = {**results_of(kind), **{name: (name, None) for name in asked_of(kind)}}
+            for name, (output, axis) in results.items():
+                values = out[output] + (0.0 if axis is None else origin[axis])
+                is_measure = name.endswith(".room")
+                table[name][target[rows]] = values if is_measure else numpy.where(is_path, values, numpy.nan)
+            table["residual"][target[rows]] = worst
+
+    def _inputs(self, number: int, kind: Kind, ranges: Ranges) -> Mapping[str, Input]:
+        """The inputs that vary of a kind at these values, for this thread."""
+        made = self.local.__dict__.setdefault("inputs", {})
+        if number not in made:
+            made[number] = kind.columns(ranges)
+        found: Mapping[str, Input] = made[number]
+        return found
 
     def _function(self, number: int, kind: Kind) -> _Ready:
         """The function of a kind for this thread."""
         made = self.local.__dict__.setdefault("functions", {})
         if number not in made:
-            inputs = kind.columns(self.ranges)
-            function = Columns(_compile(kind.system, frozenset(inputs)))
+            function = Columns(_compile(kind.system, frozenset(kind.varied)))
             numbers = kind.numbers()
             function.numbers[:] = [numbers[name] for name in function.compiled.fixed]
-            made[number] = function, inputs, results_of(kind)
+            made[number] = function, results_of(kind)
         found: _Ready = made[number]
         return found
 
@@ -152,63 +233,75 @@ def _compile(system: System, varied: frozenset[str]) -> ColumnFunction:
     return compile_columns(compile_system(system).tape.keep(_OUTPUTS, system.unknowns), varied)
 
 
-def prepare(template: Template, ranges: Ranges) -> Sweep:
-    """The sweep of a block over ranges of its words. Raises FamilyError."""
-    codes = classify(template, ranges)
-    sizes = tuple(int(each.max()) + 1 for each in codes.values())
-    by_code = numpy.full(sizes, -1, numpy.int64)
-    kinds: list[Kind] = []
-    for key, values in _examples(ranges, codes):
-        kind = kind_of(template, values)
-        same = next((number for number, each in enumerate(kinds) if alike(each, kind)), None)
-        by_code[key] = len(kinds) if same is None else same
-        if same is None:
-            kinds.append(kind)
-    return Sweep(template, ranges, tuple(kinds), codes, by_code)
-
-
-def _examples(
-    ranges: Ranges, codes: Mapping[str, NDArray[numpy.uint8]]
-) -> Iterator[tuple[tuple[int, ...], dict[str, float]]]:
-    """One row for each set of intervals."""
-    if ranges.is_paired:
-        keys, firsts = numpy.unique(numpy.stack(list(codes.values()), axis=1), axis=0, return_index=True)
-        for key, row in zip(keys.tolist(), firsts.tolist(), strict=True):
-            yield tuple(key), {word: float(values[row]) for word, values in ranges.values.items()}
-        return
-    found = [
-        zip(*(part.tolist() for part in numpy.unique(each, return_index=True)), strict=True) for each in codes.values()
+def examples_of(template: Template, ranges: Ranges) -> Examples:
+    """A row for each set of intervals in which the values lie. Raises FamilyError."""
+    scales, bounds = limits_of(template, {name: float(values[0]) for name, values in ranges.values.items()})
+    columns = [
+        intervals_of(values * scale, limits)
+        for values, scale, limits in zip(ranges.values.values(), scales, bounds, strict=True)
     ]
-    for choice in product(*found):
-        key = tuple(code for code, _ in choice)
-        pairs = zip(ranges.values.items(), choice, strict=True)
-        yield key, {word: float(values[place]) for (word, values), (_, place) in pairs}
+    rows: list[tuple[tuple[int, ...], tuple[float, ...]]] = []
+    words = list(ranges.values.values())
+    if ranges.is_paired:
+        keys, firsts = numpy.unique(numpy.stack(columns, axis=1), axis=0, return_index=True)
+        for key, row in zip(keys.tolist(), firsts.tolist(), strict=True):
+            rows.append((tuple(key), tuple(float(values[row]) for values in words)))
+    else:
+        found = [
+            zip(*(part.tolist() for part in numpy.unique(each, return_index=True)), strict=True) for each in columns
+        ]
+        for choice in product(*found):
+            places = zip(words, (place for _, place in choice), strict=True)
+            rows.append((tuple(int(number) for number, _ in choice), tuple(float(each[at]) for each, at in places)))
+    return Examples(tuple(scales), tuple(bounds), tuple(rows))
 
 
-def _branches(kind: Kind) -> dict[str, int]:
+def kinds_of(template: Template, examples: Examples) -> Kinds:
+    """The kinds of the example rows. Raises FamilyError."""
+    items: list[Kind] = []
+    numbers: dict[int, int] = {}
+    for parts, values in examples.rows:
+        kind = kind_of(template, dict(zip(template.words, values, strict=True)))
+        same = next((number for number, each in enumerate(items) if alike(each, kind)), None)
+        key = 0
+        for part, bounds in zip(parts, examples.bounds, strict=True):
+            key = key * (2 * len(bounds) + 1) + part
+        numbers[key] = len(items) if same is None else same
+        if same is None:
+            items.append(kind)
+    ordered = sorted(numbers.items())
+    return Kinds(
+        template,
+        tuple(items),
+        numpy.array([key for key, _ in ordered], numpy.int64),
+        numpy.array([number for _, number in ordered], numpy.int64),
+    )
+
+
+def branches_of(kind: Kind) -> dict[str, int]:
     """The sides that the words choose, by the point: +1 farther or left, -1 nearer or right."""
     shown = kind.profile.intersections
     return {choice.point: choice.side.sign for choice in kind.profile.choices if choice.given and choice.point in shown}
 
 
-def results_of(kind: Kind) -> dict[str, tuple[str, float]]:
-    """The output behind each result, and what is added to it: coordinates count from the start point inside."""
-    profile, figure = kind.profile, kind.system.figure
-    origin = [float(value or 0) for value in profile.start.values]
-    axes = list(zip((FIRST, SECOND), profile.plane.axes, origin, strict=True))
-    found: dict[str, tuple[str, float]] = {}
+def results_of(kind: Kind) -> dict[str, tuple[str, int | None]]:
+    """The output behind each result, and the axis of a coordinate: inside they count from the start point."""
+    figure = kind.system.figure
+    axes = list(zip((FIRST, SECOND), kind.profile.plane.axes, strict=True))
+    found: dict[str, tuple[str, int | None]] = {}
     for point in figure.points:
-        found |= {f"{point}.{letter}": (scalar(point, axis), offset) for axis, letter, offset in axes}
-    found |= {f"{radius}": (radius, 0.0) for radius in figure.radii}
+        found |= {f"{point}.{letter}": (scalar(point, axis), axis) for axis, letter in axes}
+    found |= {f"{radius}": (radius, None) for radius in figure.radii}
     for corner in figure.corners:
         for place in ("begin", "end", *(("center",) if corner.shape is CornerShape.FILLET else ())):
-            for axis, letter, offset in axes:
-                found[f"{corner.name}.{place}.{letter}"] = f"{place}:{corner.name}.{axis}", offset
-    return found | {f"{element.name}.room": (f"room:{element.name}", 0.0) for element in figure.path}
+            for axis, letter in axes:
+                found[f"{corner.name}.{place}.{letter}"] = f"{place}:{corner.name}.{axis}", axis
+    return found | {f"{element.name}.room": (f"room:{element.name}", None) for element in figure.path}
 
 
-def _fill(kind: Kind, solution: Solution, row: int, table: Results) -> None:
+def fill_row(kind: Kind, values: Mapping[str, float], row: int, table: Results) -> None:
     """The results of a single solve in a row."""
+    solution = kind.solve(values)
     table["status"][row] = code_of(solution.status)
     table["reason"][row] = reason_of(solution.refusals[0].kind if solution.refusals else None)
     if not solution.points:
@@ -225,5 +318,5 @@ def _fill(kind: Kind, solution: Solution, row: int, table: Results) -> None:
         for letter, value in zip(letters, pair, strict=True):
             table[f"{name}.{letter}"][row] = value
     touching = {remark.subject for remark in solution.remarks if remark.kind is RemarkKind.TOUCHES}
-    for point, side in _branches(kind).items():
+    for point, side in branches_of(kind).items():
         table[f"branch.{point}"][row] = 0 if point in touching else side

@@ -8,6 +8,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from contoursolve.backends.columns import Array
 
+Places = NDArray[numpy.int64]
+
+LONGEST = 262_144
+"""Values of one word of a grid that are prepared once for all rows; of more, a stretch at a time."""
+
 
 class FamilyError(ValueError):
     """A family that cannot be evaluated; the message says why, and what to do."""
@@ -35,7 +40,7 @@ class Ranges:
             total *= size
         return total
 
-    def places(self, word: str, first: int, last: int) -> NDArray[numpy.int64]:
+    def places(self, word: str, first: int, last: int) -> Places:
         """Where the values of a word are for the rows from `first` to before `last`."""
         if self.is_paired:
             return numpy.arange(first, last)
@@ -51,6 +56,31 @@ class Ranges:
         skipped = first % stride
         return numpy.repeat(wholes, stride)[skipped : skipped + last - first]
 
+    def rows(self, first: int, last: int) -> "Ranges":
+        """The rows from `first` to before `last` as columns."""
+        return Ranges({word: values[self.places(word, first, last)] for word, values in self.values.items()}, True)
+
+    def row(self, places: Mapping[str, Places], number: int) -> dict[str, float]:
+        """The values of one row, from where those of some rows are."""
+        return {word: float(values[places[word][number]]) for word, values in self.values.items()}
+
+    @property
+    def is_long(self) -> bool:
+        """Whether there are too many values to prepare all of them beforehand."""
+        return self.is_paired or max(self.shape) > LONGEST
+
+
+def name_of(text: str) -> str:
+    """The name of a word, upper case; of a word of the start point, `start.X`; of a fact, its text."""
+    parts = text.split()
+    if len(parts) > 1:
+        return " ".join(parts)
+    head, dot, rest = text.strip().partition(".")
+    return f"{START}.{rest.upper()}" if dot and head.lower() == START else text.strip().upper()
+
+
+START = "start"
+
 
 def ranges_of(vary: Mapping[str, ArrayLike], *, is_paired: bool) -> Ranges:
     """The ranges of a mapping. Raises FamilyError for what is no list of numbers."""
@@ -58,7 +88,7 @@ def ranges_of(vary: Mapping[str, ArrayLike], *, is_paired: bool) -> Ranges:
         raise FamilyError("no word varies; name one with its values, such as A with 170 to 190")
     values: dict[str, Array] = {}
     for name, each in vary.items():
-        word = name.strip().upper()
+        word = name_of(name)
         try:
             array = numpy.atleast_1d(numpy.asarray(each, dtype=numpy.float64))
         except (TypeError, ValueError):

@@ -28,6 +28,7 @@ class Family(Shown):
       contour or both are one;
     * `V1.Z`, `V1.X`: the points; `r`: radii; `corner 1.begin.Z`, `.end`, `.center`: the corners (float64, NaN where
       there is no contour, or no such corner);
+    * `asked.P`: what is asked for with `?`, mm (radius) or degrees (float64, NaN where there is no contour);
     * `line 1.room` (float64): what the corners leave of an element, below 0 if they do not fit; it has a value wherever
       the points have one;
     * `residual` (float64): the largest residual of the equations that were solved, the corners' among them.

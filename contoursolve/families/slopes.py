@@ -93,6 +93,8 @@ def _none(_program: Program) -> dict[str, Word]:
 
 
 def _check(kind: Kind, values: Mapping[str, float]) -> None:
+    if not kind.is_closed:
+        raise FamilyError("the block has facts, ? or a choice that nothing makes; derivatives need a closed form")
     solution = kind.solve(values) if kind.status is None else None
     status = solution.status if solution is not None else kind.status
     if solution is None or status is not Status.SOLVED:

@@ -10,9 +10,9 @@ import numpy
 from contoursolve.backends.intervals import Array
 from contoursolve.examine import Answer
 from contoursolve.families.isolate import Stretch, divide
-from contoursolve.families.kinds import Kind, alike, kind_in, limits_of, unit_of
-from contoursolve.families.margins import Follows, Margin, Margins, compile_margins, follows_of
-from contoursolve.families.ranges import FamilyError
+from contoursolve.families.kinds import Kind, alike, kind_in, kind_of, limits_of
+from contoursolve.families.margins import Margin, Margins, compile_margins
+from contoursolve.families.ranges import START, FamilyError
 from contoursolve.families.template import Template
 from contoursolve.model import Unit
 from contoursolve.tolerance import LARGEST, LENGTH
@@ -75,14 +75,18 @@ class Survey:
         typed = template.words[word]
         self.stated = float(typed.number or 0)
         answer = template.solve({word: self.stated})
-        self._limits = limits_of(template, answer)[word] / float(unit_of(typed, answer))
-        row = answer.claim.lexicon.addresses[typed.address]
+        scales, bounds = limits_of(template, {word: self.stated})
+        self.scale = abs(scales[0])
+        """mm or degrees for each unit of the word."""
+        self._limits = [bound / scales[0] for bound in bounds[0]]
+        row = answer.claim.lexicon.addresses.get(typed.address)
+        if row is None:
+            raise FamilyError(f"{typed.text}: what a fact may say cannot be told; name a word of the block")
         if row.unit is Unit.SIGN:
             raise FamilyError(f"{typed.text} chooses between two places; it has no range")
         self.is_angle = row.unit is Unit.DEGREE
         self.unit = "deg" if self.is_angle else answer.unit.value
-        self.reach = REACH / abs(float(unit_of(typed, answer)))
-        self._largest = LARGEST / abs(float(unit_of(typed, answer)))
+        self._largest = LARGEST / self.scale
         self._answers: dict[float, Answer] = {self.stated: answer}
         self.crossings: dict[float, Crossing] = {}
         """What fails beyond the ends of the pieces, by their values."""
@@ -104,7 +108,7 @@ class Survey:
         if within is None and self.is_angle:
             return (0.0, 360.0) if self.stated >= 0 else (-360.0, 0.0)
         if within is None:
-            return -self.reach, self.reach
+            return -REACH / self.scale, REACH / self.scale
         low, high = map(float, within)
         if not -inf < low < high < inf:
             raise FamilyError(f"{low:g} to {high:g} is no range; the smaller number comes first")
@@ -145,7 +149,14 @@ class Survey:
         return self.stated if first < self.stated < last else (first + last) / 2
 
     def _kind_at(self, value: float) -> Kind:
-        return kind_in(self.solve(value), self.template.words, {self.word: value})
+        values = {self.word: value}
+        if self.word.startswith(f"{START}."):
+            kind = kind_of(self.template, values)
+        else:
+            kind = kind_in(self.solve(value), self.template.words, values)
+        if kind.status is None and not kind.is_closed:
+            raise FamilyError("the block has facts, ? or a choice that nothing makes; this needs a closed form")
+        return kind
 
     def _goes_on(self, limit: float, kind: Kind, after: Kind) -> bool:
         """Whether a limit of some rule changes nothing for this word."""
@@ -156,7 +167,8 @@ class Survey:
             yield Piece(low, high, is_solved=False, kind=kind)
             return
         near = [self.stated] if low < self.stated < high else []
-        margins, fixed = self.margins(kind), self.fixed(kind, self.margins(kind))
+        margins = self.margins(kind)
+        fixed = kind.fixed(margins.chart.fixed)
         parts: list[Part] = []
         holes: list[float] = []
         stretches = divide(margins, fixed, low, high, near=near)
@@ -187,20 +199,12 @@ class Survey:
     def failing(self, kind: Kind, value: float) -> list[Margin]:
         """The checks that fail at a value, in their order."""
         margins = self.margins(kind)
-        values = margins.chart.at([numpy.array([value])], self.fixed(kind, margins))
+        values = margins.chart.at([numpy.array([value])], kind.fixed(margins.chart.fixed))
         return [margins.checks[number] for number in margins.failing(values)[:, 0].nonzero()[0]]
 
     def margins(self, kind: Kind) -> Margins:
         """What is checked of a kind of contour, by the word."""
-        return compile_margins(kind.system, 1, self.follows(kind))
-
-    def follows(self, kind: Kind) -> Follows:
-        """The values that follow the word."""
-        return follows_of(kind.free, (self.word,), kind.angles())
-
-    def fixed(self, kind: Kind, margins: Margins) -> list[float]:
-        """What a chart needs besides the word."""
-        return kind.fixed(margins.chart.fixed)
+        return compile_margins(kind.system, 1, kind.follows([self.word]))
 
 
 class _Undecided:

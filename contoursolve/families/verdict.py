@@ -10,7 +10,7 @@ from contoursolve.backends.columns import Array
 from contoursolve.constraints import Coordinate, Heading, Offset, OnCircle, Radius
 from contoursolve.model import FIRST, SECOND, Arc, Corner, CornerShape, Fact, Figure, scalar
 from contoursolve.solving import RefusalKind, Status
-from contoursolve.solving.plan import AffineStep, DistanceStep, LineCircleStep, Plan, Step, TwoCirclesStep
+from contoursolve.solving.plan import AffineStep, DistanceStep, LineCircleStep, Step, TwoCirclesStep
 from contoursolve.tolerance import AGREEMENT, LENGTH, RADIUS_DIFFERENCE, REGULAR, RESIDUAL, TOUCHING
 
 Mask = NDArray[numpy.bool_]
@@ -54,24 +54,38 @@ def reason_of(kind: RefusalKind | None) -> int:
 
 class Verdict:
     """What the checks found, row by row: `status` and `reason` as numbers; and the rows `again` that need the exact
-    arithmetic of a single solve: a step that is singular, a line that touches its circle."""
+    arithmetic of a single solve: a step that is singular, a line that touches its circle.
+
+    The outputs hold the residuals of the facts that were solved, by number, and after them those of `checks`, the facts
+    that were not needed.
+    """
 
     def __init__(
-        self, figure: Figure, plan: Plan, corner_residuals: Sequence[str], cosines: Out, out: Out, rows: int
+        self,
+        figure: Figure,
+        solved: int,
+        checks: Sequence[Fact],
+        steps: Sequence[Step],
+        corner_residuals: Sequence[str],
+        cosines: Out,
+        out: Out,
+        rows: int,
     ) -> None:
-        self.figure, self.plan, self.out, self.cosines = figure, plan, out, cosines
+        self.figure, self.out, self.cosines = figure, out, cosines
         self.reason: Codes = numpy.zeros(rows, numpy.uint8)
         self.again: Mask = numpy.zeros(rows, bool)
+        self.agreeing: dict[str, Mask] = {}
+        """Where a fact that was not needed agrees, by the value that it states."""
+        self.differing: dict[str, Mask] = {}
         self._agrees: Mask = numpy.zeros(rows, bool)
         self._conflicts: Mask = numpy.zeros(rows, bool)
-        basis = [f"residual:{number}" for number in range(len(plan.basis))]
         with numpy.errstate(invalid="ignore"):
-            solved = _worst(numpy.zeros(rows), (out[name] for name in basis))
-            self.worst = _worst(solved.copy(), (out[name] for name in corner_residuals))
+            basis = _worst(numpy.zeros(rows), (out[f"residual:{number}"] for number in range(solved)))
+            self.worst = _worst(basis.copy(), (out[name] for name in corner_residuals))
             """The largest residual of the equations that were solved, mm; NaN if any is."""
-            for number, step in enumerate(plan.steps):
+            for number, step in enumerate(steps):
                 self._check_step(number, step)
-            self._check_equations(solved)
+            self._check_equations(basis, solved, checks)
             self._check_elements()
             if figure.corners:
                 self._check_corners()
@@ -115,10 +129,10 @@ class Verdict:
             self._look_again(touches)
         self._refuse(~(touches | (offset < radius)), kind)
 
-    def _check_equations(self, solved: Array) -> None:
-        size, wrong = len(self.plan.basis), ~(solved <= RESIDUAL) & (self.reason == 0)
+    def _check_equations(self, basis: Array, solved: int, checks: Sequence[Fact]) -> None:
+        wrong = ~(basis <= RESIDUAL) & (self.reason == 0)
         self._refuse(wrong, RefusalKind.NOT_VERIFIED)
-        for number, fact in enumerate(self.plan.checks, size):
+        for number, fact in enumerate(checks, solved):
             off = numpy.abs(self.out[f"residual:{number}"])
             self._compare(fact, off, numpy.isfinite(off) & ~wrong)
 
@@ -143,8 +157,9 @@ class Verdict:
                 self._look_again(differs & is_known)
         else:
             agrees, differs, kind = numpy.zeros(1, bool), ~(off <= AGREEMENT), RefusalKind.FACT_DISAGREES
-        self._agrees |= agrees & is_known
-        self._conflicts |= differs & is_known
+        self.agreeing[fact.given], self.differing[fact.given] = agrees & is_known, differs & is_known
+        self._agrees |= self.agreeing[fact.given]
+        self._conflicts |= self.differing[fact.given]
         self._refuse(differs & is_known, kind)
 
     def _step(self, tail: str, head: str) -> tuple[Array, Array]:

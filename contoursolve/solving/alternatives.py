@@ -128,7 +128,7 @@ def _alternative(profile: Profile, system: System, groups: Sequence[Group], foun
         )
         refusals += more
         remarks += about
-    sides = _sides(system, at, {choice.point for choice in profile.choices})
+    sides = sides_of(system, at, {choice.point for choice in profile.choices})
     # A circle about the middle of two of its points is an ordinary half circle.
     centers = {element.center for element in system.figure.path if isinstance(element, Arc)}
     gap = 0.0 if any(name.rpartition(".")[0] not in centers for name in found.doubles) else None
@@ -256,7 +256,7 @@ def _touching(system: System, found: Found) -> str:
     return next(iter(sorted(touching, key=centers.__contains__)), "the contour")
 
 
-def _sides(system: System, at: Values, chosen: Set[str]) -> dict[str, str]:
+def sides_of(system: System, at: Values, chosen: Set[str]) -> dict[str, str]:
     """On which side everything lies for which there is another: points on lines and circles, centres, contacts.
 
     `chosen` are the points whose side the control chooses.

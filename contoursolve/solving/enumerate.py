@@ -71,11 +71,19 @@ def enumerate_solutions(profile: Profile, system: System) -> Enumeration:
     enumeration = Enumeration((), ())
     for bits, close in ((ball.WORKING, Close.REFUSE), (ball.HIGHEST, Close.DOUBLE)):
         with ball.precision(bits):
-            enumeration = _Search(system, groups, ground_of(profile), close).run()
+            enumeration = enumerate_on(ground_of(profile), system, groups, close)
         # More digits do not finish a search.
         if not any(doubt.obstacle in (Obstacle.TOUCHING, Obstacle.UNDECIDED) for doubt in enumeration.doubts):
             break
     return enumeration
+
+
+def enumerate_on(
+    ground: Ground, system: System, groups: tuple[Group, ...], close: Close, budget: int = INTERVALS, least: int = LEAST
+) -> Enumeration:
+    """All solutions on a ground, with the balls of the precision that is set. Where the ground is a whole box of
+    values, each one is proven for all of them."""
+    return _Search(system, groups, ground, close, budget, least).run()
 
 
 MOST_SOLUTIONS = 512
@@ -83,14 +91,17 @@ MOST_SOLUTIONS = 512
 
 
 class _Search:
-    def __init__(self, system: System, groups: tuple[Group, ...], ground: Ground, close: Close) -> None:
+    def __init__(
+        self, system: System, groups: tuple[Group, ...], ground: Ground, close: Close, budget: int, least: int
+    ) -> None:
         self.system = system
         self.groups = groups
         self.ground = ground
         self.close = close
         self.doubts: list[Doubt] = []
         self.is_searched = False
-        self.budget = INTERVALS
+        self.budget = budget
+        self.least = least
         self.reach = ground.reach(system)
         lines = [line for line in (*system.figure.path, *system.figure.lines) if isinstance(line, Line)]
         carriers = [line for line in lines if line.name in system.figure.carriers]
@@ -163,7 +174,7 @@ class _Search:
         conditions = conditions_of(self.system, group)
         names = {*conditions.narrowed_by, *conditions.arguments} - {*kernel.unknowns}
         inputs = [{name: self.ground.number(name, case.scalars, case.signs) for name in names} for case in cases]
-        divisions, looked_at = divide(conditions, inputs, self.reach, max(self.budget, LEAST))
+        divisions, looked_at = divide(conditions, inputs, self.reach, max(self.budget, self.least))
         self.budget -= looked_at
         for division, at in zip(divisions, inputs, strict=True):
             if not division.is_complete:

@@ -1,0 +1,341 @@
+"""Rows of which each may have several solutions: followed by Newton's method from boxes that hold one each."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy
+from numpy.typing import NDArray
+
+from contoursolve.analysis import Group, judge, order
+from contoursolve.backends import ball
+from contoursolve.backends.columns import ROWS, Array, Columns, columns_of, compile_columns, directions
+from contoursolve.backends.inputs import COSINE, SIDE, SINE, lookup
+from contoursolve.backends.numeric import Tape
+from contoursolve.constraints import Coordinate, Radius, System, Values
+from contoursolve.families.cells import cells_of
+from contoursolve.families.kinds import Kind
+from contoursolve.families.ranges import Places, Ranges
+from contoursolve.families.verdict import Code, Verdict, code_of, reason_of
+from contoursolve.model import FIRST, SECOND, Fact, Question, Unit, scalar
+from contoursolve.solving import RefusalKind, Solution
+from contoursolve.solving.compile import PathMachine, compile_path
+from contoursolve.solving.kernel import Kernel, make_kernel
+from contoursolve.tolerance import LENGTH
+
+BLOCK = 8_192
+"""Rows that are looked at together."""
+
+STEPS = 20
+"""Newton's steps; from the middle of a proven box five or six do."""
+
+STIFF = 1e3
+"""1. Where the inverse of the derivatives is larger, doubles may be off by more than 1e-12 of the coordinates."""
+
+STANDING = 1e-12
+"""1 (share of the coordinates). A last step that is longer has not arrived."""
+
+Bits = NDArray[numpy.bool_]
+Scalars = Mapping[str, Array]
+
+
+@dataclass(slots=True, eq=False)
+class Pairs:
+    """Rows, each with one of its solutions: where it is sought (mm or cosines), and the sides at which it touches."""
+
+    rows: Places
+    is_chosen: Bits
+    middles: Mapping[str, Array]
+    radii: Mapping[str, Array]
+    signs: Mapping[str, Array]
+
+
+@dataclass(slots=True, eq=False)
+class Settled:
+    """What becomes of rows: status and reason, and the scalars and sides of those that show a solution (0 for a side
+    that is not known); `is_path` tells which of these are contours, and `again` has the rows that a single solve must
+    decide."""
+
+    status: NDArray[numpy.uint8]
+    reason: NDArray[numpy.uint8]
+    is_path: Bits
+    is_shown: Bits
+    scalars: dict[str, Array]
+    signs: dict[str, Array]
+    again: Bits
+
+
+class Several:
+    """The functions of a kind whose rows may have several solutions, for one thread."""
+
+    def __init__(self, kind: Kind) -> None:
+        self.kind = kind
+        self.system: System = kind.system
+        verdict = judge(self.system)
+        self.basis = tuple(self.system.facts[index] for index in verdict.basis)
+        self.checks = tuple(fact for index, fact in enumerate(self.system.facts) if index not in verdict.basis)
+        self.groups: tuple[Group, ...] = order(self.system, self.basis)
+        self.steps = [_step(make_kernel(self.system, group)) for group in self.groups]
+        tape = Tape()
+        for number, fact in enumerate((*self.basis, *self.checks)):
+            tape.output(f"residual:{number}", fact.residual(lookup(self.system, tape, {})))
+        self.solved = [f"residual:{number}" for number in range(len(self.basis))]
+        """The outputs of the equations that are solved."""
+        self.residuals = Columns(compile_columns(tape, tape.inputs))
+        self.machine: PathMachine = compile_path(self.system)
+        path = self.machine.function
+        self.path = Columns(columns_of(path.function, path.inputs, path.outputs, path.inputs))
+
+    def solve(self, ranges: Ranges, places: Mapping[str, Places]) -> Settled:
+        """What becomes of some rows."""
+        values = {word: ranges.values[word][place] for word, place in places.items()}
+        rows = next(iter(places.values())).size
+        given = self._given(ranges, places)
+        settled = Settled(
+            numpy.zeros(rows, numpy.uint8),
+            numpy.zeros(rows, numpy.uint8),
+            numpy.zeros(rows, bool),
+            numpy.zeros(rows, bool),
+            {name: numpy.full(rows, numpy.nan) for name in self.system.unknowns},
+            {SIDE + side: numpy.zeros(rows) for fact in self.system.facts for side in fact.sides()},
+            numpy.zeros(rows, bool),
+        )
+        pairs = self._pairs(values, settled)
+        if pairs.rows.size:
+            self._decide(pairs, given, settled)
+        for row in numpy.flatnonzero(settled.again).tolist():
+            self._solve_alone({word: float(each[row]) for word, each in values.items()}, [row], settled)
+        return settled
+
+    def _given(self, ranges: Ranges, places: Mapping[str, Places]) -> dict[str, Array]:
+        """All that is known, row by row or as one number, by the names of the inputs."""
+        kind, found = self.kind, dict[str, Array]()
+        for name, given in kind.profile.givens.items():
+            value = numpy.array([float(given.value)])
+            if name in kind.free:
+                word, factor = kind.free[name]
+                value = ranges.values[word][places[word]] * float(factor)
+            if given.unit is Unit.DEGREE:
+                found[name + COSINE], found[name + SINE] = directions(value)
+            else:
+                found[name] = value
+        for axis, origin in enumerate(kind.origin(ranges, places)):
+            found[scalar(self.system.figure.start, axis)] = numpy.atleast_1d(origin)
+        return found
+
+    def _pairs(self, values: Mapping[str, Array], settled: Settled) -> Pairs:
+        """Every row with each of its solutions; rows without any are settled."""
+        names = self.system.unknowns
+        rows: list[Places] = []
+        chosen: list[Bits] = []
+        middles: dict[str, list[Array]] = {name: [] for name in names}
+        radii: dict[str, list[Array]] = {name: [] for name in names}
+        signs: dict[str, list[Array]] = {}
+        for cell in cells_of(self.kind, self.groups, values):
+            if cell.solutions is None:
+                settled.again[cell.rows] = True
+                continue
+            if not any(cell.is_chosen):
+                # Why there is none is the same for all of them.
+                middle = cell.rows[cell.rows.size // 2]
+                self._solve_alone({word: float(each[middle]) for word, each in values.items()}, cell.rows, settled)
+                continue
+            for found, is_chosen in zip(cell.solutions, cell.is_chosen, strict=True):
+                rows.append(cell.rows)
+                chosen.append(numpy.full(cell.rows.size, is_chosen))
+                for name in names:
+                    low, high = ball.bounds(found.scalars[name])
+                    middles[name].append(numpy.full(cell.rows.size, (low + high) / 2))
+                    radii[name].append(numpy.full(cell.rows.size, (high - low) / 2))
+                for side, sign in found.signs.items():
+                    signs.setdefault(SIDE + side, []).append(numpy.full(cell.rows.size, float(sign)))
+        return Pairs(
+            numpy.concatenate([numpy.zeros(0, numpy.int64), *rows]),
+            numpy.concatenate([numpy.zeros(0, bool), *chosen]),
+            {name: numpy.concatenate([numpy.zeros(0), *each]) for name, each in middles.items()},
+            {name: numpy.concatenate([numpy.zeros(0), *each]) for name, each in radii.items()},
+            {name: numpy.concatenate(each) for name, each in signs.items()},
+        )
+
+    def _decide(self, pairs: Pairs, given: Mapping[str, Array], settled: Settled) -> None:
+        """Which of the solutions of each row is the contour."""
+        size, rows = pairs.rows.size, settled.status.size
+        status, reason = numpy.zeros(size, numpy.uint8), numpy.zeros(size, numpy.uint8)
+        is_bad, scalars = numpy.zeros(size, bool), {name: numpy.zeros(size) for name in self.system.unknowns}
+        agreeing, differing = dict[str, Bits](), dict[str, Bits]()
+        for first in range(0, size, ROWS):
+            part = slice(first, min(first + ROWS, size))
+            here = {name: each if each.size == 1 else each[pairs.rows[part]] for name, each in given.items()}
+            here |= {name: each[part] for name, each in pairs.signs.items()}
+            is_bad[part] = self._follow(pairs, part, here, scalars)
+            verdict = self._judge(here, {name: each[part] for name, each in scalars.items()}, part.stop - part.start)
+            status[part], reason[part] = verdict.status, verdict.reason
+            is_bad[part] |= verdict.again | (verdict.reason == reason_of(RefusalKind.NOT_VERIFIED))
+            for masks, found in ((agreeing, verdict.agreeing), (differing, verdict.differing)):
+                for name, mask in found.items():
+                    masks.setdefault(name, numpy.zeros(size, bool))[part] = mask
+        status[(status == Code.OVERDETERMINED) & (reason != 0)] = Code.NO_SOLUTION
+        is_path = (reason == 0) & (status <= Code.OVERDETERMINED) & pairs.is_chosen
+        # A word that tells a solution from another one is needed after all.
+        agrees = numpy.zeros(size, bool)
+        for name, mask in agreeing.items():
+            selects = numpy.bincount(pairs.rows[differing[name]], minlength=rows) > 0
+            agrees |= mask & ~selects[pairs.rows]
+        status[is_path] = numpy.where(agrees[is_path], Code.OVERDETERMINED, Code.SOLVED)
+        paths = numpy.bincount(pairs.rows[is_path], minlength=rows)
+        chosen = numpy.bincount(pairs.rows[pairs.is_chosen], minlength=rows)
+        settled.again |= numpy.bincount(pairs.rows[is_bad], minlength=rows) > 0
+        # Later pairs first, so that the first of several counts.
+        for mask in (pairs.is_chosen, is_path):
+            at = numpy.flatnonzero(mask)[::-1]
+            settled.status[pairs.rows[at]], settled.reason[pairs.rows[at]] = status[at], reason[at]
+        differ = numpy.zeros(rows, bool)
+        at = numpy.flatnonzero(pairs.is_chosen)
+        differ[pairs.rows[at]] = status[at] != settled.status[pairs.rows[at]]
+        numpy.logical_or.at(differ, pairs.rows[at], status[at] != settled.status[pairs.rows[at]])
+        settled.again |= differ & (paths == 0)
+        settled.status[paths > 1] = Code.AMBIGUOUS
+        settled.reason[paths > 1] = 0
+        is_only = (paths == 1) | ((paths == 0) & (chosen == 1))
+        shown = is_path | (pairs.is_chosen & (paths[pairs.rows] == 0))
+        at = numpy.flatnonzero(shown & is_only[pairs.rows])
+        for name, values in scalars.items():
+            settled.scalars[name][pairs.rows[at]] = values[at]
+        for name, values in pairs.signs.items():
+            settled.signs[name][pairs.rows[at]] = values[at]
+        settled.is_shown[pairs.rows[at]] = True
+        settled.is_path[pairs.rows[at]] = is_path[at]
+
+    def _follow(self, pairs: Pairs, part: slice, here: Mapping[str, Array], scalars: Scalars) -> Bits:
+        """The solutions of some pairs, step by step; where they did not end in their boxes, or may be inexact."""
+        rows = part.stop - part.start
+        known = dict(here)
+        is_bad = numpy.zeros(rows, bool)
+        with numpy.errstate(all="ignore"):
+            for kernel, function in self.steps:
+                size = len(kernel.unknowns)
+                at = numpy.stack([pairs.middles[name][part] for name in kernel.unknowns], axis=1)
+                step, inverse = numpy.zeros((rows, size)), numpy.zeros((rows, size, size))
+                for _ in range(STEPS):
+                    known |= {name: at[:, column] for column, name in enumerate(kernel.unknowns)}
+                    out = _run(function, known, rows)
+                    residuals = numpy.stack([out[str(row)] for row in range(size)], axis=1)
+                    slopes = numpy.stack([out[str(size + entry)] for entry in range(size * size)], axis=1)
+                    inverse = _inverse(slopes.reshape(rows, size, size))
+                    step = (inverse @ residuals[:, :, None])[:, :, 0]
+                    at = at - step
+                    largest = numpy.maximum(1.0, numpy.abs(at).max(axis=1))
+                    if not (numpy.abs(step).max(axis=1) > STANDING / 8 * largest).any():
+                        break
+                known |= {name: at[:, column] for column, name in enumerate(kernel.unknowns)}
+                is_bad |= ~(numpy.abs(step).max(axis=1) <= STANDING * largest)
+                is_bad |= ~(numpy.abs(inverse).sum(axis=2).max(axis=1) <= STIFF)
+                for column, name in enumerate(kernel.unknowns):
+                    away = numpy.abs(at[:, column] - pairs.middles[name][part])
+                    is_bad |= ~(away <= pairs.radii[name][part] + LENGTH)
+                    scalars[name][part] = at[:, column]
+        return is_bad
+
+    def _judge(self, here: Mapping[str, Array], scalars: Scalars, rows: int) -> Verdict:
+        """What speaks against each of some solutions."""
+        known = {**here, **scalars}
+        residuals = _run(self.residuals, known, rows)
+        relative = self._relative(known)
+        out = {**relative, **_run(self.path, relative, rows), **residuals}
+        return Verdict(
+            self.system.figure, len(self.basis), self.checks, (), self.machine.corner_residuals, here, out, rows
+        )
+
+    def _relative(self, known: Mapping[str, Array]) -> dict[str, Array]:
+        """The inputs of the path: coordinates counted from the start, and the sizes of all corners."""
+        figure, found = self.system.figure, dict(known)
+        for axis in (FIRST, SECOND):
+            start = known[scalar(figure.start, axis)]
+            for point in (*figure.points, *figure.places):
+                found[scalar(point, axis)] = known[scalar(point, axis)] - start
+            found[scalar(figure.start, axis)] = numpy.zeros(1)
+        for corner in figure.corners:
+            if corner.size not in known:
+                found[corner.size] = known[f"{corner.name}.radius"]
+        return found
+
+    def _solve_alone(self, values: Mapping[str, float], rows: Sequence[int] | Places, settled: Settled) -> None:
+        """What a single solve says, for all of some rows."""
+        solution: Solution = self.kind.solve(values)
+        settled.status[rows] = code_of(solution.status)
+        settled.reason[rows] = reason_of(solution.refusals[0].kind if solution.refusals else None)
+        settled.is_path[rows] = settled.is_shown[rows] = bool(solution.scalars)
+        for name in self.system.unknowns:
+            settled.scalars[name][rows] = solution.scalars.get(name, numpy.nan)
+        for sides in settled.signs.values():
+            sides[rows] = 0.0
+
+    def path_of(
+        self, settled: Settled, rows: Places, ranges: Ranges, places: Mapping[str, Places]
+    ) -> tuple[dict[str, Array], Array]:
+        """The path of the solutions that some rows show, in coordinates counted from the start, and their largest
+        residuals."""
+        given = self._given(ranges, {word: place[rows] for word, place in places.items()})
+        known = {**given, **{name: each[rows] for name, each in settled.scalars.items()}}
+        relative = self._relative(known)
+        found = {**relative, **_run_apart(self.path, relative, rows.size)}
+        found |= {name: self._ask(question.fact, known, rows.size) for name, question in asked_of(self.kind).items()}
+        worst = numpy.maximum.reduce(
+            [numpy.zeros(rows.size), *(numpy.abs(found[name]) for name in self.machine.corner_residuals)]
+        )
+        # A side that is not known is the one on which the equation is true.
+        both = [
+            {name: numpy.where(each[rows] == 0, sign, each[rows]) for name, each in settled.signs.items()}
+            for sign in (1.0, -1.0)
+        ]
+        tried = [_run_apart(self.residuals, {**known, **signs}, rows.size) for signs in both]
+        for name in self.solved:
+            numpy.maximum(worst, numpy.minimum(*(numpy.abs(out[name]) for out in tried)), out=worst)
+        return found, worst
+
+    def _ask(self, fact: Fact, known: Mapping[str, Array], rows: int) -> Array:
+        """What a fact would state, row by row: mm or degrees."""
+        if isinstance(fact, Radius):
+            return known[fact.radius]
+        if isinstance(fact, Coordinate):
+            return known[scalar(fact.point, fact.axis)]
+        found = numpy.full(rows, numpy.nan)
+        columns = {name: numpy.broadcast_to(each, rows).tolist() for name, each in known.items()}
+        angles = [given.name for given in self.kind.profile.givens.values() if given.unit is Unit.DEGREE]
+        for row in range(rows):
+            numbers = {name: each[row] for name, each in columns.items()}
+            pairs = {name: (numbers[name + COSINE], numbers[name + SINE]) for name in angles}
+            value = fact.implied(Values(numbers, numbers, pairs, self.system.headed))
+            found[row] = numpy.nan if value is None else value
+        return found
+
+
+def asked_of(kind: Kind) -> dict[str, Question]:
+    """The values that are asked for, by the names of their columns."""
+    found: dict[str, Question] = {}
+    for question in kind.profile.questions:
+        name = f"asked.{question.word.text.partition('=')[0].rstrip('? ').strip()}"
+        found[f"{name} in line {question.word.span.line}" if name in found else name] = question
+    return found
+
+
+def _step(kernel: Kernel) -> tuple[Kernel, Columns]:
+    outputs = [str(number) for number in range(kernel.function.nnz_out(0))]
+    return kernel, Columns(columns_of(kernel.function, kernel.arguments, outputs, kernel.arguments))
+
+
+def _run(function: Columns, values: Mapping[str, Array], rows: int) -> dict[str, Array]:
+    """The outputs at these columns."""
+    for place, name in enumerate(function.compiled.varied):
+        function.inputs[place, :rows] = values[name]
+    return {name: numpy.broadcast_to(each, rows) for name, each in function.evaluate(rows).items()}
+
+
+def _run_apart(function: Columns, values: Mapping[str, Array], rows: int) -> dict[str, Array]:
+    return {name: each.copy() for name, each in _run(function, values, rows).items()}
+
+
+def _inverse(matrices: Array) -> Array:
+    """The inverses of square matrices; of one that is singular, NaN."""
+    is_regular = (numpy.abs(numpy.linalg.det(matrices)) > 0)[:, None, None]
+    found: Array = numpy.linalg.inv(numpy.where(is_regular, matrices, numpy.eye(matrices.shape[1])))
+    return numpy.where(is_regular, found, numpy.nan)
