@@ -36,10 +36,12 @@ if TYPE_CHECKING:
         Feasible,
         Found,
         Sensitivity,
+        Tolerances,
         family,
         feasible,
         find_word,
         sensitivity,
+        tolerances,
     )
     from contoursolve.notebook import explore
     from contoursolve.pipeline import Result, UnknownControlError
@@ -76,6 +78,7 @@ __all__ = [
     "Severity",
     "Sketch",
     "Status",
+    "Tolerances",
     "UnknownControlError",
     "UnreadableProgramError",
     "Word",
@@ -93,6 +96,7 @@ __all__ = [
     "solve",
     "solve_file",
     "solve_program",
+    "tolerances",
     "what_if",
 ]
 
@@ -108,10 +112,12 @@ _ROOMS = {
         "Feasible",
         "Found",
         "Sensitivity",
+        "Tolerances",
         "family",
         "feasible",
         "find_word",
         "sensitivity",
+        "tolerances",
     ),
     "notebook": ("explore",),
     "pipeline": ("Result", "UnknownControlError"),

@@ -89,11 +89,16 @@ class Watched:
 def jupyterlab(folder):
     """The address of a JupyterLab with a home of its own."""
     home = folder / "home"
-    settings = home / "settings" / "@jupyterlab" / "apputils-extension"
-    settings.mkdir(parents=True)
-    # Otherwise it asks a server for news.
-    quiet = {"fetchNews": "false", "checkForUpdates": False}
-    (settings / "notification.jupyterlab-settings").write_text(json.dumps(quiet))
+    settings = {
+        # Otherwise it asks a server for news.
+        "apputils-extension/notification": {"fetchNews": "false", "checkForUpdates": False},
+        # All cells are on the page, also those that are not in sight.
+        "notebook-extension/tracker": {"windowingMode": "none"},
+    }
+    for name, values in settings.items():
+        file = home / "settings" / "@jupyterlab" / f"{name}.jupyterlab-settings"
+        file.parent.mkdir(parents=True)
+        file.write_text(json.dumps(values))
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
@@ -139,16 +144,15 @@ def wait_for(address, server, log):
 
 
 def write_notebook(path):
-    """A notebook with the explorer and a result."""
-    cells = [f"import contoursolve\ncontoursolve.explore({BLOCK!r}, start='X40. Z0.')", BROKEN]
+    """The first notebook, where there is one, with a result of our own; else one with the explorer."""
     kind = {"cell_type": "code", "metadata": {}, "outputs": [], "execution_count": None}
-    document = {
-        "cells": [{**kind, "id": f"cell-{number}", "source": text} for number, text in enumerate(cells)],
-        "metadata": {"kernelspec": {"name": "python3", "display_name": "Python 3", "language": "python"}},
-        "nbformat": 4,
-        "nbformat_minor": 5,
-    }
-    path.write_text(json.dumps(document))
+    document = {"cells": [], "metadata": {}, "nbformat": 4, "nbformat_minor": 5}
+    texts = [f"import contoursolve\ncontoursolve.explore({BLOCK!r}, start='X40. Z0.')", BROKEN]
+    if NOTEBOOK.exists():
+        document, texts = json.loads(NOTEBOOK.read_text(encoding="utf-8")), [BROKEN]
+    document["metadata"]["kernelspec"] = {"name": "python3", "display_name": "Python 3", "language": "python"}
+    document["cells"] += [{**kind, "id": f"browser-{number}", "source": text} for number, text in enumerate(texts)]
+    path.write_text(json.dumps(document), encoding="utf-8")
 
 
 BROKEN = "contoursolve.solve('N310 G111 A180. K-20. P4. B90. X66. D0.5', start='X60. Z-55.')"
@@ -171,6 +175,7 @@ def test_in_jupyterlab_a_slider_moves_the_path_and_a_finding_comes_and_goes(brow
         explorer = page.locator(".contoursolve.explorer").first
         explorer.locator("figure svg").wait_for()
         page.locator(".jp-OutputArea-output .contoursolve .finding.error").first.wait_for()
+        explorer.scroll_into_view_if_needed()
         before = explorer.locator("figure").inner_html()
         page.screenshot(path=artefacts / "jupyterlab-solved.png")
 

@@ -10,7 +10,7 @@ from click.testing import CliRunner
 
 import contoursolve
 from contoursolve.cli import main
-from contoursolve.cli.sweep import read_range
+from contoursolve.cli.varied import read_range
 from contoursolve.families import REASONS, Code, FamilyError, family, sensitivity
 
 LATHE, MILL = {"start": "X40. Z0."}, {}
@@ -332,8 +332,47 @@ def test_a_sweep_counts_what_becomes_of_the_contours():
 def test_a_range_has_both_ends_and_no_rounding_adds_up():
     word, values = read_range("a=170:190:0.01")
     assert (word, len(values), values[0], values[-1], values[1733]) == ("A", 2001, 170.0, 190.0, 187.33)
-    assert read_range("2:,A=3:1:-1") == ("2:,A", [3.0, 2.0, 1.0])
-    assert read_range("P=1, 2.5")[1] == [1.0, 2.5]
+    word, values = read_range("2:,a=3:1:-1")
+    assert (word, values.tolist()) == ("2:,A", [3.0, 2.0, 1.0])
+    assert read_range("P=1, 2.5")[1].tolist() == [1.0, 2.5]
+    assert read_range("length  of line 1=1:2:1")[0] == "length of line 1"
+    assert read_range("Start.x=1")[0] == "start.X"
+
+
+def test_values_come_from_a_column_of_a_file(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    found = family(BLOCK, start=START, vary={"A": [170, 180.5], "P": [1, 60]}, paired=True)
+    (tmp_path / "in.csv").write_text("A;radius\n170;1\n180.5;60\n", encoding="utf-8-sig")
+    assert run(*ON_BLOCK, "--vary", "A=@in.csv", "--vary", "P=@in.csv:radius", "--paired", "-o", "out.csv")[0] == 0
+    rows = [line.split(",") for line in (tmp_path / "out.csv").read_text().splitlines()]
+    assert [row[:3] for row in rows[1:]] == [["170.0", "1.0", "solved"], ["180.5", "60.0", "no-solution"]]
+    pytest.importorskip("pyarrow")
+    found.to_parquet(tmp_path / "in.parquet")
+    assert read_range("P=@in.parquet")[1].tolist() == [1, 60]
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("A=@in.txt", "ends with .csv or .parquet"),
+        ("A=@none.csv", "none.csv: no such file"),
+        ("A=@in.csv:B", "has no column B; there are A, C"),
+        ("A=@in.csv", "line 3, column A: 'x' is no number"),
+        ("C=@in.csv", "line 3, column C: there is no number"),
+        ("V1.Z=@in.parquet", "row 1: there is no number"),
+        ("A=@broken.parquet", "broken.parquet, column A: "),
+    ],
+)
+def test_a_column_that_is_none_is_one_line_and_status_2(text, message, tmp_path, monkeypatch):
+    pytest.importorskip("pyarrow")
+    from pyarrow import parquet, table  # noqa: PLC0415
+
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "in.csv").write_text("A,C\n1,2\nx,\n")
+    (tmp_path / "broken.parquet").write_text("no parquet")
+    parquet.write_table(table({"V1.Z": [None, 1.0]}), "in.parquet")
+    status, _, errors = run(*ON_BLOCK, "--vary", text)
+    assert (status, message in errors) == (2, True), errors
 
 
 @pytest.mark.parametrize("text", ["A", "A=", "A=1:2", "A=1:2:0", "A=1:2:-1", "A=1:2,3", "A=x", "A=nan", "A=0:1:1e-12"])

@@ -385,6 +385,39 @@ def test_a_fan_shows_each_contour_and_names_where_the_outcome_changes():
         draw_family_fan("A", values * 9, answers * 9)
 
 
+def sweep(*arguments):
+    done = CliRunner().invoke(main, ["sweep", "--block", BLOCK, "--start", START, *map(str, arguments)])
+    assert done.exception is None or isinstance(done.exception, SystemExit), done.exception
+    return done.exit_code, done.output
+
+
+def test_sweep_draws_one_word_as_a_fan_and_two_as_a_map(tmp_path):
+    one = ("--vary", "A=120:250:0.5", "--vary", "Q=5")
+    status, output = sweep(*one, "--plot", tmp_path / "fan.svg")
+    assert (status, "fan.svg written" in output) == (0, True)
+    assert "21 contours" in (tmp_path / "fan.svg").read_text()
+    both = (*one, "--vary", "P=1:60:0.5")
+    status, output = sweep(*both, "--plot", tmp_path / "map.png")
+    assert status == 0
+    assert (tmp_path / "map.png").read_bytes().startswith(b"\x89PNG")
+    family = contoursolve.family(
+        BLOCK, start=START, vary={"A": numpy.arange(120, 250.1, 0.5), "P": numpy.arange(1, 60.1, 0.5), "Q": [5.0]}
+    )
+    told = ", ".join(f"{number:,} {status.value}" for status, number in family.summary().items())
+    assert draw_family_map(family).title == f"A and P: {told}"
+    for wrong, said in (
+        ((*both, "--vary", "X=90,100"), "not 3 words"),
+        (("--vary", "A=170"), "not 0 words"),
+        (("--vary", "A=170,180", "--vary", "P=1,2", "--paired"), "not paired words"),
+    ):
+        status, output = sweep(*wrong, "--plot", tmp_path / "no.svg")
+        assert status == 2
+        assert said in output
+    assert sweep(*one, "--plot", tmp_path / "fan.svg")[0] == 2
+    assert "pictures end in .svg or .png" in sweep(*one, "--plot", tmp_path / "fan.pdf")[1]
+    assert not (tmp_path / "no.svg").exists()
+
+
 # The command.
 
 

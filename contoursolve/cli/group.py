@@ -19,6 +19,7 @@ _COMMANDS = {
     "sweep": "sweep:sweep_",
     "range": "range:range_",
     "find": "find:find",
+    "sensitivity": "sensitivity:sensitivity",
     "verify": "verify:verify",
     "rules": "catalogue:rules",
     "explain": "catalogue:explain",

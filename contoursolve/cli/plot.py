@@ -12,17 +12,17 @@ from contoursolve.cli.options import (
     CouldNotRunError,
     common_options,
 )
+from contoursolve.cli.pictured import PNG, SVG, bytes_of
 from contoursolve.cli.printing import print_lines, style_of_output
 from contoursolve.examine import Answer
 from contoursolve.files import CannotWriteError, check_target, write_whole
 from contoursolve.output.layout import count
 from contoursolve.output.listing import lines_of_findings, summary_line
-from contoursolve.pictures import Picture, Theme, draw_answer, draw_result
-from contoursolve.pictures.png import MissingExtraError
+from contoursolve.pictures import MissingPainterError, Theme, draw_answer, draw_result
 from contoursolve.pipeline import Result
 from contoursolve.syntax import STANDARD_INPUT
 
-_SVG, _PNG, _DXF = ".svg", ".png", ".dxf"
+_DXF = ".dxf"
 _FILE_THEMES = [Theme.LIGHT.value, Theme.DARK.value, Theme.PAGE.value]
 
 Written = tuple[Path, bytes, str]
@@ -83,7 +83,7 @@ def plot(
     loader = load([program] if program else [], blocks, start)[0]
     target = output if output is not None else _default(program)
     kind = target.suffix.lower()
-    if kind not in (_SVG, _PNG, _DXF):
+    if kind not in (SVG, PNG, _DXF):
         raise CouldNotRunError(f"{target}: drawings end in .svg, .png or .dxf")
     if kind == _DXF and (line is not None or is_each):
         raise click.UsageError("a DXF drawing has every contour on layers of its own: leave out --line and --each")
@@ -103,7 +103,7 @@ def plot(
             check_target(path, source, is_forced=is_forced)
         for path, data, _ in files:
             write_whole(path, [data], keeps_backup=False)
-    except (CannotWriteError, MissingExtraError) as error:
+    except (CannotWriteError, MissingPainterError) as error:
         raise CouldNotRunError(str(error)) from None
     click.echo(summary_line([result]))
     for path, _, content in files:
@@ -116,7 +116,7 @@ def plot(
 def _default(program: str | None) -> Path:
     """The drawing of a program whose name nobody gave."""
     is_named = program is not None and program != STANDARD_INPUT
-    return Path(f"{Path(program).stem if program and is_named else 'contour'}{_SVG}")
+    return Path(f"{Path(program).stem if program and is_named else 'contour'}{SVG}")
 
 
 def _pictures(result: Result, target: Path, line: int | None, theme: Theme, *, is_each: bool) -> Iterator[Written]:
@@ -126,14 +126,14 @@ def _pictures(result: Result, target: Path, line: int | None, theme: Theme, *, i
     if is_each:
         for answer in result.answers:
             path = target.with_name(f"{target.stem}-{answer.lines[0]}{target.suffix}")
-            yield path, _bytes(draw_answer(answer, theme=theme), target), _about(answer)
+            yield path, bytes_of(draw_answer(answer, theme=theme), target), _about(answer)
         return
     if line is not None:
         answer = _at(result.answers, line)
-        yield target, _bytes(draw_answer(answer, theme=theme), target), _about(answer)
+        yield target, bytes_of(draw_answer(answer, theme=theme), target), _about(answer)
         return
     picture = draw_result(result, theme=theme)
-    yield target, _bytes(picture, target), count(len(result.answers), "contour")
+    yield target, bytes_of(picture, target), count(len(result.answers), "contour")
 
 
 def _about(answer: Answer) -> str:
@@ -147,10 +147,6 @@ def _at(answers: Sequence[Answer], line: int) -> Answer:
             return answer
     have = ", ".join(str(answer.lines[0]) for answer in answers)
     raise CouldNotRunError(f"line {line} belongs to no contour; contours begin in lines {have}")
-
-
-def _bytes(picture: Picture, target: Path) -> bytes:
-    return picture.png() if target.suffix.lower() == _PNG else picture.svg.encode()
 
 
 def _drawings_for_cad(result: Result, target: Path) -> list[Written]:

@@ -1,9 +1,10 @@
 """The command that solves one block for many values of some of its words."""
 
-import os
 import sys
+import time
 from collections.abc import Iterator
-from decimal import Decimal, InvalidOperation
+from concurrent.futures import Executor
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -12,26 +13,30 @@ import numpy
 
 from contoursolve.cli.loading import settings_of
 from contoursolve.cli.options import CouldNotRunError, rules_option, settings_option, units_option
+from contoursolve.cli.pictured import bytes_of, check_picture
+from contoursolve.cli.varied import read_range
 from contoursolve.dialects import DIALECTS
 from contoursolve.families import (
     REASONS,
+    WHOLE,
     Code,
     FamilyError,
     MissingExtraError,
+    Parts,
     Sweep,
     csv_lines,
     need,
+    others,
+    parts_of,
     pieces,
     sweep,
     write_parquet,
 )
 from contoursolve.files import CannotWriteError, check_target, write_whole
 from contoursolve.output.layout import columns
-from contoursolve.pipeline import UnknownControlError
+from contoursolve.pictures import MissingPainterError, draw_sweep
+from contoursolve.pipeline import FactPlaceError, UnknownControlError
 from contoursolve.project import SettingError
-
-MOST = 10_000_000
-"""Values of one word."""
 
 
 @click.command("sweep", short_help="Solve a block for many values of its words.")
@@ -43,13 +48,23 @@ MOST = 10_000_000
     multiple=True,
     required=True,
     metavar="WORD=VALUES",
-    help="A word of the block and its values: START:STOP:STEP with both ends, or V1,V2,...; may be repeated. Where "
-    "several blocks have the word, LINE:WORD, such as 2:,A=10:20:1.",
+    help="A word of the block and its values: START:STOP:STEP with both ends, V1,V2,..., or @FILE:COLUMN, a column of "
+    "a CSV or Parquet file; may be repeated. Where several blocks have the word, LINE:WORD, such as 2:,A=10:20:1; "
+    "start.X is the X of --start, and 'length of line 1' the value of that --fact.",
 )
+@click.option("--fact", "facts", multiple=True, metavar="FACT", help="A fact besides the words; may be repeated.")
 @click.option("--paired", "is_paired", is_flag=True, help="Values side by side; without it, every combination.")
 @click.option("-o", "--output", metavar="FILE", help="Where to write every row: FILE.parquet or FILE.csv.")
+@click.option(
+    "--plot",
+    "picture",
+    metavar="FILE",
+    type=click.Path(path_type=Path),
+    help="Where to draw the contours of one word that varies, or the outcomes over two: FILE.svg or FILE.png.",
+)
 @click.option("--force", "is_forced", is_flag=True, help="Replace FILE if it exists.")
 @click.option("--workers", type=click.IntRange(1, 256), default=1, show_default=True, help="Threads.")
+@click.option("--dask", metavar="ADDRESS", help="Solve on the cluster of the Dask scheduler at this address.")
 @click.option("--control", type=click.Choice(list(DIALECTS)), help="The control; found from the block without it.")
 @units_option
 @rules_option
@@ -58,10 +73,13 @@ def sweep_(
     blocks: tuple[str, ...],
     start: str | None,
     varied: tuple[str, ...],
+    facts: tuple[str, ...],
     is_paired: bool,
     output: str | None,
+    picture: Path | None,
     is_forced: bool,
     workers: int,
+    dask: str | None,
     control: str | None,
     units: str,
     rules: str,
@@ -71,12 +89,15 @@ def sweep_(
 
     The words in --vary stand in the block with any value. FILE gets a row for each set of values: the words, status,
     reason, all points and corners (mm, X of a lathe as radius), the room left on each element, the largest residual.
+    The same command goes on where it was stopped.
 
     \b
     contoursolve sweep --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0." \\
       --vary A=170:190:0.1 --vary P=1,2,5 -o family.parquet
     """
     target = _target(output, is_forced)
+    if picture is not None:
+        check_picture(picture, is_forced=is_forced)
     try:
         vary: dict[str, Any] = {}
         for text in varied:
@@ -89,45 +110,31 @@ def sweep_(
             vary=vary,
             start=start,
             control=control,
+            facts=facts,
             paired=is_paired,
             units=units,
             rules=rules,
             settings=settings_of(Path(), assignments),
         )
-        counts = _run(ready, workers, target)
-    except (FamilyError, SettingError, MissingExtraError, CannotWriteError) as error:
+        drawn = bytes_of(draw_sweep(ready), picture) if picture is not None else b""
+        with _cluster(dask) as executor:
+            counts = _run(ready, workers if executor is None else None, executor, target)
+        if picture is not None:
+            write_whole(picture, [drawn], keeps_backup=False)
+    except (
+        FamilyError,
+        SettingError,
+        MissingExtraError,
+        MissingPainterError,
+        CannotWriteError,
+        FactPlaceError,
+    ) as error:
         raise CouldNotRunError(str(error)) from None
     except UnknownControlError as error:
         raise CouldNotRunError(f"{error}; say which with --control {'|'.join(DIALECTS)}") from None
     click.echo("\n".join(_summary(counts)))
-    if target is not None:
-        click.echo(f"{target} written", err=True)
-
-
-def read_range(text: str) -> tuple[str, list[float]]:
-    """A word and its values from `A=170:190:0.01` or `P=1,2,5`; steps are counted in decimals, so that no rounding adds
-    up, and both ends belong to it. Raises click.UsageError."""
-    name, equals, values = text.partition("=")
-    word = name.strip().upper()
-    if not equals or not word:
-        raise click.UsageError(f"--vary {text}: write WORD=START:STOP:STEP or WORD=V1,V2,...")
-    try:
-        numbers = [Decimal(each.strip()) for each in values.replace(":", ",").split(",")]
-    except InvalidOperation:
-        raise click.UsageError(f"--vary {text}: {values} is neither START:STOP:STEP nor a list of numbers") from None
-    if not all(number.is_finite() for number in numbers):
-        raise click.UsageError(f"--vary {text}: values must be finite numbers")
-    if ":" not in values:
-        return word, [float(number) for number in numbers]
-    if values.count(":") != 2 or "," in values:  # noqa: PLR2004 - between three numbers
-        raise click.UsageError(f"--vary {text}: a range has three numbers, START:STOP:STEP")
-    first, last, step = numbers
-    if not step or (last - first) * step < 0:
-        raise click.UsageError(f"--vary {text}: steps of {step} do not lead from {first} to {last}")
-    count = int((last - first) / step) + 1
-    if count > MOST:
-        raise click.UsageError(f"--vary {text}: {count:,} values are more than {MOST:,}")
-    return word, [float(first + number * step) for number in range(count)]
+    for path in filter(None, (target, picture)):
+        click.echo(f"{path} written", err=True)
 
 
 def _target(output: str | None, is_forced: bool) -> Path | None:
@@ -146,39 +153,77 @@ def _target(output: str | None, is_forced: bool) -> Path | None:
     return target
 
 
-def _run(ready: Sweep, workers: int, target: Path | None) -> Any:
+@contextmanager
+def _cluster(address: str | None) -> Iterator[Executor | None]:
+    """The executor of a Dask cluster; None without an address. Raises CouldNotRunError."""
+    if address is None:
+        yield None
+        return
+    distributed = need("distributed", "dask")
+    try:
+        client = distributed.Client(address, timeout="10s", set_as_default=False)
+    except (OSError, ValueError) as error:
+        raise CouldNotRunError(f"no Dask scheduler answers at {address}: {error}") from None
+    with client:
+        yield client.get_executor()
+
+
+def _run(ready: Sweep, workers: int | None, executor: Executor | None, target: Path | None) -> Any:
     """Evaluate and write all rows; the number of rows by status and reason."""
     counts = numpy.zeros((len(Code), len(REASONS)), numpy.int64)
+    parts = parts_of(target, ready) if target is not None else None
+    if parts is not None and target is not None:
+        _tell(parts, target)
+    begin, done = time.monotonic(), 0
     with click.progressbar(
-        length=ready.ranges.count, label="solving", file=sys.stderr, hidden=not sys.stderr.isatty(), show_pos=True
+        length=ready.ranges.count,
+        label="solving",
+        file=sys.stderr,
+        hidden=not sys.stderr.isatty(),
+        show_pos=True,
+        show_eta=True,
+        item_show_func=lambda rate: rate,
     ) as bar:
 
         def tables() -> Iterator[dict[str, Any]]:
-            for table in pieces(ready, workers):
+            nonlocal done
+            for table in parts.tables(workers, executor) if parts is not None else pieces(ready, workers, executor):
                 numpy.add.at(counts, (table["status"], table["reason"]), 1)
                 yield table
-                bar.update(table["status"].size)
+                done += table["status"].size
+                rate = done / max(time.monotonic() - begin, 1e-9)
+                bar.update(table["status"].size, f"{rate:,.0f} a second")
 
-        if target is None:
+        if parts is None or target is None:
             for _ in tables():
                 pass
-        elif target.suffix.lower() == ".csv":
-            write_whole(target, (line.encode() for line in csv_lines(tables())), keeps_backup=False)
         else:
-            _write_parquet(target, tables())
+            _write(target, parts, tables())
     return counts
 
 
-def _write_parquet(target: Path, tables: Iterator[dict[str, Any]]) -> None:
-    """The whole file, or none."""
-    temporary = target.with_name(f".{target.name}.{os.urandom(4).hex()}.tmp")
+def _tell(parts: Parts, target: Path) -> None:
+    """What is left of sweeps that were not finished."""
+    if parts.rows_done:
+        click.echo(f"going on after {parts.rows_done:,} of {parts.ready.ranges.count:,} contours", err=True)
+    for folder in others(parts, target):
+        click.echo(f"{folder} is left of another sweep that was not finished; it may be deleted", err=True)
+
+
+def _write(target: Path, parts: Parts, tables: Iterator[dict[str, Any]]) -> None:
+    """The whole file, or none; what is finished stays beside it until then."""
+    whole = parts.folder / WHOLE
     try:
-        write_parquet(temporary, tables)
-        temporary.replace(target)
+        parts.folder.mkdir(exist_ok=True)
+        if target.suffix.lower() == ".csv":
+            with whole.open("w", encoding="utf-8", newline="") as file:
+                file.writelines(csv_lines(tables))
+        else:
+            write_parquet(whole, tables)
+        whole.replace(target)
     except OSError as error:
-        raise CannotWriteError(f"{target} cannot be written: {error.strerror}") from None
-    finally:
-        temporary.unlink(missing_ok=True)
+        raise CannotWriteError(f"{target} cannot be written: {error.strerror or error}") from None
+    parts.remove()
 
 
 def _summary(counts: Any) -> list[str]:

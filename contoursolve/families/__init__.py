@@ -6,15 +6,19 @@ from contoursolve.families.evaluate import family, pieces, sweep
 from contoursolve.families.export import MissingExtraError, csv_lines, need, write_parquet
 from contoursolve.families.goals import Goal
 from contoursolve.families.inverse import Found, Hit, find_word
+from contoursolve.families.parts import WHOLE, Parts, others, parts_of
 from contoursolve.families.prepared import Sweep
-from contoursolve.families.ranges import FamilyError
+from contoursolve.families.ranges import FamilyError, name_of
 from contoursolve.families.result import Family, summary_of
 from contoursolve.families.slopes import Sensitivity, Spread, sensitivity
+from contoursolve.families.tolerance import Effect, Limits, Tolerances, tolerances
 from contoursolve.families.verdict import REASONS, Code
 
 __all__ = [
     "REASONS",
+    "WHOLE",
     "Code",
+    "Effect",
     "End",
     "Family",
     "FamilyError",
@@ -23,20 +27,27 @@ __all__ = [
     "Goal",
     "Hit",
     "Interval",
+    "Limits",
     "MissingExtraError",
+    "Parts",
     "Reason",
     "Sensitivity",
     "Spread",
     "Sweep",
+    "Tolerances",
     "Way",
     "csv_lines",
     "family",
     "feasible",
     "find_word",
+    "name_of",
     "need",
+    "others",
+    "parts_of",
     "pieces",
     "sensitivity",
     "summary_of",
     "sweep",
+    "tolerances",
     "write_parquet",
 ]

@@ -11,7 +11,7 @@ from contoursolve.families.verdict import REASONS, Code
 
 
 class MissingExtraError(ImportError):
-    """A package of the extra `contoursolve[family]` is missing."""
+    """A package of an extra, such as `contoursolve[family]`, is missing."""
 
 
 def to_arrow(columns: Mapping[str, NDArray[Any]]) -> Any:
@@ -69,10 +69,10 @@ def _cells(name: str, values: list[Any]) -> list[str]:
     return ["" if value != value else repr(value) for value in values]
 
 
-def need(package: str) -> Any:
-    """A package of the extra. Raises MissingExtraError."""
+def need(package: str, extra: str = "family") -> Any:
+    """A package of an extra. Raises MissingExtraError."""
     try:
         return import_module(package)
     except ImportError:
         name = package.partition(".")[0]
-        raise MissingExtraError(f"this needs {name}: pip install 'contoursolve[family]'") from None
+        raise MissingExtraError(f"this needs {name}: pip install 'contoursolve[{extra}]'") from None

@@ -25,6 +25,9 @@ TURN = 90.0
 STEPS = 400
 """Steps of a slider, at least."""
 
+DECIMALS = 4
+"""Of a value that was asked for, as a listing shows it."""
+
 Data = dict[str, Any]
 
 
@@ -75,7 +78,7 @@ def _fields(answer: Answer) -> Iterator[Data]:
         if asked is not None and asked.value is not None:
             is_angle = asked.question.unit is Unit.DEGREE
             scale = 1.0 if is_angle else (2 if asked.question.is_diameter else 1) / float(answer.unit.in_mm)
-            value = asked.value * scale
+            value = round(asked.value * scale, DECIMALS)
         low, high, step = _scale(answer, word, value or 0.0, size)
         yield {
             "key": key,

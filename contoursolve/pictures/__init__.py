@@ -1,17 +1,31 @@
 """Pictures: a contour with its words as dimensions, whatever its status; SVG, and PNG with the extra `picture`."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from contoursolve.examine import Answer
-from contoursolve.families import Family
 from contoursolve.pictures.compose import compose
 from contoursolve.pictures.describe import describe, describe_result
 from contoursolve.pictures.layout import lay_out, stack_sheets
-from contoursolve.pictures.picture import Picture, finish
+from contoursolve.pictures.picture import MissingPainterError, Picture, finish
 from contoursolve.pictures.theme import Theme
 from contoursolve.pipeline import Result
 
-__all__ = ["Picture", "Theme", "draw_answer", "draw_family_fan", "draw_family_map", "draw_result"]
+if TYPE_CHECKING:
+    from contoursolve.families import Family, Sweep
+
+__all__ = [
+    "MissingPainterError",
+    "Picture",
+    "Theme",
+    "draw_answer",
+    "draw_family_fan",
+    "draw_family_map",
+    "draw_result",
+    "draw_sweep",
+]
 
 
 def draw_answer(answer: Answer, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
@@ -64,6 +78,20 @@ def draw_family_map(
     """
     from contoursolve.pictures.family_map import lay_out_map, map_title  # noqa: PLC0415 - numpy
 
-    chosen = words if words is not None else tuple(family.ranges.values)[:2]
+    several = [word for word, values in family.ranges.values.items() if values.size > 1]
+    chosen = words if words is not None else tuple(several or family.ranges.values)[:2]
     told = title if title is not None else map_title(family, chosen)
     return finish(lay_out_map(family, chosen, told), theme, told, told)
+
+
+def draw_sweep(ready: Sweep, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
+    """The picture of a sweep: the fan of contours where one word varies, the map of outcomes where two do.
+
+    Solves what it shows, and no more. Raises FamilyError for paired words, and where none or more than two vary.
+    """
+    from contoursolve.pictures.family_sweep import solve_shown  # noqa: PLC0415 - as above
+
+    shown = solve_shown(ready)
+    if isinstance(shown, tuple):
+        return draw_family_fan(*shown, theme=theme, title=title)
+    return draw_family_map(shown, theme=theme, title=title)

@@ -1,6 +1,6 @@
 """Arrowheads, dimension lines and crosses as strokes and shapes, in pixels."""
 
-from math import atan2, cos, hypot, pi, sin
+from math import cos, hypot, sin
 
 from contoursolve.pictures.sheet import Shape, Spot, Stroke, Sweep
 from contoursolve.pictures.theme import DASHES, Role
@@ -45,8 +45,3 @@ def direction(a: Spot, b: Spot) -> Spot:
     """The unit direction from one place to another; to the right if they are one."""
     length = hypot(b[0] - a[0], b[1] - a[1])
     return ((b[0] - a[0]) / length, (b[1] - a[1]) / length) if length > 0 else (1.0, 0.0)
-
-
-def bearing(way: Spot) -> float:
-    """The angle of a direction, radians, clockwise on the page."""
-    return atan2(way[1], way[0]) % (2 * pi)

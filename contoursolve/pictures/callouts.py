@@ -1,6 +1,5 @@
 """What stands in the drawing itself: angles, radii, gaps, points with their names, and what can still slide."""
 
-from collections.abc import Mapping
 from math import cos, fmod, hypot, pi, radians, sin
 
 from contoursolve.pictures.arrows import arc, cross, direction, head, line
@@ -123,9 +122,6 @@ def draw_slide(canvas: Canvas, slide: Slide) -> None:
             )
             canvas.draw(line(begin, tip, Role.FREE, 2.0, is_dashed=False))
             canvas.fill(head(tip, step, Role.FREE, 10.0, 4.5))
-
-
-Neighbours = Mapping[Spot, list[Spot]]
 
 
 def away_from(directions: list[Spot]) -> Spot:

@@ -6,17 +6,19 @@ from dataclasses import replace
 from contoursolve.contour import Contour, Segment, trace
 from contoursolve.diagnostic import Severity
 from contoursolve.examine import Answer
-from contoursolve.model import FIRST, SECOND, Arc, Line, Plane, Profile, scalar
+from contoursolve.model import FIRST, SECOND, Plane
 from contoursolve.output.solutions import list_solutions
+from contoursolve.pictures.construction import list_construction, list_rings, list_slides
 from contoursolve.pictures.dimensions import list_dimensions
 from contoursolve.pictures.faults import draw_faults
-from contoursolve.pictures.known import Known, find_known
+from contoursolve.pictures.finding import find_known
+from contoursolve.pictures.known import Known
 from contoursolve.pictures.marks import givens_at_points, list_marks
-from contoursolve.pictures.scene import Aligned, Ring, Scene, Slide, Thin, Trail, Weight
+from contoursolve.pictures.scene import Aligned, Ring, Scene, Thin, Trail, Weight
 from contoursolve.pictures.sheet import Run
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.tracing import trace_known
-from contoursolve.pictures.vectors import SAME, distance, foot, minus, unit
+from contoursolve.pictures.vectors import SAME, distance
 from contoursolve.pictures.wording import visible
 from contoursolve.reading import Trouble
 from contoursolve.solving import Point, RefusalKind, RemarkKind
@@ -55,18 +57,19 @@ def compose(answer: Answer, title: str | None = None) -> Scene:
         axes=(axis_name(plane, FIRST), axis_name(plane, SECOND)),
         trails=(*ghosts, *main),
         thins=(
-            *_construction(profile, known, elements),
+            *list_construction(profile, known, elements),
             *(each for each in faults if isinstance(each, Thin)),
         ),
-        rings=(*(each for each in _rings(answer, known) if (each.center, each.radius) not in circles), *broken),
+        rings=(*(each for each in list_rings(answer, known) if (each.center, each.radius) not in circles), *broken),
         marks=tuple(marks),
         dimensions=(
             *list_dimensions(answer, known, roles, elements, noted_givens),
             *(each for each in faults if isinstance(each, Aligned)),
         ),
-        slides=tuple(_slides(answer, known)),
+        slides=tuple(list_slides(answer, known)),
         lines=tuple(_lines(answer, roles)),
         remarks=tuple(_remarks(answer)),
+        meanings={Role.GHOST: "other values"} if known.others else {},
         has_turning_axis=plane.diameters[SECOND],
     )
 
@@ -163,80 +166,6 @@ def _ghosts(answer: Answer, known: Known) -> tuple[list[Trail], dict[str, list[t
 
 def _is_path(contour: Contour, known: Known) -> bool:
     return all(name in known.points and distance(at, known.points[name]) <= SAME for name, at in contour.points.items())
-
-
-def _construction(profile: Profile, known: Known, elements: Mapping[str, Segment]) -> Iterator[Thin]:
-    """From the path to the virtual intersections that its corners cut off."""
-    lines = {element.name for element in (*profile.figure.path, *profile.figure.lines) if isinstance(element, Line)}
-    for corner in profile.figure.corners:
-        built, at = known.corners.get(corner.name), known.points.get(corner.at)
-        if built is None or at is None or corner.name not in elements:
-            continue
-        if corner.before in lines:
-            yield Thin(built.begin, at, Role.MUTED)
-        if corner.after is None or corner.after in lines:
-            yield Thin(at, built.end, Role.MUTED)
-    if profile.is_extended:
-        yield from _tangents(profile, known)
-
-
-def _tangents(profile: Profile, known: Known) -> Iterator[Thin]:
-    """From where a line of the path ends to where it touches a circle beyond."""
-    from contoursolve.constraints import TangentLine  # noqa: PLC0415 - see `constraints`
-
-    for fact in profile.facts:
-        if not isinstance(fact, TangentLine):
-            continue
-        line = next((each for each in profile.figure.path if each.name == fact.line), None)
-        if line is None or not {line.tail, line.head} <= known.points.keys():
-            continue
-        tail, head = known.points[line.tail], known.points[line.head]
-        center = known.points.get(fact.center, place_of(profile, fact.center))
-        if center is None or distance(tail, head) <= SAME:
-            continue
-        there = foot(center, tail, unit(minus(head, tail)))
-        near = min((tail, head), key=lambda end: distance(end, there))
-        if max(distance(tail, there), distance(head, there)) > distance(tail, head) + SAME:
-            yield Thin(near, there, Role.MUTED)
-
-
-def place_of(profile: Profile, name: str) -> Point | None:
-    """A point whose coordinates are given."""
-    given = [profile.givens.get(scalar(name, axis)) for axis in (FIRST, SECOND)]
-    values = [float(each.value) for each in given if each is not None]
-    return (values[0], values[1]) if len(values) == len(given) else None
-
-
-def _rings(answer: Answer, known: Known) -> Iterator[Ring]:
-    """The whole circles of arcs on which an intersection lies."""
-    profile = answer.profile
-    chosen = {choice.point for choice in profile.choices if choice.given}
-    for element in profile.figure.path:
-        if not isinstance(element, Arc):
-            continue
-        center, radius = known.points.get(element.center), known.radii.get(element.radius)
-        is_wanted = chosen & {element.tail, element.head} or answer.contour is None
-        if center is not None and radius is not None and is_wanted:
-            yield Ring(center, radius, Role.MUTED)
-    for circle in profile.figure.circles:
-        center, radius = place_of(profile, circle.center), profile.givens.get(circle.radius)
-        if center is not None and radius is not None:
-            yield Ring(center, float(radius.value), Role.GIVEN)
-
-
-def _slides(answer: Answer, known: Known) -> Iterator[Slide]:
-    """What can still move, and how."""
-    freedoms = answer.diagnosis.freedoms if answer.diagnosis else ()
-    if answer.contour is not None:
-        return
-    for freedom in freedoms:
-        at = known.points.get(freedom.point)
-        if at is not None:
-            yield Slide(at, freedom.direction, freedom.point)
-    if not freedoms:
-        for name in sorted(known.placed):
-            if name in known.points:
-                yield Slide(known.points[name], None, name)
 
 
 def _lines(answer: Answer, roles: Mapping[str, Role]) -> Iterator[tuple[Run, ...]]:

@@ -6,7 +6,7 @@ from dataclasses import replace
 from contoursolve.examine import Answer
 from contoursolve.model import FIRST, SECOND
 from contoursolve.pictures.compose import axis_name, main_trails
-from contoursolve.pictures.known import find_known
+from contoursolve.pictures.finding import find_known
 from contoursolve.pictures.scene import Kind, Mark, Scene, Trail, Weight
 from contoursolve.pictures.sheet import Run
 from contoursolve.pictures.theme import Role
@@ -45,11 +45,13 @@ def compose_fan(word: str, values: Sequence[float], answers: Sequence[Answer], t
     told = ", ".join(f"{counts[status]} {status.value}" for status in reversed(Status) if counts[status])
     start = next((trail.segments[0].start for trail in trails), None)
     marks += [Mark(start, Kind.START, (Run("start", Role.INK),), ())] if start is not None else []
-    shown = title if title is not None else f"{word} from {min(values):g} to {max(values):g}: {told}"
+    span = f"{word} from {min(values):g} to {max(values):g}"
+    shown = title if title is not None else f"{span}, {len(answers)} contours: {told}"
     return Scene(
         shown,
         (axis_name(plane, FIRST), axis_name(plane, SECOND)),
         tuple(trails),
         marks=tuple(marks),
+        meanings={Role.GIVEN: "solved", Role.CONFLICTING: "no contour"},
         has_turning_axis=plane.diameters[SECOND],
     )

@@ -17,7 +17,7 @@ _WIDTH, _WIDE, _HIGH = 760.0, 610.0, 400.0
 """Pixels of the page, and of the map itself."""
 
 _LEFT, _TOP = 92.0, 56.0
-_COLUMNS, _ROWS = 305, 200
+COLUMNS, ROWS = 305, 200
 """Cells of a map; of more values, the one nearest to the middle of each cell is shown."""
 
 _SIZE, _TITLE = 12.0, 14.0
@@ -37,13 +37,15 @@ def map_title(family: Family, words: tuple[str, ...]) -> str:
 
 def lay_out_map(family: Family, words: tuple[str, ...], title: str) -> Sheet:
     """The page of a map. Raises ValueError where the words are not two words of a grid of two."""
-    own = tuple(family.ranges.values)
+    own = [word for word, values in family.ranges.values.items() if values.size > 1 or word in words]
     if family.ranges.is_paired or len(own) != 2 or sorted(words) != sorted(own):  # noqa: PLR2004 - a plane
         raise ValueError(f"a map needs a grid of two words; this family has {' and '.join(own)}, not {words!r}")
     across, up = (family.ranges.values[word] for word in words)
     outcomes = family["status"].astype(numpy.int64) * len(REASONS) + family["reason"]
-    outcomes = outcomes if own == tuple(words) else outcomes.T
-    columns, rows = _picks(across, _COLUMNS), _picks(up, _ROWS)
+    # The other words have one value each.
+    outcomes = outcomes.reshape([family.ranges.values[word].size for word in own])
+    outcomes = outcomes if own == list(words) else outcomes.T
+    columns, rows = _picks(across, COLUMNS), _picks(up, ROWS)
     shown = outcomes[numpy.ix_(columns, rows)].T[::-1]
     items: list[Item] = [
         Text(

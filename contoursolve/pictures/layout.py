@@ -205,7 +205,7 @@ def _foot(scene: Scene, canvas: Canvas, top: float) -> Iterator[Item]:
     y = corner[1] + 4.0
     begin = x
     for role in _legend(scene):
-        text = MEANINGS[role] if role is not Role.GHOST or scene.slides == () else "other values"
+        text = scene.meanings.get(role, MEANINGS[role])
         wide = 34.0 + width_of(text, _SMALL) + 18.0
         if x + wide > WIDTH - _PAD and x > begin:
             x, y = begin, y + 16.0

@@ -6,7 +6,7 @@ from dataclasses import replace
 from contoursolve.examine import Answer
 from contoursolve.model import FIRST, SECOND
 from contoursolve.pictures.compose import axis_name, main_trails
-from contoursolve.pictures.known import find_known
+from contoursolve.pictures.finding import find_known
 from contoursolve.pictures.moves import Move, list_moves
 from contoursolve.pictures.scene import Kind, Mark, Scene, Trail, Weight
 from contoursolve.pictures.sheet import Run
@@ -65,5 +65,11 @@ def _scene(answers: Sequence[tuple[int, Answer]], moves: Sequence[Move]) -> Scen
         remarks.append((Run(f"... and {len(answers) - MOST_CONTOURS} more contours, which are not drawn", Role.MUTED),))
     names = axis_name(plane, FIRST), axis_name(plane, SECOND)
     return Scene(
-        "", names, tuple(trails), marks=tuple(marks), remarks=tuple(remarks), has_turning_axis=plane.diameters[SECOND]
+        "",
+        names,
+        tuple(trails),
+        marks=tuple(marks),
+        remarks=tuple(remarks),
+        meanings={Role.CONFLICTING: "no contour"},
+        has_turning_axis=plane.diameters[SECOND],
     )

@@ -4,6 +4,7 @@ import io
 from typing import TYPE_CHECKING, Any
 from warnings import catch_warnings, simplefilter
 
+from contoursolve.pictures.picture import MissingPainterError
 from contoursolve.pictures.sheet import Anchor, Dot, Shape, Sheet, Stroke, Sweep, Text
 from contoursolve.pictures.svg import points_on
 from contoursolve.pictures.theme import Role, Theme
@@ -20,12 +21,8 @@ _MOST = 12_000
 """Pixels of a side; a larger picture is no use to anybody and fills the memory."""
 
 
-class MissingExtraError(ImportError):
-    """The package that paints PNG is missing; the message says what to install."""
-
-
 def write_png(sheet: Sheet, theme: Theme, title: str, dpi: float) -> bytes:
-    """The page as PNG. Raises MissingExtraError without matplotlib, ValueError for a resolution out of range."""
+    """The page as PNG. Raises MissingPainterError without matplotlib, ValueError for a resolution out of range."""
     if not 1 <= dpi <= _MOST * PIXELS / max(sheet.width, sheet.height):
         raise ValueError(f"a picture of {sheet.width:.0f} x {sheet.height:.0f} pixels cannot be painted at {dpi:g} dpi")
     try:
@@ -35,7 +32,7 @@ def write_png(sheet: Sheet, theme: Theme, title: str, dpi: float) -> bytes:
     except ModuleNotFoundError as error:
         if error.name is None or error.name.partition(".")[0] != "matplotlib":
             raise
-        raise MissingExtraError(
+        raise MissingPainterError(
             "a PNG picture needs matplotlib; install it with: pip install 'contoursolve[picture]'"
         ) from None
     # A user's own settings change nothing.

@@ -3,6 +3,7 @@
 Nothing here knows how large the picture is, or where a label finds room.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import Enum
 
@@ -153,7 +154,7 @@ class Scene:
     slides: tuple[Slide, ...] = ()
     lines: tuple[tuple[Run, ...], ...] = ()
     remarks: tuple[tuple[Run, ...], ...] = ()
+    meanings: Mapping[Role, str] = field(default_factory=dict)
+    """What the legend says of a role, where that is not what it says of a contour's words."""
     has_turning_axis: bool = False
     """Whether the second axis begins at the axis about which the work turns."""
-    roles: frozenset[Role] = field(default=frozenset())
-    """The states that a legend must name besides those of what is drawn."""

@@ -327,6 +327,7 @@ class PathMachine:
 
     function: Compiled
     corner_residuals: tuple[str, ...]
+    tape: Tape
 
 
 @dataclass(frozen=True, slots=True)
@@ -385,4 +386,4 @@ def compile_path(system: System) -> PathMachine:
     residuals = builder.path()
     # A path of arcs alone has no outputs of its own.
     builder.tape.output("start", builder.scalars[scalar(system.figure.start, FIRST)])
-    return PathMachine(builder.tape.finish(), residuals)
+    return PathMachine(builder.tape.finish(), residuals, builder.tape)

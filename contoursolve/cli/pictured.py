@@ -1,0 +1,24 @@
+"""Pictures as files: what their names ask for."""
+
+from pathlib import Path
+
+from contoursolve.cli.options import CouldNotRunError
+from contoursolve.files import CannotWriteError, check_target
+from contoursolve.pictures import Picture
+
+SVG, PNG = ".svg", ".png"
+
+
+def bytes_of(picture: Picture, target: Path) -> bytes:
+    """A picture as its name asks for. Raises MissingPainterError."""
+    return picture.png() if target.suffix.lower() == PNG else picture.svg.encode()
+
+
+def check_picture(target: Path, *, is_forced: bool) -> None:
+    """Raise CouldNotRunError if a picture cannot be written there."""
+    if target.suffix.lower() not in (SVG, PNG):
+        raise CouldNotRunError(f"{target}: pictures end in .svg or .png")
+    try:
+        check_target(target, None, is_forced=is_forced)
+    except CannotWriteError as error:
+        raise CouldNotRunError(str(error)) from None

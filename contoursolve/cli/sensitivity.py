@@ -1,0 +1,50 @@
+"""The command that tells which word moves a point most."""
+
+from typing import Any
+
+import click
+
+from contoursolve.cli.blocks import block_options, print_json, read_options, usage
+from contoursolve.cli.printing import print_lines
+from contoursolve.families import tolerances
+from contoursolve.output.tolerances import tolerances_data, tolerances_lines
+
+
+@click.command("sensitivity", short_help="Tell which word moves a point most, and what tolerances come to.")
+@block_options
+@click.option("--point", default="end", show_default=True, help="The point: end, V2, 'corner 1.center', ...")
+@click.option(
+    "--tolerance",
+    "allowed",
+    multiple=True,
+    metavar="WORD=VALUE",
+    help="By how much a word may be off, as it is written; may be repeated. A fact goes by what it gives the value of.",
+)
+@click.option("--fact", "facts", multiple=True, metavar="FACT", help="A further fact, as for solve; may be repeated.")
+def sensitivity(allowed: tuple[str, ...], point: str, facts: tuple[str, ...], format_: str, **options: Any) -> None:
+    """Tell by how much each word moves a point of a contour: for each unit of it, by its tolerance, and by the rounding
+    of the control to its least increment. What tolerances come to is told to first order, at worst and in the root of
+    the sum of squares, and solved again at all combinations of their limits.
+
+    \b
+    contoursolve sensitivity --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0." \\
+      --tolerance A=0.1 --tolerance K=0.02
+    """
+    given = dict(map(_read_tolerance, allowed))
+    with usage():
+        found = tolerances(allowed=given, point=point, facts=facts, **read_options(options))
+    if format_ == "json":
+        print_json(tolerances_data(found))
+    else:
+        print_lines(tolerances_lines(found))
+
+
+def _read_tolerance(text: str) -> tuple[str, float]:
+    name, equals, value = text.rpartition("=")
+    try:
+        number = float(value)
+    except ValueError:
+        number = -1.0
+    if not equals or not 0 <= number < float("inf"):
+        raise click.UsageError(f"--tolerance {text}: write WORD=VALUE, such as P=0.05")
+    return name.strip(), number

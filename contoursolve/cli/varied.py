@@ -1,0 +1,105 @@
+"""The values of a free word as they are written on the command line: a range, a list, or a column of a file."""
+
+import csv
+import re
+from array import array
+from decimal import Decimal, InvalidOperation
+from pathlib import Path
+
+import click
+import numpy
+from numpy.typing import NDArray
+
+from contoursolve.families import FamilyError, name_of, need
+
+MOST = 10_000_000
+"""Values of one word."""
+
+_FILE = re.compile(r"@(?P<file>.+?\.(?P<kind>csv|parquet))(?::(?P<column>.+))?", re.IGNORECASE)
+
+
+Numbers = NDArray[numpy.float64]
+
+
+def read_range(text: str) -> tuple[str, Numbers]:
+    """A word and its values from `A=170:190:0.01`, `P=1,2,5` or `A=@FILE:COLUMN`; steps are counted in decimals, so
+    that no rounding adds up, and both ends belong to it. Raises click.UsageError, FamilyError."""
+    name, equals, values = text.partition("=")
+    if not equals or not name.strip():
+        raise click.UsageError(f"--vary {text}: write WORD=START:STOP:STEP, WORD=V1,V2,... or WORD=@FILE:COLUMN")
+    word = name_of(name)
+    if values.strip().startswith("@"):
+        return word, _read_column(word, values.strip())
+    try:
+        numbers = [Decimal(each.strip()) for each in values.replace(":", ",").split(",")]
+    except InvalidOperation:
+        told = "neither START:STOP:STEP, nor a list of numbers, nor @FILE:COLUMN"
+        raise click.UsageError(f"--vary {text}: {values} is {told}") from None
+    if not all(number.is_finite() for number in numbers):
+        raise click.UsageError(f"--vary {text}: values must be finite numbers")
+    if ":" not in values:
+        return word, numpy.array([float(number) for number in numbers])
+    if values.count(":") != 2 or "," in values:  # noqa: PLR2004 - between three numbers
+        raise click.UsageError(f"--vary {text}: a range has three numbers, START:STOP:STEP")
+    first, last, step = numbers
+    if not step or (last - first) * step < 0:
+        raise click.UsageError(f"--vary {text}: steps of {step} do not lead from {first} to {last}")
+    count = int((last - first) / step) + 1
+    if count > MOST:
+        raise click.UsageError(f"--vary {text}: {count:,} values are more than {MOST:,}")
+    return word, numpy.fromiter((float(first + number * step) for number in range(count)), float, count)
+
+
+def _read_column(word: str, text: str) -> Numbers:
+    match = _FILE.fullmatch(text)
+    if match is None:
+        raise click.UsageError(f"--vary {word}={text}: name a file that ends with .csv or .parquet, @FILE:COLUMN")
+    file, column = Path(match["file"]), match["column"] or word
+    try:
+        return (_from_csv if match["kind"].lower() == "csv" else _from_parquet)(file, column)
+    except FileNotFoundError:
+        raise FamilyError(f"{file}: no such file") from None
+    except (OSError, UnicodeDecodeError) as error:
+        raise FamilyError(f"{file} cannot be read: {error}") from None
+
+
+def _from_csv(file: Path, column: str) -> Numbers:
+    with file.open(encoding="utf-8-sig", newline="") as text:
+        head = text.readline()
+        text.seek(0)
+        rows = csv.reader(text, delimiter=";" if ";" in head and "," not in head else ",")
+        names = [each.strip() for each in next(rows, [])]
+        at = _find(file, column, names)
+        found = array("d")
+        for row in rows:
+            if not row:
+                continue
+            try:
+                found.append(float(row[at]))
+            except (IndexError, ValueError):
+                cell = row[at] if at < len(row) else ""
+                told = f"{cell!r} is no number" if cell.strip() else "there is no number"
+                raise FamilyError(f"{file}, line {rows.line_num}, column {column}: {told}") from None
+    return numpy.array(found)
+
+
+def _from_parquet(file: Path, column: str) -> Numbers:
+    arrow = need("pyarrow")
+    try:
+        table = need("pyarrow.parquet").ParquetFile(file)
+        name = table.schema_arrow.names[_find(file, column, table.schema_arrow.names)]
+        found = table.read([name])[name].cast(arrow.float64())
+        table.close()
+    except arrow.ArrowException as error:
+        raise FamilyError(f"{file}, column {column}: {error}") from None
+    if found.null_count:
+        row = int(numpy.argmax(found.is_null().to_numpy())) + 1
+        raise FamilyError(f"{file}, column {column}, row {row:,}: there is no number")
+    numbers: Numbers = found.to_numpy()
+    return numbers
+
+
+def _find(file: Path, column: str, names: list[str]) -> int:
+    if column not in names:
+        raise FamilyError(f"{file} has no column {column}; there are {', '.join(names) or 'none'}")
+    return names.index(column)

@@ -1,0 +1,122 @@
+"""The finished parts of a long sweep, kept beside its file until it is whole: a sweep that was killed goes on there."""
+
+import hashlib
+import zipfile
+from collections.abc import Collection, Iterator
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from shutil import rmtree
+
+import numpy
+
+from contoursolve.families.evaluate import STRETCH, solve_parts
+from contoursolve.families.prepared import Sweep, Table
+from contoursolve.families.ranges import stretches
+
+WHOLE = "whole.tmp"
+"""The file that is being written, until it is moved into place."""
+
+
+@dataclass(frozen=True, slots=True)
+class Parts:
+    """A folder with a file for each finished stretch of rows of one sweep.
+
+    The name of the folder tells the sweep: another block, other values, another version have another folder.
+    """
+
+    folder: Path
+    ready: Sweep
+
+    def __iter__(self) -> Iterator[tuple[int, int]]:
+        return iter(stretches(self.ready.ranges.count, STRETCH))
+
+    def is_done(self, number: int) -> bool:
+        """Whether a part was finished, as far as its file's being there tells."""
+        return self._file(number).exists()
+
+    @property
+    def rows_done(self) -> int:
+        """The rows of the parts that were finished."""
+        return sum(last - first for number, (first, last) in enumerate(self) if self.is_done(number))
+
+    def tables(self, workers: int | None = None, executor: Executor | None = None) -> Iterator[Table]:
+        """The words and results of all rows in order; parts that were finished are read, others solved and kept."""
+        self.folder.mkdir(exist_ok=True)
+        every = list(self)
+        missing = {number for number in range(len(every)) if not self.is_done(number)}
+        solved = solve_parts(self.ready, [every[number] for number in sorted(missing)], workers, executor)
+        for number, part in enumerate(every):
+            table = next(solved) if number in missing else self._load(number, part)
+            if table is None:
+                table = next(solve_parts(self.ready, [part]))
+                missing.add(number)
+            if number in missing:
+                self._save(number, table)
+            yield {**self.ready.words(*part), **table}
+
+    def remove(self) -> None:
+        """Throw the parts away."""
+        rmtree(self.folder, ignore_errors=True)
+
+    def _file(self, number: int) -> Path:
+        return self.folder / f"{number:06}.npz"
+
+    def _load(self, number: int, part: tuple[int, int]) -> Table | None:
+        """A part that was finished; None where there is none, or a damaged one."""
+        try:
+            with numpy.load(self._file(number)) as file:
+                table = {name: file[name] for name in file.files}
+        except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
+            return None
+        kinds = self.ready.columns()
+        is_whole = list(table) == list(kinds) and all(
+            table[name].shape == (part[1] - part[0],) and table[name].dtype == kind for name, kind in kinds.items()
+        )
+        return table if is_whole else None
+
+    def _save(self, number: int, table: Table) -> None:
+        """Keep a part; whoever is killed here leaves no half of one."""
+        temporary = self.folder / f"{number:06}.tmp"
+        with zipfile.ZipFile(temporary, "w") as archive:
+            for name, values in table.items():
+                with archive.open(f"{name}.npy", "w", force_zip64=True) as file:
+                    numpy.lib.format.write_array(file, values, allow_pickle=False)
+        temporary.replace(self._file(number))
+
+
+def parts_of(target: Path, ready: Sweep) -> Parts:
+    """The parts of a sweep that is to be written to a file."""
+    return Parts(target.with_name(f".{target.name}.{digest(ready)}.parts"), ready)
+
+
+def others(parts: Parts, target: Path) -> Collection[Path]:
+    """The folders of other sweeps to the same file that were not finished."""
+    found = target.parent.glob(f".{glob_escaped(target.name)}.*.parts")
+    return sorted(folder for folder in found if folder != parts.folder)
+
+
+def glob_escaped(name: str) -> str:
+    """A file name whose characters stand for themselves in a pattern."""
+    return "".join(f"[{each}]" if each in "*?[" else each for each in name)
+
+
+def digest(ready: Sweep) -> str:
+    """A name for everything that the results depend on: the block, its options, its values, and the versions."""
+    found = hashlib.sha256(repr((ready.recipe, ready.ranges.is_paired, STRETCH, versions())).encode())
+    for word, values in ready.ranges.values.items():
+        found.update(f"{word} {values.size} {values.dtype.str}".encode())
+        found.update(numpy.ascontiguousarray(values).data)
+    return found.hexdigest()[:16]
+
+
+def versions() -> tuple[str, ...]:
+    """The versions of what computes."""
+    found = []
+    for package in ("contoursolve", "numpy", "casadi", "python-flint"):
+        try:
+            found.append(f"{package} {version(package)}")
+        except PackageNotFoundError:  # it runs from its source
+            found.append(package)
+    return tuple(found)

@@ -1,0 +1,197 @@
+"""Which word moves a point most: by its tolerance, and by the control's rounding, to first order and solved again."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from decimal import ROUND_HALF_EVEN, Decimal
+from math import hypot, isnan, nan
+
+import numpy
+
+from contoursolve.backends.intervals import Array
+from contoursolve.examine import Answer
+from contoursolve.families.evaluate import family, template_of
+from contoursolve.families.goals import end_name, place_of
+from contoursolve.families.ranges import FamilyError
+from contoursolve.families.slopes import Spread, slopes_of, stated_words
+from contoursolve.families.template import Template, find_words
+from contoursolve.model import Length, Plane, Unit
+from contoursolve.solving import Point
+
+MOST_WORDS = 10
+"""Words with a tolerance of which all combinations of limits are solved; each doubles them."""
+
+
+@dataclass(frozen=True, slots=True)
+class Effect:
+    """What one word does to the point.
+
+    `slope` is by how much it moves on each axis, mm (X as radius) for each unit of the word as written, in `unit` (mm,
+    inch or deg; empty for a fact); NaN where two places have become one. `tolerance` is what the word may be off by,
+    None where nothing was said, and `moves` how far that moves the point to first order, mm. `increment` is the
+    control's least increment of the word (None for a fact), and `by_half` how far half of it moves the point at most,
+    solved again, None where that has no contour. `rounded` is the value rounded to least increments, and `by_rounding`
+    how far that moves the point, solved again, beside `by_rounding_linear` from the derivatives; None where it has no
+    contour.
+    """
+
+    word: str
+    unit: str
+    stated: float
+    slope: Point
+    tolerance: float | None
+    moves: float
+    increment: float | None
+    by_half: float | None
+    rounded: float | None
+    by_rounding: float | None
+    by_rounding_linear: float
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """Where the point lies on each axis at most and at least, mm, at all combinations of the limits of the tolerances,
+    each solved; `without` counts those that have no contour."""
+
+    low: Point
+    high: Point
+    count: int
+    without: int
+
+
+@dataclass(frozen=True, slots=True)
+class Tolerances:
+    """How words move a point of a contour: the words, the one that moves it most first; how far it may be off on each
+    axis to first order; and where it lies at the limits, None without tolerances or with too many of them."""
+
+    point: str
+    place: Point
+    plane: Plane
+    length: Length
+    effects: tuple[Effect, ...]
+    spread: tuple[Spread, Spread]
+    limits: Limits | None
+
+
+def tolerances(
+    block: str,
+    allowed: Mapping[str, float] | None = None,
+    *,
+    point: str = "end",
+    start: str | None = None,
+    control: str | None = None,
+    facts: Iterable[str] = (),
+    units: str = "mm",
+    rules: str = "enforce",
+    settings: Mapping[str, str] | None = None,
+) -> Tolerances:
+    """What each word does to a point, and what tolerances come to: at worst, in the root of the sum of squares, and at
+    all combinations of their limits.
+
+    Args:
+        allowed: how far words may be off, as written, by name (`{"P": 0.05}`); of a fact by what it gives the value of.
+        point: a point as a `Family` names it (`V2`, `corner 1.center`), or `end`.
+        start: and all others as for `sensitivity`, with the same errors.
+
+    >>> found = tolerances("G111 X100. A180. K-30. B120. P5. Q5.", {"A": 0.1, "K": 0.02}, start="X40. Z0.")
+    >>> [(each.word, round(each.moves, 4)) for each in found.effects[:2]]
+    [('A', 0.0302), ('K', 0.02)]
+    """
+    stated = (facts,) if isinstance(facts, str) else tuple(facts)
+    template = template_of(block, start, control, units, rules, settings, lambda _: {}, stated)
+    answer = template.solve({})
+    slopes, axes = slopes_of(answer).slopes, answer.plane.axes
+    name = end_name(answer.profile.figure) if point == "end" else point
+    if answer.contour is None or any(f"{name}.{axis}" not in slopes for axis in axes):
+        points = dict.fromkeys(each.removesuffix(f".{axes[0]}") for each in slopes if each.endswith(f".{axes[0]}"))
+        raise FamilyError(f"the contour has no point {point}; there are {', '.join(('end', *points))}")
+    first, second = (slopes[f"{name}.{axis}"] for axis in axes)
+    by_word = {word: (first[word], second[word]) for word in first}
+    allowed = {_named(word, by_word): abs(float(value)) for word, value in (allowed or {}).items()}
+    study = _Study(template, answer, point)
+    effects = [study.effect(word, slope, allowed.get(word)) for word, slope in by_word.items()]
+    effects.sort(key=lambda each: (not isnan(each.moves), -each.moves, -(each.by_half or 0.0)))
+    parts = [[abs(by_word[word][axis]) * value for word, value in allowed.items()] for axis in (0, 1)]
+    limits = None
+    if allowed and len(allowed) <= MOST_WORDS:
+        values = {word: study.value(word) for word in allowed}
+        found = family(
+            block,
+            vary={word: [values[word] - off, values[word] + off] for word, off in allowed.items()},
+            start=start,
+            control=control,
+            facts=stated,
+            units=units,
+            rules=rules,
+            settings=settings,
+        )
+        limits = _limits(*(found[each].ravel() for each in (f"{name}.{axes[0]}", f"{name}.{axes[1]}")))
+    spread = Spread(sum(parts[0]), hypot(*parts[0])), Spread(sum(parts[1]), hypot(*parts[1]))
+    return Tolerances(point, study.place, answer.plane, answer.unit, tuple(effects), spread, limits)
+
+
+def _named(word: str, known: Iterable[str]) -> str:
+    """The name of a word among those that there are. Raises FamilyError."""
+    names = {name.lower(): name for name in known}
+    found = names.get(" ".join(word.lower().split()))
+    if found is None:
+        raise FamilyError(f"no word {word}; there are {', '.join(names.values())}")
+    return found
+
+
+def _limits(first: Array, second: Array) -> Limits:
+    """Where a point lies at all combinations, NaN where it does not."""
+    has = ~numpy.isnan(first)
+    count = int(has.sum())
+    if not count:
+        return Limits((nan, nan), (nan, nan), first.size, first.size)
+    low, high = ((float(each(first[has])), float(each(second[has]))) for each in (numpy.min, numpy.max))
+    return Limits(low, high, first.size, first.size - count)
+
+
+class _Study:
+    """One point of one contour, and where it is when a word changes."""
+
+    def __init__(self, template: Template, answer: Answer, point: str) -> None:
+        self.template, self.answer, self.point = template, answer, point
+        at = place_of(point, answer.contour) if answer.contour is not None else None
+        if at is None:
+            raise FamilyError(f"{point} is on an element of no length; name another point")
+        self.place = at
+        self.words = stated_words(answer)
+
+    def value(self, word: str) -> float:
+        """The value of a word or a fact, as written."""
+        return float(find_words(self.template, [word])[word].number or 0)
+
+    def effect(self, word: str, slope: Point, tolerance: float | None) -> Effect:
+        """What a word does."""
+        moves = hypot(*slope) * tolerance if tolerance else 0.0
+        typed = self.words.get(word)
+        if typed is None:
+            return Effect(word, "", self.value(word), slope, tolerance, moves, None, None, None, None, 0.0)
+        lexicon, value = self.answer.claim.lexicon, typed.number or Decimal(0)
+        row = lexicon.addresses[typed.address]
+        step = lexicon.numbers.step(row.unit, self.answer.unit)
+        unit = "deg" if row.unit is Unit.DEGREE else self.answer.unit.value
+        halves = [self._moved(word, float(value + way * step / 2)) for way in (-1, 1)]
+        rounded = value.quantize(step, ROUND_HALF_EVEN)
+        return Effect(
+            word,
+            unit,
+            float(value),
+            slope,
+            tolerance,
+            moves,
+            float(step),
+            by_half=None if None in halves else max(each for each in halves if each is not None),
+            rounded=float(rounded),
+            by_rounding=self._moved(word, float(rounded)) if rounded != value else 0.0,
+            by_rounding_linear=hypot(*slope) * float(abs(rounded - value)),
+        )
+
+    def _moved(self, word: str, value: float) -> float | None:
+        """How far the point moves when a word gets another value, mm; None where there is no contour then."""
+        template = replace(self.template, words=find_words(self.template, [word]))
+        contour = template.solve({word: value}).contour
+        at = place_of(self.point, contour) if contour is not None else None
+        return None if at is None else hypot(at[0] - self.place[0], at[1] - self.place[1])

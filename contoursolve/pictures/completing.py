@@ -1,0 +1,140 @@
+"""A contour whose words leave something free, with that put somewhere: each completion is solved as any other block."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from decimal import Decimal
+from itertools import product
+from math import hypot
+
+from contoursolve.analysis import judge
+from contoursolve.constraints import Coordinate, Offset, Radius, assemble
+from contoursolve.diagnosis.affine import affine_facts
+from contoursolve.model import FIRST, SECOND, Given, Layout, Profile, Unit, scalar
+from contoursolve.pictures.known import Known, in_part, known_of
+from contoursolve.solving import Point, Solution, Status, is_closed, points_with_two_solutions, solve
+
+MOST_FREE = 6
+"""Free coordinates that are put somewhere; of a contour with more, only what is known is drawn."""
+
+MOST_TRIED = 24
+"""Places that are tried for what is free, each a solve of well under a millisecond."""
+
+MOST_GHOSTS = 3
+"""Completions that are shown."""
+
+_STEPS = (0.6, 1.0, 0.35, 1.5, -0.6, -1.0, -0.35, -1.5)
+"""Where a free coordinate is put, from where the line begins, in lengths of the drawing."""
+
+
+def complete(profile: Profile, free: int) -> Known:
+    """A contour with what its words leave free put somewhere, so that the control would make it if that can be."""
+    known = in_part(profile)
+    if free > MOST_FREE:
+        return known
+    size = drawing_size(profile)
+    found: list[Solution] = []
+    placed: frozenset[str] = frozenset()
+    for number, (full, names) in enumerate(_completions(profile, known, size)):
+        if number >= MOST_TRIED or len(found) > MOST_GHOSTS:
+            break
+        placed = names
+        if is_closed(assemble(full)) and is_chosen(full):
+            solution = solve(full, is_proven=False)
+            if solution.status in (Status.SOLVED, Status.OVERDETERMINED) and solution.points:
+                found.append(solution)
+    if not found:
+        return known
+    first, *others = found
+    moved = placed | {
+        name for name, at in first.points.items() for other in others if _is_apart(at, other.points[name], size)
+    }
+    return replace(known_of(first), placed=frozenset(moved), others=tuple(others))
+
+
+def _is_apart(one: Point, other: Point, size: float) -> bool:
+    return hypot(one[0] - other[0], one[1] - other[1]) > size / 1_000_000
+
+
+def _completions(profile: Profile, known: Known, size: float) -> Iterator[tuple[Profile, frozenset[str]]]:
+    """The profile with further facts that determine it, and the points that these are about."""
+    names: list[str] = []
+    extended, moves = profile, _moves(profile)
+    while free := judge(assemble(extended)).free:
+        open_ = [
+            name for name in free if name not in names and name not in known.scalars and _is_placeable(name, profile)
+        ]
+        if not open_ or len(names) >= MOST_FREE:
+            return
+        names.append(max(open_, key=lambda name: round(moves.get(name, 1.0), 6)))
+        extended = _with(profile, dict.fromkeys(names, 0.0))
+    points = frozenset(name.rpartition(".")[0] for name in names if name not in profile.figure.radii)
+    for steps in sorted(product(_STEPS, repeat=len(names)), key=lambda each: sum(map(_STEPS.index, each)))[:MOST_TRIED]:
+        values: dict[str, float] = {}
+        for name, step in zip(names, steps, strict=True):
+            if name in profile.figure.radii:
+                values[name] = abs(step) * size
+                continue
+            point, _, axis = name.rpartition(".")
+            base, lead = _lead(profile, known, values, point, int(axis))
+            values[name] = base + lead * step * size
+        yield _with(profile, values), points
+
+
+def _is_placeable(name: str, profile: Profile) -> bool:
+    return name in profile.figure.radii or name.rpartition(".")[2] in (str(FIRST), str(SECOND))
+
+
+def _moves(profile: Profile) -> dict[str, float]:
+    """How much each coordinate changes when what is free moves by 1; 1 for what is not known."""
+    affine = affine_facts(profile, profile.facts)
+    freedoms = affine.freedoms() if affine is not None else ()
+    return {
+        scalar(freedom.point, axis): abs(freedom.direction[axis])
+        for freedom in freedoms
+        if freedom.direction is not None
+        for axis in (FIRST, SECOND)
+    }
+
+
+def _lead(profile: Profile, known: Known, values: Mapping[str, float], point: str, axis: int) -> tuple[float, float]:
+    """Where the element to a point comes from, on an axis, and the way (+1 or -1) in which the path leads on."""
+
+    def get(name: str) -> float | None:
+        return values.get(scalar(name, axis), known.coordinate(name, axis))
+
+    comes = {element.head: element.tail for element in profile.figure.path}
+    before = comes.get(point, profile.figure.start)
+    base = get(before)
+    earlier = get(comes[before]) if before in comes else None
+    if base is None:
+        return float(profile.start.values[axis] or 0), 1.0
+    return base, -1.0 if earlier is not None and base < earlier else 1.0
+
+
+def _with(profile: Profile, values: Mapping[str, float]) -> Profile:
+    """The profile with unknowns at values."""
+    givens, facts = dict(profile.givens), list(profile.facts)
+    for name, value in values.items():
+        given = f"put {name}"
+        point, _, axis = name.rpartition(".")
+        givens[given] = Given(given, Decimal(repr(round(value, 6))), Unit.MM, None)
+        facts.append(Coordinate(given, point, int(axis)) if axis.isdigit() else Radius(given, name))
+    return replace(profile, givens=givens, layout=Layout(profile.figure, tuple(facts)))
+
+
+def drawing_size(profile: Profile) -> float:
+    """How large a drawing is, by its words alone, mm."""
+    start = [float(value or 0) for value in profile.start.values]
+    sizes = []
+    for fact in profile.facts:
+        if isinstance(fact, Coordinate):
+            sizes.append(abs(float(profile.givens[fact.given].value) - start[fact.axis]))
+        elif isinstance(fact, Offset | Radius):
+            sizes.append(abs(float(profile.givens[fact.given].value)))
+    return max((size for size in sizes if size > 0), default=10.0)
+
+
+def is_chosen(profile: Profile) -> bool:
+    """Whether every point that may lie in two places has a choice."""
+    chosen = {choice.point for choice in profile.choices}
+    return chosen.issuperset(points_with_two_solutions(assemble(profile)))

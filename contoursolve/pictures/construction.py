@@ -1,0 +1,86 @@
+"""The thin lines of a drawing, from which its points come: virtual intersections, whole circles, what can slide."""
+
+from collections.abc import Iterator, Mapping
+
+from contoursolve.contour import Segment
+from contoursolve.examine import Answer
+from contoursolve.model import FIRST, SECOND, Arc, Line, Profile, scalar
+from contoursolve.pictures.known import Known
+from contoursolve.pictures.scene import Ring, Slide, Thin
+from contoursolve.pictures.theme import Role
+from contoursolve.pictures.vectors import SAME, distance, foot, minus, unit
+from contoursolve.solving import Point
+
+
+def list_construction(profile: Profile, known: Known, elements: Mapping[str, Segment]) -> Iterator[Thin]:
+    """From the path to the virtual intersections that its corners cut off."""
+    lines = {element.name for element in (*profile.figure.path, *profile.figure.lines) if isinstance(element, Line)}
+    for corner in profile.figure.corners:
+        built, at = known.corners.get(corner.name), known.points.get(corner.at)
+        if built is None or at is None or corner.name not in elements:
+            continue
+        if corner.before in lines:
+            yield Thin(built.begin, at, Role.MUTED)
+        if corner.after is None or corner.after in lines:
+            yield Thin(at, built.end, Role.MUTED)
+    if profile.is_extended:
+        yield from _tangents(profile, known)
+
+
+def _tangents(profile: Profile, known: Known) -> Iterator[Thin]:
+    """From where a line of the path ends to where it touches a circle beyond."""
+    from contoursolve.constraints import TangentLine  # noqa: PLC0415 - see `constraints`
+
+    for fact in profile.facts:
+        if not isinstance(fact, TangentLine):
+            continue
+        line = next((each for each in profile.figure.path if each.name == fact.line), None)
+        if line is None or not {line.tail, line.head} <= known.points.keys():
+            continue
+        tail, head = known.points[line.tail], known.points[line.head]
+        center = known.points.get(fact.center, _place_of(profile, fact.center))
+        if center is None or distance(tail, head) <= SAME:
+            continue
+        there = foot(center, tail, unit(minus(head, tail)))
+        near = min((tail, head), key=lambda end: distance(end, there))
+        if max(distance(tail, there), distance(head, there)) > distance(tail, head) + SAME:
+            yield Thin(near, there, Role.MUTED)
+
+
+def _place_of(profile: Profile, name: str) -> Point | None:
+    """A point whose coordinates are given."""
+    given = [profile.givens.get(scalar(name, axis)) for axis in (FIRST, SECOND)]
+    values = [float(each.value) for each in given if each is not None]
+    return (values[0], values[1]) if len(values) == len(given) else None
+
+
+def list_rings(answer: Answer, known: Known) -> Iterator[Ring]:
+    """The whole circles of arcs on which an intersection lies."""
+    profile = answer.profile
+    chosen = {choice.point for choice in profile.choices if choice.given}
+    for element in profile.figure.path:
+        if not isinstance(element, Arc):
+            continue
+        center, radius = known.points.get(element.center), known.radii.get(element.radius)
+        is_wanted = chosen & {element.tail, element.head} or answer.contour is None
+        if center is not None and radius is not None and is_wanted:
+            yield Ring(center, radius, Role.MUTED)
+    for circle in profile.figure.circles:
+        center, size = _place_of(profile, circle.center), profile.givens.get(circle.radius)
+        if center is not None and size is not None:
+            yield Ring(center, float(size.value), Role.GIVEN)
+
+
+def list_slides(answer: Answer, known: Known) -> Iterator[Slide]:
+    """What can still move, and how."""
+    freedoms = answer.diagnosis.freedoms if answer.diagnosis else ()
+    if answer.contour is not None:
+        return
+    for freedom in freedoms:
+        at = known.points.get(freedom.point)
+        if at is not None:
+            yield Slide(at, freedom.direction, freedom.point)
+    if not freedoms:
+        for name in sorted(known.placed):
+            if name in known.points:
+                yield Slide(known.points[name], None, name)

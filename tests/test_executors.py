@@ -1,0 +1,156 @@
+"""A family is the same, byte for byte, wherever its rows are solved; and a sweep that was killed goes on."""
+
+import json
+import multiprocessing
+import os
+import subprocess
+import sys
+import time
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import contoursolve
+import contoursolve.families.evaluate as evaluating
+from contoursolve.families import family
+
+BLOCK, START = "G111 X100. A180. K-30. B120. P5. Q5.", "X40. Z0."
+VARY = {"A": np.linspace(90, 270, 400), "P": np.linspace(-1, 30, 400)}
+FACTS = {"facts": ["straight part of line 2 = 20"], "vary": {"K": np.linspace(-60, 0, 50)}}
+
+
+@contextmanager
+def processes():
+    with ProcessPoolExecutor(2, mp_context=multiprocessing.get_context("spawn")) as executor:
+        yield executor
+
+
+@contextmanager
+def loky():
+    pool = pytest.importorskip("loky").ProcessPoolExecutor(2)
+    try:
+        yield pool
+    finally:
+        pool.shutdown()
+
+
+@contextmanager
+def dask():
+    distributed = pytest.importorskip("distributed")
+    options = {"host": "127.0.0.1", "dashboard_address": None, "processes": True, "threads_per_worker": 1}
+    with distributed.LocalCluster(n_workers=2, **options) as cluster, distributed.Client(cluster) as client:
+        yield client.get_executor()
+
+
+@pytest.mark.parametrize(
+    "pool", [lambda: ThreadPoolExecutor(2), processes, loky, dask], ids=["threads", "processes", "loky", "dask"]
+)
+def test_any_executor_gives_the_same_bytes(pool):
+    one = family(BLOCK, start=START, vary=VARY)
+    asked = family("G111 X100. A180. K-30. B120. P?", start=START, **FACTS)
+    with pool() as executor:
+        other = family(BLOCK, start=START, vary=VARY, executor=executor)
+        also = family("G111 X100. A180. K-30. B120. P?", start=START, executor=executor, **FACTS)
+    for name in one.names:
+        assert one[name].tobytes() == other[name].tobytes(), name
+    for name in asked.names:
+        assert asked[name].tobytes() == also[name].tobytes(), name
+
+
+def test_an_error_in_the_program_ends_the_family_with_its_traceback(monkeypatch):
+    def fail(*_):
+        raise ZeroDivisionError("a fault in the program")
+
+    monkeypatch.setattr(evaluating, "_solve", fail)
+    with ThreadPoolExecutor(2) as executor, pytest.raises(ZeroDivisionError, match="a fault in the program") as caught:
+        family(BLOCK, start=START, vary=VARY, executor=executor)
+    assert "solve_rows" in [entry.name for entry in caught.traceback]
+
+
+SWEEP = ["sweep", "--block", BLOCK, "--start", START, "--vary", "A=150:210:0.1", "--vary", "P=0:60:0.1"]
+
+
+def start(*arguments, cwd):
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join([str(Path(contoursolve.__file__).parents[1])])}
+    command = [sys.executable, "-m", "contoursolve", *arguments]
+    return subprocess.Popen(
+        command, cwd=cwd, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+
+
+@pytest.mark.parametrize("name", ["family.parquet", "family.csv"])
+def test_a_sweep_that_was_killed_goes_on_and_ends_with_the_same_bytes(name, tmp_path):
+    pytest.importorskip("pyarrow")
+    unbroken, broken = tmp_path / "unbroken", tmp_path / "broken"
+    for folder in (unbroken, broken):
+        folder.mkdir()
+    with start(*SWEEP, "-o", name, cwd=unbroken) as whole:
+        output, errors = whole.communicate()
+        assert (whole.returncode, errors) == (0, f"{name} written\n")
+    with start(*SWEEP, "-o", name, cwd=broken) as child:
+        deadline = time.monotonic() + 60
+        while len(list(broken.glob(".*.parts/*.npz"))) < 2 and time.monotonic() < deadline:
+            time.sleep(0.005)
+        child.kill()
+        child.communicate()
+    assert not (broken / name).exists()
+    parts = sorted(broken.glob(".*.parts/*.npz"))
+    assert 2 <= len(parts) < 6
+    # What was half written does not count.
+    parts[0].write_bytes(parts[0].read_bytes()[:-1000])
+    with start(*SWEEP, "-o", name, cwd=broken) as child:
+        again, errors = child.communicate()
+    assert (child.returncode, again) == (0, output), errors
+    assert errors.startswith("going on after ")
+    assert (broken / name).read_bytes() == (unbroken / name).read_bytes()
+    assert [path.name for path in broken.iterdir()] == [name]
+
+
+def test_another_sweep_does_not_go_on_where_one_was_killed(tmp_path):
+    (tmp_path / ".family.csv.0123456789abcdef.parts").mkdir()
+    arguments = ["sweep", "--block", BLOCK, "--start", START, "--vary", "A=1,2", "-o", "family.csv"]
+    with start(*arguments, cwd=tmp_path) as child:
+        _, errors = child.communicate()
+    assert child.returncode == 0
+    assert "0123456789abcdef.parts is left of another sweep that was not finished" in errors
+
+
+def test_a_sweep_runs_on_the_cluster_of_a_scheduler(tmp_path):
+    pytest.importorskip("distributed")
+    pytest.importorskip("pyarrow")
+    file = tmp_path / "scheduler.json"
+    environment = os.environ | {"PYTHONPATH": str(Path(contoursolve.__file__).parents[1])}
+
+    def launch(module, *arguments):
+        command = [sys.executable, "-m", f"distributed.cli.{module}", *arguments, "--scheduler-file", str(file)]
+        return subprocess.Popen(
+            command, env=environment, cwd=tmp_path, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+        )
+
+    with ExitStack() as processes:
+        for arguments in (
+            ("dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard"),
+            ("dask_worker", "--no-dashboard", "--nthreads", "1", "--host", "127.0.0.1"),
+        ):
+            process = processes.enter_context(launch(*arguments))
+            processes.callback(process.terminate)
+            deadline = time.monotonic() + 60
+            while not file.exists() and time.monotonic() < deadline:
+                time.sleep(0.05)
+        address = json.loads(file.read_text())["address"]
+        for name, options in (("one.parquet", ()), ("two.parquet", ("--dask", address))):
+            with start(*SWEEP[:-1], "P=0:60:1", *options, "-o", name, cwd=tmp_path) as child:
+                _, errors = child.communicate()
+            assert child.returncode == 0, errors
+    assert (tmp_path / "one.parquet").read_bytes() == (tmp_path / "two.parquet").read_bytes()
+
+
+def test_a_scheduler_that_does_not_answer_is_one_line_and_status_2(tmp_path):
+    pytest.importorskip("distributed")
+    with start(*SWEEP, "--dask", "tcp://127.0.0.1:1", cwd=tmp_path) as child:
+        _, errors = child.communicate()
+    assert (child.returncode, errors.count("\n")) == (2, 1), errors
+    assert "no Dask scheduler answers at tcp://127.0.0.1:1" in errors

@@ -1,0 +1,147 @@
+"""Which word moves a point most: derivatives, tolerances and rounding, held against solving again."""
+
+import json
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+import contoursolve
+from contoursolve.cli import main
+from contoursolve.families import FamilyError, family, sensitivity, tolerances
+
+BLOCK, START = "G111 X100. A175. K-30. B121.2345 P5. Q5.", "X40. Z0."
+ALLOWED = {"A": 0.05, "B": 0.04, "K": 0.02, "X": 0.03, "Q": 0.1}
+
+
+def test_a_million_draws_are_as_far_off_as_the_tolerances_say():
+    """Uniform within its tolerance, a word has the standard deviation tolerance / sqrt(3)."""
+    found = tolerances(BLOCK, ALLOWED, start=START)
+    rng = np.random.default_rng(7)
+    stated = {each.word: each.stated for each in found.effects}
+    drawn = {word: stated[word] + rng.uniform(-off, off, 100_000) for word, off in ALLOWED.items()}
+    rows = family(BLOCK, vary=drawn, paired=True, start=START)
+    for axis, name in enumerate(("corner 2.end.Z", "corner 2.end.X")):
+        values, spread = rows[name], found.spread[axis]
+        assert np.abs(values - found.place[axis]).max() <= spread.worst * 1.001 + 1e-12
+        assert values.std() * np.sqrt(3) == pytest.approx(spread.typical, rel=0.01, abs=1e-12)
+        assert found.limits.low[axis] - 1e-9 <= values.min()
+        assert values.max() <= found.limits.high[axis] + 1e-9
+    assert found.limits.high[0] - found.place[0] == pytest.approx(found.spread[0].worst, rel=0.01)
+    assert [each.word for each in found.effects[:2]] == ["Q", "B"]
+
+
+def test_words_are_ranked_by_what_their_tolerance_does():
+    found = tolerances(BLOCK, {"A": 1e-6, "K": 0.5}, start=START)
+    moves = [each.moves for each in found.effects]
+    assert moves == sorted(moves, reverse=True)
+    assert found.effects[0].word == "K"
+
+
+def test_rounding_is_solved_again_beside_its_linear_estimate():
+    effects = {each.word: each for each in tolerances(BLOCK, start=START).effects}
+    angle = effects["B"]
+    assert (angle.rounded, angle.increment) == (121.234, 0.001)
+    texts = (BLOCK, BLOCK.replace("2345", "234"))
+    ends = [contoursolve.solve(text, start=START).answers[0].contour.end for text in texts]
+    assert angle.by_rounding == pytest.approx(np.hypot(*np.subtract(*ends)), abs=1e-12)
+    assert angle.by_rounding == pytest.approx(angle.by_rounding_linear, rel=1e-3)
+    assert effects["K"].by_rounding == 0
+    assert effects["K"].by_half == pytest.approx(abs(effects["K"].slope[0]) * 0.0005, rel=1e-3)
+    assert effects["X"].by_half == pytest.approx(np.hypot(*effects["X"].slope) * 0.0005, rel=1e-3)
+
+
+def test_tolerances_beyond_which_there_is_no_contour_are_told():
+    """The largest rounding is K / tan(30): 51.79 for K-29.9, 52.13 for K-30.1."""
+    found = tolerances("G111 X100. A180. K-30. B120. P51.9", {"P": 0.2, "K": 0.1}, start=START)
+    assert (found.limits.count, found.limits.without) == (4, 1)
+
+
+def test_a_point_in_the_middle_and_inches():
+    block = "G111 X4. A180. K-1.2 B120. P.2 Q.2"
+    found = tolerances(block, {"P": 0.01}, point="corner 1.center", start="X1.6 Z0.", units="inch")
+    (effect,) = [each for each in found.effects if each.word == "P"]
+    assert (effect.unit, effect.increment) == ("inch", 0.0001)
+    assert effect.slope == pytest.approx((25.4 * np.tan(np.radians(30)), 25.4))
+
+
+FACTS = [
+    ("G111 X100. A180. K-30. B120. P?", "X40. Z0.", ["straight part of line 2 = 20"]),
+    ("G111 X100. A180. K-30. B120. P5. Q?", "X40. Z0.", ["radius of corner 1 = radius of corner 2"]),
+    (
+        "G111 X100. A180. K-30. B120. P? Q?",
+        "X40. Z0.",
+        ["radius of corner 1 = radius of corner 2", "straight part of line 2 = 20"],
+    ),
+    ("G112 X50. K-30. I-10. R? Q2.", "X40. Z0.", ["length of arc = 20"]),
+]
+
+
+@pytest.mark.parametrize(("block", "start", "facts"), FACTS)
+def test_derivatives_of_equations_without_a_closed_form_are_central_differences(block, start, facts):
+    slopes = sensitivity(block, start=start, facts=facts).slopes
+    step, compared = 1e-4, 0
+    program = contoursolve.parse(block)
+    for word in next(iter(slopes.values())):
+        line, _, address = word.rpartition(":")
+        if " " in word:
+            value = float(next(fact for fact in facts if fact.startswith(word)).partition("=")[2])
+        else:
+            same = [each for each in program.blocks if not line or each.line == int(line)]
+            value = float(next(each.find(address) for each in same if each.find(address)).number)
+        found = family(block, vary={word: [value - step, value + step]}, start=start, facts=facts)
+        if set(found.summary()) != {contoursolve.Status.SOLVED}:
+            continue
+        compared += 1
+        for name, by_word in slopes.items():
+            if name in found.names:
+                difference = np.diff(found[name])[0] / (2 * step)
+                assert abs(by_word[word] - difference) <= 1e-5 * max(1.0, abs(difference)), (name, word)
+    assert compared >= 2
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"point": "V9"}, "no point V9; there are end, V1, V2"),
+        ({"allowed": {"R": 1}}, "no word R; there are"),
+    ],
+)
+def test_what_is_not_there_is_named(arguments, message):
+    with pytest.raises(FamilyError, match=message):
+        tolerances(BLOCK, start=START, **arguments)
+
+
+def run(*arguments):
+    done = CliRunner().invoke(main, ["sensitivity", "--block", BLOCK, "--start", START, *map(str, arguments)])
+    assert done.exception is None or isinstance(done.exception, SystemExit), done.exception
+    return done.exit_code, done.stdout, done.stderr
+
+
+def test_the_command_prints_the_words_in_order():
+    status, output, _ = run("--tolerance", "a=0.05", "--tolerance", "K=0.02")
+    assert status == 0
+    lines = output.splitlines()
+    assert [line.split()[0] for line in lines[2:4]] == ["K", "A"]
+    assert "solved at all 4 combinations" in output
+    assert "B rounded to 121.2340 deg moves it by" in output
+    status, output, _ = run("--point", "V2", "--format", "json")
+    data = json.loads(output)
+    assert (status, data["schema"], data["limits"]) == (0, "contoursolve/sensitivity/1", None)
+    assert {each["word"] for each in data["words"]} == {"X", "A", "K", "B", "P", "Q"}
+    for wrong, message in ((("--tolerance", "P"), "WORD=VALUE"), (("--point", "V9"), "no point V9")):
+        status, output, errors = run(*wrong)
+        assert (status, output) == (2, "")
+        assert message in errors
+
+
+def test_a_half_circle_has_no_derivative_by_its_radius():
+    """Its centre runs away as the root of what the radius is more than half the chord."""
+    block = "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q-1"
+    slopes = sensitivity(block).slopes["P1.X"]
+    assert np.isnan(slopes["R"])
+    assert np.isfinite(slopes[",A"])
+    document = CliRunner().invoke(main, ["sensitivity", "--block", block, "--format", "json"])
+    assert document.exit_code == 0, document.output
+    words = {each["word"]: each["slope"] for each in json.loads(document.stdout)["words"]}
+    assert words["R"] is None
