@@ -1,7 +1,7 @@
 """Every word as a dimension where it belongs on the drawing."""
 
 from collections.abc import Iterator, Mapping
-from math import atan2, degrees
+from math import atan2, degrees, inf
 
 from contoursolve.constraints import Coordinate, Heading, Offset, Radius
 from contoursolve.contour import ArcSegment, Segment
@@ -138,7 +138,7 @@ def _corners(
 def _limit(known: Known, corner: str) -> float | None:
     """The largest size of a corner that is too large."""
     for refusal in known.refusals:
-        if refusal.subject == corner and refusal.values.get("limit", 0) > 0:
+        if refusal.subject == corner and 0 < refusal.values.get("limit", 0) < inf:
             return refusal.values["limit"]
     return None
 

@@ -115,7 +115,7 @@ def lay_out(scene: Scene) -> Sheet:
 
 
 def _thinned(scene: Scene) -> Scene:
-    """The scene as far as it can be read: of a crowded one, the words that are not simply given, and names of points."""
+    """The scene as far as it can be read: of a crowded one, words that are not simply given, and names."""
     if len(scene.dimensions) + sum(bool(mark.label) for mark in scene.marks) <= _MOST_LABELS:
         return scene
     special = tuple(each for each in scene.dimensions if each.role is not Role.GIVEN)[:_MOST_LABELS]
@@ -183,13 +183,10 @@ def _draw_path(canvas: Canvas, scene: Scene) -> None:
 
 
 def _pointed(segments: tuple[Segment, ...], view: View) -> list[Segment]:
-    """The elements that are long enough for an arrow, or the longest."""
-    long = [segment for segment in segments if segment.length * view.scale > _ARROWED and not _is_corner(segment)]
-    return long or [max(segments, key=lambda each: each.length)]
-
-
-def _is_corner(segment: Segment) -> bool:
-    return segment.name.startswith("corner")
+    """The elements that are long enough for an arrow, or the longest; corners have their size there."""
+    others = [segment for segment in segments if not segment.name.startswith("corner")]
+    long = [segment for segment in others if segment.length * view.scale > _ARROWED]
+    return long or ([max(others, key=lambda each: each.length)] if others else [])
 
 
 def _ends_of(canvas: Canvas, thin: Thin) -> tuple[Spot, Spot] | None:
