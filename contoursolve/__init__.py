@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     )
     from contoursolve.contour import ArcSegment, Contour, LineSegment
     from contoursolve.diagnostic import Basis, Diagnosis, Diagnostic, Severity
+    from contoursolve.dialects import Dialect
     from contoursolve.examine import Answer, Depth, Policy
     from contoursolve.families import (
         Family,
@@ -63,6 +64,7 @@ __all__ = [
     "Depth",
     "Diagnosis",
     "Diagnostic",
+    "Dialect",
     "Drawings",
     "Drawn",
     "Expansion",
@@ -105,6 +107,7 @@ __all__ = [
 _ROOMS = {
     "contour": ("ArcSegment", "Contour", "LineSegment"),
     "diagnostic": ("Basis", "Diagnosis", "Diagnostic", "Severity"),
+    "dialects": ("Dialect",),
     "examine": ("Answer", "Depth", "Policy"),
     "outcome": ("Expansion",),
     "families": (

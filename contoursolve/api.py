@@ -10,17 +10,18 @@ from typing import TYPE_CHECKING, TypeVar
 
 from contoursolve import syntax
 from contoursolve.diagnostic import Diagnostic, Severity
-from contoursolve.dialects import DIALECTS, Dialect
+from contoursolve.dialects import Dialect
 from contoursolve.examine import Depth, Policy
 from contoursolve.model import Length
 from contoursolve.numbering import Numbers
-from contoursolve.pipeline import Result, UnknownControlError, recognise, run
+from contoursolve.pipeline import Result, choose, run
 from contoursolve.project import configure, find_settings
 from contoursolve.reading import Trouble
 from contoursolve.syntax import STANDARD_INPUT, Directive, Program, UnreadableProgramError
 
 if TYPE_CHECKING:
     from contoursolve.outcome import Expansion
+    from contoursolve.posts import Post
     from contoursolve.statements import Statement
 
 __all__ = [
@@ -28,7 +29,6 @@ __all__ = [
     "check",
     "check_file",
     "expand",
-    "find_dialect",
     "only_findings",
     "parse",
     "read_program",
@@ -54,7 +54,7 @@ def parse(text: str, *, name: str = "<program>") -> Program:
 def solve(
     text: str,
     *,
-    control: str | None = None,
+    control: str | Dialect | None = None,
     start: str | None = None,
     units: str = "mm",
     rules: str = "enforce",
@@ -67,7 +67,8 @@ def solve(
 
     Args:
         text: the program, one or more lines.
-        control: `yasnac-lx3` or `nct-99m`; found from the program where it is clear.
+        control: `yasnac-lx3` or `nct-99m`, or a control of your own as its tables (see `Dialect`); found from the
+            program where it is clear.
         start: words that give the start point, such as `"X40. Z0."`, as the control reads them.
         units: `mm` or `inch`, for numbers before any G20 or G21.
         rules: `enforce`, `warn` or `off` (see `Policy`).
@@ -115,7 +116,7 @@ def solve(
 def check(
     text: str,
     *,
-    control: str | None = None,
+    control: str | Dialect | None = None,
     start: str | None = None,
     units: str = "mm",
     rules: str = "enforce",
@@ -139,7 +140,7 @@ def check(
 def solve_file(
     path: str | Path,
     *,
-    control: str | None = None,
+    control: str | Dialect | None = None,
     units: str = "mm",
     rules: str = "enforce",
     facts: Iterable[str | Statement] = (),
@@ -158,7 +159,7 @@ def solve_file(
 def check_file(
     path: str | Path,
     *,
-    control: str | None = None,
+    control: str | Dialect | None = None,
     units: str = "mm",
     rules: str = "enforce",
     settings: Mapping[str, str] | None = None,
@@ -170,7 +171,7 @@ def check_file(
 def solve_program(
     program: Program,
     *,
-    control: str | None = None,
+    control: str | Dialect | None = None,
     start: str | None = None,
     units: str = "mm",
     rules: str = "enforce",
@@ -179,8 +180,8 @@ def solve_program(
     settings: Mapping[str, str] | None = None,
 ) -> Result:
     """Solve every contour of a program that was parsed or read before; as `solve`."""
-    dialect = find_dialect(control) if control else recognise(program)
-    configured = configure(settings) if settings else {}
+    dialect = choose(control, program)
+    configured = configure(settings, dialect) if settings else {}
     if dialect is not None:
         dialect = configured.get(dialect.name, dialect)
     beginning = syntax.parse(start, program.name, first_line=0) if start is not None else None
@@ -222,13 +223,13 @@ def only_findings(result: Result) -> Result:
 def expand(
     text: str,
     *,
-    post: str = "same",
+    post: str | Post = "same",
     arcs: str = "center",
     decimals: int | None = None,
     comments: bool = True,
     keep_going: bool = False,
     block_numbers: str = "first",
-    control: str | None = None,
+    control: str | Dialect | None = None,
     start: str | None = None,
     units: str = "mm",
     rules: str = "enforce",
@@ -240,7 +241,7 @@ def expand(
 
     Args:
         text: the program, with its line ends.
-        post: the target: `same` (the control that the program is for), `linuxcnc` or `fanuc`.
+        post: the target: `same` (the control that the program is for), `linuxcnc` or `fanuc`, or one of your own.
         arcs: `center` (I J K) or `radius` (R).
         decimals: decimals of a length; the target's own without.
         comments: whether the original blocks are kept as comments.
@@ -262,7 +263,7 @@ def expand(
     from contoursolve.posts import Arcs, Numbering, find_post  # noqa: PLC0415
 
     program = syntax.parse(text, name)
-    dialect = find_dialect(control) if control else recognise(program)
+    dialect = choose(control, program)
     if decimals is not None and (isinstance(decimals, bool) or decimals not in range(1, MOST_DECIMALS + 1)):
         raise ValueError(f"decimals cannot be {decimals!r}; choose 1 to {MOST_DECIMALS}, or None for the target's own")
     numbering = choice_of(Numbering, block_numbers, "block_numbers")
@@ -271,7 +272,7 @@ def expand(
     if dialect is None:
         summary.left += filter(None, map(left_unread, program.blocks))
         return Expansion(text if keep_going or not summary.left else None, None, summary)
-    dialect = (configure(settings) if settings else {}).get(dialect.name, dialect)
+    dialect = (configure(settings, dialect) if settings else {}).get(dialect.name, dialect)
     beginning = syntax.parse(start, name, first_line=0) if start is not None else None
     further = lines_of_facts(program, dialect, unit, beginning, _facts(facts))
     pieces = list(
@@ -300,10 +301,3 @@ def read_program(path: str | Path) -> Program:
     name = str(path)
     text = syntax.decode(syntax.read_bytes(name, "a program file"), name)
     return syntax.parse(text, "<standard input>" if name == STANDARD_INPUT else name)
-
-
-def find_dialect(control: str) -> Dialect:
-    """The control of this name. Raises UnknownControlError, which lists the choices."""
-    if control not in DIALECTS:
-        raise UnknownControlError(f"unknown control {control!r}; choose from {', '.join(DIALECTS)}")
-    return DIALECTS[control]

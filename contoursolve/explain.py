@@ -77,8 +77,11 @@ class Context:
     """Where to point if no word is to blame."""
 
     def row(self, about: Enum) -> Rule:
-        """The row about an event."""
-        return next(rule for rule in self.rules if rule.about is about)
+        """The row about an event. Raises LookupError if the control has none."""
+        found = next((rule for rule in self.rules if rule.about is about), None)
+        if found is None:
+            raise LookupError(f"the rules of this control have no row about {about}; let them end with GEOMETRY_RULES")
+        return found
 
     def typed(self) -> dict[str, str]:
         """The stated words as typed, by name."""

@@ -147,6 +147,23 @@ def _in_words(fact: Directive, plane: Plane, unit: Length) -> Directive:
     return replace(fact, text=text, span=Span(fact.span.line, 1, len(text) + 1))
 
 
+def choose(control: str | Dialect | None, program: Program) -> Dialect | None:
+    """The control of this name, or that is given as its tables, or else the one that a program is written for.
+
+    Raises UnknownControlError, which lists the choices, if there is no such control or the program shows several.
+    """
+    if isinstance(control, Dialect):
+        return control
+    return find_dialect(control) if control else recognise(program)
+
+
+def find_dialect(control: str) -> Dialect:
+    """The control of this name. Raises UnknownControlError, which lists the choices."""
+    if control not in DIALECTS:
+        raise UnknownControlError(f"unknown control {control!r}; choose from {', '.join(DIALECTS)}")
+    return DIALECTS[control]
+
+
 def recognise(program: Program) -> Dialect | None:
     """The control that a program is written for; None if no block shows it.
 
@@ -459,7 +476,8 @@ class _Examiner:
     def nothing_to_solve(self, blocks: Sequence[Block]) -> Diagnostic:
         """The finding that a program has no contour block."""
         own = self.dialect.name if self.dialect else None
-        triggers = [f"of {name}: {each.contours}" for name, each in DIALECTS.items() if own in (None, name)]
+        controls = (self.dialect,) if self.dialect else DIALECTS.values()
+        triggers = [f"of {each.name}: {each.contours}" for each in controls]
         others = ((name, _sign(blocks, each)) for name, each in DIALECTS.items() if own not in (None, name))
         triggers += [f"{sign} is for {name}: try --control {name}" for name, sign in others if sign]
         context = Context(self.rules, self.unit)

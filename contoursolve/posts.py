@@ -165,8 +165,10 @@ FANUC = Post(
 POSTS = {post.name: post for post in (SAME, LINUXCNC, FANUC)}
 
 
-def find_post(name: str) -> Post:
-    """The target of this name. Raises ValueError, which lists the choices."""
+def find_post(name: str | Post) -> Post:
+    """The target of this name, or that is given as its table. Raises ValueError, which lists the choices."""
+    if isinstance(name, Post):
+        return name
     if name not in POSTS:
         raise ValueError(f"unknown post {name!r}; choose from {', '.join(POSTS)}")
     return POSTS[name]

@@ -41,19 +41,20 @@ def read_setting(text: str) -> tuple[str, str]:
     return name.strip(), value.strip()
 
 
-def configure(settings: Mapping[str, str]) -> dict[str, Dialect]:
-    """The controls that settings by `control.name` are about, with these values.
+def configure(settings: Mapping[str, str], own: Dialect | None = None) -> dict[str, Dialect]:
+    """The controls that settings by `control.name` are about, with these values; `own` is one that is not built in.
 
     Raises SettingError, naming what there is.
     """
+    controls = {**DIALECTS, own.name: own} if own else DIALECTS
     values: dict[str, dict[str, str]] = {}
     for full, value in settings.items():
         control, _, name = full.partition(".")
-        if control not in DIALECTS or not name:
+        if control not in controls or not name:
             raise SettingError(f"there is no setting {full!r}; write CONTROL.NAME, such as {_example()}")
         values.setdefault(control, {})[name] = value
     try:
-        return {control: DIALECTS[control].configure(own) for control, own in values.items()}
+        return {control: controls[control].configure(given) for control, given in values.items()}
     except ValueError as error:
         raise SettingError(str(error)) from None
 

@@ -6,14 +6,13 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import IO
 
-from contoursolve.api import find_dialect
 from contoursolve.examine import Policy
 from contoursolve.expansion import OPENING, expand_lines, lines_of_facts, opening_of
 from contoursolve.files import Tape
 from contoursolve.model import Length
 from contoursolve.numbering import Numbers
 from contoursolve.outcome import Left, Options, Summary, left_unread
-from contoursolve.pipeline import first_sign
+from contoursolve.pipeline import find_dialect, first_sign
 from contoursolve.posts import Numbering
 from contoursolve.project import configure
 from contoursolve.syntax import Block, Directive, Program, parse, parse_block

@@ -4,10 +4,11 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from contoursolve import syntax
-from contoursolve.api import find_dialect, solve
+from contoursolve.api import solve
 from contoursolve.contour import Contour
 from contoursolve.diagnosis import Edit, EditKind, apply_edits, find_repairs
-from contoursolve.pipeline import Result, recognise
+from contoursolve.dialects import Dialect
+from contoursolve.pipeline import Result, choose
 from contoursolve.syntax import Program
 
 
@@ -27,7 +28,7 @@ def what_if(
     drop: Iterable[str] = (),
     add: Iterable[str] = (),
     change: Mapping[str, str] | None = None,
-    control: str | None = None,
+    control: str | Dialect | None = None,
     start: str | None = None,
     units: str = "mm",
     rules: str = "enforce",
@@ -66,7 +67,7 @@ def _edit(program: Program, address: str, text: str) -> Edit:
 
 
 def completions(
-    block: str, *, control: str | None = None, start: str | None = None, units: str = "mm"
+    block: str, *, control: str | Dialect | None = None, start: str | None = None, units: str = "mm"
 ) -> tuple[Completion, ...]:
     """Every single word that would complete a block, with its value where the geometry fixes it already.
 
@@ -76,7 +77,7 @@ def completions(
     ['I?', 'K?', 'U?', 'X?']
     """
     program = syntax.parse(block)
-    dialect = find_dialect(control) if control else recognise(program)
+    dialect = choose(control, program)
     result = solve(block, control=control, start=start, units=units)
     repairs = (repair for answer in result.answers if dialect for repair in find_repairs(answer, dialect).repairs)
     return tuple(

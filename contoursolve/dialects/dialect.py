@@ -14,7 +14,27 @@ Finder = Callable[[Sequence[Block], int, State, Modes], Claim | None]
 
 @dataclass(frozen=True, slots=True)
 class Dialect:
-    """One control."""
+    """One control, as tables. It need not be built in: every function takes one as `control`.
+
+    A relative of a control has a name of its own and the tables in which it differs:
+
+        from dataclasses import replace
+        from contoursolve.dialects import NCT_99M
+
+        mine = replace(NCT_99M, name="mine", title="the mill in hall 2", rules=...)
+        contoursolve.solve(text, control=mine)
+
+    One from scratch is five tables (`notebooks/07_add_a_control.ipynb` writes one):
+
+    * the lexicon in `modes`: addresses, what a number without a point means, G codes, axes;
+    * `forms`: the points of a drawing, the facts that words state about them, the path and its corners;
+    * `find` reads blocks into claims of a form, and states which of two solutions the control takes, by name;
+    * `rules`: `COMMON_RULES`, rows of its own, then `GEOMETRY_RULES` (of `dialects.geometry`), so that whatever can
+      happen has a row;
+    * how it writes numbers is in the lexicon; a target of your own for `expand` is a `Post`.
+
+    Names of forms are not those of a built-in control: what sympy has said about these is kept by them.
+    """
 
     name: str
     title: str

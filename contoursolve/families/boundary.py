@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from contoursolve.diagnostic import Severity
+from contoursolve.dialects import Dialect
 from contoursolve.families.ends import Reason, about_of, called, phrase, same
 from contoursolve.families.evaluate import template_with
 from contoursolve.families.survey import LEAST_GAP, Crossing, Piece, Survey
@@ -90,7 +91,7 @@ def feasible(
     *,
     start: str | None = None,
     within: tuple[float, float] | None = None,
-    control: str | None = None,
+    control: str | Dialect | None = None,
     units: str = "mm",
     rules: str = "enforce",
     settings: Mapping[str, str] | None = None,

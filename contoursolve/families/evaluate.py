@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from contoursolve import syntax
 from contoursolve.backends.columns import Array
-from contoursolve.dialects import DIALECTS
+from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.examine import Policy
 from contoursolve.families.distribute import in_order
 from contoursolve.families.prepared import Examples, Kinds, Sweep, Table, examples_of, kinds_of
@@ -19,7 +19,7 @@ from contoursolve.families.ranges import FamilyError, Ranges, name_of, ranges_of
 from contoursolve.families.result import Family
 from contoursolve.families.template import Template, find_words
 from contoursolve.model import Length
-from contoursolve.pipeline import UnknownControlError, recognise
+from contoursolve.pipeline import UnknownControlError, choose
 from contoursolve.project import configure
 from contoursolve.syntax import Program, Word
 
@@ -36,7 +36,7 @@ class Recipe:
 
     block: str
     start: str | None
-    control: str | None
+    control: str | Dialect | None
     units: str
     rules: str
     settings: tuple[tuple[str, str], ...]
@@ -57,7 +57,7 @@ def sweep(
     *,
     vary: Mapping[str, ArrayLike],
     start: str | None = None,
-    control: str | None = None,
+    control: str | Dialect | None = None,
     facts: Iterable[str] = (),
     paired: bool = False,
     units: str = "mm",
@@ -77,7 +77,7 @@ def sweep(
 def template_of(
     block: str,
     start: str | None,
-    control: str | None,
+    control: str | Dialect | None,
     units: str,
     rules: str,
     settings: Mapping[str, str] | None,
@@ -86,11 +86,10 @@ def template_of(
 ) -> Template:
     """A block with those of its words free that are asked for; arguments and errors as for `family`."""
     program = syntax.parse(block, "<block>")
-    dialect = DIALECTS.get(control) if control else recognise(program)
+    dialect = choose(control, program)
     if dialect is None:
-        told = f"unknown control {control!r}" if control else "the block does not tell its control; name it"
-        raise UnknownControlError(f"{told}; choose from {', '.join(DIALECTS)}")
-    dialect = (configure(settings) if settings else {}).get(dialect.name, dialect)
+        raise UnknownControlError(f"the block does not tell its control; name it; choose from {', '.join(DIALECTS)}")
+    dialect = (configure(settings, dialect) if settings else {}).get(dialect.name, dialect)
     beginning = syntax.parse(start, "<start>", first_line=0) if start is not None else None
     apart = tuple(syntax.read_directive(fact, -number) for number, fact in enumerate(facts, 1))
     return Template(program, dialect, Length(units), Policy(rules), beginning, free(program), apart)
@@ -100,7 +99,7 @@ def template_with(
     word: str,
     block: str,
     start: str | None,
-    control: str | None,
+    control: str | Dialect | None,
     units: str,
     rules: str,
     settings: Mapping[str, str] | None,
@@ -115,7 +114,7 @@ def family(
     *,
     vary: Mapping[str, ArrayLike],
     start: str | None = None,
-    control: str | None = None,
+    control: str | Dialect | None = None,
     facts: Iterable[str] = (),
     paired: bool = False,
     units: str = "mm",
@@ -132,7 +131,8 @@ def family(
             several have it (`2:,A`); of a word of the start point as `start.X`; of a fact by what it gives the value
             of (`length of line 1`).
         start: words that give the start point, such as `"X40. Z0."`, as the control reads them.
-        control: `yasnac-lx3` or `nct-99m`; found from the block where it is clear.
+        control: `yasnac-lx3` or `nct-99m`, or a control of your own as its tables; found from the block where it is
+            clear.
         facts: further facts, as for `solve`.
         paired: the values stand side by side, a row each; without it, every combination is a row.
         units: `mm` or `inch`, for numbers before any G20 or G21.
@@ -197,13 +197,22 @@ def solve_parts(
     """The results of some stretches of rows, in order. Raises FamilyError for less than one worker."""
     count = _check_workers(workers)
     if executor is not None:
-        # Functions of CasADi cannot be sent; what they are made from can.
-        packed = pickle.dumps((ready.recipe, ready.examples))
+        packed = _pack(ready)
         tasks = (partial(solve_rows, packed, dict(ready.ranges.rows(*part).values)) for part in parts)
         yield from in_order(tasks, executor, AHEAD if workers is None else count)
         return
     with ThreadPoolExecutor(count) if min(count, len(parts)) > 1 else nullcontext() as threads:
         yield from in_order((partial(_solve, ready, *part) for part in parts), threads, count)
+
+
+def _pack(ready: Sweep) -> bytes:
+    """What a family is made from; functions of CasADi cannot be sent. Raises FamilyError."""
+    try:
+        return pickle.dumps((ready.recipe, ready.examples))
+    except (pickle.PicklingError, AttributeError, TypeError) as error:
+        raise FamilyError(
+            f"this control cannot be sent to an executor ({error}); its functions must stand in a module, by name"
+        ) from None
 
 
 def solve_rows(packed: bytes, values: dict[str, Array]) -> Table:

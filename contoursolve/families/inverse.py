@@ -7,6 +7,7 @@ import numpy
 
 from contoursolve.contour import Contour
 from contoursolve.diagnosis.edits import write_word
+from contoursolve.dialects import Dialect
 from contoursolve.families.evaluate import template_with
 from contoursolve.families.goals import Curve, Goal, end_name, place_of, read_goal
 from contoursolve.families.kinds import Kind
@@ -69,7 +70,7 @@ def find_word(
     *,
     start: str | None = None,
     within: tuple[float, float] | None = None,
-    control: str | None = None,
+    control: str | Dialect | None = None,
     units: str = "mm",
     rules: str = "enforce",
     settings: Mapping[str, str] | None = None,

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from contoursolve.backends.intervals import Array
 from contoursolve.diagnostic import Severity
+from contoursolve.dialects import Dialect
 from contoursolve.families.boundary import ASIDE, Way
 from contoursolve.families.ends import Reason, about_of, called, phrase, same
 from contoursolve.families.evaluate import template_of
@@ -69,7 +70,7 @@ def region(
     within: tuple[Point, Point],
     *,
     start: str | None = None,
-    control: str | None = None,
+    control: str | Dialect | None = None,
     units: str = "mm",
     rules: str = "enforce",
     settings: Mapping[str, str] | None = None,

@@ -6,6 +6,7 @@ from math import hypot, nan, pi
 
 from contoursolve.backends.angle import direction
 from contoursolve.backends.inputs import COSINE, SINE
+from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer
 from contoursolve.families.evaluate import template_of
 from contoursolve.families.implicit import Implicit
@@ -56,7 +57,7 @@ def sensitivity(
     block: str,
     *,
     start: str | None = None,
-    control: str | None = None,
+    control: str | Dialect | None = None,
     facts: Iterable[str] = (),
     units: str = "mm",
     rules: str = "enforce",

@@ -8,6 +8,7 @@ from math import hypot, isnan, nan
 import numpy
 
 from contoursolve.backends.intervals import Array
+from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer
 from contoursolve.families.evaluate import family, template_of
 from contoursolve.families.goals import end_name, place_of
@@ -78,7 +79,7 @@ def tolerances(
     *,
     point: str = "end",
     start: str | None = None,
-    control: str | None = None,
+    control: str | Dialect | None = None,
     facts: Iterable[str] = (),
     units: str = "mm",
     rules: str = "enforce",

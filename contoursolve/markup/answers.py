@@ -4,7 +4,6 @@ from collections.abc import Iterator, Sequence
 
 import htpy as h
 
-from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer
 from contoursolve.markup.tables import short, table
 from contoursolve.output.contours import (
@@ -22,9 +21,9 @@ MOST_ELEMENTS = 200
 """Rows of a table on a page."""
 
 
-def words_table(answer: Answer, dialect: Dialect) -> h.Element:
+def words_table(answer: Answer) -> h.Element:
     """What was given."""
-    return table("What was given", ("word", "value", "unit", "meaning"), given_rows(answer, dialect), numbers=(1,))
+    return table("What was given", ("word", "value", "unit", "meaning"), given_rows(answer), numbers=(1,))
 
 
 def path_table(answer: Answer) -> h.Element | None:
@@ -67,7 +66,7 @@ def checks_table(answer: Answer) -> h.Element | None:
     return table("Checks", header, rows)
 
 
-def remarks(answer: Answer, dialect: Dialect) -> Iterator[h.Element]:
+def remarks(answer: Answer, control: str) -> Iterator[h.Element]:
     """What is proven of the path, what it rests on, and the block with what it asked for filled in."""
     if answer.filled:
         yield h.p[f"Filled in (the contour moves by {small(answer.filled.deviation)}):"]
@@ -75,4 +74,4 @@ def remarks(answer: Answer, dialect: Dialect) -> Iterator[h.Element]:
     if answer.contour is None:
         return
     yield h.p[short(f"Certificate: {printed_certificate(answer.certificate)}.")]
-    yield from (h.p[short(convention_text(each, dialect.name))] for each in answer.claim.conventions)
+    yield from (h.p[short(convention_text(each, control))] for each in answer.claim.conventions)

@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
+from contoursolve.dialects import Dialect
 from contoursolve.notebook.exploration import begin
 
 if TYPE_CHECKING:
@@ -17,7 +18,7 @@ def explore(
     block: str,
     *,
     start: str | None = None,
-    control: str | None = None,
+    control: str | Dialect | None = None,
     units: str = "mm",
     rules: str = "enforce",
     facts: Iterable[str] = (),

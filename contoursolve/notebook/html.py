@@ -25,7 +25,6 @@ from contoursolve.markup.tables import short, table
 from contoursolve.notebook.text import (
     contour_rows,
     controls_of,
-    dialect_of,
     family_rows,
     freedom_rows,
     result_of,
@@ -82,17 +81,17 @@ def _answer(answer: Answer) -> Iterator[h.Node]:
 
 def _contour_of(answer: Answer, result: Result) -> Iterator[h.Node]:
     """The picture, the path, what was given, and the findings of one contour."""
-    dialect, form = dialect_of(answer), answer.claim.form
+    form = answer.claim.form
     yield h.h3[short(f"{result.program.name}:{answer.lines[0]}: {form.name} ({form.title}): {answer.status.value}")]
     yield figure(answer)
     yield path_table(answer)
-    yield from remarks(answer, dialect)
+    yield from remarks(answer, result.control or "")
     for finding in answer.diagnostics[:MOST_ITEMS]:
         yield finding_element(finding, result.program.name, sources_of(result, finding))
     if len(answer.diagnostics) > MOST_ITEMS:
         yield h.p[f"and {count(len(answer.diagnostics) - MOST_ITEMS, 'finding')} more"]
     yield from solutions_table(answer)
-    yield h.details[h.summary["What was given"], words_table(answer, dialect)]
+    yield h.details[h.summary["What was given"], words_table(answer)]
     checks = checks_table(answer)
     if checks:
         yield h.details[h.summary["What was checked"], checks]

@@ -6,7 +6,7 @@ from typing import Any
 
 from contoursolve.contour import ArcSegment, Contour
 from contoursolve.diagnostic import Diagnosis, Diagnostic
-from contoursolve.dialects import DIALECTS, Dialect
+from contoursolve.dialects import DIALECTS
 from contoursolve.examine import Answer
 from contoursolve.families import Family
 from contoursolve.output.catalogue import rule_lines
@@ -31,16 +31,17 @@ def text_of(record: Shown) -> Iterable[str]:
     return [str(record)]
 
 
-def dialect_of(answer: Answer) -> Dialect:
-    """The control whose words a contour was read with."""
-    return next(each for each in DIALECTS.values() if each.modes.lexicon is answer.claim.lexicon)
+def control_of(answer: Answer) -> str | None:
+    """The control whose words a contour was read with, if it is one that is built in."""
+    lexicon = answer.claim.lexicon
+    return next((name for name, each in DIALECTS.items() if each.modes.lexicon is lexicon), None)
 
 
 def result_of(answer: Answer) -> Result:
     """A result that holds one contour and its own blocks."""
     blocks = answer.claim.blocks
     program = Program("<block>", "\n".join(block.text for block in blocks), blocks)
-    return Result(program, dialect_of(answer).name, (answer,), answer.diagnostics)
+    return Result(program, control_of(answer), (answer,), answer.diagnostics)
 
 
 def _result(result: Result) -> Iterator[str]:

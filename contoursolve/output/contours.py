@@ -5,7 +5,6 @@ from dataclasses import replace
 
 from contoursolve.contour import ArcSegment
 from contoursolve.diagnostic import Diagnosis, Verdict
-from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.examine import Answer, AskedValue, list_alternatives
 from contoursolve.model import Length, Turn, Unit
 from contoursolve.output.layout import columns, count, length_of, printable
@@ -23,7 +22,6 @@ SMALLEST = 0.0001
 
 def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False) -> list[str]:
     """The listing of one contour, in the unit and the axes of its program; explained with its construction."""
-    dialect = DIALECTS[result.control or ""]
     alternatives = list_alternatives(answer)
     if alternatives is not answer.alternatives:
         # Found here once, for the construction and for the list.
@@ -31,7 +29,7 @@ def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False)
     form = answer.claim.form
     lines = [f"{printable(result.program.name)}:{answer.lines[0]}: {form.name} ({form.title}): {answer.status.value}"]
     lines += [f"  {printable(block.text.strip())[:160]}" for block in answer.profile.blocks]
-    lines += ["", *columns(given_rows(answer, dialect), left=(0, 3))]
+    lines += ["", *columns(given_rows(answer), left=(0, 3))]
     if is_explained:
         from contoursolve.output.construction import construction_lines  # noqa: PLC0415 - only on demand
 
@@ -40,7 +38,9 @@ def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False)
         lines += ["", *columns(path_rows(answer), left=(0, 1))]
     if answer.contour:
         lines += [
-            line for each in answer.claim.conventions for line in ("", f"  {convention_text(each, dialect.name)}")
+            line
+            for each in answer.claim.conventions
+            for line in ("", f"  {convention_text(each, result.control or '')}")
         ]
     if answer.filled:
         lines += ["", f"  filled in (the contour moves by {small(answer.filled.deviation)}):"]
@@ -55,7 +55,8 @@ def convention_text(convention: Convention, control: str) -> str:
     """What the manual does not say and a contour rests on."""
     setting = convention.setting
     evidence = setting.source.evidence.value
-    return f"{evidence}: {convention.meaning} (--set {control}.{setting.name}={convention.value})"
+    name = f"{control}.{setting.name}" if control else setting.name
+    return f"{evidence}: {convention.meaning} (--set {name}={convention.value})"
 
 
 def check_rows(diagnosis: Diagnosis) -> list[tuple[str, str, str]]:
@@ -129,7 +130,7 @@ def place_text(answer: Answer, at: Point) -> str:
     )
 
 
-def given_rows(answer: Answer, dialect: Dialect) -> list[tuple[str, str, str, str]]:
+def given_rows(answer: Answer) -> list[tuple[str, str, str, str]]:
     """Word, value, unit and meaning of everything that was given."""
     form, rows = answer.claim.form, []
     for axis, value, is_diameter in zip(answer.plane.axes, answer.start.values, answer.plane.diameters, strict=True):
@@ -144,24 +145,24 @@ def given_rows(answer: Answer, dialect: Dialect) -> list[tuple[str, str, str, st
         if id(word) in seen:
             continue
         seen.add(id(word))
-        row = dialect.modes.lexicon.addresses.get(word.address)
+        row = answer.claim.lexicon.addresses.get(word.address)
         meaning = form.meanings.get(name) or (row.meaning if row else "")
         meaning += " - ignored" if name in ignored else ""
         if word.address == FACT:
             rows.append((printable(word.text), "", "", "further fact"))
         else:
-            rows.append((word.text, *_value(word, dialect.modes.lexicon, answer.unit), meaning))
-    rows += [_asked_row(each, answer, form, dialect) for each in answer.answers]
+            rows.append((word.text, *_value(word, answer.claim.lexicon, answer.unit), meaning))
+    rows += [_asked_row(each, answer, form) for each in answer.answers]
     by_point = {choice.point: words[choice.given].text for choice in answer.profile.choices if choice.given in words}
     for point, side in answer.sides.items():
         rows.append((f"choice {point}", side.value, "", f"of two intersections, by {by_point[point]}"))
     return rows
 
 
-def _asked_row(asked: AskedValue, answer: Answer, form: Form, dialect: Dialect) -> tuple[str, str, str, str]:
+def _asked_row(asked: AskedValue, answer: Answer, form: Form) -> tuple[str, str, str, str]:
     """A value that was asked for."""
     question = asked.question
-    row = dialect.modes.lexicon.addresses.get(question.word.address)
+    row = answer.claim.lexicon.addresses.get(question.word.address)
     meaning = form.meanings.get(question.name) or (row.meaning if row else "")
     text = printable(question.word.text)
     if asked.value is None:

@@ -26,6 +26,10 @@ class Picture:
     sheet: Sheet = field(repr=False)
     theme: Theme = Theme.LIGHT
 
+    def _repr_svg_(self) -> str:
+        """The drawing, as a notebook asks for it."""
+        return self.svg
+
     def png(self, dpi: float = DPI) -> bytes:
         """The drawing as PNG. Raises MissingPainterError without matplotlib."""
         from contoursolve.pictures.png import write_png  # noqa: PLC0415 - an extra, and slow to import

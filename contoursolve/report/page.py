@@ -10,7 +10,7 @@ import htpy as h
 from markupsafe import Markup
 
 from contoursolve.diagnostic import Diagnostic, Severity
-from contoursolve.dialects import DIALECTS, Dialect
+from contoursolve.dialects import DIALECTS
 from contoursolve.examine import Answer, Policy
 from contoursolve.markup.answers import (
     checks_table,
@@ -112,22 +112,16 @@ def _contours(result: Result, places: Places, progress: Progress) -> h.Element |
         )
         for number, answer in enumerate(result.answers, 1)
     ]
-    dialect = DIALECTS[result.control or ""]
     return h.section(id="contours")[
         h.h2["Contours"],
         table("Every contour, with what became of it", header, rows),
-        (
-            _contour(answer, number, result, places, dialect, progress)
-            for number, answer in enumerate(result.answers, 1)
-        ),
+        (_contour(answer, number, result, places, progress) for number, answer in enumerate(result.answers, 1)),
     ]
 
 
-def _contour(
-    answer: Answer, number: int, result: Result, places: Places, dialect: Dialect, progress: Progress
-) -> h.Element:
+def _contour(answer: Answer, number: int, result: Result, places: Places, progress: Progress) -> h.Element:
     found = [_finding(each, result, places) for each in answer.diagnostics]
-    path, words = path_table(answer), words_table(answer, dialect)
+    path, words = path_table(answer), words_table(answer)
     element = h.article(id=f"contour-{number}")[
         h.h3[short(contour_name(answer, number)), ": ", _status(answer)],
         h.div(".blocks")[
@@ -136,7 +130,7 @@ def _contour(
                 for block in answer.profile.blocks
             )
         ],
-        h.div(".beside")[figure(answer), h.div[path or words, *remarks(answer, dialect)]],
+        h.div(".beside")[figure(answer), h.div[path or words, *remarks(answer, result.control or "")]],
         found,
         solutions_table(answer),
         words if path else None,

@@ -1,0 +1,123 @@
+"""A control that is not built in goes through every door; the notebook 07 writes one from scratch."""
+
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+from inspect import isfunction, signature
+
+import pytest
+
+import contoursolve
+from contoursolve.dialects import DIALECTS, NCT_99M
+from contoursolve.dialects.geometry import GEOMETRY_RULES
+from contoursolve.output.contours import contour_lines
+from contoursolve.posts import LINUXCNC
+from contoursolve.project import SettingError
+from contoursolve.solving import RefusalKind, RemarkKind
+
+GENERAL = {rule.about for rule in GEOMETRY_RULES}
+
+
+def relative(dialect):
+    """A relative whose rules about geometry are the general ones."""
+    own = tuple(rule for rule in dialect.rules if rule.about not in GENERAL)
+    return replace(dialect, name="mine", title="the machine in hall 2", rules=own + GEOMETRY_RULES)
+
+
+MINE = relative(NCT_99M)
+PAIR = "G17 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q-1"
+ROWS = [pytest.param(rule, id=rule.code) for rule in GEOMETRY_RULES]
+
+
+def codes(program):
+    control = DIALECTS["yasnac-lx3" if "G11" in program else "nct-99m"]
+    found = contoursolve.check(program, control=relative(control))
+    for each in found:
+        assert not set("{}") & set(each.message + each.help)
+        assert "None" not in each.message + each.help
+    return {each.code for each in found}
+
+
+@pytest.mark.parametrize("rule", ROWS)
+def test_the_general_rows_speak_where_a_control_has_none_of_its_own(rule):
+    assert all(rule.code in codes(program) for program in rule.rejected)
+    assert all(rule.code not in codes(program) for program in rule.accepted)
+
+
+def test_with_the_general_rows_every_event_of_geometry_has_a_row():
+    assert set(RefusalKind) | set(RemarkKind) <= {rule.about for rule in MINE.rules}
+
+
+def test_the_rows_of_the_control_itself_come_first():
+    own = replace(GEOMETRY_RULES[0], code="own-parallel")
+    control = replace(MINE, rules=(own, *MINE.rules))
+    (found,) = contoursolve.check("G17 G41 G0 X90 Y10\nG1 ,A150\nG1 X10 Y20 ,A150", control=control)
+    assert found.code == "own-parallel"
+
+
+def test_a_missing_row_is_named():
+    bare = replace(MINE, rules=tuple(rule for rule in MINE.rules if rule.about is not RefusalKind.LINES_PARALLEL))
+    with pytest.raises(LookupError, match=r"no row about RefusalKind.LINES_PARALLEL; .*GEOMETRY_RULES"):
+        contoursolve.check("G17 G41 G0 X90 Y10\nG1 ,A150\nG1 X10 Y20 ,A150", control=bare)
+
+
+def test_every_public_function_with_a_control_says_that_it_takes_tables():
+    functions = [each for name in contoursolve.__all__ if isfunction(each := getattr(contoursolve, name))]
+    controls = [signature(each).parameters.get("control") for each in functions]
+    assert {str(each.annotation).count("Dialect") for each in controls if each} == {1}
+
+
+def test_every_door_takes_a_control_as_its_tables():
+    result = contoursolve.solve(PAIR, control=MINE)
+    answer = result.answers[0]
+    assert result.control == "mine"
+    assert answer.contour == contoursolve.solve(PAIR).answers[0].contour
+    assert contour_lines(answer, result) == contour_lines(answer, contoursolve.solve(PAIR))
+    assert contoursolve.check(PAIR, control=MINE) == ()
+    other = contoursolve.what_if(PAIR, change={"Q": "Q1"}, control=MINE)
+    assert other.answers[0].contour.points["P1"] == pytest.approx((-30, 40), abs=1e-3)
+    line, start = "G1 X30 ,A45", "X0 Y0"
+    assert [each.word for each in contoursolve.completions("G1 ,A45", start=start, control=MINE)] == ["X?", "Y?"]
+    found = contoursolve.family(line, start=start, vary={",A": [0.0, 45.0]}, control=MINE)
+    assert found["N1.Y"].tolist() == pytest.approx([0, 30])
+    slopes = contoursolve.sensitivity(line, start=start, control=MINE).slopes
+    assert slopes["N1.Y"]["X"] == pytest.approx(1)
+    assert contoursolve.feasible(line, "X", start=start, control=MINE).intervals[0].low.value == 0
+    assert contoursolve.explore(PAIR, control=MINE).result.control == "mine"
+
+
+def test_its_contours_show_themselves_with_a_lexicon_of_their_own():
+    lexicon = replace(NCT_99M.modes.lexicon)
+    result = contoursolve.solve(PAIR, control=replace(MINE, modes=replace(MINE.modes, lexicon=lexicon)))
+    for shown in (result, result.answers[0]):
+        bundle = shown._repr_mimebundle_()
+        assert {"text/plain", "text/html", "image/svg+xml"} <= bundle.keys()
+        assert "circular-linear intersection" in bundle["text/plain"]
+
+
+def test_an_executor_takes_a_control_whose_functions_can_be_sent():
+    line, values = "G1 X30 ,A45", {",A": [0.0, 45.0]}
+    with ThreadPoolExecutor(1) as executor:
+        found = contoursolve.family(line, start="X0 Y0", vary=values, control=MINE, executor=executor)
+        assert found["N1.Y"].tolist() == pytest.approx([0, 30])
+        nameless = replace(MINE, signs=lambda _: ())
+        with pytest.raises(contoursolve.FamilyError, match="functions must stand in a module"):
+            contoursolve.family(line, start="X0 Y0", vary=values, control=nameless, executor=executor)
+
+
+def test_expand_takes_a_control_and_a_target_as_their_tables():
+    theirs = contoursolve.expand(PAIR, control=MINE, post=replace(LINUXCNC, name="theirs"))
+    assert theirs.control == "mine"
+    assert theirs.text == contoursolve.expand(PAIR, post="linuxcnc").text
+
+
+def test_settings_speak_of_the_control_by_its_name():
+    chosen = contoursolve.solve(PAIR, control=MINE, settings={"mine.circle-circle-q": "right-is-negative"})
+    assert chosen.settings == {"circle-circle-q": "right-is-negative"}
+    with pytest.raises(SettingError, match=r"mine\.circle-circle-q"):
+        contoursolve.solve(PAIR, settings={"mine.circle-circle-q": "right-is-negative"})
+
+
+def test_a_program_without_a_contour_is_told_what_shows_one_there():
+    control = replace(MINE, contours="lines with ,A")
+    (found,) = contoursolve.check("G0 X0 Y0", control=control)
+    assert "of mine: lines with ,A" in found.help
