@@ -99,7 +99,7 @@ def cells_of(kind: Kind, groups: tuple[Group, ...], values: Mapping[str, Array])
 def _is_searched(kind: Kind, groups: tuple[Group, ...], values: Mapping[str, float]) -> bool:
     """Whether the row of these values has a step without a closed form."""
     with ball.precision(ball.WORKING):
-        return enumerate_on(ground_of(kind.at(values)), kind.system, groups, Close.DOUBLE).is_searched
+        return enumerate_on(ground_of(kind.at(values)), kind.system, groups, Close.DOUBLE, BUDGET, LEAST).is_searched
 
 
 def _solve(

@@ -71,7 +71,7 @@ def enumerate_solutions(profile: Profile, system: System) -> Enumeration:
     enumeration = Enumeration((), ())
     for bits, close in ((ball.WORKING, Close.REFUSE), (ball.HIGHEST, Close.DOUBLE)):
         with ball.precision(bits):
-            enumeration = enumerate_on(ground_of(profile), system, groups, close)
+            enumeration = enumerate_on(ground_of(profile), system, groups, close, INTERVALS, LEAST)
         # More digits do not finish a search.
         if not any(doubt.obstacle in (Obstacle.TOUCHING, Obstacle.UNDECIDED) for doubt in enumeration.doubts):
             break
@@ -79,7 +79,7 @@ def enumerate_solutions(profile: Profile, system: System) -> Enumeration:
 
 
 def enumerate_on(
-    ground: Ground, system: System, groups: tuple[Group, ...], close: Close, budget: int = INTERVALS, least: int = LEAST
+    ground: Ground, system: System, groups: tuple[Group, ...], close: Close, budget: int, least: int
 ) -> Enumeration:
     """All solutions on a ground, with the balls of the precision that is set. Where the ground is a whole box of
     values, each one is proven for all of them."""
