@@ -50,8 +50,9 @@ class Cast(NamedTuple):
     mould: Mould
 
     def block(self) -> Block:
-        """The block with those of its words that are not about the contour."""
-        return Block(self.line, self.text, read_simply(self.text, self.line, self.mould.kept))
+        """The block with those of its words that are not about the contour, and without its G code."""
+        kept = self.mould.kept
+        return Block(self.line, self.text, read_simply(self.text, self.line, kept) if kept else ())
 
     def values(self) -> dict[str, Decimal]:
         """What its words state, mm or degrees, by name."""
@@ -101,7 +102,7 @@ def mould_of(claim: Claim, kind: Hashable, dialect: Dialect) -> Mould | None:
             return None
         givens.append((name, given.unit, places[id(word)], one))
     stated = {index for _, _, index, _ in givens}
-    kept = frozenset(range(len(block.words))) - stated
+    kept = frozenset(index for index, word in enumerate(block.words) if word.address != "G") - stated
     if any(block.words[index].address in modes.lexicon.addresses for index in kept):
         return None
     return Mould(kind, claim.after, tuple(givens), kept)

@@ -346,13 +346,13 @@ class _Examiner:
             self._check_block(block)
             state = advance(state, block, dialect.modes)
         start_unit = state.unit
-        is_whole, index = isinstance(blocks, Sequence), 0
+        is_whole, index, size = isinstance(blocks, Sequence), 0, _FIRST
         held: list[Line] = list(blocks) if isinstance(blocks, Sequence) else []
         rest = iter(() if isinstance(blocks, Sequence) else blocks)
         while True:
             if index >= len(held) - 1 and not is_whole:
-                more = list(islice(rest, _BATCH))
-                held, index, is_whole = [*held[index:], *more], 0, len(more) < _BATCH
+                more, size = list(islice(rest, size)), min(2 * size, _BATCH)
+                held, index, is_whole = [*held[index:], *more], 0, not more
                 continue
             if index >= len(held):
                 return
@@ -379,7 +379,7 @@ class _Examiner:
             if not is_whole and not view.says_something(after):
                 # Whether a contour goes on is known at the next block that says something.
                 more = list(islice(rest, _BATCH))
-                held, index, is_whole = [*held[index:], *more], 0, len(more) < _BATCH
+                held, index, is_whole = [*held[index:], *more], 0, not more
                 continue
             blocks_of_step = (block,) if after == 1 else tuple(view[:after])
             if isinstance(found, Claim) and found.form.is_contour:
