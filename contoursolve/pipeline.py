@@ -226,7 +226,7 @@ _NEAR = 8
 _BATCH = 1_000
 """Blocks that are read at once."""
 
-_FIRST, _WINDOW = 16, 2_048
+_FIRST, _WINDOW = 16, 4_096
 """Steps of which the contours are solved together, in the beginning, when nothing is known, and later."""
 
 
