@@ -86,6 +86,10 @@ def mould_of(claim: Claim, kind: Hashable, dialect: Dialect) -> Mould | None:
     """The mould of a contour about which there is nothing to say; None where more than its numbers would count."""
     if not claim.form.is_literal or len(claim.blocks) > 1 or claim.choices or claim.circumstances:
         return None
+    sizes = (claim.givens.get(word) for row in claim.form.corners for word in row.shapes)
+    if any(given is not None and not given.value for given in sizes):
+        # A corner of size 0 is none, one of another size is.
+        return None
     (block,), modes = claim.blocks, dialect.modes
     codes = codes_of(block, modes)
     is_own = len(codes) == 1 and isinstance(codes[0], Code) and codes[0].effect is Effect.CONTOUR
