@@ -31,7 +31,7 @@ from contoursolve.tolerance import AGREEMENT, ERROR_BOUND_WARNING, LARGEST, LENG
 
 Columns = Mapping[str, NDArray[numpy.float64]]
 
-FEWEST = 2
+FEWEST = 8
 """Contours of one kind below which columns take longer than one by one."""
 
 _MADE_OF = ("begin:", "end:", "center:", "turn:")
@@ -124,7 +124,7 @@ class Batch:
             if block.faults or block.directives or block.unmarked or block.is_skippable:
                 return None
             for word in block.words:
-                if word.number is None or not -_SMALL <= word.number <= _SMALL and self._is_large(word, claim):
+                if word.number is None or (not -_SMALL <= word.number <= _SMALL and self._is_large(word, claim)):
                     return None
         before, after = claim.before, claim.after
         for axis in before.plane.axes:
@@ -181,7 +181,10 @@ class Batch:
         ]
 
     def cast(self, mould: Mould, casts: Sequence[tuple[Cast, State]]) -> list[tuple[Start, Contour] | None]:
-        """The start points and the paths of blocks of a mould in states whose positions are known, as far as nothing speaks against them."""
+        """The start points and the paths of blocks of a mould in states whose positions are known, as far as nothing
+        speaks against them."""
+        if len(casts) < FEWEST:
+            return [None] * len(casts)
         kind, answers = self.kinds[mould.kind], list[tuple[Start, Contour] | None]()
         like, sizes = kind.answer.profile, _sizes(kind.answer.claim.form)
         units = [(name, unit) for name, unit, _, _ in mould.givens]

@@ -14,7 +14,8 @@ from contoursolve.examine import Answer, Depth, Policy
 from contoursolve.lines import Lines
 from contoursolve.model import Length
 from contoursolve.moulds import Moulded
-from contoursolve.pipeline import Step, attach, walk
+from contoursolve.pending import Step
+from contoursolve.pipeline import attach, walk
 from contoursolve.posts import SAME, Arcs, Machine, Post
 from contoursolve.reading import Effect, State, apply_modes, codes_of, motion_of, words_of
 from contoursolve.solving import Point

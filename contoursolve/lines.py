@@ -3,9 +3,10 @@
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
+from contoursolve.ahead import Line
 from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.moulds import Cast, Mould, Pattern, pattern_of
-from contoursolve.pipeline import Line, UnknownControlError
+from contoursolve.pipeline import UnknownControlError
 from contoursolve.reading import plain_lines
 from contoursolve.syntax import LONGEST_BLOCK, Block, Directive, Passage, parse_block, split_simply
 
@@ -97,6 +98,8 @@ class Lines:
         """The lines of a passage from a place on, with their ends, which are asked for once."""
         lines = passage.lines[place:]
         if self._ends:
-            return "".join(line.rstrip("\r\n") + self.take_end(passage.line + place + n) for n, line in enumerate(lines))
+            return "".join(
+                line.rstrip("\r\n") + self.take_end(passage.line + place + n) for n, line in enumerate(lines)
+            )
         self.end = _USUAL
         return "".join(lines)

@@ -110,4 +110,3 @@ def mould_of(claim: Claim, kind: Hashable, dialect: Dialect) -> Mould | None:
     if any(block.words[index].address in modes.lexicon.addresses for index in kept):
         return None
     return Mould(kind, claim.after, tuple(givens), kept)
-

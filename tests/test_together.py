@@ -112,6 +112,7 @@ def test_contours_solved_together_are_those_solved_one_by_one(seed, alone, monke
     post, rules = rng.choice(("same", "linuxcnc", "fanuc")), rng.choice(("enforce", "enforce", "warn", "off"))
     monkeypatch.setattr(pipeline, "_FIRST", rng.choice((1, 4, 16)))
     monkeypatch.setattr(pipeline, "_WINDOW", rng.choice((8, 64, 4096)))
+    monkeypatch.setattr("contoursolve.batch.FEWEST", rng.choice((1, 2, 8)))
     found = []
     for is_alone in (False, True):
         if is_alone:

@@ -52,7 +52,8 @@ class Lexicon:
     addresses: Mapping[str, Address]
     numbers: NumberFormat
     factors: dict[tuple[str, bool, bool], Decimal] = field(default_factory=dict, repr=False, compare=False)
-    """What numbers are multiplied by, as far as that was asked for: by address, whether it has a point, is in inches."""
+    """What numbers are multiplied by, as far as that was asked for, by address, whether they have a point, and whether
+    they are in inches."""
 
     def value(self, word: Word, unit: Length) -> Decimal | None:
         """The value of a word in mm (diameters halved) or degrees; None for a variable."""

@@ -87,7 +87,7 @@ def is_refused_by_values(rules: tuple[Rule, ...], roles: Sequence[Role], stated:
         if by_values:
             is_all = role.prefixes == ("",)
             own = stated if is_all else {call: stated[name] for call, name in role.names(stated).items()}
-            if any([rule.holds(own) for rule in by_values]):
+            if any(rule.holds(own) for rule in by_values):
                 return True
     return False
 

@@ -407,9 +407,7 @@ class _Attempt:
         return up_to_one_digit(bound) if isfinite(bound) else inf
 
 
-def solution_at(
-    system: System, start: Start, sizes: Mapping[str, float], out: Mapping[str, float]
-) -> Solution:
+def solution_at(system: System, start: Start, sizes: Mapping[str, float], out: Mapping[str, float]) -> Solution:
     """The values among the outputs of a compiled system, which count coordinates from the start point; `sizes` are
     those of the corners by the words that state them, mm."""
     figure, (first, second) = system.figure, start.values
@@ -424,10 +422,7 @@ def solution_at(
         Status.SOLVED,
         points=points,
         radii={name: out[name] for name in figure.radii},
-        corners={
-            corner.name: corner_of(corner, sizes[corner.size], out, absolute)
-            for corner in figure.corners
-        },
+        corners={corner.name: corner_of(corner, sizes[corner.size], out, absolute) for corner in figure.corners},
     )
 
 
