@@ -1,7 +1,7 @@
 """Blocks that differ in their numbers alone: what is known of one, without its numbers, is known of all."""
 
 from collections.abc import Hashable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import Decimal
 from typing import NamedTuple
 
@@ -101,7 +101,7 @@ def mould_of(claim: Claim, kind: Hashable, dialect: Dialect) -> Mould | None:
         word = given.word
         if word is None or word.address != name or id(word) not in places:
             return None
-        one = modes.lexicon.value(word._replace(number=Decimal(1)), claim.after.unit)
+        one = modes.lexicon.value(replace(word, number=Decimal(1)), claim.after.unit)
         if one is None:
             return None
         givens.append((name, given.unit, places[id(word)], one))

@@ -95,7 +95,7 @@ def classify(template: Template, ranges: Ranges) -> dict[str, Codes]:
             if given.name in claim.limits:
                 limits.add(claim.limits[given.name])
                 tied.append(word.text)
-        one = claim.lexicon.value(word._replace(number=Decimal(1), has_point=True), answer.unit)
+        one = claim.lexicon.value(replace(word, number=Decimal(1), has_point=True), answer.unit)
         bounds, values = numpy.array(sorted(map(float, limits))), ranges.values[name] * float(one or 1)
         places = numpy.searchsorted(bounds, values, "left") + numpy.searchsorted(bounds, values, "right")
         found[name] = places.astype(numpy.uint8)
@@ -127,7 +127,7 @@ def kind_in(answer: Answer, words: Mapping[str, Word], values: Mapping[str, floa
         if not stated and status is None:
             raise FamilyError(f"{typed.text} cannot vary: the contour has no value of it")
         for given in stated:
-            one = typed._replace(number=Decimal(1), has_point=given.word is None or given.word.has_point)
+            one = replace(typed, number=Decimal(1), has_point=given.word is None or given.word.has_point)
             factor = given.value / number if number else answer.claim.lexicon.value(one, answer.unit)
             free[given.name] = word, factor or Decimal(1)
     if status is None:
