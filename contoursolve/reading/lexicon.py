@@ -51,7 +51,7 @@ class Lexicon:
 
     addresses: Mapping[str, Address]
     numbers: NumberFormat
-    factors: dict[tuple[str, bool, bool], Decimal] = field(default_factory=dict, repr=False, compare=False)
+    factors: dict[tuple[str, bool, bool], Decimal] = field(default_factory=dict, init=False, repr=False, compare=False)
     """What numbers are multiplied by, as far as that was asked for, by address, whether they have a point, and whether
     they are in inches."""
 
