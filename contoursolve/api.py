@@ -186,7 +186,16 @@ def solve_program(
         dialect = configured.get(dialect.name, dialect)
     beginning = syntax.parse(start, program.name, first_line=0) if start is not None else None
     unit, policy = choice_of(Length, units, "units"), choice_of(Policy, rules, "rules")
-    return run(program, dialect, unit, policy, choice_of(Depth, depth, "depth"), beginning, _facts(facts))
+    deep, together = choice_of(Depth, depth, "depth"), None
+    if dialect is not None and len(program.blocks) >= _MANY:
+        from contoursolve.batch import Batch  # noqa: PLC0415 - a few blocks are solved before it is imported
+
+        together = Batch(dialect, policy, is_proven=deep is not Depth.PATH)
+    return run(program, dialect, unit, policy, deep, beginning, _facts(facts), together)
+
+
+_MANY = 64
+"""Blocks of a program whose contours are solved together."""
 
 
 Choice = TypeVar("Choice", bound=Enum)

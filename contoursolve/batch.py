@@ -31,8 +31,11 @@ from contoursolve.tolerance import AGREEMENT, ERROR_BOUND_WARNING, LARGEST, LENG
 
 Columns = Mapping[str, NDArray[numpy.float64]]
 
-FEWEST = 2
+FEWEST = 8
 """Contours of one kind below which columns take longer than one by one."""
+
+_MADE_OF = ("begin:", "end:", "center:", "turn:")
+"""Outputs that place the corners."""
 
 _FAR_BELOW = 0.25
 """Share of a limit up to which a value is within it, however the limit is rounded or measured."""
@@ -51,6 +54,8 @@ class Kind:
     answer: Answer
     system: System
     machine: Machine
+    wanted: tuple[str, ...]
+    """The outputs of which a contour is made."""
 
 
 @dataclass(slots=True)
@@ -97,7 +102,9 @@ class Batch:
         """Whether others can be solved as one that was examined."""
         if answer.status is Status.SOLVED and not answer.diagnostics and answer.contour and not answer.alternatives:
             system = assemble(answer.profile)
-            self.kinds.setdefault(key, Kind(answer, system, compile_system(system)))
+            machine = compile_system(system)
+            wanted = (name for name in machine.function.outputs if name in system.unknowns or name.startswith(_MADE_OF))
+            self.kinds.setdefault(key, Kind(answer, system, machine, tuple(wanted)))
             self._make_mould(key, answer.claim)
 
     def _make_mould(self, key: Hashable, claim: Claim) -> None:
@@ -174,7 +181,10 @@ class Batch:
         ]
 
     def cast(self, mould: Mould, casts: Sequence[tuple[Cast, State]]) -> list[tuple[Start, Contour] | None]:
-        """The start points and the paths of blocks of a mould in states whose positions are known, as far as nothing speaks against them."""
+        """The start points and the paths of blocks of a mould in states whose positions are known, as far as nothing
+        speaks against them."""
+        if len(casts) < FEWEST:
+            return [None] * len(casts)
         kind, answers = self.kinds[mould.kind], list[tuple[Start, Contour] | None]()
         like, sizes = kind.answer.profile, _sizes(kind.answer.claim.form)
         units = [(name, unit) for name, unit, _, _ in mould.givens]
@@ -274,9 +284,10 @@ def _evaluate(kind: Kind, inputs: Sequence[Mapping[str, float]]) -> list[tuple[d
     found = function.rows(rows)
     out = dict(zip(function.outputs, numpy.ascontiguousarray(found.T), strict=True))
     plain, bounds = _examine(kind, dict(zip(function.inputs, numpy.array(rows).T, strict=True)), out, len(rows))
+    wanted = numpy.stack([out[name] for name in kind.wanted], axis=1).tolist()
     return [
-        (dict(zip(function.outputs, row, strict=True)), bound) if is_plain else None
-        for row, is_plain, bound in zip(found.tolist(), plain.tolist(), bounds.tolist(), strict=True)
+        (dict(zip(kind.wanted, row, strict=True)), bound) if is_plain else None
+        for row, is_plain, bound in zip(wanted, plain.tolist(), bounds.tolist(), strict=True)
     ]
 
 

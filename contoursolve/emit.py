@@ -141,7 +141,7 @@ class _Writer:
                 for two in {floor(second), ceil(second)}:
                     j = two * step
                     mismatch = abs(hypot(i, j) - hypot(across - i, rise - j))
-                    key = (max(step, mismatch), hypot(i - to_first, j - to_second), i, j)
+                    key = (max(mismatch, step), hypot(i - to_first, j - to_second), i, j)
                     if key < best:
                         best = key
         if best[0] == inf:

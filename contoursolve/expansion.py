@@ -17,7 +17,8 @@ from contoursolve.model import Length
 from contoursolve.moulds import Moulded
 from contoursolve.numbering import Numberer, Numbers
 from contoursolve.outcome import Left, Options, Summary, left_unread
-from contoursolve.pipeline import Step, attach, walk
+from contoursolve.pending import Step
+from contoursolve.pipeline import attach, walk
 from contoursolve.posts import Machine
 from contoursolve.reading import Effect, State, apply_modes, codes_of, motion_of, words_of
 from contoursolve.reliance import MOTIONS, STANDING_ALONE, Reliance, reliance, restate, why_unmet
@@ -33,6 +34,9 @@ _NO_MOTION = -1
 """The motion that is in force where none is: the control starts with it."""
 
 _FRAME = re.compile(rf"(?P<head>{_BLANK})(?P<skip>/[1-9]?(?!\d)[ \t]*)?.*?(?P<tail>{_BLANK})", re.DOTALL)
+
+_NAMES = tuple(f"G{code:02}" for code in range(4))
+"""The codes of motions as they are written."""
 
 _AFTER_MOTION = frozenset({0, 1, 2, 5, 9, 30, 60, 98, 99})
 """M codes that act after the motion of their block: stop, end, spindle and coolant off, pallet, calls."""
@@ -266,18 +270,23 @@ class _Expander:
             if block.line not in members:
                 yield from self._keep(block, state)
                 continue
-            state = apply_modes(state, block, self.modes)
+            is_rapid = False
+            if isinstance(answer, Answer):
+                state = apply_modes(state, block, self.modes)
+                is_rapid = state.motion == 0 and not self._is_own_motion(block)
             form = self._format(state)
-            is_rapid = state.motion == 0 and not self._is_own_motion(block)
             moves: list[Move] = []
             for segment in groups.get(block.line, ()):
                 for move in emit(segment, here, form, is_rapid=is_rapid):
                     here = move.end
-                    self.summary.deviation = max(self.summary.deviation, move.deviation)
+                    if move.deviation > self.summary.deviation:
+                        self.summary.deviation = move.deviation
                     if move.words:
                         moves.append(move)
             end = self.lines.take_end(block.line)
-            yield from self._write(block, moves, end, state)
+            text = self._write(block, moves, end, state)
+            if text:
+                yield text
             if moves:
                 motion = moves[-1].code
         self.is_marked = False
@@ -291,11 +300,8 @@ class _Expander:
 
     def _place(self, answer: Answer | Moulded) -> Point:
         """Where the tool is at the start of a contour, in the expanded program."""
-        first, second = (
-            float(value or 0) + self.offsets.pop(axis, 0.0)
-            for axis, value in zip(answer.plane.axes, answer.start.values, strict=True)
-        )
-        return first, second
+        (first, second), (one, two) = answer.start.values, answer.plane.axes
+        return float(first or 0) + self.offsets.pop(one, 0.0), float(second or 0) + self.offsets.pop(two, 0.0)
 
     def _format(self, state: State) -> Format:
         key = state.plane.code, state.unit is Length.INCH, state.is_incremental
@@ -313,15 +319,14 @@ class _Expander:
         own = (Effect.CONTOUR,)
         return any(not isinstance(code, Word) and code.effect in own for code in codes_of(block, self.modes))
 
-    def _write(self, block: Block, moves: list[Move], end: str, state: State) -> Iterator[str]:
+    def _write(self, block: Block, moves: list[Move], end: str, state: State) -> str:
         """The lines in place of a block. Its number and what it sets stand in the first, what ends it in the last."""
-        frame = _FRAME.fullmatch(block.text)
-        head, skip, tail = (frame["head"], frame["skip"] or "", frame["tail"]) if frame else ("", "", "")
-        indent, specials = _split(head) if head else ("", "")
+        head, skip, tail = _frame(block.text)
+        indent, specials = _split(head)
         lines = [indent + text for text in comment_out(block.text.strip())] if self.options.has_comments else []
         numbers, codes, words, last = self._carried(block, state)
         comments = [] if self.options.has_comments else own_comments(block.text)
-        texts = [[f"G{move.code:02}", *move.words] for move in moves]
+        texts = [[_NAMES[move.code], *move.words] for move in moves]
         texts = texts or ([[]] if numbers or codes or words or last or comments else [])
         if texts:
             texts[0] = [*codes, *texts[0], *words, *comments]
@@ -331,12 +336,17 @@ class _Expander:
         if lines:
             lines[0] = specials + lines[0]
             lines[-1] += tail.strip(" \t")
-            yield (end or self.lines.end).join(lines) + end
+        return (end or self.lines.end).join(lines) + end if lines else ""
 
     def _carried(self, block: Block, state: State) -> tuple[list[str], list[str], list[str], list[str]]:
         """What a block says besides its contour: its numbers, G codes, words for its first and for its last line."""
-        numbers, codes, words, last = [], [], [], []
-        kept = []
+        numbers: list[str] = []
+        codes: list[str] = []
+        words: list[str] = []
+        last: list[str] = []
+        kept: list[Word] = []
+        if not block.words:
+            return numbers, codes, words, last
         rows = iter(codes_of(block, self.modes))
         dropped = (*MOTIONS, Effect.CONTOUR)
         for word in block.words:
@@ -381,8 +391,18 @@ def _blocks_of(step: Step) -> Iterable[Block]:
     )
 
 
+def _frame(text: str) -> tuple[str, str, str]:
+    """What stands before the words of a block, its block skip, and what stands behind them."""
+    if text[:1].isalpha() and (text[-1].isalnum() or text[-1] == "."):
+        return "", "", ""
+    frame = _FRAME.fullmatch(text)
+    return (frame["head"], frame["skip"] or "", frame["tail"]) if frame else ("", "", "")
+
+
 def _split(head: str) -> tuple[str, str]:
     """What stands before the words of a block: blanks, and what is for a tape reader."""
+    if not head:
+        return "", ""
     return "".join(c for c in head if c in " \t"), "".join(c for c in head if c not in " \t")
 
 

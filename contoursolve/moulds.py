@@ -1,7 +1,7 @@
 """Blocks that differ in their numbers alone: what is known of one, without its numbers, is known of all."""
 
 from collections.abc import Hashable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import Decimal
 from typing import NamedTuple
 
@@ -50,8 +50,9 @@ class Cast(NamedTuple):
     mould: Mould
 
     def block(self) -> Block:
-        """The block with those of its words that are not about the contour."""
-        return Block(self.line, self.text, read_simply(self.text, self.line, self.mould.kept))
+        """The block with those of its words that are not about the contour, and without its G code."""
+        kept = self.mould.kept
+        return Block(self.line, self.text, read_simply(self.text, self.line, kept) if kept else ())
 
     def values(self) -> dict[str, Decimal]:
         """What its words state, mm or degrees, by name."""
@@ -85,6 +86,10 @@ def mould_of(claim: Claim, kind: Hashable, dialect: Dialect) -> Mould | None:
     """The mould of a contour about which there is nothing to say; None where more than its numbers would count."""
     if not claim.form.is_literal or len(claim.blocks) > 1 or claim.choices or claim.circumstances:
         return None
+    sizes = (claim.givens.get(word) for row in claim.form.corners for word in row.shapes)
+    if any(given is not None and not given.value for given in sizes):
+        # A corner of size 0 is none, one of another size is.
+        return None
     (block,), modes = claim.blocks, dialect.modes
     codes = codes_of(block, modes)
     is_own = len(codes) == 1 and isinstance(codes[0], Code) and codes[0].effect is Effect.CONTOUR
@@ -96,12 +101,12 @@ def mould_of(claim: Claim, kind: Hashable, dialect: Dialect) -> Mould | None:
         word = given.word
         if word is None or word.address != name or id(word) not in places:
             return None
-        one = modes.lexicon.value(word._replace(number=Decimal(1)), claim.after.unit)
+        one = modes.lexicon.value(replace(word, number=Decimal(1)), claim.after.unit)
         if one is None:
             return None
         givens.append((name, given.unit, places[id(word)], one))
     stated = {index for _, _, index, _ in givens}
-    kept = frozenset(range(len(block.words))) - stated
+    kept = frozenset(index for index, word in enumerate(block.words) if word.address != "G") - stated
     if any(block.words[index].address in modes.lexicon.addresses for index in kept):
         return None
     return Mould(kind, claim.after, tuple(givens), kept)

@@ -1,32 +1,26 @@
 """The order of the stages: from the text of a program to its contours and findings."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import partial
 from itertools import islice
-from typing import TYPE_CHECKING, Protocol, cast, overload
+from typing import TYPE_CHECKING, cast
 
-from contoursolve.contour import Contour
+from contoursolve.ahead import Line, View, each_block, go_on, pass_plainly
 from contoursolve.diagnostic import Basis, Diagnostic, Severity
 from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.examine import Answer, Depth, Policy, examine, rank
 from contoursolve.explain import Context, join, report
-from contoursolve.model import Length, Plane, Start
-from contoursolve.moulds import Cast, Mould, Moulded
+from contoursolve.model import Length, Plane
+from contoursolve.moulds import Cast
+from contoursolve.pending import Pending, Queue, Step, Together
 from contoursolve.reading import (
-    Awaited,
     Claim,
-    Modes,
-    Position,
     State,
     Trouble,
     advance,
     advance_plainly,
-    end_of_contour,
     is_plain,
-    leave,
     next_place,
-    words_of,
 )
 from contoursolve.shown import Shown
 from contoursolve.source import Span
@@ -37,7 +31,7 @@ from contoursolve.spelling import (
     explain_unmarked,
     explain_words,
 )
-from contoursolve.syntax import Block, Directive, FaultKind, Passage, Program, Word, parse_block
+from contoursolve.syntax import Block, Directive, FaultKind, Passage, Program, Word
 
 if TYPE_CHECKING:
     from contoursolve.statements import Statement
@@ -72,36 +66,6 @@ class Result(Shown):
         blocks = [block for block in self.program.blocks if block.words or block.line in lines]
         block = next((block for block in blocks if block.line in lines), blocks[-1] if blocks else None)
         return block.span if block else Span(1, 1, 2)
-
-
-@dataclass(frozen=True, slots=True)
-class Step:
-    """One block of a program, or the blocks of one contour from its first line to its last, or plain lines in a row;
-    and the state before them.
-
-    `findings` are about blocks that are no contour.
-    """
-
-    blocks: tuple[Block, ...]
-    before: State
-    answer: Answer | Moulded | None = None
-    findings: tuple[Diagnostic, ...] = ()
-    passage: Passage | None = None
-    """In place of blocks: what nobody needed to read into words."""
-
-
-Line = Block | Passage | Cast
-"""A line of a program, or several, read as far as it was needed."""
-
-
-class Together(Protocol):
-    """Solves many contours at once."""
-
-    def cast(self, mould: Mould, casts: Sequence[tuple[Cast, State]]) -> Sequence[tuple[Start, Contour] | None]:
-        """The start points and the paths of blocks of a mould in states whose positions are known; None for those that are to be read."""
-
-    def solve(self, claims: Sequence[Claim], examine: Sequence[Callable[[], Answer]]) -> Sequence[Answer]:
-        """The answers to contours whose start is known, the same as `examine` gives to each of them."""
 
 
 class UnknownControlError(ValueError):
@@ -254,22 +218,8 @@ _NEAR = 8
 _BATCH = 1_000
 """Blocks that are read at once."""
 
-_FIRST, _WINDOW = 16, 2_048
+_FIRST, _WINDOW = 16, 4_096
 """Steps of which the contours are solved together, in the beginning, when nothing is known, and later."""
-
-
-class _Pending:
-    """A contour that is found and not solved yet: a claim, or a block of a mould, in a state, and what follows it."""
-
-    def __init__(self, contour: Claim | Cast, step: Step, view: "_View", after: int) -> None:
-        self.contour, self.step, self.view, self.after = contour, step, view, after
-        self.left: Callable[[], State] | None = None
-        """The state that it leaves, once it is solved."""
-
-    @property
-    def is_ready(self) -> bool:
-        """Whether its start is known."""
-        return all([not isinstance(each, Awaited) or each.is_ready for each in self.step.before.axes.values()])
 
 
 class _Examiner:
@@ -283,87 +233,27 @@ class _Examiner:
         self.policy = policy
         self.depth = depth
         self.rules = dialect.rules if dialect else DIALECTS["yasnac-lx3"].rules
-        self.modes = dialect.modes if dialect else DIALECTS["yasnac-lx3"].modes
         self.together = together
         self.diagnostics: list[Diagnostic] = []
-        self.pending: list[_Pending] = []
+        self.queue = Queue(dialect or DIALECTS["yasnac-lx3"], together, self._examine)
 
     def steps(self, blocks: Iterable[Line], start: Program | None) -> Iterator[Step]:
         """Every block and every contour, in order; without a dialect, only what is found."""
-        window: list[Step | _Pending] = []
+        window: list[Step | Pending] = []
         size = 1 if self.together is None else _FIRST
         for each in self._walk(blocks, start):
             window.append(each)
             if len(window) >= size:
-                self._settle()
-                yield from (other.step if isinstance(other, _Pending) else other for other in window)
-                window, size = [], min(2 * size, _WINDOW) if self.together is not None else 1
-        self._settle()
-        yield from (other.step if isinstance(other, _Pending) else other for other in window)
+                self.queue.settle()
+                yield from (other.step if isinstance(other, Pending) else other for other in window)
+                window, size = [], 1 if self.together is None else min(2 * size, _WINDOW)
+        self.queue.settle()
+        yield from (other.step if isinstance(other, Pending) else other for other in window)
 
-    def _settle(self) -> None:
-        """Solve what is pending: first what starts from a known point, then what begins where that ends, and so on."""
-        while self.pending:
-            ready = [each for each in self.pending if each.is_ready]
-            self.pending = [each for each in self.pending if not each.is_ready]
-            moulds: dict[int, list[tuple[_Pending, Cast]]] = {}
-            for each in ready:
-                if isinstance(each.contour, Cast):
-                    moulds.setdefault(id(each.contour.mould), []).append((each, each.contour))
-            for casts in moulds.values():
-                self._settle_casts(casts)
-            claimed = [(each, each.contour) for each in ready if isinstance(each.contour, Claim)]
-            examine = [partial(self._examine, claim, each) for each, claim in claimed]
-            answers = (
-                [once() for once in examine]
-                if self.together is None
-                else self.together.solve([claim for _, claim in claimed], examine)
-            )
-            for (each, claim), answer in zip(claimed, answers, strict=True):
-                step = each.step
-                each.step = Step(step.blocks, step.before, answer, step.findings)
-                each.left = partial(_after, claim, self.modes, answer)
-
-    def _settle_casts(self, casts: Sequence[tuple[_Pending, Cast]]) -> None:
-        """Solve blocks of one mould; those that are not plainly solved are read."""
-        paths = self.together.cast(casts[0][1].mould, [(cast, each.step.before) for each, cast in casts])  # type: ignore[union-attr]
-        for (each, cast), path in zip(casts, paths, strict=True):
-            before = each.step.before
-            if path is None:
-                found = self.dialect.find(each.view, 0, before, self.modes)  # type: ignore[union-attr]
-                if not isinstance(found, Claim):
-                    raise TypeError(f"line {cast.line} is no contour")
-                each.contour = found
-                each.step = Step((each.view[0],), before, findings=each.step.findings)
-                continue
-            block = cast.block()
-            answer = Moulded((block,), before, before, before.plane, *path)
-            each.step = Step((block,), before, answer, each.step.findings)
-            each.left = partial(_behind_cast, answer)
-
-    def _leave(self, pending: _Pending) -> State:
-        """The state after a contour; where it ends follows when it is solved."""
-        if pending.left is not None:
-            return pending.left()
-        contour, addresses = pending.contour, self.modes.lexicon.addresses
-        state = contour.after if isinstance(contour, Claim) else pending.step.before
-        axes = [*state.plane.axes]
-        for word in contour.blocks[-1].words if isinstance(contour, Claim) else ():
-            row = addresses.get(word.address)
-            if row and row.axis and row.axis not in axes:
-                axes.append(row.axis)
-
-        def find(axis: str) -> Position:
-            if pending.left is None:
-                self._settle()
-            return cast("Callable[[], State]", pending.left)().axes[axis]
-
-        return state.move({axis: Awaited(partial(find, axis), lambda: pending.left is not None) for axis in axes})
-
-    def _walk(self, blocks: Iterable[Line], start: Program | None) -> Iterator[Step | _Pending]:
+    def _walk(self, blocks: Iterable[Line], start: Program | None) -> Iterator[Step | Pending]:
         """Every block and every contour, in order, contours as they are found."""
         if self.dialect is None:
-            for block in _each(list(blocks), 0):
+            for block in each_block(list(blocks), 0):
                 self._check_block(block)
             none = DIALECTS["yasnac-lx3"].initial_state(self.unit)
             yield Step((), none, findings=self._findings())
@@ -374,29 +264,28 @@ class _Examiner:
             self._check_block(block)
             state = advance(state, block, dialect.modes)
         start_unit = state.unit
-        is_whole, index = isinstance(blocks, Sequence), 0
+        is_whole, index, size = isinstance(blocks, Sequence), 0, _FIRST
         held: list[Line] = list(blocks) if isinstance(blocks, Sequence) else []
         rest = iter(() if isinstance(blocks, Sequence) else blocks)
         while True:
             if index >= len(held) - 1 and not is_whole:
-                more = list(islice(rest, _BATCH))
-                held, index, is_whole = [*held[index:], *more], 0, len(more) < _BATCH
+                more, size = list(islice(rest, size)), min(2 * size, _BATCH)
+                held, index, is_whole = [*held[index:], *more], 0, not more
                 continue
             if index >= len(held):
                 return
             if isinstance(held[index], Passage):
-                passed = _pass(held, index, moves=is_plain(state), joins=dialect.has_runs)
+                passed = pass_plainly(held, index, moves=is_plain(state), joins=dialect.has_runs)
                 if passed:
                     yield Step((), state, passage=passed)
                     state = advance_plainly(state, passed, dialect.modes)
-                    held, index = _behind(held, index, len(passed.lines))
+                    held, index = go_on(held, index, len(passed.lines))
                     continue
-            view, item = _View(held, index), held[index]
+            view, item = View(held, index), held[index]
             if isinstance(item, Cast) and start is None and item.mould.fits(state):
-                pending = _Pending(item, Step((), state, findings=self._findings()), view, 1)
-                self.pending.append(pending)
+                pending = self.queue.add(item, Step((), state, findings=self._findings()), view, 1)
                 yield pending
-                state = self._leave(pending)
+                state = self.queue.leave(pending)
                 index += 1
                 continue
             block = view[0]
@@ -407,21 +296,20 @@ class _Examiner:
             if not is_whole and not view.says_something(after):
                 # Whether a contour goes on is known at the next block that says something.
                 more = list(islice(rest, _BATCH))
-                held, index, is_whole = [*held[index:], *more], 0, len(more) < _BATCH
+                held, index, is_whole = [*held[index:], *more], 0, not more
                 continue
             blocks_of_step = (block,) if after == 1 else tuple(view[:after])
             if isinstance(found, Claim) and found.form.is_contour:
                 self._check_units(start, start_unit, found)
                 start_unit = found.after.unit
-                pending = _Pending(found, Step(blocks_of_step, state, findings=self._findings()), view, after)
-                self.pending.append(pending)
+                pending = self.queue.add(found, Step(blocks_of_step, state, findings=self._findings()), view, after)
                 yield pending
-                state = self._leave(pending)
+                state = self.queue.leave(pending)
             else:
                 before = state
                 state = advance(state, block, dialect.modes)
                 if isinstance(found, Claim):
-                    answer = self._examine(found, _Pending(found, Step((), before), view, after))
+                    answer = self._examine(found, Pending(found, Step((), before), view, after))
                     self.diagnostics += answer.diagnostics if answer.start.is_known else ()
                     self._check_units(start, start_unit, found)
                     start_unit = found.after.unit
@@ -429,7 +317,7 @@ class _Examiner:
                     self._check_block(block)
                     self._check_commas(view, 0, (before, state))
                 yield Step(blocks_of_step, before, findings=self._findings())
-            held, index = _behind(held, index, after)
+            held, index = go_on(held, index, after)
 
     def _check_commas(self, blocks: Sequence[Block], index: int, states: tuple[State, State]) -> None:
         """Whether a line lacks the comma that would make a contour of it, where the control knows such words."""
@@ -447,7 +335,7 @@ class _Examiner:
         findings, self.diagnostics = tuple(self.diagnostics), []
         return findings
 
-    def _examine(self, found: Claim, pending: _Pending) -> Answer:
+    def _examine(self, found: Claim, pending: Pending) -> Answer:
         """The answer to a contour, with the values that it asks for filled in."""
         dialect, blocks, after, state = self.dialect, pending.view, pending.after, pending.step.before
         if dialect is None:
@@ -500,104 +388,6 @@ class _Examiner:
             addresses = lexicon.addresses
             axis_words = [word for word in block.words if word.address in addresses and addresses[word.address].axis]
             self.diagnostics += explain_words(context, lexicon, _repeated(axis_words), axis_words)
-
-
-def _after(claim: Claim, modes: Modes, answer: Answer) -> State:
-    """The state that a contour leaves."""
-    if answer.contour is not None:
-        return leave(claim, answer.contour.end, modes)
-    lines = " and ".join(str(line) for line in answer.lines)
-    return leave(claim, None, modes, f"the contour of line {lines} before it is not solved")
-
-
-def _behind_cast(answer: Moulded) -> State:
-    """The state that a block of a mould leaves."""
-    span, axes, end = answer.blocks[0].span, answer.plane.axes, answer.contour.end
-    return answer.after.move({axis: end_of_contour(value, span) for axis, value in zip(axes, end, strict=True)})
-
-
-class _View(Sequence[Block]):
-    """The blocks from a place on; plain lines are read into words when somebody looks at them."""
-
-    def __init__(self, held: list[Line], index: int) -> None:
-        self.held, self.first = held, index
-        self.blocks: list[Block] = []
-        self.rest = _each(held, index)
-
-    def __len__(self) -> int:
-        return sum(len(each.lines) if isinstance(each, Passage) else 1 for each in self.held[self.first :])
-
-    @overload
-    def __getitem__(self, index: int) -> Block: ...
-
-    @overload
-    def __getitem__(self, index: slice) -> list[Block]: ...
-
-    def __getitem__(self, index: int | slice) -> Block | list[Block]:
-        last = (len(self) if index.stop is None else index.stop) if isinstance(index, slice) else index + 1
-        self.blocks += islice(self.rest, max(0, last - len(self.blocks)))
-        return self.blocks[index]
-
-    def says_something(self, first: int) -> bool:
-        """Whether any block from an index on has more than its number."""
-        place, number = self.first, 0
-        while place < len(self.held):
-            each = self.held[place]
-            lines = each.lines if isinstance(each, Passage) else (each,)
-            if any(map(_says_something, lines[max(0, first - number) :])):
-                return True
-            place, number = place + 1, number + len(lines)
-        return False
-
-
-def _each(held: Sequence[Line], index: int) -> Iterator[Block]:
-    """The blocks from an index on."""
-    for place in range(index, len(held)):
-        each = held[place]
-        if isinstance(each, Passage):
-            for number, line in enumerate(each.lines, each.line):
-                yield parse_block(line.rstrip("\r\n"), number)
-        elif isinstance(each, Cast):
-            yield parse_block(each.text, each.line)
-        else:
-            yield each
-
-
-def _pass(held: Sequence[Line], index: int, *, moves: bool, joins: bool) -> Passage | None:
-    """The plain lines in a row from an index on that need not be read into words: up to the last one that moves if
-    the next contour may begin with it (`joins`); if lines that move need be (not `moves`), up to the first one."""
-    lines: list[str] = []
-    for place in range(index, len(held)):
-        each = held[place]
-        if not isinstance(each, Passage):
-            break
-        lines += each.lines
-    if not moves or joins:
-        order = range(len(lines)) if not moves else range(len(lines) - 1, -1, -1)
-        stop = next((place for place in order if words_of(lines[place])), len(lines))
-        lines = lines[:stop]
-    return Passage(held[index].line, tuple(lines)) if lines else None
-
-
-def _behind(held: list[Line], index: int, rest: int) -> tuple[list[Line], int]:
-    """The lines that are held, and the index behind so many of them; a passage that goes on there is cut."""
-    while rest:
-        each = held[index]
-        if isinstance(each, Passage) and len(each.lines) > rest:
-            # Whoever looks at the old list later finds it as it was.
-            return [Passage(each.line + rest, each.lines[rest:]), *held[index + 1 :]], 0
-        rest -= len(each.lines) if isinstance(each, Passage) else 1
-        index += 1
-    return held, index
-
-
-def _says_something(line: Block | Cast | str) -> bool:
-    """Whether a line has more than its number."""
-    if isinstance(line, Cast):
-        return True
-    if isinstance(line, str):
-        return bool(words_of(line))
-    return bool(line.faults or line.macro) or any(word.address not in "NO" for word in line.words)
 
 
 def _repeated(words: Sequence[Word]) -> list[Word]:

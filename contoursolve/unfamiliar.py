@@ -22,14 +22,13 @@ class Unfamiliar:
     line: int
 
 
-_WITHOUT_POINT = re.compile(r"[XYZ][ \t]*[+-]?[0-9]+(?![0-9.])", re.IGNORECASE)
-"""A coordinate without a point, or something in a comment that looks like one."""
-
-
-@lru_cache(maxsize=8)
-def _stated(addresses: str) -> re.Pattern[str]:
-    """A word of one of some addresses, or something in a comment that looks like one."""
-    return re.compile(rf"[{addresses}][ \t]*[+-]?[.0-9]", re.IGNORECASE)
+@lru_cache(maxsize=32)
+def _looking_for(addresses: str, is_counting: bool) -> re.Pattern[str]:
+    """A word of one of some addresses, or (where numbers without a point count in another way) a coordinate without a
+    point; or something in a comment that looks like one."""
+    parts = [rf"[{addresses}][ \t]*[+-]?[.0-9]"] * bool(addresses)
+    parts += [r"[XYZ][ \t]*[+-]?[0-9]+(?![0-9.])"] * is_counting
+    return re.compile("|".join(parts), re.IGNORECASE)
 
 
 class Watch:
@@ -52,9 +51,10 @@ class Watch:
         """Whether lines that only move may say something that is not noted yet."""
         if self.reading is None:
             return False
-        if self.counts is not None and "without point" not in self._named and _WITHOUT_POINT.search(text):
-            return True
-        return bool(self._open) and bool(_stated("".join(sorted(self._open))).search(text))
+        is_counting = self.counts is not None and "without point" not in self._named
+        if not self._open and not is_counting:
+            return False
+        return _looking_for("".join(sorted(self._open)), is_counting).search(text) is not None
 
     def minds(self, state: State) -> bool:
         """Whether what is in force may be worth a note at any block."""

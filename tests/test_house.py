@@ -31,6 +31,8 @@ FLOORS = (
     "dialects",
     "diagnosis",
     "fill commas moulds",
+    "ahead",
+    "pending",
     "pipeline project verification unfamiliar",
     "lines comparison families outcome",
     "batch",

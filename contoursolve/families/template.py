@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import Decimal, InvalidOperation
 
 from contoursolve import syntax
@@ -133,7 +133,7 @@ def is_same(typed: Word, other: Word) -> bool:
 
 def unit_word(word: Word, *, has_point: bool) -> Word:
     """The word with the number 1."""
-    return word._replace(number=Decimal(1), has_point=has_point)
+    return replace(word, number=Decimal(1), has_point=has_point)
 
 
 def _stating(word: Word, value: float) -> str:

@@ -185,7 +185,7 @@ def _written(answer: Answer, word: Word, value: float | str) -> str:
     lexicon = answer.claim.lexicon
     if lexicon.addresses[word.address].unit is Unit.SIGN:
         return f"{word.address}{'-' if number < 0 else ''}1"
-    meant = lexicon.value(word._replace(number=number, has_point=True, is_asked=False), answer.unit)
+    meant = lexicon.value(replace(word, number=number, has_point=True, is_asked=False), answer.unit)
     return write_word(word.address, float(meant or 0), lexicon, answer.unit)
 
 

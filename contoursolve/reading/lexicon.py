@@ -58,7 +58,8 @@ class Lexicon:
     addresses: Mapping[str, Address]
     numbers: NumberFormat
     factors: dict[tuple[str, bool, bool], Decimal] = field(default_factory=dict, init=False, repr=False, compare=False)
-    """What numbers are multiplied by, as far as that was asked for: by address, point or not, inches or not."""
+    """What numbers are multiplied by, as far as that was asked for, by address, whether they have a point, and whether
+    they are in inches."""
 
     def value(self, word: Word, unit: Length) -> Decimal | None:
         """The value of a word in mm (diameters halved) or degrees; None for a variable."""

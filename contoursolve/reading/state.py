@@ -25,32 +25,26 @@ class Position:
 class Awaited(Position):
     """A coordinate that is found when somebody looks at it.
 
-    `is_known` tells whether the contour is solved that it follows from, if any; `find` has it solved.
+    `wave` counts the contours in a row, each of which begins where the one before it ends, that have to be solved
+    before; `find` has them solved.
     """
 
-    __slots__ = ("_depth", "_find", "_found", "_is_known")
-    _is_known: Callable[[], bool] | None
+    __slots__ = ("_depth", "_find", "_found", "wave")
+    wave: int
     _find: Callable[[], Position] | None
     _found: Position | None
     _depth: int
 
-    def __init__(
-        self, find: Callable[[], Position], is_known: Callable[[], bool] | None = None, depth: int = 0
-    ) -> None:
-        for name, value in (("_find", find), ("_found", None), ("_is_known", is_known), ("_depth", depth)):
+    def __init__(self, find: Callable[[], Position], wave: int = 0, depth: int = 0) -> None:
+        for name, value in (("_find", find), ("_found", None), ("wave", wave), ("_depth", depth)):
             object.__setattr__(self, name, value)
-
-    @property
-    def is_ready(self) -> bool:
-        """Whether what it follows from is known."""
-        return self._is_known is None or self._is_known()
 
     def found(self) -> Position:
         """The position."""
         if self._found is None and self._find is not None:
             object.__setattr__(self, "_found", self._find())
             object.__setattr__(self, "_find", None)
-            object.__setattr__(self, "_is_known", None)
+            object.__setattr__(self, "wave", 0)
         if self._found is None:
             raise ValueError("the position has not been found")
         return self._found
@@ -59,7 +53,7 @@ class Awaited(Position):
         """A position that follows from this one."""
         if self._found is not None or self._depth >= _DEEPEST:
             return follow(self.found())
-        return Awaited(lambda: follow(self.found()), self._is_known, self._depth + 1)
+        return Awaited(lambda: follow(self.found()), self.wave, self._depth + 1)
 
     @property
     def value(self) -> Decimal | None:

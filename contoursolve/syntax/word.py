@@ -4,13 +4,13 @@ import re
 from dataclasses import dataclass
 from decimal import Decimal
 from enum import Enum
-from typing import NamedTuple
 
 from contoursolve.shown import Shown
 from contoursolve.source import Span
 
 
-class Word(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Word:
     """An address with its value, such as `X40.` or `,A150`.
 
     `address` is upper case with its comma; `number` is None when the value is a variable or a macro

@@ -12,8 +12,13 @@ from contoursolve.syntax import Block, Word
 
 def _signs(block: Block) -> tuple[Word, ...]:
     stated = {word.address for word in block.words}
-    is_arc = any(word.address == "G" and word.number in (2, 3) for word in block.words)
-    is_over_defined_circle = is_arc and {"R", "Q"} <= stated and len(stated & {"I", "J", "K"}) == 2  # noqa: PLR2004
+    is_over_defined_circle = (
+        {"R", "Q"} <= stated
+        and len(stated & {"I", "J", "K"}) == 2  # noqa: PLR2004 - the axes of a plane
+        and any(word.address == "G" and word.number in (2, 3) for word in block.words)
+    )
+    if stated.isdisjoint((",A", ",C", ",R")) and not is_over_defined_circle:
+        return ()
     shown = {",A", ",C", ",R"} | ({"I", "J", "K", "R", "Q"} if is_over_defined_circle else set())
     return tuple(word for word in block.words if word.address in shown)
 

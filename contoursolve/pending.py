@@ -1,0 +1,149 @@
+"""Contours that are found and not solved yet: together, as soon as it is known where they begin."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import Protocol, cast
+
+from contoursolve.ahead import View
+from contoursolve.contour import Contour
+from contoursolve.diagnostic import Diagnostic
+from contoursolve.dialects import Dialect
+from contoursolve.examine import Answer
+from contoursolve.model import Start
+from contoursolve.moulds import Cast, Mould, Moulded
+from contoursolve.reading import Awaited, Claim, Modes, Position, State, end_of_contour, leave
+from contoursolve.syntax import Block, Passage
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One block of a program, or the blocks of one contour from its first line to its last, or plain lines in a row;
+    and the state before them.
+
+    `findings` are about blocks that are no contour.
+    """
+
+    blocks: tuple[Block, ...]
+    before: State
+    answer: Answer | Moulded | None = None
+    findings: tuple[Diagnostic, ...] = ()
+    passage: Passage | None = None
+    """In place of blocks: what nobody needed to read into words."""
+
+
+class Together(Protocol):
+    """Solves many contours at once."""
+
+    def cast(self, mould: Mould, casts: Sequence[tuple[Cast, State]]) -> Sequence[tuple[Start, Contour] | None]:
+        """The start points and the paths of blocks of a mould in states whose positions are known; None for those that
+        are to be read."""
+
+    def solve(self, claims: Sequence[Claim], examine: Sequence[Callable[[], Answer]]) -> Sequence[Answer]:
+        """The answers to contours whose start is known, the same as `examine` gives to each of them."""
+
+
+class Pending:
+    """A contour that is found and not solved yet: a claim, or a block of a mould, in a state, and what follows it."""
+
+    def __init__(self, contour: Claim | Cast, step: Step, view: View, after: int) -> None:
+        self.contour, self.step, self.view, self.after = contour, step, view, after
+        self.wave = max([each.wave for each in step.before.axes.values() if isinstance(each, Awaited)], default=0)
+        """How many contours in a row have to be solved before."""
+        self.left: Callable[[], State] | None = None
+        """The state that it leaves, once it is solved."""
+
+
+class Queue:
+    """The contours of one program that are pending; `examine` gives the answer to one of them by itself."""
+
+    def __init__(
+        self, dialect: Dialect, together: Together | None, examine: Callable[[Claim, Pending], Answer]
+    ) -> None:
+        self.dialect, self.together, self.examine = dialect, together, examine
+        self.pending: list[Pending] = []
+
+    def add(self, contour: Claim | Cast, step: Step, view: View, after: int) -> Pending:
+        """A contour that begins a view and ends before its block `after`; without company, it is solved at once."""
+        pending = Pending(contour, step, view, after)
+        self.pending.append(pending)
+        if self.together is None:
+            self.settle()
+        return pending
+
+    def settle(self) -> None:
+        """Solve what is pending: first what starts from a known point, then what begins where that ends, and so on."""
+        waves: dict[int, list[Pending]] = {}
+        for pending in self.pending:
+            waves.setdefault(pending.wave, []).append(pending)
+        self.pending = []
+        for _, ready in sorted(waves.items()):
+            moulds: dict[int, list[tuple[Pending, Cast]]] = {}
+            for each in ready:
+                if isinstance(each.contour, Cast):
+                    moulds.setdefault(id(each.contour.mould), []).append((each, each.contour))
+            for casts in moulds.values():
+                self._settle_casts(casts)
+            claimed = [(each, each.contour) for each in ready if isinstance(each.contour, Claim)]
+            examine = [partial(self.examine, claim, each) for each, claim in claimed]
+            answers = (
+                [once() for once in examine]
+                if self.together is None
+                else self.together.solve([claim for _, claim in claimed], examine)
+            )
+            for (each, claim), answer in zip(claimed, answers, strict=True):
+                step = each.step
+                each.step = Step(step.blocks, step.before, answer, step.findings)
+                each.left = partial(_after, claim, self.dialect.modes, answer)
+
+    def _settle_casts(self, casts: Sequence[tuple[Pending, Cast]]) -> None:
+        """Solve blocks of one mould; those that are not plainly solved are read."""
+        if self.together is None:
+            raise ValueError("only contours that are solved together are cast")
+        paths = self.together.cast(casts[0][1].mould, [(block, each.step.before) for each, block in casts])
+        for (each, block), path in zip(casts, paths, strict=True):
+            before = each.step.before
+            if path is None:
+                found = self.dialect.find(each.view, 0, before, self.dialect.modes)
+                if not isinstance(found, Claim):
+                    raise ValueError(f"line {block.line} is no contour")
+                each.contour = found
+                each.step = Step((each.view[0],), before, findings=each.step.findings)
+                continue
+            own = block.block()
+            answer = Moulded((own,), before, before, before.plane, *path)
+            each.step = Step((own,), before, answer, each.step.findings)
+            each.left = partial(_behind_cast, answer)
+
+    def leave(self, pending: Pending) -> State:
+        """The state after a contour; where it ends follows when it is solved."""
+        if pending.left is not None:
+            return pending.left()
+        contour, addresses = pending.contour, self.dialect.modes.lexicon.addresses
+        state = contour.after if isinstance(contour, Claim) else pending.step.before
+        axes = [*state.plane.axes]
+        for word in contour.blocks[-1].words if isinstance(contour, Claim) else ():
+            row = addresses.get(word.address)
+            if row and row.axis and row.axis not in axes:
+                axes.append(row.axis)
+
+        def find(axis: str) -> Position:
+            if pending.left is None:
+                self.settle()
+            return cast("Callable[[], State]", pending.left)().axes[axis]
+
+        return state.move({axis: Awaited(partial(find, axis), pending.wave + 1) for axis in axes})
+
+
+def _after(claim: Claim, modes: Modes, answer: Answer) -> State:
+    """The state that a contour leaves."""
+    if answer.contour is not None:
+        return leave(claim, answer.contour.end, modes)
+    lines = " and ".join(str(line) for line in answer.lines)
+    return leave(claim, None, modes, f"the contour of line {lines} before it is not solved")
+
+
+def _behind_cast(answer: Moulded) -> State:
+    """The state that a block of a mould leaves."""
+    span, axes, end = answer.blocks[0].span, answer.plane.axes, answer.contour.end
+    return answer.after.move({axis: end_of_contour(value, span) for axis, value in zip(axes, end, strict=True)})

@@ -1,0 +1,127 @@
+"""Contours that are solved together come out as they do one by one: the same answers, findings and bytes."""
+
+from random import Random
+
+import pytest
+from generate_lx3 import random_g11, random_g112
+from generate_nct import FORMS, random_chain, random_cornered, random_pair
+
+import contoursolve
+from contoursolve import pipeline
+from contoursolve.output.document import to_json
+
+TAPERS = (
+    "G111 X{x} A180. K-30. B120. P{s} Q{s}",
+    "G111 A180. K-{k} B{b} X{x} C{s} D{s} F0.2",
+    "N{n} G111 X{x} Z-{z} A180. K-{k} P{s}",
+    "G111 A{a} K-{k} B{b} U{u} P{s}",
+    "G111 I{i} K-{k} W-{w} U{u} C{s}",
+    "G111 I0 K-{k} P{s} U{u} W-{w} T0101",
+    "g111 a180.k-{k}b{b}u{u}",
+    "G111 A135. I{i} K-{k} B180. Z-{z} P{s}",
+    "G111 A180. B120. X{x}",
+    "G111 A180 K-{k} B120 U{u}",
+    "G111 A180. K-{k} B{b} U{u} (A COMMENT)",
+    "/G111 A180. K-{k} B{b} U{u}",
+    "G42 G111 A180. K-{k} B{b} U{u} M08",
+    "G111 A180. K-{k} B{b} U{u} P? (contoursolve: length of line 1 = {k})",
+    "G11 Z-{z} I{s}",
+    "G112 U0 I10. K-50. P{s} Q{s} R30.",
+)
+BETWEEN = (
+    "G00 X40. Z0.",
+    "G00 X{x} Z{z}",
+    "G01 X{x} F.2 (T5)",
+    "Z-{z}",
+    "X{x} Z-{z} T0202",
+    "W-1.",
+    "U2. W{s}",
+    "(A COMMENT)",
+    "M08",
+    "G02 X{x} Z-{z} R900.",
+    "/G01 X{x}",
+    "G20",
+    "G21",
+    "#1=5",
+    "G28 U0 W0",
+    "G40 G01 X{x} Z5.",
+    "X 50. Z -3.",
+)
+
+
+def fill(rng, text):
+    """A line with numbers, some of them zero, negative, too large or without a point."""
+    sizes = (f"{rng.uniform(0.1, 2):.2f}", "1.", "2.", "0.", "-1.", "60.", "2")
+    return text.format(
+        x=f"{rng.uniform(60, 160):.3f}",
+        z=f"{rng.uniform(30, 90):.3f}",
+        k=rng.choice((f"{rng.uniform(5, 40):.2f}", "30.", "0.", "15")),
+        b=rng.choice((f"{rng.uniform(91, 179):.3f}", "120.", "150.", "365.", "180.")),
+        a=rng.choice((f"{rng.uniform(91, 179):.2f}", "180.", "-160.", "90.")),
+        u=f"{rng.uniform(2, 60):.2f}",
+        w=f"{rng.uniform(15, 90):.2f}",
+        i=f"{rng.uniform(-3, 9):.2f}",
+        n=rng.randrange(9999),
+        s=rng.choices(sizes, (10, 4, 4, 1, 1, 1, 1))[0],
+    )
+
+
+def lathe_program(rng):
+    tapers = rng.sample(TAPERS, rng.randint(1, 6))
+    between = rng.choices(BETWEEN, (9, 9, 9, 9, 3, 2, 2, 2, 1, 1, 1, 1, 1, 1, 1, 1, 1), k=8)
+    lines = ["G00 X40. Z0."]
+    for _ in range(rng.randint(5, 60)):
+        lines += [fill(rng, rng.choice(between)) for _ in range(rng.choice((0, 1, 1, 2, 4)))]
+        lines.append(fill(rng, rng.choice(tapers)))
+        if rng.random() < 0.03:
+            lines += random_g11(rng, 2).text.splitlines()
+            lines += random_g112(rng, rng.choice(("turning", "facing")), "P", "").text.splitlines()
+    return rng.choice(("\n", "\n", "\r\n")).join(lines) + rng.choice(("", "\n"))
+
+
+def mill_program(rng):
+    drawn = [
+        lambda: random_pair(rng, rng.choice(FORMS[:4]), 17, rng.choice(("", "C", "R"))),
+        lambda: random_chain(rng, rng.randint(2, 4), 17),
+        lambda: random_cornered(rng, 17),
+    ]
+    parts = []
+    for _ in range(rng.randint(2, 25)):
+        parts.append(rng.choice(drawn)().text)
+        parts.append(rng.choice(("", "G90 G1 X1. Y1.\n", "Z5\n", "G91 X3 Y1\nG90\n")))
+    return "".join(parts)
+
+
+@pytest.fixture
+def alone(monkeypatch):
+    """Has every contour solved by itself."""
+
+    def switch():
+        walk = pipeline.walk
+        monkeypatch.setattr("contoursolve.expansion.walk", lambda *arguments: walk(*arguments[:6]))
+        monkeypatch.setattr("contoursolve.api._MANY", 10**9)
+
+    monkeypatch.setattr("contoursolve.api._MANY", 1)
+    return switch
+
+
+@pytest.mark.parametrize("seed", range(24))
+def test_contours_solved_together_are_those_solved_one_by_one(seed, alone, monkeypatch):
+    rng = Random(seed)
+    control, text = ("nct-99m", mill_program(rng)) if seed % 4 == 3 else ("yasnac-lx3", lathe_program(rng))
+    post, rules = rng.choice(("same", "linuxcnc", "fanuc")), rng.choice(("enforce", "enforce", "warn", "off"))
+    monkeypatch.setattr(pipeline, "_FIRST", rng.choice((1, 4, 16)))
+    monkeypatch.setattr(pipeline, "_WINDOW", rng.choice((8, 64, 4096)))
+    monkeypatch.setattr("contoursolve.batch.FEWEST", rng.choice((1, 2, 8)))
+    found = []
+    for is_alone in (False, True):
+        if is_alone:
+            alone()
+        expansion = contoursolve.expand(text, post=post, rules=rules, control=control, keep_going=True)
+        summary = expansion.summary
+        told = summary.replaced, summary.warnings, summary.deviation, summary.unfamiliar
+        left = [(each.lines, each.reason, each.diagnostics) for each in summary.left]
+        result = contoursolve.solve(text, rules=rules, control=control, depth="full" if seed % 6 == 0 else "verdict")
+        bounds = [answer.error_bound for answer in result.answers]
+        found.append((expansion.text, told, left, to_json(result), bounds))
+    assert found[0] == found[1]
