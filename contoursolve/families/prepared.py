@@ -20,6 +20,8 @@ from contoursolve.families.verdict import Code, Verdict, code_of, reason_of
 from contoursolve.model import FIRST, SECOND, CornerShape, scalar
 from contoursolve.solving import RemarkKind
 from contoursolve.solving.compile import compile_system
+from contoursolve.solving.plan import Step, TwoCirclesStep
+from contoursolve.tolerance import TOUCHING
 
 Table = dict[str, NDArray[Any]]
 Results = Mapping[str, NDArray[Any]]
@@ -121,9 +123,10 @@ class Sweep:
                 table["status"][own] = code_of(kind.status)
                 continue
             if not kind.is_closed:
+                solve = self._solve_open if kind.open_points else self._solve_several
                 for begin, end in stretches(own.size, BLOCK):
                     part = {word: place[own[begin:end]] for word, place in places.items()}
-                    self._solve_several(each, kind, ranges, part, own[begin:end], table)
+                    solve(each, kind, ranges, part, own[begin:end], table)
                 continue
             for begin, end in stretches(own.size, ROWS):
                 target: Target = slice(begin, end) if is_all else own[begin:end]
@@ -204,6 +207,47 @@ class Sweep:
                 table[name][target[rows]] = values if is_measure else numpy.where(is_path, values, numpy.nan)
             table["residual"][target[rows]] = worst
 
+    def _solve_open(
+        self, number: int, kind: Kind, ranges: Ranges, places: Mapping[str, Places], target: Places, table: Results
+    ) -> None:
+        """The rows of a kind with choices that nothing makes: every side of every point is tried."""
+        function, results = self._function(number, kind)
+        inputs, origin = self._inputs(number, kind, ranges), kind.origin(ranges, places)
+        plan, rows = kind.machine.plan, target.size
+        count, again = numpy.zeros(rows, numpy.int64), numpy.zeros(rows, bool)
+        reason = numpy.zeros(rows, numpy.uint8)
+        sides = [function.compiled.fixed.index(f"side:{point}") for point in kind.open_points]
+        for place, name in enumerate(function.compiled.varied):
+            inputs[name].fill(places, function.inputs[place, :rows])
+        for signs in product((1.0, -1.0), repeat=len(sides)):
+            function.numbers[sides] = signs
+            out = function.evaluate(rows)
+            residuals = kind.machine.corner_residuals
+            verdict = Verdict(kind.system.figure, len(plan.basis), (), plan.steps, residuals, {}, out, rows)
+            is_path = (verdict.reason == 0) & ~verdict.again
+            again |= verdict.again | _halves(plan.steps, out, rows)
+            reason = numpy.where(reason == 0, verdict.reason, reason)
+            shown = numpy.flatnonzero(is_path & (count == 0))
+            count += is_path
+            for name, (output, axis) in results.items():
+                values = out[output] + (0.0 if axis is None else origin[axis])
+                table[name][target[shown]] = numpy.broadcast_to(values, rows)[shown]
+            table["residual"][target[shown]] = verdict.worst[shown]
+        several = target[count > 1]
+        for name in (*results, "residual"):
+            table[name][several] = numpy.nan
+        table["status"][target] = numpy.choose(
+            numpy.minimum(count, 2), (Code.NO_SOLUTION, Code.SOLVED, Code.AMBIGUOUS)
+        ).astype(numpy.uint8)
+        table["reason"][target] = numpy.where(count == 0, reason, 0)
+        for point, side in branches_of(kind).items():
+            table[f"branch.{point}"][target] = numpy.where(count == 1, side, 0)
+        if again.any():
+            for name in (*results, "residual"):
+                table[name][target[again]] = numpy.nan
+            part = {word: place[again] for word, place in places.items()}
+            self._solve_several(number, kind, ranges, part, target[again], table)
+
     def _inputs(self, number: int, kind: Kind, ranges: Ranges) -> Mapping[str, Input]:
         """The inputs that vary of a kind at these values, for this thread."""
         made = self.local.__dict__.setdefault("inputs", {})
@@ -217,11 +261,21 @@ class Sweep:
         made = self.local.__dict__.setdefault("functions", {})
         if number not in made:
             function = Columns(_compile(kind.system, frozenset(kind.varied)))
-            numbers = kind.numbers()
+            numbers = {f"side:{point}": 1.0 for point in kind.open_points} | kind.numbers()
             function.numbers[:] = [numbers[name] for name in function.compiled.fixed]
             made[number] = function, results_of(kind)
         found: _Ready = made[number]
         return found
+
+
+def _halves(steps: Sequence[Step], out: Results, rows: int) -> NDArray[numpy.bool_]:
+    """Where the two places of the centre of a half circle are one."""
+    found = numpy.zeros(rows, bool)
+    for number, step in enumerate(steps):
+        if isinstance(step, TwoCirclesStep):
+            gap = numpy.abs(numpy.abs(out[f"offset:{number}"]) - out[f"radius:{number}"])
+            found |= gap <= TOUCHING * out[f"scale:{number}"]
+    return found
 
 
 @lru_cache(maxsize=64)
