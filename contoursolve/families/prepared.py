@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import product
+from math import prod
 from typing import Any
 
 import numpy
@@ -13,11 +14,12 @@ from numpy.typing import NDArray
 from contoursolve.backends.columns import ROWS, Array, ColumnFunction, Columns, compile_columns
 from contoursolve.constraints import System
 from contoursolve.families.kinds import Input, Kind, alike, intervals_of, kind_of, limits_of
-from contoursolve.families.ranges import Places, Ranges, stretches
+from contoursolve.families.ranges import FamilyError, Places, Ranges, stretches
 from contoursolve.families.several import BLOCK, Several, asked_of
 from contoursolve.families.template import Template
 from contoursolve.families.verdict import Code, Verdict, code_of, reason_of
 from contoursolve.model import FIRST, SECOND, CornerShape, scalar
+from contoursolve.reading import Trouble
 from contoursolve.solving import RemarkKind
 from contoursolve.solving.compile import compile_system
 from contoursolve.solving.plan import Step, TwoCirclesStep
@@ -287,6 +289,8 @@ def _compile(system: System, varied: frozenset[str]) -> ColumnFunction:
 def examples_of(template: Template, ranges: Ranges) -> Examples:
     """A row for each set of intervals in which the values lie. Raises FamilyError."""
     scales, bounds = limits_of(template, {name: float(values[0]) for name, values in ranges.values.items()})
+    if prod(2 * len(limits) + 1 for limits in bounds) >= 2**63:
+        raise FamilyError(f"{len(bounds)} words are too many to vary at once")
     columns = [
         intervals_of(values * scale, limits)
         for values, scale, limits in zip(ranges.values.values(), scales, bounds, strict=True)
@@ -320,6 +324,8 @@ def kinds_of(template: Template, examples: Examples) -> Kinds:
         numbers[key] = len(items) if same is None else same
         if same is None:
             items.append(kind)
+    if all(kind.status is not None for kind in items):
+        _check_facts(template, dict(zip(template.words, examples.rows[0][1], strict=True)))
     ordered = sorted(numbers.items())
     return Kinds(
         template,
@@ -327,6 +333,13 @@ def kinds_of(template: Template, examples: Examples) -> Kinds:
         numpy.array([key for key, _ in ordered], numpy.int64),
         numpy.array([number for _, number in ordered], numpy.int64),
     )
+
+
+def _check_facts(template: Template, values: Mapping[str, float]) -> None:
+    """Raise FamilyError for a fact that cannot be used, whatever the values: no row would be solved."""
+    for finding in template.solve(values).diagnostics:
+        if finding.about in (Trouble.FACT_UNREADABLE, Trouble.FACT_IMPOSSIBLE):
+            raise FamilyError(finding.message)
 
 
 def branches_of(kind: Kind) -> dict[str, int]:
