@@ -285,6 +285,11 @@ def test_a_value_that_is_asked_for_is_a_column():
     assert found["asked.length of line 1"][1] == pytest.approx(40)
 
 
+def test_a_fact_that_cannot_be_read_is_refused():
+    with pytest.raises(FamilyError, match="lenght"):
+        family(BLOCK, start=START, facts=["lenght of line 1 = 30"], vary={"A": [180]})
+
+
 def test_the_start_point_must_be_known():
     with pytest.raises(FamilyError, match="start point"):
         family(BLOCK, vary={"A": [180]})

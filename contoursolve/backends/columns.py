@@ -40,9 +40,10 @@ def columns_of(function: Any, inputs: Sequence[str], outputs: Sequence[str], nam
     """The function of one vector to one vector for columns of the inputs of these names."""
     fixed = tuple(name for name in inputs if name not in names)
     varied = tuple(name for name in inputs if name in names)
-    scalars, columns = casadi.MX.sym("fixed", len(fixed)), casadi.MX.sym("varied", ROWS, len(varied))
+    # An argument for each column: parts of one would be copied first.
+    scalars, columns = casadi.MX.sym("fixed", len(fixed)), [casadi.MX.sym("varied", ROWS) for _ in varied]
     places = {name: scalars[number] for number, name in enumerate(fixed)}
-    places |= {name: columns[:, number] for number, name in enumerate(varied)}
+    places |= dict(zip(varied, columns, strict=True))
     results = _replay(function, [places[name] for name in inputs])
     named = dict(zip(outputs, results, strict=True))
     single = tuple(name for name, each in named.items() if each.size1() == 1)
@@ -56,7 +57,7 @@ def columns_of(function: Any, inputs: Sequence[str], outputs: Sequence[str], nam
             unique.setdefault(each.__hash__(), each)
             many[name] = list(unique).index(each.__hash__())
     results = [casadi.vertcat(casadi.MX(0, 1), *(named[name] for name in single)), *unique.values()]
-    replayed = casadi.Function("columns", [scalars, columns], [casadi.densify(each) for each in results])
+    replayed = casadi.Function("columns", [scalars, *columns], [casadi.densify(each) for each in results])
     return ColumnFunction(replayed, fixed, varied, single, many, given)
 
 
@@ -73,7 +74,7 @@ class Columns:
             numpy.zeros((max(compiled.many.values(), default=-1) + 1, ROWS)),
         )
         self._buffer, self._trigger = compiled.function.buffer()
-        for number, argument in enumerate((self.numbers, self.inputs)):
+        for number, argument in enumerate((self.numbers, *self.inputs)):
             self._buffer.set_arg(number, _memory(argument))
         single, many = self._results
         for number, result in enumerate((single, *many)):

@@ -148,6 +148,7 @@ def family(
     Raises:
         FamilyError: a word is not there, the values are none, or the blocks are no single contour with a known start.
         UnknownControlError: the control is unknown, or the block does not tell it.
+        FactPlaceError: facts for a program of several contours.
 
     >>> found = family("G111 X100. A180. K-30. B120. P5.", start="X40. Z0.", vary={"A": [180, 170], "P": [5, 20, 60]})
     >>> found["status"].tolist()

@@ -46,6 +46,10 @@ class Input:
             out[:] = difference(out, self.start[places[self.since]])
 
 
+MOST_OPEN = 3
+"""Points of which both places are tried in columns."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Kind:
     """Rows that share a profile but for the values of the free words.
@@ -66,6 +70,16 @@ class Kind:
     def system(self) -> System:
         """The equations."""
         return assemble(self.profile)
+
+    @property
+    def open_points(self) -> tuple[str, ...]:
+        """The points between whose two places nothing chooses, where each place has a closed form and nothing is said
+        twice; none where there are too many."""
+        system, chosen = self.system, {choice.point for choice in self.profile.choices}
+        if self.profile.is_extended or not is_closed(system) or len(system.facts) > len(system.unknowns):
+            return ()
+        found = tuple(point for point in points_with_two_solutions(system) if point not in chosen)
+        return found if len(found) <= MOST_OPEN else ()
 
     @property
     def machine(self) -> Machine:

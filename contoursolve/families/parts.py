@@ -5,6 +5,7 @@ import zipfile
 from collections.abc import Collection, Iterator
 from concurrent.futures import Executor
 from dataclasses import dataclass
+from glob import escape
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from shutil import rmtree
@@ -93,13 +94,8 @@ def parts_of(target: Path, ready: Sweep) -> Parts:
 
 def others(parts: Parts, target: Path) -> Collection[Path]:
     """The folders of other sweeps to the same file that were not finished."""
-    found = target.parent.glob(f".{glob_escaped(target.name)}.*.parts")
+    found = target.parent.glob(f".{escape(target.name)}.*.parts")
     return sorted(folder for folder in found if folder != parts.folder)
-
-
-def glob_escaped(name: str) -> str:
-    """A file name whose characters stand for themselves in a pattern."""
-    return "".join(f"[{each}]" if each in "*?[" else each for each in name)
 
 
 def digest(ready: Sweep) -> str:

@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import product
+from math import prod
 from typing import Any
 
 import numpy
@@ -13,13 +14,16 @@ from numpy.typing import NDArray
 from contoursolve.backends.columns import ROWS, Array, ColumnFunction, Columns, compile_columns
 from contoursolve.constraints import System
 from contoursolve.families.kinds import Input, Kind, alike, intervals_of, kind_of, limits_of
-from contoursolve.families.ranges import Places, Ranges, stretches
+from contoursolve.families.ranges import FamilyError, Places, Ranges, stretches
 from contoursolve.families.several import BLOCK, Several, asked_of
 from contoursolve.families.template import Template
 from contoursolve.families.verdict import Code, Verdict, code_of, reason_of
 from contoursolve.model import FIRST, SECOND, CornerShape, scalar
+from contoursolve.reading import Trouble
 from contoursolve.solving import RemarkKind
 from contoursolve.solving.compile import compile_system
+from contoursolve.solving.plan import Step, TwoCirclesStep
+from contoursolve.tolerance import TOUCHING
 
 Table = dict[str, NDArray[Any]]
 Results = Mapping[str, NDArray[Any]]
@@ -121,9 +125,10 @@ class Sweep:
                 table["status"][own] = code_of(kind.status)
                 continue
             if not kind.is_closed:
+                solve = self._solve_open if kind.open_points else self._solve_several
                 for begin, end in stretches(own.size, BLOCK):
                     part = {word: place[own[begin:end]] for word, place in places.items()}
-                    self._solve_several(each, kind, ranges, part, own[begin:end], table)
+                    solve(each, kind, ranges, part, own[begin:end], table)
                 continue
             for begin, end in stretches(own.size, ROWS):
                 target: Target = slice(begin, end) if is_all else own[begin:end]
@@ -204,6 +209,47 @@ class Sweep:
                 table[name][target[rows]] = values if is_measure else numpy.where(is_path, values, numpy.nan)
             table["residual"][target[rows]] = worst
 
+    def _solve_open(
+        self, number: int, kind: Kind, ranges: Ranges, places: Mapping[str, Places], target: Places, table: Results
+    ) -> None:
+        """The rows of a kind with choices that nothing makes: every side of every point is tried."""
+        function, results = self._function(number, kind)
+        inputs, origin = self._inputs(number, kind, ranges), kind.origin(ranges, places)
+        plan, rows = kind.machine.plan, target.size
+        count, again = numpy.zeros(rows, numpy.int64), numpy.zeros(rows, bool)
+        reason = numpy.zeros(rows, numpy.uint8)
+        sides = [function.compiled.fixed.index(f"side:{point}") for point in kind.open_points]
+        for place, name in enumerate(function.compiled.varied):
+            inputs[name].fill(places, function.inputs[place, :rows])
+        for signs in product((1.0, -1.0), repeat=len(sides)):
+            function.numbers[sides] = signs
+            out = function.evaluate(rows)
+            residuals = kind.machine.corner_residuals
+            verdict = Verdict(kind.system.figure, len(plan.basis), (), plan.steps, residuals, {}, out, rows)
+            is_path = (verdict.reason == 0) & ~verdict.again
+            again |= verdict.again | _halves(plan.steps, out, rows)
+            reason = numpy.where(reason == 0, verdict.reason, reason)
+            shown = numpy.flatnonzero(is_path & (count == 0))
+            count += is_path
+            for name, (output, axis) in results.items():
+                values = out[output] + (0.0 if axis is None else origin[axis])
+                table[name][target[shown]] = numpy.broadcast_to(values, rows)[shown]
+            table["residual"][target[shown]] = verdict.worst[shown]
+        several = target[count > 1]
+        for name in (*results, "residual"):
+            table[name][several] = numpy.nan
+        table["status"][target] = numpy.choose(
+            numpy.minimum(count, 2), (Code.NO_SOLUTION, Code.SOLVED, Code.AMBIGUOUS)
+        ).astype(numpy.uint8)
+        table["reason"][target] = numpy.where(count == 0, reason, 0)
+        for point, side in branches_of(kind).items():
+            table[f"branch.{point}"][target] = numpy.where(count == 1, side, 0)
+        if again.any():
+            for name in (*results, "residual"):
+                table[name][target[again]] = numpy.nan
+            part = {word: place[again] for word, place in places.items()}
+            self._solve_several(number, kind, ranges, part, target[again], table)
+
     def _inputs(self, number: int, kind: Kind, ranges: Ranges) -> Mapping[str, Input]:
         """The inputs that vary of a kind at these values, for this thread."""
         made = self.local.__dict__.setdefault("inputs", {})
@@ -217,11 +263,21 @@ class Sweep:
         made = self.local.__dict__.setdefault("functions", {})
         if number not in made:
             function = Columns(_compile(kind.system, frozenset(kind.varied)))
-            numbers = kind.numbers()
+            numbers = {f"side:{point}": 1.0 for point in kind.open_points} | kind.numbers()
             function.numbers[:] = [numbers[name] for name in function.compiled.fixed]
             made[number] = function, results_of(kind)
         found: _Ready = made[number]
         return found
+
+
+def _halves(steps: Sequence[Step], out: Results, rows: int) -> NDArray[numpy.bool_]:
+    """Where the two places of the centre of a half circle are one."""
+    found = numpy.zeros(rows, bool)
+    for number, step in enumerate(steps):
+        if isinstance(step, TwoCirclesStep):
+            gap = numpy.abs(numpy.abs(out[f"offset:{number}"]) - out[f"radius:{number}"])
+            found |= gap <= TOUCHING * out[f"scale:{number}"]
+    return found
 
 
 @lru_cache(maxsize=64)
@@ -233,6 +289,8 @@ def _compile(system: System, varied: frozenset[str]) -> ColumnFunction:
 def examples_of(template: Template, ranges: Ranges) -> Examples:
     """A row for each set of intervals in which the values lie. Raises FamilyError."""
     scales, bounds = limits_of(template, {name: float(values[0]) for name, values in ranges.values.items()})
+    if prod(2 * len(limits) + 1 for limits in bounds) >= 2**63:
+        raise FamilyError(f"{len(bounds)} words are too many to vary at once")
     columns = [
         intervals_of(values * scale, limits)
         for values, scale, limits in zip(ranges.values.values(), scales, bounds, strict=True)
@@ -266,6 +324,8 @@ def kinds_of(template: Template, examples: Examples) -> Kinds:
         numbers[key] = len(items) if same is None else same
         if same is None:
             items.append(kind)
+    if all(kind.status is not None for kind in items):
+        _check_facts(template, dict(zip(template.words, examples.rows[0][1], strict=True)))
     ordered = sorted(numbers.items())
     return Kinds(
         template,
@@ -273,6 +333,13 @@ def kinds_of(template: Template, examples: Examples) -> Kinds:
         numpy.array([key for key, _ in ordered], numpy.int64),
         numpy.array([number for _, number in ordered], numpy.int64),
     )
+
+
+def _check_facts(template: Template, values: Mapping[str, float]) -> None:
+    """Raise FamilyError for a fact that cannot be used, whatever the values: no row would be solved."""
+    for finding in template.solve(values).diagnostics:
+        if finding.about in (Trouble.FACT_UNREADABLE, Trouble.FACT_IMPOSSIBLE):
+            raise FamilyError(finding.message)
 
 
 def branches_of(kind: Kind) -> dict[str, int]:
