@@ -143,6 +143,12 @@ def test_a_range_that_makes_no_sense_is_refused(word, within, message):
         feasible(BLOCK, word, start=START, within=within)
 
 
+def test_a_number_without_a_point_means_what_the_control_reads():
+    """On this control, least increments: K-30000 is -30 mm."""
+    found = feasible("G111 X100000 A180000 K-30000 B120000 P5000 Q5000", "P", start=START)
+    assert (found.stated, only(found).high.value) == (5, only(feasible(BLOCK, "P", start=START)).high.value)
+
+
 def test_a_word_that_chooses_has_no_range():
     block = CASES["circle-line"][0]
     with pytest.raises(FamilyError, match="it has no range"):

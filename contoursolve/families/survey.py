@@ -10,7 +10,7 @@ import numpy
 from contoursolve.backends.intervals import Array
 from contoursolve.examine import Answer
 from contoursolve.families.isolate import Stretch, divide
-from contoursolve.families.kinds import Kind, alike, kind_in, kind_of, limits_of
+from contoursolve.families.kinds import Kind, alike, kind_in, kind_of, limits_of, value_of
 from contoursolve.families.margins import Margin, Margins, compile_margins
 from contoursolve.families.ranges import START, FamilyError
 from contoursolve.families.template import Template
@@ -73,8 +73,8 @@ class Survey:
     def __init__(self, template: Template, word: str) -> None:
         self.template, self.word = template, word
         typed = template.words[word]
-        self.stated = float(typed.number or 0)
-        answer = template.solve({word: self.stated})
+        answer = template.solve({})
+        self.stated = value_of(typed, answer)
         scales, bounds = limits_of(template, {word: self.stated})
         self.scale = abs(scales[0])
         """mm or degrees for each unit of the word."""
