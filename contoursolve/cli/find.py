@@ -25,7 +25,7 @@ from contoursolve.output.inverse import found_data, found_lines
 @click.option(
     "--within",
     metavar="LOW:HIGH",
-    help="The values to look at; without it, one turn for an angle, and 10 m to either side for a length.",
+    help="The values to look at; without it, one turn for an angle, and 1 m to either side for a length.",
 )
 @click.option("--fact", "facts", multiple=True, metavar="FACT", help="A further fact, as for solve; may be repeated.")
 @click.pass_context

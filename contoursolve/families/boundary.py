@@ -101,7 +101,7 @@ def feasible(
         block: the block, or the blocks of one contour.
         word: the word by its letter (`P`, `,A`), or with its line where several have it (`2:,A`).
         within: the range to look at; without it, an angle turns once (0 to 360, or -360 to 0 for a negative one), and
-            a length is anything that is read.
+            a length is looked at for 1 m to either side.
         start: and all others as for `family`, with the same errors.
 
     The range is divided into stretches in each of which all that is checked of a contour is bounded by intervals, so
