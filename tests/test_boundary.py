@@ -249,6 +249,8 @@ def test_the_command_prints_the_ranges():
     data = json.loads(run(*on_block, *two, "--format", "json")[1])
     assert (data["schema"], data["complete"], len(data["boundaries"])) == ("contoursolve/region/1", True, 2)
     assert run(*on_block, "--word", "A", "--word", "P")[0] == 2
+    status, output, _ = run("--block", BLOCK.replace("B120. ", ""), "--start", START, "--word", "P")
+    assert (status, "line 2 needs two of B, X or U, Z or W" in output) == (1, True)
     for wrong, message in ((("--word", "R"), "no word R"), (("--word", "P", "--within", "5"), "LOW:HIGH")):
         status, output, errors = run(*on_block, *wrong)
         assert (status, output) == (2, "")

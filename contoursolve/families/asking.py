@@ -12,6 +12,7 @@ from contoursolve.families.ranges import FamilyError
 from contoursolve.families.template import Template, is_same, write
 from contoursolve.model import Figure, Unit
 from contoursolve.pipeline import run
+from contoursolve.reading import Trouble
 from contoursolve.syntax import FACT, Directive, Word
 
 
@@ -28,9 +29,15 @@ def asked_values(template: Template, word: str, goal: Goal, answer: Answer) -> t
     program = syntax.parse("\n".join(lines.values()), template.program.name)
     result = run(program, template.dialect, template.unit, template.policy, Depth.VERDICT, template.start, facts)
     errors = [each.message for each in result.diagnostics if each.severity is Severity.ERROR]
+    unread = [each.message for each in result.diagnostics if each.about in _UNREAD]
+    if unread:
+        raise FamilyError(unread[0])
     if len(result.answers) != 1:
         raise FamilyError(errors[0] if errors else "the block is no single contour")
     return list(_values(result.answers[0], typed)), _is_complete(result.answers[0])
+
+
+_UNREAD = (Trouble.FACT_UNREADABLE, Trouble.FACT_IMPOSSIBLE)
 
 
 def _values(found: Answer, typed: Word) -> Iterator[float]:

@@ -79,6 +79,8 @@ class Feasible:
     within: tuple[float, float]
     intervals: tuple[Interval, ...]
     is_complete: bool
+    refusal: str
+    """Why the block as it stands has no contour; empty if it has."""
 
     def __contains__(self, value: float) -> bool:
         return any(value in each for each in self.intervals)
@@ -121,7 +123,12 @@ def feasible(
     intervals = tuple(
         Interval(_end(survey, pieces, first, -1), _end(survey, pieces, last, +1)) for first, last in _runs(pieces)
     )
-    return Feasible(name, survey.unit, survey.stated, (low, high), intervals, survey.is_complete)
+    return Feasible(name, survey.unit, survey.stated, (low, high), intervals, survey.is_complete, _refusal(survey))
+
+
+def _refusal(survey: Survey) -> str:
+    errors = (each for each in survey.solve(survey.stated).diagnostics if each.severity is Severity.ERROR)
+    return next((each.message for each in errors), "")
 
 
 def _runs(pieces: Sequence[Piece]) -> list[tuple[int, int]]:

@@ -95,6 +95,8 @@ def region(
     for name, (low, high) in zip(names, within, strict=True):
         if not -numpy.inf < low < high < numpy.inf:
             raise FamilyError(f"{name} from {low:g} to {high:g} is no range; the smaller number comes first")
+    if names[0] == names[1]:
+        raise FamilyError(f"{names[0]} is named twice")
     return _Map(replace(template, words=find_words(template, names)), names, within).run()
 
 
