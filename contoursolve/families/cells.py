@@ -76,7 +76,8 @@ def cells_of(kind: Kind, groups: tuple[Group, ...], values: Mapping[str, Array])
     spread = numpy.ptp(columns, axis=1)
     spread[spread == 0] = 1.0
     first = dict(zip(words, columns[:, 0].tolist(), strict=True))
-    few = FEW_SEARCHED if _is_searched(kind, groups, first) else FEW
+    is_searched = _is_searched(kind, groups, first)
+    few = FEW_SEARCHED if is_searched else FEW
     pending = [numpy.arange(columns.shape[1])]
     while pending:
         rows = pending.pop()
@@ -85,7 +86,7 @@ def cells_of(kind: Kind, groups: tuple[Group, ...], values: Mapping[str, Array])
         cell = Cell(rows, None)
         if rows.size > few:
             ends = [dict(zip(words, each.tolist(), strict=True)) for each in (low, high)]
-            cell = _solve(kind, groups, rows, *ends)
+            cell = _solve(kind, groups, rows, *ends, is_searched=is_searched)
         if cell.solutions is not None or rows.size <= few or (high == low).all():
             yield cell
             continue
@@ -103,13 +104,21 @@ def _is_searched(kind: Kind, groups: tuple[Group, ...], values: Mapping[str, flo
 
 
 def _solve(
-    kind: Kind, groups: tuple[Group, ...], rows: Rows, low: Mapping[str, float], high: Mapping[str, float]
+    kind: Kind,
+    groups: tuple[Group, ...],
+    rows: Rows,
+    low: Mapping[str, float],
+    high: Mapping[str, float],
+    *,
+    is_searched: bool,
 ) -> Cell:
     system, undecided = kind.system, Cell(rows, None)
     with ball.precision(ball.WORKING):
         box = _box(kind, low, high)
         try:
-            enumeration = enumerate_on(box, system, groups, Close.REFUSE, BUDGET, LEAST)
+            # What has a closed form for one row needs a smaller box, not a search.
+            limits = (BUDGET, LEAST) if is_searched else (0, 0)
+            enumeration = enumerate_on(box, system, groups, Close.REFUSE, *limits)
             if not enumeration.is_complete or any(each.doubles for each in enumeration.found):
                 return undecided
             if enumeration.is_searched and not all(_is_near(each, box, system) for each in enumeration.found):
