@@ -143,6 +143,12 @@ def test_a_range_that_makes_no_sense_is_refused(word, within, message):
         feasible(BLOCK, word, start=START, within=within)
 
 
+def test_a_number_without_a_point_means_what_the_control_reads():
+    """On this control, least increments: K-30000 is -30 mm."""
+    found = feasible("G111 X100000 A180000 K-30000 B120000 P5000 Q5000", "P", start=START)
+    assert (found.stated, only(found).high.value) == (5, only(feasible(BLOCK, "P", start=START)).high.value)
+
+
 def test_a_word_that_chooses_has_no_range():
     block = CASES["circle-line"][0]
     with pytest.raises(FamilyError, match="it has no range"):
@@ -243,6 +249,8 @@ def test_the_command_prints_the_ranges():
     data = json.loads(run(*on_block, *two, "--format", "json")[1])
     assert (data["schema"], data["complete"], len(data["boundaries"])) == ("contoursolve/region/1", True, 2)
     assert run(*on_block, "--word", "A", "--word", "P")[0] == 2
+    status, output, _ = run("--block", BLOCK.replace("B120. ", ""), "--start", START, "--word", "P")
+    assert (status, "line 2 needs two of B, X or U, Z or W" in output) == (1, True)
     for wrong, message in ((("--word", "R"), "no word R"), (("--word", "P", "--within", "5"), "LOW:HIGH")):
         status, output, errors = run(*on_block, *wrong)
         assert (status, output) == (2, "")

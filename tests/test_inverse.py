@@ -121,6 +121,24 @@ def test_the_solver_of_facts_finds_the_same_values():
     assert len(expected) == 2
 
 
+@pytest.mark.parametrize(
+    ("word", "goal"),
+    [("K", "corner 1.end Z-40."), ("straight part of line 2", "corner 1.begin Z-20."), ("X", "corner 1.center X90.")],
+)
+def test_words_and_facts_are_found_where_there_is_no_closed_form(word, goal):
+    block, facts = "G111 X100. A180. K-30. B120. P?", ["straight part of line 2 = 20"]
+    found = find_word(block, word, goal, start=START, facts=facts)
+    (hit,) = found.hits
+    assert found.is_complete
+    assert hit.away <= 1e-9
+    assert hit.rounded_away <= 0.001
+    text, *stated = hit.block.split("\n")
+    again = contoursolve.solve(text, start=START, facts=stated).answers[0].contour
+    point, _, want = goal.rpartition(" ")
+    at = place_of(point, again)[0] if want[0] == "Z" else 2 * place_of(point, again)[1]
+    assert at == pytest.approx(float(want[1:]), abs=0.002)
+
+
 def test_the_block_to_write_has_the_value_in_least_increments():
     (hit,) = find_word(BLOCK, "A", "end Z-50.", start=START).hits
     assert (hit.rounded, hit.block) == (179.314, "G111 X100. A179.314 K-30. B120. P5. Q5.")
@@ -145,6 +163,7 @@ def test_a_value_at_an_end_is_rounded_to_the_side_with_a_contour():
         ("A", "end Z3..4", "no number"),
         ("A", "V9 Z3", "no point V9; there are end, V1, V2"),
         ("A", "end X100.", "A does not move end"),
+        ("length of line 1", "end Z-50.", "no fact says what length of line 1 is"),
     ],
 )
 def test_a_goal_that_makes_no_sense_is_refused(word, goal, message):

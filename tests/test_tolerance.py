@@ -135,6 +135,20 @@ def test_the_command_prints_the_words_in_order():
         assert message in errors
 
 
+def test_a_number_without_a_point_means_what_the_control_reads():
+    least = tolerances("G111 X100000 A175000 K-30000 B121234 P5000 Q5000", {"K": 0.02}, start=START)
+    same = tolerances("G111 X100. A175. K-30. B121.234 P5. Q5.", {"K": 0.02}, start=START)
+    for one, other in zip(least.effects, same.effects, strict=True):
+        assert (one.word, one.stated, one.by_half, one.rounded) == (
+            other.word,
+            other.stated,
+            other.by_half,
+            other.rounded,
+        )
+        assert one.slope == pytest.approx(other.slope)
+    assert least.limits == same.limits
+
+
 def test_a_half_circle_has_no_derivative_by_its_radius():
     """Its centre runs away as the root of what the radius is more than half the chord."""
     block = "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q-1"

@@ -25,10 +25,20 @@ from contoursolve.output.inverse import found_data, found_lines
 @click.option(
     "--within",
     metavar="LOW:HIGH",
-    help="The values to look at; without it, one turn for an angle, and 10 m to either side for a length.",
+    help="The values to look at; without it, one turn for an angle, and 1 m to either side for a length.",
 )
+@click.option("--fact", "facts", multiple=True, metavar="FACT", help="A further fact, as for solve; may be repeated.")
 @click.pass_context
-def find(context: click.Context, /, word: str, goal: str, within: str | None, format_: str, **options: Any) -> None:
+def find(
+    context: click.Context,
+    /,
+    word: str,
+    goal: str,
+    within: str | None,
+    facts: tuple[str, ...],
+    format_: str,
+    **options: Any,
+) -> None:
     """Find every value of WORD with which a point of the contour lies where it is wanted.
 
     Each value is solved and certified by itself, and given once more rounded to the control's least increment, as the
@@ -40,7 +50,8 @@ def find(context: click.Context, /, word: str, goal: str, within: str | None, fo
     contoursolve find --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0." --word A --bring "end Z-50."
     """
     with usage():
-        found = find_word(word=word, goal=goal, within=read_within(within) if within else None, **read_options(options))
+        limits = read_within(within) if within else None
+        found = find_word(word=word, goal=goal, within=limits, facts=facts, **read_options(options))
     if format_ == "json":
         print_json(found_data(found))
     else:

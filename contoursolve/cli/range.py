@@ -25,7 +25,7 @@ from contoursolve.output.ranges import range_data, range_lines, region_data, reg
     "--within",
     multiple=True,
     metavar="LOW:HIGH",
-    help="The range to look at, for each word in turn; without it, one turn for an angle, and 10 m to either side for "
+    help="The range to look at, for each word in turn; without it, one turn for an angle, and 1 m to either side for "
     "a length.",
 )
 @click.pass_context

@@ -80,6 +80,8 @@ class Feasible:
     within: tuple[float, float]
     intervals: tuple[Interval, ...]
     is_complete: bool
+    refusal: str
+    """Why the block as it stands has no contour; empty if it has."""
 
     def __contains__(self, value: float) -> bool:
         return any(value in each for each in self.intervals)
@@ -102,7 +104,7 @@ def feasible(
         block: the block, or the blocks of one contour.
         word: the word by its letter (`P`, `,A`), or with its line where several have it (`2:,A`).
         within: the range to look at; without it, an angle turns once (0 to 360, or -360 to 0 for a negative one), and
-            a length is anything that is read.
+            a length is looked at for 1 m to either side.
         start: and all others as for `family`, with the same errors.
 
     The range is divided into stretches in each of which all that is checked of a contour is bounded by intervals, so
@@ -120,9 +122,15 @@ def feasible(
     low, high = survey.range_of(within)
     pieces = survey.pieces(low, high)
     intervals = tuple(
-        Interval(_end(survey, pieces, first, -1), _end(survey, pieces, last, +1)) for first, last in _runs(pieces)
+        Interval(_end(survey, pieces, first, last, -1), _end(survey, pieces, last, first, +1))
+        for first, last in _runs(pieces)
     )
-    return Feasible(name, survey.unit, survey.stated, (low, high), intervals, survey.is_complete)
+    return Feasible(name, survey.unit, survey.stated, (low, high), intervals, survey.is_complete, _refusal(survey))
+
+
+def _refusal(survey: Survey) -> str:
+    errors = (each for each in survey.solve(survey.stated).diagnostics if each.severity is Severity.ERROR)
+    return next((each.message for each in errors), "")
 
 
 def _runs(pieces: Sequence[Piece]) -> list[tuple[int, int]]:
@@ -136,28 +144,27 @@ def _runs(pieces: Sequence[Piece]) -> list[tuple[int, int]]:
     return runs
 
 
-def _end(survey: Survey, pieces: Sequence[Piece], number: int, way: int) -> End:
-    """The lower (-1) or upper (+1) end of a range that begins or ends with a piece."""
+def _end(survey: Survey, pieces: Sequence[Piece], number: int, other: int, way: int) -> End:
+    """The lower (-1) or upper (+1) end of a range from one piece to another, of which `number` is at this end."""
     value = pieces[number].low if way < 0 else pieces[number].high
     if not 0 <= number + way < len(pieces):
         return End(value, Way.RANGE, None, True, None, None)
     beyond = pieces[number + way]
-    is_alone = pieces[number].is_value and not (0 <= number - way < len(pieces) and pieces[number - way].is_solved)
-    inside, outside = _sides(survey, value, way, beyond, is_alone=is_alone)
+    width = abs(value - (pieces[other].high if way < 0 else pieces[other].low))
+    inside, outside = _sides(survey, value, way, beyond, width)
     crossing = survey.crossings.get(value)
     reason, is_rule = _reason(survey, value, way, outside, crossing, (beyond, pieces[number]))
     how = Way.CLOSED_FORM if crossing is not None and crossing.is_closed else Way.BISECTION
     return End(value, Way.RULE if is_rule else how, reason, survey.is_solved(value), inside, outside)
 
 
-def _sides(
-    survey: Survey, value: float, way: int, beyond: Piece, *, is_alone: bool
-) -> tuple[float | None, float | None]:
-    """Values close to an end on its two sides that single solves tell apart."""
+def _sides(survey: Survey, value: float, way: int, beyond: Piece, width: float) -> tuple[float | None, float | None]:
+    """Values close to an end on its two sides that single solves tell apart, within the range, which is so wide, and
+    within what lies beyond it."""
     for share in ASIDE:
-        step = way * share * max(1.0, abs(value))
-        inside = value if is_alone else value - step
-        outside = value if beyond.is_value else value + step
+        step = share * max(1.0, abs(value))
+        inside = value - way * min(step, width)
+        outside = value + way * min(step, (beyond.high - beyond.low) / 2)
         if survey.is_solved(inside) and not survey.is_solved(outside):
             return inside, outside
     return None, None

@@ -69,6 +69,8 @@ def _parallel(check: Margin, about: About) -> str:
         if others:
             return f"{lines[0]} is parallel to what {about.words(others)} states"
         point, _, axis = check.subject.partition(".")
+        if not axis.isdigit():
+            return f"{lines[0]} is parallel to the line that it must meet"
         letter = about.profile.plane.axes[int(axis)]
         return f"{lines[0]} runs along {letter}, so that nothing fixes {letter} of {point}"
     free = unknowns_text(check.subject.split(","), about.profile)

@@ -103,9 +103,11 @@ def template_with(
     units: str,
     rules: str,
     settings: Mapping[str, str] | None,
+    facts: Iterable[str] = (),
 ) -> Template:
     """A block with one word free; arguments and errors as for `family`."""
-    template = template_of(block, start, control, units, rules, settings, lambda _: {})
+    stated = (facts,) if isinstance(facts, str) else facts
+    template = template_of(block, start, control, units, rules, settings, lambda _: {}, stated)
     return replace(template, words=find_words(template, [name_of(word)]))
 
 

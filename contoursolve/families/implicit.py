@@ -1,7 +1,7 @@
 """Derivatives of a contour that has no closed form, by the implicit function theorem: the equations hold at its points,
 and go on to hold while a value changes a little."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from functools import lru_cache
 from itertools import product
 
@@ -21,9 +21,6 @@ from contoursolve.tolerance import RESIDUAL
 
 SINGULAR = 1e12
 """1. Condition of the equations, each unknown in mm, above which they are taken for singular."""
-
-Rates = Mapping[str, Array]
-"""How fast each number changes, by input."""
 
 
 class Implicit:

@@ -1,24 +1,30 @@
 """The inverse question: which value of a word brings a point to a place, or as near to it as it gets."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from decimal import ROUND_HALF_EVEN, Decimal
 
 import numpy
 
 from contoursolve.contour import Contour
 from contoursolve.diagnosis.edits import write_word
 from contoursolve.dialects import Dialect
+from contoursolve.examine import Answer
+from contoursolve.families.asking import asked_values
 from contoursolve.families.evaluate import template_with
 from contoursolve.families.goals import Curve, Goal, end_name, place_of, read_goal
-from contoursolve.families.kinds import Kind
+from contoursolve.families.kinds import Kind, value_of
 from contoursolve.families.margins import compile_results
 from contoursolve.families.prepared import results_of
 from contoursolve.families.ranges import FamilyError
 from contoursolve.families.roots import find_zeros
 from contoursolve.families.survey import Piece, Survey, short
-from contoursolve.model import Length, Plane
+from contoursolve.families.template import Template, is_same
+from contoursolve.model import Length, Plane, Unit
 from contoursolve.solving import Point
 from contoursolve.solving.certificate import Certificate
+from contoursolve.syntax import FACT
+from contoursolve.tolerance import LARGEST
 
 ARRIVED = 1e-9
 """mm. A point this close to the place where it is wanted is there."""
@@ -70,6 +76,7 @@ def find_word(
     *,
     start: str | None = None,
     within: tuple[float, float] | None = None,
+    facts: Iterable[str] = (),
     control: str | Dialect | None = None,
     units: str = "mm",
     rules: str = "enforce",
@@ -79,23 +86,27 @@ def find_word(
 
     Args:
         block: the block, or the blocks of one contour; the word stands in it with any value.
-        word: the word by its letter (`A`, `,A`), or with its line where several have it (`2:,A`).
+        word: the word by its letter (`A`, `,A`), or with its line where several have it (`2:,A`); a fact by what it
+            gives the value of (`length of line 1`).
         goal: a point and where it is wanted, as the control writes it: `end Z-50.`, `V1 X44.`, `corner 1.center Z-30.`.
             With both coordinates, such as `end Z-50. X100.`, the values are found at which it is nearest to there.
         within: and all others as for `feasible`, with the same errors; also raises FamilyError for a point that the
             contour does not have, or that does not depend on the word.
 
-    Where the contour exists, interval arithmetic isolates every zero; each is solved and certified by itself.
+    Where the contour exists, interval arithmetic isolates every zero; each is solved and certified by itself. With
+    facts or `?` in the block, the word is asked for and the goal stated as one coordinate more, as `solve` does it.
 
     >>> found = find_word("G111 X100. A180. K-30. B120. P5. Q5.", "B", "end Z-50.", start="X40. Z0.")
     >>> [(round(each.value, 4), each.block) for each in found.hits]
     [(119.6749, 'G111 X100. A180. K-30. B119.675 P5. Q5.')]
     """
-    template = template_with(word, block, start, control, units, rules, settings)
+    template = template_with(word, block, start, control, units, rules, settings, facts)
     name = next(iter(template.words))
-    survey = Survey(template, name)
-    answer = survey.solve(survey.stated)
+    answer = template.solve({})
     wanted = read_goal(goal, answer.plane, float(answer.unit.in_mm))
+    if template.words[name].address == FACT or answer.profile.is_extended:
+        return _by_asking(template, name, wanted, answer, within)
+    survey = Survey(template, name)
     low, high = survey.range_of(within)
     search = _Search(survey, wanted)
     values = search.values(survey.pieces(low, high))
@@ -106,6 +117,32 @@ def find_word(
     return Found(
         name, survey.unit, survey.stated, wanted, answer.plane, answer.unit, (low, high), tuple(hits), is_complete
     )
+
+
+def _by_asking(template: Template, word: str, goal: Goal, answer: Answer, within: tuple[float, float] | None) -> Found:
+    """The same where the block has facts or asks for values: every solution of the equations is looked for."""
+    typed, lexicon = template.words[word], answer.claim.lexicon
+    values, is_complete = asked_values(template, word, goal, answer)
+    row = lexicon.addresses.get(typed.address)
+    given = next((each for each in answer.profile.givens.values() if each.word and is_same(typed, each.word)), None)
+    kind = row.unit if row is not None else given.unit if given is not None else Unit.MM
+    low, high = within or (-LARGEST, LARGEST)
+    step = lexicon.numbers.step(kind, answer.unit)
+    hits = []
+    for value in sorted(short(each) for each in values):
+        solved = template.solve({word: value})
+        at = place_of(goal.point, solved.contour) if solved.contour is not None else None
+        if at is None or not low <= value <= high:
+            continue
+        rounded = float(Decimal(repr(value)).quantize(step, ROUND_HALF_EVEN))
+        again = template.solve({word: rounded})
+        there = place_of(goal.point, again.contour) if again.contour is not None else None
+        texts = [*template.texts({word: rounded})]
+        away = None if there is None else goal.away(there)
+        hits.append(Hit(value, at, goal.away(at), solved.certificate, rounded, "\n".join(texts), away))
+    unit = "deg" if kind is Unit.DEGREE else answer.unit.value
+    stated = value_of(typed, answer)
+    return Found(word, unit, stated, goal, answer.plane, answer.unit, (low, high), tuple(hits), is_complete)
 
 
 class _Search:

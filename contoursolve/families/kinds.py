@@ -186,6 +186,15 @@ class Kind:
         return settle(profile).solution
 
 
+def value_of(word: Word, answer: Answer) -> float:
+    """The value of a word as it would be written with a decimal point."""
+    lexicon = answer.claim.lexicon
+    if word.address not in lexicon.addresses:
+        return float(word.number or 0)
+    one = lexicon.value(unit_word(word, has_point=True), answer.unit) or Decimal(1)
+    return float((lexicon.value(word, answer.unit) or Decimal(0)) / one)
+
+
 def limits_of(template: Template, values: Mapping[str, float]) -> tuple[list[float], list[tuple[float, ...]]]:
     """For each free word, the mm or degrees for each unit of it, and the limits of the rules, between which its values
     are treated alike. Raises FamilyError where the limits of two words depend on each other."""

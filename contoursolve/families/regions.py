@@ -13,7 +13,7 @@ from contoursolve.dialects import Dialect
 from contoursolve.families.boundary import ASIDE, Way
 from contoursolve.families.ends import Reason, about_of, called, phrase, same
 from contoursolve.families.evaluate import template_of
-from contoursolve.families.kinds import Kind, alike, kind_of, limits_of
+from contoursolve.families.kinds import Kind, alike, kind_of, limits_of, value_of
 from contoursolve.families.margins import compile_margins
 from contoursolve.families.outline import BISECTIONS, NODES, Box, Field, Trace, edge_of, gaps_of
 from contoursolve.families.ranges import FamilyError, name_of
@@ -96,6 +96,8 @@ def region(
     for name, (low, high) in zip(names, within, strict=True):
         if not -numpy.inf < low < high < numpy.inf:
             raise FamilyError(f"{name} from {low:g} to {high:g} is no range; the smaller number comes first")
+    if names[0] == names[1]:
+        raise FamilyError(f"{names[0]} is named twice")
     return _Map(replace(template, words=find_words(template, names)), names, within).run()
 
 
@@ -105,9 +107,9 @@ class _Map:
     def __init__(self, template: Template, words: tuple[str, str], within: tuple[Point, Point]) -> None:
         self.template, self.words = template, words
         self.within = tuple((float(low), float(high)) for low, high in within)
-        self.stated = tuple(float(template.words[word].number or 0) for word in words)
+        answer = template.solve({})
+        self.stated = tuple(value_of(template.words[word], answer) for word in words)
         values = dict(zip(words, self.stated, strict=True))
-        answer = template.solve(values)
         rows = [answer.claim.lexicon.addresses.get(template.words[word].address) for word in words]
         for word, row in zip(words, rows, strict=True):
             if row is None or row.unit is Unit.SIGN:

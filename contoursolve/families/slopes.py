@@ -6,6 +6,7 @@ from math import hypot, nan, pi
 
 from contoursolve.backends.angle import direction
 from contoursolve.backends.inputs import COSINE, SINE
+from contoursolve.diagnostic import Severity
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer
 from contoursolve.families.evaluate import template_of
@@ -85,7 +86,7 @@ def slopes_of(answer: Answer) -> Sensitivity:
     kind = kind_in(answer, words, values)
     if not kind.is_closed or kind.profile.is_extended:
         return Sensitivity(_implicit(answer))
-    _check(kind.solve(values) if kind.status is None else None, kind.status)
+    _check(kind.solve(values) if kind.status is None else None, answer)
     results, tape = results_of(kind), kind.machine.tape
     inputs = {name: value for name, value in kind.numbers().items() if name in tape.inputs}
     at = tape.slopes([output for output, _ in results.values()], list(inputs))(inputs)
@@ -140,9 +141,8 @@ def _implicit(answer: Answer) -> dict[str, dict[str, float]]:
     """The derivatives where there is no closed form, or more is stated than words."""
     from contoursolve.settling import settle  # noqa: PLC0415 - few blocks need it
 
-    status = None if answer.contour is not None else answer.status
-    solution = settle(answer.profile).solution if status is None else None
-    _check(solution, status)
+    solution = settle(answer.profile).solution if answer.contour is not None else None
+    _check(solution, answer)
     if solution is None:
         raise FamilyError("the block is not solved")
     profile = answer.profile
@@ -185,9 +185,11 @@ def _none(_program: Program) -> dict[str, Word]:
     return {}
 
 
-def _check(solution: Solution | None, status: Status | None) -> None:
-    status = solution.status if solution is not None else status
+def _check(solution: Solution | None, answer: Answer) -> None:
+    status = solution.status if solution is not None else answer.status
     if solution is None or status is not Status.SOLVED:
-        raise FamilyError(f"the block is {status.value if status else 'not solved'}; only a solved one has derivatives")
+        error = next((each.message for each in answer.diagnostics if each.severity is Severity.ERROR), "")
+        why = f" ({error})" if error else ""
+        raise FamilyError(f"the block is {status.value}{why}; only a solved one has derivatives")
     if any(remark.kind in (RemarkKind.TOUCHES, RemarkKind.DOUBLE) for remark in solution.remarks):
         raise FamilyError("two solutions have become one, so that no derivative exists")

@@ -10,7 +10,7 @@ import numpy
 from contoursolve.backends.intervals import Array
 from contoursolve.examine import Answer
 from contoursolve.families.isolate import Stretch, divide
-from contoursolve.families.kinds import Kind, alike, kind_in, kind_of, limits_of
+from contoursolve.families.kinds import Kind, alike, kind_in, kind_of, limits_of, value_of
 from contoursolve.families.margins import Margin, Margins, compile_margins
 from contoursolve.families.ranges import START, FamilyError
 from contoursolve.families.template import Template
@@ -23,8 +23,9 @@ LEAST_GAP = 1e-4
 SAMPLES, SECTIONS = 33, 12
 """Values at which a stretch that is not decided is looked at, and how often what lies between two is divided so."""
 
-REACH = 10_000.0
-"""mm. How far a length is looked at where no range is given: farther than any machine travels."""
+REACH = 1_000.0
+"""mm. How far a length is looked at where no range is given: as far as most machines travel. Twice the value that
+a word has, if that is more."""
 
 NARROW = 1e-7
 """Share of a value (at least of 1). What lies between two stretches with a contour and is no wider is one value."""
@@ -73,8 +74,8 @@ class Survey:
     def __init__(self, template: Template, word: str) -> None:
         self.template, self.word = template, word
         typed = template.words[word]
-        self.stated = float(typed.number or 0)
-        answer = template.solve({word: self.stated})
+        answer = template.solve({})
+        self.stated = value_of(typed, answer)
         scales, bounds = limits_of(template, {word: self.stated})
         self.scale = abs(scales[0])
         """mm or degrees for each unit of the word."""
@@ -108,7 +109,8 @@ class Survey:
         if within is None and self.is_angle:
             return (0.0, 360.0) if self.stated >= 0 else (-360.0, 0.0)
         if within is None:
-            return -REACH / self.scale, REACH / self.scale
+            reach = max(REACH / self.scale, 2 * abs(self.stated))
+            return -reach, reach
         low, high = map(float, within)
         if not -inf < low < high < inf:
             raise FamilyError(f"{low:g} to {high:g} is no range; the smaller number comes first")
@@ -235,9 +237,11 @@ class _Undecided:
         parts.append((begin, stretch.high, states[-1]))
         if len(parts) > 1:
             return parts, []
-        middle = (stretch.low + stretch.high) / 2
-        rows = numpy.flatnonzero(self.margins.is_apart[:, 0]).tolist() if states[0] else []
-        zeros = [self._zero(places, values[row], row) for row in rows] if states[0] else [middle]
+        if not states[0]:
+            half = (stretch.high - stretch.low) / 2
+            return parts, [short(stretch.low + half, half)]
+        rows = numpy.flatnonzero(self.margins.is_apart[:, 0]).tolist()
+        zeros = [self._zero(places, values[row], row) for row in rows]
         return parts, sorted({short(each, REGULAR_ROUNDING) for each in zeros if each is not None})
 
     def _values(self, places: Array) -> Array:

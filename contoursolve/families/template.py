@@ -1,7 +1,7 @@
 """A block with free words: its text, and what a single solve makes of it with any values filled in."""
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal, InvalidOperation
 
@@ -40,6 +40,11 @@ class Template:
         if not answer.start.is_known:
             raise FamilyError("the start point is not known; state it, such as start='X40. Z0.'")
         return answer
+
+    def texts(self, values: Mapping[str, float]) -> Iterator[str]:
+        """The lines of the block with these values, and the facts that are stated apart from it."""
+        yield from (block.text for block in self._fill(self.program, values, 1).blocks)
+        yield from (each.text for each in self._facts(values))
 
     def _fill(self, program: Program, values: Mapping[str, float], first_line: int) -> Program:
         """A program with these values in place of the free words'."""

@@ -12,6 +12,7 @@ from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer
 from contoursolve.families.evaluate import family, template_of
 from contoursolve.families.goals import end_name, place_of
+from contoursolve.families.kinds import value_of
 from contoursolve.families.ranges import FamilyError
 from contoursolve.families.slopes import Spread, slopes_of, stated_words
 from contoursolve.families.template import Template, find_words
@@ -106,9 +107,9 @@ def tolerances(
         points = dict.fromkeys(each.removesuffix(f".{axes[0]}") for each in slopes if each.endswith(f".{axes[0]}"))
         raise FamilyError(f"the contour has no point {point}; there are {', '.join(('end', *points))}")
     first, second = (slopes[f"{name}.{axis}"] for axis in axes)
-    by_word = {word: (first[word], second[word]) for word in first}
-    allowed = {_named(word, by_word): abs(float(value)) for word, value in (allowed or {}).items()}
     study = _Study(template, answer, point)
+    by_word = {word: (first[word] * study.unit(word), second[word] * study.unit(word)) for word in first}
+    allowed = {_named(word, by_word): abs(float(value)) for word, value in (allowed or {}).items()}
     effects = [study.effect(word, slope, allowed.get(word)) for word, slope in by_word.items()]
     effects.sort(key=lambda each: (not isnan(each.moves), -each.moves, -(each.by_half or 0.0)))
     parts = [[abs(by_word[word][axis]) * value for word, value in allowed.items()] for axis in (0, 1)]
@@ -161,8 +162,13 @@ class _Study:
         self.words = stated_words(answer)
 
     def value(self, word: str) -> float:
-        """The value of a word or a fact, as written."""
-        return float(find_words(self.template, [word])[word].number or 0)
+        """The value of a word or a fact, as it would be written with a decimal point."""
+        return value_of(find_words(self.template, [word])[word], self.answer)
+
+    def unit(self, word: str) -> float:
+        """By how many units of a word as written its value changes, for one of it with a decimal point."""
+        number = self.words[word].number if word in self.words else None
+        return float(number) / self.value(word) if number else 1.0
 
     def effect(self, word: str, slope: Point, tolerance: float | None) -> Effect:
         """What a word does."""
@@ -170,7 +176,7 @@ class _Study:
         typed = self.words.get(word)
         if typed is None:
             return Effect(word, "", self.value(word), slope, tolerance, moves, None, None, None, None, 0.0)
-        lexicon, value = self.answer.claim.lexicon, typed.number or Decimal(0)
+        lexicon, value = self.answer.claim.lexicon, Decimal(repr(self.value(word)))
         row = lexicon.addresses[typed.address]
         step = lexicon.numbers.step(row.unit, self.answer.unit)
         unit = "deg" if row.unit is Unit.DEGREE else self.answer.unit.value

@@ -21,6 +21,8 @@ def range_lines(found: Feasible) -> Iterator[str]:
         rows.append((f"{place}.", "from", *_row(each.low, found.unit)))
         rows.append(("", "to", *_row(each.high, found.unit)))
     yield from columns(rows, left=(0, 1, 3)) if rows else ()
+    if found.refusal:
+        yield f"  as it stands, the block has none: {found.refusal}"
 
 
 def _row(end: End, unit: str) -> tuple[str, str]:
@@ -45,6 +47,7 @@ def range_data(found: Feasible) -> dict[str, Any]:
         "stated": found.stated,
         "within": list(found.within),
         "complete": found.is_complete,
+        "refusal": found.refusal or None,
         "ranges": [{"low": _end(each.low), "high": _end(each.high)} for each in found.intervals],
     }
 

@@ -1,0 +1,92 @@
+"""The inverse question where there is no closed form: the word is asked for, and the goal stated as a fact."""
+
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+
+from contoursolve import syntax
+from contoursolve.diagnostic import Severity
+from contoursolve.examine import Answer, Depth, answer_question, list_alternatives
+from contoursolve.families.goals import Goal
+from contoursolve.families.ranges import FamilyError
+from contoursolve.families.template import Template, is_same, write
+from contoursolve.model import Figure, Unit
+from contoursolve.pipeline import run
+from contoursolve.reading import Trouble
+from contoursolve.syntax import FACT, Directive, Word
+
+
+def asked_values(template: Template, word: str, goal: Goal, answer: Answer) -> tuple[list[float], bool]:
+    """Every value of a word or a fact, as written, with which a point has one coordinate, and whether these are proven
+    to be all. `answer` is that of the block as it is. Raises FamilyError."""
+    typed = template.words[word]
+    lines = {block.line: block.text for block in template.program.blocks}
+    if typed.span.line in lines:
+        line, span = lines[typed.span.line], typed.span
+        lines[span.line] = line[: span.column - 1] + _asking(typed) + line[span.end_column - 1 :]
+    facts = [_asked(fact, typed) for fact in template.facts]
+    facts.append(syntax.read_directive(_stated(goal, answer), -len(facts) - 1))
+    program = syntax.parse("\n".join(lines.values()), template.program.name)
+    result = run(program, template.dialect, template.unit, template.policy, Depth.VERDICT, template.start, facts)
+    errors = [each.message for each in result.diagnostics if each.severity is Severity.ERROR]
+    unread = [each.message for each in result.diagnostics if each.about in _UNREAD]
+    if unread:
+        raise FamilyError(unread[0])
+    if len(result.answers) != 1:
+        raise FamilyError(errors[0] if errors else "the block is no single contour")
+    return list(_values(result.answers[0], typed)), _is_complete(result.answers[0])
+
+
+_UNREAD = (Trouble.FACT_UNREADABLE, Trouble.FACT_IMPOSSIBLE)
+
+
+def _values(found: Answer, typed: Word) -> Iterator[float]:
+    """The values in all solutions that the control could make."""
+    question = next((each for each in found.profile.questions if is_same(typed, each.word)), None)
+    if question is None:
+        raise FamilyError(f"{typed.text} cannot be asked for here")
+    scale = 1.0
+    if question.unit is Unit.MM:
+        scale = (2.0 if question.is_diameter else 1.0) / float(found.unit.in_mm)
+    alternatives = list_alternatives(found)
+    if alternatives is None:
+        values = [each.value for each in found.answers if each.question is question]
+    else:
+        values = [answer_question(question, found.profile, item.solution).value for item in alternatives.paths]
+    yield from (value * scale for value in values if value is not None)
+
+
+def _is_complete(found: Answer) -> bool:
+    alternatives = list_alternatives(found)
+    return alternatives is None or alternatives.is_complete
+
+
+def _asking(typed: Word) -> str:
+    """A word, or a fact, with ? in place of its value."""
+    return re.sub(r"=.*", "= ?", typed.text) if typed.address == FACT else f"{typed.address}?"
+
+
+def _asked(fact: Directive, typed: Word) -> Directive:
+    if typed.address == FACT and fact.span == typed.span:
+        return syntax.read_directive(_asking(typed), fact.span.line)
+    return replace(fact)
+
+
+def _stated(goal: Goal, answer: Answer) -> str:
+    """A goal of one coordinate as a fact."""
+    axis = 0 if goal.place[0] is not None else 1
+    value, plane = goal.place[axis], answer.plane
+    if value is None or goal.is_nearest:
+        raise FamilyError("without a closed form, name one coordinate to bring the point to")
+    shown = value * (2 if plane.diameters[axis] else 1) / float(answer.unit.in_mm)
+    return f"{plane.axes[axis]} of {_point(goal.point, answer.profile.figure)} = {write(shown)}"
+
+
+def _point(name: str, figure: Figure) -> str:
+    """A point as facts call it."""
+    element, _, part = name.rpartition(".")
+    if name == "end":
+        last = figure.path[-1]
+        landing = next((corner.name for corner in figure.corners if corner.at == last.head), None)
+        element, part = landing or last.name, "end"
+    return f"{part} of {element}" if element else name
