@@ -120,14 +120,12 @@ class Angle:
 
 @dataclass(frozen=True, slots=True)
 class Leader:
-    """A word that points at a place, from the side to which `away` leads; `is_radius` for one that measures from the
-    centre."""
+    """A word that points at a place, from the side to which `away` leads."""
 
     at: Point
     away: Point
     text: str
     role: Role
-    center: Point | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,7 +134,6 @@ class Slide:
 
     at: Point
     direction: Point | None
-    text: str
 
 
 Dimension = Linear | Aligned | Ordinate | Angle | Leader
