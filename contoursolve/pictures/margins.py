@@ -30,6 +30,9 @@ _MARGIN_X, _MARGIN_Y = 84.0, 40.0
 _COORDINATES = 18.0
 """Pixels that coordinates take beyond the rows."""
 
+_NEAR = 22.0
+"""Pixels from a drawing to coordinates with no rows between."""
+
 _UNDER_AXIS = 16.0
 """Pixels under the axis about which the work turns, where all else stands above it."""
 
@@ -98,7 +101,7 @@ def draw_margins(canvas: Canvas, plan: Plan) -> None:
         # Up on the page is less.
         outward = side.sign if side.axis != FIRST else -side.sign
         rows = plan.rows(side)
-        level = plan.outer[side] + outward * (FIRST_ROW + PITCH * rows - (0.0 if rows else 4.0))
+        level = plan.outer[side] + outward * _edge(rows)
         draw_coordinates(canvas, plan.coordinates[side], side.axis, side.sign, level)
 
 
@@ -131,7 +134,13 @@ def _wide(
     """Pixels to the left or right of a drawing."""
     columns = PITCH * len(by_side[side])
     texts = [width_of(each.text, SIZE) for each in coordinates[side]]
-    return max(_MARGIN_X + (columns + 16.0 if columns else 0.0), max(texts, default=0.0) + 34.0 + columns)
+    beyond = max(texts, default=0.0) + 10.0 + _edge(len(by_side[side]))
+    return max(_MARGIN_X + (columns + 16.0 if columns else 0.0), beyond)
+
+
+def _edge(rows: int) -> float:
+    """Pixels from a drawing to the coordinates at its edge."""
+    return FIRST_ROW + PITCH * rows if rows else _NEAR
 
 
 def _high(stacked: Stacked, coordinates: Mapping[Side, Sequence[Ordinate]], side: Side) -> float:
