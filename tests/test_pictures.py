@@ -319,14 +319,14 @@ def test_svg_needs_no_package_and_png_names_the_one_it_needs(monkeypatch):
         draw_answer(answers_of("solved")[0]).png()
 
 
-def test_a_picture_is_made_in_less_than_25_ms():
+def test_a_picture_takes_less_than_25_ms_of_the_processor():
     for name in ("solved", "ignored", "ambiguous", "G112"):
         (answer,) = answers_of(name)
         times = []
-        for _ in range(12):
-            begin = time.perf_counter()
+        for _ in range(20):
+            begin = time.process_time()
             draw_answer(answer)
-            times.append(time.perf_counter() - begin)
+            times.append(time.process_time() - begin)
         assert min(times) < 0.025
 
 

@@ -82,4 +82,4 @@ def list_slides(answer: Answer, known: Known) -> Iterator[Slide]:
     shown = {*profile.intersections, *(point for each in profile.figure.path for point in (each.tail, each.head))}
     for name, at in known.points.items():
         if name in known.placed & shown:
-            yield Slide(at, ways.get(name), name)
+            yield Slide(at, ways.get(name))

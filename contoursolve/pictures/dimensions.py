@@ -95,7 +95,7 @@ def _radius(
             center, radius = known.points.get(element.center), known.radii.get(name)
             if center is not None and radius is not None:
                 way = unit(minus(known.points.get(element.tail, (center[0] + 1, center[1] + 1)), center))
-                return Leader(along(center, way, radius), way, text, role, center)
+                return Leader(along(center, way, radius), way, text, role)
     corner = elements.get(name.rpartition(".")[0])
     return pointing_at(corner, text, role) if corner is not None else None
 
@@ -106,7 +106,7 @@ def pointing_at(segment: Segment, text: str, role: Role) -> Leader:
     if isinstance(segment, ArcSegment):
         if not segment.name.startswith("corner"):
             at, way = on_arc(segment, _BESIDE_ARROW)
-        return Leader(at, unit(minus(at, segment.center)), text, role, segment.center)
+        return Leader(at, unit(minus(at, segment.center)), text, role)
     return Leader(at, (-way[1], way[0]), text, role)
 
 

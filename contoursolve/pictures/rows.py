@@ -15,7 +15,7 @@ from contoursolve.pictures.view import Span, View
 PITCH = 25.0
 """Pixels from one row to the next."""
 
-FIRST_ROW = 26.0
+FIRST_ROW = 33.0
 """Pixels from the drawing to the first row."""
 
 _GAP, _BEYOND = 4.0, 4.0
