@@ -293,6 +293,7 @@ function render({ model, el }) {
 
   function showRange() {
     answered = Math.max(answered, model.get("ranges_number"));
+    asked = Math.max(asked, answered);
     showRanges();
     finish();
   }
