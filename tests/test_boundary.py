@@ -10,7 +10,7 @@ from test_family import CASES, text_of
 
 import contoursolve
 from contoursolve.cli import main
-from contoursolve.families import FamilyError, Way, feasible
+from contoursolve.families import FamilyError, Way, feasible, region
 
 BLOCK, START = "G111 X100. A180. K-30. B120. P5. Q5.", "X40. Z0."
 WORDS = [(name, word) for name, (_, _, ranges) in CASES.items() for word in ranges if not word.endswith("Q")]
@@ -149,6 +149,77 @@ def test_a_word_that_chooses_has_no_range():
         feasible(block, "Q")
 
 
+REGIONS = {
+    "two roundings": (BLOCK, {"start": START}, ("A", "P"), ((100, 300), (-2, 60))),
+    "two angles": (BLOCK, {"start": START}, ("A", "B"), ((95, 265), (5, 175))),
+    "bevels": ("G111 X100. A180. K-30. B120. C5. D5.", {"start": START}, ("K", "C"), ((-40, 5), (0, 30))),
+    "an arc": ("G112 X50. K-30. I-10. R20. P2. Q2.", {"start": START}, ("R", "P"), ((-1, 60), (-0.1, 9))),
+    "a circle": (CASES["circle-line"][0], {}, (",A", "R"), ((160, 260), (40, 80))),
+}
+
+
+def crossings(found, value):
+    """Where a line at a value of the first word crosses the lines of a region, by linear interpolation."""
+    for each in found.boundaries:
+        points = np.array(each.points)
+        first, second = points.T
+        for place in np.flatnonzero((first[1:] - value) * (first[:-1] - value) < 0):
+            share = (value - first[place]) / (first[place + 1] - first[place])
+            yield second[place] + share * (second[place + 1] - second[place])
+
+
+@pytest.mark.parametrize("name", REGIONS)
+def test_a_cut_through_a_region_has_the_ends_of_the_range_of_the_other_word(name):
+    block, options, words, within = REGIONS[name]
+    found = region(block, words, within, **options)
+    assert sum(each.unverified for each in found.boundaries) == 0
+    (low, high), span = within
+    lines = block.split("\n")
+
+    def ends_at(value):
+        """The ends of the other word's ranges, in the block with this value of the first."""
+        text = "\n".join(
+            " ".join(f"{words[0]}{value!r}" if part[: len(words[0])] == words[0] else part for part in line.split(" "))
+            for line in lines
+        )
+        return [
+            end.value
+            for each in feasible(text, words[1], within=span, **options).intervals
+            for end in (each.low, each.high)
+            if end.reason
+        ]
+
+    rng = np.random.default_rng(len(name))
+    for value in np.round(rng.uniform(low, high, 8), 3).tolist():
+        expected, shown = sorted(set(ends_at(value))), sorted(crossings(found, value))
+        assert len(shown) == len(expected), (value, expected, shown)
+        assert shown == pytest.approx(expected, abs=2e-3 * (span[1] - span[0]))
+    for each in found.boundaries:
+        if each.way is Way.BISECTION:
+            for first, second in each.points[1:-1:13]:
+                near = [abs(end - second) for end in ends_at(float(first))]
+                flat = np.ptp([point[0] for point in each.points]) < 1e-6
+                assert flat or min(near) <= 2e-9 * max(1, abs(second)), (each.reason, first, second)
+
+
+def test_a_line_of_values_without_a_contour_within_a_region_is_a_gap():
+    block, options, words, within = REGIONS["two angles"]
+    (gap,) = [each for each in region(block, words, within, **options).boundaries if each.is_gap]
+    assert gap.reason.text == "corner 1 joins two lines of one direction"
+    assert all(first == pytest.approx(second, abs=1e-9) for first, second in gap.points)
+
+
+def test_rules_bound_a_region_too():
+    block, options, words, within = REGIONS["two roundings"]
+    texts = [each.reason.text for each in region(block, words, within, **options).boundaries]
+    assert texts == [
+        "line 1 would run against A",
+        "P too large for line 1",
+        "P too large for line 2",
+        "rule g111-corner-sign refuses P below 0 mm",
+    ]
+
+
 def run(*arguments):
     done = CliRunner().invoke(main, ["range", *map(str, arguments)])
     assert done.exception is None or isinstance(done.exception, SystemExit), done.exception
@@ -166,6 +237,12 @@ def test_the_command_prints_the_ranges():
     (each,) = data["ranges"]
     assert (each["low"]["value"], each["low"]["reason"], each["high"]["found_by"]) == (1.0, None, "closed form")
     assert run(*on_block, "--word", "P", "--within", "55:60")[0] == 1
+    two = ("--word", "A", "--within", "150:210", "--word", "P", "--within", "1:60")
+    status, output, _ = run(*on_block, *two)
+    assert (status, "beyond it: P too large for line 1" in output) == (0, True)
+    data = json.loads(run(*on_block, *two, "--format", "json")[1])
+    assert (data["schema"], data["complete"], len(data["boundaries"])) == ("contoursolve/region/1", True, 2)
+    assert run(*on_block, "--word", "A", "--word", "P")[0] == 2
     for wrong, message in ((("--word", "R"), "no word R"), (("--word", "P", "--within", "5"), "LOW:HIGH")):
         status, output, errors = run(*on_block, *wrong)
         assert (status, output) == (2, "")

@@ -1,6 +1,6 @@
 """One function for many rows at once: its instructions replayed over columns, called through a buffer."""
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,7 +12,7 @@ from contoursolve.backends.numeric import Tape
 
 Array = NDArray[numpy.float64]
 
-ROWS = 4096
+ROWS = 8192
 """Rows of one call: what is in use then stays in the processor's cache."""
 
 
@@ -25,7 +25,10 @@ class ColumnFunction:
     fixed: tuple[str, ...]
     varied: tuple[str, ...]
     single: tuple[str, ...]
-    many: tuple[str, ...]
+    many: Mapping[str, int]
+    """Which column of the results each is; several may be one."""
+    given: Mapping[str, int]
+    """Which input each is that is one."""
 
 
 def compile_columns(tape: Tape, names: Collection[str]) -> ColumnFunction:
@@ -43,13 +46,18 @@ def columns_of(function: Any, inputs: Sequence[str], outputs: Sequence[str], nam
     results = _replay(function, [places[name] for name in inputs])
     named = dict(zip(outputs, results, strict=True))
     single = tuple(name for name, each in named.items() if each.size1() == 1)
-    many = tuple(name for name, each in named.items() if each.size1() != 1)
-    results = [
-        casadi.vertcat(casadi.MX(0, 1), *(named[name] for name in single)),
-        casadi.horzcat(casadi.MX(ROWS, 0), *(named[name] for name in many)),
-    ]
+    # The same expression under several names is computed, and written, once.
+    sources = {places[name].__hash__(): number for number, name in enumerate(varied)}
+    given = {name: sources[each.__hash__()] for name, each in named.items() if each.__hash__() in sources}
+    unique: dict[int, Any] = {}
+    many: dict[str, int] = {}
+    for name, each in named.items():
+        if name not in single and name not in given:
+            unique.setdefault(each.__hash__(), each)
+            many[name] = list(unique).index(each.__hash__())
+    results = [casadi.vertcat(casadi.MX(0, 1), *(named[name] for name in single)), *unique.values()]
     replayed = casadi.Function("columns", [scalars, columns], [casadi.densify(each) for each in results])
-    return ColumnFunction(replayed, fixed, varied, single, many)
+    return ColumnFunction(replayed, fixed, varied, single, many, given)
 
 
 class Columns:
@@ -60,11 +68,15 @@ class Columns:
         self.compiled = compiled
         self.inputs = numpy.zeros((len(compiled.varied), ROWS))
         self.numbers = numpy.zeros(len(compiled.fixed))
-        self._results = numpy.zeros(len(compiled.single)), numpy.zeros((len(compiled.many), ROWS))
+        self._results = (
+            numpy.zeros(len(compiled.single)),
+            numpy.zeros((max(compiled.many.values(), default=-1) + 1, ROWS)),
+        )
         self._buffer, self._trigger = compiled.function.buffer()
         for number, argument in enumerate((self.numbers, self.inputs)):
             self._buffer.set_arg(number, _memory(argument))
-        for number, result in enumerate(self._results):
+        single, many = self._results
+        for number, result in enumerate((single, *many)):
             self._buffer.set_res(number, _memory(result))
 
     def evaluate(self, rows: int) -> dict[str, Array]:
@@ -73,7 +85,8 @@ class Columns:
         self._trigger()
         single, many = self._results
         found = {name: single[number : number + 1] for number, name in enumerate(self.compiled.single)}
-        return found | {name: many[number, :rows] for number, name in enumerate(self.compiled.many)}
+        found |= {name: self.inputs[number, :rows] for name, number in self.compiled.given.items()}
+        return found | {name: many[number, :rows] for name, number in self.compiled.many.items()}
 
 
 def _memory(array: Any) -> Any:

@@ -61,19 +61,13 @@ def usage() -> Iterator[None]:
         raise CouldNotRunError(f"{error}; say which with --control {'|'.join(DIALECTS)}") from None
 
 
-def read_within(text: str | None) -> tuple[float, float] | None:
+def read_within(text: str) -> tuple[float, float]:
     """The range of `--within LOW:HIGH`."""
-    if text is None:
-        return None
-    low, colon, high = text.partition(":")
+    low, _, high = text.partition(":")
     try:
-        found = float(low), float(high)
+        return float(low), float(high)
     except ValueError:
-        colon = ""
-        found = 0.0, 0.0
-    if not colon:
-        raise click.UsageError(f"--within {text}: write LOW:HIGH, such as 0.1:50")
-    return found
+        raise click.UsageError(f"--within {text}: write LOW:HIGH, such as 0.1:50") from None
 
 
 def print_json(document: dict[str, Any]) -> None:

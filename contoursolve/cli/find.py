@@ -40,7 +40,7 @@ def find(context: click.Context, /, word: str, goal: str, within: str | None, fo
     contoursolve find --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0." --word A --bring "end Z-50."
     """
     with usage():
-        found = find_word(word=word, goal=goal, within=read_within(within), **read_options(options))
+        found = find_word(word=word, goal=goal, within=read_within(within) if within else None, **read_options(options))
     if format_ == "json":
         print_json(found_data(found))
     else:

@@ -9,6 +9,7 @@ from contoursolve.families.inverse import Found, Hit, find_word
 from contoursolve.families.parts import WHOLE, Parts, others, parts_of
 from contoursolve.families.prepared import Sweep
 from contoursolve.families.ranges import FamilyError, name_of
+from contoursolve.families.regions import Boundary, Region, region
 from contoursolve.families.result import Family, summary_of
 from contoursolve.families.slopes import Sensitivity, Spread, sensitivity
 from contoursolve.families.tolerance import Effect, Limits, Tolerances, tolerances
@@ -17,6 +18,7 @@ from contoursolve.families.verdict import REASONS, Code
 __all__ = [
     "REASONS",
     "WHOLE",
+    "Boundary",
     "Code",
     "Effect",
     "End",
@@ -31,6 +33,7 @@ __all__ = [
     "MissingExtraError",
     "Parts",
     "Reason",
+    "Region",
     "Sensitivity",
     "Spread",
     "Sweep",
@@ -45,6 +48,7 @@ __all__ = [
     "others",
     "parts_of",
     "pieces",
+    "region",
     "sensitivity",
     "summary_of",
     "sweep",

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from contoursolve.diagnostic import Severity
-from contoursolve.families.ends import About, Reason, phrase, same
+from contoursolve.families.ends import Reason, about_of, called, phrase, same
 from contoursolve.families.evaluate import template_with
 from contoursolve.families.survey import LEAST_GAP, Crossing, Piece, Survey
 from contoursolve.solving import RefusalKind
@@ -183,7 +183,7 @@ def _reason(
         return Reason(f"{says} {called(survey.word)} {beyond} {at}", code, message), crossing is None
     if read_as is None:
         return Reason(f"{message or 'there is no contour'}: {limit}", code, message), True
-    about = About(called(survey.word), frozenset(read_as.free), read_as.profile)
+    about = about_of(read_as.free, read_as.profile)
     failing = survey.failing(read_as, there) if read_as.status is None else []
     if crossing is not None:
         failing.insert(0, crossing.check)
@@ -203,9 +203,3 @@ def shown(survey: Survey, value: float) -> str:
     decimals, unit = (4, "in") if survey.unit == "inch" else (3, survey.unit)
     is_small = 0 < abs(value) < 0.5 * 10**-decimals
     return f"{value:.1e} {unit}" if is_small else f"{value + 0.0:.{decimals}f} {unit}"
-
-
-def called(word: str) -> str:
-    """The name of a word in a sentence."""
-    line, _, address = word.rpartition(":")
-    return f"{address} of block {line}" if line else address

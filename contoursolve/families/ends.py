@@ -1,6 +1,6 @@
 """What ends a range of values, in the user's words."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 
 from contoursolve.explain import join, unknowns_text
@@ -24,19 +24,19 @@ class Reason:
 
 @dataclass(frozen=True, slots=True)
 class About:
-    """What a phrase may mention: the free word as its user calls it, the values that follow it, and the drawing."""
+    """What a phrase may mention: the free words as their user calls them, by the values that follow them, and the
+    drawing."""
 
-    word: str
-    follows: frozenset[str]
+    free: Mapping[str, str]
     profile: Profile
 
-    def words(self, givens: tuple[str, ...]) -> str:
-        """The words that state values, the free one without its number."""
+    def words(self, givens: Iterable[str]) -> str:
+        """The words that state values, the free ones without their numbers."""
         texts = []
         for name in givens:
             given = self.profile.givens.get(name)
-            if name in self.follows:
-                texts.append(self.word)
+            if name in self.free:
+                texts.append(self.free[name])
             elif given is not None and given.word is not None:
                 texts.append(given.word.text)
         return join(list(dict.fromkeys(texts)))
@@ -78,9 +78,8 @@ def _parallel(check: Margin, about: About) -> str:
 def _too_large(check: Margin, about: About) -> str:
     sizes = about.sizes(check)
     where = check.element or "its lines"
-    if set(sizes) & about.follows:
-        return f"{about.word} too large for {where}"
-    words = about.words(sizes)
+    # Of several corners on an element, the free ones are those to change.
+    words = about.words([size for size in sizes if size in about.free] or sizes)
     return f"{words} too large for {where}" if words else f"{check.subject} does not fit on {where}"
 
 
@@ -90,8 +89,18 @@ def _reversed(check: Margin, about: About) -> str:
 
 
 def _disagrees(check: Margin, about: About) -> str:
-    word = about.words((check.subject,)) or about.word
-    return f"{word} disagrees with the other words"
+    return f"{about.words((check.subject,))} disagrees with the other words"
+
+
+def about_of(free: Mapping[str, tuple[str, object]], profile: Profile) -> About:
+    """What a phrase may mention of a profile whose values follow free words."""
+    return About({given: called(word) for given, (word, _) in free.items()}, profile)
+
+
+def called(word: str) -> str:
+    """The name of a word in a sentence."""
+    line, _, address = word.rpartition(":")
+    return f"{address} of block {line}" if line else address
 
 
 def _always(text: str) -> Callable[[Margin, About], str]:

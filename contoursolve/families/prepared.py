@@ -158,24 +158,21 @@ class Sweep:
         status, reason = verdict.status, verdict.reason
         again = numpy.flatnonzero(verdict.again)
         is_path = (status <= Code.OVERDETERMINED) & (reason == 0) & ~verdict.again
-        without = numpy.flatnonzero(~is_path)
-        origin = kind.origin(ranges, places)
+        # Where there is no contour, NaN is added with what coordinates count from: one pass over each column.
+        gaps = 0.0 if is_path.all() else numpy.where(is_path, 0.0, numpy.nan)
+        added = {axis: value + gaps for axis, value in enumerate(kind.origin(ranges, places))}
         for name, (output, axis) in results.items():
             if name.endswith(".room"):
                 table[name][target] = out[output]
                 continue
-            offset = 0.0 if axis is None else origin[axis]
+            more = gaps if axis is None else added[axis]
             if isinstance(target, slice):
-                values = table[name][target]
-                numpy.add(out[output], offset, out=values)
-                values[without] = numpy.nan
+                numpy.add(out[output], more, out=table[name][target])
             else:
-                values = numpy.broadcast_to(out[output], rows) + offset
-                values[without] = numpy.nan
-                table[name][target] = values
+                table[name][target] = out[output] + more
         table["residual"][target] = verdict.worst
         for point, side in branches_of(kind).items():
-            table[f"branch.{point}"][target] = numpy.where(is_path, side, 0)
+            table[f"branch.{point}"][target] = is_path.view(numpy.int8) * numpy.int8(side)
         table["status"][target] = status
         table["reason"][target] = reason
         at = numpy.arange(rows)[again] + target.start if isinstance(target, slice) else target[again]

@@ -96,15 +96,16 @@ class Verdict:
     @property
     def status(self) -> Codes:
         """The statuses; of several, the first in the order of `Status`."""
-        status = numpy.where(self.reason != 0, Code.NO_SOLUTION, Code.SOLVED).astype(numpy.uint8)
-        status[self._agrees] = Code.OVERDETERMINED
-        status[self._conflicts] = Code.CONFLICTING
+        status: Codes = (self.reason != 0).view(numpy.uint8) * numpy.uint8(Code.NO_SOLUTION)
+        if self.agreeing:
+            status[self._agrees] = Code.OVERDETERMINED
+            status[self._conflicts] = Code.CONFLICTING
         return status
 
     def _refuse(self, mask: Mask, kind: RefusalKind) -> None:
         """Rows that nothing spoke against until here."""
         if mask.any():
-            self.reason[mask & (self.reason == 0)] = _REASON[kind]
+            numpy.putmask(self.reason, mask & (self.reason == 0), _REASON[kind])
 
     def _look_again(self, mask: Mask) -> None:
         if mask.any():
@@ -124,10 +125,11 @@ class Verdict:
             kind = RefusalKind.RADIUS_TOO_SMALL if step.is_equal else RefusalKind.CIRCLES_APART
             undefined = RefusalKind.CIRCLE_UNDEFINED if step.is_equal else kind
             self._refuse(~(out[f"distance:{number}"] > LENGTH), undefined)
-        touches = numpy.abs(offset - radius) <= TOUCHING * out[f"scale:{number}"]
+        gap, limit = radius - offset, TOUCHING * out[f"scale:{number}"]
+        fits = gap >= -limit
         if isinstance(step, LineCircleStep) or not step.is_equal:
-            self._look_again(touches)
-        self._refuse(~(touches | (offset < radius)), kind)
+            self._look_again(fits & (gap <= limit))
+        self._refuse(~fits, kind)
 
     def _check_equations(self, basis: Array, solved: int, checks: Sequence[Fact]) -> None:
         wrong = ~(basis <= RESIDUAL) & (self.reason == 0)
@@ -176,7 +178,10 @@ class Verdict:
     def _check_elements(self) -> None:
         for element in self.figure.path:
             if isinstance(element, Arc):
-                self._refuse(numpy.hypot(*self._step(element.tail, element.head)) <= LENGTH, RefusalKind.ARC_EMPTY)
+                first, second = self._step(element.tail, element.head)
+                is_short = (numpy.abs(first) <= LENGTH) & (numpy.abs(second) <= LENGTH)
+                if is_short.any():
+                    self._refuse(is_short & (numpy.hypot(first, second) <= LENGTH), RefusalKind.ARC_EMPTY)
             else:
                 kind = RefusalKind.LINE_BACKWARDS if element.heading is None else RefusalKind.LINE_REVERSED
                 self._refuse(~(self.out[f"length:{element.name}"] >= -LENGTH), kind)
@@ -228,6 +233,11 @@ class Verdict:
 
 def _worst(worst: Array, residuals: Iterable[Array]) -> Array:
     """The largest absolute value, row by row, in place of the first argument."""
+    single, size = numpy.zeros(1), numpy.empty_like(worst)
     for residual in residuals:
-        numpy.maximum(worst, numpy.abs(residual), out=worst)
-    return worst
+        if residual.size == 1 < worst.size:
+            numpy.maximum(single, numpy.abs(residual), out=single)
+        else:
+            numpy.maximum(worst, numpy.abs(residual, out=size), out=worst)
+    # What is the same for all rows is compared once.
+    return numpy.maximum(worst, single, out=worst) if single[0] != 0 else worst

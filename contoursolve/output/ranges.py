@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import Any
 
-from contoursolve.families import End, Feasible
+from contoursolve.families import Boundary, End, Feasible, Region
 from contoursolve.output.layout import columns, count
 
 
@@ -32,7 +32,8 @@ def _row(end: End, unit: str) -> tuple[str, str]:
 
 def written(value: float, unit: str) -> str:
     """A value of a word with its unit."""
-    return f"{value + 0.0:.5f} in" if unit == "inch" else f"{value + 0.0:.4f} {unit}"
+    text, shown = (f"{value:.5f}", "in") if unit == "inch" else (f"{value:.4f}", unit)
+    return f"{text.removeprefix('-') if float(text) == 0 else text} {shown}"
 
 
 def range_data(found: Feasible) -> dict[str, Any]:
@@ -58,4 +59,54 @@ def _end(end: End) -> dict[str, Any]:
         "reason": {"text": end.reason.text, "code": end.reason.code or None, "message": end.reason.message or None}
         if end.reason
         else None,
+    }
+
+
+def region_lines(found: Region) -> Iterator[str]:
+    """The lines that bound the region of two words."""
+    spans = zip(found.words, found.within, found.units, strict=True)
+    box = ", ".join(f"{word} from {written(low, unit)} to {written(high, unit)}" for word, (low, high), unit in spans)
+    proof = "proven to be all" if found.is_complete else "at least; that these are all is not proven"
+    number = count(len(found.boundaries), "line") if found.boundaries else "no line"
+    whole = "" if found.boundaries else f"; there is {'a' if found.exists else 'no'} contour everywhere"
+    yield f"{box}: {number} between where the contour exists and where not ({proof}){whole}"
+    rows = []
+    for place, each in enumerate(found.boundaries, 1):
+        first, last = (_pair(point, found) for point in (each.points[0], each.points[-1]))
+        where = "on it" if each.is_gap else "beyond it"
+        doubt = f"; {each.unverified} points not confirmed on both sides" if each.unverified else ""
+        points = f"{len(each.points)} points"
+        rows.append((f"{place}.", f"{first} to {last}", points, f"{where}: {each.reason.text}{doubt}"))
+    yield from columns(rows, left=(0, 1, 3)) if rows else ()
+
+
+def _pair(point: tuple[float, float], found: Region) -> str:
+    pairs = zip(found.words, point, found.units, strict=True)
+    return " ".join(f"{word} {written(value, unit)}" for word, value, unit in pairs)
+
+
+def region_data(found: Region) -> dict[str, Any]:
+    """The region of two words as plain data: schema contoursolve/region/1. Values are as the words are written."""
+    return {
+        "schema": "contoursolve/region/1",
+        "words": list(found.words),
+        "units": list(found.units),
+        "stated": list(found.stated),
+        "within": [list(each) for each in found.within],
+        "exists": found.exists,
+        "complete": found.is_complete,
+        "cell": list(found.cell),
+        "boundaries": [_boundary(each) for each in found.boundaries],
+    }
+
+
+def _boundary(each: Boundary) -> dict[str, Any]:
+    return {
+        "reason": {"text": each.reason.text, "code": each.reason.code or None, "message": each.reason.message or None},
+        "found_by": each.way.value,
+        "gap": each.is_gap,
+        "inside": list(each.inside) if each.inside else None,
+        "outside": list(each.outside) if each.outside else None,
+        "unverified": each.unverified,
+        "points": [list(point) for point in each.points],
     }

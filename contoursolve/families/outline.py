@@ -1,0 +1,297 @@
+"""The edge of the region in two words in which all checks of a contour are passed: points on a grid's edges, joined
+cell by cell, each brought onto the zero of the margin that governs it."""
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy
+from numpy.typing import NDArray
+
+from contoursolve.backends.intervals import Array, Intervals
+from contoursolve.families.margins import Margins, Test
+from contoursolve.solving import RefusalKind
+
+NODES = 65
+"""Nodes of the grid along each word."""
+
+BISECTIONS = 45
+"""From a cell to rounding."""
+
+NEWTON, CLOSE = 6, 1e-6
+"""Steps onto a zero, and the share of the range that a step may have to lead to the same zero."""
+
+SAG, HALVINGS = 2e-4, 4
+"""Share of the range by which an edge may leave its curve before it is divided, and how often it is."""
+
+LEVELS, MOST = 6, 10_000
+"""How often a cell is divided in which intervals do not tell that all of it is alike, and into how many parts."""
+
+FAR, LEVEL = 1.5, 1e-10
+"""Cells that the corner of two lines may be away from the middle of their points; mm below which a margin is zero."""
+
+Point = tuple[float, float]
+Cell = tuple[int, int]
+Node = tuple[str, int]
+"""A point on an edge of the grid, or a corner where two checks begin to fail, by its number."""
+
+
+@dataclass(frozen=True, slots=True)
+class Trace:
+    """A line of the edge on which one check begins to fail; its first and last point are the same if it is closed."""
+
+    check: int
+    points: Array
+    """By (point, word)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Box:
+    """The range of both words."""
+
+    low: Point
+    high: Point
+
+    @property
+    def size(self) -> Array:
+        """The width along both words."""
+        found: Array = numpy.array(self.high) - numpy.array(self.low)
+        return found
+
+
+class Field:
+    """The margins of one kind of contour on a grid over a box."""
+
+    def __init__(self, margins: Margins, fixed: Sequence[float], box: Box) -> None:
+        self.margins, self.fixed, self.box = margins, fixed, box
+        self.axes = [numpy.linspace(box.low[word], box.high[word], NODES) for word in (0, 1)]
+        grid = numpy.meshgrid(*self.axes, indexing="ij")
+        self.nodes = numpy.stack([each.ravel() for each in grid], axis=1)
+        self.at_nodes = self.values(self.nodes)
+        self.is_inside = (margins.first_failing(self.at_nodes) < 0).reshape(NODES, NODES)
+
+    def values(self, points: Array) -> Array:
+        """All margins by (check, point)."""
+        return self.margins.chart.at([points[:, 0], points[:, 1]], self.fixed)
+
+    def slopes(self, points: Array) -> Array:
+        """The derivatives of all margins by (word, check, point), each for the whole width of the box."""
+        slopes = self.margins.chart.slopes_at([points[:, 0], points[:, 1]], self.fixed)
+        found: Array = slopes * self.box.size[:, None, None]
+        return found
+
+    def failing(self, points: Array) -> NDArray[numpy.int64]:
+        """The first check that fails at each point; -1 where none does."""
+        return self.margins.first_failing(self.values(points))
+
+    def share(self, vectors: Array) -> Array:
+        """The length of vectors by (point, word) in shares of the box."""
+        found: Array = (numpy.abs(vectors) / self.box.size).max(axis=1)
+        return found
+
+    def onto(self, points: Array, checks: NDArray[numpy.int64]) -> Array:
+        """Points moved the shortest way onto the zeros of their margins; NaN where there is none."""
+        found, every = points.copy(), numpy.arange(len(points))
+        with numpy.errstate(all="ignore"):
+            for _ in range(NEWTON):
+                value = self.values(found)[checks, every]
+                slope = self.slopes(found)[:, checks, every].T
+                found = found - (value / (slope**2).sum(axis=1))[:, None] * slope * self.box.size
+        return found
+
+    def corner(self, start: Array, one: int, other: int) -> Array | None:
+        """Where two margins are both zero, by Newton's method; None if that is not within a cell or so."""
+        found = start.copy()
+        for _ in range(4 * NEWTON):
+            values = self.values(found[None])[[one, other], 0]
+            matrix = self.slopes(found[None])[:, [one, other], 0].T
+            try:
+                found = found - numpy.linalg.solve(matrix, values) * self.box.size
+            except numpy.linalg.LinAlgError:
+                return None
+            if not numpy.isfinite(found).all():
+                return None
+        return found if self.share((found - start)[None])[0] <= FAR / (NODES - 1) else None
+
+    def is_proven(self, cells: Iterable[Cell]) -> bool:
+        """Whether each cell that is not one of these, or next to one, is alike in all of it, by interval arithmetic."""
+        near = {(i + di, j + dj) for i, j in cells for di in (-1, 0, 1) for dj in (-1, 0, 1)}
+        rest = [(i, j) for i in range(NODES - 1) for j in range(NODES - 1) if (i, j) not in near]
+        if not rest:
+            return True
+        first, second = numpy.array(rest).T
+        low = numpy.stack([self.axes[0][first], self.axes[1][second]], axis=1)
+        high = numpy.stack([self.axes[0][first + 1], self.axes[1][second + 1]], axis=1)
+        is_level = numpy.nan_to_num(numpy.abs(self.at_nodes)).max(axis=1) <= LEVEL
+        chart = self.margins.chart
+        for _ in range(LEVELS + 1):
+            words = [Intervals(low[:, word], high[:, word]) for word in (0, 1)]
+            bounds = chart.between(words, self.fixed)
+            is_open = ~numpy.logical_or(*self.margins.verdicts(bounds, is_level))
+            low, high = low[is_open], high[is_open]
+            if len(low):
+                words = [Intervals(low[:, word], high[:, word]) for word in (0, 1)]
+                bounds = chart.narrowed(bounds[is_open], words, self.fixed)
+                is_open = ~numpy.logical_or(*self.margins.verdicts(bounds, is_level))
+                low, high = low[is_open], high[is_open]
+            # What is left along the edge of the box is narrower than a cell.
+            is_within = ((low > self.box.low) & (high < self.box.high)).all(axis=1)
+            if not is_within.any():
+                return True
+            if len(low) > MOST:
+                return False
+            middle = (low + high) / 2
+            quarters = [
+                (numpy.where(take, middle, low), numpy.where(take, high, middle))
+                for take in ([False, False], [False, True], [True, False], [True, True])
+            ]
+            low, high = (numpy.concatenate([each[side] for each in quarters]) for side in (0, 1))
+        return False
+
+
+class Lines:
+    """The lines that part two states of the nodes of a grid, such as inside and outside.
+
+    `tell` gives the state of points, and `govern` the check whose margin is zero between two points that differ.
+    `is_counted` are the nodes between which lines are sought.
+    """
+
+    def __init__(
+        self,
+        field: Field,
+        states: NDArray[numpy.bool_],
+        tell: Callable[[Array], NDArray[numpy.bool_]],
+        govern: Callable[[Array], NDArray[numpy.int64]],
+        is_counted: NDArray[numpy.bool_],
+    ) -> None:
+        self.field, self.states, self.tell = field, states, tell
+        self.corners: list[Array] = []
+        self.edges: dict[tuple[int, int, int], int] = {}
+        pairs = list(self._edges(is_counted))
+        inside, outside = (field.nodes[[pair[side] for pair in pairs]] for side in (0, 1))
+        for _ in range(BISECTIONS if pairs else 0):
+            middle = (inside + outside) / 2
+            is_in = tell(middle)[:, None]
+            inside, outside = numpy.where(is_in, middle, inside), numpy.where(is_in, outside, middle)
+        self.checks = govern(outside) if pairs else numpy.zeros(0, numpy.int64)
+        self.points = outside
+        if pairs:
+            exact = field.onto(outside, self.checks)
+            is_close = field.share(exact - outside) <= CLOSE  # false for NaN
+            self.points = numpy.where(is_close[:, None], exact, outside)
+        self.cells = self._cells()
+
+    def _edges(self, is_counted: NDArray[numpy.bool_]) -> Iterator[tuple[int, int]]:
+        """The nodes on the two sides of the lines, the one whose state is true first."""
+        for along in (0, 1):
+            shift = (slice(1, None), slice(None)) if along == 0 else (slice(None), slice(1, None))
+            base = (slice(-1), slice(None)) if along == 0 else (slice(None), slice(-1))
+            differ = (self.states[base] != self.states[shift]) & is_counted[base] & is_counted[shift]
+            for i, j in numpy.argwhere(differ).tolist():
+                self.edges[along, i, j] = len(self.edges)
+                here, there = i * NODES + j, (i + 1) * NODES + j if along == 0 else i * NODES + j + 1
+                yield (here, there) if self.states[i, j] else (there, here)
+
+    def _cells(self) -> dict[Cell, list[int]]:
+        """The points on the edges of each cell."""
+        cells: dict[Cell, list[int]] = {}
+        for (along, i, j), number in self.edges.items():
+            for cell in ((i, j), (i, j - 1) if along == 0 else (i - 1, j)):
+                if min(cell) >= 0 and max(cell) < NODES - 1:
+                    cells.setdefault(cell, []).append(number)
+        return cells
+
+    def traces(self) -> list[Trace]:
+        """The lines, one for each check that governs a part."""
+        links: dict[int, dict[Node, list[Node]]] = {}
+        for first, second, check in self._segments():
+            at = links.setdefault(check, {})
+            at.setdefault(first, []).append(second)
+            at.setdefault(second, []).append(first)
+        found = []
+        for check in sorted(links):
+            for path in _paths(links[check]):
+                points = numpy.array([self._at(node) for node in path])
+                found.append(Trace(check, self._refined(points, check)))
+        return found
+
+    def _at(self, node: Node) -> Array:
+        point: Array = self.points[node[1]] if node[0] == "edge" else self.corners[node[1]]
+        return point
+
+    def _segments(self) -> Iterator[tuple[Node, Node, int]]:
+        """What joins the points of each cell, and the check that governs it."""
+        for cell, numbers in sorted(self.cells.items()):
+            for first, second in self._pairs(cell, numbers):
+                yield from self._joined(first, second)
+
+    def _pairs(self, cell: Cell, numbers: list[int]) -> list[tuple[int, int]]:
+        """Which of the points on the edges of a cell belong together; a line may end in a cell."""
+        if len(numbers) < 4:  # noqa: PLR2004 - one line through the cell
+            return [(numbers[0], numbers[1])] if len(numbers) > 1 else []
+        i, j = cell
+        center = (self.field.nodes[i * NODES + j] + self.field.nodes[(i + 1) * NODES + j + 1]) / 2
+        # The two corners of the cell that differ from its middle are cut off, each by the edges that meet there.
+        left, bottom = self.edges[1, i, j], self.edges[0, i, j]
+        right, top = self.edges[1, i + 1, j], self.edges[0, i, j + 1]
+        if bool(self.tell(center[None])[0]) == bool(self.states[i, j]):
+            return [(bottom, right), (left, top)]
+        return [(left, bottom), (right, top)]
+
+    def _joined(self, first: int, second: int) -> Iterator[tuple[Node, Node, int]]:
+        one, other = int(self.checks[first]), int(self.checks[second])
+        if one == other:
+            yield ("edge", first), ("edge", second), one
+            return
+        corner = self.field.corner((self.points[first] + self.points[second]) / 2, one, other)
+        if corner is None:
+            return  # the lines end in this cell
+        self.corners.append(corner)
+        node = "corner", len(self.corners) - 1
+        yield ("edge", first), node, one
+        yield node, ("edge", second), other
+
+    def _refined(self, points: Array, check: int) -> Array:
+        """A line with points added where it leaves its curve."""
+        for _ in range(HALVINGS):
+            middles = (points[1:] + points[:-1]) / 2
+            on = self.field.onto(middles, numpy.full(len(middles), check))
+            sag, width = self.field.share(on - middles), self.field.share(points[1:] - points[:-1])
+            places = numpy.flatnonzero((sag > SAG) & (sag < width))  # neither for NaN
+            if not places.size:
+                break
+            points = numpy.insert(points, places + 1, on[places], axis=0)
+        return points
+
+
+def edge_of(field: Field) -> Lines:
+    """The edge of the region in which all checks are passed."""
+    everywhere = numpy.ones_like(field.is_inside)
+    return Lines(field, field.is_inside, lambda points: field.failing(points) < 0, field.failing, everywhere)
+
+
+def gaps_of(field: Field) -> Iterator[Lines]:
+    """The lines within the region on which something is zero that must not be."""
+    for number, check in enumerate(field.margins.checks):
+        if check.test is Test.APART and check.kind is not RefusalKind.LANDING_UNKNOWN:
+            lines = Lines(
+                field,
+                (field.at_nodes[number] > 0).reshape(NODES, NODES),
+                lambda points, number=number: field.values(points)[number] > 0,  # type: ignore[misc]
+                lambda points, number=number: numpy.full(len(points), number),  # type: ignore[misc]
+                field.is_inside,
+            )
+            if lines.edges:
+                yield lines
+
+
+def _paths(links: Mapping[Node, list[Node]]) -> Iterator[list[Node]]:
+    """The lines that links make, those with ends first."""
+    left = {node: list(others) for node, others in links.items()}
+    for begin in sorted(left, key=lambda node: (len(links[node]) != 1, node)):
+        while left[begin]:
+            path = [begin]
+            while left[path[-1]]:
+                there = left[path[-1]].pop(0)
+                left[there].remove(path[-1])
+                path.append(there)
+            yield path

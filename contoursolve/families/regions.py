@@ -1,0 +1,318 @@
+"""Where a contour exists in two words: the lines that bound the region, each with what fails beyond it."""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise, product
+
+import numpy
+from numpy.typing import NDArray
+
+from contoursolve.backends.intervals import Array
+from contoursolve.diagnostic import Severity
+from contoursolve.families.boundary import ASIDE, Way
+from contoursolve.families.ends import Reason, about_of, called, phrase, same
+from contoursolve.families.evaluate import template_of
+from contoursolve.families.kinds import Kind, alike, kind_of, limits_of
+from contoursolve.families.margins import compile_margins
+from contoursolve.families.outline import BISECTIONS, NODES, Box, Field, Trace, edge_of, gaps_of
+from contoursolve.families.ranges import FamilyError, name_of
+from contoursolve.families.template import Template, find_words
+from contoursolve.model import Unit
+from contoursolve.solving import RefusalKind
+from contoursolve.tolerance import LENGTH
+
+Point = tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Boundary:
+    """A line that bounds the region, or a gap in it.
+
+    `points` are values of both words, each a zero of what fails on the other side, to rounding; the first and the last
+    are the same for a closed line. Where two lines meet at a point that Newton's method does not find, they end within
+    a cell of it. `reason` says what fails beyond the line. `inside` and `outside` are values beside its middle with and
+    without the contour; for a gap (`is_gap`), a line on which alone there is none, they are those on its two sides.
+    `unverified` counts the points, but for the ends, at which single solves on both sides do not tell so.
+    """
+
+    points: tuple[Point, ...]
+    reason: Reason
+    way: Way
+    inside: Point | None
+    outside: Point | None
+    is_gap: bool
+    unverified: int
+
+
+@dataclass(frozen=True, slots=True)
+class Region:
+    """The values of two words, within a box, with which a block has a contour, by the lines that bound them.
+
+    `units` are what the words are written in. `is_complete` tells whether it is proven that no line is missing, and no
+    part that is wider than a cell of `cell` (by word).
+    """
+
+    words: tuple[str, str]
+    units: tuple[str, str]
+    stated: Point
+    within: tuple[Point, Point]
+    boundaries: tuple[Boundary, ...]
+    cell: Point
+    is_complete: bool
+    exists: bool
+    """Whether the contour exists anywhere in the box, as far as was looked."""
+
+
+def region(
+    block: str,
+    words: tuple[str, str],
+    within: tuple[Point, Point],
+    *,
+    start: str | None = None,
+    control: str | None = None,
+    units: str = "mm",
+    rules: str = "enforce",
+    settings: Mapping[str, str] | None = None,
+) -> Region:
+    """The region of two words' values, as they are written, in which the contour is solved.
+
+    Args:
+        block: the block, or the blocks of one contour.
+        words: the two words, as for `feasible`.
+        within: the range of each, lower value first.
+        start: and all others as for `family`, with the same errors.
+
+    A grid is laid over the box, and its lines are searched for where the contour begins to fail; cell by cell these
+    points are joined, and each is brought onto the zero of what fails. Interval arithmetic proves of every other cell
+    that it is alike in all of it.
+
+    >>> found = region("G111 X100. A180. K-30. B120. P5. Q5.", ("A", "P"), ((150, 210), (1, 60)), start="X40. Z0.")
+    >>> [each.reason.text for each in found.boundaries]
+    ['P too large for line 1', 'P too large for line 2']
+    """
+    template = template_of(block, start, control, units, rules, settings, lambda _: {})
+    names = name_of(words[0]), name_of(words[1])
+    for name, (low, high) in zip(names, within, strict=True):
+        if not -numpy.inf < low < high < numpy.inf:
+            raise FamilyError(f"{name} from {low:g} to {high:g} is no range; the smaller number comes first")
+    return _Map(replace(template, words=find_words(template, names)), names, within).run()
+
+
+class _Map:
+    """Two words of one block."""
+
+    def __init__(self, template: Template, words: tuple[str, str], within: tuple[Point, Point]) -> None:
+        self.template, self.words = template, words
+        self.within = tuple((float(low), float(high)) for low, high in within)
+        self.stated = tuple(float(template.words[word].number or 0) for word in words)
+        values = dict(zip(words, self.stated, strict=True))
+        answer = template.solve(values)
+        rows = [answer.claim.lexicon.addresses.get(template.words[word].address) for word in words]
+        for word, row in zip(words, rows, strict=True):
+            if row is None or row.unit is Unit.SIGN:
+                raise FamilyError(f"{template.words[word].text} has no range; name words that state lengths or angles")
+        self.units = tuple("deg" if row and row.unit is Unit.DEGREE else answer.unit.value for row in rows)
+        scales, bounds = limits_of(template, values)
+        self.marks = [
+            [low, *(each for limit in bounds[axis] if low < (each := limit / scales[axis]) < high), high]
+            for axis, (low, high) in enumerate(self.within)
+        ]
+        self.kinds: dict[tuple[int, int], Kind] = {}
+        self.is_complete = True
+
+    def run(self) -> Region:
+        """The region."""
+        for place in product(*(range(len(marks) - 1) for marks in self.marks)):
+            middle = [(self.marks[axis][place[axis]] + self.marks[axis][place[axis] + 1]) / 2 for axis in (0, 1)]
+            self.kinds[place[0], place[1]] = self._kind(middle)
+        for axis in (0, 1):
+            self._merge(axis)
+        boundaries: list[Boundary] = []
+        fields = {place: self._field(place, kind) for place, kind in self.kinds.items() if kind.status is None}
+        for place, field in fields.items():
+            kind = self.kinds[place]
+            edge, gaps = edge_of(field), list(gaps_of(field))
+            boundaries += [
+                self._boundary(field, kind, trace, is_gap=False) for trace in edge.traces() if _has_extent(field, trace)
+            ]
+            cells = [*edge.cells]
+            for lines in gaps:
+                traces = [trace for trace in lines.traces() if _is_zero(field, trace)]
+                boundaries += [self._boundary(field, kind, trace, is_gap=True) for trace in traces]
+                cells += lines.cells
+            self.is_complete = self.is_complete and field.is_proven(cells)
+        boundaries += self._limits(fields)
+        size = tuple((high - low) / (NODES - 1) for low, high in self.within)
+        return Region(
+            words=self.words,
+            units=(self.units[0], self.units[1]),
+            stated=(self.stated[0], self.stated[1]),
+            within=(self.within[0], self.within[1]),
+            boundaries=tuple(boundaries),
+            cell=(size[0], size[1]),
+            is_complete=self.is_complete,
+            exists=any(field.is_inside.any() for field in fields.values()),
+        )
+
+    def _kind(self, at: Sequence[float]) -> Kind:
+        kind = kind_of(self.template, dict(zip(self.words, map(float, at), strict=True)))
+        if kind.moves:
+            raise FamilyError("the start point cannot vary here; name words of the block")
+        if kind.status is None and not kind.is_closed:
+            raise FamilyError("the block has facts, ? or a choice that nothing makes; this needs a closed form")
+        return kind
+
+    def _merge(self, axis: int) -> None:
+        """Leave out the limits of rules that change nothing for these words."""
+        mark = 1
+        while mark < len(self.marks[axis]) - 1:
+            others = range(len(self.marks[1 - axis]) - 1)
+            if all(alike(self.kinds[_place(axis, mark - 1, n)], self.kinds[_place(axis, mark, n)]) for n in others):
+                del self.marks[axis][mark]
+                self.kinds = {
+                    _place(axis, each[axis] - (each[axis] >= mark), each[1 - axis]): kind
+                    for each, kind in self.kinds.items()
+                }
+            else:
+                mark += 1
+
+    def _field(self, place: tuple[int, int], kind: Kind) -> Field:
+        margins = compile_margins(kind.system, 2, kind.follows(self.words))
+        low, high = ([self.marks[axis][place[axis] + side] for axis in (0, 1)] for side in (0, 1))
+        return Field(margins, kind.fixed(margins.chart.fixed), Box((low[0], low[1]), (high[0], high[1])))
+
+    def _boundary(self, field: Field, kind: Kind, trace: Trace, *, is_gap: bool) -> Boundary:
+        """A line with what fails beyond it, solved on both sides of its points."""
+        ways = _normals(trace.points / field.box.size) * field.box.size
+        found = [self._beside(kind, point, way, is_gap) for point, way in zip(trace.points, ways, strict=True)]
+        middle = len(found) // 2
+        inside, outside = found[middle]
+        unverified = sum(pair == (None, None) for pair in found[1:-1])
+        there = outside if outside is not None else tuple(trace.points[middle].tolist())
+        reason = self._reason(field, kind, trace.check, (there[0], there[1]), is_gap=is_gap)
+        points = tuple((float(first), float(second)) for first, second in trace.points)
+        return Boundary(points, reason, Way.BISECTION, inside, outside, is_gap, unverified)
+
+    def _beside(self, kind: Kind, point: Array, way: Array, is_gap: bool) -> tuple[Point | None, Point | None]:
+        """Values close to a point on both sides of its line, with and without the contour."""
+        for share in ASIDE:
+            sides = [(float(each[0]), float(each[1])) for each in (point + share * way, point - share * way)]
+            states = [self._is_solved(kind, side) for side in sides]
+            if is_gap and all(states):
+                return sides[0], sides[1]
+            if not is_gap and states[0] is not states[1]:
+                return (sides[0], sides[1]) if states[0] else (sides[1], sides[0])
+        return None, None
+
+    def _is_solved(self, kind: Kind, at: Point) -> bool:
+        return bool(kind.solve(dict(zip(self.words, at, strict=True))).points)
+
+    def _reason(self, field: Field, kind: Kind, number: int, there: Point, *, is_gap: bool) -> Reason:
+        """What fails beyond a line, at values there."""
+        answer = self.template.solve(dict(zip(self.words, there, strict=True)))
+        finding = next((each for each in answer.diagnostics if each.severity is Severity.ERROR), None)
+        code, message = (finding.code, finding.message) if finding is not None else ("", "")
+        refusal = finding.about if finding is not None and isinstance(finding.about, RefusalKind) else None
+        check, checks = field.margins.checks[number], field.margins.checks
+        if refusal is RefusalKind.NOT_VERIFIED or is_gap:
+            refusal, code, message = None, "", ""
+        if refusal is not None and not same(check.kind, refusal):
+            fails = field.margins.failing(field.values(numpy.array([there])))[:, 0]
+            check = next((checks[each] for each in numpy.flatnonzero(fails) if same(checks[each].kind, refusal)), check)
+        text = phrase(check, refusal or check.kind, about_of(kind.free, kind.profile))
+        return Reason(text, code, message)
+
+    def _limits(self, fields: Mapping[tuple[int, int], Field]) -> Iterator[Boundary]:
+        """The parts of the limits of rules beyond which there is no contour."""
+        for place, field in fields.items():
+            for axis, way in product((0, 1), (-1, 1)):
+                other = _place(axis, place[axis] + way, place[1 - axis])
+                if other not in self.kinds:
+                    continue
+                value = (field.box.high if way > 0 else field.box.low)[axis]
+                neighbour = fields.get(other)
+
+                def is_edge(
+                    points: Array, own: Field = field, neighbour: Field | None = neighbour
+                ) -> NDArray[numpy.bool_]:
+                    found: NDArray[numpy.bool_] = own.failing(points) < 0
+                    return found if neighbour is None else found & (neighbour.failing(points) >= 0)
+
+                step = way * ASIDE[0] * max(1.0, abs(value))
+                for span in _runs(is_edge, field, axis, value):
+                    yield self._limit(axis, value, step, span)
+
+    def _limit(self, axis: int, value: float, step: float, span: Point) -> Boundary:
+        """A part of the limit of a rule."""
+        middle = (span[0] + span[1]) / 2
+        inside, outside = (_point(axis, value + side, middle) for side in (-step, step))
+        answer = self.template.solve(dict(zip(self.words, outside, strict=True)))
+        finding = next((each for each in answer.diagnostics if each.severity is Severity.ERROR), None)
+        word, where = called(self.words[axis]), "above" if step > 0 else "below"
+        unit = "in" if self.units[axis] == "inch" else self.units[axis]
+        text = f"there is no contour for {word} {where} {value:g} {unit}"
+        if finding is not None and finding.about is None:
+            text = f"rule {finding.code} refuses {word} {where} {value:g} {unit}"
+        code, message = (finding.code, finding.message) if finding is not None else ("", "")
+        is_told = answer.contour is None and self._has_contour(inside)
+        points = tuple(_point(axis, value, end) for end in span)
+        return Boundary(
+            points, Reason(text, code, message), Way.RULE, inside, outside, is_gap=False, unverified=0 if is_told else 1
+        )
+
+    def _has_contour(self, at: Point) -> bool:
+        return self.template.solve(dict(zip(self.words, at, strict=True))).contour is not None
+
+
+def _has_extent(field: Field, trace: Trace) -> bool:
+    """Whether a line is more than what a length that counts as zero leaves of the edge of the box."""
+    near = ASIDE[2] * field.box.size
+    away = numpy.minimum(trace.points - field.box.low, field.box.high - trace.points)
+    is_along_edge = bool((away <= near).all(axis=0).any())
+    return not is_along_edge and bool((numpy.ptp(trace.points, axis=0) > near).any())
+
+
+def _normals(points: Array) -> Array:
+    """Unit vectors across a line at its points, by (point, word)."""
+    ways = numpy.gradient(points, axis=0)
+    sizes = numpy.sqrt((ways**2).sum(axis=1))
+    sizes[sizes == 0] = 1.0
+    found: Array = numpy.stack([-ways[:, 1] / sizes, ways[:, 0] / sizes], axis=1)
+    return found
+
+
+def _is_zero(field: Field, trace: Trace) -> bool:
+    """Whether a margin is zero on a line, and does not jump there."""
+    return bool(numpy.max(numpy.abs(field.values(trace.points)[trace.check])) <= LENGTH)
+
+
+def _runs(tell: Callable[[Array], NDArray[numpy.bool_]], field: Field, axis: int, value: float) -> Iterator[Point]:
+    """The parts of an edge of the box for which something holds, by the values of the other word."""
+    along = field.axes[1 - axis]
+
+    def points(values: Array) -> Array:
+        both = [numpy.full(values.size, value), values]
+        return numpy.stack(both if axis == 0 else both[::-1], axis=1)
+
+    states = tell(points(along))
+    begin = float(along[0]) if states[0] else None
+    for number, (one, other) in enumerate(pairwise(states.tolist())):
+        if one is other:
+            continue
+        low, high = float(along[number]), float(along[number + 1])
+        for _ in range(BISECTIONS):
+            middle = (low + high) / 2
+            low, high = (middle, high) if bool(tell(points(numpy.array([middle])))[0]) is one else (low, middle)
+        if one and begin is not None:
+            yield begin, low
+        begin = high if other else None
+    if begin is not None:
+        yield begin, float(along[-1])
+
+
+def _place(axis: int, own: int, other: int) -> tuple[int, int]:
+    return (own, other) if axis == 0 else (other, own)
+
+
+def _point(axis: int, own: float, other: float) -> Point:
+    return (own, other) if axis == 0 else (other, own)
