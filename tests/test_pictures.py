@@ -25,7 +25,7 @@ from contoursolve.pictures.sheet import Box, Stroke, Text
 from contoursolve.pictures.theme import DARK_COLORS, DASHES, LIGHT_COLORS, Role
 
 PROGRAMS = sorted((Path(__file__).parent.parent / "notebooks" / "programs").glob("*.nc"))
-RANDOM = int(os.environ.get("CONTOURSOLVE_PICTURES", "240"))
+RANDOM = int(os.environ.get("CONTOURSOLVE_PICTURES", "160"))
 """Random blocks that are drawn; 2,000 for a thorough run."""
 
 MOST_BYTES = 60_000
@@ -488,3 +488,26 @@ def test_the_pictures_of_the_readme_are_what_the_command_draws(tmp_path, name, b
     target = tmp_path / "a.svg"
     plot("--block", block, "--start", start, "--theme", "page", "-o", target)
     assert target.read_bytes() == (PROGRAMS[0].parent.parent / "pictures" / f"{name}.svg").read_bytes()
+
+
+def test_what_words_fix_at_no_value_is_drawn_as_free():
+    text = "G111 A180. I0 B120. X100."
+    (answer,) = contoursolve.solve(text, start=START, rules="off").answers
+    assert answer.status is contoursolve.Status.UNDERDETERMINED
+    assert "end (free)" in labels(draw_answer(answer))
+
+
+def test_a_crowded_drawing_says_what_it_leaves_out():
+    blocks = [f"G1 X{10 * (number + 1)} Y{7 * (number % 2)} ,R1" for number in range(40)]
+    (answer,) = contoursolve.solve("G17 G90 G0 X0 Y0\n" + "\n".join([*blocks, "G1 X500 Y0"])).answers
+    picture = draw_answer(answer)
+    check(picture)
+    assert any("words are not drawn" in text for text in labels(picture))
+    assert {"start", "end"} <= set(labels(picture))
+
+
+def test_moves_that_lead_to_a_contour_are_in_the_picture_of_its_program():
+    text = "G00 X60. Z5.\nG01 X40. F0.2\nZ0.\n" + BLOCK + "\nG01 Z-90.\nG00 X80.\n" + BLOCK.replace("X100.", "X150.")
+    result = contoursolve.solve(text, control="yasnac-lx3")
+    strokes = [item for item in draw_result(result).sheet.drawing if isinstance(item, Stroke) and item.role is Role.INK]
+    assert len(strokes) == 2 + 3  # two contours; X40., Z0. and Z-90., not the rapids

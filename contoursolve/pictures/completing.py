@@ -1,6 +1,6 @@
 """A contour whose words leave something free, with that put somewhere: each completion is solved as any other block."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from decimal import Decimal
 from itertools import product
@@ -26,15 +26,16 @@ _STEPS = (0.6, 1.0, 0.35, 1.5, -0.6, -1.0, -0.35, -1.5)
 """Where a free coordinate is put, from where the line begins, in lengths of the drawing."""
 
 
-def complete(profile: Profile, free: int) -> Known:
-    """A contour with what its words leave free put somewhere, so that the control would make it if that can be."""
+def complete(profile: Profile, singular: Sequence[str] = ()) -> Known:
+    """A contour with what its words leave free put somewhere, so that the control would make it if that can be;
+    `singular` is what they leave free at their values only."""
     known = in_part(profile)
-    if free > MOST_FREE:
+    if len(judge(assemble(profile)).free) > MOST_FREE:
         return known
     size = drawing_size(profile)
     found: list[Solution] = []
     placed: frozenset[str] = frozenset()
-    for number, (full, names) in enumerate(_completions(profile, known, size)):
+    for number, (full, names) in enumerate(_completions(profile, known, size, singular)):
         if number >= MOST_TRIED or len(found) > MOST_GHOSTS:
             break
         placed = names
@@ -55,10 +56,12 @@ def _is_apart(one: Point, other: Point, size: float) -> bool:
     return hypot(one[0] - other[0], one[1] - other[1]) > size / 1_000_000
 
 
-def _completions(profile: Profile, known: Known, size: float) -> Iterator[tuple[Profile, frozenset[str]]]:
+def _completions(
+    profile: Profile, known: Known, size: float, singular: Sequence[str]
+) -> Iterator[tuple[Profile, frozenset[str]]]:
     """The profile with further facts that determine it, and the points that these are about."""
-    names: list[str] = []
-    extended, moves = profile, _moves(profile)
+    names = [name for name in singular if _is_placeable(name, profile)]
+    extended, moves = _with(profile, dict.fromkeys(names, 0.0)), _moves(profile)
     while free := judge(assemble(extended)).free:
         open_ = [
             name for name in free if name not in names and name not in known.scalars and _is_placeable(name, profile)

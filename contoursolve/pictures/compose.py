@@ -14,10 +14,10 @@ from contoursolve.pictures.faults import draw_faults
 from contoursolve.pictures.finding import find_known
 from contoursolve.pictures.known import Known
 from contoursolve.pictures.marks import givens_at_points, list_marks
-from contoursolve.pictures.scene import Aligned, Ring, Scene, Thin, Trail, Weight
+from contoursolve.pictures.scene import Aligned, Mark, Ring, Scene, Thin, Trail, Weight
 from contoursolve.pictures.sheet import Run
 from contoursolve.pictures.theme import Role
-from contoursolve.pictures.tracing import trace_known
+from contoursolve.pictures.tracing import trace_known, trace_segments
 from contoursolve.pictures.vectors import SAME, distance
 from contoursolve.pictures.wording import visible
 from contoursolve.reading import Trouble
@@ -51,7 +51,8 @@ def compose(answer: Answer, title: str | None = None) -> Scene:
     broken = [each for each in faults if isinstance(each, Ring)]
     circles = {(each.center, each.radius) for each in broken}
     ends = [segment.end for trail in main for segment in trail.segments]
-    marks = list_marks(answer, known, roles, noted, places, ends[-1] if ends else None)
+    is_free = bool(main) and main[-1].role is Role.FREE
+    marks = list_marks(answer, known, roles, noted, places, ends[-1] if ends else None, is_free)
     return Scene(
         title=title if title is not None else title_of(answer),
         axes=(axis_name(plane, FIRST), axis_name(plane, SECOND)),
@@ -61,7 +62,7 @@ def compose(answer: Answer, title: str | None = None) -> Scene:
             *(each for each in faults if isinstance(each, Thin)),
         ),
         rings=(*(each for each in list_rings(answer, known) if (each.center, each.radius) not in circles), *broken),
-        marks=tuple(marks),
+        marks=(*marks, *(each for each in faults if isinstance(each, Mark))),
         dimensions=(
             *list_dimensions(answer, known, roles, elements, noted_givens),
             *(each for each in faults if isinstance(each, Aligned)),
@@ -145,7 +146,8 @@ def _ghosts(answer: Answer, known: Known) -> tuple[list[Trail], dict[str, list[t
     profile = answer.profile
     places: dict[str, list[tuple[Point, str]]] = {}
     others = (trace(profile, other).elements for other in known.others)
-    trails = [Trail(elements, Role.GHOST, Weight.GHOST) for elements in others if elements]
+    drawn = answer.contour.elements if answer.contour else trace_segments(profile, known)
+    trails = [Trail(elements, Role.GHOST, Weight.GHOST) for elements in others if elements and elements != drawn]
     listing = list_solutions(answer) if answer.alternatives is not None else None
     if listing is None:
         return trails, places

@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Mapping
 
 from contoursolve.contour import Segment
+from contoursolve.diagnosis.affine import affine_facts
 from contoursolve.examine import Answer
 from contoursolve.model import FIRST, SECOND, Arc, Line, Profile, scalar
 from contoursolve.pictures.known import Known
@@ -73,14 +74,12 @@ def list_rings(answer: Answer, known: Known) -> Iterator[Ring]:
 
 def list_slides(answer: Answer, known: Known) -> Iterator[Slide]:
     """What can still move, and how."""
-    freedoms = answer.diagnosis.freedoms if answer.diagnosis else ()
-    if answer.contour is not None:
+    profile = answer.profile
+    if answer.contour is not None or not known.placed:
         return
-    for freedom in freedoms:
-        at = known.points.get(freedom.point)
-        if at is not None:
-            yield Slide(at, freedom.direction, freedom.point)
-    if not freedoms:
-        for name in sorted(known.placed):
-            if name in known.points:
-                yield Slide(known.points[name], None, name)
+    affine = affine_facts(profile, profile.facts)
+    ways = {freedom.point: freedom.direction for freedom in (affine.freedoms() if affine is not None else ())}
+    shown = {*profile.intersections, *(point for each in profile.figure.path for point in (each.tail, each.head))}
+    for name, at in known.points.items():
+        if name in known.placed & shown:
+            yield Slide(at, ways.get(name))

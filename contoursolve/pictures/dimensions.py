@@ -1,7 +1,7 @@
 """Every word as a dimension where it belongs on the drawing."""
 
 from collections.abc import Iterator, Mapping
-from math import atan2, degrees
+from math import atan2, degrees, inf
 
 from contoursolve.constraints import Coordinate, Heading, Offset, Radius
 from contoursolve.contour import ArcSegment, Segment
@@ -95,7 +95,7 @@ def _radius(
             center, radius = known.points.get(element.center), known.radii.get(name)
             if center is not None and radius is not None:
                 way = unit(minus(known.points.get(element.tail, (center[0] + 1, center[1] + 1)), center))
-                return Leader(along(center, way, radius), way, text, role, center)
+                return Leader(along(center, way, radius), way, text, role)
     corner = elements.get(name.rpartition(".")[0])
     return pointing_at(corner, text, role) if corner is not None else None
 
@@ -106,7 +106,7 @@ def pointing_at(segment: Segment, text: str, role: Role) -> Leader:
     if isinstance(segment, ArcSegment):
         if not segment.name.startswith("corner"):
             at, way = on_arc(segment, _BESIDE_ARROW)
-        return Leader(at, unit(minus(at, segment.center)), text, role, segment.center)
+        return Leader(at, unit(minus(at, segment.center)), text, role)
     return Leader(at, (-way[1], way[0]), text, role)
 
 
@@ -138,7 +138,7 @@ def _corners(
 def _limit(known: Known, corner: str) -> float | None:
     """The largest size of a corner that is too large."""
     for refusal in known.refusals:
-        if refusal.subject == corner and refusal.values.get("limit", 0) > 0:
+        if refusal.subject == corner and 0 < refusal.values.get("limit", 0) < inf:
             return refusal.values["limit"]
     return None
 

@@ -12,7 +12,7 @@ from contoursolve.examine import MOST_CHOICES, Answer, count_choices
 from contoursolve.model import FIRST, SECOND, Profile, scalar
 from contoursolve.pictures.completing import complete, is_chosen
 from contoursolve.pictures.known import Known, in_part, is_usable, known_of
-from contoursolve.solving import Point, Solution, is_closed, points_with_two_solutions, solve
+from contoursolve.solving import Point, RefusalKind, Solution, is_closed, points_with_two_solutions, solve
 from contoursolve.solving.compile import compile_system
 from contoursolve.solving.solve import corner_of, inputs_of
 
@@ -34,7 +34,7 @@ def find_known(answer: Answer) -> Known:
         return _worked_out(profile)
     if verdict.is_determined:
         return in_part(profile)
-    return complete(profile, len(verdict.free))
+    return complete(profile)
 
 
 def _solution_of(answer: Answer) -> Solution | None:
@@ -75,13 +75,18 @@ def _worked_out(profile: Profile) -> Known:
     radii = {name: out[name] for name in system.figure.radii if is_usable(out.get(name, inf)) and out[name] > 0}
     corners = {}
     for corner in system.figure.corners:
-        if corner.size in profile.givens:
+        if corner.size in profile.givens and profile.givens[corner.size].value > 0:
             built = corner_of(corner, float(profile.givens[corner.size].value), out, absolute)
             places = (built.begin, built.end, *([built.center] if built.center else []))
             if all(is_usable(value) for place in places for value in place) and isfinite(built.turn):
                 corners[corner.name] = built
     is_solvable = count_choices(profile) <= MOST_CHOICES and is_chosen(profile)
     refusals = solve(profile, is_proven=False).refusals if is_solvable else ()
+    singular = next((refusal.subject for refusal in refusals if refusal.kind is RefusalKind.NOT_FIXED), "")
+    if singular:
+        found = complete(profile, singular.split(","))
+        if found.placed:
+            return found
     if len(points) < len(system.figure.points) + 1:
         part = in_part(profile)
         points = {**part.points, **points}

@@ -12,6 +12,9 @@ _FAR = (9.0, 15.0, 24.0, 36.0, 52.0, 72.0, 100.0, 140.0, 190.0)
 """Pixels from a place to the nearest point of its label, tried in this order."""
 
 _WAYS = 16
+_PER_PIXEL = 0.35
+"""What a pixel of distance weighs."""
+
 _TOUCHING = 20.0
 """Pixels. A label that is no farther needs no leader."""
 
@@ -123,7 +126,9 @@ def place_label(
         for box, far, turned in boxes_around(at, width, height, away):
             if leads and far < _TOUCHING:
                 continue
-            own = far * 0.35 + turned * 2.0 + (8.0 if far > _TOUCHING and not leads else 0.0)
+            if best is not None and far * _PER_PIXEL >= best[0]:
+                break
+            own = far * _PER_PIXEL + turned * 2.0 + (8.0 if far > _TOUCHING and not leads else 0.0)
             if best is not None and own >= best[0]:
                 continue
             cost = own + grid.cost(box.grow(1.5))
@@ -133,8 +138,6 @@ def place_label(
                 cost += grid.crossings(nearest(box, at), at)
             if best is None or cost < best[0]:
                 best = cost, box
-            if far > 100.0 and best is not None:  # noqa: PLR2004 - no better one is to come
-                break
         if best is not None:
             return index, best[1]
     return None

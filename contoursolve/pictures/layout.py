@@ -1,11 +1,10 @@
 """Lays a scene out on a page: how large it is drawn, what stands in its margins, head and foot."""
 
-import re
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from math import hypot
 
 from contoursolve.contour import ArcSegment, LineSegment, Segment
-from contoursolve.model import FIRST, SECOND
 from contoursolve.pictures.arrows import THICK, arc, head, line
 from contoursolve.pictures.callouts import (
     away_from,
@@ -15,39 +14,18 @@ from contoursolve.pictures.callouts import (
     draw_point,
     draw_slide,
 )
-from contoursolve.pictures.canvas import FAINT_WEIGHT, PATH_WEIGHT, SIZE, THIN_WEIGHT, Canvas
+from contoursolve.pictures.canvas import FAINT_WEIGHT, PATH_WEIGHT, THIN_WEIGHT, Canvas
+from contoursolve.pictures.frame import WIDTH, foot_of, head_of
 from contoursolve.pictures.labels import clip
-from contoursolve.pictures.metrics import MONO, shorten, width_of, wrap
+from contoursolve.pictures.margins import arrange, draw_margins
 from contoursolve.pictures.rows import (
-    FIRST_ROW,
-    PITCH,
-    Side,
-    draw_coordinates,
-    draw_distances,
     is_nothing,
-    side_of,
-    stack,
 )
-from contoursolve.pictures.scene import Aligned, Angle, Leader, Linear, Ordinate, Scene, Thin, Trail, Weight
+from contoursolve.pictures.scene import Aligned, Angle, Leader, Linear, Scene, Thin, Trail, Weight
 from contoursolve.pictures.sheet import Box, Item, Run, Sheet, Spot, Stroke, Sweep, Text, shift
-from contoursolve.pictures.theme import DASHES, MEANINGS, Role
+from contoursolve.pictures.theme import DASHES, Role
 from contoursolve.pictures.vectors import middle, sweep_of
-from contoursolve.pictures.view import Span, View, span_of
-from contoursolve.pictures.wording import visible
-
-WIDTH = 760.0
-"""Pixels of a page."""
-
-_PAD = 18.0
-_TALLEST, _LOWEST = 350.0, 110.0
-"""Pixels of the drawing itself, without what stands in its margins."""
-
-_MARGIN_X, _MARGIN_Y = 84.0, 40.0
-"""Pixels around the drawing for labels of points."""
-
-_TITLE, _LINE, _SMALL = 14.0, 17.0, 11.0
-_MOST_ROWS = 3
-"""Rows that a line of a program takes."""
+from contoursolve.pictures.view import View
 
 _ARROWED = 34.0
 """Pixels of an element that is long enough for an arrow."""
@@ -56,182 +34,45 @@ _GAP = 0.5
 _LEAST = 0.4
 """Pixels. Elements that are smaller are drawn with the next one."""
 
-_MOST_LABELS = 90
-"""Labels on one page; more cannot be read, and what they say is in the head as well."""
+_MOST_LABELS = 40
+"""Labels on one page. Of a larger drawing, the words that are simply given are not drawn: nobody could read them."""
 
 _CORNER = 130.0
 """Pixels that the axes take of the width."""
 
-_SIDES = (Side(FIRST, -1), Side(FIRST, 1), Side(SECOND, -1), Side(SECOND, 1))
-
 
 def lay_out(scene: Scene) -> Sheet:
     """The page of one scene."""
-    top = list(_head(scene))
+    scene = _thinned(scene)
+    top = list(head_of(scene))
     start = max((item.box.bottom for item in top), default=0.0) + 6.0
-    span = _with_turning_axis(scene, span_of(scene))
-    linear = [each for each in scene.dimensions if isinstance(each, Linear) and not is_nothing(each)]
-    ordinates = [each for each in scene.dimensions if isinstance(each, Ordinate)]
-    by_side = {side: [each for each in linear if side_of(each, span) == side] for side in _SIDES}
-    edges = {axis: _edge_of(ordinates, axis, by_side, span) for axis in (FIRST, SECOND)}
-    columns = {sign: len(by_side[Side(SECOND, sign)]) for sign in (-1, 1)}
-    wide = {sign: _MARGIN_X + (PITCH * columns[sign] + 16.0 if columns[sign] else 0.0) for sign in (-1, 1)}
-    for sign in (-1, 1):
-        texts = [width_of(each.text, SIZE) for each in ordinates if each.axis == SECOND and edges[SECOND] == sign]
-        wide[sign] = max(wide[sign], max(texts, default=0.0) + 34.0 + (PITCH * columns[sign]))
-    room = WIDTH - wide[-1] - wide[1]
-    scale = min(
-        room / span.size[FIRST] if span.size[FIRST] > 0 else float("inf"),
-        _TALLEST / span.size[SECOND] if span.size[SECOND] > 0 else float("inf"),
-    )
-    scale = scale if scale < float("inf") else 1.0
-    flat = View((0.0, 0.0), scale, (0.0, 0.0))
-    stacked = {side: stack(each, flat) for side, each in by_side.items()}
-    rows = {side: max((row for _, row in each), default=-1) + 1 for side, each in stacked.items()}
-    # Rows need no more room than labels of points, but for the text beyond the last one.
-    high = {sign: max(_MARGIN_Y, FIRST_ROW + PITCH * rows[Side(FIRST, sign)] + 4.0) for sign in (-1, 1)}
-    for sign in (-1, 1):
-        if edges[FIRST] == sign and any(each.axis == FIRST for each in ordinates):
-            high[sign] += 18.0
-    tall = max(span.size[SECOND] * scale, _LOWEST) if scene.trails or scene.dimensions else 0.0
-    bottom = start + high[1] + tall + high[-1]
-    frame = Box(4.0, start, WIDTH - 4.0, bottom)
-    view = View(span.middle, scale, (wide[-1] + room / 2, start + high[1] + tall / 2))
-    canvas = Canvas(view, frame)
+    plan = arrange(scene, start)
+    canvas = Canvas(plan.view, plan.frame)
     _draw_path(canvas, scene)
-    half = span.size[FIRST] * scale / 2, span.size[SECOND] * scale / 2
-    outer = {
-        Side(FIRST, 1): view.spot[1] - half[1],
-        Side(FIRST, -1): view.spot[1] + half[1],
-        Side(SECOND, -1): view.spot[0] - half[0],
-        Side(SECOND, 1): view.spot[0] + half[0],
-    }
-    for side in _SIDES:
-        draw_distances(canvas, stacked[side], side, outer[side])
-    for axis in (FIRST, SECOND):
-        along = Side(FIRST, edges[axis]) if axis == FIRST else Side(SECOND, edges[axis])
-        outward = edges[axis] if axis == SECOND else -edges[axis]
-        level = outer[along] + outward * (FIRST_ROW + PITCH * rows[along] - (0 if rows[along] else 4.0))
-        draw_coordinates(canvas, [each for each in ordinates if each.axis == axis], axis, edges[axis], level)
+    draw_margins(canvas, plan)
     _draw_labels(canvas, scene)
     # The axes stand beside the drawing's lower end where nothing else is.
-    is_free = canvas.grid.cost(Box(frame.left, bottom - 34.0, _CORNER, bottom)) == 0.0
-    foot = list(_foot(scene, canvas, bottom - (26.0 if is_free else -4.0)))
-    height = max((_bottom(item) for item in foot), default=bottom) + 12.0
-    return Sheet(WIDTH, round(height, 1), frame, canvas.items, (*top, *foot))
+    is_free = canvas.grid.cost(Box(plan.frame.left, plan.frame.bottom - 34.0, _CORNER, plan.frame.bottom)) == 0.0
+    foot = list(foot_of(scene, canvas.homeless, plan.frame.bottom - (26.0 if is_free else -4.0)))
+    height = max((_bottom(item) for item in foot), default=plan.frame.bottom) + 12.0
+    return Sheet(WIDTH, round(height, 1), plan.frame, canvas.items, (*top, *foot))
+
+
+def _thinned(scene: Scene) -> Scene:
+    """The scene as far as it can be read: of a crowded one, words that are not simply given, and names."""
+    if len(scene.dimensions) + sum(bool(mark.label) for mark in scene.marks) <= _MOST_LABELS:
+        return scene
+    special = tuple(each for each in scene.dimensions if each.role is not Role.GIVEN)[:_MOST_LABELS]
+    left = max(_MOST_LABELS - len(special), 2)
+    marks = tuple(
+        replace(mark, label=mark.short if number < left else (), short=()) for number, mark in enumerate(scene.marks)
+    )
+    told = f"{len(scene.dimensions) - len(special)} words are not drawn: there is no room for so many"
+    return replace(scene, dimensions=special, marks=marks, remarks=(*scene.remarks, (Run(told, Role.MUTED),)))
 
 
 def _bottom(item: Item) -> float:
     return item.box.bottom if isinstance(item, Text) else 0.0
-
-
-def _with_turning_axis(scene: Scene, span: Span) -> Span:
-    """The rectangle with the axis about which the work turns, where that is near."""
-    low = span.low[SECOND]
-    reach = max(*span.size, 1e-9) * 0.3
-    if scene.has_turning_axis and 0 < low <= reach:
-        return Span((span.low[FIRST], 0.0), span.high)
-    return span
-
-
-def _edge_of(ordinates: list[Ordinate], axis: int, by_side: dict[Side, list[Linear]], span: Span) -> int:
-    """The edge for the coordinates on an axis: where there are fewer distances, else where the points are."""
-    own = [each for each in ordinates if each.axis == axis]
-    counts = {sign: len(by_side[Side(axis, sign)]) for sign in (-1, 1)}
-    if not own or counts[-1] != counts[1]:
-        return -1 if counts[-1] < counts[1] else 1
-    across = 1 - axis
-    mean = sum(each.at[across] for each in own) / len(own)
-    return 1 if mean > span.middle[across] else -1
-
-
-def _head(scene: Scene) -> Iterator[Text]:
-    """The title and the program's lines."""
-    y = _PAD + 6.0
-    yield Text(
-        (_PAD, y),
-        (Run(shorten(visible(scene.title), WIDTH - 2 * _PAD, _TITLE, is_bold=True), Role.INK),),
-        _TITLE,
-        is_bold=True,
-    )
-    y += 3.0
-    for runs in scene.lines:
-        for row, shown in enumerate(_rows(runs)):
-            y += _LINE
-            yield Text((_PAD + (14.0 if row else 0.0), y), shown, SIZE, is_mono=True)
-
-
-def _rows(runs: tuple[Run, ...]) -> list[tuple[Run, ...]]:
-    """A line of a program in as many rows as it takes, up to `_MOST_ROWS`."""
-    most = (WIDTH - 2 * _PAD - 14.0) / (MONO * SIZE)
-    rows: list[list[Run]] = [[]]
-    used = 0.0
-    for run in runs:
-        # Broken before a word where it does not fit, or anywhere where it is longer than a row.
-        for piece in re.split(r"(?<=\s)(?=\S)", run.text):
-            wide = width_of(piece, 1.0, is_mono=True) / MONO
-            if used and used + wide > most:
-                rows.append([])
-                used = 0.0
-            rows[-1].append(Run(shorten(piece, most * MONO, 1.0, is_mono=True), run.role))
-            used += wide
-    kept = [row for row in rows if row][:_MOST_ROWS]
-    if len(rows) > _MOST_ROWS:
-        kept[-1] = [*kept[-1][:-1], Run("…", Role.MUTED)]
-    return [_merged(row) for row in kept]
-
-
-def _merged(row: list[Run]) -> tuple[Run, ...]:
-    """Neighbours in one role as one run."""
-    found: list[Run] = []
-    for run in row:
-        if found and found[-1].role is run.role:
-            found[-1] = Run(found[-1].text + run.text, run.role)
-        else:
-            found.append(run)
-    return tuple(found)
-
-
-def _foot(scene: Scene, canvas: Canvas, top: float) -> Iterator[Item]:
-    """The axes, the legend, and remarks."""
-    corner = _PAD + 12.0, top + 34.0
-    for way, name in (((1.0, 0.0), scene.axes[FIRST]), ((0.0, -1.0), scene.axes[SECOND])):
-        tip = corner[0] + way[0] * 30.0, corner[1] + way[1] * 30.0
-        yield line(corner, tip, Role.INK, 1.2)
-        yield head(tip, way, Role.INK)
-        at = (tip[0] + 5.0, tip[1] + 4.0) if way[0] else (tip[0] + 7.0, tip[1] + 8.0)
-        yield Text(at, (Run(name, Role.INK),), _SMALL)
-    x = corner[0] + 30.0 + 5.0 + max(width_of(name, _SMALL) for name in scene.axes) + 26.0
-    y = corner[1] + 4.0
-    begin = x
-    for role in _legend(scene):
-        text = scene.meanings.get(role, MEANINGS[role])
-        wide = 34.0 + width_of(text, _SMALL) + 18.0
-        if x + wide > WIDTH - _PAD and x > begin:
-            x, y = begin, y + 16.0
-        yield line((x, y - 4.0), (x + 28.0, y - 4.0), role, 1.6)
-        yield Text((x + 34.0, y), (Run(text, role),), _SMALL)
-        x += wide
-    y += 20.0
-    remarks = list(scene.remarks)
-    if canvas.homeless:
-        remarks.append((Run("no room for: " + ", ".join(canvas.homeless), Role.MUTED),))
-    for runs in remarks:
-        for text in wrap("".join(run.text for run in runs), WIDTH - 2 * _PAD, SIZE, 2):
-            yield Text((_PAD, y), (Run(text, runs[0].role),), SIZE)
-            y += 16.0
-
-
-_STATES = (Role.GIVEN, Role.DERIVED, Role.IGNORED, Role.CONFLICTING, Role.FREE, Role.GHOST)
-
-
-def _legend(scene: Scene) -> list[Role]:
-    """The states that are used."""
-    used = {each.role for each in (*scene.trails, *scene.thins, *scene.rings, *scene.dimensions)}
-    used |= {run.role for mark in scene.marks for run in mark.label}
-    used |= {run.role for runs in scene.lines for run in runs}
-    used |= {Role.FREE} if scene.slides else set()
-    return [role for role in _STATES if role in used]
 
 
 def _draw_path(canvas: Canvas, scene: Scene) -> None:
@@ -266,13 +107,10 @@ def _draw_path(canvas: Canvas, scene: Scene) -> None:
 
 
 def _pointed(segments: tuple[Segment, ...], view: View) -> list[Segment]:
-    """The elements that are long enough for an arrow, or the longest."""
-    long = [segment for segment in segments if segment.length * view.scale > _ARROWED and not _is_corner(segment)]
-    return long or [max(segments, key=lambda each: each.length)]
-
-
-def _is_corner(segment: Segment) -> bool:
-    return segment.name.startswith("corner")
+    """The elements that are long enough for an arrow, or the longest; corners have their size there."""
+    others = [segment for segment in segments if not segment.name.startswith("corner")]
+    long = [segment for segment in others if segment.length * view.scale > _ARROWED]
+    return long or ([max(others, key=lambda each: each.length)] if others else [])
 
 
 def _ends_of(canvas: Canvas, thin: Thin) -> tuple[Spot, Spot] | None:
@@ -339,22 +177,17 @@ def _draw_labels(canvas: Canvas, scene: Scene) -> None:
         else:
             continue
         wanted.append((spot, [(Run(dimension.text, dimension.role),)], away, dimension.role))
-    number = 0
     for spot, runs, away, role in wanted:
-        if number < _MOST_LABELS:
-            canvas.label(spot, runs, away, role)
-            number += 1
+        canvas.label(spot, runs, away, role)
     for dimension in scene.dimensions:
-        if isinstance(dimension, Leader) and number < _MOST_LABELS:
+        if isinstance(dimension, Leader):
             draw_leader(canvas, dimension)
-            number += 1
     directions = _directions(canvas, scene)
     for mark in scene.marks:
-        if mark.label and number < _MOST_LABELS:
+        if mark.label:
             at = canvas.view.place(mark.at)
             away = away_from(directions.get((round(at[0]), round(at[1])), []))
             canvas.label(at, [mark.label, mark.short], away, Role.MUTED)
-            number += 1
 
 
 def _directions(canvas: Canvas, scene: Scene) -> dict[tuple[int, int], list[Spot]]:

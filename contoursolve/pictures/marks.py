@@ -46,6 +46,7 @@ def list_marks(
     noted: Mapping[str, Sequence[str]],
     others: Others,
     end: Point | None,
+    is_end_free: bool,
 ) -> Iterator[Mark]:
     """The start, the end, the named points, the points that words state in full (`noted`), and centres."""
     profile = answer.profile
@@ -59,12 +60,12 @@ def list_marks(
         spots.insert(1, _Spot(end, ()))
     for spot in spots:
         role = next((name for name, at in ranks.items() if distance(spot.at, at) <= SAME), "")
-        yield from _mark(answer, known, roles, noted, others, spot, role)
+        yield from _mark(answer, known, roles, noted, others, spot, role, is_end_free)
     for name, places in others.items():
         for at, selects in places:
             if all(distance(at, spot.at) > SAME for spot in spots):
                 runs = [Run(name, Role.GHOST), *([Run(selects, Role.GHOST)] if selects else [])]
-                yield Mark(at, Kind.PLACE, _joined([*runs, _computed(answer, at)]), _joined(runs))
+                yield Mark(at, Kind.PLACE, _joined([*runs, _computed(answer, at)]), _joined(runs), Role.GHOST)
 
 
 def _spots(known: Known) -> list[_Spot]:
@@ -86,13 +87,14 @@ def _mark(
     others: Others,
     spot: _Spot,
     role: str,
+    is_end_free: bool,
 ) -> Iterator[Mark]:
     """The mark of one place, if anything is to be said of it."""
     profile = answer.profile
     shown = [name for name in spot.names if name in profile.intersections]
     # Where the path ends at a virtual intersection, it is the end that counts.
     named = [name for name in shown if not role or not name.startswith("V")]
-    is_free = not known.placed.isdisjoint(spot.names) or (role == "end" and bool(known.placed))
+    is_free = not known.placed.isdisjoint(spot.names) or (role == "end" and is_end_free)
     words = [
         Run(word_text(word.text), roles.get(given, Role.GIVEN))
         for name in spot.names
@@ -111,7 +113,7 @@ def _mark(
     short = [Run(name, Role.FREE if is_free else Role.INK) for name in names]
     short += _choosing(answer, roles, others, spot)
     about = list(words)
-    if role == "start":
+    if role == "start" and not words:
         about.append(Run(_place(answer, spot.at), Role.MUTED))
     elif names and not words and not is_free:
         about.append(_computed(answer, spot.at))
@@ -120,6 +122,7 @@ def _mark(
         _kind(profile, spot, role, is_center=bool(centers & {*spot.names}) and not shown),
         _joined([*short, *about]),
         _joined(short),
+        Role.FREE if is_free else Role.INK,
     )
 
 

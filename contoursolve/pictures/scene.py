@@ -60,6 +60,8 @@ class Kind(Enum):
     VIRTUAL = "virtual"
     PLACE = "place"
     CENTER = "center"
+    OTHER = "other"
+    """Where a word puts a point that others put elsewhere."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,6 +73,7 @@ class Mark:
     label: tuple[Run, ...] = ()
     short: tuple[Run, ...] = ()
     """What may stand there where the label finds no room."""
+    role: Role = Role.INK
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,14 +120,12 @@ class Angle:
 
 @dataclass(frozen=True, slots=True)
 class Leader:
-    """A word that points at a place, from the side to which `away` leads; `is_radius` for one that measures from the
-    centre."""
+    """A word that points at a place, from the side to which `away` leads."""
 
     at: Point
     away: Point
     text: str
     role: Role
-    center: Point | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -133,7 +134,6 @@ class Slide:
 
     at: Point
     direction: Point | None
-    text: str
 
 
 Dimension = Linear | Aligned | Ordinate | Angle | Leader

@@ -37,6 +37,11 @@ def trace_known(profile: Profile, known: Known) -> list[Traced]:
     return list(_traced(profile, known))
 
 
+def trace_segments(profile: Profile, known: Known) -> tuple[Segment, ...]:
+    """The same without roles."""
+    return tuple(traced.segment for traced in _traced(profile, known))
+
+
 def _traced(profile: Profile, known: Known) -> Iterator[Traced]:
     corners = {corner.at: corner for corner in profile.figure.corners}
     refused = {refusal.subject for refusal in known.refusals}
