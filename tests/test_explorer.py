@@ -105,6 +105,14 @@ def test_one_contour_is_explored_at_a_time():
         explore.begin("G111 A180.\nG3 X-50 Y0 R50 Q-1\nG1 X-50 Y42.857 ,A171.87")
 
 
+def test_the_control_stays_when_what_shows_it_is_taken_out():
+    now = explore.begin(f"{PAIR} Q-1")
+    bare = explore.write(now, now.text.replace(",A171.87 Q-1", ""))
+    assert (bare.result.control, bare.answer) == ("nct-99m", None)
+    assert view_of(bare)["status"]["text"] == "no contour"
+    assert explore.reset(bare).answer.status is Status.SOLVED
+
+
 def act(now, rng):
     """Something that a reader might do."""
     view = view_of(now)
@@ -204,7 +212,6 @@ def test_the_widget_answers_each_action_by_its_number(widget):
         {"do": "fix", "finding": 7, "fix": 0},
         {"do": "fix", "finding": None, "fix": 0},
         {"do": "select", "solution": 3},
-        {"do": "write", "text": f"{WHOLE}\n{PAIR} Q-1"},
         {"do": "nothing"},
         {},
     ],
@@ -215,6 +222,15 @@ def test_an_action_that_makes_no_sense_changes_nothing_and_is_told(widget, actio
     assert widget.text == WHOLE
     assert widget.view["number"] == 1
     assert widget.view["trouble"]
+
+
+def test_whatever_fails_is_told_and_answered(widget, monkeypatch):
+    def fail(*_, **__):
+        raise RuntimeError("no")
+
+    monkeypatch.setattr("contoursolve.notebook.exploration.solve", fail)
+    widget.action = {"do": "move", "key": "P", "value": 6, "number": 1}
+    assert (widget.text, widget.view["number"], widget.view["trouble"]) == (WHOLE, 1, "RuntimeError: no")
 
 
 def test_without_a_kernel_the_picture_is_there(widget):

@@ -210,8 +210,11 @@ def test_families_rules_and_paths_show_themselves():
         for rule in dialect.rules:
             assert rule.code in "".join(check(rule._repr_mimebundle_()).words)
     sketch = contoursolve.Sketch()
-    sketch.circle("k", center=(0, 0), radius=3)
-    check(sketch.solve()._repr_mimebundle_())
+    for number in range(12):
+        sketch.circle(f"k{number}", center=(10 * number, 0), radius=3)
+    drawings = sketch.solve()
+    assert drawings._repr_mimebundle_()[TEXT] == str(drawings)
+    assert str(drawings) in "".join(check(drawings._repr_mimebundle_()).words)
 
 
 def test_a_large_program_stays_small():
@@ -246,6 +249,22 @@ def test_without_htpy_there_are_text_and_picture():
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert done.stdout.split() == [TEXT, SVG]
+
+
+SHELL = """
+from IPython.core.interactiveshell import InteractiveShell
+import contoursolve
+formatter = InteractiveShell.instance().display_formatter
+result = contoursolve.solve("G111 A180. B120.", start="X40. Z0.")
+print(*sorted(formatter.format(result)[0]))
+formatter.active_types = ["text/plain"]
+print(*formatter.format(result)[0])
+"""
+
+
+def test_ipython_asks_for_all_kinds_and_a_terminal_for_text():
+    done = subprocess.run([sys.executable, "-c", SHELL], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines() == [f"{SVG} {HTML} {TEXT}", TEXT]
 
 
 def test_only_the_wanted_kinds_are_given():

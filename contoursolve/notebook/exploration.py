@@ -56,7 +56,8 @@ def begin(text: str, facts: Iterable[str] = (), **options: Any) -> Exploration:
     if len(result.answers) > 1:
         lines = ", ".join(str(answer.lines[0]) for answer in result.answers)
         raise ValueError(f"one contour can be explored at a time; this text has {len(result.answers)} (lines {lines})")
-    return Exploration(text, options, result, text)
+    # A reader may take out the word by which the control is recognised.
+    return Exploration(text, {**options, "control": result.control}, result, text)
 
 
 def _with_facts(text: str, facts: Sequence[str]) -> str:

@@ -187,6 +187,7 @@ function render({ model, el }) {
       row.band.replaceChildren();
       row.range.textContent = row.text || (isFresh && found.note) || "";
       row.range.title = (isFresh && found.reason) || "";
+      row.slider.setAttribute("aria-description", [row.range.textContent, row.range.title].filter(Boolean).join("; "));
       if (!isFresh || !row.scale || !found.intervals) continue;
       row.scale.low = Math.min(row.scale.low, found.low);
       row.scale.high = Math.max(row.scale.high, found.high);
@@ -293,6 +294,7 @@ function render({ model, el }) {
 
   function showRange() {
     answered = Math.max(answered, model.get("ranges_number"));
+    asked = Math.max(asked, answered);
     showRanges();
     finish();
   }

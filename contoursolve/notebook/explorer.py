@@ -61,14 +61,18 @@ class Explorer(anywidget.AnyWidget):
         action = change["new"]
         number = int(action.get("number", 0))
         if action.get("do") == "range":
-            self._tell_range(str(action["key"]))
-            self.ranges_number = number
+            try:
+                self._tell_range(str(action.get("key")))
+            finally:
+                self.ranges_number = number
             return
         trouble = ""
         try:
             self._exploration = _ACTIONS[action["do"]](self._exploration, action)
-        except (ValueError, KeyError, TypeError) as error:  # what the reader typed makes no sense: nothing changes
+        except ValueError as error:  # what the reader typed makes no sense: nothing changes
             trouble = str(error)
+        except Exception as error:  # the front end waits for an answer, whatever happens
+            trouble = f"{type(error).__name__}: {error}"
         self.view = self._viewed(number, trouble, is_new=action.get("do") in ("write", "reset"))
 
     def _tell_range(self, key: str) -> None:

@@ -28,7 +28,7 @@ def text_of(record: Shown) -> Iterable[str]:
     for kind, lines in _LINES.items():
         if isinstance(record, kind):
             return lines(record)
-    return [str(record)]
+    return str(record).split("\n")
 
 
 def control_of(answer: Answer) -> str | None:
