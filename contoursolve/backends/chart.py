@@ -46,6 +46,11 @@ class Bounds:
         return Bounds(self.low[:, boxes], self.high[:, boxes], *rest)
 
 
+def _run_steps(steps: Sequence[tuple[Any, int, int, int]], work: list[Any]) -> None:
+    for operation, first, second, target in steps:
+        work[target] = operation(work[first], work[second]) if second >= 0 else operation(work[first])
+
+
 _JUMPING = (casadi.OP_SIGN, casadi.OP_EQ, casadi.OP_LE, casadi.OP_LT)
 """Instructions whose results are steps."""
 
@@ -67,21 +72,30 @@ class _Floats:
 class _Enclosure(Replay):
     """The instructions on intervals, and what roots are taken of."""
 
-    def __init__(self, function: Any) -> None:
+    def __init__(self, function: Any, words: int) -> None:
         super().__init__(function, intervals, constant)
         kinds = {target: function.instruction_id(target) for *_, target in self._steps}
         self._roots = [first for _, first, _, target in self._steps if kinds[target] == casadi.OP_SQRT]
-        self._steps_of_value = [target for target, kind in kinds.items() if kind in _JUMPING]
+        self._jumps = [target for target, kind in kinds.items() if kind in _JUMPING]
         self._angles = [(first, second) for _, first, second, target in self._steps if kinds[target] == casadi.OP_ATAN2]
+        self._words = words
+        moving = {target for source, target in self._inputs if source < words}
+        for _, first, second, target in self._steps:
+            if first in moving or second in moving:
+                moving.add(target)
+        self._moving = [step for step in self._steps if step[3] in moving]
+        self._still = [step for step in self._steps if step[3] not in moving]
+        self._known: tuple[tuple[float, ...], list[Any]] = ((), [])
+        """The inputs that stay, as they were last, and all that follows from them alone."""
 
-    def bounds(self, inputs: Sequence[Intervals], count: int) -> Bounds:
+    def bounds(self, words: Sequence[Intervals], fixed: Sequence[float], count: int) -> Bounds:
         """What the outputs lie between."""
-        work = self._constants.copy()
-        for source, target in self._inputs:
-            work[target] = inputs[source]
         with numpy.errstate(all="ignore"):
-            for operation, first, second, target in self._steps:
-                work[target] = operation(work[first], work[second]) if second >= 0 else operation(work[first])
+            work = self._prepared(tuple(fixed)).copy()
+            for source, target in self._inputs:
+                if source < self._words:
+                    work[target] = words[source]
+            _run_steps(self._moving, work)
         low, high = numpy.zeros((self._count, count)), numpy.zeros((self._count, count))
         for source, target in self._outputs:
             low[target], high[target] = work[source].low, work[source].high
@@ -90,11 +104,23 @@ class _Enclosure(Replay):
             is_defined &= work[place].low >= NO_ROOT
             is_undefined |= work[place].high < NO_ROOT
         is_smooth = is_defined.copy()
-        for place in self._steps_of_value:
+        for place in self._jumps:
             is_smooth &= work[place].low == work[place].high
         for first, second in self._angles:
             is_smooth &= (work[first].low > 0) | (work[first].high < 0) | (work[second].low > 0)
         return Bounds(low, high, is_defined, is_undefined, is_smooth)
+
+    def _prepared(self, fixed: tuple[float, ...]) -> list[Any]:
+        """The places of all values, with those that follow from the inputs that stay."""
+        known, work = self._known
+        if known != fixed or not work:
+            work = self._constants.copy()
+            for source, target in self._inputs:
+                if source >= self._words:
+                    work[target] = constant(fixed[source - self._words])
+            _run_steps(self._still, work)
+            self._known = fixed, work
+        return work
 
 
 class Chart:
@@ -139,7 +165,7 @@ class Chart:
         """Which outputs are polynomials of degree 2 at most in the words."""
         self._values = Replay(self._function, _Floats, numpy.float64)
         self._slopes = Replay(self._derivative, _Floats, numpy.float64)
-        self._enclosure = _Enclosure(self._function)
+        self._enclosure = _Enclosure(self._function, words)
         self._steepness: _Enclosure | None = None
 
     def at(self, words: Sequence[Array], fixed: Sequence[float]) -> Array:
@@ -152,7 +178,7 @@ class Chart:
 
     def between(self, words: Sequence[Intervals], fixed: Sequence[float]) -> Bounds:
         """What the outputs lie between in boxes of the words."""
-        return self._enclosure.bounds([*words, *map(constant, fixed)], words[0].low.size)
+        return self._enclosure.bounds(words, fixed, words[0].low.size)
 
     def narrowed(self, bounds: Bounds, words: Sequence[Intervals], fixed: Sequence[float]) -> Bounds:
         """The bounds narrowed by the mean value theorem, where nothing jumps: about the middle of each box, by the
@@ -174,8 +200,8 @@ class Chart:
     def slopes_between(self, words: Sequence[Intervals], fixed: Sequence[float]) -> Bounds:
         """What the derivatives lie between, by (word and output, box)."""
         if self._steepness is None:
-            self._steepness = _Enclosure(self._derivative)
-        return self._steepness.bounds([*words, *map(constant, fixed)], words[0].low.size)
+            self._steepness = _Enclosure(self._derivative, self._words)
+        return self._steepness.bounds(words, fixed, words[0].low.size)
 
 
 def _run(replay: Replay, words: Sequence[Array], fixed: Sequence[float]) -> Array:

@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 from contoursolve.backends.intervals import Array, Intervals
 from contoursolve.families.margins import Margins
 
-NARROWEST = 1e-10
+NARROWEST = 1e-8
 """Share of the word's value (at least of 1). A stretch this narrow that is not decided lies at an end."""
 
-CELLS, PARTS, ROUNDS = 64, 32, 24
+CELLS, PARTS, ROUNDS = 64, 64, 20
 """Into how many stretches a range is divided first, and each one that is not decided then, and how often."""
 
 MOST = 2048
