@@ -95,11 +95,11 @@ def draw_leader(canvas: Canvas, leader: Leader) -> None:
 
 def draw_point(canvas: Canvas, mark: Mark) -> None:
     """The sign of a point."""
-    at = canvas.view.place(mark.at)
-    role = mark.short[0].role if mark.short else Role.INK
-    role = role if role in (Role.FREE, Role.GHOST) else Role.INK
+    at, role = canvas.view.place(mark.at), mark.role
     if mark.kind is Kind.START:
         canvas.thick.append(Dot(at, 4.2, role, is_filled=False))
+    elif mark.kind is Kind.OTHER:
+        canvas.thick.append(Dot(at, 3.2, role, is_filled=False))
     elif mark.kind is Kind.END:
         canvas.thick.append(Dot(at, 4.0, role))
     elif mark.kind is Kind.PLACE:

@@ -14,7 +14,7 @@ from contoursolve.pictures.faults import draw_faults
 from contoursolve.pictures.finding import find_known
 from contoursolve.pictures.known import Known
 from contoursolve.pictures.marks import givens_at_points, list_marks
-from contoursolve.pictures.scene import Aligned, Ring, Scene, Thin, Trail, Weight
+from contoursolve.pictures.scene import Aligned, Mark, Ring, Scene, Thin, Trail, Weight
 from contoursolve.pictures.sheet import Run
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.tracing import trace_known, trace_segments
@@ -62,7 +62,7 @@ def compose(answer: Answer, title: str | None = None) -> Scene:
             *(each for each in faults if isinstance(each, Thin)),
         ),
         rings=(*(each for each in list_rings(answer, known) if (each.center, each.radius) not in circles), *broken),
-        marks=tuple(marks),
+        marks=(*marks, *(each for each in faults if isinstance(each, Mark))),
         dimensions=(
             *list_dimensions(answer, known, roles, elements, noted_givens),
             *(each for each in faults if isinstance(each, Aligned)),

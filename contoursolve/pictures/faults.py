@@ -8,13 +8,13 @@ from contoursolve.constraints import Collinear, Coordinate, Heading, Offset, OnC
 from contoursolve.examine import Answer
 from contoursolve.model import FIRST, Fact, Line, Profile, Unit
 from contoursolve.pictures.known import Known
-from contoursolve.pictures.scene import Aligned, Ring, Thin
+from contoursolve.pictures.scene import Aligned, Kind, Mark, Ring, Thin
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import SAME, along, distance, foot, minus, toward, unit
 from contoursolve.pictures.wording import number
 from contoursolve.solving import Point, Refusal, RefusalKind
 
-Drawn = Thin | Ring | Aligned
+Drawn = Thin | Ring | Aligned | Mark
 
 Ray = tuple[Point, Point]
 """A place on a line and its unit direction."""
@@ -61,6 +61,7 @@ def _both_places(fact: Fact, profile: Profile, known: Known, role: Role) -> Iter
             reach = distance(tail, head) * 1.15
             yield Thin(tail, along(tail, way, reach), role)
             yield from _gap(there, head, profile, role)
+            yield Mark(there, Kind.OTHER, role=role)
     elif isinstance(fact, Coordinate | Offset) and given.unit is Unit.MM:
         at = known.points.get(fact.point)
         if at is None:
@@ -75,6 +76,8 @@ def _both_places(fact: Fact, profile: Profile, known: Known, role: Role) -> Iter
         way = (0.0, 1.0) if fact.axis == FIRST else (1.0, 0.0)
         yield Thin(there, along(there, way, 1.0), role, is_endless=True)
         yield from _gap(there, at, profile, role)
+        if distance(there, at) > SAME:
+            yield Mark(there, Kind.OTHER, role=role)
 
 
 def _line_through(point: str, profile: Profile, known: Known) -> Ray | None:

@@ -5,7 +5,6 @@ from dataclasses import replace
 from math import hypot
 
 from contoursolve.contour import ArcSegment, LineSegment, Segment
-from contoursolve.model import FIRST, SECOND
 from contoursolve.pictures.arrows import THICK, arc, head, line
 from contoursolve.pictures.callouts import (
     away_from,
@@ -15,31 +14,18 @@ from contoursolve.pictures.callouts import (
     draw_point,
     draw_slide,
 )
-from contoursolve.pictures.canvas import FAINT_WEIGHT, PATH_WEIGHT, SIZE, THIN_WEIGHT, Canvas
+from contoursolve.pictures.canvas import FAINT_WEIGHT, PATH_WEIGHT, THIN_WEIGHT, Canvas
 from contoursolve.pictures.frame import WIDTH, foot_of, head_of
 from contoursolve.pictures.labels import clip
-from contoursolve.pictures.metrics import width_of
+from contoursolve.pictures.margins import arrange, draw_margins
 from contoursolve.pictures.rows import (
-    FIRST_ROW,
-    PITCH,
-    Side,
-    draw_coordinates,
-    draw_distances,
     is_nothing,
-    side_of,
-    stack,
 )
-from contoursolve.pictures.scene import Aligned, Angle, Leader, Linear, Ordinate, Scene, Thin, Trail, Weight
+from contoursolve.pictures.scene import Aligned, Angle, Leader, Linear, Scene, Thin, Trail, Weight
 from contoursolve.pictures.sheet import Box, Item, Run, Sheet, Spot, Stroke, Sweep, Text, shift
 from contoursolve.pictures.theme import DASHES, Role
 from contoursolve.pictures.vectors import middle, sweep_of
-from contoursolve.pictures.view import Span, View, span_of
-
-_TALLEST, _LOWEST = 350.0, 110.0
-"""Pixels of the drawing itself, without what stands in its margins."""
-
-_MARGIN_X, _MARGIN_Y = 84.0, 40.0
-"""Pixels around the drawing for labels of points."""
+from contoursolve.pictures.view import View
 
 _ARROWED = 34.0
 """Pixels of an element that is long enough for an arrow."""
@@ -54,64 +40,22 @@ _MOST_LABELS = 40
 _CORNER = 130.0
 """Pixels that the axes take of the width."""
 
-_SIDES = (Side(FIRST, -1), Side(FIRST, 1), Side(SECOND, -1), Side(SECOND, 1))
-
 
 def lay_out(scene: Scene) -> Sheet:
     """The page of one scene."""
     scene = _thinned(scene)
     top = list(head_of(scene))
     start = max((item.box.bottom for item in top), default=0.0) + 6.0
-    span = _with_turning_axis(scene, span_of(scene))
-    linear = [each for each in scene.dimensions if isinstance(each, Linear) and not is_nothing(each)]
-    ordinates = [each for each in scene.dimensions if isinstance(each, Ordinate)]
-    by_side = {side: [each for each in linear if side_of(each, span) == side] for side in _SIDES}
-    edges = {axis: _edge_of(ordinates, axis, by_side, span) for axis in (FIRST, SECOND)}
-    columns = {sign: len(by_side[Side(SECOND, sign)]) for sign in (-1, 1)}
-    wide = {sign: _MARGIN_X + (PITCH * columns[sign] + 16.0 if columns[sign] else 0.0) for sign in (-1, 1)}
-    for sign in (-1, 1):
-        texts = [width_of(each.text, SIZE) for each in ordinates if each.axis == SECOND and edges[SECOND] == sign]
-        wide[sign] = max(wide[sign], max(texts, default=0.0) + 34.0 + (PITCH * columns[sign]))
-    room = WIDTH - wide[-1] - wide[1]
-    scale = min(
-        room / span.size[FIRST] if span.size[FIRST] > 0 else float("inf"),
-        _TALLEST / span.size[SECOND] if span.size[SECOND] > 0 else float("inf"),
-    )
-    scale = scale if scale < float("inf") else 1.0
-    flat = View((0.0, 0.0), scale, (0.0, 0.0))
-    stacked = {side: stack(each, flat) for side, each in by_side.items()}
-    rows = {side: max((row for _, row in each), default=-1) + 1 for side, each in stacked.items()}
-    # Rows need no more room than labels of points, but for the text beyond the last one.
-    high = {sign: max(_MARGIN_Y, FIRST_ROW + PITCH * rows[Side(FIRST, sign)] + 4.0) for sign in (-1, 1)}
-    for sign in (-1, 1):
-        if edges[FIRST] == sign and any(each.axis == FIRST for each in ordinates):
-            high[sign] += 18.0
-    tall = max(span.size[SECOND] * scale, _LOWEST) if scene.trails or scene.dimensions else 0.0
-    bottom = start + high[1] + tall + high[-1]
-    frame = Box(4.0, start, WIDTH - 4.0, bottom)
-    view = View(span.middle, scale, (wide[-1] + room / 2, start + high[1] + tall / 2))
-    canvas = Canvas(view, frame)
+    plan = arrange(scene, start)
+    canvas = Canvas(plan.view, plan.frame)
     _draw_path(canvas, scene)
-    half = span.size[FIRST] * scale / 2, span.size[SECOND] * scale / 2
-    outer = {
-        Side(FIRST, 1): view.spot[1] - half[1],
-        Side(FIRST, -1): view.spot[1] + half[1],
-        Side(SECOND, -1): view.spot[0] - half[0],
-        Side(SECOND, 1): view.spot[0] + half[0],
-    }
-    for side in _SIDES:
-        draw_distances(canvas, stacked[side], side, outer[side])
-    for axis in (FIRST, SECOND):
-        along = Side(FIRST, edges[axis]) if axis == FIRST else Side(SECOND, edges[axis])
-        outward = edges[axis] if axis == SECOND else -edges[axis]
-        level = outer[along] + outward * (FIRST_ROW + PITCH * rows[along] - (0 if rows[along] else 4.0))
-        draw_coordinates(canvas, [each for each in ordinates if each.axis == axis], axis, edges[axis], level)
+    draw_margins(canvas, plan)
     _draw_labels(canvas, scene)
     # The axes stand beside the drawing's lower end where nothing else is.
-    is_free = canvas.grid.cost(Box(frame.left, bottom - 34.0, _CORNER, bottom)) == 0.0
-    foot = list(foot_of(scene, canvas.homeless, bottom - (26.0 if is_free else -4.0)))
-    height = max((_bottom(item) for item in foot), default=bottom) + 12.0
-    return Sheet(WIDTH, round(height, 1), frame, canvas.items, (*top, *foot))
+    is_free = canvas.grid.cost(Box(plan.frame.left, plan.frame.bottom - 34.0, _CORNER, plan.frame.bottom)) == 0.0
+    foot = list(foot_of(scene, canvas.homeless, plan.frame.bottom - (26.0 if is_free else -4.0)))
+    height = max((_bottom(item) for item in foot), default=plan.frame.bottom) + 12.0
+    return Sheet(WIDTH, round(height, 1), plan.frame, canvas.items, (*top, *foot))
 
 
 def _thinned(scene: Scene) -> Scene:
@@ -129,26 +73,6 @@ def _thinned(scene: Scene) -> Scene:
 
 def _bottom(item: Item) -> float:
     return item.box.bottom if isinstance(item, Text) else 0.0
-
-
-def _with_turning_axis(scene: Scene, span: Span) -> Span:
-    """The rectangle with the axis about which the work turns, where that is near."""
-    low = span.low[SECOND]
-    reach = max(*span.size, 1e-9) * 0.3
-    if scene.has_turning_axis and 0 < low <= reach:
-        return Span((span.low[FIRST], 0.0), span.high)
-    return span
-
-
-def _edge_of(ordinates: list[Ordinate], axis: int, by_side: dict[Side, list[Linear]], span: Span) -> int:
-    """The edge for the coordinates on an axis: where there are fewer distances, else where the points are."""
-    own = [each for each in ordinates if each.axis == axis]
-    counts = {sign: len(by_side[Side(axis, sign)]) for sign in (-1, 1)}
-    if not own or counts[-1] != counts[1]:
-        return -1 if counts[-1] < counts[1] else 1
-    across = 1 - axis
-    mean = sum(each.at[across] for each in own) / len(own)
-    return 1 if mean > span.middle[across] else -1
 
 
 def _draw_path(canvas: Canvas, scene: Scene) -> None:

@@ -65,7 +65,7 @@ def list_marks(
         for at, selects in places:
             if all(distance(at, spot.at) > SAME for spot in spots):
                 runs = [Run(name, Role.GHOST), *([Run(selects, Role.GHOST)] if selects else [])]
-                yield Mark(at, Kind.PLACE, _joined([*runs, _computed(answer, at)]), _joined(runs))
+                yield Mark(at, Kind.PLACE, _joined([*runs, _computed(answer, at)]), _joined(runs), Role.GHOST)
 
 
 def _spots(known: Known) -> list[_Spot]:
@@ -122,6 +122,7 @@ def _mark(
         _kind(profile, spot, role, is_center=bool(centers & {*spot.names}) and not shown),
         _joined([*short, *about]),
         _joined(short),
+        Role.FREE if is_free else Role.INK,
     )
 
 

@@ -60,6 +60,8 @@ class Kind(Enum):
     VIRTUAL = "virtual"
     PLACE = "place"
     CENTER = "center"
+    OTHER = "other"
+    """Where a word puts a point that others put elsewhere."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,6 +73,7 @@ class Mark:
     label: tuple[Run, ...] = ()
     short: tuple[Run, ...] = ()
     """What may stand there where the label finds no room."""
+    role: Role = Role.INK
 
 
 @dataclass(frozen=True, slots=True)

@@ -55,7 +55,7 @@ def span_of(scene: Scene) -> Span:
     for trail in scene.trails:
         if trail.weight is not Weight.GHOST:
             must += [at for segment in trail.segments for at in extent(segment)]
-    must += [mark.at for mark in scene.marks if mark.kind is not Kind.CENTER]
+    must += [mark.at for mark in scene.marks if mark.kind not in (Kind.CENTER, Kind.OTHER)]
     more: list[Point] = [mark.at for mark in scene.marks]
     for dimension in scene.dimensions:
         if isinstance(dimension, Aligned | Linear):
