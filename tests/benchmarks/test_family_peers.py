@@ -1,0 +1,148 @@
+"""Contours a second beside general tools on the same work: pytest tests/benchmarks/test_family_peers.py -s
+
+The work is two lines by A, K, B and X with one rounding P, for random A and P: the intersections, the ends and the
+centre of the rounding. contoursolve also makes every check, and says of each row what is wrong with it.
+
+planegcs has no wheel for Python 3.11, and its source did not build here.
+"""
+
+import sys
+from collections.abc import Callable
+from math import cos, hypot, radians, sin
+from time import process_time
+
+import numpy as np
+import pytest
+
+import contoursolve
+
+BLOCK, START = "G111 X100. A180. K-30. B120. P5.", "X40. Z0."
+ROWS = 200_000
+RNG = np.random.default_rng(1)
+A, P = np.round(RNG.uniform(150, 210, ROWS), 3), np.round(RNG.uniform(0.5, 9, ROWS), 3)
+K, B, X = -30.0, radians(120), 50.0
+
+NAMES = [
+    f"{name}.{axis}" for name in ("V1", "V2", "corner 1.begin", "corner 1.end", "corner 1.center") for axis in "ZX"
+]
+
+
+def equations(point: np.ndarray, a: float, p: float) -> list[float]:
+    """What a user states: places on lines, contacts on lines, the centre beside both."""
+    z1, x1, z2, x2, zb, xb, ze, xe, zc, xc = point
+    side = 1 if sin(B - a) > 0 else -1
+    return [
+        z1 - K,
+        z1 * sin(a) - (x1 - 20) * cos(a),
+        x2 - X,
+        (z2 - z1) * sin(B) - (x2 - x1) * cos(B),
+        (zc - z1) * -sin(a) + (xc - x1) * cos(a) - side * p,
+        (zc - z1) * -sin(B) + (xc - x1) * cos(B) - side * p,
+        zb - zc - side * p * sin(a),
+        xb - xc + side * p * cos(a),
+        ze - zc - side * p * sin(B),
+        xe - xc + side * p * cos(B),
+    ]
+
+
+GUESS = np.array([-30, 20, -47, 50, -27, 20, -31, 22, -27, 25], float)
+
+
+def by_scipy(rows: int) -> np.ndarray:
+    fsolve = pytest.importorskip("scipy.optimize").fsolve
+    return np.array([fsolve(equations, GUESS, (radians(a), p)) for a, p in zip(A[:rows], P[:rows], strict=True)])
+
+
+def by_slvs(rows: int) -> np.ndarray:
+    slvs = pytest.importorskip("slvs")
+    found = []
+    for a, p in zip(np.radians(A[:rows]).tolist(), P[:rows].tolist(), strict=True):
+        slvs.clear_sketch()
+        normal = slvs.add_normal_3d(1, 1, 0, 0, 0)
+        plane = slvs.add_workplane(1, slvs.add_point_3d(1, 0, 0, 0), normal)
+
+        def fixed(z: float, x: float, plane: object = plane) -> object:
+            return slvs.add_point_2d(1, z, x, plane)
+
+        start, along, beside = fixed(0, 20), fixed(cos(a), 20 + sin(a)), fixed(cos(B), sin(B))
+        v1, v2, begin, end, center = (slvs.add_point_2d(2, *GUESS[2 * n : 2 * n + 2].tolist(), plane) for n in range(5))
+        origin = fixed(0, 0)
+        first, way = slvs.add_line_2d(1, start, along, plane), slvs.add_line_2d(1, origin, beside, plane)
+        upright = slvs.add_line_2d(1, fixed(K, 0), fixed(K, 1), plane)
+        level = slvs.add_line_2d(1, fixed(0, X), fixed(1, X), plane)
+        second = slvs.add_line_2d(2, v1, v2, plane)
+        kinds, none = slvs.ConstraintType, slvs.E_NONE
+
+        def say(kind: object, value: float, points: list, lines: list, plane=plane, none=none) -> None:
+            points, lines = [*points, none, none][:2], [*lines, none, none][:2]
+            slvs.add_constraint(2, kind, plane, value, *points, *lines)
+
+        for point, line in ((v1, first), (v1, upright), (v2, level), (begin, first), (end, second)):
+            say(kinds.PT_ON_LINE, 0, [point], [line])
+        say(kinds.PARALLEL, 0, [], [second, way])
+        say(kinds.PERPENDICULAR, 0, [], [slvs.add_line_2d(2, center, begin, plane), first])
+        say(kinds.PERPENDICULAR, 0, [], [slvs.add_line_2d(2, center, end, plane), second])
+        say(kinds.PT_PT_DISTANCE, p, [center, begin], [])
+        say(kinds.PT_PT_DISTANCE, p, [center, end], [])
+        slvs.solve_sketch(2, False)
+        points = (v1, v2, begin, end, center)
+        found.append([slvs.get_param_value(point["param"][axis]) for point in points for axis in (0, 1)])
+    return np.array(found)
+
+
+def by_lambdify(rows: int) -> np.ndarray:
+    """The closed form, made by sympy and evaluated by NumPy: no check, no status."""
+    sympy = pytest.importorskip("sympy")
+    a, p, b = *sympy.symbols("a p"), sympy.rad(120)
+    u, v = sympy.Matrix([sympy.cos(a), sympy.sin(a)]), sympy.Matrix([sympy.cos(b), sympy.sin(b)])
+    v1 = sympy.Matrix([0, 20]) + u * (-30 / u[0])
+    v2 = v1 + v * ((50 - v1[1]) / v[1])
+    side, back = sympy.sign(u[0] * v[1] - u[1] * v[0]), p * (u - v).norm() / (u + v).norm()
+    begin, end = v1 - u * back, v1 + v * back
+    center = begin + sympy.Matrix([-u[1], u[0]]) * side * p
+    function = sympy.lambdify([a, p], [*v1, *v2, *begin, *end, *center], "numpy", cse=True)
+    return np.stack([np.broadcast_to(each, rows) for each in function(np.radians(A[:rows]), P[:rows])], axis=1)
+
+
+def by_loop(rows: int) -> np.ndarray:
+    """`contoursolve.solve` in a loop: text in, a proven contour out."""
+    found = []
+    for a, p in zip(A[:rows], P[:rows], strict=True):
+        block = f"G111 X100. A{a:.3f} K-30. B120. P{p:.3f}"
+        contour = contoursolve.solve(block, start=START).answers[0].contour
+        assert contour is not None
+        corner = next(each for each in contour.elements if each.name == "corner 1")
+        places = contour.points["V1"], contour.points["V2"], corner.start, corner.end, corner.center  # type: ignore[union-attr]
+        found.append([value for place in places for value in place])
+    return np.array(found)
+
+
+def by_family(rows: int) -> np.ndarray:
+    found = contoursolve.family(BLOCK, start=START, vary={"A": A[:rows], "P": P[:rows]}, paired=True)
+    return np.stack([found[name] for name in NAMES], axis=1)
+
+
+PEERS: dict[str, tuple[Callable[[int], np.ndarray], int]] = {
+    "contoursolve.family": (by_family, ROWS),
+    "sympy.lambdify, unchecked": (by_lambdify, ROWS),
+    "a loop over contoursolve.solve": (by_loop, 2_000),
+    "scipy.optimize.fsolve": (by_scipy, 2_000),
+    "SolveSpace (slvs 3.3)": (by_slvs, 300),
+}
+
+
+def test_contours_a_second_beside_general_tools(capsys: pytest.CaptureFixture[str]) -> None:
+    expected, rates, right = by_family(ROWS), {}, {}
+    for name, (solve, rows) in PEERS.items():
+        solve(min(rows, 10))
+        begin = process_time()
+        found = solve(rows)
+        rates[name] = rows / (process_time() - begin)
+        is_known = np.isfinite(expected[:rows]).all(axis=1)
+        off = [hypot(*each) for each in (found - expected[:rows])[is_known]]
+        right[name] = np.mean(np.array(off) < 1e-6)
+    with capsys.disabled():
+        for name, rate in rates.items():
+            sys.stdout.write(f"\n| {name} | {rate:,.0f} | {right[name]:.0%} |")
+    assert right["contoursolve.family"] == right["a loop over contoursolve.solve"] == 1
+    assert rates["contoursolve.family"] > 0.2 * rates["sympy.lambdify, unchecked"]
