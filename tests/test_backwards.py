@@ -238,11 +238,11 @@ def test_every_drawn_g111_contour_is_found_again() -> None:
 
 def test_g111_is_refused_or_solved_as_the_sheet_says_whatever_its_words() -> None:
     rng = Random(145)
-    blocks = [random_words(rng) for _ in range(3_000)]
+    blocks = [random_words(rng) for _ in range(2_000)]
     cases = [g111_case(rng, complex(rng.uniform(-50, 50), rng.uniform(0, 60)), words) for words in blocks]
     compared = assert_verdicts_agree(cases, LATHE)
     assert compared.total() > 0.999 * len(cases)
-    assert min(compared[status] for status in ("solved", "rejected", "no-solution")) > 350
+    assert min(compared[status] for status in ("solved", "rejected", "no-solution")) > 230
 
 
 def test_g111_along_the_axes_and_at_45_degrees_is_judged_as_the_sheet_says() -> None:
@@ -385,9 +385,9 @@ def test_every_drawn_arc_and_line_is_found_again() -> None:
 
 def test_an_arc_and_line_are_refused_or_solved_as_the_sheet_says_whatever_their_words() -> None:
     rng = Random(3014)
-    compared = assert_verdicts_agree([random_pair(rng) for _ in range(1_500)], MILL)
-    assert compared.total() > 0.999 * 1_500
-    assert min(compared[status] for status in ("solved", "rejected", "no-solution", "conflicting")) > 100
+    compared = assert_verdicts_agree([random_pair(rng) for _ in range(1_000)], MILL)
+    assert compared.total() > 0.999 * 1_000
+    assert min(compared[status] for status in ("solved", "rejected", "no-solution", "conflicting")) > 70
 
 
 def test_an_arc_and_line_on_round_numbers_are_judged_as_the_sheet_says() -> None:

@@ -26,7 +26,7 @@ PROGRAMS = {
     path.name: (path.read_text(), "nct-99m" if "NCT" in path.read_text() else "yasnac-lx3")
     for path in sorted((Path(__file__).parent.parent / "notebooks" / "programs").glob("*.nc"))
 }
-MUTANTS, WHOLE_PROGRAMS = int(os.environ.get("CONTOURSOLVE_MUTANTS", "4800")), 120
+MUTANTS, WHOLE_PROGRAMS = int(os.environ.get("CONTOURSOLVE_MUTANTS", "3200")), 120
 SHARDS = 8
 """A failing shard names its seed, so that one failure is repeated in seconds."""
 

@@ -548,7 +548,7 @@ def jump(one: Any, other: Any) -> float:
 
 # Drawn first, stated afterwards ------------------------------------------------------------------------------
 
-CASES = 300
+CASES = 200
 
 
 @pytest.mark.parametrize("first", range(0, CASES, 50))

@@ -6,6 +6,7 @@ control computes, and where the first one has ,C or ,R (16.1).
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from itertools import count
 
 from contoursolve.dialects.nct_99m.claim import Member, claim_of
 from contoursolve.dialects.nct_99m.element import CHAMFER, ROUNDING, Element
@@ -57,7 +58,14 @@ def _member(block: Block, before: State, modes: Modes, *, is_over: bool) -> Memb
 
 def _next(blocks: Sequence[Block], index: int) -> int | None:
     """The index of the next block that says something."""
-    return next((other for other in range(index + 1, len(blocks)) if _has_words(blocks[other])), None)
+    for other in count(index + 1):  # the length of what is read ahead is not known without counting
+        try:
+            block = blocks[other]
+        except IndexError:
+            return None
+        if _has_words(block):
+            return other
+    return None
 
 
 def _has_words(block: Block) -> bool:
