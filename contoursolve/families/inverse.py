@@ -17,6 +17,7 @@ from contoursolve.families.ranges import FamilyError
 from contoursolve.families.roots import find_zeros
 from contoursolve.families.survey import Piece, Survey, short
 from contoursolve.model import Length, Plane
+from contoursolve.shown import Shown
 from contoursolve.solving import Point
 from contoursolve.solving.certificate import Certificate
 
@@ -46,7 +47,7 @@ class Hit:
 
 
 @dataclass(frozen=True, slots=True)
-class Found:
+class Found(Shown):
     """All values of a word, within a range, that meet a goal, in order; for a goal of two coordinates, all that are
     nearer to it than their neighbours, the nearest first. `is_complete` tells whether these are proven to be all.
 

@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import Decimal, InvalidOperation
 
 from contoursolve import syntax
@@ -40,6 +40,12 @@ class Template:
         if not answer.start.is_known:
             raise FamilyError("the start point is not known; state it, such as start='X40. Z0.'")
         return answer
+
+    def filled(self, values: Mapping[str, float]) -> "Template":
+        """The block with these values written in it, and no word free."""
+        program = self._fill(self.program, values, 1)
+        start = self._fill(self.start, values, 0) if self.start is not None else None
+        return replace(self, program=program, start=start, words={}, facts=tuple(self._facts(values)))
 
     def _fill(self, program: Program, values: Mapping[str, float], first_line: int) -> Program:
         """A program with these values in place of the free words'."""
