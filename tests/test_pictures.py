@@ -353,6 +353,64 @@ def test_arcs_keep_their_radius_and_sense():
         assert (large, clockwise) == (str(int(element.sweep > 180)), str(int(element.turn.value == "cw")))
 
 
+def test_a_program_without_a_contour_says_what_is_wrong_with_it():
+    result = contoursolve.solve("G00 X40. Z0.\nG01 X50. F0.2\nG02 X50. Z0. R10.", control="yasnac-lx3")
+    picture = draw_result(result)
+    check(picture)
+    told = labels(picture)
+    assert f"error: {result.diagnostics[0].message}" in told
+    assert not picture.sheet.drawing
+
+
+@pytest.mark.parametrize(
+    ("text", "start", "names"),
+    [
+        ("G111 A180. K-30. B120. X10000000000.", "X40. Z0.", {"V1"}),
+        ("G112 U0 I10. K-50. R-30.", "X100. Z-50.", {"V1", "V2"}),
+    ],
+)
+def test_a_path_that_is_known_in_part_has_no_end(text, start, names):
+    (answer,) = contoursolve.solve(text, start=start).answers
+    said = {each.split()[0] for each in labels(draw_answer(answer))}
+    assert names < said
+    assert "end" not in said
+
+
+def test_a_fact_is_drawn_where_it_belongs_and_its_gap_where_it_fails():
+    text = "G111 A180. K-30. B120. X100. (contoursolve: line 2 passes through [Z-40. X80.])"
+    (answer,) = contoursolve.solve(text, start="X40. Z0.").answers
+    picture = draw_answer(answer)
+    check(picture)
+    # From V1, on a line at 120 deg, it is 10 mm back and 20 mm up: 20 cos 60 - 10 sin 60 = 1.340 mm beside it.
+    assert "1.34 off" in labels(picture)
+    red = [run.text for each in picture.sheet.texts for run in each.runs if run.role is Role.CONFLICTING]
+    assert sum("line 2 passes through" in each for each in red) == 3  # in the block, at the place, in the finding
+    (answer,) = contoursolve.solve(text.replace("B120. ", ""), start="X40. Z0.").answers
+    picture = draw_answer(answer)
+    check(picture)
+    assert not any("off" in each for each in labels(picture))
+
+
+def test_what_is_wrong_is_in_the_picture_however_short_the_path():
+    (answer,) = contoursolve.solve("G112 U-60. I10. K-50. R30.", start="X100. Z-50.").answers
+    told = " ".join(labels(draw_answer(answer)))
+    assert "10 off" in told
+    assert "no room" not in told
+
+
+def test_words_are_blamed_unless_others_are_missing_beside_them():
+    def red(text, start="X30. Z0."):
+        (answer,) = contoursolve.solve(text, start=start, control="yasnac-lx3").answers
+        first = draw_answer(answer).sheet.around
+        runs = [run for each in first if isinstance(each, Text) and each.is_mono for run in each.runs]
+        return {run.text for run in runs if run.role is Role.CONFLICTING}
+
+    assert red("G12 U50. W-20. K8.") == {"U50.", "W-20."}
+    assert red("G112 U0 I10. K0 R30.", "X100. Z-50.") == {"K0"}
+    assert red("G111 X100. A180. B120.") == set()
+    assert red("G12 W-20.") == set()
+
+
 # Families.
 
 BLOCK, START = "G111 X100. A180. K-30. B120. P5. Q5.", "X40. Z0."
