@@ -434,7 +434,7 @@ def test_a_map_names_every_outcome_with_its_boundary():
         draw_family_map(family, ("A", "Q"))
 
 
-def lines_of(picture, width=2.4):
+def lines_of(picture, width):
     """The exact lines of a map or a region, as places on the page."""
     return [
         numpy.array([item.start, *item.steps])
@@ -465,7 +465,7 @@ def test_the_exact_lines_of_a_map_part_single_solves_that_have_a_contour_from_th
     family = contoursolve.family(block, vary=axes, **options)
     picture = draw_family_map(family)
     check(picture)
-    drawn = lines_of(picture)
+    drawn = lines_of(picture, width=3.0)
     found = contoursolve.families.region(block, tuple(within), tuple(within.values()), **options)
     assert len(drawn) == len(found.boundaries) > 0
     told = " ".join(labels(picture))
@@ -498,7 +498,7 @@ def test_where_no_exact_line_can_be_told_the_cells_have_their_boundaries():
     )
     picture = draw_family_map(told)
     check(picture)
-    assert lines_of(picture) == []
+    assert lines_of(picture, width=3.0) == []
     assert lines_of(picture, width=1.4)
 
 
@@ -509,7 +509,7 @@ def test_a_region_has_its_lines_with_names_and_teeth_where_there_is_no_contour(n
     for theme in (Theme.LIGHT, Theme.PAGE):
         picture = draw_region(found, theme=theme)
         check(picture)
-    assert len(lines_of(picture)) == len(found.boundaries)
+    assert len(lines_of(picture, width=2.0)) == len(found.boundaries)
     told = " ".join(labels(picture))
     assert all(word in told for each in found.boundaries for word in each.reason.text.split())
     # A tooth ends where a single solve says that there is no contour, and begins where its line is.

@@ -15,9 +15,6 @@ from contoursolve.pictures.sheet import Anchor, Box, Run, Spot, Stroke, Text
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.wording import visible
 
-_WIDTH = 2.4
-"""Pixels of a line; it covers the steps of the cells of a map under it."""
-
 _GAP = (3.0, 3.0)
 """Pixels on and off of a line on which alone there is no contour."""
 
@@ -86,10 +83,10 @@ def _curve(boundary: Boundary, chart: Chart) -> Curve:
     return Curve(boundary, rough, spots, normals)
 
 
-def strokes(curves: Sequence[Curve]) -> list[Stroke]:
-    """The lines."""
+def strokes(curves: Sequence[Curve], width: float) -> list[Stroke]:
+    """The lines, so many pixels wide."""
     return [
-        Stroke(_spot(each.points[0]), tuple(map(_spot, each.points[1:])), Role.INK, _WIDTH, _GAP if each.is_gap else ())
+        Stroke(_spot(each.points[0]), tuple(map(_spot, each.points[1:])), Role.INK, width, _GAP if each.is_gap else ())
         for each in curves
     ]
 

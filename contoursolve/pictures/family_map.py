@@ -18,6 +18,12 @@ COLUMNS, ROWS = 305, 200
 """Cells of a map; of more values, the one nearest to the middle of each cell is shown."""
 
 _FIELDS = {Code.SOLVED: Role.SOLVED_FIELD, Code.OVERDETERMINED: Role.SOLVED_FIELD, Code.NO_SOLUTION: Role.REFUSED_FIELD}
+_OVER = 0.6
+"""Pixels by which a field reaches under the next, so that the paper does not shine through between them."""
+
+_LINE = 3.0
+"""Pixels of an exact line; it covers the steps of the cells under it."""
+
 _MOST_RUNS = 9_000
 
 Outcomes = NDArray[numpy.int64]
@@ -48,7 +54,7 @@ def lay_out_map(family: Family, words: tuple[str, ...], title: str) -> Sheet:
     borders = _boundaries(shown, curves)
     lines, unnamed = names_of(curves, chart, [each.box for each in fields], borders)
     items: list[Item] = [heading(title), *_fields(shown), *borders]
-    items += [*strokes(curves), *chart.axes(), *fields, *lines]
+    items += [*strokes(curves, _LINE), *chart.axes(), *fields, *lines]
     height = TOP + HIGH + BELOW
     for start, several in (("too narrow to be named", others), ("lines without room for a name", unnamed)):
         for told in wrap(f"{start}: {'; '.join(several)}", WIDTH - 36.0, SIZE, 3) if several else ():
@@ -88,10 +94,10 @@ def _fields(shown: Outcomes) -> list[Item]:
         if row < shown.shape[0] and (shown[row] == shown[begin]).all():
             continue
         cuts = [0, *(numpy.flatnonzero(numpy.diff(shown[begin])) + 1).tolist(), shown.shape[1]]
-        top, bottom = TOP + begin * high, TOP + row * high
+        top, bottom = TOP + begin * high, min(TOP + row * high + _OVER, TOP + HIGH)
         for first, last in pairwise(cuts):
             role = _FIELDS.get(Code(int(shown[begin, first]) // len(REASONS)), Role.OTHER_FIELD)
-            left, right = LEFT + first * wide, LEFT + last * wide
+            left, right = LEFT + first * wide, min(LEFT + last * wide + _OVER, LEFT + WIDE)
             items.append(Shape(((left, top), (right, top), (right, bottom), (left, bottom)), role))
         begin = row
     return items

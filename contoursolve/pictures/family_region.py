@@ -12,6 +12,9 @@ from contoursolve.pictures.sheet import Anchor, Box, Dot, Item, Run, Sheet, Text
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.wording import visible
 
+_LINE = 2.0
+"""Pixels of a line that bounds the region."""
+
 
 def region_title(region: Region) -> str:
     """What a region shows."""
@@ -33,7 +36,7 @@ def lay_out_region(region: Region, title: str) -> Sheet:
     rough = teeth(curves)
     stated = _stated(region, chart, curves)
     names, missing = names_of(curves, chart, [each.box for each in stated if isinstance(each, Text)], rough)
-    items: list[Item] = [heading(title), *strokes(curves), *rough, *chart.axes(), *stated, *names]
+    items: list[Item] = [heading(title), *strokes(curves, _LINE), *rough, *chart.axes(), *stated, *names]
     height = TOP + HIGH + BELOW
     remarks = ["teeth: there is no contour on this side"] if any(not each.is_gap for each in curves) else []
     if any(each.is_gap for each in curves):
