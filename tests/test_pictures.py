@@ -19,7 +19,17 @@ from test_rules import examine, examples
 import contoursolve
 from contoursolve.cli import main
 from contoursolve.contour import ArcSegment
-from contoursolve.pictures import Picture, Theme, draw_answer, draw_family_fan, draw_family_map, draw_result
+from contoursolve.families import Code
+from contoursolve.pictures import (
+    Picture,
+    Theme,
+    draw_answer,
+    draw_family_fan,
+    draw_family_map,
+    draw_range,
+    draw_region,
+    draw_result,
+)
 from contoursolve.pictures.png import PIXELS
 from contoursolve.pictures.sheet import Box, Stroke, Text
 from contoursolve.pictures.theme import DARK_COLORS, DASHES, LIGHT_COLORS, Role
@@ -343,6 +353,64 @@ def test_arcs_keep_their_radius_and_sense():
         assert (large, clockwise) == (str(int(element.sweep > 180)), str(int(element.turn.value == "cw")))
 
 
+def test_a_program_without_a_contour_says_what_is_wrong_with_it():
+    result = contoursolve.solve("G00 X40. Z0.\nG01 X50. F0.2\nG02 X50. Z0. R10.", control="yasnac-lx3")
+    picture = draw_result(result)
+    check(picture)
+    told = labels(picture)
+    assert f"error: {result.diagnostics[0].message}" in told
+    assert not picture.sheet.drawing
+
+
+@pytest.mark.parametrize(
+    ("text", "start", "names"),
+    [
+        ("G111 A180. K-30. B120. X10000000000.", "X40. Z0.", {"V1"}),
+        ("G112 U0 I10. K-50. R-30.", "X100. Z-50.", {"V1", "V2"}),
+    ],
+)
+def test_a_path_that_is_known_in_part_has_no_end(text, start, names):
+    (answer,) = contoursolve.solve(text, start=start).answers
+    said = {each.split()[0] for each in labels(draw_answer(answer))}
+    assert names < said
+    assert "end" not in said
+
+
+def test_a_fact_is_drawn_where_it_belongs_and_its_gap_where_it_fails():
+    text = "G111 A180. K-30. B120. X100. (contoursolve: line 2 passes through [Z-40. X80.])"
+    (answer,) = contoursolve.solve(text, start="X40. Z0.").answers
+    picture = draw_answer(answer)
+    check(picture)
+    # From V1, on a line at 120 deg, it is 10 mm back and 20 mm up: 20 cos 60 - 10 sin 60 = 1.340 mm beside it.
+    assert "1.34 off" in labels(picture)
+    red = [run.text for each in picture.sheet.texts for run in each.runs if run.role is Role.CONFLICTING]
+    assert sum("line 2 passes through" in each for each in red) == 3  # in the block, at the place, in the finding
+    (answer,) = contoursolve.solve(text.replace("B120. ", ""), start="X40. Z0.").answers
+    picture = draw_answer(answer)
+    check(picture)
+    assert not any("off" in each for each in labels(picture))
+
+
+def test_what_is_wrong_is_in_the_picture_however_short_the_path():
+    (answer,) = contoursolve.solve("G112 U-60. I10. K-50. R30.", start="X100. Z-50.").answers
+    told = " ".join(labels(draw_answer(answer)))
+    assert "10 off" in told
+    assert "no room" not in told
+
+
+def test_words_are_blamed_unless_others_are_missing_beside_them():
+    def red(text, start="X30. Z0."):
+        (answer,) = contoursolve.solve(text, start=start, control="yasnac-lx3").answers
+        first = draw_answer(answer).sheet.around
+        runs = [run for each in first if isinstance(each, Text) and each.is_mono for run in each.runs]
+        return {run.text for run in runs if run.role is Role.CONFLICTING}
+
+    assert red("G12 U50. W-20. K8.") == {"U50.", "W-20."}
+    assert red("G112 U0 I10. K0 R30.", "X100. Z-50.") == {"K0"}
+    assert red("G111 X100. A180. B120.") == set()
+    assert red("G12 W-20.") == set()
+
+
 # Families.
 
 BLOCK, START = "G111 X100. A180. K-30. B120. P5. Q5.", "X40. Z0."
@@ -364,6 +432,116 @@ def test_a_map_names_every_outcome_with_its_boundary():
         draw_family_map(contoursolve.family(BLOCK, start=START, vary={"A": [170, 180]}))
     with pytest.raises(ValueError, match="a grid of two words"):
         draw_family_map(family, ("A", "Q"))
+
+
+def lines_of(picture, width):
+    """The exact lines of a map or a region, as places on the page."""
+    return [
+        numpy.array([item.start, *item.steps])
+        for item in picture.sheet.drawing
+        if isinstance(item, Stroke) and item.width == width
+    ]
+
+
+def spot_of(values, within):
+    """Where two values are on a page whose plane covers a box: 610 by 400 pixels from (92, 56)."""
+    across, up = ((value - low) / (high - low) for value, (low, high) in zip(values, within, strict=True))
+    return 92 + 610 * across, 56 + 400 * (1 - up)
+
+
+PAIR = CIRCLE + "G1 X-50 Y42.857 ,A171.87 Q-1"
+REGIONS = {
+    "too large": (BLOCK, {"A": (150.0, 210.0), "P": (1.0, 60.0)}, {"start": START}),
+    "a gap": (BLOCK, {"A": (91.0, 269.0), "B": (90.0, 200.0)}, {"start": START}),
+    "a rule": (BLOCK, {"P": (-10.0, 60.0), "Q": (-10.0, 60.0)}, {"start": START}),
+    "a circle": (PAIR, {"R": (40.0, 80.0), ",A": (150.0, 179.0)}, {}),
+}
+
+
+@pytest.mark.parametrize("name", REGIONS)
+def test_the_exact_lines_of_a_map_part_single_solves_that_have_a_contour_from_those_that_have_none(name):
+    block, within, options = REGIONS[name]
+    axes = {word: numpy.linspace(*ends, 61) for word, ends in within.items()}
+    family = contoursolve.family(block, vary=axes, **options)
+    picture = draw_family_map(family)
+    check(picture)
+    drawn = lines_of(picture, width=3.0)
+    found = contoursolve.families.region(block, tuple(within), tuple(within.values()), **options)
+    assert len(drawn) == len(found.boundaries) > 0
+    told = " ".join(labels(picture))
+    assert all(each.reason.text in told or each.reason.text.split()[0] in told for each in found.boundaries)
+    # The middles of the outer cells are half a cell from the frame.
+    half = {word: (high - low) / 120 for word, (low, high) in within.items()}
+    whole = [(low - half[word], high + half[word]) for word, (low, high) in within.items()]
+    for each in found.boundaries:
+        expected = numpy.array([spot_of(point, whole) for point in each.points])
+        assert any(line.shape == expected.shape and abs(line - expected).max() < 1e-6 for line in drawn)
+    # Where cells beside each other are not alike, a line runs between their middles.
+    spots = numpy.concatenate([dense(line) for line in drawn])
+    has_contour = numpy.isin(family["status"], (Code.SOLVED, Code.OVERDETERMINED))
+    first, second = axes.values()
+    for row, column in zip(*numpy.nonzero(has_contour[:-1] != has_contour[1:]), strict=True):
+        middle = spot_of(((first[row] + first[row + 1]) / 2, second[column]), whole)
+        assert numpy.hypot(*(spots - middle).T).min() < 5.5, (first[row], second[column])
+
+
+def dense(line):
+    steps = numpy.concatenate([[0], numpy.cumsum(numpy.hypot(*numpy.diff(line, axis=0).T))])
+    along = numpy.linspace(0, steps[-1], int(steps[-1]) + 2)
+    return numpy.stack([numpy.interp(along, steps, line[:, axis]) for axis in (0, 1)], axis=1)
+
+
+def test_where_no_exact_line_can_be_told_the_cells_have_their_boundaries():
+    vary = {"A": numpy.arange(150, 210, 2.0), "K": numpy.arange(-40, -20, 1.0)}
+    told = contoursolve.family(
+        BLOCK.replace("P5.", "P?"), start=START, vary=vary, facts=["straight part of line 2 = 20"]
+    )
+    picture = draw_family_map(told)
+    check(picture)
+    assert lines_of(picture, width=3.0) == []
+    assert lines_of(picture, width=1.4)
+
+
+@pytest.mark.parametrize("name", REGIONS)
+def test_a_region_has_its_lines_with_names_and_teeth_where_there_is_no_contour(name):
+    block, within, options = REGIONS[name]
+    found = contoursolve.families.region(block, tuple(within), tuple(within.values()), **options)
+    for theme in (Theme.LIGHT, Theme.PAGE):
+        picture = draw_region(found, theme=theme)
+        check(picture)
+    assert len(lines_of(picture, width=2.0)) == len(found.boundaries)
+    told = " ".join(labels(picture))
+    assert all(word in told for each in found.boundaries for word in each.reason.text.split())
+    # A tooth ends where a single solve says that there is no contour, and begins where its line is.
+    teeth = [item for item in picture.sheet.drawing if isinstance(item, Stroke) and item.width == 1.0 and not item.dash]
+    teeth = [item for item in teeth if 92 < item.start[0] < 702 and 56 < item.start[1] < 456]
+    assert teeth
+    names = list(within)
+    for item in teeth[:: max(1, len(teeth) // 12)]:
+        (x, y), (to_x, to_y) = item.start, item.steps[0]
+        ends = []
+        for share in (-0.4, 0.4):
+            at = x + share * (to_x - x), y + share * (to_y - y)
+            ends.append(
+                (
+                    (at[0] - 92) / 610 * (within[names[0]][1] - within[names[0]][0]) + within[names[0]][0],
+                    (456 - at[1]) / 400 * (within[names[1]][1] - within[names[1]][0]) + within[names[1]][0],
+                )
+            )
+        family = contoursolve.family(
+            block, vary={word: [pair[n] for pair in ends] for n, word in enumerate(names)}, paired=True, **options
+        )
+        inside, outside = numpy.isin(family["status"], (Code.SOLVED, Code.OVERDETERMINED))
+        assert (inside, outside) == (True, False), ends
+
+
+def test_a_bar_shows_the_ranges_of_a_word_with_what_ends_them():
+    found = contoursolve.families.feasible(BLOCK, "P", start=START)
+    picture = draw_range(found)
+    check(picture)
+    told = " ".join(labels(picture))
+    assert "P too large for line 1: 51.962 mm at most" in told
+    assert "the block has 5.0000 mm" in told
 
 
 def test_a_map_of_one_value_each_and_one_of_many_are_drawn():

@@ -158,6 +158,7 @@ def test_any_block_is_shown_as_text_html_and_svg_that_hold_nothing_but_what_they
     assert len(seen) >= 5, seen
 
 
+HARD = "straight part of line 2 = 5; corner 1 tangent to line [Z-70. X30. A90.]"
 UNUSUAL = {
     Status.SOLVED: (WHOLE, "enforce"),
     Status.REJECTED: ("G111 X100. A180. B120.", "enforce"),
@@ -165,13 +166,17 @@ UNUSUAL = {
     Status.CONFLICTING: ("G111 X100. A180. K-30. B120. Z-60.", "off"),
     Status.OVERDETERMINED: ("G111 A135. I10. K-10. B180. Z-40.", "off"),
     Status.NO_SOLUTION: ("G111 X100. A180. K-30. B120. P60.", "enforce"),
+    Status.UNDECIDED: (f"G111 X100. K-30. B120. P? Q5. (contoursolve: {HARD})", "enforce"),
     Status.AMBIGUOUS: ("G17 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87", "off"),
 }
 
 
 @pytest.mark.parametrize("status", UNUSUAL, ids=lambda status: status.value)
-def test_a_contour_of_each_status_has_a_picture_and_a_table_beside_it(status):
+def test_a_contour_of_each_status_has_a_picture_and_a_table_beside_it(status, monkeypatch):
     text, rules = UNUSUAL[status]
+    if status is Status.UNDECIDED:
+        monkeypatch.setattr("contoursolve.solving.enumerate.INTERVALS", 200)
+        monkeypatch.setattr("contoursolve.solving.enumerate.LEAST", 100)
     start = None if "G17" in text else "X40. Z0."
     result = contoursolve.solve(text, start=start, rules=rules)
     (answer,) = result.answers
@@ -215,6 +220,67 @@ def test_families_rules_and_paths_show_themselves():
     drawings = sketch.solve()
     assert drawings._repr_mimebundle_()[TEXT] == str(drawings)
     assert str(drawings) in "".join(check(drawings._repr_mimebundle_()).words)
+
+
+QUESTIONS = {
+    "range": lambda block, options: contoursolve.families.feasible(block, "P", **options),
+    "region": lambda block, options: contoursolve.families.region(block, ("A", "P"), ((150, 210), (1, 60)), **options),
+    "region of gaps": lambda block, options: contoursolve.families.region(
+        block, ("A", "B"), ((90, 270), (90, 200)), **options
+    ),
+    "found": lambda block, options: contoursolve.families.find_word(block, "B", "end Z-50.", **options),
+    "nearest": lambda block, options: contoursolve.families.find_word(block, "B", "end Z-50. X90.", **options),
+    "tolerances": lambda block, options: contoursolve.families.tolerances(block, {"A": 0.1, "K": 0.02}, **options),
+    "derivatives": lambda block, options: contoursolve.families.tolerances(block, **options),
+    "sensitivity": lambda block, options: contoursolve.families.sensitivity(block, **options),
+}
+
+
+@pytest.mark.parametrize("name", QUESTIONS)
+def test_what_is_asked_about_families_shows_itself_with_every_reason_and_value(name):
+    ask = QUESTIONS[name]
+    for comment in ("", f" ({re.sub('[()]', '', HOSTILE[0])})"):
+        record = ask(f"{WHOLE}{comment}", {"start": "X40. Z0."})
+        data = record._repr_mimebundle_()
+        page = check(data, has_picture=name.startswith("r"))
+        assert {"table", "caption"} <= set(page.tags)
+        assert ("figure" in page.tags) is name.startswith("r")
+        assert data == ask(f"{WHOLE}{comment}", {"start": "X40. Z0."})._repr_mimebundle_()
+        # Every cell of the text is in the HTML, too.
+        shown = " ".join(" ".join(page.words).split()).lower()
+        for line in data[TEXT].lower().splitlines():
+            for cell in re.split(r"  +", line.strip()):
+                assert re.sub(r"^\d\. b ", "", cell).partition(": z")[0] in shown, cell
+
+
+def test_ranges_and_regions_without_an_end_or_a_contour_are_drawn():
+    families, options = contoursolve.families, {"start": "X40. Z0."}
+    for record in (
+        families.feasible(WHOLE, "P", within=(1, 2), **options),
+        families.feasible(WHOLE, "P", within=(90, 99), **options),
+        families.region(WHOLE, ("A", "P"), ((170, 180), (1, 2)), **options),
+        families.region(WHOLE, ("A", "P"), ((170, 180), (90, 99)), **options),
+        families.feasible("G111 X4. A180. K-1. B120. P.2", "P", start="X2. Z0.", units="inch"),
+    ):
+        data = record._repr_mimebundle_()
+        check(data)
+        assert SVG in data
+        assert "figure" in Page(data[HTML]).tags
+
+
+def test_questions_are_told_as_the_terminal_tells_them():
+    from click.testing import CliRunner  # noqa: PLC0415
+
+    from contoursolve.cli import main  # noqa: PLC0415
+
+    for name, arguments in {
+        "range": ("range", "--word", "P"),
+        "region": ("range", "--word", "A", "--word", "P", "--within", "150:210", "--within", "1:60"),
+        "found": ("find", "--word", "B", "--bring", "end Z-50."),
+        "tolerances": ("sensitivity", "--tolerance", "A=0.1", "--tolerance", "K=0.02"),
+    }.items():
+        printed = CliRunner().invoke(main, [*arguments, "--block", WHOLE, "--start", "X40. Z0."]).output
+        assert QUESTIONS[name](WHOLE, {"start": "X40. Z0."})._repr_mimebundle_()[TEXT] == printed.rstrip()
 
 
 def test_a_large_program_stays_small():

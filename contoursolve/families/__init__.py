@@ -9,7 +9,7 @@ from contoursolve.families.inverse import Found, Hit, find_word
 from contoursolve.families.parts import WHOLE, Parts, others, parts_of
 from contoursolve.families.prepared import Sweep
 from contoursolve.families.ranges import FamilyError, name_of
-from contoursolve.families.regions import Boundary, Region, region
+from contoursolve.families.regions import Boundary, Region, region, region_of
 from contoursolve.families.result import Family, summary_of
 from contoursolve.families.slopes import Sensitivity, Spread, sensitivity
 from contoursolve.families.tolerance import Effect, Limits, Tolerances, tolerances
@@ -49,6 +49,7 @@ __all__ = [
     "parts_of",
     "pieces",
     "region",
+    "region_of",
     "sensitivity",
     "summary_of",
     "sweep",

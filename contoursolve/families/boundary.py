@@ -9,6 +9,7 @@ from contoursolve.dialects import Dialect
 from contoursolve.families.ends import Reason, about_of, called, phrase, same
 from contoursolve.families.evaluate import template_with
 from contoursolve.families.survey import LEAST_GAP, Crossing, Piece, Survey
+from contoursolve.shown import Shown
 from contoursolve.solving import RefusalKind
 
 __all__ = ["LEAST_GAP", "End", "Feasible", "Interval", "Way", "feasible"]
@@ -67,7 +68,7 @@ class Interval:
 
 
 @dataclass(frozen=True, slots=True)
-class Feasible:
+class Feasible(Shown):
     """All values of a word, within a range, with which its block has a contour.
 
     `unit` is what the word is written in (mm, inch or deg), `stated` the value that the block has. `is_complete` tells

@@ -179,11 +179,11 @@ def family(
         for (first, last), part in zip(parts, solve_parts(ready, parts, workers, executor), strict=True):
             for name, column in table.items():
                 column[first:last] = part[name]
-        return Family(ready.ranges, table)
+        return Family(ready.ranges, table, ready.recipe)
     with ThreadPoolExecutor(count) if min(count, len(parts)) > 1 else nullcontext() as threads:
         for _ in in_order((partial(fill, *part) for part in parts), threads, count):
             pass
-    return Family(ready.ranges, table)
+    return Family(ready.ranges, table, ready.recipe)
 
 
 def pieces(ready: Sweep, workers: int | None = None, executor: Executor | None = None) -> Iterator[Table]:

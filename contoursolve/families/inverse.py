@@ -21,6 +21,7 @@ from contoursolve.families.roots import find_zeros
 from contoursolve.families.survey import Piece, Survey, short
 from contoursolve.families.template import Template, is_same
 from contoursolve.model import Length, Plane, Unit
+from contoursolve.shown import Shown
 from contoursolve.solving import Point
 from contoursolve.solving.certificate import Certificate
 from contoursolve.syntax import FACT
@@ -52,7 +53,7 @@ class Hit:
 
 
 @dataclass(frozen=True, slots=True)
-class Found:
+class Found(Shown):
     """All values of a word, within a range, that meet a goal, in order; for a goal of two coordinates, all that are
     nearer to it than their neighbours, the nearest first. `is_complete` tells whether these are proven to be all.
 

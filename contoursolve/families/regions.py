@@ -17,8 +17,10 @@ from contoursolve.families.kinds import Kind, alike, kind_of, limits_of, value_o
 from contoursolve.families.margins import compile_margins
 from contoursolve.families.outline import BISECTIONS, NODES, Box, Field, Trace, edge_of, gaps_of
 from contoursolve.families.ranges import FamilyError, name_of
+from contoursolve.families.result import Family
 from contoursolve.families.template import Template, find_words
 from contoursolve.model import Unit
+from contoursolve.shown import Shown
 from contoursolve.solving import RefusalKind
 from contoursolve.tolerance import LENGTH
 
@@ -46,7 +48,7 @@ class Boundary:
 
 
 @dataclass(frozen=True, slots=True)
-class Region:
+class Region(Shown):
     """The values of two words, within a box, with which a block has a contour, by the lines that bound them.
 
     `units` are what the words are written in. `is_complete` tells whether it is proven that no line is missing, and no
@@ -92,7 +94,26 @@ def region(
     ['P too large for line 1', 'P too large for line 2']
     """
     template = template_of(block, start, control, units, rules, settings, lambda _: {})
-    names = name_of(words[0]), name_of(words[1])
+    return _region(template, (name_of(words[0]), name_of(words[1])), within)
+
+
+def region_of(family: Family, words: tuple[str, str]) -> Region:
+    """The region of two words of a family, between the least and the largest of the values that they have in it.
+
+    Raises FamilyError as `region`, and where one of the other words has several values.
+    """
+    values = family.ranges.values
+    others = {name: column for name, column in values.items() if name not in words}
+    several = next((name for name, column in others.items() if column.size > 1), None)
+    if several is not None or family.recipe is None or any(word not in values for word in words):
+        raise FamilyError(f"{' and '.join(words)} are not the only words that vary")
+    template = family.recipe.template().filled({name: float(column[0]) for name, column in others.items()})
+    first, second = ((float(values[word].min()), float(values[word].max())) for word in words)
+    return _region(template, words, (first, second))
+
+
+def _region(template: Template, names: tuple[str, str], within: tuple[Point, Point]) -> Region:
+    """The region of two words of a block that is read."""
     for name, (low, high) in zip(names, within, strict=True):
         if not -numpy.inf < low < high < numpy.inf:
             raise FamilyError(f"{name} from {low:g} to {high:g} is no range; the smaller number comes first")

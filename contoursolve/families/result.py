@@ -1,7 +1,7 @@
 """What a family comes to: named arrays with a row for every set of values."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -36,6 +36,8 @@ class Family(Shown):
 
     ranges: Ranges
     columns: Mapping[str, NDArray[Any]]
+    recipe: Any = field(default=None, repr=False)
+    """Plain data from which its block can be read again."""
 
     @property
     def shape(self) -> tuple[int, ...]:

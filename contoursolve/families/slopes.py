@@ -16,6 +16,7 @@ from contoursolve.families.prepared import results_of
 from contoursolve.families.ranges import FamilyError
 from contoursolve.families.template import call
 from contoursolve.model import Given, Profile, Unit
+from contoursolve.shown import Shown
 from contoursolve.solving import RemarkKind, Solution, Status
 from contoursolve.solving.plan import TwoCirclesStep
 from contoursolve.syntax import Program, Word
@@ -35,7 +36,7 @@ class Spread:
 
 
 @dataclass(frozen=True, slots=True)
-class Sensitivity:
+class Sensitivity(Shown):
     """The derivatives of a contour: `slopes[result][word]` in mm for each unit of the word as it is written, so that a
     diameter counts as such; NaN where a word parts two places that have become one, as in a half circle. The results
     have the names that they have in a `Family`."""

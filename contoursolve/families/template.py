@@ -46,6 +46,12 @@ class Template:
         yield from (block.text for block in self._fill(self.program, values, 1).blocks)
         yield from (each.text for each in self._facts(values))
 
+    def filled(self, values: Mapping[str, float]) -> "Template":
+        """The block with these values written in it, and no word free."""
+        program = self._fill(self.program, values, 1)
+        start = self._fill(self.start, values, 0) if self.start is not None else None
+        return replace(self, program=program, start=start, words={}, facts=tuple(self._facts(values)))
+
     def _fill(self, program: Program, values: Mapping[str, float], first_line: int) -> Program:
         """A program with these values in place of the free words'."""
         lines = {block.line: block.text for block in program.blocks}

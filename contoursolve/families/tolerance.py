@@ -17,6 +17,7 @@ from contoursolve.families.ranges import FamilyError
 from contoursolve.families.slopes import Spread, slopes_of, stated_words
 from contoursolve.families.template import Template, find_words
 from contoursolve.model import Length, Plane, Unit
+from contoursolve.shown import Shown
 from contoursolve.solving import Point
 
 MOST_WORDS = 10
@@ -61,7 +62,7 @@ class Limits:
 
 
 @dataclass(frozen=True, slots=True)
-class Tolerances:
+class Tolerances(Shown):
     """How words move a point of a contour: the words, the one that moves it most first; how far it may be off on each
     axis to first order; and where it lies at the limits, None without tolerances or with too many of them."""
 

@@ -6,7 +6,7 @@ from importlib import import_module
 from itertools import islice
 
 from contoursolve.examine import Answer
-from contoursolve.families import Family
+from contoursolve.families import Family, Feasible, Region
 from contoursolve.notebook.text import text_of
 from contoursolve.pipeline import Result
 from contoursolve.shown import Shown
@@ -26,7 +26,9 @@ def bundle(record: Shown) -> dict[str, str]:
     shown = {"text/plain": bounded(text_of(record))}
     if _is_terminal():
         return shown
-    if isinstance(record, Answer | Result | Family) and (not isinstance(record, Result) or record.answers):
+    if isinstance(record, Answer | Result | Family | Feasible | Region) and (
+        not isinstance(record, Result) or record.answers
+    ):
         shown["image/svg+xml"] = _made("contoursolve.markup.picture", "picture_of", record)
     shown["text/html"] = _made("contoursolve.notebook.html", "html_of", record)
     return {kind: text for kind, text in shown.items() if kind == "text/plain" or 0 < len(text) <= MOST_CHARACTERS}

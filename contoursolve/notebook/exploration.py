@@ -11,9 +11,11 @@ from contoursolve.api import solve
 from contoursolve.diagnosis.edits import Edit, EditKind, apply_edits, write_word
 from contoursolve.diagnostic import Diagnostic, Fix
 from contoursolve.examine import Answer
+from contoursolve.fill import FARTHEST
 from contoursolve.model import Unit
 from contoursolve.output.solutions import Listed, list_solutions
 from contoursolve.pipeline import Result
+from contoursolve.solving import Status
 from contoursolve.syntax import FACT, Word, parse
 
 SAME = 1e-3
@@ -127,7 +129,8 @@ def fixed_text(exploration: Exploration, finding: Diagnostic, fix: Fix) -> str:
 
 
 def select(exploration: Exploration, number: int) -> Exploration:
-    """The contour with the words or the fact that select one of its solutions. Raises ValueError if nothing does."""
+    """The contour with the words or the fact that select one of its solutions; facts that say no more than the words
+    that they answered are left out then. Raises ValueError if nothing selects it."""
     answer = exploration.answer
     listing = list_solutions(answer) if answer else None
     if answer is None or listing is None or not 0 <= number < len(listing.solutions):
@@ -137,8 +140,9 @@ def select(exploration: Exploration, number: int) -> Exploration:
     for text in islice(_selecting(exploration, answer, wanted), MOST_TRIED):
         tried = write(exploration, text)
         first = first or tried
-        if _is_chosen(tried, wanted):
-            return tried
+        if _is_chosen(tried, wanted, SAME):
+            is_told_by_words = any(block.words for text in wanted.selects for block in parse(text).blocks)
+            return _without_echoes(tried, wanted) if is_told_by_words else tried
     if first is None:
         raise ValueError(f"no word selects {wanted.name}")
     return first
@@ -190,11 +194,24 @@ def _written(answer: Answer, word: Word, value: float | str) -> str:
     return write_word(word.address, float(meant or 0), lexicon, answer.unit)
 
 
-def _is_chosen(exploration: Exploration, wanted: Listed) -> bool:
-    """Whether the contour is now the one that was wanted."""
+def _without_echoes(exploration: Exploration, wanted: Listed) -> Exploration:
+    """The contour without the facts that only say what its words say: those by which a word was asked for, now that its
+    value is written. It moves no farther than values that are filled in may move it."""
+    facts = [each for block in exploration.result.program.blocks for each in block.directives]
+    for fact in reversed(facts):
+        if exploration.answer is None or exploration.answer.status is not Status.OVERDETERMINED:
+            break
+        shorter = write(exploration, _text(exploration, [Edit(EditKind.DROP, FACT, fact.span, fact.text)]))
+        if _is_chosen(shorter, wanted, FARTHEST):
+            exploration = shorter
+    return exploration
+
+
+def _is_chosen(exploration: Exploration, wanted: Listed, within: float) -> bool:
+    """Whether the contour is now the one that was wanted, to a distance in mm."""
     contour = exploration.answer.contour if exploration.answer else None
     if contour is None or wanted.contour is None or contour.points.keys() != wanted.contour.points.keys():
         return False
     pairs = [(contour.end, wanted.contour.end)]
     pairs += [(at, wanted.contour.points[name]) for name, at in contour.points.items()]
-    return all(hypot(one[0] - other[0], one[1] - other[1]) < SAME for one, other in pairs)
+    return all(hypot(one[0] - other[0], one[1] - other[1]) < within for one, other in pairs)

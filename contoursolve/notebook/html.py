@@ -9,7 +9,6 @@ from markupsafe import Markup
 from contoursolve.contour import Contour
 from contoursolve.diagnostic import Diagnosis, Diagnostic
 from contoursolve.examine import Answer
-from contoursolve.families import Family
 from contoursolve.markup.answers import (
     checks_table,
     cut,
@@ -22,13 +21,12 @@ from contoursolve.markup.figure import figure
 from contoursolve.markup.findings import finding_element
 from contoursolve.markup.style import notebook_style
 from contoursolve.markup.tables import short, table
+from contoursolve.notebook.families import FAMILY_PARTS
 from contoursolve.notebook.text import (
     contour_rows,
     controls_of,
-    family_rows,
     freedom_rows,
     result_of,
-    status_rows,
     text_of,
     tie_rows,
     word_rows,
@@ -43,9 +41,6 @@ from contoursolve.syntax import Block
 
 MOST_ITEMS = 20
 """Contours and findings that one output shows."""
-
-MAP_WORDS = 2
-"""Free words of a family that a map shows."""
 
 
 def html_of(record: Shown) -> str:
@@ -140,17 +135,6 @@ def _examples(title: str, examples: Iterable[str]) -> Iterator[h.Node]:
         yield h.pre["\n".join(map(short, example.split("\n")))]
 
 
-def _family(family: Family) -> Iterator[h.Node]:
-    if not family.ranges.is_paired and len(family.ranges.values) == MAP_WORDS:
-        yield figure(family)
-    header, *rows = family_rows(family)
-    yield table("Free words", header, rows, numbers=(1, 2, 3))
-    header, *rows = status_rows(family)
-    yield table("What becomes of them", header, rows, numbers=(1, 2))
-    title = f"{count(len(family.names), 'array')} of shape {' x '.join(map(str, family.shape))}"
-    yield h.details[h.summary[title], ", ".join(family.names)]
-
-
 _PARTS: dict[type, Callable[[Any], h.Node]] = {
     Result: _result,
     Answer: _answer,
@@ -159,5 +143,5 @@ _PARTS: dict[type, Callable[[Any], h.Node]] = {
     Contour: _contour,
     Block: _block,
     Rule: _rule,
-    Family: _family,
+    **FAMILY_PARTS,
 }

@@ -2,18 +2,22 @@
 
 from collections.abc import Callable, Iterable, Iterator
 from itertools import islice
+from math import isnan
 from typing import Any
 
 from contoursolve.contour import ArcSegment, Contour
 from contoursolve.diagnostic import Diagnosis, Diagnostic
 from contoursolve.dialects import DIALECTS
 from contoursolve.examine import Answer
-from contoursolve.families import Family
+from contoursolve.families import Family, Feasible, Found, Region, Sensitivity, Tolerances
 from contoursolve.output.catalogue import rule_lines
 from contoursolve.output.contours import check_rows
 from contoursolve.output.findings import finding_lines, plain
+from contoursolve.output.inverse import found_lines
 from contoursolve.output.layout import columns, count, printable
 from contoursolve.output.listing import listing_lines, summary_line
+from contoursolve.output.ranges import range_lines, region_lines
+from contoursolve.output.tolerances import tolerances_lines
 from contoursolve.pipeline import Result
 from contoursolve.rules import Rule
 from contoursolve.shown import Shown
@@ -161,6 +165,24 @@ def status_rows(family: Family) -> list[tuple[str, ...]]:
     return [("status", "contours", "share"), *rows]
 
 
+def _sensitivity(found: Sensitivity) -> Iterator[str]:
+    yield SLOPES
+    yield from columns(slope_rows(found))
+
+
+SLOPES = "how far each result moves, mm for each unit of a word as it is written"
+
+
+def slope_rows(found: Sensitivity) -> list[tuple[str, ...]]:
+    """A header, and by how much each word moves each result; `none` where no derivative exists."""
+    words = next(iter(found.slopes.values()), {})
+    rows = [
+        (result, *("none" if isnan(slope) else f"{slope + 0.0:.4f}" for slope in slopes.values()))
+        for result, slopes in islice(found.slopes.items(), MOST_ROWS)
+    ]
+    return [("result", *words), *rows]
+
+
 _LINES: dict[type, Callable[[Any], Iterable[str]]] = {
     Result: _result,
     Answer: _answer,
@@ -171,4 +193,9 @@ _LINES: dict[type, Callable[[Any], Iterable[str]]] = {
     Program: _program,
     Rule: _rule,
     Family: _family,
+    Feasible: range_lines,
+    Region: region_lines,
+    Found: found_lines,
+    Tolerances: tolerances_lines,
+    Sensitivity: _sensitivity,
 }

@@ -11,20 +11,34 @@ from contoursolve.output.solutions import printed_certificate
 
 def found_lines(found: Found) -> Iterator[str]:
     """The values, each with where the point is then, and the block to write."""
+    yield found_title(found)
+    for place, hit in enumerate(found.hits, 1):
+        value, point, certificate, block, rounding = hit_row(hit, found)
+        yield f"  {place}. {found.word} {value}: {point}"
+        if certificate:
+            yield f"     {certificate}"
+        yield from (f"     {line}" for line in block.split("\n"))
+        yield f"     {rounding}"
+
+
+def found_title(found: Found) -> str:
+    """What was asked, and how many values there are."""
     low, high = (written(value, found.unit) for value in found.within)
     number = count(len(found.hits), "value") if found.hits else "no value"
     proof = "proven to be all" if found.is_complete else "at least; that these are all is not proven"
     aim = "nearest to" if found.goal.is_nearest else "at"
     goal = _place(found.goal.place, found)
-    yield f"{found.goal.point} {aim} {goal}, by {found.word} from {low} to {high}: {number} ({proof})"
-    for place, hit in enumerate(found.hits, 1):
-        away = f", {hit.away:.4f} mm away" if found.goal.is_nearest else ""
-        yield f"  {place}. {found.word} {written(hit.value, found.unit)}: {_place(hit.point, found)}{away}"
-        certificate = printed_certificate(hit.certificate)
-        if certificate is not None:
-            yield f"     {certificate}"
-        yield from (f"     {line}" for line in hit.block.split("\n"))
-        yield f"     {_rounding(hit, found.goal)}"
+    return f"{found.goal.point} {aim} {goal}, by {found.word} from {low} to {high}: {number} ({proof})"
+
+
+def hit_row(hit: Hit, found: Found) -> tuple[str, str, str, str, str]:
+    """A value, where the point is then, the certificate (may be empty), the block to write, and what rounding does."""
+    away = f", {hit.away:.4f} mm away" if found.goal.is_nearest else ""
+    certificate = str(printed_certificate(hit.certificate) or "")
+    return (
+        written(hit.value, found.unit), f"{_place(hit.point, found)}{away}", certificate, hit.block,
+        _rounding(hit, found.goal),
+    )  # fmt: skip
 
 
 def _rounding(hit: Hit, goal: Goal) -> str:

@@ -9,20 +9,36 @@ from contoursolve.output.layout import columns, count
 
 def range_lines(found: Feasible) -> Iterator[str]:
     """The ranges of a word, each with what ends it."""
+    yield range_title(found)
+    rows = range_rows(found)
+    yield from columns(rows, left=(0, 1, 3)) if rows else ()
+    yield from range_notes(found)
+
+
+def range_notes(found: Feasible) -> Iterator[str]:
+    """Why the block has no contour as it stands, if it has none."""
+    if found.refusal:
+        yield f"  as it stands, the block has none: {found.refusal}"
+
+
+def range_title(found: Feasible) -> str:
+    """What was looked at, and how many ranges there are."""
     low, high = (written(value, found.unit) for value in found.within)
     number = count(len(found.intervals), "range")
     proof = "proven to be all" if found.is_complete else "at least; that these are all is not proven"
     if not found.intervals:
         number, proof = "no range", "proven" if found.is_complete else "none was found, which is no proof"
     stated = written(found.stated, found.unit)
-    yield f"{found.word}, now {stated}, from {low} to {high}: {number} with a contour ({proof})"
+    return f"{found.word}, now {stated}, from {low} to {high}: {number} with a contour ({proof})"
+
+
+def range_rows(found: Feasible) -> list[tuple[str, str, str, str]]:
+    """Two rows for each range: its number, which end, the value, and what ends it there."""
     rows = []
     for place, each in enumerate(found.intervals, 1):
         rows.append((f"{place}.", "from", *_row(each.low, found.unit)))
         rows.append(("", "to", *_row(each.high, found.unit)))
-    yield from columns(rows, left=(0, 1, 3)) if rows else ()
-    if found.refusal:
-        yield f"  as it stands, the block has none: {found.refusal}"
+    return rows
 
 
 def _row(end: End, unit: str) -> tuple[str, str]:
@@ -67,12 +83,23 @@ def _end(end: End) -> dict[str, Any]:
 
 def region_lines(found: Region) -> Iterator[str]:
     """The lines that bound the region of two words."""
+    yield region_title(found)
+    rows = region_rows(found)
+    yield from columns(rows, left=(0, 1, 3)) if rows else ()
+
+
+def region_title(found: Region) -> str:
+    """What was looked at, and how many lines there are."""
     spans = zip(found.words, found.within, found.units, strict=True)
     box = ", ".join(f"{word} from {written(low, unit)} to {written(high, unit)}" for word, (low, high), unit in spans)
     proof = "proven to be all" if found.is_complete else "at least; that these are all is not proven"
     number = count(len(found.boundaries), "line") if found.boundaries else "no line"
     whole = "" if found.boundaries else f"; there is {'a' if found.exists else 'no'} contour everywhere"
-    yield f"{box}: {number} between where the contour exists and where not ({proof}){whole}"
+    return f"{box}: {number} between where the contour exists and where not ({proof}){whole}"
+
+
+def region_rows(found: Region) -> list[tuple[str, str, str, str]]:
+    """A row for each line: its number, its ends, how many points it has, and what fails beyond it."""
     rows = []
     for place, each in enumerate(found.boundaries, 1):
         first, last = (_pair(point, found) for point in (each.points[0], each.points[-1]))
@@ -80,7 +107,7 @@ def region_lines(found: Region) -> Iterator[str]:
         doubt = f"; {each.unverified} points not confirmed on both sides" if each.unverified else ""
         points = f"{len(each.points)} points"
         rows.append((f"{place}.", f"{first} to {last}", points, f"{where}: {each.reason.text}{doubt}"))
-    yield from columns(rows, left=(0, 1, 3)) if rows else ()
+    return rows
 
 
 def _pair(point: tuple[float, float], found: Region) -> str:

@@ -11,32 +11,54 @@ from contoursolve.output.ranges import written
 
 def tolerances_lines(found: Tolerances) -> Iterator[str]:
     """The words, the one that moves the point most first, and what their tolerances come to."""
-    letters = [
-        letter + (" dia" if is_diameter else "")
-        for letter, is_diameter in zip(found.plane.axes, found.plane.diameters, strict=True)
-    ]
-    yield f"{found.point}: {_place(found.place, found)}; moved by each word, the most first"
-    has_tolerances = found.limits is not None or any(each.tolerance is not None for each in found.effects)
-    head = ["word", "value", *(f"{letter} [mm per unit]" for letter in letters)]
+    yield tolerances_title(found)
+    yield from columns(effect_rows(found))
+    yield from (f"  {line}" for line in spread_lines(found))
+
+
+def tolerances_title(found: Tolerances) -> str:
+    """The point, and where it is."""
+    return f"{found.point}: {_place(found.place, found)}; moved by each word, the most first"
+
+
+def effect_rows(found: Tolerances) -> list[list[str]]:
+    """A header, and what each word does."""
+    has_tolerances = _has_tolerances(found)
+    head = ["word", "value", *(f"{letter} [mm per unit]" for letter in _letters(found))]
     head += ["tolerance", "moves it by [mm]"] if has_tolerances else []
     rows = [_row(each, found, has_tolerances) for each in found.effects]
-    yield from columns([[*head, "half an increment [mm]"], *rows])
-    if has_tolerances:
-        pairs = zip(letters, found.spread, found.plane.diameters, strict=True)
+    return [[*head, "half an increment [mm]"], *rows]
+
+
+def spread_lines(found: Tolerances) -> Iterator[str]:
+    """What the tolerances come to, and what rounding does."""
+    if _has_tolerances(found):
+        pairs = zip(_letters(found), found.spread, found.plane.diameters, strict=True)
         spreads = [(letter, each, 2 if is_diameter else 1) for letter, each, is_diameter in pairs]
         worst = ", ".join(f"{letter} {each.worst * times:.4f} mm" for letter, each, times in spreads)
         typical = ", ".join(f"{letter} {each.typical * times:.4f} mm" for letter, each, times in spreads)
-        yield f"  off by at worst {worst}; in the root of the sum of squares {typical}"
+        yield f"off by at worst {worst}; in the root of the sum of squares {typical}"
     if found.limits is not None:
         low, high, count = found.limits.low, found.limits.high, found.limits.count
         without = f"; {found.limits.without} of them have no contour" if found.limits.without else ""
         span = "" if isnan(low[0]) else f": from {_place(low, found)} to {_place(high, found)}"
-        yield f"  solved at all {count} combinations of the limits{span}{without}"
+        yield f"solved at all {count} combinations of the limits{span}{without}"
     for each in found.effects:
         if each.rounded is not None and each.rounded != each.stated:
             moved = "leaves no contour" if each.by_rounding is None else f"moves it by {each.by_rounding:.4f} mm"
             linear = f"{each.by_rounding_linear:.4f} mm by the derivatives"
-            yield f"  {each.word} rounded to {written(each.rounded, each.unit)} {moved} ({linear})"
+            yield f"{each.word} rounded to {written(each.rounded, each.unit)} {moved} ({linear})"
+
+
+def _has_tolerances(found: Tolerances) -> bool:
+    return found.limits is not None or any(each.tolerance is not None for each in found.effects)
+
+
+def _letters(found: Tolerances) -> list[str]:
+    return [
+        letter + (" dia" if is_diameter else "")
+        for letter, is_diameter in zip(found.plane.axes, found.plane.diameters, strict=True)
+    ]
 
 
 def _row(each: Effect, found: Tolerances, has_tolerances: bool) -> list[str]:

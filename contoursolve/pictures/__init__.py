@@ -14,7 +14,7 @@ from contoursolve.pictures.theme import Theme
 from contoursolve.pipeline import Result
 
 if TYPE_CHECKING:
-    from contoursolve.families import Family, Sweep
+    from contoursolve.families import Family, Feasible, Region, Sweep
 
 __all__ = [
     "MissingPainterError",
@@ -23,6 +23,8 @@ __all__ = [
     "draw_answer",
     "draw_family_fan",
     "draw_family_map",
+    "draw_range",
+    "draw_region",
     "draw_result",
     "draw_sweep",
 ]
@@ -71,7 +73,8 @@ def draw_family_fan(
 def draw_family_map(
     family: Family, words: tuple[str, str] | None = None, *, theme: Theme = Theme.LIGHT, title: str | None = None
 ) -> Picture:
-    """The picture of what becomes of a block over two of its words: a field for each status, and the boundaries.
+    """The picture of what becomes of a block over two of its words: a field for each status, and the boundaries, where
+    the contour begins to exist as exact lines with what fails beyond them (a tenth of a second for most blocks).
 
     `words` go to the right and up; without them, the two words of the family. Raises ValueError where these are not
     two words of a grid.
@@ -82,6 +85,23 @@ def draw_family_map(
     chosen = words if words is not None else tuple(several or family.ranges.values)[:2]
     told = title if title is not None else map_title(family, chosen)
     return finish(lay_out_map(family, chosen, told), theme, told, told)
+
+
+def draw_range(found: Feasible, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
+    """The picture of the values of a word with which a block has a contour: a bar with what ends each range."""
+    from contoursolve.pictures.family_range import lay_out_range, range_title  # noqa: PLC0415 - as above
+
+    told = title if title is not None else range_title(found)
+    return finish(lay_out_range(found, told), theme, told, told)
+
+
+def draw_region(region: Region, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
+    """The picture of the values of two words with which a block has a contour: the lines that bound them, each with
+    what fails beyond it."""
+    from contoursolve.pictures.family_region import lay_out_region, region_title  # noqa: PLC0415 - as above
+
+    told = title if title is not None else region_title(region)
+    return finish(lay_out_region(region, told), theme, told, told)
 
 
 def draw_sweep(ready: Sweep, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:

@@ -1,10 +1,10 @@
 """From the answer about a contour to the scene that a picture shows."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from contoursolve.contour import Contour, Segment, trace
-from contoursolve.diagnostic import Severity
+from contoursolve.diagnostic import Diagnostic, Severity
 from contoursolve.examine import Answer
 from contoursolve.model import FIRST, SECOND, Plane
 from contoursolve.output.solutions import list_solutions
@@ -14,7 +14,8 @@ from contoursolve.pictures.faults import draw_faults
 from contoursolve.pictures.finding import find_known
 from contoursolve.pictures.known import Known
 from contoursolve.pictures.marks import givens_at_points, list_marks
-from contoursolve.pictures.scene import Aligned, Mark, Ring, Scene, Thin, Trail, Weight
+from contoursolve.pictures.places import list_places
+from contoursolve.pictures.scene import Aligned, Leader, Mark, Ring, Scene, Thin, Trail, Weight
 from contoursolve.pictures.sheet import Run
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.tracing import trace_known, trace_segments
@@ -50,26 +51,27 @@ def compose(answer: Answer, title: str | None = None) -> Scene:
     faults = list(draw_faults(answer, known))
     broken = [each for each in faults if isinstance(each, Ring)]
     circles = {(each.center, each.radius) for each in broken}
-    ends = [segment.end for trail in main for segment in trail.segments]
+    places_stated = list(list_places(profile, known, roles))
+    end = main[-1].segments[-1].end if main and _is_whole(answer, known, main[-1].segments[-1]) else None
     is_free = bool(main) and main[-1].role is Role.FREE
-    marks = list_marks(answer, known, roles, noted, places, ends[-1] if ends else None, is_free)
+    marks = list_marks(answer, known, roles, noted, places, end, is_free)
     return Scene(
         title=title if title is not None else title_of(answer),
         axes=(axis_name(plane, FIRST), axis_name(plane, SECOND)),
         trails=(*ghosts, *main),
         thins=(
             *list_construction(profile, known, elements),
-            *(each for each in faults if isinstance(each, Thin)),
+            *(each for each in (*faults, *places_stated) if isinstance(each, Thin)),
         ),
         rings=(*(each for each in list_rings(answer, known) if (each.center, each.radius) not in circles), *broken),
-        marks=(*marks, *(each for each in faults if isinstance(each, Mark))),
+        marks=(*marks, *(each for each in (*faults, *places_stated) if isinstance(each, Mark))),
         dimensions=(
             *list_dimensions(answer, known, roles, elements, noted_givens),
-            *(each for each in faults if isinstance(each, Aligned)),
+            *(each for each in (*faults, *places_stated) if isinstance(each, Aligned | Leader)),
         ),
         slides=tuple(list_slides(answer, known)),
         lines=tuple(_lines(answer, roles)),
-        remarks=tuple(_remarks(answer)),
+        remarks=tuple(remarks_of(answer.diagnostics)),
         meanings={Role.GHOST: "other values"} if known.others else {},
         has_turning_axis=plane.diameters[SECOND],
     )
@@ -107,20 +109,26 @@ def roles_of(answer: Answer) -> dict[str, Role]:
 
 
 def _blamed(answer: Answer) -> set[Span]:
-    """The words that errors are about; not those beside which a word is missing."""
+    """The words and facts that errors are about; not those beside which a word is missing."""
     is_short = any(finding.about is Trouble.UNDERDETERMINED for finding in answer.diagnostics)
     claim = answer.claim
-    words = {word.span: word for word in (*claim.words.values(), *claim.unknown, *claim.repeated)}
+    words = {word.span: word.address for word in (*claim.words.values(), *claim.unknown, *claim.repeated)}
+    words |= {directive.span: FACT for directive in claim.directives}
     return {
         label.span
         for finding in answer.diagnostics
         if finding.severity is Severity.ERROR
         and not isinstance(finding.about, RemarkKind)
-        and (isinstance(finding.about, RefusalKind) or not is_short)
+        and (isinstance(finding.about, RefusalKind) or not (is_short and _misses_words(finding, answer)))
         for label in finding.labels
-        if label.span in words
-        and (isinstance(finding.about, RefusalKind) or words[label.span].address in finding.addresses)
+        if label.span in words and (isinstance(finding.about, RefusalKind) or words[label.span] in finding.addresses)
     }
+
+
+def _misses_words(finding: Diagnostic, answer: Answer) -> bool:
+    """Whether a finding is mended by words beside all those that are there."""
+    texts = [word.text for block in answer.claim.blocks for word in block.words]
+    return any(all(text in fix.replacement for text in texts) for fix in finding.fixes)
 
 
 def main_trails(answer: Answer, known: Known) -> list[Trail]:
@@ -134,6 +142,14 @@ def main_trails(answer: Answer, known: Known) -> list[Trail]:
         else:
             trails.append(Trail((traced.segment,), traced.role))
     return trails
+
+
+def _is_whole(answer: Answer, known: Known, last: Segment) -> bool:
+    """Whether the path is drawn as far as its end."""
+    figure = answer.profile.figure
+    head = known.points.get(figure.path[-1].head)
+    names = {figure.path[-1].name, *(corner.name for corner in figure.corners if corner.at == figure.path[-1].head)}
+    return answer.contour is not None or last.name in names or (head is not None and distance(last.end, head) <= SAME)
 
 
 def _elements(trails: list[Trail]) -> dict[str, Segment]:
@@ -208,9 +224,9 @@ def _shown(run: Run) -> Run:
     return Run(visible(run.text), run.role)
 
 
-def _remarks(answer: Answer) -> Iterator[tuple[Run, ...]]:
+def remarks_of(diagnostics: Sequence[Diagnostic]) -> Iterator[tuple[Run, ...]]:
     """The first findings."""
-    findings = [finding for finding in answer.diagnostics if finding.severity is not Severity.INFO]
+    findings = [finding for finding in diagnostics if finding.severity is not Severity.INFO]
     for finding in findings[:MOST_REMARKS]:
         role = Role.CONFLICTING if finding.severity is Severity.ERROR else Role.IGNORED
         yield (_shown(Run(f"{finding.severity.value}: {finding.message}", role)),)

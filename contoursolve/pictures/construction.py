@@ -5,12 +5,11 @@ from collections.abc import Iterator, Mapping
 from contoursolve.contour import Segment
 from contoursolve.diagnosis.affine import affine_facts
 from contoursolve.examine import Answer
-from contoursolve.model import FIRST, SECOND, Arc, Line, Profile, scalar
-from contoursolve.pictures.known import Known
+from contoursolve.model import Arc, Line, Profile
+from contoursolve.pictures.known import Known, place_of
 from contoursolve.pictures.scene import Ring, Slide, Thin
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import SAME, distance, foot, minus, unit
-from contoursolve.solving import Point
 
 
 def list_construction(profile: Profile, known: Known, elements: Mapping[str, Segment]) -> Iterator[Thin]:
@@ -39,20 +38,13 @@ def _tangents(profile: Profile, known: Known) -> Iterator[Thin]:
         if line is None or not {line.tail, line.head} <= known.points.keys():
             continue
         tail, head = known.points[line.tail], known.points[line.head]
-        center = known.points.get(fact.center, _place_of(profile, fact.center))
+        center = known.points.get(fact.center, place_of(profile, fact.center))
         if center is None or distance(tail, head) <= SAME:
             continue
         there = foot(center, tail, unit(minus(head, tail)))
         near = min((tail, head), key=lambda end: distance(end, there))
         if max(distance(tail, there), distance(head, there)) > distance(tail, head) + SAME:
             yield Thin(near, there, Role.MUTED)
-
-
-def _place_of(profile: Profile, name: str) -> Point | None:
-    """A point whose coordinates are given."""
-    given = [profile.givens.get(scalar(name, axis)) for axis in (FIRST, SECOND)]
-    values = [float(each.value) for each in given if each is not None]
-    return (values[0], values[1]) if len(values) == len(given) else None
 
 
 def list_rings(answer: Answer, known: Known) -> Iterator[Ring]:
@@ -67,7 +59,7 @@ def list_rings(answer: Answer, known: Known) -> Iterator[Ring]:
         if center is not None and radius is not None and is_wanted:
             yield Ring(center, radius, Role.MUTED)
     for circle in profile.figure.circles:
-        center, size = _place_of(profile, circle.center), profile.givens.get(circle.radius)
+        center, size = place_of(profile, circle.center), profile.givens.get(circle.radius)
         if center is not None and size is not None:
             yield Ring(center, float(size.value), Role.GIVEN)
 

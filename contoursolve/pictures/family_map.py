@@ -1,28 +1,29 @@
 """The map of a family over two words: a field for each outcome with its name in it, and the boundaries between them."""
 
+from collections.abc import Sequence
 from itertools import pairwise
-from math import floor, log10
+from math import floor
 
 import numpy
 from numpy.typing import NDArray
 
-from contoursolve.families import REASONS, Code, Family
-from contoursolve.pictures.arrows import line
-from contoursolve.pictures.metrics import shorten, wrap
+from contoursolve.families import REASONS, Code, Family, FamilyError, region_of
+from contoursolve.pictures.chart import BELOW, HIGH, LEFT, SIZE, TOP, WIDE, WIDTH, Chart, heading, over_cells
+from contoursolve.pictures.family_curves import Curve, curves_of, names_of, near, strokes
+from contoursolve.pictures.metrics import wrap
 from contoursolve.pictures.sheet import Anchor, Box, Item, Run, Shape, Sheet, Spot, Stroke, Text
 from contoursolve.pictures.theme import Role
-from contoursolve.pictures.wording import visible
 
-_WIDTH, _WIDE, _HIGH = 760.0, 610.0, 400.0
-"""Pixels of the page, and of the map itself."""
-
-_LEFT, _TOP = 92.0, 56.0
 COLUMNS, ROWS = 305, 200
 """Cells of a map; of more values, the one nearest to the middle of each cell is shown."""
 
-_SIZE, _TITLE = 12.0, 14.0
 _FIELDS = {Code.SOLVED: Role.SOLVED_FIELD, Code.OVERDETERMINED: Role.SOLVED_FIELD, Code.NO_SOLUTION: Role.REFUSED_FIELD}
-_TICKS = 6
+_OVER = 0.6
+"""Pixels by which a field reaches under the next, so that the paper does not shine through between them."""
+
+_LINE = 3.0
+"""Pixels of an exact line; it covers the steps of the cells under it."""
+
 _MOST_RUNS = 9_000
 
 Outcomes = NDArray[numpy.int64]
@@ -47,24 +48,29 @@ def lay_out_map(family: Family, words: tuple[str, ...], title: str) -> Sheet:
     outcomes = outcomes if own == list(words) else outcomes.T
     columns, rows = _picks(across, COLUMNS), _picks(up, ROWS)
     shown = outcomes[numpy.ix_(columns, rows)].T[::-1]
-    items: list[Item] = [
-        Text(
-            (18.0, 26.0),
-            (Run(shorten(visible(title), _WIDTH - 36.0, _TITLE, is_bold=True), Role.INK),),
-            _TITLE,
-            is_bold=True,
-        )
-    ]
-    items += _fields(shown)
-    items += _boundaries(shown)
-    items += _axes(words, across[columns], up[rows])
-    names, others = _names(shown)
-    items += names
-    height = _TOP + _HIGH + 56.0
-    for told in wrap("too narrow to be named: " + "; ".join(others), _WIDTH - 36.0, _SIZE, 3) if others else ():
-        items.append(Text((18.0, height + 4.0), (Run(told, Role.MUTED),), _SIZE))
-        height += 17.0
-    return Sheet(_WIDTH, height, Box(0.0, 0.0, _WIDTH, height), tuple(items))
+    chart = Chart((words[0], words[1]), over_cells(across[columns]), over_cells(up[rows]))
+    curves = _curves(family, chart)
+    fields, others = _names(shown)
+    borders = _boundaries(shown, curves)
+    lines, unnamed = names_of(curves, chart, [each.box for each in fields], borders)
+    items: list[Item] = [heading(title), *_fields(shown), *borders]
+    items += [*strokes(curves, _LINE), *chart.axes(), *fields, *lines]
+    height = TOP + HIGH + BELOW
+    for start, several in (("too narrow to be named", others), ("lines without room for a name", unnamed)):
+        for told in wrap(f"{start}: {'; '.join(several)}", WIDTH - 36.0, SIZE, 3) if several else ():
+            items.append(Text((18.0, height + 4.0), (Run(told, Role.MUTED),), SIZE))
+            height += 17.0
+    return Sheet(WIDTH, height, Box(0.0, 0.0, WIDTH, height), tuple(items))
+
+
+def _curves(family: Family, chart: Chart) -> list[Curve]:
+    """The exact lines between where the contour exists and where not; none where they cannot be told, as for facts."""
+    if any(scale.values[0] == scale.values[-1] for scale in (chart.across, chart.up)):
+        return []
+    try:
+        return curves_of(region_of(family, chart.names), chart)
+    except FamilyError:
+        return []
 
 
 def _picks(values: NDArray[numpy.float64], most: int) -> NDArray[numpy.int64]:
@@ -76,7 +82,7 @@ def _picks(values: NDArray[numpy.float64], most: int) -> NDArray[numpy.int64]:
 
 
 def _cell(shown: Outcomes) -> tuple[float, float]:
-    return _WIDE / shown.shape[1], _HIGH / shown.shape[0]
+    return WIDE / shown.shape[1], HIGH / shown.shape[0]
 
 
 def _fields(shown: Outcomes) -> list[Item]:
@@ -88,27 +94,31 @@ def _fields(shown: Outcomes) -> list[Item]:
         if row < shown.shape[0] and (shown[row] == shown[begin]).all():
             continue
         cuts = [0, *(numpy.flatnonzero(numpy.diff(shown[begin])) + 1).tolist(), shown.shape[1]]
-        top, bottom = _TOP + begin * high, _TOP + row * high
+        top, bottom = TOP + begin * high, min(TOP + row * high + _OVER, TOP + HIGH)
         for first, last in pairwise(cuts):
             role = _FIELDS.get(Code(int(shown[begin, first]) // len(REASONS)), Role.OTHER_FIELD)
-            left, right = _LEFT + first * wide, _LEFT + last * wide
+            left, right = LEFT + first * wide, min(LEFT + last * wide + _OVER, LEFT + WIDE)
             items.append(Shape(((left, top), (right, top), (right, bottom), (left, bottom)), role))
         begin = row
     return items
 
 
-def _boundaries(shown: Outcomes) -> list[Item]:
-    """Lines between fields, each as long as it is straight."""
+def _boundaries(shown: Outcomes, curves: Sequence[Curve]) -> list[Stroke]:
+    """Lines between fields, each as long as it is straight; where an exact line says the same, only that."""
     wide, high = _cell(shown)
-    items: list[Item] = []
-    for row, column in zip(*_starts(shown[1:] != shown[:-1]), strict=True):
-        length = _run((shown[1:] != shown[:-1])[row, column:])
-        y = _TOP + (row + 1) * high
-        items.append(Stroke((_LEFT + column * wide, y), ((_LEFT + (column + length) * wide, y),), Role.INK, 1.4))
-    for column, row in zip(*_starts((shown[:, 1:] != shown[:, :-1]).T), strict=True):
-        length = _run((shown[:, 1:] != shown[:, :-1])[row:, column])
-        x = _LEFT + (column + 1) * wide
-        items.append(Stroke((x, _TOP + row * high), ((x, _TOP + (row + length) * high),), Role.INK, 1.4))
+    close = near(curves, *shown.shape)
+    has_contour = numpy.isin(shown // len(REASONS), [code for code in Code if _FIELDS.get(code) is Role.SOLVED_FIELD])
+    role, width = (Role.MUTED, 1.0) if curves else (Role.INK, 1.4)
+    items: list[Stroke] = []
+    edges = (shown[1:] != shown[:-1]) & ~((close[1:] | close[:-1]) & (has_contour[1:] != has_contour[:-1]))
+    for row, column in zip(*_starts(edges), strict=True):
+        y, right = TOP + (row + 1) * high, LEFT + (column + _run(edges[row, column:])) * wide
+        items.append(Stroke((LEFT + column * wide, y), ((right, y),), role, width))
+    sides = has_contour[:, 1:] != has_contour[:, :-1]
+    edges = ((shown[:, 1:] != shown[:, :-1]) & ~((close[:, 1:] | close[:, :-1]) & sides)).T
+    for column, row in zip(*_starts(edges), strict=True):
+        x, bottom = LEFT + (column + 1) * wide, TOP + (row + _run(edges[column, row:])) * high
+        items.append(Stroke((x, TOP + row * high), ((x, bottom),), role, width))
     return items[:_MOST_RUNS]
 
 
@@ -126,9 +136,9 @@ def _run(values: NDArray[numpy.bool_]) -> int:
     return int(stops[0]) if stops.size else int(values.size)
 
 
-def _names(shown: Outcomes) -> tuple[list[Item], list[str]]:
+def _names(shown: Outcomes) -> tuple[list[Text], list[str]]:
     """The name of each field in it, where there is room, and the names of the others."""
-    items: list[Item] = []
+    items: list[Text] = []
     others: list[str] = []
     counts = {int(each): int((shown == each).sum()) for each in numpy.unique(shown)}
     for outcome in sorted(counts, key=lambda each: -counts[each]):
@@ -141,18 +151,18 @@ def _names(shown: Outcomes) -> tuple[list[Item], list[str]]:
     return items, others
 
 
-def _fitting(words: list[str], mask: Mask, shape: tuple[int, ...]) -> list[Item]:
+def _fitting(words: list[str], mask: Mask, shape: tuple[int, ...]) -> list[Text]:
     """A name as texts that lie in their field: in lines, or turned in one line; nothing where neither does."""
-    wide, high = _WIDE / shape[1], _HIGH / shape[0]
+    wide, high = WIDE / shape[1], HIGH / shape[0]
     for is_turned in (False, True):
         x, y = _deepest(mask, (1, 4) if is_turned else (4, 1), wide, high)
         if is_turned:
             runs = (Run(", ".join(words), Role.INK),)
-            texts = [Text((x + 4.0, y), runs, _SIZE, Anchor.MIDDLE, is_turned=True)]
+            texts = [Text((x + 4.0, y), runs, SIZE, Anchor.MIDDLE, is_turned=True)]
         else:
             first = y + 4.0 - 7.5 * (len(words) - 1)
             texts = [
-                Text((x, first + 15.0 * number), (Run(word, Role.INK),), _SIZE, Anchor.MIDDLE)
+                Text((x, first + 15.0 * number), (Run(word, Role.INK),), SIZE, Anchor.MIDDLE)
                 for number, word in enumerate(words)
             ]
         if all(_holds(mask, text.box, wide, high) for text in texts):
@@ -162,8 +172,8 @@ def _fitting(words: list[str], mask: Mask, shape: tuple[int, ...]) -> list[Item]
 
 def _holds(mask: Mask, box: Box, wide: float, high: float) -> bool:
     """Whether a box lies in a field."""
-    left, right = floor((box.left - _LEFT) / wide), floor((box.right - _LEFT) / wide)
-    top, bottom = floor((box.top - _TOP) / high), floor((box.bottom - _TOP) / high)
+    left, right = floor((box.left - LEFT) / wide), floor((box.right - LEFT) / wide)
+    top, bottom = floor((box.top - TOP) / high), floor((box.bottom - TOP) / high)
     is_inside = left >= 0 and top >= 0 and right < mask.shape[1] and bottom < mask.shape[0]
     return is_inside and bool(mask[top : bottom + 1, left : right + 1].all())
 
@@ -185,40 +195,4 @@ def _deepest(mask: Mask, shape: tuple[int, int], wide: float, high: float) -> Sp
         )
     rows, columns = numpy.nonzero(last)
     pick = len(rows) // 2
-    return _LEFT + (int(columns[pick]) + 0.5) * wide, _TOP + (int(rows[pick]) + 0.5) * high
-
-
-def _axes(words: tuple[str, ...], across: NDArray[numpy.float64], up: NDArray[numpy.float64]) -> list[Item]:
-    """The frame with values of both words."""
-    right, bottom = _LEFT + _WIDE, _TOP + _HIGH
-    corners = ((right, _TOP), (right, bottom), (_LEFT, bottom), (_LEFT, _TOP))
-    items: list[Item] = [Stroke((_LEFT, _TOP), corners, Role.INK, 1.2)]
-    for value, share in _ticks(across):
-        x = _LEFT + share * _WIDE
-        items.append(line((x, bottom), (x, bottom + 5.0), Role.INK))
-        items.append(Text((x, bottom + 19.0), (Run(f"{value:g}", Role.INK),), _SIZE, Anchor.MIDDLE))
-    for value, share in _ticks(up):
-        y = bottom - share * _HIGH
-        items.append(line((_LEFT - 5.0, y), (_LEFT, y), Role.INK))
-        items.append(Text((_LEFT - 9.0, y + 4.0), (Run(f"{value:g}", Role.INK),), _SIZE, Anchor.END))
-    items.append(
-        Text((_LEFT + _WIDE / 2, bottom + 40.0), (Run(words[0], Role.INK),), _TITLE, Anchor.MIDDLE, is_bold=True)
-    )
-    items.append(Text((24.0, _TOP + _HIGH / 2), (Run(words[1], Role.INK),), _TITLE, Anchor.MIDDLE, is_bold=True))
-    return items
-
-
-def _ticks(values: NDArray[numpy.float64]) -> list[tuple[float, float]]:
-    """Round values in a range of cells, each with its place from 0 to 1."""
-    if values.size == 1:
-        return [(float(values[0]), 0.5)]
-    positions = (numpy.arange(values.size) + 0.5) / values.size
-    low, high = float(values[0]), float(values[-1])
-    if not high > low:
-        return [(low, 0.5)]
-    rough = (high - low) / _TICKS
-    power = 10.0 ** floor(log10(rough))
-    step = next(each * power for each in (1.0, 2.0, 5.0, 10.0) if each * power >= rough)
-    first = -floor(-low / step)
-    ticks = [(first + number) * step for number in range(floor((high - first * step) / step + 1e-9) + 1)]
-    return [(round(tick, 12), float(numpy.interp(tick, values, positions))) for tick in ticks]
+    return LEFT + (int(columns[pick]) + 0.5) * wide, TOP + (int(rows[pick]) + 0.5) * high

@@ -71,7 +71,8 @@ def _merged(row: list[Run]) -> tuple[Run, ...]:
 def foot_of(scene: Scene, homeless: Sequence[str], top: float) -> Iterator[Item]:
     """The axes, the legend, and remarks."""
     corner = _PAD + 12.0, top + 34.0
-    for way, name in (((1.0, 0.0), scene.axes[FIRST]), ((0.0, -1.0), scene.axes[SECOND])):
+    ways = (((1.0, 0.0), scene.axes[FIRST]), ((0.0, -1.0), scene.axes[SECOND])) if any(scene.axes) else ()
+    for way, name in ways:
         tip = corner[0] + way[0] * 30.0, corner[1] + way[1] * 30.0
         yield line(corner, tip, Role.INK, 1.2)
         yield head(tip, way, Role.INK)

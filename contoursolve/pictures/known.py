@@ -40,6 +40,13 @@ def known_of(solution: Solution) -> Known:
     return Known(solution.points, solution.radii, solution.corners)
 
 
+def place_of(profile: Profile, name: str) -> Point | None:
+    """A point whose coordinates are given."""
+    given = [profile.givens.get(scalar(name, axis)) for axis in (FIRST, SECOND)]
+    values = [float(each.value) for each in given if each is not None]
+    return (values[0], values[1]) if len(values) == len(given) else None
+
+
 def is_usable(value: float) -> bool:
     """Whether a number is a coordinate that can be drawn."""
     return isfinite(value) and abs(value) <= 10 * LARGEST

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from contoursolve.examine import Answer
 from contoursolve.model import FIRST, SECOND
-from contoursolve.pictures.compose import axis_name, main_trails
+from contoursolve.pictures.compose import axis_name, main_trails, remarks_of
 from contoursolve.pictures.finding import find_known
 from contoursolve.pictures.moves import Move, list_moves
 from contoursolve.pictures.scene import Kind, Mark, Scene, Trail, Weight
@@ -26,7 +26,8 @@ def compose_overview(result: Result, title: str | None) -> list[Scene]:
     planes = dict.fromkeys(answer.plane for _, answer in answers)
     told = title if title is not None else _title(result)
     if not answers:
-        return [Scene(told, ("", ""), remarks=((Run("The program has no contour.", Role.MUTED),),))]
+        none = (Run("The program has no contour.", Role.MUTED),)
+        return [Scene(told, ("", ""), remarks=(none, *remarks_of(result.diagnostics)))]
     scenes: list[Scene] = []
     moves = list_moves(result)
     for plane in planes:

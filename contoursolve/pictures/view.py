@@ -6,11 +6,15 @@ from math import inf
 
 from contoursolve.pictures.scene import Aligned, Angle, Kind, Leader, Linear, Ordinate, Scene, Weight
 from contoursolve.pictures.sheet import Spot
+from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import extent
 from contoursolve.solving import Point
 
 MOST_TIMES = 3.0
 """How many times as large as what it is about a picture may become for the sake of what stands beside."""
+
+MOST_TIMES_WRONG = 12.0
+"""The same for the sake of what is wrong, which is what such a picture is about."""
 
 _ROUNDING = 1.001
 
@@ -57,31 +61,39 @@ def span_of(scene: Scene) -> Span:
             must += [at for segment in trail.segments for at in extent(segment)]
     must += [mark.at for mark in scene.marks if mark.kind not in (Kind.CENTER, Kind.OTHER)]
     more: list[Point] = [mark.at for mark in scene.marks]
+    wrong: list[Point] = []
     for dimension in scene.dimensions:
         if isinstance(dimension, Aligned | Linear):
             more += [dimension.start, dimension.end]
         elif isinstance(dimension, Ordinate | Angle | Leader):
             more.append(dimension.at)
+        if isinstance(dimension, Aligned) and dimension.role is Role.CONFLICTING:
+            wrong += [dimension.start, dimension.end]
     for thin in scene.thins:
         more += [thin.start] if thin.is_endless else [thin.start, thin.end]
     for trail in scene.trails:
         more += [at for segment in trail.segments for at in extent(segment)]
     for ring in scene.rings:
-        more += [
+        (wrong if ring.role is Role.CONFLICTING else more).extend(
             (ring.center[0] + ring.radius * x, ring.center[1] + ring.radius * y)
             for x, y in ((1, 0), (-1, 0), (0, 1), (0, -1))
-        ]
-    own = _around(must or more or [(0.0, 0.0)])
+        )
+    own = _around(must or more or wrong or [(0.0, 0.0)])
     reach = max(*own.size, 1e-9)
     if max(own.size) <= 0:
-        reach = max(*_around([*must, *more]).size, 1e-9)
-    room = reach * (MOST_TIMES - 1) / 2 * _ROUNDING
-    near = [
+        reach = max(*_around([*must, *more, *wrong]).size, 1e-9)
+    near = [*_near(more, own, reach, MOST_TIMES), *_near(wrong, own, reach, MOST_TIMES_WRONG)]
+    return _around([*(must or more[:1] or wrong[:1] or [(0.0, 0.0)]), *near])
+
+
+def _near(points: Iterable[Point], own: Span, reach: float, times: float) -> list[Point]:
+    """The points in a rectangle that is so many times as large."""
+    room = reach * (times - 1) / 2 * _ROUNDING
+    return [
         at
-        for at in more
+        for at in points
         if own.low[0] - room <= at[0] <= own.high[0] + room and own.low[1] - room <= at[1] <= own.high[1] + room
     ]
-    return _around([*(must or more[:1] or [(0.0, 0.0)]), *near])
 
 
 def _around(points: Iterable[Point]) -> Span:
