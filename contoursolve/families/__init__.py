@@ -13,7 +13,7 @@ from contoursolve.families.regions import Boundary, Region, region
 from contoursolve.families.result import Family, summary_of
 from contoursolve.families.slopes import Sensitivity, Spread, sensitivity
 from contoursolve.families.tolerance import Effect, Limits, Tolerances, tolerances
-from contoursolve.families.verdict import REASONS, Code
+from contoursolve.solving.verdict import REASONS, Code
 
 __all__ = [
     "REASONS",

@@ -7,7 +7,7 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from contoursolve.families.verdict import REASONS, Code
+from contoursolve.solving.verdict import REASONS, Code
 
 
 class MissingExtraError(ImportError):

@@ -17,12 +17,12 @@ from contoursolve.families.kinds import Input, Kind, alike, intervals_of, kind_o
 from contoursolve.families.ranges import FamilyError, Places, Ranges, stretches
 from contoursolve.families.several import BLOCK, Several, asked_of
 from contoursolve.families.template import Template
-from contoursolve.families.verdict import Code, Verdict, code_of, reason_of
 from contoursolve.model import FIRST, SECOND, CornerShape, scalar
 from contoursolve.reading import Trouble
 from contoursolve.solving import RemarkKind
 from contoursolve.solving.compile import compile_system
 from contoursolve.solving.plan import Step, TwoCirclesStep
+from contoursolve.solving.verdict import Code, Verdict, code_of, reason_of
 from contoursolve.tolerance import TOUCHING
 
 Table = dict[str, NDArray[Any]]
