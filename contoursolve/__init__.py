@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from contoursolve.diagnostic import Basis, Diagnosis, Diagnostic, Severity
     from contoursolve.dialects import Dialect
     from contoursolve.examine import Answer, Depth, Policy
+    from contoursolve.extras import MissingExtraError
     from contoursolve.families import (
         Family,
         FamilyError,
@@ -73,6 +74,7 @@ __all__ = [
     "Feasible",
     "Found",
     "LineSegment",
+    "MissingExtraError",
     "Policy",
     "Program",
     "Region",
@@ -109,6 +111,7 @@ _ROOMS = {
     "diagnostic": ("Basis", "Diagnosis", "Diagnostic", "Severity"),
     "dialects": ("Dialect",),
     "examine": ("Answer", "Depth", "Policy"),
+    "extras": ("MissingExtraError",),
     "outcome": ("Expansion",),
     "families": (
         "Family",

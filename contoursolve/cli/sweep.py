@@ -16,16 +16,15 @@ from contoursolve.cli.options import CouldNotRunError, rules_option, settings_op
 from contoursolve.cli.pictured import bytes_of, check_picture
 from contoursolve.cli.varied import read_range
 from contoursolve.dialects import DIALECTS
+from contoursolve.extras import MissingExtraError, need
 from contoursolve.families import (
     REASONS,
     WHOLE,
     Code,
     FamilyError,
-    MissingExtraError,
     Parts,
     Sweep,
     csv_lines,
-    need,
     others,
     parts_of,
     pieces,
@@ -34,7 +33,7 @@ from contoursolve.families import (
 )
 from contoursolve.files import CannotWriteError, check_target, write_whole
 from contoursolve.output.layout import columns
-from contoursolve.pictures import MissingPainterError, draw_sweep
+from contoursolve.pictures import draw_sweep
 from contoursolve.pipeline import FactPlaceError, UnknownControlError
 from contoursolve.project import SettingError
 
@@ -125,7 +124,6 @@ def sweep_(
         FamilyError,
         SettingError,
         MissingExtraError,
-        MissingPainterError,
         CannotWriteError,
         FactPlaceError,
     ) as error:
@@ -146,7 +144,7 @@ def _target(output: str | None, is_forced: bool) -> Path | None:
         raise click.UsageError(f"{target}: name a file that ends with .parquet or .csv")
     try:
         if target.suffix.lower() == ".parquet":
-            need("pyarrow")
+            need("pyarrow", "family", "a Parquet file")
         check_target(target, None, is_forced=is_forced)
     except (CannotWriteError, MissingExtraError) as error:
         raise CouldNotRunError(str(error)) from None
@@ -159,7 +157,7 @@ def _cluster(address: str | None) -> Iterator[Executor | None]:
     if address is None:
         yield None
         return
-    distributed = need("distributed", "dask")
+    distributed = need("distributed", "dask", "solving on a cluster")
     try:
         client = distributed.Client(address, timeout="10s", set_as_default=False)
     except (OSError, ValueError) as error:

@@ -10,10 +10,6 @@ DPI = 144.0
 """Pixels in an inch of a PNG; a page has 96."""
 
 
-class MissingPainterError(ImportError):
-    """The package that paints PNG is missing; the message says what to install."""
-
-
 @dataclass(frozen=True, slots=True)
 class Picture:
     """A drawing; `width` and `height` are in pixels of CSS. `svg` is one element without an XML declaration."""
@@ -31,7 +27,7 @@ class Picture:
         return self.svg
 
     def png(self, dpi: float = DPI) -> bytes:
-        """The drawing as PNG. Raises MissingPainterError without matplotlib."""
+        """The drawing as PNG. Raises MissingExtraError without matplotlib."""
         from contoursolve.pictures.png import write_png  # noqa: PLC0415 - an extra, and slow to import
 
         return write_png(self.sheet, self.theme, self.title, dpi)

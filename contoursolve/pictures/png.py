@@ -4,7 +4,7 @@ import io
 from typing import TYPE_CHECKING, Any
 from warnings import catch_warnings, simplefilter
 
-from contoursolve.pictures.picture import MissingPainterError
+from contoursolve.extras import importing
 from contoursolve.pictures.sheet import Anchor, Dot, Shape, Sheet, Stroke, Sweep, Text
 from contoursolve.pictures.svg import points_on
 from contoursolve.pictures.theme import Role, Theme
@@ -22,19 +22,13 @@ _MOST = 12_000
 
 
 def write_png(sheet: Sheet, theme: Theme, title: str, dpi: float) -> bytes:
-    """The page as PNG. Raises MissingPainterError without matplotlib, ValueError for a resolution out of range."""
+    """The page as PNG. Raises MissingExtraError without matplotlib, ValueError for a resolution out of range."""
     if not 1 <= dpi <= _MOST * PIXELS / max(sheet.width, sheet.height):
         raise ValueError(f"a picture of {sheet.width:.0f} x {sheet.height:.0f} pixels cannot be painted at {dpi:g} dpi")
-    try:
+    with importing("picture", "a PNG picture"):
         from matplotlib import rc_context  # noqa: PLC0415 - an extra, and slow to import
         from matplotlib.backends.backend_agg import FigureCanvasAgg  # noqa: PLC0415
         from matplotlib.figure import Figure  # noqa: PLC0415
-    except ModuleNotFoundError as error:
-        if error.name is None or error.name.partition(".")[0] != "matplotlib":
-            raise
-        raise MissingPainterError(
-            "a PNG picture needs matplotlib; install it with: pip install 'contoursolve[picture]'"
-        ) from None
     # A user's own settings change nothing.
     with catch_warnings(), rc_context({"path.simplify": False, "font.family": ["DejaVu Sans"], "text.usetex": False}):
         simplefilter("ignore")  # about characters that the font lacks; they are boxes then
