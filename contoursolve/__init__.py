@@ -47,7 +47,8 @@ if TYPE_CHECKING:
     )
     from contoursolve.notebook import explore
     from contoursolve.outcome import Expansion
-    from contoursolve.pipeline import Result, UnknownControlError
+    from contoursolve.pipeline import Result
+    from contoursolve.recognise import UnknownControlError
     from contoursolve.sketch import Drawings, Drawn, Sketch
     from contoursolve.solving import Status
     from contoursolve.syntax import Block, Program, Word
@@ -129,7 +130,8 @@ _ROOMS = {
         "tolerances",
     ),
     "notebook": ("explore",),
-    "pipeline": ("Result", "UnknownControlError"),
+    "pipeline": ("Result",),
+    "recognise": ("UnknownControlError",),
     "sketch": ("Drawings", "Drawn", "Sketch"),
     "solving": ("Status",),
     "syntax": ("Block", "Program", "Word"),

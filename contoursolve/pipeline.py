@@ -9,7 +9,7 @@ from contoursolve.ahead import Line, View, each_block, go_on, pass_plainly
 from contoursolve.diagnostic import Basis, Diagnostic, Severity
 from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.examine import Answer, Depth, Policy, examine, rank
-from contoursolve.explain import Context, join, report
+from contoursolve.explain import Context, report
 from contoursolve.model import Length, Plane
 from contoursolve.moulds import Cast
 from contoursolve.pending import Pending, Queue, Step, Together
@@ -22,6 +22,7 @@ from contoursolve.reading import (
     is_plain,
     next_place,
 )
+from contoursolve.recognise import what_shows
 from contoursolve.shown import Shown
 from contoursolve.source import Span
 from contoursolve.spelling import (
@@ -68,10 +69,6 @@ class Result(Shown):
         return block.span if block else Span(1, 1, 2)
 
 
-class UnknownControlError(ValueError):
-    """The program does not tell which control it is for; the message lists the choices."""
-
-
 class FactPlaceError(ValueError):
     """Facts were stated apart from a program with several contours; the message says what to do."""
 
@@ -109,56 +106,6 @@ def _in_words(fact: Directive, plane: Plane, unit: Length) -> Directive:
 
     text = write_statement(cast("Statement", fact.statement), plane, unit)
     return replace(fact, text=text, span=Span(fact.span.line, 1, len(text) + 1))
-
-
-def choose(control: str | Dialect | None, program: Program) -> Dialect | None:
-    """The control of this name, or that is given as its tables, or else the one that a program is written for.
-
-    Raises UnknownControlError, which lists the choices, if there is no such control or the program shows several.
-    """
-    if isinstance(control, Dialect):
-        return control
-    return find_dialect(control) if control else recognise(program)
-
-
-def find_dialect(control: str) -> Dialect:
-    """The control of this name. Raises UnknownControlError, which lists the choices."""
-    if control not in DIALECTS:
-        raise UnknownControlError(f"unknown control {control!r}; choose from {', '.join(DIALECTS)}")
-    return DIALECTS[control]
-
-
-def recognise(program: Program) -> Dialect | None:
-    """The control that a program is written for; None if no block shows it.
-
-    Raises UnknownControlError if its blocks show more than one.
-    """
-    signs = {name: sign for name, dialect in DIALECTS.items() for sign in [_sign(program.blocks, dialect)] if sign}
-    if len(signs) > 1:
-        raise several_controls(signs)
-    return DIALECTS[next(iter(signs))] if signs else None
-
-
-def several_controls(signs: Mapping[str, str]) -> UnknownControlError:
-    """That blocks show more than one control; `signs` say what shows each."""
-    places = ", ".join(f"{name} by {signs[name]}" for name in DIALECTS if name in signs)
-    return UnknownControlError(f"the program looks like more than one control ({places})")
-
-
-def _sign(blocks: Iterable[Block], dialect: Dialect) -> str:
-    """What first shows that blocks are for a control; empty if nothing does."""
-    return next((sign for block in blocks for sign in [sign_of(block, dialect)] if sign), "")
-
-
-def sign_of(block: Block, dialect: Dialect) -> str:
-    """What shows that a block is for a control; empty if nothing does."""
-    words = dialect.signs(block)
-    return f"{join([word.text.strip() for word in words])} in line {block.line}" if words else ""
-
-
-def first_sign(blocks: Iterable[Block]) -> Dialect | None:
-    """The control that the first block that shows any is written for."""
-    return next((dialect for block in blocks for dialect in DIALECTS.values() if dialect.signs(block)), None)
 
 
 def run(
@@ -366,7 +313,7 @@ class _Examiner:
         own = self.dialect.name if self.dialect else None
         controls = (self.dialect,) if self.dialect else DIALECTS.values()
         triggers = [f"of {each.name}: {each.contours}" for each in controls]
-        others = ((name, _sign(blocks, each)) for name, each in DIALECTS.items() if own not in (None, name))
+        others = ((name, what_shows(blocks, each)) for name, each in DIALECTS.items() if own not in (None, name))
         triggers += [f"{sign} is for {name}: try --control {name}" for name, sign in others if sign]
         context = Context(self.rules, self.unit)
         return report(context, context.row(Trouble.NO_CONTOUR), Basis.RULE, [], triggers="; ".join(triggers))

@@ -7,7 +7,7 @@ from enum import Enum
 from contoursolve.diagnostic import Severity
 from contoursolve.dialects import Dialect
 from contoursolve.families.ends import Reason, about_of, called, phrase, same
-from contoursolve.families.evaluate import template_with
+from contoursolve.families.recipe import recipe_of
 from contoursolve.families.survey import LEAST_GAP, Crossing, Piece, Survey
 from contoursolve.solving import RefusalKind
 
@@ -116,7 +116,9 @@ def feasible(
     >>> found.intervals[0].high.reason.text
     'P too large for line 1: 51.962 mm at most'
     """
-    template = template_with(word, block, start, control, units, rules, settings)
+    template = recipe_of(
+        block, (word,), start=start, control=control, units=units, rules=rules, settings=settings
+    ).template()
     name = next(iter(template.words))
     survey = Survey(template, name)
     low, high = survey.range_of(within)

@@ -15,6 +15,7 @@ from contoursolve.backends.columns import ROWS, Array, ColumnFunction, Columns, 
 from contoursolve.constraints import System
 from contoursolve.families.kinds import Input, Kind, alike, intervals_of, kind_of, limits_of
 from contoursolve.families.ranges import FamilyError, Places, Ranges, stretches
+from contoursolve.families.recipe import Recipe
 from contoursolve.families.several import BLOCK, Several, asked_of
 from contoursolve.families.template import Template
 from contoursolve.model import FIRST, SECOND, CornerShape, scalar
@@ -71,7 +72,7 @@ class Kinds:
 class Sweep:
     """The kinds of rows of a family, and how to evaluate them; every thread has functions of its own."""
 
-    recipe: Any
+    recipe: Recipe
     """Plain data from which the same kinds can be made elsewhere."""
     examples: Examples
     found: Kinds

@@ -1,7 +1,7 @@
 """Where a contour exists in two words: the lines that bound the region, each with what fails beyond it."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import pairwise, product
 
 import numpy
@@ -12,12 +12,12 @@ from contoursolve.diagnostic import Severity
 from contoursolve.dialects import Dialect
 from contoursolve.families.boundary import ASIDE, Way
 from contoursolve.families.ends import Reason, about_of, called, phrase, same
-from contoursolve.families.evaluate import template_of
 from contoursolve.families.kinds import Kind, alike, kind_of, limits_of, value_of
 from contoursolve.families.margins import compile_margins
 from contoursolve.families.outline import BISECTIONS, NODES, Box, Field, Trace, edge_of, gaps_of
-from contoursolve.families.ranges import FamilyError, name_of
-from contoursolve.families.template import Template, find_words
+from contoursolve.families.ranges import FamilyError
+from contoursolve.families.recipe import recipe_of
+from contoursolve.families.template import Template
 from contoursolve.model import Unit
 from contoursolve.solving import RefusalKind
 from contoursolve.tolerance import LENGTH
@@ -91,14 +91,14 @@ def region(
     >>> [each.reason.text for each in found.boundaries]
     ['P too large for line 1', 'P too large for line 2']
     """
-    template = template_of(block, start, control, units, rules, settings, lambda _: {})
-    names = name_of(words[0]), name_of(words[1])
+    recipe = recipe_of(block, words, start=start, control=control, units=units, rules=rules, settings=settings)
+    names = recipe.names[0], recipe.names[1]
     for name, (low, high) in zip(names, within, strict=True):
         if not -numpy.inf < low < high < numpy.inf:
             raise FamilyError(f"{name} from {low:g} to {high:g} is no range; the smaller number comes first")
     if names[0] == names[1]:
         raise FamilyError(f"{names[0]} is named twice")
-    return _Map(replace(template, words=find_words(template, names)), names, within).run()
+    return _Map(recipe.template(), names, within).run()
 
 
 class _Map:
