@@ -22,8 +22,9 @@ from contoursolve.solving import Status
 from contoursolve.solving.certificate import Proof, up_to_one_digit
 from contoursolve.solving.certify import certify
 from contoursolve.solving.compile import Machine, compile_system
+from contoursolve.solving.numbers import inputs_at, inputs_of, sizes_of, solution_at
 from contoursolve.solving.plan import LineCircleStep, TwoCirclesStep
-from contoursolve.solving.solve import ROUNDING, inputs_at, inputs_of, sizes_of, solution_at
+from contoursolve.solving.solve import ROUNDING
 from contoursolve.solving.verdict import Code, Verdict
 from contoursolve.spelling import without_point
 from contoursolve.syntax import Word, split_simply

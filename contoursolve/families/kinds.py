@@ -20,7 +20,8 @@ from contoursolve.reading import Trouble
 from contoursolve.rules import Rule, Value
 from contoursolve.solving import RemarkKind, Solution, Status, is_closed, points_with_two_solutions
 from contoursolve.solving.compile import Machine, compile_system
-from contoursolve.solving.solve import inputs_of, solve
+from contoursolve.solving.numbers import inputs_of
+from contoursolve.solving.solve import solve
 from contoursolve.solving.verdict import Codes
 from contoursolve.syntax import FACT, Word
 from contoursolve.tolerance import LARGEST
