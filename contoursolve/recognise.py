@@ -3,9 +3,9 @@
 from collections.abc import Iterable, Mapping
 
 from contoursolve.dialects import DIALECTS, Dialect
-from contoursolve.explain import join
 from contoursolve.project import check_settings, configure
 from contoursolve.syntax import Block, Program
+from contoursolve.wording import join
 
 
 class UnknownControlError(ValueError):

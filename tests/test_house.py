@@ -12,7 +12,7 @@ import pytest
 import contoursolve
 
 FLOORS = (
-    "source tolerance shown extras choices",
+    "source tolerance shown extras choices data",
     "diagnostic",
     "syntax comments",
     "files",
@@ -24,7 +24,7 @@ FLOORS = (
     "analysis",
     "solving",
     "settling",
-    "contour posts reliance numbering",
+    "contour posts reliance numbering wording",
     "beyond",
     "emit explain sketch",
     "spelling",

@@ -1,6 +1,5 @@
 """What the commands about one block and its words share."""
 
-import json
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -10,6 +9,7 @@ import click
 
 from contoursolve.cli.loading import settings_of
 from contoursolve.cli.options import CouldNotRunError, rules_option, settings_option, units_option
+from contoursolve.data import json_text
 from contoursolve.dialects import DIALECTS
 from contoursolve.extras import MissingExtraError
 from contoursolve.families import FamilyError
@@ -76,4 +76,4 @@ def read_within(text: str) -> tuple[float, float]:
 
 def print_json(document: dict[str, Any]) -> None:
     """One JSON document."""
-    click.echo(json.dumps(document, indent=1, ensure_ascii=True, allow_nan=False))
+    click.echo(json_text(document))
