@@ -9,15 +9,18 @@ SHOWN = 60
 
 
 def length_text(value: float, unit: Length) -> str:
-    """A length in the program's unit."""
-    if unit is Length.INCH:
-        return _number(value / 25.4, 4) + " in"
-    return _number(value, 3) + " mm"
+    """A length of so many mm in the program's unit."""
+    return value_text(value / 25.4 if unit is Length.INCH else value, unit.value)
 
 
 def angle_text(value: float) -> str:
     """An angle in degrees."""
-    return _number(value, 3) + " deg"
+    return value_text(value, "deg")
+
+
+def value_text(value: float, unit: str) -> str:
+    """A value as its word has it, in mm, inch or deg."""
+    return f"{_number(value, 4)} in" if unit == "inch" else f"{_number(value, 3)} {unit}"
 
 
 _PARTS = {"cos": "direction", "sin": "direction", "off": "place", "radius": "radius"}

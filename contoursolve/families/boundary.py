@@ -10,6 +10,7 @@ from contoursolve.families.ends import Reason, about_of, called, phrase, same
 from contoursolve.families.recipe import recipe_of
 from contoursolve.families.survey import LEAST_GAP, Crossing, Piece, Survey
 from contoursolve.solving import RefusalKind
+from contoursolve.wording import value_text
 
 __all__ = ["LEAST_GAP", "End", "Feasible", "Interval", "Way", "feasible"]
 
@@ -177,7 +178,7 @@ def _reason(
 ) -> tuple[Reason, bool]:
     """What fails beyond an end, and whether it is a rule or the reading of the words; `near` are the pieces on its two
     sides, the one beyond it first."""
-    at, limit = shown(survey, value), ""
+    at, limit = value_text(value, survey.unit), ""
     limit = f"at {at}" if near[0].is_value else f"{at} at {'most' if way > 0 else 'least'}"
     beyond = "at" if near[0].is_value else "above" if way > 0 else "below"
     there = outside if outside is not None else (near[0].low + near[0].high) / 2
@@ -206,10 +207,3 @@ def _reason(
         text, limit = f"{phrase(crossing.check, crossing.check.kind, about)}: {limit}", f"beyond it {text}"
         return Reason(f"{text}; {limit}", code, message), False
     return Reason(f"{text}: {limit}", code, message), crossing is None and not near[0].is_value
-
-
-def shown(survey: Survey, value: float) -> str:
-    """A value with the unit in which the word is written."""
-    decimals, unit = (4, "in") if survey.unit == "inch" else (3, survey.unit)
-    is_small = 0 < abs(value) < 0.5 * 10**-decimals
-    return f"{value:.1e} {unit}" if is_small else f"{value + 0.0:.{decimals}f} {unit}"

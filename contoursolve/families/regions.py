@@ -21,6 +21,7 @@ from contoursolve.families.template import Template
 from contoursolve.model import Unit
 from contoursolve.solving import RefusalKind
 from contoursolve.tolerance import LENGTH
+from contoursolve.wording import value_text
 
 Point = tuple[float, float]
 
@@ -252,10 +253,10 @@ class _Map:
         answer = self.template.solve(dict(zip(self.words, outside, strict=True)))
         finding = next((each for each in answer.diagnostics if each.severity is Severity.ERROR), None)
         word, where = called(self.words[axis]), "above" if step > 0 else "below"
-        unit = "in" if self.units[axis] == "inch" else self.units[axis]
-        text = f"there is no contour for {word} {where} {value:g} {unit}"
+        at = value_text(value, self.units[axis])
+        text = f"there is no contour for {word} {where} {at}"
         if finding is not None and finding.about is None:
-            text = f"rule {finding.code} refuses {word} {where} {value:g} {unit}"
+            text = f"rule {finding.code} refuses {word} {where} {at}"
         code, message = (finding.code, finding.message) if finding is not None else ("", "")
         is_told = answer.contour is None and self._has_contour(inside)
         points = tuple(_point(axis, value, end) for end in span)
