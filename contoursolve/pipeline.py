@@ -182,6 +182,8 @@ class _Examiner:
         self.rules = dialect.rules if dialect else DIALECTS["yasnac-lx3"].rules
         self.together = together
         self.diagnostics: list[Diagnostic] = []
+        self.start_unit = unit
+        """In which a start point that is stated apart counts, until a contour has another unit."""
         self.queue = Queue(dialect or DIALECTS["yasnac-lx3"], together, self._examine)
 
     def steps(self, blocks: Iterable[Line], start: Program | None) -> Iterator[Step]:
@@ -210,7 +212,7 @@ class _Examiner:
         for block in start.blocks if start else ():
             self._check_block(block)
             state = advance(state, block, dialect.modes)
-        start_unit = state.unit
+        self.start_unit = state.unit
         is_whole, index, size = isinstance(blocks, Sequence), 0, _FIRST
         held: list[Line] = list(blocks) if isinstance(blocks, Sequence) else []
         rest = iter(() if isinstance(blocks, Sequence) else blocks)
@@ -247,8 +249,7 @@ class _Examiner:
                 continue
             blocks_of_step = (block,) if after == 1 else tuple(view[:after])
             if isinstance(found, Claim) and found.form.is_contour:
-                self._check_units(start, start_unit, found)
-                start_unit = found.after.unit
+                self._check_units(start, found)
                 pending = self.queue.add(found, Step(blocks_of_step, state, findings=self._findings()), view, after)
                 yield pending
                 state = self.queue.leave(pending)
@@ -256,26 +257,26 @@ class _Examiner:
                 before = state
                 state = advance(state, block, dialect.modes)
                 if isinstance(found, Claim):
+                    # Read as a contour is, but none.
                     answer = self._examine(found, Pending(found, Step((), before), view, after))
                     self.diagnostics += answer.diagnostics if answer.start.is_known else ()
-                    self._check_units(start, start_unit, found)
-                    start_unit = found.after.unit
+                    self._check_units(start, found)
                 else:
                     self._check_block(block)
-                    self._check_commas(view, 0, (before, state))
+                    self._check_commas(view, (before, state))
                 yield Step(blocks_of_step, before, findings=self._findings())
             held, index = go_on(held, index, after)
 
-    def _check_commas(self, blocks: Sequence[Block], index: int, states: tuple[State, State]) -> None:
-        """Whether a line lacks the comma that would make a contour of it, where the control knows such words."""
-        block, dialect = blocks[index], self.dialect
+    def _check_commas(self, blocks: Sequence[Block], states: tuple[State, State]) -> None:
+        """Whether the first of some lines lacks the comma with which it would be a contour."""
+        block, dialect = blocks[0], self.dialect
         if dialect is None or self.depth is Depth.VERDICT:
             return
         if any(f",{word.address}" in dialect.modes.lexicon.addresses for word in block.words):
             from contoursolve.commas import explain_commas  # noqa: PLC0415 - few programs need it
 
             context = Context(self.rules, self.unit, place=block.span)
-            self.diagnostics += explain_commas(context, dialect, blocks[: index + _NEAR], index, states)
+            self.diagnostics += explain_commas(context, dialect, blocks[:_NEAR], states)
 
     def _findings(self) -> tuple[Diagnostic, ...]:
         """What was found since the last step."""
@@ -302,11 +303,12 @@ class _Examiner:
             answer = diagnose(answer, dialect, self.policy, blocks[after : after + _NEAR])
         return answer
 
-    def _check_units(self, start: Program | None, unit: Length, found: Claim) -> None:
+    def _check_units(self, start: Program | None, found: Claim) -> None:
         """Whether a contour is in the units in which the start point was stated apart from the program."""
-        if start and found.after.unit is not unit:
-            place = Context(self.rules, unit, place=start.blocks[0].span)
+        if start and found.after.unit is not self.start_unit:
+            place = Context(self.rules, self.start_unit, place=start.blocks[0].span)
             self.diagnostics.append(explain_start_units(place, found.after.unit, start.blocks[0]))
+        self.start_unit = found.after.unit
 
     def nothing_to_solve(self, blocks: Sequence[Block]) -> Diagnostic:
         """The finding that a program has no contour block."""
