@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from contoursolve.diagnostic import Basis, Diagnosis, Diagnostic, Severity
     from contoursolve.dialects import Dialect
     from contoursolve.examine import Answer, Depth, Policy
+    from contoursolve.extras import MissingExtraError
     from contoursolve.families import (
         Family,
         FamilyError,
@@ -46,7 +47,8 @@ if TYPE_CHECKING:
     )
     from contoursolve.notebook import explore
     from contoursolve.outcome import Expansion
-    from contoursolve.pipeline import Result, UnknownControlError
+    from contoursolve.pipeline import Result
+    from contoursolve.recognise import UnknownControlError
     from contoursolve.sketch import Drawings, Drawn, Sketch
     from contoursolve.solving import Status
     from contoursolve.syntax import Block, Program, Word
@@ -73,6 +75,7 @@ __all__ = [
     "Feasible",
     "Found",
     "LineSegment",
+    "MissingExtraError",
     "Policy",
     "Program",
     "Region",
@@ -109,6 +112,7 @@ _ROOMS = {
     "diagnostic": ("Basis", "Diagnosis", "Diagnostic", "Severity"),
     "dialects": ("Dialect",),
     "examine": ("Answer", "Depth", "Policy"),
+    "extras": ("MissingExtraError",),
     "outcome": ("Expansion",),
     "families": (
         "Family",
@@ -126,7 +130,8 @@ _ROOMS = {
         "tolerances",
     ),
     "notebook": ("explore",),
-    "pipeline": ("Result", "UnknownControlError"),
+    "pipeline": ("Result",),
+    "recognise": ("UnknownControlError",),
     "sketch": ("Drawings", "Drawn", "Sketch"),
     "solving": ("Status",),
     "syntax": ("Block", "Program", "Word"),

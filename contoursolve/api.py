@@ -4,19 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
-from enum import Enum
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
 from contoursolve import syntax
+from contoursolve.choices import choice_of
 from contoursolve.diagnostic import Diagnostic, Severity
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Depth, Policy
 from contoursolve.model import Length
 from contoursolve.numbering import Numbers
-from contoursolve.pipeline import Result, choose, run
-from contoursolve.project import configure, find_settings
+from contoursolve.pipeline import Result, run
+from contoursolve.project import find_settings
 from contoursolve.reading import Trouble
+from contoursolve.recognise import choose
 from contoursolve.syntax import STANDARD_INPUT, Directive, Program, UnreadableProgramError
 
 if TYPE_CHECKING:
@@ -180,10 +181,7 @@ def solve_program(
     settings: Mapping[str, str] | None = None,
 ) -> Result:
     """Solve every contour of a program that was parsed or read before; as `solve`."""
-    dialect = choose(control, program)
-    configured = configure(settings, dialect) if settings else {}
-    if dialect is not None:
-        dialect = configured.get(dialect.name, dialect)
+    dialect = choose(control, program, settings)
     beginning = syntax.parse(start, program.name, first_line=0) if start is not None else None
     unit, policy = choice_of(Length, units, "units"), choice_of(Policy, rules, "rules")
     deep, together = choice_of(Depth, depth, "depth"), None
@@ -196,17 +194,6 @@ def solve_program(
 
 _MANY = 64
 """Blocks of a program whose contours are solved together."""
-
-
-Choice = TypeVar("Choice", bound=Enum)
-
-
-def choice_of(kind: type[Choice], value: str, argument: str) -> Choice:
-    """The member of an enum with this value. Raises ValueError, which lists the choices."""
-    for member in kind:
-        if member.value == value:
-            return member
-    raise ValueError(f"{argument} cannot be {value!r}; choose from {', '.join(str(each.value) for each in kind)}")
 
 
 def _facts(facts: Iterable[str | Statement]) -> list[Directive]:
@@ -272,7 +259,7 @@ def expand(
     from contoursolve.posts import Arcs, Numbering, find_post  # noqa: PLC0415
 
     program = syntax.parse(text, name)
-    dialect = choose(control, program)
+    dialect = choose(control, program, settings)
     if decimals is not None and (isinstance(decimals, bool) or decimals not in range(1, MOST_DECIMALS + 1)):
         raise ValueError(f"decimals cannot be {decimals!r}; choose 1 to {MOST_DECIMALS}, or None for the target's own")
     numbering = choice_of(Numbering, block_numbers, "block_numbers")
@@ -281,7 +268,6 @@ def expand(
     if dialect is None:
         summary.left += filter(None, map(left_unread, program.blocks))
         return Expansion(text if keep_going or not summary.left else None, None, summary)
-    dialect = (configure(settings, dialect) if settings else {}).get(dialect.name, dialect)
     beginning = syntax.parse(start, name, first_line=0) if start is not None else None
     further = lines_of_facts(program, dialect, unit, beginning, _facts(facts))
     pieces = list(

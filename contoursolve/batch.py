@@ -14,7 +14,6 @@ from contoursolve.contour import Contour, trace
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer, Policy
 from contoursolve.explain import context_of
-from contoursolve.families.verdict import Code, Verdict
 from contoursolve.model import Length, Line, Profile, Start, Unit
 from contoursolve.moulds import Cast, Mould, Pattern, mould_of, pattern_of
 from contoursolve.reading import Claim, Form, State, WithoutPoint
@@ -23,8 +22,10 @@ from contoursolve.solving import Status
 from contoursolve.solving.certificate import Proof, up_to_one_digit
 from contoursolve.solving.certify import certify
 from contoursolve.solving.compile import Machine, compile_system
+from contoursolve.solving.numbers import inputs_at, inputs_of, sizes_of, solution_at
 from contoursolve.solving.plan import LineCircleStep, TwoCirclesStep
-from contoursolve.solving.solve import ROUNDING, inputs_at, inputs_of, sizes_of, solution_at
+from contoursolve.solving.solve import ROUNDING
+from contoursolve.solving.verdict import Code, Verdict
 from contoursolve.spelling import without_point
 from contoursolve.syntax import Word, split_simply
 from contoursolve.tolerance import AGREEMENT, ERROR_BOUND_WARNING, LARGEST, LENGTH, TOUCHING

@@ -25,11 +25,11 @@ _OF_A_LINE = (
 
 
 def explain_commas(
-    context: Context, dialect: Dialect, blocks: Sequence[Block], index: int, states: tuple[State, State]
+    context: Context, dialect: Dialect, blocks: Sequence[Block], states: tuple[State, State]
 ) -> Iterator[Diagnostic]:
-    """Words of a line, the block at `index`, whose address the control reads with a comma only: each with the
+    """Words of a line, the first of some blocks, whose address the control reads with a comma only: each with the
     comma as its fix, if that makes a contour that is solved. `states` are those before and after the block."""
-    block, (before, after) = blocks[index], states
+    block, (before, after) = blocks[0], states
     addresses = dialect.modes.lexicon.addresses
     codes = codes_of(block, dialect.modes)
     is_line = after.motion == _LINE and not block.macro and any(map(block.find, after.plane.axes))
@@ -42,7 +42,7 @@ def explain_commas(
         finding = report(context, context.row(Trouble.COMMA_MISSING), Basis.RULE, [word], meant=text)
         edit = Edit(EditKind.CHANGE, word.address, word.span, word.text, text)
         (replacement,) = apply_edits([block], [edit])
-        changed = [parse_block(replacement, block.line), *blocks[index + 1 :]]
+        changed = [parse_block(replacement, block.line), *blocks[1:]]
         found = dialect.find(changed, 0, before, dialect.modes)
         if isinstance(found, Claim) and examine(found, dialect.rules, Policy.ENFORCE, depth=Depth.VERDICT).contour:
             finding = replace(finding, fixes=(Fix(str(edit), replacement, Applicability.CHANGES_CONTOUR),))

@@ -26,6 +26,7 @@ from contoursolve.explain import (
 from contoursolve.model import Length, Plane, Profile, Question, Side, Start
 from contoursolve.reading import Claim, Trouble, read, unused_words
 from contoursolve.rules import Offence, Rule, check
+from contoursolve.shown import Shown
 from contoursolve.solving import (
     Refusal,
     RefusalKind,
@@ -40,10 +41,6 @@ from contoursolve.solving import (
     solve,
 )
 from contoursolve.solving.certificate import Certificate
-
-if TYPE_CHECKING:
-    from contoursolve.solving.alternatives import Alternatives
-from contoursolve.shown import Shown
 from contoursolve.source import Span
 from contoursolve.spelling import (
     explain_skippable,
@@ -53,6 +50,9 @@ from contoursolve.spelling import (
     tell_points,
     without_point,
 )
+
+if TYPE_CHECKING:
+    from contoursolve.solving.alternatives import Alternatives
 
 
 class Policy(Enum):

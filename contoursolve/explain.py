@@ -13,13 +13,14 @@ from contoursolve.analysis import Verdict
 from contoursolve.constraints import Radius, assemble
 from contoursolve.contour import Contour, LineSegment
 from contoursolve.diagnostic import Basis, Diagnostic, Label
-from contoursolve.model import CornerShape, Given, Length, Profile, Role, Unit
+from contoursolve.model import Given, Length, Profile, Role, Unit
 from contoursolve.reading import Claim, Trouble
 from contoursolve.rules import Offence, Rule
 from contoursolve.solving import Refusal, RefusalKind, Remark, RemarkKind, Solution, compare, lookup, scalars_of
 from contoursolve.source import Span
 from contoursolve.syntax import FACT, Word
 from contoursolve.tolerance import AGREEMENT
+from contoursolve.wording import angle_text, join, length_text, place_text, shorten, unknowns_text
 
 if TYPE_CHECKING:
     from contoursolve.solving.alternatives import Alternatives
@@ -28,9 +29,6 @@ _BEGINNING = Span(1, 1, 2)
 
 MOST_THINGS = 2
 """Points and lines that a message names as missing; beyond it, all of the contour is."""
-
-SHOWN = 60
-"""Characters of a word or a list of words in a message; the listing shows the rest."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,18 +95,6 @@ def context_of(claim: Claim, rules: tuple[Rule, ...]) -> Context:
 def _own_first(rules: tuple[Rule, ...], roles: tuple[Role, ...]) -> tuple[Rule, ...]:
     own = {role.name for role in roles}
     return tuple(sorted(rules, key=lambda rule: own.isdisjoint(rule.roles)))
-
-
-def length_text(value: float, unit: Length) -> str:
-    """A length in the program's unit."""
-    if unit is Length.INCH:
-        return _number(value / 25.4, 4) + " in"
-    return _number(value, 3) + " mm"
-
-
-def angle_text(value: float) -> str:
-    """An angle in degrees."""
-    return _number(value, 3) + " deg"
 
 
 def report(
@@ -361,45 +347,3 @@ def _labels(event: Refusal | Remark, fields: Mapping[str, Any]) -> list[str]:
     if "expected" in fields:
         return [f"expected {fields['expected']}"]
     return []
-
-
-_PARTS = {"cos": "direction", "sin": "direction", "off": "place", "radius": "radius"}
-
-
-def unknowns_text(names: Sequence[str], profile: Profile) -> str:
-    """Unknown scalars in the user's words: `V1 (Z and X)`, `line 2 (direction)`."""
-    things: dict[str, dict[str, None]] = {}
-    for name in names:
-        thing, _, part = name.rpartition(".")
-        shown = profile.plane.axes[int(part)] if part.isdigit() else _PARTS.get(part, "")
-        shapes = {corner.shape for corner in profile.figure.corners if corner.name == thing}
-        if part == "radius" and shapes and CornerShape.FILLET not in shapes:
-            shown = "size"
-        things.setdefault(thing if shown else name, {}).update({shown: None} if shown else {})
-    return join([f"{thing} ({join(list(parts))})" if parts else thing for thing, parts in things.items()])
-
-
-def place_text(profile: Profile, scalars: dict[str, float]) -> str:
-    """Coordinates in the user's terms: `Z-10.000 X60.000` (mm or inches, X of a lathe as diameter)."""
-    texts = []
-    for name, value in sorted(scalars.items(), key=lambda item: item[0].partition(".")[2]):
-        axis = int(name.partition(".")[2])
-        shown = value * (2 if profile.plane.diameters[axis] else 1)
-        texts.append(f"{profile.plane.axes[axis]}{length_text(shown, profile.unit)}")
-    return " ".join(texts)
-
-
-def join(texts: Sequence[str]) -> str:
-    """Texts as a list in a sentence: `A, B and C`."""
-    return " and ".join(filter(None, (", ".join(texts[:-1]), *texts[-1:])))
-
-
-def shorten(text: str) -> str:
-    """A text for a message, cut where it is very long."""
-    return text if len(text) <= SHOWN else text[: SHOWN - 4] + " ..."
-
-
-def _number(value: float, decimals: int) -> str:
-    smallest = 0.5 * 10.0**-decimals
-    value += 0.0  # -0.0 is 0
-    return f"{value:.{decimals}f}" if abs(value) >= smallest or value == 0 else f"{value:.1e}"

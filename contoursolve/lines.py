@@ -6,8 +6,8 @@ from dataclasses import replace
 from contoursolve.ahead import Line
 from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.moulds import Cast, Mould, Pattern, pattern_of
-from contoursolve.pipeline import several_controls, sign_of
 from contoursolve.reading import plain_lines
+from contoursolve.recognise import several_controls, sign_of
 from contoursolve.syntax import LONGEST_BLOCK, Block, Directive, Passage, parse_block, split_simply
 
 _USUAL = "\n"

@@ -9,7 +9,7 @@ from contoursolve.ahead import Line, View, each_block, go_on, pass_plainly
 from contoursolve.diagnostic import Basis, Diagnostic, Severity
 from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.examine import Answer, Depth, Policy, examine, rank
-from contoursolve.explain import Context, join, report
+from contoursolve.explain import Context, report
 from contoursolve.model import Length, Plane
 from contoursolve.moulds import Cast
 from contoursolve.pending import Pending, Queue, Step, Together
@@ -22,6 +22,7 @@ from contoursolve.reading import (
     is_plain,
     next_place,
 )
+from contoursolve.recognise import what_shows
 from contoursolve.shown import Shown
 from contoursolve.source import Span
 from contoursolve.spelling import (
@@ -68,10 +69,6 @@ class Result(Shown):
         return block.span if block else Span(1, 1, 2)
 
 
-class UnknownControlError(ValueError):
-    """The program does not tell which control it is for; the message lists the choices."""
-
-
 class FactPlaceError(ValueError):
     """Facts were stated apart from a program with several contours; the message says what to do."""
 
@@ -109,56 +106,6 @@ def _in_words(fact: Directive, plane: Plane, unit: Length) -> Directive:
 
     text = write_statement(cast("Statement", fact.statement), plane, unit)
     return replace(fact, text=text, span=Span(fact.span.line, 1, len(text) + 1))
-
-
-def choose(control: str | Dialect | None, program: Program) -> Dialect | None:
-    """The control of this name, or that is given as its tables, or else the one that a program is written for.
-
-    Raises UnknownControlError, which lists the choices, if there is no such control or the program shows several.
-    """
-    if isinstance(control, Dialect):
-        return control
-    return find_dialect(control) if control else recognise(program)
-
-
-def find_dialect(control: str) -> Dialect:
-    """The control of this name. Raises UnknownControlError, which lists the choices."""
-    if control not in DIALECTS:
-        raise UnknownControlError(f"unknown control {control!r}; choose from {', '.join(DIALECTS)}")
-    return DIALECTS[control]
-
-
-def recognise(program: Program) -> Dialect | None:
-    """The control that a program is written for; None if no block shows it.
-
-    Raises UnknownControlError if its blocks show more than one.
-    """
-    signs = {name: sign for name, dialect in DIALECTS.items() for sign in [_sign(program.blocks, dialect)] if sign}
-    if len(signs) > 1:
-        raise several_controls(signs)
-    return DIALECTS[next(iter(signs))] if signs else None
-
-
-def several_controls(signs: Mapping[str, str]) -> UnknownControlError:
-    """That blocks show more than one control; `signs` say what shows each."""
-    places = ", ".join(f"{name} by {signs[name]}" for name in DIALECTS if name in signs)
-    return UnknownControlError(f"the program looks like more than one control ({places})")
-
-
-def _sign(blocks: Iterable[Block], dialect: Dialect) -> str:
-    """What first shows that blocks are for a control; empty if nothing does."""
-    return next((sign for block in blocks for sign in [sign_of(block, dialect)] if sign), "")
-
-
-def sign_of(block: Block, dialect: Dialect) -> str:
-    """What shows that a block is for a control; empty if nothing does."""
-    words = dialect.signs(block)
-    return f"{join([word.text.strip() for word in words])} in line {block.line}" if words else ""
-
-
-def first_sign(blocks: Iterable[Block]) -> Dialect | None:
-    """The control that the first block that shows any is written for."""
-    return next((dialect for block in blocks for dialect in DIALECTS.values() if dialect.signs(block)), None)
 
 
 def run(
@@ -235,6 +182,8 @@ class _Examiner:
         self.rules = dialect.rules if dialect else DIALECTS["yasnac-lx3"].rules
         self.together = together
         self.diagnostics: list[Diagnostic] = []
+        self.start_unit = unit
+        """In which a start point that is stated apart counts, until a contour has another unit."""
         self.queue = Queue(dialect or DIALECTS["yasnac-lx3"], together, self._examine)
 
     def steps(self, blocks: Iterable[Line], start: Program | None) -> Iterator[Step]:
@@ -263,7 +212,7 @@ class _Examiner:
         for block in start.blocks if start else ():
             self._check_block(block)
             state = advance(state, block, dialect.modes)
-        start_unit = state.unit
+        self.start_unit = state.unit
         is_whole, index, size = isinstance(blocks, Sequence), 0, _FIRST
         held: list[Line] = list(blocks) if isinstance(blocks, Sequence) else []
         rest = iter(() if isinstance(blocks, Sequence) else blocks)
@@ -300,8 +249,7 @@ class _Examiner:
                 continue
             blocks_of_step = (block,) if after == 1 else tuple(view[:after])
             if isinstance(found, Claim) and found.form.is_contour:
-                self._check_units(start, start_unit, found)
-                start_unit = found.after.unit
+                self._check_units(start, found)
                 pending = self.queue.add(found, Step(blocks_of_step, state, findings=self._findings()), view, after)
                 yield pending
                 state = self.queue.leave(pending)
@@ -309,26 +257,26 @@ class _Examiner:
                 before = state
                 state = advance(state, block, dialect.modes)
                 if isinstance(found, Claim):
+                    # Read as a contour is, but none.
                     answer = self._examine(found, Pending(found, Step((), before), view, after))
                     self.diagnostics += answer.diagnostics if answer.start.is_known else ()
-                    self._check_units(start, start_unit, found)
-                    start_unit = found.after.unit
+                    self._check_units(start, found)
                 else:
                     self._check_block(block)
-                    self._check_commas(view, 0, (before, state))
+                    self._check_commas(view, (before, state))
                 yield Step(blocks_of_step, before, findings=self._findings())
             held, index = go_on(held, index, after)
 
-    def _check_commas(self, blocks: Sequence[Block], index: int, states: tuple[State, State]) -> None:
-        """Whether a line lacks the comma that would make a contour of it, where the control knows such words."""
-        block, dialect = blocks[index], self.dialect
+    def _check_commas(self, blocks: Sequence[Block], states: tuple[State, State]) -> None:
+        """Whether the first of some lines lacks the comma with which it would be a contour."""
+        block, dialect = blocks[0], self.dialect
         if dialect is None or self.depth is Depth.VERDICT:
             return
         if any(f",{word.address}" in dialect.modes.lexicon.addresses for word in block.words):
             from contoursolve.commas import explain_commas  # noqa: PLC0415 - few programs need it
 
             context = Context(self.rules, self.unit, place=block.span)
-            self.diagnostics += explain_commas(context, dialect, blocks[: index + _NEAR], index, states)
+            self.diagnostics += explain_commas(context, dialect, blocks[:_NEAR], states)
 
     def _findings(self) -> tuple[Diagnostic, ...]:
         """What was found since the last step."""
@@ -355,18 +303,19 @@ class _Examiner:
             answer = diagnose(answer, dialect, self.policy, blocks[after : after + _NEAR])
         return answer
 
-    def _check_units(self, start: Program | None, unit: Length, found: Claim) -> None:
+    def _check_units(self, start: Program | None, found: Claim) -> None:
         """Whether a contour is in the units in which the start point was stated apart from the program."""
-        if start and found.after.unit is not unit:
-            place = Context(self.rules, unit, place=start.blocks[0].span)
+        if start and found.after.unit is not self.start_unit:
+            place = Context(self.rules, self.start_unit, place=start.blocks[0].span)
             self.diagnostics.append(explain_start_units(place, found.after.unit, start.blocks[0]))
+        self.start_unit = found.after.unit
 
     def nothing_to_solve(self, blocks: Sequence[Block]) -> Diagnostic:
         """The finding that a program has no contour block."""
         own = self.dialect.name if self.dialect else None
         controls = (self.dialect,) if self.dialect else DIALECTS.values()
         triggers = [f"of {each.name}: {each.contours}" for each in controls]
-        others = ((name, _sign(blocks, each)) for name, each in DIALECTS.items() if own not in (None, name))
+        others = ((name, what_shows(blocks, each)) for name, each in DIALECTS.items() if own not in (None, name))
         triggers += [f"{sign} is for {name}: try --control {name}" for name, sign in others if sign]
         context = Context(self.rules, self.unit)
         return report(context, context.row(Trouble.NO_CONTOUR), Basis.RULE, [], triggers="; ".join(triggers))

@@ -41,12 +41,23 @@ def read_setting(text: str) -> tuple[str, str]:
     return name.strip(), value.strip()
 
 
-def configure(settings: Mapping[str, str], own: Dialect | None = None) -> dict[str, Dialect]:
-    """The controls that settings by `control.name` are about, with these values; `own` is one that is not built in.
+def configure(dialect: Dialect, settings: Mapping[str, str] | None) -> Dialect:
+    """A control, which need not be built in, with those of the settings by `control.name` that are about it.
 
     Raises SettingError, naming what there is.
     """
-    controls = {**DIALECTS, own.name: own} if own else DIALECTS
+    if not settings:
+        return dialect
+    return _configured(settings, {**DIALECTS, dialect.name: dialect}).get(dialect.name, dialect)
+
+
+def check_settings(settings: Mapping[str, str]) -> None:
+    """Raise SettingError, naming what there is, for a setting that no control has."""
+    _configured(settings, DIALECTS)
+
+
+def _configured(settings: Mapping[str, str], controls: Mapping[str, Dialect]) -> dict[str, Dialect]:
+    """The controls that settings are about, with these values."""
     values: dict[str, dict[str, str]] = {}
     for full, value in settings.items():
         control, _, name = full.partition(".")
@@ -105,7 +116,7 @@ def _settings(table: Mapping[str, Any], file: Path) -> dict[str, str]:
         if not isinstance(own, dict):
             raise SettingError(f"{file}: {name!r} stands in no table; write [CONTROL] above it, such as [nct-99m]")
     try:
-        configure(settings)
+        check_settings(settings)
     except SettingError as error:
         raise SettingError(f"{file}: {error}") from None
     return settings

@@ -12,9 +12,9 @@ from contoursolve.files import Tape
 from contoursolve.model import Length
 from contoursolve.numbering import Numbers
 from contoursolve.outcome import Left, Options, Summary, left_unread
-from contoursolve.pipeline import find_dialect, first_sign
 from contoursolve.posts import Numbering
 from contoursolve.project import configure
+from contoursolve.recognise import find_dialect, first_sign
 from contoursolve.syntax import Block, Directive, Program, parse, parse_block
 
 _BATCH = 1 << 16
@@ -70,7 +70,7 @@ def rewrite(
         summary.left += unread
         lines: Iterable[str | object] = tape.lines()
     else:
-        dialect = (configure(settings) if settings else {}).get(dialect.name, dialect)
+        dialect = configure(dialect, settings)
         places = lines_of_facts(parse(tape.read(), tape.name), dialect, unit, start, facts) if facts else {}
         lines = expand_lines(
             tape.lines(),

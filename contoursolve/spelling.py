@@ -5,12 +5,13 @@ from dataclasses import replace
 from decimal import Decimal
 
 from contoursolve.diagnostic import Basis, Diagnostic, Label, Severity
-from contoursolve.explain import Context, angle_text, join, length_text, report
+from contoursolve.explain import Context, report
 from contoursolve.model import Given, Length, Unit
 from contoursolve.reading import Claim, Lexicon, Trouble
 from contoursolve.source import Span
 from contoursolve.syntax import Block, Fault, Word
 from contoursolve.tolerance import LARGEST
+from contoursolve.wording import angle_text, join, length_text
 
 
 def explain_spelling(context: Context, claim: Claim) -> Iterator[Diagnostic]:

@@ -8,7 +8,8 @@ from contoursolve.api import solve
 from contoursolve.contour import Contour
 from contoursolve.diagnosis import Edit, EditKind, apply_edits, find_repairs
 from contoursolve.dialects import Dialect
-from contoursolve.pipeline import Result, choose
+from contoursolve.pipeline import Result
+from contoursolve.recognise import choose
 from contoursolve.syntax import Program
 
 

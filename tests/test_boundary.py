@@ -222,7 +222,7 @@ def test_rules_bound_a_region_too():
         "line 1 would run against A",
         "P too large for line 1",
         "P too large for line 2",
-        "rule g111-corner-sign refuses P below 0 mm",
+        "rule g111-corner-sign refuses P below 0.000 mm",
     ]
 
 

@@ -19,7 +19,7 @@ import casadi
 import numpy
 import pytest
 
-from contoursolve.backends.rootfinder import Root, RootFinder, find_root
+from contoursolve.backends.rootfinder import Root, RootFinder
 
 Numbers = Sequence[Any]
 System = Callable[[Numbers], list[Any]]
@@ -377,7 +377,7 @@ def symbols(count: int) -> list[Any]:
 
 def search(system: System, guess: Sequence[float]) -> Root:
     unknowns = symbols(len(guess))
-    return find_root(system(unknowns), unknowns, guess)
+    return RootFinder(system(unknowns), unknowns)(guess)
 
 
 @cache
@@ -560,7 +560,7 @@ def test_a_tangent_line_touches_in_a_root_that_is_not_regular(factor):
 def test_units_change_nothing_that_the_scale_tells(scale):
     unknowns = symbols(2)
     residuals = dennis_schnabel([x / scale for x in unknowns])
-    root = find_root(residuals, unknowns, [1.0 * scale, 5.0 * scale], scale=scale)
+    root = RootFinder(residuals, unknowns, scale=scale)([1.0 * scale, 5.0 * scale])
     assert root.is_found
     assert root.is_regular
     assert [value / scale for value in in_some_order(root.values)] == pytest.approx([0.0, 3.0], abs=1e-14)
@@ -647,4 +647,4 @@ def test_a_wrong_call_raises():
     with pytest.raises(ValueError, match="is not positive"):
         RootFinder(dennis_schnabel(unknowns), unknowns, scale=0.0)
     with pytest.raises(ValueError, match="1 numbers guessed for 2 unknowns"):
-        find_root(dennis_schnabel(unknowns), unknowns, [1.0])
+        RootFinder(dennis_schnabel(unknowns), unknowns)([1.0])

@@ -324,6 +324,7 @@ def test_svg_needs_no_package_and_png_names_the_one_it_needs(monkeypatch):
         "draw_answer(a).svg; print(*({'matplotlib', 'sympy', 'scipy', 'PIL'} & sys.modules.keys()))"
     )
     assert subprocess.run([sys.executable, "-c", program], check=True, capture_output=True).stdout.split() == []
+    monkeypatch.delitem(sys.modules, "contoursolve.pictures.png")
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     with pytest.raises(ImportError, match=r"pip install 'contoursolve\[picture\]'"):
         draw_answer(answers_of("solved")[0]).png()
@@ -651,6 +652,7 @@ def test_plot_draws_what_cannot_be_solved_and_says_so(tmp_path):
 
 
 def test_plot_of_a_png_without_matplotlib_says_what_to_install(tmp_path, monkeypatch):
+    monkeypatch.delitem(sys.modules, "contoursolve.pictures.png")
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     status, output = plot(SHAFT, "-o", tmp_path / "a.png")
     assert status == 2

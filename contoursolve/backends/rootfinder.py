@@ -125,6 +125,11 @@ class RootFinder:
     The order of attempts: CasADi's newton with line search, Levenberg-Marquardt, a continuation from the
     guess, and Newton's method at full length. The first that ends in a root is taken; if none does, the
     point with the smallest of the largest residuals.
+
+    >>> x, y = casadi.SX.sym("x"), casadi.SX.sym("y")
+    >>> root = RootFinder([x**2 + y**2 - 25.0, x - y - 1.0], [x, y])([10.0, 1.0])
+    >>> root.values, root.is_regular, root.is_found
+    ((4.0, 3.0), True, True)
     """
 
     def __init__(
@@ -210,19 +215,6 @@ def finder_of(function: Any, size: int) -> RootFinder:
     symbols = [casadi.SX.sym(f"x{number}") for number in range(function.numel_in(0))]
     outputs = function(casadi.vertcat(*symbols))
     return RootFinder([outputs[row] for row in range(size)], symbols[:size], symbols[size:])
-
-
-def find_root(
-    residuals: Sequence[Any], unknowns: Sequence[Any], guess: Sequence[float], scale: float | Sequence[float] = 1.0
-) -> Root:
-    """The root of SX residuals in SX unknowns that a search from a guess ends in; see `RootFinder`.
-
-    >>> x, y = casadi.SX.sym("x"), casadi.SX.sym("y")
-    >>> root = find_root([x**2 + y**2 - 25.0, x - y - 1.0], [x, y], [10.0, 1.0])
-    >>> root.values, root.is_regular, root.is_found
-    ((4.0, 3.0), True, True)
-    """
-    return RootFinder(residuals, unknowns, scale=scale)(guess)
 
 
 class _System:

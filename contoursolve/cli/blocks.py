@@ -1,6 +1,5 @@
 """What the commands about one block and its words share."""
 
-import json
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -10,14 +9,18 @@ import click
 
 from contoursolve.cli.loading import settings_of
 from contoursolve.cli.options import CouldNotRunError, rules_option, settings_option, units_option
+from contoursolve.data import json_text
 from contoursolve.dialects import DIALECTS
+from contoursolve.extras import MissingExtraError
 from contoursolve.families import FamilyError
-from contoursolve.pipeline import UnknownControlError
+from contoursolve.files import CannotWriteError
+from contoursolve.pipeline import FactPlaceError
 from contoursolve.project import SettingError
+from contoursolve.recognise import UnknownControlError
 
 
 def block_options(command: Callable[..., None]) -> Callable[..., None]:
-    """The options that say which block is meant, how it is read, and what to print."""
+    """The options that say which block is meant, and how it is read."""
     for option in reversed(
         (
             click.option(
@@ -30,18 +33,19 @@ def block_options(command: Callable[..., None]) -> Callable[..., None]:
             units_option,
             rules_option,
             settings_option,
-            click.option(
-                "--format",
-                "format_",
-                type=click.Choice(["text", "json"]),
-                default="text",
-                show_default=True,
-                help="What to print.",
-            ),
         )
     ):
         command = option(command)
     return command
+
+
+format_option = click.option(
+    "--format", "format_", type=click.Choice(["text", "json"]), default="text", show_default=True, help="What to print."
+)
+
+fact_option = click.option(
+    "--fact", "facts", multiple=True, metavar="FACT", help="A further fact, as for solve; may be repeated."
+)
 
 
 def read_options(options: dict[str, Any]) -> dict[str, Any]:
@@ -55,7 +59,7 @@ def usage() -> Iterator[None]:
     """Errors of what was asked for as one line and exit status 2."""
     try:
         yield
-    except (FamilyError, SettingError) as error:
+    except (FamilyError, SettingError, FactPlaceError, MissingExtraError, CannotWriteError) as error:
         raise CouldNotRunError(str(error)) from None
     except UnknownControlError as error:
         raise CouldNotRunError(f"{error}; say which with --control {'|'.join(DIALECTS)}") from None
@@ -72,4 +76,4 @@ def read_within(text: str) -> tuple[float, float]:
 
 def print_json(document: dict[str, Any]) -> None:
     """One JSON document."""
-    click.echo(json.dumps(document, indent=1, ensure_ascii=True, allow_nan=False))
+    click.echo(json_text(document))

@@ -18,8 +18,9 @@ from contoursolve.dialects import DIALECTS, PLAIN, Dialect
 from contoursolve.examine import Policy
 from contoursolve.model import Length
 from contoursolve.output.listing import lines_of_findings
-from contoursolve.pipeline import Result, UnknownControlError, recognise, run
+from contoursolve.pipeline import Result, run
 from contoursolve.project import SettingError, configure
+from contoursolve.recognise import UnknownControlError, recognise
 from contoursolve.syntax import Program
 
 _ANY_CONTROL = click.Choice([*DIALECTS, *PLAIN])
@@ -114,7 +115,7 @@ def _dialect_of(program: Program, name: str | None, otherwise: Dialect | None, a
         settings = settings_of(folder_of(program), assignments)
         dialect = {**DIALECTS, **PLAIN}[name] if name else recognise(program) or otherwise
         if dialect is not None:
-            return configure(settings).get(dialect.name, dialect)
+            return configure(dialect, settings)
     except SettingError as error:
         raise CouldNotRunError(str(error)) from None
     except UnknownControlError as error:

@@ -22,9 +22,10 @@ from contoursolve.model import Length
 from contoursolve.outcome import Options, Summary
 from contoursolve.output.findings import Style, finding_lines, plain
 from contoursolve.output.layout import count
-from contoursolve.pipeline import FactPlaceError, UnknownControlError
+from contoursolve.pipeline import FactPlaceError
 from contoursolve.posts import POSTS, Arcs, Numbering, Post
 from contoursolve.project import SettingError
+from contoursolve.recognise import UnknownControlError
 from contoursolve.rewrite import Rewritten, rewrite
 from contoursolve.syntax import UnreadableProgramError
 

@@ -4,7 +4,15 @@ from typing import Any
 
 import click
 
-from contoursolve.cli.blocks import block_options, print_json, read_options, read_within, usage
+from contoursolve.cli.blocks import (
+    block_options,
+    fact_option,
+    format_option,
+    print_json,
+    read_options,
+    read_within,
+    usage,
+)
 from contoursolve.cli.options import FOUND_ERRORS
 from contoursolve.cli.printing import print_lines
 from contoursolve.families import find_word
@@ -13,6 +21,7 @@ from contoursolve.output.inverse import found_data, found_lines
 
 @click.command("find", short_help="Find the value of a word that brings a point where it is wanted.")
 @block_options
+@format_option
 @click.option("--word", required=True, metavar="WORD", help="A word of the block, such as A, or 2:,A for line 2.")
 @click.option(
     "--bring",
@@ -27,7 +36,7 @@ from contoursolve.output.inverse import found_data, found_lines
     metavar="LOW:HIGH",
     help="The values to look at; without it, one turn for an angle, and 1 m to either side for a length.",
 )
-@click.option("--fact", "facts", multiple=True, metavar="FACT", help="A further fact, as for solve; may be repeated.")
+@fact_option
 @click.pass_context
 def find(
     context: click.Context,

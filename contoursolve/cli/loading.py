@@ -11,8 +11,9 @@ from contoursolve import syntax
 from contoursolve.api import UnreadableProgramError, read_program, solve_program
 from contoursolve.cli.options import CouldNotRunError
 from contoursolve.dialects import DIALECTS
-from contoursolve.pipeline import FactPlaceError, Result, UnknownControlError
+from contoursolve.pipeline import FactPlaceError, Result
 from contoursolve.project import SettingError, find_settings, read_setting
+from contoursolve.recognise import UnknownControlError
 from contoursolve.syntax import Program
 
 

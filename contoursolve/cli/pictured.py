@@ -10,7 +10,7 @@ SVG, PNG = ".svg", ".png"
 
 
 def bytes_of(picture: Picture, target: Path) -> bytes:
-    """A picture as its name asks for. Raises MissingPainterError."""
+    """A picture as its name asks for. Raises MissingExtraError."""
     return picture.png() if target.suffix.lower() == PNG else picture.svg.encode()
 
 

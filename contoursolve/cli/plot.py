@@ -1,6 +1,6 @@
 """The command that draws contours."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -15,10 +15,11 @@ from contoursolve.cli.options import (
 from contoursolve.cli.pictured import PNG, SVG, bytes_of
 from contoursolve.cli.printing import print_lines, style_of_output
 from contoursolve.examine import Answer
+from contoursolve.extras import MissingExtraError, importing
 from contoursolve.files import CannotWriteError, check_target, write_whole
 from contoursolve.output.layout import count
 from contoursolve.output.listing import lines_of_findings, summary_line
-from contoursolve.pictures import MissingPainterError, Theme, draw_answer, draw_result
+from contoursolve.pictures import Theme, draw_answer, draw_result
 from contoursolve.pipeline import Result
 from contoursolve.syntax import STANDARD_INPUT
 
@@ -103,7 +104,7 @@ def plot(
             check_target(path, source, is_forced=is_forced)
         for path, data, _ in files:
             write_whole(path, [data], keeps_backup=False)
-    except (CannotWriteError, MissingPainterError) as error:
+    except (CannotWriteError, MissingExtraError) as error:
         raise CouldNotRunError(str(error)) from None
     click.echo(summary_line([result]))
     for path, _, content in files:
@@ -151,19 +152,10 @@ def _at(answers: Sequence[Answer], line: int) -> Answer:
 
 def _drawings_for_cad(result: Result, target: Path) -> list[Written]:
     """The DXF drawing, if anything is solved."""
-    to_dxf = _writer_of_dxf()
+    with importing("dxf", "a DXF drawing"):
+        from contoursolve.output.drawing_dxf import to_dxf  # noqa: PLC0415 - needs an extra
     contours = [answer.contour for answer in result.answers if answer.contour]
     if not contours:
         return []
     elements = count(sum(len(contour.elements) for contour in contours), "element")
     return [(target, to_dxf(result.answers), f"{elements} of {count(len(contours), 'contour')}")]
-
-
-def _writer_of_dxf() -> Callable[[Sequence[Answer]], bytes]:
-    try:
-        from contoursolve.output.drawing_dxf import to_dxf  # noqa: PLC0415 - needs an extra
-    except ModuleNotFoundError as error:
-        if error.name != "ezdxf":
-            raise
-        raise CouldNotRunError("a DXF drawing needs ezdxf; install it with: pip install 'contoursolve[dxf]'") from None
-    return to_dxf

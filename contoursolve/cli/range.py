@@ -4,7 +4,7 @@ from typing import Any
 
 import click
 
-from contoursolve.cli.blocks import block_options, print_json, read_options, read_within, usage
+from contoursolve.cli.blocks import block_options, format_option, print_json, read_options, read_within, usage
 from contoursolve.cli.options import FOUND_ERRORS
 from contoursolve.cli.printing import print_lines
 from contoursolve.families import feasible, region
@@ -13,6 +13,7 @@ from contoursolve.output.ranges import range_data, range_lines, region_data, reg
 
 @click.command("range", short_help="Tell for which values of a word, or of two, a contour exists.")
 @block_options
+@format_option
 @click.option(
     "--word",
     "words",

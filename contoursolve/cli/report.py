@@ -9,6 +9,7 @@ import click
 from contoursolve import __version__
 from contoursolve.cli.loading import examine, load
 from contoursolve.cli.options import FOUND_ERRORS, CouldNotRunError, common_options
+from contoursolve.extras import MissingExtraError, importing
 from contoursolve.files import CannotWriteError, check_target, write_whole
 from contoursolve.output.listing import summary_line
 
@@ -46,12 +47,8 @@ def report(
         raise click.UsageError(f"{output}: name a page that ends with .html")
     loader = load([program] if program else [], blocks, start)[0]
     try:
-        from contoursolve.report import report_page  # noqa: PLC0415 - needs an extra
-    except ModuleNotFoundError as error:
-        if error.name not in ("htpy", "markupsafe"):
-            raise
-        raise CouldNotRunError("a report needs htpy; install it with: pip install 'contoursolve[report]'") from None
-    try:
+        with importing("report", "a report"):
+            from contoursolve.report import report_page  # noqa: PLC0415 - needs an extra
         check_target(output, Path(program) if program else None, is_forced=is_forced)
         result = examine(loader(), start, assignments, options)
         with click.progressbar(
@@ -59,7 +56,7 @@ def report(
         ) as bar:
             pieces = report_page(result, __version__, lambda: bar.update(1))
             write_whole(output, (piece.encode("utf-8", "replace") for piece in pieces), keeps_backup=False)
-    except CannotWriteError as error:
+    except (CannotWriteError, MissingExtraError) as error:
         raise CouldNotRunError(str(error)) from None
     click.echo(summary_line([result]))
     click.echo(f"{output} written")

@@ -4,7 +4,7 @@ from typing import Any
 
 import click
 
-from contoursolve.cli.blocks import block_options, print_json, read_options, usage
+from contoursolve.cli.blocks import block_options, fact_option, format_option, print_json, read_options, usage
 from contoursolve.cli.printing import print_lines
 from contoursolve.families import tolerances
 from contoursolve.output.tolerances import tolerances_data, tolerances_lines
@@ -12,6 +12,7 @@ from contoursolve.output.tolerances import tolerances_data, tolerances_lines
 
 @click.command("sensitivity", short_help="Tell which word moves a point most, and what tolerances come to.")
 @block_options
+@format_option
 @click.option("--point", default="end", show_default=True, help="The point: end, V2, 'corner 1.center', ...")
 @click.option(
     "--tolerance",
@@ -20,7 +21,7 @@ from contoursolve.output.tolerances import tolerances_data, tolerances_lines
     metavar="WORD=VALUE",
     help="By how much a word may be off, as it is written; may be repeated. A fact goes by what it gives the value of.",
 )
-@click.option("--fact", "facts", multiple=True, metavar="FACT", help="A further fact, as for solve; may be repeated.")
+@fact_option
 def sensitivity(allowed: tuple[str, ...], point: str, facts: tuple[str, ...], format_: str, **options: Any) -> None:
     """Tell by how much each word moves a point of a contour: for each unit of it, by its tolerance, and by the rounding
     of the control to its least increment. What tolerances come to is told to first order, at worst and in the root of

@@ -11,21 +11,18 @@ from typing import Any
 import click
 import numpy
 
-from contoursolve.cli.loading import settings_of
-from contoursolve.cli.options import CouldNotRunError, rules_option, settings_option, units_option
+from contoursolve.cli.blocks import block_options, fact_option, read_options, usage
+from contoursolve.cli.options import CouldNotRunError
 from contoursolve.cli.pictured import bytes_of, check_picture
 from contoursolve.cli.varied import read_range
-from contoursolve.dialects import DIALECTS
+from contoursolve.extras import need
 from contoursolve.families import (
     REASONS,
     WHOLE,
     Code,
-    FamilyError,
-    MissingExtraError,
     Parts,
     Sweep,
     csv_lines,
-    need,
     others,
     parts_of,
     pieces,
@@ -34,14 +31,11 @@ from contoursolve.families import (
 )
 from contoursolve.files import CannotWriteError, check_target, write_whole
 from contoursolve.output.layout import columns
-from contoursolve.pictures import MissingPainterError, draw_sweep
-from contoursolve.pipeline import FactPlaceError, UnknownControlError
-from contoursolve.project import SettingError
+from contoursolve.pictures import draw_sweep
 
 
 @click.command("sweep", short_help="Solve a block for many values of its words.")
-@click.option("--block", "blocks", multiple=True, required=True, metavar="TEXT", help="The block; may be repeated.")
-@click.option("--start", metavar="WORDS", help='The start point, such as "X40. Z0.".')
+@block_options
 @click.option(
     "--vary",
     "varied",
@@ -52,7 +46,7 @@ from contoursolve.project import SettingError
     "a CSV or Parquet file; may be repeated. Where several blocks have the word, LINE:WORD, such as 2:,A=10:20:1; "
     "start.X is the X of --start, and 'length of line 1' the value of that --fact.",
 )
-@click.option("--fact", "facts", multiple=True, metavar="FACT", help="A fact besides the words; may be repeated.")
+@fact_option
 @click.option("--paired", "is_paired", is_flag=True, help="Values side by side; without it, every combination.")
 @click.option("-o", "--output", metavar="FILE", help="Where to write every row: FILE.parquet or FILE.csv.")
 @click.option(
@@ -65,13 +59,7 @@ from contoursolve.project import SettingError
 @click.option("--force", "is_forced", is_flag=True, help="Replace FILE if it exists.")
 @click.option("--workers", type=click.IntRange(1, 256), default=1, show_default=True, help="Threads.")
 @click.option("--dask", metavar="ADDRESS", help="Solve on the cluster of the Dask scheduler at this address.")
-@click.option("--control", type=click.Choice(list(DIALECTS)), help="The control; found from the block without it.")
-@units_option
-@rules_option
-@settings_option
 def sweep_(
-    blocks: tuple[str, ...],
-    start: str | None,
     varied: tuple[str, ...],
     facts: tuple[str, ...],
     is_paired: bool,
@@ -80,10 +68,7 @@ def sweep_(
     is_forced: bool,
     workers: int,
     dask: str | None,
-    control: str | None,
-    units: str,
-    rules: str,
-    assignments: tuple[str, ...],
+    **options: Any,
 ) -> None:
     """Solve one contour for many values of some of its words, and count what becomes of it.
 
@@ -98,40 +83,19 @@ def sweep_(
     target = _target(output, is_forced)
     if picture is not None:
         check_picture(picture, is_forced=is_forced)
-    try:
+    with usage():
         vary: dict[str, Any] = {}
         for text in varied:
             name, values = read_range(text)
             if name in vary:
                 raise click.UsageError(f"--vary names {name} twice")
             vary[name] = values
-        ready = sweep(
-            "\n".join(blocks),
-            vary=vary,
-            start=start,
-            control=control,
-            facts=facts,
-            paired=is_paired,
-            units=units,
-            rules=rules,
-            settings=settings_of(Path(), assignments),
-        )
+        ready = sweep(vary=vary, facts=facts, paired=is_paired, **read_options(options))
         drawn = bytes_of(draw_sweep(ready), picture) if picture is not None else b""
         with _cluster(dask) as executor:
             counts = _run(ready, workers if executor is None else None, executor, target)
         if picture is not None:
             write_whole(picture, [drawn], keeps_backup=False)
-    except (
-        FamilyError,
-        SettingError,
-        MissingExtraError,
-        MissingPainterError,
-        CannotWriteError,
-        FactPlaceError,
-    ) as error:
-        raise CouldNotRunError(str(error)) from None
-    except UnknownControlError as error:
-        raise CouldNotRunError(f"{error}; say which with --control {'|'.join(DIALECTS)}") from None
     click.echo("\n".join(_summary(counts)))
     for path in filter(None, (target, picture)):
         click.echo(f"{path} written", err=True)
@@ -144,12 +108,10 @@ def _target(output: str | None, is_forced: bool) -> Path | None:
     target = Path(output)
     if target.suffix.lower() not in (".parquet", ".csv"):
         raise click.UsageError(f"{target}: name a file that ends with .parquet or .csv")
-    try:
+    with usage():
         if target.suffix.lower() == ".parquet":
-            need("pyarrow")
+            need("pyarrow", "family", "a Parquet file")
         check_target(target, None, is_forced=is_forced)
-    except (CannotWriteError, MissingExtraError) as error:
-        raise CouldNotRunError(str(error)) from None
     return target
 
 
@@ -159,7 +121,7 @@ def _cluster(address: str | None) -> Iterator[Executor | None]:
     if address is None:
         yield None
         return
-    distributed = need("distributed", "dask")
+    distributed = need("distributed", "dask", "solving on a cluster")
     try:
         client = distributed.Client(address, timeout="10s", set_as_default=False)
     except (OSError, ValueError) as error:

@@ -10,7 +10,8 @@ import click
 import numpy
 from numpy.typing import NDArray
 
-from contoursolve.families import FamilyError, name_of, need
+from contoursolve.extras import need
+from contoursolve.families import FamilyError, name_of
 
 MOST = 10_000_000
 """Values of one word."""
@@ -84,9 +85,9 @@ def _from_csv(file: Path, column: str) -> Numbers:
 
 
 def _from_parquet(file: Path, column: str) -> Numbers:
-    arrow = need("pyarrow")
+    arrow = need("pyarrow", "family", "a Parquet file")
     try:
-        table = need("pyarrow.parquet").ParquetFile(file)
+        table = need("pyarrow.parquet", "family", "a Parquet file").ParquetFile(file)
         name = table.schema_arrow.names[_find(file, column, table.schema_arrow.names)]
         found = table.read([name])[name].cast(arrow.float64())
         table.close()

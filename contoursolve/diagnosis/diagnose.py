@@ -14,12 +14,12 @@ from contoursolve.diagnosis.repairs import find_repairs
 from contoursolve.diagnostic import Diagnosis, Diagnostic, Fix, Label, Severity, Tie
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer, Policy
-from contoursolve.explain import SHOWN, length_text, place_text
 from contoursolve.reading import Trouble
 from contoursolve.solving import RefusalKind, RemarkKind, scalars_of
 from contoursolve.source import Span
 from contoursolve.syntax import FACT, Block, Word
 from contoursolve.tolerance import AGREEMENT, RADIUS_DIFFERENCE
+from contoursolve.wording import SHOWN, length_text, place_text
 
 
 def diagnose(answer: Answer, dialect: Dialect, policy: Policy, following: Iterable[Block] = ()) -> Answer:

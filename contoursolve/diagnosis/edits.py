@@ -6,11 +6,11 @@ from dataclasses import dataclass
 from decimal import ROUND_DOWN, ROUND_HALF_EVEN, Decimal
 from enum import Enum
 
-from contoursolve.explain import shorten
 from contoursolve.model import Length, Unit
 from contoursolve.reading import Lexicon, WithoutPoint
 from contoursolve.source import Span
 from contoursolve.syntax import FACT, Block, Directive, read_directive
+from contoursolve.wording import shorten
 
 PLACEHOLDER = "?"
 """Stands for a number that the block does not give."""

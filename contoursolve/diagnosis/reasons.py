@@ -7,11 +7,11 @@ from contoursolve.constraints import Heading, assemble
 from contoursolve.diagnosis.affine import AffineFacts, Circuit
 from contoursolve.diagnosis.identities import identity
 from contoursolve.diagnostic import Diagnostic, Freedom
-from contoursolve.explain import angle_text, join, length_text, place_text
 from contoursolve.model import FIRST, SECOND, Arc, Fact, Line, Profile, scalar
 from contoursolve.solving import RefusalKind, lookup
 from contoursolve.syntax import FACT
 from contoursolve.tolerance import AGREEMENT, REGULAR
+from contoursolve.wording import angle_text, join, length_text, place_text
 
 
 def conflict_reasons(profile: Profile, affine: AffineFacts, circuit: Circuit) -> Iterator[str]:

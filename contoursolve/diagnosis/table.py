@@ -9,12 +9,12 @@ from contoursolve.analysis import judge
 from contoursolve.constraints import assemble
 from contoursolve.diagnostic import Severity
 from contoursolve.dialects import Dialect
-from contoursolve.explain import unknowns_text
 from contoursolve.model import Corner, Length, Profile
 from contoursolve.reading import Claim, Form, Sample, advance, read
 from contoursolve.rules import check
 from contoursolve.solving import is_closed, points_with_two_solutions
 from contoursolve.syntax import parse
+from contoursolve.wording import unknowns_text
 
 _OPTIONAL = re.compile(r"\{([^}]*)\}")
 

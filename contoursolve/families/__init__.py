@@ -3,7 +3,7 @@
 from contoursolve.families.boundary import End, Feasible, Interval, Way, feasible
 from contoursolve.families.ends import Reason
 from contoursolve.families.evaluate import family, pieces, sweep
-from contoursolve.families.export import MissingExtraError, csv_lines, need, write_parquet
+from contoursolve.families.export import csv_lines, write_parquet
 from contoursolve.families.goals import Goal
 from contoursolve.families.inverse import Found, Hit, find_word
 from contoursolve.families.parts import WHOLE, Parts, others, parts_of
@@ -13,7 +13,7 @@ from contoursolve.families.regions import Boundary, Region, region, region_of
 from contoursolve.families.result import Family, summary_of
 from contoursolve.families.slopes import Sensitivity, Spread, sensitivity
 from contoursolve.families.tolerance import Effect, Limits, Tolerances, tolerances
-from contoursolve.families.verdict import REASONS, Code
+from contoursolve.solving.verdict import REASONS, Code
 
 __all__ = [
     "REASONS",
@@ -30,7 +30,6 @@ __all__ = [
     "Hit",
     "Interval",
     "Limits",
-    "MissingExtraError",
     "Parts",
     "Reason",
     "Region",
@@ -44,7 +43,6 @@ __all__ = [
     "feasible",
     "find_word",
     "name_of",
-    "need",
     "others",
     "parts_of",
     "pieces",

@@ -2,7 +2,6 @@
 
 import re
 from collections.abc import Iterator
-from dataclasses import replace
 
 from contoursolve import syntax
 from contoursolve.diagnostic import Severity
@@ -69,7 +68,7 @@ def _asking(typed: Word) -> str:
 def _asked(fact: Directive, typed: Word) -> Directive:
     if typed.address == FACT and fact.span == typed.span:
         return syntax.read_directive(_asking(typed), fact.span.line)
-    return replace(fact)
+    return fact
 
 
 def _stated(goal: Goal, answer: Answer) -> str:

@@ -7,10 +7,11 @@ from enum import Enum
 from contoursolve.diagnostic import Severity
 from contoursolve.dialects import Dialect
 from contoursolve.families.ends import Reason, about_of, called, phrase, same
-from contoursolve.families.evaluate import template_with
+from contoursolve.families.recipe import recipe_of
 from contoursolve.families.survey import LEAST_GAP, Crossing, Piece, Survey
 from contoursolve.shown import Shown
 from contoursolve.solving import RefusalKind
+from contoursolve.wording import value_text
 
 __all__ = ["LEAST_GAP", "End", "Feasible", "Interval", "Way", "feasible"]
 
@@ -117,7 +118,9 @@ def feasible(
     >>> found.intervals[0].high.reason.text
     'P too large for line 1: 51.962 mm at most'
     """
-    template = template_with(word, block, start, control, units, rules, settings)
+    template = recipe_of(
+        block, (word,), start=start, control=control, units=units, rules=rules, settings=settings
+    ).template()
     name = next(iter(template.words))
     survey = Survey(template, name)
     low, high = survey.range_of(within)
@@ -176,7 +179,7 @@ def _reason(
 ) -> tuple[Reason, bool]:
     """What fails beyond an end, and whether it is a rule or the reading of the words; `near` are the pieces on its two
     sides, the one beyond it first."""
-    at, limit = shown(survey, value), ""
+    at, limit = value_text(value, survey.unit), ""
     limit = f"at {at}" if near[0].is_value else f"{at} at {'most' if way > 0 else 'least'}"
     beyond = "at" if near[0].is_value else "above" if way > 0 else "below"
     there = outside if outside is not None else (near[0].low + near[0].high) / 2
@@ -205,10 +208,3 @@ def _reason(
         text, limit = f"{phrase(crossing.check, crossing.check.kind, about)}: {limit}", f"beyond it {text}"
         return Reason(f"{text}; {limit}", code, message), False
     return Reason(f"{text}: {limit}", code, message), crossing is None and not near[0].is_value
-
-
-def shown(survey: Survey, value: float) -> str:
-    """A value with the unit in which the word is written."""
-    decimals, unit = (4, "in") if survey.unit == "inch" else (3, survey.unit)
-    is_small = 0 < abs(value) < 0.5 * 10**-decimals
-    return f"{value:.1e} {unit}" if is_small else f"{value + 0.0:.{decimals}f} {unit}"

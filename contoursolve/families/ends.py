@@ -3,10 +3,10 @@
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 
-from contoursolve.explain import join, unknowns_text
 from contoursolve.families.margins import Margin
 from contoursolve.model import Line, Profile
 from contoursolve.solving import RefusalKind
+from contoursolve.wording import join, unknowns_text
 
 
 @dataclass(frozen=True, slots=True)

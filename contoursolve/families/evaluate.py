@@ -1,55 +1,26 @@
 """Solves a contour for many values of some of its words."""
 
 import pickle
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from concurrent.futures import Executor, ThreadPoolExecutor
 from contextlib import nullcontext
-from dataclasses import dataclass, replace
 from functools import lru_cache, partial
 
 from numpy.typing import ArrayLike
 
-from contoursolve import syntax
 from contoursolve.backends.columns import Array
-from contoursolve.dialects import DIALECTS, Dialect
-from contoursolve.examine import Policy
+from contoursolve.dialects import Dialect
 from contoursolve.families.distribute import in_order
 from contoursolve.families.prepared import Examples, Kinds, Sweep, Table, examples_of, kinds_of
-from contoursolve.families.ranges import FamilyError, Ranges, name_of, ranges_of, stretches
+from contoursolve.families.ranges import FamilyError, Ranges, ranges_of, stretches
+from contoursolve.families.recipe import Recipe, recipe_of
 from contoursolve.families.result import Family
-from contoursolve.families.template import Template, find_words
-from contoursolve.model import Length
-from contoursolve.pipeline import UnknownControlError, choose
-from contoursolve.project import configure
-from contoursolve.syntax import Program, Word
 
 STRETCH = 65_536
 """Rows that are evaluated, or written to a file, at once."""
 
 AHEAD = 8
 """Stretches that an executor has under way at once, if `workers` does not say it."""
-
-
-@dataclass(frozen=True, slots=True)
-class Recipe:
-    """What a family is made of but for its values: plain data, from which any process makes the same functions."""
-
-    block: str
-    start: str | None
-    control: str | Dialect | None
-    units: str
-    rules: str
-    settings: tuple[tuple[str, str], ...]
-    facts: tuple[str, ...]
-    names: tuple[str, ...]
-
-    def template(self) -> Template:
-        """The block with its free words. Raises FamilyError, UnknownControlError."""
-        settings = dict(self.settings)
-        template = template_of(
-            self.block, self.start, self.control, self.units, self.rules, settings, lambda _: {}, self.facts
-        )
-        return replace(template, words=find_words(template, self.names))
 
 
 def sweep(
@@ -66,49 +37,12 @@ def sweep(
 ) -> Sweep:
     """A family that is ready to be evaluated; arguments and errors as for `family`."""
     ranges = ranges_of(vary, is_paired=paired)
-    options = tuple(sorted((settings or {}).items()))
-    stated = (facts,) if isinstance(facts, str) else tuple(facts)
-    recipe = Recipe(block, start, control, units, rules, options, stated, tuple(ranges.values))
+    recipe = recipe_of(
+        block, ranges.values, start=start, control=control, facts=facts, units=units, rules=rules, settings=settings
+    )
     template = recipe.template()
     examples = examples_of(template, ranges)
     return Sweep(recipe, examples, kinds_of(template, examples), ranges)
-
-
-def template_of(
-    block: str,
-    start: str | None,
-    control: str | Dialect | None,
-    units: str,
-    rules: str,
-    settings: Mapping[str, str] | None,
-    free: Callable[[Program], Mapping[str, Word]],
-    facts: Iterable[str] = (),
-) -> Template:
-    """A block with those of its words free that are asked for; arguments and errors as for `family`."""
-    program = syntax.parse(block, "<block>")
-    dialect = choose(control, program)
-    if dialect is None:
-        raise UnknownControlError(f"the block does not tell its control; name it; choose from {', '.join(DIALECTS)}")
-    dialect = (configure(settings, dialect) if settings else {}).get(dialect.name, dialect)
-    beginning = syntax.parse(start, "<start>", first_line=0) if start is not None else None
-    apart = tuple(syntax.read_directive(fact, -number) for number, fact in enumerate(facts, 1))
-    return Template(program, dialect, Length(units), Policy(rules), beginning, free(program), apart)
-
-
-def template_with(
-    word: str,
-    block: str,
-    start: str | None,
-    control: str | Dialect | None,
-    units: str,
-    rules: str,
-    settings: Mapping[str, str] | None,
-    facts: Iterable[str] = (),
-) -> Template:
-    """A block with one word free; arguments and errors as for `family`."""
-    stated = (facts,) if isinstance(facts, str) else facts
-    template = template_of(block, start, control, units, rules, settings, lambda _: {}, stated)
-    return replace(template, words=find_words(template, [name_of(word)]))
 
 
 def family(
@@ -151,6 +85,8 @@ def family(
         FamilyError: a word is not there, the values are none, or the blocks are no single contour with a known start.
         UnknownControlError: the control is unknown, or the block does not tell it.
         FactPlaceError: facts for a program of several contours.
+        SettingError: there is no such setting, or it has no such value.
+        ValueError: units or rules is none of its choices.
 
     >>> found = family("G111 X100. A180. K-30. B120. P5.", start="X40. Z0.", vary={"A": [180, 170], "P": [5, 20, 60]})
     >>> found["status"].tolist()

@@ -1,22 +1,18 @@
 """Families in the formats of others; the packages for them are needed only here."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 from numpy.typing import NDArray
 
-from contoursolve.families.verdict import REASONS, Code
-
-
-class MissingExtraError(ImportError):
-    """A package of an extra, such as `contoursolve[family]`, is missing."""
+from contoursolve.extras import need
+from contoursolve.solving.verdict import REASONS, Code
 
 
 def to_arrow(columns: Mapping[str, NDArray[Any]]) -> Any:
     """A pyarrow.Table that says what the numbers of `status` and `reason` stand for."""
-    arrow = need("pyarrow")
+    arrow = need("pyarrow", "family", "a family as an Arrow table")
     table = arrow.table(dict(columns))
     meanings = {
         "status": ", ".join(f"{code.value} {code.status.value}" for code in Code),
@@ -27,19 +23,20 @@ def to_arrow(columns: Mapping[str, NDArray[Any]]) -> Any:
 
 def to_parquet(columns: Mapping[str, NDArray[Any]], path: str | Path) -> None:
     """A Parquet file."""
-    need("pyarrow.parquet").write_table(to_arrow(columns), path)
+    need("pyarrow.parquet", "family", "a Parquet file").write_table(to_arrow(columns), path)
 
 
 def to_xarray(axes: Mapping[str, NDArray[Any]], arrays: Mapping[str, NDArray[Any]], *, is_paired: bool) -> Any:
     """An xarray.Dataset: along the words of a grid, or along `row`."""
     dims = ("row",) if is_paired else tuple(axes)
     coordinates = {word: (("row",) if is_paired else (word,), values) for word, values in axes.items()}
-    return need("xarray").Dataset({name: (dims, each) for name, each in arrays.items()}, coordinates)
+    xarray = need("xarray", "family", "a family as labelled arrays")
+    return xarray.Dataset({name: (dims, each) for name, each in arrays.items()}, coordinates)
 
 
 def write_parquet(path: str | Path, tables: Iterable[Mapping[str, NDArray[Any]]]) -> None:
     """A Parquet file with a row group for each table."""
-    parquet, writer = need("pyarrow.parquet"), None
+    parquet, writer = need("pyarrow.parquet", "family", "a Parquet file"), None
     try:
         for columns in tables:
             table = to_arrow(columns)
@@ -67,12 +64,3 @@ def _cells(name: str, values: list[Any]) -> list[str]:
     if name == "reason":
         return [kind.value if kind else "" for kind in (REASONS[value] for value in values)]
     return ["" if value != value else repr(value) for value in values]
-
-
-def need(package: str, extra: str = "family") -> Any:
-    """A package of an extra. Raises MissingExtraError."""
-    try:
-        return import_module(package)
-    except ImportError:
-        name = package.partition(".")[0]
-        raise MissingExtraError(f"this needs {name}: pip install 'contoursolve[{extra}]'") from None

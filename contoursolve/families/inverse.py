@@ -11,12 +11,12 @@ from contoursolve.diagnosis.edits import write_word
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer
 from contoursolve.families.asking import asked_values
-from contoursolve.families.evaluate import template_with
 from contoursolve.families.goals import Curve, Goal, end_name, place_of, read_goal
 from contoursolve.families.kinds import Kind, value_of
 from contoursolve.families.margins import compile_results
 from contoursolve.families.prepared import results_of
 from contoursolve.families.ranges import FamilyError
+from contoursolve.families.recipe import recipe_of
 from contoursolve.families.roots import find_zeros
 from contoursolve.families.survey import Piece, Survey, short
 from contoursolve.families.template import Template, is_same
@@ -101,7 +101,9 @@ def find_word(
     >>> [(round(each.value, 4), each.block) for each in found.hits]
     [(119.6749, 'G111 X100. A180. K-30. B119.675 P5. Q5.')]
     """
-    template = template_with(word, block, start, control, units, rules, settings, facts)
+    template = recipe_of(
+        block, (word,), start=start, control=control, facts=facts, units=units, rules=rules, settings=settings
+    ).template()
     name = next(iter(template.words))
     answer = template.solve({})
     wanted = read_goal(goal, answer.plane, float(answer.unit.in_mm))

@@ -15,13 +15,14 @@ from contoursolve.diagnostic import Basis, Severity
 from contoursolve.examine import MOST_CHOICES, Answer, count_choices
 from contoursolve.families.ranges import FamilyError, Places, Ranges
 from contoursolve.families.template import Template, is_same, unit_word
-from contoursolve.families.verdict import Codes
 from contoursolve.model import Given, Profile, Start, Unit
 from contoursolve.reading import Trouble
 from contoursolve.rules import Rule, Value
 from contoursolve.solving import RemarkKind, Solution, Status, is_closed, points_with_two_solutions
 from contoursolve.solving.compile import Machine, compile_system
-from contoursolve.solving.solve import inputs_of, solve
+from contoursolve.solving.numbers import inputs_of
+from contoursolve.solving.solve import solve
+from contoursolve.solving.verdict import Codes
 from contoursolve.syntax import FACT, Word
 from contoursolve.tolerance import LARGEST
 

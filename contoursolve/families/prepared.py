@@ -15,14 +15,15 @@ from contoursolve.backends.columns import ROWS, Array, ColumnFunction, Columns, 
 from contoursolve.constraints import System
 from contoursolve.families.kinds import Input, Kind, alike, intervals_of, kind_of, limits_of
 from contoursolve.families.ranges import FamilyError, Places, Ranges, stretches
+from contoursolve.families.recipe import Recipe
 from contoursolve.families.several import BLOCK, Several, asked_of
 from contoursolve.families.template import Template
-from contoursolve.families.verdict import Code, Verdict, code_of, reason_of
 from contoursolve.model import FIRST, SECOND, CornerShape, scalar
 from contoursolve.reading import Trouble
 from contoursolve.solving import RemarkKind
 from contoursolve.solving.compile import compile_system
 from contoursolve.solving.plan import Step, TwoCirclesStep
+from contoursolve.solving.verdict import Code, Verdict, code_of, reason_of
 from contoursolve.tolerance import TOUCHING
 
 Table = dict[str, NDArray[Any]]
@@ -71,7 +72,7 @@ class Kinds:
 class Sweep:
     """The kinds of rows of a family, and how to evaluate them; every thread has functions of its own."""
 
-    recipe: Any
+    recipe: Recipe
     """Plain data from which the same kinds can be made elsewhere."""
     examples: Examples
     found: Kinds

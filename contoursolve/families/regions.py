@@ -12,17 +12,18 @@ from contoursolve.diagnostic import Severity
 from contoursolve.dialects import Dialect
 from contoursolve.families.boundary import ASIDE, Way
 from contoursolve.families.ends import Reason, about_of, called, phrase, same
-from contoursolve.families.evaluate import template_of
 from contoursolve.families.kinds import Kind, alike, kind_of, limits_of, value_of
 from contoursolve.families.margins import compile_margins
 from contoursolve.families.outline import BISECTIONS, NODES, Box, Field, Trace, edge_of, gaps_of
-from contoursolve.families.ranges import FamilyError, name_of
+from contoursolve.families.ranges import FamilyError
+from contoursolve.families.recipe import recipe_of
 from contoursolve.families.result import Family
 from contoursolve.families.template import Template, find_words
 from contoursolve.model import Unit
 from contoursolve.shown import Shown
 from contoursolve.solving import RefusalKind
 from contoursolve.tolerance import LENGTH
+from contoursolve.wording import value_text
 
 Point = tuple[float, float]
 
@@ -93,8 +94,8 @@ def region(
     >>> [each.reason.text for each in found.boundaries]
     ['P too large for line 1', 'P too large for line 2']
     """
-    template = template_of(block, start, control, units, rules, settings, lambda _: {})
-    return _region(template, (name_of(words[0]), name_of(words[1])), within)
+    recipe = recipe_of(block, words, start=start, control=control, units=units, rules=rules, settings=settings)
+    return _region(recipe.template(), (recipe.names[0], recipe.names[1]), within)
 
 
 def region_of(family: Family, words: tuple[str, str]) -> Region:
@@ -107,7 +108,8 @@ def region_of(family: Family, words: tuple[str, str]) -> Region:
     several = next((name for name, column in others.items() if column.size > 1), None)
     if several is not None or family.recipe is None or any(word not in values for word in words):
         raise FamilyError(f"{' and '.join(words)} are not the only words that vary")
-    template = family.recipe.template().filled({name: float(column[0]) for name, column in others.items()})
+    filled = family.recipe.template().filled({name: float(column[0]) for name, column in others.items()})
+    template = replace(filled, words=find_words(filled, words))
     first, second = ((float(values[word].min()), float(values[word].max())) for word in words)
     return _region(template, words, (first, second))
 
@@ -119,7 +121,7 @@ def _region(template: Template, names: tuple[str, str], within: tuple[Point, Poi
             raise FamilyError(f"{name} from {low:g} to {high:g} is no range; the smaller number comes first")
     if names[0] == names[1]:
         raise FamilyError(f"{names[0]} is named twice")
-    return _Map(replace(template, words=find_words(template, names)), names, within).run()
+    return _Map(template, names, within).run()
 
 
 class _Map:
@@ -273,10 +275,10 @@ class _Map:
         answer = self.template.solve(dict(zip(self.words, outside, strict=True)))
         finding = next((each for each in answer.diagnostics if each.severity is Severity.ERROR), None)
         word, where = called(self.words[axis]), "above" if step > 0 else "below"
-        unit = "in" if self.units[axis] == "inch" else self.units[axis]
-        text = f"there is no contour for {word} {where} {value:g} {unit}"
+        at = value_text(value, self.units[axis])
+        text = f"there is no contour for {word} {where} {at}"
         if finding is not None and finding.about is None:
-            text = f"rule {finding.code} refuses {word} {where} {value:g} {unit}"
+            text = f"rule {finding.code} refuses {word} {where} {at}"
         code, message = (finding.code, finding.message) if finding is not None else ("", "")
         is_told = answer.contour is None and self._has_contour(inside)
         points = tuple(_point(axis, value, end) for end in span)

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from contoursolve.families.export import to_arrow, to_parquet, to_xarray
 from contoursolve.families.ranges import Ranges
-from contoursolve.families.verdict import Code
 from contoursolve.shown import Shown
 from contoursolve.solving import Status
+from contoursolve.solving.verdict import Code
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -15,11 +15,11 @@ from contoursolve.constraints import Coordinate, Radius, System, Values
 from contoursolve.families.cells import cells_of
 from contoursolve.families.kinds import Kind
 from contoursolve.families.ranges import Places, Ranges
-from contoursolve.families.verdict import Code, Verdict, code_of, reason_of
 from contoursolve.model import FIRST, SECOND, Fact, Question, Unit, scalar
 from contoursolve.solving import RefusalKind, Solution
 from contoursolve.solving.compile import PathMachine, compile_path
 from contoursolve.solving.kernel import Kernel, make_kernel
+from contoursolve.solving.verdict import Code, Verdict, code_of, reason_of
 from contoursolve.tolerance import LENGTH
 
 BLOCK = 8_192

@@ -9,17 +9,17 @@ from contoursolve.backends.inputs import COSINE, SINE
 from contoursolve.diagnostic import Severity
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer
-from contoursolve.families.evaluate import template_of
 from contoursolve.families.implicit import Implicit
 from contoursolve.families.kinds import Kind, kind_in
 from contoursolve.families.prepared import results_of
 from contoursolve.families.ranges import FamilyError
+from contoursolve.families.recipe import recipe_of
 from contoursolve.families.template import call
 from contoursolve.model import Given, Profile, Unit
 from contoursolve.shown import Shown
 from contoursolve.solving import RemarkKind, Solution, Status
 from contoursolve.solving.plan import TwoCirclesStep
-from contoursolve.syntax import Program, Word
+from contoursolve.syntax import Word
 from contoursolve.tolerance import TOUCHING
 
 SINGULAR = 1e-9
@@ -76,8 +76,8 @@ def sensitivity(
     >>> {word: f"{slope:.3f}" for word, slope in slopes["V2.Z"].items()}
     {'X': '-0.289', 'A': '-0.302', 'K': '1.000', 'B': '-0.698', 'P': '0.000', 'Q': '0.000'}
     """
-    answer = template_of(block, start, control, units, rules, settings, _none, facts).solve({})
-    return slopes_of(answer)
+    recipe = recipe_of(block, start=start, control=control, facts=facts, units=units, rules=rules, settings=settings)
+    return slopes_of(recipe.template().solve({}))
 
 
 def slopes_of(answer: Answer) -> Sensitivity:
@@ -179,11 +179,6 @@ def _fact_name(given: Given, profile: Profile) -> str:
     axis = given.name.rpartition(".")[2]
     name = " ".join(text.partition("=")[0].split()).lower()
     return f"{name} [{profile.plane.axes[int(axis)]}]" if "=" not in text and axis.isdigit() else name
-
-
-def _none(_program: Program) -> dict[str, Word]:
-    """No word is free while the block is read."""
-    return {}
 
 
 def _check(solution: Solution | None, answer: Answer) -> None:

@@ -10,10 +10,11 @@ import numpy
 from contoursolve.backends.intervals import Array
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer
-from contoursolve.families.evaluate import family, template_of
+from contoursolve.families.evaluate import family
 from contoursolve.families.goals import end_name, place_of
 from contoursolve.families.kinds import value_of
 from contoursolve.families.ranges import FamilyError
+from contoursolve.families.recipe import recipe_of
 from contoursolve.families.slopes import Spread, slopes_of, stated_words
 from contoursolve.families.template import Template, find_words
 from contoursolve.model import Length, Plane, Unit
@@ -99,8 +100,8 @@ def tolerances(
     >>> [(each.word, round(each.moves, 4)) for each in found.effects[:2]]
     [('A', 0.0302), ('K', 0.02)]
     """
-    stated = (facts,) if isinstance(facts, str) else tuple(facts)
-    template = template_of(block, start, control, units, rules, settings, lambda _: {}, stated)
+    recipe = recipe_of(block, start=start, control=control, facts=facts, units=units, rules=rules, settings=settings)
+    template = recipe.template()
     answer = template.solve({})
     slopes, axes = slopes_of(answer).slopes, answer.plane.axes
     name = end_name(answer.profile.figure) if point == "end" else point
@@ -122,7 +123,7 @@ def tolerances(
             vary={word: [values[word] - off, values[word] + off] for word, off in allowed.items()},
             start=start,
             control=control,
-            facts=stated,
+            facts=recipe.facts,
             units=units,
             rules=rules,
             settings=settings,

@@ -1,5 +1,5 @@
 """Notebooks: how records show themselves, and a contour to move."""
 
-from contoursolve.notebook.entrance import MissingExtraError, explore
+from contoursolve.notebook.entrance import explore
 
-__all__ = ["MissingExtraError", "explore"]
+__all__ = ["explore"]

@@ -4,14 +4,11 @@ from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
 from contoursolve.dialects import Dialect
+from contoursolve.extras import importing
 from contoursolve.notebook.exploration import begin
 
 if TYPE_CHECKING:
     from contoursolve.notebook.explorer import Explorer
-
-
-class MissingExtraError(ImportError):
-    """A package of the extra `contoursolve[notebook]` is missing."""
 
 
 def explore(
@@ -31,13 +28,7 @@ def explore(
 
     Raises MissingExtraError without the packages of `contoursolve[notebook]`, ValueError for several contours.
     """
-    try:
+    with importing("notebook", "exploring a contour"):
         from contoursolve.notebook.explorer import Explorer  # noqa: PLC0415 - needs an extra
-    except ModuleNotFoundError as error:
-        if error.name is None or error.name.partition(".")[0] not in ("anywidget", "htpy", "markupsafe", "traitlets"):
-            raise
-        raise MissingExtraError(
-            f"exploring a contour needs {error.name}; install it with: pip install 'contoursolve[notebook]'"
-        ) from None
     options = {"start": start, "control": control, "units": units, "rules": rules, "settings": settings}
     return Explorer(begin(block, facts, **options))

@@ -11,6 +11,7 @@ from contoursolve.api import solve
 from contoursolve.diagnosis.edits import Edit, EditKind, apply_edits, write_word
 from contoursolve.diagnostic import Diagnostic, Fix
 from contoursolve.examine import Answer
+from contoursolve.families.template import call
 from contoursolve.fill import FARTHEST
 from contoursolve.model import Unit
 from contoursolve.output.solutions import Listed, list_solutions
@@ -84,11 +85,7 @@ def words_of(answer: Answer) -> dict[str, Word]:
     that address, else with its line, `2:,A`."""
     words = {word.span: word for word in answer.claim.words.values() if word.address != FACT}
     ordered = [words[span] for span in sorted(words)]
-    addresses = [word.address for word in ordered]
-    return {
-        word.address if addresses.count(word.address) == 1 else f"{word.span.line}:{word.address}": word
-        for word in ordered
-    }
+    return {call(word, ordered): word for word in ordered}
 
 
 def set_word(exploration: Exploration, key: str, value: float | str) -> Exploration:

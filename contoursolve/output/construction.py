@@ -18,7 +18,6 @@ from contoursolve.constraints import (
     assemble,
 )
 from contoursolve.examine import Answer, list_alternatives
-from contoursolve.explain import angle_text, join, length_text, unknowns_text
 from contoursolve.model import Fact, Profile
 from contoursolve.output.layout import printable
 from contoursolve.solving import scalars_of, solve
@@ -26,6 +25,7 @@ from contoursolve.solving.alternatives import ARCS, Alternatives, choose
 from contoursolve.solving.elimination import has_closed_form
 from contoursolve.solving.kernel import make_kernel
 from contoursolve.syntax import FACT
+from contoursolve.wording import angle_text, join, length_text, unknowns_text
 
 
 def construction_lines(answer: Answer) -> list[str]:

@@ -1,6 +1,5 @@
 """What a comparison of two paths found, as text and as JSON: schema contoursolve/diff/1."""
 
-import json
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import groupby
@@ -8,6 +7,7 @@ from math import degrees, isfinite
 from typing import Any
 
 from contoursolve.comparison import Comparison, Path, Place, Step, Travel, Unfollowed
+from contoursolve.data import json_text
 from contoursolve.model import Length
 from contoursolve.output.document import finding_data
 from contoursolve.output.layout import count, length_of, printable
@@ -138,7 +138,7 @@ def _sides(comparison: Comparison) -> tuple[tuple[str, Path], tuple[str, Path]]:
 def to_json(comparison: Comparison) -> str:
     """The comparison as one document; lengths in mm, X of a lathe as radius, angles in degrees."""
     difference, lines = comparison.difference, comparison.lines
-    return _text(
+    return json_text(
         {
             "schema": SCHEMA,
             "verdict": "equal" if difference is None else "different",
@@ -163,7 +163,7 @@ def to_json(comparison: Comparison) -> str:
 
 def refusal_to_json(results: Sequence[Result]) -> str:
     """The findings about programs that have errors, and no path to compare."""
-    return _text(
+    return json_text(
         {
             "schema": SCHEMA,
             "verdict": "not-compared",
@@ -212,7 +212,3 @@ def _step(step: Step | None) -> dict[str, Any] | None:
 
 def _number(value: float | None) -> float | None:
     return None if value is None else round(value, _DECIMALS) + 0.0
-
-
-def _text(data: Any) -> str:
-    return json.dumps(data, indent=1, ensure_ascii=True, allow_nan=False)

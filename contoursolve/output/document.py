@@ -1,10 +1,10 @@
 """Results as plain data for JSON: schema contoursolve/solve/1."""
 
-import json
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from contoursolve.contour import ArcSegment, Contour, Segment
+from contoursolve.data import json_text
 from contoursolve.diagnostic import Diagnosis, Diagnostic
 from contoursolve.examine import Answer, AskedValue
 from contoursolve.output.solutions import DECIMALS, decimals_of, list_solutions, printed_certificate
@@ -46,19 +46,15 @@ def findings_to_json(results: Sequence[Result]) -> str:
 
 def _document(head: Mapping[str, Any], **lists: Iterable[Any]) -> str:
     """An object of texts and lists; each row becomes text by itself, for the data of all would fill the memory."""
-    members = [f"{_text(name)}: {_indented(value)}" for name, value in head.items()]
+    members = [f"{json_text(name)}: {_indented(value)}" for name, value in head.items()]
     for name, values in lists.items():
         rows = ",\n  ".join(_indented(value, 2) for value in values)
-        members.append(f"{_text(name)}: " + (f"[\n  {rows}\n ]" if rows else "[]"))
+        members.append(f"{json_text(name)}: " + (f"[\n  {rows}\n ]" if rows else "[]"))
     return "{\n " + ",\n ".join(members) + "\n}"
 
 
 def _indented(data: Any, depth: int = 1) -> str:
-    return _text(data).replace("\n", "\n" + " " * depth)
-
-
-def _text(data: Any) -> str:
-    return json.dumps(data, indent=1, ensure_ascii=True, allow_nan=False)
+    return json_text(data).replace("\n", "\n" + " " * depth)
 
 
 def finding_data(finding: Diagnostic, result: Result) -> dict[str, Any]:

@@ -1,12 +1,12 @@
 """Findings for other tools: SARIF 2.1.0 for editors and code scanning, and GitHub's annotations."""
 
 import hashlib
-import json
 from collections.abc import Iterable, Sequence
 from pathlib import PurePath
 from typing import Any
 from urllib.parse import quote
 
+from contoursolve.data import json_text
 from contoursolve.diagnostic import Applicability, Diagnostic, Fix, Severity
 from contoursolve.dialects import DIALECTS
 from contoursolve.pipeline import Result
@@ -30,7 +30,7 @@ def to_sarif(results: Sequence[Result], version: str) -> str:
         "results": [each for result in results for each in _results(result, index)],
     }
     log = {"$schema": "https://json.schemastore.org/sarif-2.1.0.json", "version": "2.1.0", "runs": [run]}
-    return json.dumps(log, indent=1)
+    return json_text(log)
 
 
 def _rule(rule: Rule) -> dict[str, Any]:

@@ -4,8 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from contoursolve.families import Found, Goal, Hit
-from contoursolve.output.layout import count, length_of
-from contoursolve.output.ranges import written
+from contoursolve.output.layout import coordinates, count, written
 from contoursolve.output.solutions import printed_certificate
 
 
@@ -27,7 +26,7 @@ def found_title(found: Found) -> str:
     number = count(len(found.hits), "value") if found.hits else "no value"
     proof = "proven to be all" if found.is_complete else "at least; that these are all is not proven"
     aim = "nearest to" if found.goal.is_nearest else "at"
-    goal = _place(found.goal.place, found)
+    goal = coordinates(found.goal.place, found.plane, found.length)
     return f"{found.goal.point} {aim} {goal}, by {found.word} from {low} to {high}: {number} ({proof})"
 
 
@@ -35,10 +34,8 @@ def hit_row(hit: Hit, found: Found) -> tuple[str, str, str, str, str]:
     """A value, where the point is then, the certificate (may be empty), the block to write, and what rounding does."""
     away = f", {hit.away:.4f} mm away" if found.goal.is_nearest else ""
     certificate = str(printed_certificate(hit.certificate) or "")
-    return (
-        written(hit.value, found.unit), f"{_place(hit.point, found)}{away}", certificate, hit.block,
-        _rounding(hit, found.goal),
-    )  # fmt: skip
+    at = f"{coordinates(hit.point, found.plane, found.length)}{away}"
+    return written(hit.value, found.unit), at, certificate, hit.block, _rounding(hit, found.goal)
 
 
 def _rounding(hit: Hit, goal: Goal) -> str:
@@ -46,15 +43,6 @@ def _rounding(hit: Hit, goal: Goal) -> str:
         return "rounded like this, the block has no contour"
     off = "away" if goal.is_nearest else "off"
     return f"rounded like this, the point is {hit.rounded_away:.4f} mm {off}"
-
-
-def _place(place: tuple[float | None, float | None], found: Found) -> str:
-    """Coordinates as the control writes them."""
-    return " ".join(
-        f"{letter}{length_of(value * (2 if is_diameter else 1), found.length)}"
-        for letter, value, is_diameter in zip(found.plane.axes, place, found.plane.diameters, strict=True)
-        if value is not None
-    )
 
 
 def found_data(found: Found) -> dict[str, Any]:

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from contoursolve.model import Length
+from contoursolve.model import Length, Plane
 
 _INCH = float(Length.INCH.in_mm)
 
@@ -21,7 +21,24 @@ def printable(text: str) -> str:
 
 def length_of(mm: float, unit: Length) -> str:
     """A length in the unit of a program: four decimals of a millimetre, five of an inch; no negative zero."""
-    text = f"{mm:.4f}" if unit is Length.MM else f"{mm / _INCH:.5f}"
+    return _unsigned_zero(f"{mm:.4f}" if unit is Length.MM else f"{mm / _INCH:.5f}")
+
+
+def written(value: float, unit: str) -> str:
+    """A value as its word has it, with its unit (mm, inch or deg); decimals as for lengths."""
+    return f"{_unsigned_zero(f'{value:.5f}')} in" if unit == "inch" else f"{_unsigned_zero(f'{value:.4f}')} {unit}"
+
+
+def coordinates(place: Sequence[float | None], plane: Plane, unit: Length) -> str:
+    """Coordinates (mm, X of a lathe as radius) as the control writes them; of a place with one coordinate, that one."""
+    return " ".join(
+        f"{letter}{length_of(value * (2 if is_diameter else 1), unit)}"
+        for letter, value, is_diameter in zip(plane.axes, place, plane.diameters, strict=True)
+        if value is not None
+    )
+
+
+def _unsigned_zero(text: str) -> str:
     return text.removeprefix("-") if float(text) == 0 else text
 
 

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from contoursolve.families import Boundary, End, Feasible, Region
-from contoursolve.output.layout import columns, count
+from contoursolve.output.layout import columns, count, written
 
 
 def range_lines(found: Feasible) -> Iterator[str]:
@@ -46,12 +46,6 @@ def _row(end: End, unit: str) -> tuple[str, str]:
         return written(end.value, unit), "the range that was looked at"
     text = end.reason.text if end.is_verified else f"{end.reason.text} (not confirmed on both sides)"
     return written(end.value, unit), text if end.is_included else f"{text}; this value itself has none"
-
-
-def written(value: float, unit: str) -> str:
-    """A value of a word with its unit."""
-    text, shown = (f"{value:.5f}", "in") if unit == "inch" else (f"{value:.4f}", unit)
-    return f"{text.removeprefix('-') if float(text) == 0 else text} {shown}"
 
 
 def range_data(found: Feasible) -> dict[str, Any]:

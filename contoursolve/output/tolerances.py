@@ -5,8 +5,7 @@ from math import isnan
 from typing import Any
 
 from contoursolve.families import Effect, Tolerances
-from contoursolve.output.layout import columns, length_of
-from contoursolve.output.ranges import written
+from contoursolve.output.layout import columns, coordinates, written
 
 
 def tolerances_lines(found: Tolerances) -> Iterator[str]:
@@ -18,7 +17,7 @@ def tolerances_lines(found: Tolerances) -> Iterator[str]:
 
 def tolerances_title(found: Tolerances) -> str:
     """The point, and where it is."""
-    return f"{found.point}: {_place(found.place, found)}; moved by each word, the most first"
+    return f"{found.point}: {coordinates(found.place, found.plane, found.length)}; moved by each word, the most first"
 
 
 def effect_rows(found: Tolerances) -> list[list[str]]:
@@ -41,7 +40,8 @@ def spread_lines(found: Tolerances) -> Iterator[str]:
     if found.limits is not None:
         low, high, count = found.limits.low, found.limits.high, found.limits.count
         without = f"; {found.limits.without} of them have no contour" if found.limits.without else ""
-        span = "" if isnan(low[0]) else f": from {_place(low, found)} to {_place(high, found)}"
+        lowest, highest = (coordinates(at, found.plane, found.length) for at in (low, high))
+        span = "" if isnan(low[0]) else f": from {lowest} to {highest}"
         yield f"solved at all {count} combinations of the limits{span}{without}"
     for each in found.effects:
         if each.rounded is not None and each.rounded != each.stated:
@@ -75,14 +75,6 @@ def _row(each: Effect, found: Tolerances, has_tolerances: bool) -> list[str]:
 
 def _length(value: float) -> str:
     return "none" if isnan(value) else f"{value:.4f}"
-
-
-def _place(place: tuple[float, float], found: Tolerances) -> str:
-    """Coordinates as the control writes them."""
-    return " ".join(
-        f"{letter}{length_of(value * (2 if is_diameter else 1), found.length)}"
-        for letter, value, is_diameter in zip(found.plane.axes, place, found.plane.diameters, strict=True)
-    )
 
 
 def tolerances_data(found: Tolerances) -> dict[str, Any]:

@@ -9,7 +9,7 @@ from contoursolve.examine import Answer
 from contoursolve.pictures.compose import compose
 from contoursolve.pictures.describe import describe, describe_result
 from contoursolve.pictures.layout import lay_out, stack_sheets
-from contoursolve.pictures.picture import MissingPainterError, Picture, finish
+from contoursolve.pictures.picture import Picture, finish
 from contoursolve.pictures.theme import Theme
 from contoursolve.pipeline import Result
 
@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from contoursolve.families import Family, Feasible, Region, Sweep
 
 __all__ = [
-    "MissingPainterError",
     "Picture",
     "Theme",
     "draw_answer",

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from contoursolve.families import End, Feasible, Way
-from contoursolve.output.ranges import written
+from contoursolve.output.layout import written
 from contoursolve.pictures.arrows import line
 from contoursolve.pictures.chart import LEFT, SIZE, TITLE, WIDE, WIDTH, heading, over_range
 from contoursolve.pictures.metrics import shorten

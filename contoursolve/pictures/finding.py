@@ -14,7 +14,7 @@ from contoursolve.pictures.completing import complete, is_chosen
 from contoursolve.pictures.known import Known, in_part, is_usable, known_of
 from contoursolve.solving import Point, RefusalKind, Solution, is_closed, points_with_two_solutions, solve
 from contoursolve.solving.compile import compile_system
-from contoursolve.solving.solve import corner_of, inputs_of
+from contoursolve.solving.numbers import corner_of, inputs_of
 
 
 def find_known(answer: Answer) -> Known:

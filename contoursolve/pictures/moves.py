@@ -8,7 +8,6 @@ from contoursolve.contour import ArcSegment, LineSegment, Segment
 from contoursolve.dialects import DIALECTS
 from contoursolve.model import Turn
 from contoursolve.pipeline import Result
-from contoursolve.project import configure
 from contoursolve.tolerance import LENGTH
 
 MOST_MOVES = 2_000
@@ -29,8 +28,7 @@ def list_moves(result: Result) -> list[Move]:
     dialect = DIALECTS.get(result.control or "")
     if dialect is None or not result.answers:
         return []
-    settings = {f"{dialect.name}.{name}": value for name, value in result.settings.items()}
-    dialect = configure(settings).get(dialect.name, dialect) if settings else dialect
+    dialect = dialect.configure(result.settings)
     axes = tuple(dict.fromkeys(axis for answer in result.answers for axis in answer.plane.axes))
     # Before any code that says it, the unit is that of the first contour.
     path = follow(result, dialect, result.answers[0].unit, axes)

@@ -2,16 +2,13 @@
 
 from dataclasses import dataclass, field
 
+from contoursolve.extras import importing
 from contoursolve.pictures.sheet import Sheet
 from contoursolve.pictures.svg import write_svg
 from contoursolve.pictures.theme import Theme
 
 DPI = 144.0
 """Pixels in an inch of a PNG; a page has 96."""
-
-
-class MissingPainterError(ImportError):
-    """The package that paints PNG is missing; the message says what to install."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,9 +28,9 @@ class Picture:
         return self.svg
 
     def png(self, dpi: float = DPI) -> bytes:
-        """The drawing as PNG. Raises MissingPainterError without matplotlib."""
-        from contoursolve.pictures.png import write_png  # noqa: PLC0415 - an extra, and slow to import
-
+        """The drawing as PNG. Raises MissingExtraError without matplotlib, ValueError for a resolution out of range."""
+        with importing("picture", "a PNG picture"):
+            from contoursolve.pictures.png import write_png  # noqa: PLC0415 - an extra, and slow to import
         return write_png(self.sheet, self.theme, self.title, dpi)
 
 

@@ -1,16 +1,20 @@
 """A page as PNG, painted by matplotlib without a window or any state: the same bytes for the same page."""
 
 import io
-from typing import TYPE_CHECKING, Any
+from typing import Any
 from warnings import catch_warnings, simplefilter
 
-from contoursolve.pictures.picture import MissingPainterError
+from matplotlib import rc_context
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle, PathPatch, Polygon, Rectangle
+from matplotlib.path import Path
+from matplotlib.transforms import Affine2D
+
+from contoursolve.pictures.metrics import width_of
 from contoursolve.pictures.sheet import Anchor, Dot, Shape, Sheet, Stroke, Sweep, Text
 from contoursolve.pictures.svg import points_on
 from contoursolve.pictures.theme import Role, Theme
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 PIXELS = 96.0
 """Of a page in an inch, as in CSS."""
@@ -22,19 +26,9 @@ _MOST = 12_000
 
 
 def write_png(sheet: Sheet, theme: Theme, title: str, dpi: float) -> bytes:
-    """The page as PNG. Raises MissingPainterError without matplotlib, ValueError for a resolution out of range."""
+    """The page as PNG. Raises ValueError for a resolution out of range."""
     if not 1 <= dpi <= _MOST * PIXELS / max(sheet.width, sheet.height):
         raise ValueError(f"a picture of {sheet.width:.0f} x {sheet.height:.0f} pixels cannot be painted at {dpi:g} dpi")
-    try:
-        from matplotlib import rc_context  # noqa: PLC0415 - an extra, and slow to import
-        from matplotlib.backends.backend_agg import FigureCanvasAgg  # noqa: PLC0415
-        from matplotlib.figure import Figure  # noqa: PLC0415
-    except ModuleNotFoundError as error:
-        if error.name is None or error.name.partition(".")[0] != "matplotlib":
-            raise
-        raise MissingPainterError(
-            "a PNG picture needs matplotlib; install it with: pip install 'contoursolve[picture]'"
-        ) from None
     # A user's own settings change nothing.
     with catch_warnings(), rc_context({"path.simplify": False, "font.family": ["DejaVu Sans"], "text.usetex": False}):
         simplefilter("ignore")  # about characters that the font lacks; they are boxes then
@@ -51,10 +45,7 @@ def write_png(sheet: Sheet, theme: Theme, title: str, dpi: float) -> bytes:
 class _Painter:
     """Adds what is on a page to a figure."""
 
-    def __init__(self, figure: "Figure", sheet: Sheet, theme: Theme) -> None:
-        from matplotlib.patches import Rectangle  # noqa: PLC0415
-        from matplotlib.transforms import Affine2D  # noqa: PLC0415
-
+    def __init__(self, figure: Figure, sheet: Sheet, theme: Theme) -> None:
         self.figure, self.sheet, self.colors = figure, sheet, theme.colors
         to_inches = Affine2D().scale(1 / PIXELS, -1 / PIXELS).translate(0, sheet.height / PIXELS)
         self.transform = to_inches + figure.dpi_scale_trans
@@ -79,9 +70,6 @@ class _Painter:
         self.figure.add_artist(artist)
 
     def _stroke(self, stroke: Stroke, number: int, *, is_clipped: bool) -> None:
-        from matplotlib.patches import PathPatch  # noqa: PLC0415
-        from matplotlib.path import Path  # noqa: PLC0415
-
         places = [stroke.start]
         for step in stroke.steps:
             places += points_on(places[-1], step, _PIECES) if isinstance(step, Sweep) else [step]
@@ -101,8 +89,6 @@ class _Painter:
             patch.set_clip_path(self.clip)
 
     def _patch(self, item: Shape | Dot, number: int) -> None:
-        from matplotlib.patches import Circle, Polygon  # noqa: PLC0415
-
         color, paper = self.colors[item.role], self.colors[Role.PAPER]
         if isinstance(item, Shape):
             self._add(Polygon(item.corners, facecolor=color, edgecolor="none", transform=self.transform), number)
@@ -113,8 +99,6 @@ class _Painter:
         self._add(disc, number)
 
     def _text(self, text: Text, number: int) -> None:
-        from contoursolve.pictures.metrics import width_of  # noqa: PLC0415
-
         x, y = text.at
         wide = width_of(text.words, text.size, is_bold=text.is_bold, is_mono=text.is_mono)
         several = len({run.role for run in text.runs}) > 1

@@ -6,7 +6,7 @@ of HTML a style sheet overrules them, under an identity that is made of the pict
 
 from collections.abc import Iterator
 from hashlib import sha256
-from math import pi
+from math import cos, pi, sin
 from xml.sax.saxutils import escape
 
 from contoursolve.pictures.sheet import FULL_TURN, Dot, Item, Shape, Sheet, Spot, Stroke, Sweep, Text
@@ -133,8 +133,6 @@ def _arc(here: Spot, sweep: Sweep) -> Iterator[str]:
 
 def points_on(here: Spot, sweep: Sweep, pieces: int) -> Iterator[Spot]:
     """Places on an arc that starts here, its end the last."""
-    from math import cos, sin  # noqa: PLC0415
-
     first, second = here[0] - sweep.center[0], here[1] - sweep.center[1]
     for number in range(1, pieces):
         turned = sweep.angle * number / pieces

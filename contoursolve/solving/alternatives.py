@@ -17,6 +17,7 @@ from contoursolve.solving.compile import compile_path
 from contoursolve.solving.elimination import Obstacle
 from contoursolve.solving.enumerate import Doubt, Enumeration, Found, enumerate_solutions
 from contoursolve.solving.ground import ground_of
+from contoursolve.solving.numbers import corner_of, sizes_of
 from contoursolve.solving.path import check_path
 from contoursolve.solving.prove import prove_found, radius_of
 from contoursolve.solving.solution import (
@@ -29,7 +30,7 @@ from contoursolve.solving.solution import (
     Solution,
     Status,
 )
-from contoursolve.solving.solve import compare_fact, corner_of, sizes_of
+from contoursolve.solving.solve import compare_fact
 from contoursolve.tolerance import LENGTH, RESIDUAL
 
 

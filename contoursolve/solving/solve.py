@@ -1,15 +1,13 @@
 """Solves a determined profile and believes nothing: every answer is held against the original equations."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from decimal import Decimal
-from functools import lru_cache
 from itertools import combinations
 from math import asin, atan2, degrees, hypot, inf, isfinite
 
 from contoursolve.analysis import judge
 from contoursolve.backends.angle import direction
-from contoursolve.backends.inputs import COSINE, SINE
 from contoursolve.backends.numeric import inverse_norm
 from contoursolve.constraints import (
     Collinear,
@@ -21,16 +19,15 @@ from contoursolve.constraints import (
     System,
     Values,
     assemble,
-    headed_lines,
 )
-from contoursolve.model import FIRST, SECOND, Corner, Fact, Profile, Start, Unit, scalar
+from contoursolve.model import FIRST, SECOND, Fact, Profile, Unit, scalar
 from contoursolve.solving.certificate import Certificate, up_to_one_digit
 from contoursolve.solving.certify import certify
 from contoursolve.solving.compile import compile_system
+from contoursolve.solving.numbers import inputs_of, lookup, scalars_of, sizes_of, solution_at
 from contoursolve.solving.path import check_path
 from contoursolve.solving.plan import AffineStep, DistanceStep, LineCircleStep, Step, TwoCirclesStep, is_closed
 from contoursolve.solving.solution import (
-    CornerSolution,
     Point,
     Refusal,
     RefusalKind,
@@ -88,33 +85,6 @@ def _orders(system: System, tied: frozenset[Fact]) -> Iterator[System]:
             yield system.keep(first + tuple(fact for fact in system.facts if fact not in first))
 
 
-def lookup(profile: Profile, scalars: dict[str, float]) -> Values:
-    """A lookup of floats for the facts of a profile: its givens, and these values of the unknowns."""
-    start = {
-        scalar(profile.figure.start, axis): float(value)
-        for axis, value in enumerate(profile.start.values)
-        if value is not None
-    }
-    givens = profile.givens.values()
-    return Values(
-        {**start, **scalars},
-        {given.name: float(given.value) for given in givens if given.unit is Unit.MM},
-        {given.name: direction(given.value) for given in givens if given.unit is Unit.DEGREE},
-        headed_lines(profile.figure) if profile.is_extended else {},
-    )
-
-
-def scalars_of(points: Mapping[str, Point]) -> dict[str, float]:
-    """The coordinates of points by their scalars' names."""
-    return {scalar(name, axis): value for name, point in points.items() for axis, value in enumerate(point)}
-
-
-def sizes_of(profile: Profile) -> dict[str, float]:
-    """The stated sizes of a profile's corners, mm."""
-    sizes = (corner.size for corner in profile.figure.corners)
-    return {size: float(profile.givens[size].value) for size in sizes if size in profile.givens}
-
-
 def compare(fact: Fact, profile: Profile, at: Values) -> dict[str, float]:
     """What a fact states beside what it would need to state at these points, and the gap in mm.
 
@@ -128,40 +98,6 @@ def compare(fact: Fact, profile: Profile, at: Values) -> dict[str, float]:
             expected += 360 * round((float(given.value) - expected) / 360)
         values["expected"] = expected
     return values
-
-
-def inputs_of(profile: Profile, system: System) -> dict[str, float]:
-    """All inputs of the function of a system. Raises ValueError without a start."""
-    givens = [(given.name, given.unit, given.value) for given in profile.givens.values()]
-    inputs = inputs_at(system, profile.start, givens)
-    for choice in profile.choices:
-        inputs[f"side:{choice.point}"] = float(choice.side.sign)
-    return inputs
-
-
-def inputs_at(system: System, start: Start, givens: Iterable[tuple[str, Unit, Decimal]]) -> dict[str, float]:
-    """The inputs of the function of a system from givens (name, unit, value). Coordinates are counted from the start
-    point, and the difference is taken in decimals: a shifted program has the same numbers, to the last bit. Raises
-    ValueError without a start."""
-    first, second = start.values
-    if first is None or second is None:
-        raise ValueError("the start point is not known")
-    inputs = {scalar(system.figure.start, axis): 0.0 for axis in (FIRST, SECOND)}
-    absolute = _axes(system)
-    for name, unit, value in givens:
-        if unit is Unit.DEGREE:
-            inputs[name + COSINE], inputs[name + SINE] = direction(value)
-        elif name in absolute:
-            inputs[name] = float(value - (second if absolute[name] else first))
-        else:
-            inputs[name] = float(value)
-    return inputs
-
-
-@lru_cache(maxsize=4096)
-def _axes(system: System) -> Mapping[str, int]:
-    """The axis of each given that is a coordinate."""
-    return {fact.given: fact.axis for fact in system.facts if isinstance(fact, Coordinate)}
 
 
 class _Attempt:
@@ -407,25 +343,6 @@ class _Attempt:
         return up_to_one_digit(bound) if isfinite(bound) else inf
 
 
-def solution_at(system: System, start: Start, sizes: Mapping[str, float], out: Mapping[str, float]) -> Solution:
-    """The values among the outputs of a compiled system, which count coordinates from the start point; `sizes` are
-    those of the corners by the words that state them, mm."""
-    figure, (first, second) = system.figure, start.values
-    one, other = float(first or 0), float(second or 0)
-
-    def absolute(point: Point) -> Point:
-        return one + point[FIRST], other + point[SECOND]
-
-    points = {figure.start: absolute((0.0, 0.0))}
-    points |= {name: absolute((out[scalar(name, FIRST)], out[scalar(name, SECOND)])) for name in figure.points}
-    return Solution(
-        Status.SOLVED,
-        points=points,
-        radii={name: out[name] for name in figure.radii},
-        corners={corner.name: corner_of(corner, sizes[corner.size], out, absolute) for corner in figure.corners},
-    )
-
-
 def givens_of(fact: Fact, system: System) -> tuple[str, ...]:
     """The given of a fact, or those that determine what it mentions directly."""
     if fact.given:
@@ -453,18 +370,6 @@ def compare_fact(fact: Fact, off: float, profile: Profile, system: System, at: V
         return Remark(RemarkKind.WORDS_AGREE, fact.given, givens, values) if fact.given else None
     kind = RefusalKind.WORDS_DISAGREE if "expected" in values else RefusalKind.FACT_DISAGREES
     return Refusal(kind, fact.given, givens, values)
-
-
-def corner_of(
-    corner: Corner, size: float, out: Mapping[str, float], absolute: Callable[[Point], Point]
-) -> CornerSolution:
-    """A corner in numbers, from the outputs of a compiled path."""
-
-    def pair(kind: str) -> Point:
-        return absolute((out[f"{kind}:{corner.name}.{FIRST}"], out[f"{kind}:{corner.name}.{SECOND}"]))
-
-    center = pair("center") if f"center:{corner.name}.{FIRST}" in out else None
-    return CornerSolution(pair("begin"), pair("end"), center, size, out[f"turn:{corner.name}"])
 
 
 def _refuse(kind: RefusalKind, subject: str, givens: tuple[str, ...], **values: float) -> Refusal:

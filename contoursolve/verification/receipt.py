@@ -1,11 +1,11 @@
 """The receipt of a verification: what was checked against what, and the verdict, as records and as JSON."""
 
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import Enum
 from typing import Any
 
+from contoursolve.data import json_text
 from contoursolve.model import Length
 from contoursolve.verification.claimed import Rules
 from contoursolve.verification.document import Document
@@ -83,7 +83,7 @@ def to_json(receipt: Receipt) -> str:
         "contours": [_contour(each) for each in receipt.contours],
         "not_checked": [_omission(each) for each in receipt.omissions],
     }
-    return json.dumps(document, indent=1, ensure_ascii=True, allow_nan=False)
+    return json_text(document)
 
 
 def _document(document: Document) -> dict[str, str]:

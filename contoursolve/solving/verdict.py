@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from contoursolve.backends.columns import Array
 from contoursolve.constraints import Coordinate, Heading, Offset, OnCircle, Radius
 from contoursolve.model import FIRST, SECOND, Arc, Corner, CornerShape, Fact, Figure, scalar
-from contoursolve.solving import RefusalKind, Status
 from contoursolve.solving.plan import AffineStep, DistanceStep, LineCircleStep, Step, TwoCirclesStep
+from contoursolve.solving.solution import RefusalKind, Status
 from contoursolve.tolerance import AGREEMENT, LENGTH, RADIUS_DIFFERENCE, REGULAR, RESIDUAL, TOUCHING
 
 Mask = NDArray[numpy.bool_]

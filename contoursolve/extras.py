@@ -1,0 +1,30 @@
+"""Packages of extras, such as `contoursolve[picture]`: imported where they are needed, or told to be missing."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from importlib import import_module
+from typing import Any
+
+
+class MissingExtraError(ImportError):
+    """A package of an extra is missing; the message says what needs it and how to install it."""
+
+
+@contextmanager
+def importing(extra: str, purpose: str) -> Iterator[None]:
+    """What is imported within needs the packages of an extra. Raises MissingExtraError without one of them."""
+    try:
+        yield
+    except ModuleNotFoundError as error:
+        package = (error.name or "").partition(".")[0]
+        if package in ("", "contoursolve"):
+            raise
+        raise MissingExtraError(
+            f"{purpose} needs {package}; install it with: pip install 'contoursolve[{extra}]'"
+        ) from None
+
+
+def need(module: str, extra: str, purpose: str) -> Any:
+    """A module of an extra. Raises MissingExtraError."""
+    with importing(extra, purpose):
+        return import_module(module)

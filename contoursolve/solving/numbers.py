@@ -1,0 +1,103 @@
+"""Numbers into a compiled system and out of it: what a profile states as inputs, the outputs as a solution."""
+
+from collections.abc import Callable, Iterable, Mapping
+from decimal import Decimal
+from functools import lru_cache
+
+from contoursolve.backends.angle import direction
+from contoursolve.backends.inputs import COSINE, SINE
+from contoursolve.constraints import Coordinate, System, Values, headed_lines
+from contoursolve.model import FIRST, SECOND, Corner, Profile, Start, Unit, scalar
+from contoursolve.solving.solution import CornerSolution, Point, Solution, Status
+
+
+def inputs_of(profile: Profile, system: System) -> dict[str, float]:
+    """All inputs of the function of a system. Raises ValueError without a start."""
+    givens = [(given.name, given.unit, given.value) for given in profile.givens.values()]
+    inputs = inputs_at(system, profile.start, givens)
+    for choice in profile.choices:
+        inputs[f"side:{choice.point}"] = float(choice.side.sign)
+    return inputs
+
+
+def inputs_at(system: System, start: Start, givens: Iterable[tuple[str, Unit, Decimal]]) -> dict[str, float]:
+    """The inputs of the function of a system from givens (name, unit, value). Coordinates are counted from the start
+    point, and the difference is taken in decimals: a shifted program has the same numbers, to the last bit. Raises
+    ValueError without a start."""
+    first, second = start.values
+    if first is None or second is None:
+        raise ValueError("the start point is not known")
+    inputs = {scalar(system.figure.start, axis): 0.0 for axis in (FIRST, SECOND)}
+    absolute = _axes(system)
+    for name, unit, value in givens:
+        if unit is Unit.DEGREE:
+            inputs[name + COSINE], inputs[name + SINE] = direction(value)
+        elif name in absolute:
+            inputs[name] = float(value - (second if absolute[name] else first))
+        else:
+            inputs[name] = float(value)
+    return inputs
+
+
+@lru_cache(maxsize=4096)
+def _axes(system: System) -> Mapping[str, int]:
+    """The axis of each given that is a coordinate."""
+    return {fact.given: fact.axis for fact in system.facts if isinstance(fact, Coordinate)}
+
+
+def solution_at(system: System, start: Start, sizes: Mapping[str, float], out: Mapping[str, float]) -> Solution:
+    """The values among the outputs of a compiled system, which count coordinates from the start point; `sizes` are
+    those of the corners by the words that state them, mm."""
+    figure, (first, second) = system.figure, start.values
+    one, other = float(first or 0), float(second or 0)
+
+    def absolute(point: Point) -> Point:
+        return one + point[FIRST], other + point[SECOND]
+
+    points = {figure.start: absolute((0.0, 0.0))}
+    points |= {name: absolute((out[scalar(name, FIRST)], out[scalar(name, SECOND)])) for name in figure.points}
+    return Solution(
+        Status.SOLVED,
+        points=points,
+        radii={name: out[name] for name in figure.radii},
+        corners={corner.name: corner_of(corner, sizes[corner.size], out, absolute) for corner in figure.corners},
+    )
+
+
+def corner_of(
+    corner: Corner, size: float, out: Mapping[str, float], absolute: Callable[[Point], Point]
+) -> CornerSolution:
+    """A corner in numbers, from the outputs of a compiled path."""
+
+    def pair(kind: str) -> Point:
+        return absolute((out[f"{kind}:{corner.name}.{FIRST}"], out[f"{kind}:{corner.name}.{SECOND}"]))
+
+    center = pair("center") if f"center:{corner.name}.{FIRST}" in out else None
+    return CornerSolution(pair("begin"), pair("end"), center, size, out[f"turn:{corner.name}"])
+
+
+def lookup(profile: Profile, scalars: dict[str, float]) -> Values:
+    """A lookup of floats for the facts of a profile: its givens, and these values of the unknowns."""
+    start = {
+        scalar(profile.figure.start, axis): float(value)
+        for axis, value in enumerate(profile.start.values)
+        if value is not None
+    }
+    givens = profile.givens.values()
+    return Values(
+        {**start, **scalars},
+        {given.name: float(given.value) for given in givens if given.unit is Unit.MM},
+        {given.name: direction(given.value) for given in givens if given.unit is Unit.DEGREE},
+        headed_lines(profile.figure) if profile.is_extended else {},
+    )
+
+
+def scalars_of(points: Mapping[str, Point]) -> dict[str, float]:
+    """The coordinates of points by their scalars' names."""
+    return {scalar(name, axis): value for name, point in points.items() for axis, value in enumerate(point)}
+
+
+def sizes_of(profile: Profile) -> dict[str, float]:
+    """The stated sizes of a profile's corners, mm."""
+    sizes = (corner.size for corner in profile.figure.corners)
+    return {size: float(profile.givens[size].value) for size in sizes if size in profile.givens}

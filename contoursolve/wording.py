@@ -1,0 +1,65 @@
+"""Values, places and names as messages say them: in the program's unit, with the axes of its plane."""
+
+from collections.abc import Sequence
+
+from contoursolve.model import CornerShape, Length, Profile
+
+SHOWN = 60
+"""Characters of a word or a list of words in a message; the listing shows the rest."""
+
+
+def length_text(value: float, unit: Length) -> str:
+    """A length of so many mm in the program's unit."""
+    return value_text(value / 25.4 if unit is Length.INCH else value, unit.value)
+
+
+def angle_text(value: float) -> str:
+    """An angle in degrees."""
+    return value_text(value, "deg")
+
+
+def value_text(value: float, unit: str) -> str:
+    """A value as its word has it, in mm, inch or deg."""
+    return f"{_number(value, 4)} in" if unit == "inch" else f"{_number(value, 3)} {unit}"
+
+
+_PARTS = {"cos": "direction", "sin": "direction", "off": "place", "radius": "radius"}
+
+
+def unknowns_text(names: Sequence[str], profile: Profile) -> str:
+    """Unknown scalars in the user's words: `V1 (Z and X)`, `line 2 (direction)`."""
+    things: dict[str, dict[str, None]] = {}
+    for name in names:
+        thing, _, part = name.rpartition(".")
+        shown = profile.plane.axes[int(part)] if part.isdigit() else _PARTS.get(part, "")
+        shapes = {corner.shape for corner in profile.figure.corners if corner.name == thing}
+        if part == "radius" and shapes and CornerShape.FILLET not in shapes:
+            shown = "size"
+        things.setdefault(thing if shown else name, {}).update({shown: None} if shown else {})
+    return join([f"{thing} ({join(list(parts))})" if parts else thing for thing, parts in things.items()])
+
+
+def place_text(profile: Profile, scalars: dict[str, float]) -> str:
+    """Coordinates in the user's terms: `Z-10.000 X60.000` (mm or inches, X of a lathe as diameter)."""
+    texts = []
+    for name, value in sorted(scalars.items(), key=lambda item: item[0].partition(".")[2]):
+        axis = int(name.partition(".")[2])
+        shown = value * (2 if profile.plane.diameters[axis] else 1)
+        texts.append(f"{profile.plane.axes[axis]}{length_text(shown, profile.unit)}")
+    return " ".join(texts)
+
+
+def join(texts: Sequence[str]) -> str:
+    """Texts as a list in a sentence: `A, B and C`."""
+    return " and ".join(filter(None, (", ".join(texts[:-1]), *texts[-1:])))
+
+
+def shorten(text: str) -> str:
+    """A text for a message, cut where it is very long."""
+    return text if len(text) <= SHOWN else text[: SHOWN - 4] + " ..."
+
+
+def _number(value: float, decimals: int) -> str:
+    smallest = 0.5 * 10.0**-decimals
+    value += 0.0  # -0.0 is 0
+    return f"{value:.{decimals}f}" if abs(value) >= smallest or value == 0 else f"{value:.1e}"
