@@ -50,9 +50,10 @@ def compose(answer: Answer, title: str | None = None) -> Scene:
     faults = list(draw_faults(answer, known))
     broken = [each for each in faults if isinstance(each, Ring)]
     circles = {(each.center, each.radius) for each in broken}
-    ends = [segment.end for trail in main for segment in trail.segments]
+    drawn = [segment for trail in main for segment in trail.segments]
+    end = drawn[-1].end if drawn and drawn[-1].name in _last_names(answer) else None
     is_free = bool(main) and main[-1].role is Role.FREE
-    marks = list_marks(answer, known, roles, noted, places, ends[-1] if ends else None, is_free)
+    marks = list_marks(answer, known, roles, noted, places, end, is_free)
     return Scene(
         title=title if title is not None else title_of(answer),
         axes=(axis_name(plane, FIRST, answer.unit), axis_name(plane, SECOND, answer.unit)),
@@ -135,6 +136,13 @@ def main_trails(answer: Answer, known: Known) -> list[Trail]:
         else:
             trails.append(Trail((traced.segment,), traced.role))
     return trails
+
+
+def _last_names(answer: Answer) -> set[str]:
+    """The element with which the path ends, and the corner at its end."""
+    figure = answer.profile.figure
+    last = figure.path[-1]
+    return {last.name, *(corner.name for corner in figure.corners if corner.at == last.head)}
 
 
 def _elements(trails: list[Trail]) -> dict[str, Segment]:
