@@ -50,8 +50,7 @@ def compose(answer: Answer, title: str | None = None) -> Scene:
     faults = list(draw_faults(answer, known))
     broken = [each for each in faults if isinstance(each, Ring)]
     circles = {(each.center, each.radius) for each in broken}
-    drawn = [segment for trail in main for segment in trail.segments]
-    end = drawn[-1].end if drawn and drawn[-1].name in _last_names(answer) else None
+    end = main[-1].segments[-1].end if main and _is_whole(answer, known, main[-1].segments[-1]) else None
     is_free = bool(main) and main[-1].role is Role.FREE
     marks = list_marks(answer, known, roles, noted, places, end, is_free)
     return Scene(
@@ -138,11 +137,12 @@ def main_trails(answer: Answer, known: Known) -> list[Trail]:
     return trails
 
 
-def _last_names(answer: Answer) -> set[str]:
-    """The element with which the path ends, and the corner at its end."""
+def _is_whole(answer: Answer, known: Known, last: Segment) -> bool:
+    """Whether the path is drawn as far as its end."""
     figure = answer.profile.figure
-    last = figure.path[-1]
-    return {last.name, *(corner.name for corner in figure.corners if corner.at == last.head)}
+    head = known.points.get(figure.path[-1].head)
+    names = {figure.path[-1].name, *(corner.name for corner in figure.corners if corner.at == figure.path[-1].head)}
+    return answer.contour is not None or last.name in names or (head is not None and distance(last.end, head) <= SAME)
 
 
 def _elements(trails: list[Trail]) -> dict[str, Segment]:
