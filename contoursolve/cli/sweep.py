@@ -4,13 +4,13 @@ import sys
 import time
 from collections.abc import Iterator
 from concurrent.futures import Executor
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import click
 import numpy
 
+from contoursolve.cli.cluster import open_cluster
 from contoursolve.cli.loading import settings_of
 from contoursolve.cli.options import CouldNotRunError, rules_option, settings_option, units_option
 from contoursolve.cli.pictured import bytes_of, check_picture
@@ -117,7 +117,7 @@ def sweep_(
             settings=settings_of(Path(), assignments),
         )
         drawn = bytes_of(draw_sweep(ready), picture) if picture is not None else b""
-        with _cluster(dask) as executor:
+        with open_cluster(dask) as executor:
             counts = _run(ready, workers if executor is None else None, executor, target)
         if picture is not None:
             write_whole(picture, [drawn], keeps_backup=False)
@@ -151,21 +151,6 @@ def _target(output: str | None, is_forced: bool) -> Path | None:
     except (CannotWriteError, MissingExtraError) as error:
         raise CouldNotRunError(str(error)) from None
     return target
-
-
-@contextmanager
-def _cluster(address: str | None) -> Iterator[Executor | None]:
-    """The executor of a Dask cluster; None without an address. Raises CouldNotRunError."""
-    if address is None:
-        yield None
-        return
-    distributed = need("distributed", "dask")
-    try:
-        client = distributed.Client(address, timeout="10s", set_as_default=False)
-    except (OSError, ValueError) as error:
-        raise CouldNotRunError(f"no Dask scheduler answers at {address}: {error}") from None
-    with client:
-        yield client.get_executor()
 
 
 def _run(ready: Sweep, workers: int | None, executor: Executor | None, target: Path | None) -> Any:
@@ -228,7 +213,7 @@ def _write(target: Path, parts: Parts, tables: Iterator[dict[str, Any]]) -> None
 
 def _summary(counts: Any) -> list[str]:
     """How many contours have each status, and why."""
-    rows = [(f"{counts.sum():,}", "contours")]
+    rows = [(f"{counts.sum():,}", "contour" if counts.sum() == 1 else "contours")]
     for code in Code:
         if not counts[code].sum():
             continue
