@@ -364,6 +364,9 @@ def test_values_come_from_a_column_of_a_file(tmp_path, monkeypatch):
         ("A=@in.csv:B", "has no column B; there are A, C"),
         ("A=@in.csv", "line 3, column A: 'x' is no number"),
         ("C=@in.csv", "line 3, column C: there is no number"),
+        ("A=@comma.csv", "line 2 has 2 columns, the first line 1"),
+        ("A=@twice.csv", "2 columns A"),
+        ("A=@head.csv", "there are no numbers"),
         ("V1.Z=@in.parquet", "row 1: there is no number"),
         ("A=@broken.parquet", "broken.parquet, column A: "),
     ],
@@ -374,6 +377,9 @@ def test_a_column_that_is_none_is_one_line_and_status_2(text, message, tmp_path,
 
     monkeypatch.chdir(tmp_path)
     (tmp_path / "in.csv").write_text("A,C\n1,2\nx,\n")
+    (tmp_path / "comma.csv").write_text("A\n1,5\n")
+    (tmp_path / "twice.csv").write_text("A,A\n1,2\n")
+    (tmp_path / "head.csv").write_text("A\n")
     (tmp_path / "broken.parquet").write_text("no parquet")
     parquet.write_table(table({"V1.Z": [None, 1.0]}), "in.parquet")
     status, _, errors = run(*ON_BLOCK, "--vary", text)
