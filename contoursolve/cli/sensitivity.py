@@ -30,7 +30,11 @@ def sensitivity(allowed: tuple[str, ...], point: str, facts: tuple[str, ...], fo
     contoursolve sensitivity --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0." \\
       --tolerance A=0.1 --tolerance K=0.02
     """
-    given = dict(map(_read_tolerance, allowed))
+    given: dict[str, float] = {}
+    for name, number in map(_read_tolerance, allowed):
+        if name in given:
+            raise click.UsageError(f"--tolerance names {name} twice")
+        given[name] = number
     with usage():
         found = tolerances(allowed=given, point=point, facts=facts, **read_options(options))
     if format_ == "json":

@@ -15,7 +15,7 @@ from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.examine import Policy
 from contoursolve.families.distribute import in_order
 from contoursolve.families.prepared import Examples, Kinds, Sweep, Table, examples_of, kinds_of
-from contoursolve.families.ranges import FamilyError, Ranges, name_of, ranges_of, stretches
+from contoursolve.families.ranges import FamilyError, Ranges, Stretches, name_of, ranges_of
 from contoursolve.families.result import Family
 from contoursolve.families.template import Template, find_words
 from contoursolve.model import Length
@@ -88,7 +88,7 @@ def template_of(
     program = syntax.parse(block, "<block>")
     dialect = choose(control, program)
     if dialect is None:
-        raise UnknownControlError(f"the block does not tell its control; name it; choose from {', '.join(DIALECTS)}")
+        raise UnknownControlError(f"the block does not tell its control; choose from {', '.join(DIALECTS)}")
     dialect = (configure(settings, dialect) if settings else {}).get(dialect.name, dialect)
     beginning = syntax.parse(start, "<start>", first_line=0) if start is not None else None
     apart = tuple(syntax.read_directive(fact, -number) for number, fact in enumerate(facts, 1))
@@ -170,7 +170,7 @@ def family(
         settings=settings,
     )
     table, count = ready.empty(ready.ranges.count), _check_workers(workers)
-    parts = stretches(ready.ranges.count, STRETCH)
+    parts = Stretches(ready.ranges.count, STRETCH)
 
     def fill(first: int, last: int) -> None:
         ready.evaluate(first, last, {name: column[first:last] for name, column in table.items()})
@@ -189,7 +189,7 @@ def family(
 def pieces(ready: Sweep, workers: int | None = None, executor: Executor | None = None) -> Iterator[Table]:
     """The words and results of all rows in order, some thousands at a time, so that any number of rows takes no more
     memory than a few of these. Raises FamilyError for less than one worker."""
-    parts = stretches(ready.ranges.count, STRETCH)
+    parts = Stretches(ready.ranges.count, STRETCH)
     for (first, last), part in zip(parts, solve_parts(ready, parts, workers, executor), strict=True):
         yield {**ready.words(first, last), **part}
 

@@ -16,11 +16,11 @@ from contoursolve.families.evaluate import template_of
 from contoursolve.families.kinds import Kind, alike, kind_of, limits_of, value_of
 from contoursolve.families.margins import compile_margins
 from contoursolve.families.outline import BISECTIONS, NODES, Box, Field, Trace, edge_of, gaps_of
-from contoursolve.families.ranges import FamilyError, name_of
+from contoursolve.families.ranges import FamilyError, name_of, read_limits
 from contoursolve.families.template import Template, find_words
 from contoursolve.model import Unit
 from contoursolve.solving import RefusalKind
-from contoursolve.tolerance import LENGTH
+from contoursolve.tolerance import LARGEST, LENGTH
 
 Point = tuple[float, float]
 
@@ -92,10 +92,9 @@ def region(
     ['P too large for line 1', 'P too large for line 2']
     """
     template = template_of(block, start, control, units, rules, settings, lambda _: {})
+    if isinstance(words, str) or len(words) != 2 or len(within) != 2:  # noqa: PLR2004 - axes of a map
+        raise FamilyError("name two words, and a range for each of them")
     names = name_of(words[0]), name_of(words[1])
-    for name, (low, high) in zip(names, within, strict=True):
-        if not -numpy.inf < low < high < numpy.inf:
-            raise FamilyError(f"{name} from {low:g} to {high:g} is no range; the smaller number comes first")
     if names[0] == names[1]:
         raise FamilyError(f"{names[0]} is named twice")
     return _Map(replace(template, words=find_words(template, names)), names, within).run()
@@ -106,7 +105,6 @@ class _Map:
 
     def __init__(self, template: Template, words: tuple[str, str], within: tuple[Point, Point]) -> None:
         self.template, self.words = template, words
-        self.within = tuple((float(low), float(high)) for low, high in within)
         answer = template.solve({})
         self.stated = tuple(value_of(template.words[word], answer) for word in words)
         values = dict(zip(words, self.stated, strict=True))
@@ -116,6 +114,10 @@ class _Map:
                 raise FamilyError(f"{template.words[word].text} has no range; name words that state lengths or angles")
         self.units = tuple("deg" if row and row.unit is Unit.DEGREE else answer.unit.value for row in rows)
         scales, bounds = limits_of(template, values)
+        self.within = tuple(
+            read_limits(word, each, LARGEST / abs(scale), unit)
+            for word, each, scale, unit in zip(words, within, scales, self.units, strict=True)
+        )
         self.marks = [
             [low, *(each for limit in bounds[axis] if low < (each := limit / scales[axis]) < high), high]
             for axis, (low, high) in enumerate(self.within)

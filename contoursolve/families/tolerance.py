@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from decimal import ROUND_HALF_EVEN, Decimal
-from math import hypot, isnan, nan
+from math import hypot, inf, isnan, nan
 
 import numpy
 
@@ -109,7 +109,7 @@ def tolerances(
     first, second = (slopes[f"{name}.{axis}"] for axis in axes)
     study = _Study(template, answer, point)
     by_word = {word: (first[word] * study.unit(word), second[word] * study.unit(word)) for word in first}
-    allowed = {_named(word, by_word): abs(float(value)) for word, value in (allowed or {}).items()}
+    allowed = _read_tolerances(allowed or {}, by_word)
     effects = [study.effect(word, slope, allowed.get(word)) for word, slope in by_word.items()]
     effects.sort(key=lambda each: (not isnan(each.moves), -each.moves, -(each.by_half or 0.0)))
     parts = [[abs(by_word[word][axis]) * value for word, value in allowed.items()] for axis in (0, 1)]
@@ -126,9 +126,27 @@ def tolerances(
             rules=rules,
             settings=settings,
         )
-        limits = _limits(*(found[each].ravel() for each in (f"{name}.{axes[0]}", f"{name}.{axes[1]}")))
+        # A family without any contour has no points.
+        none = numpy.full(len(found), nan)
+        limits = _limits(*(found.columns.get(f"{name}.{axis}", none) for axis in axes))
     spread = Spread(sum(parts[0]), hypot(*parts[0])), Spread(sum(parts[1]), hypot(*parts[1]))
     return Tolerances(point, study.place, answer.plane, answer.unit, tuple(effects), spread, limits)
+
+
+def _read_tolerances(allowed: Mapping[str, float], known: Iterable[str]) -> dict[str, float]:
+    """Tolerances by the names of the words. Raises FamilyError."""
+    found: dict[str, float] = {}
+    for word, value in allowed.items():
+        name = _named(word, known)
+        if name in found:
+            raise FamilyError(f"{name} has two tolerances; name it once")
+        try:
+            found[name] = float(value)
+        except (TypeError, ValueError):
+            raise FamilyError(f"the tolerance of {name} is a number, not {value!r}") from None
+        if not 0 <= found[name] < inf:
+            raise FamilyError(f"the tolerance of {name} is {value}; it is a finite number, not below 0")
+    return found
 
 
 def _named(word: str, known: Iterable[str]) -> str:
