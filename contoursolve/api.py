@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
-from enum import Enum
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
 from contoursolve import syntax
+from contoursolve.choices import choice_of
 from contoursolve.diagnostic import Diagnostic, Severity
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Depth, Policy
@@ -196,17 +196,6 @@ def solve_program(
 
 _MANY = 64
 """Blocks of a program whose contours are solved together."""
-
-
-Choice = TypeVar("Choice", bound=Enum)
-
-
-def choice_of(kind: type[Choice], value: str, argument: str) -> Choice:
-    """The member of an enum with this value. Raises ValueError, which lists the choices."""
-    for member in kind:
-        if member.value == value:
-            return member
-    raise ValueError(f"{argument} cannot be {value!r}; choose from {', '.join(str(each.value) for each in kind)}")
 
 
 def _facts(facts: Iterable[str | Statement]) -> list[Directive]:

@@ -478,10 +478,29 @@ def test_derivatives_are_central_differences(block, options):
 
 def test_tolerances_add_up_at_worst_and_in_squares():
     found = sensitivity(BLOCK, start=START)
-    spread = found.spread({"K": 0.03, "X": 0.04 / found.slopes["V2.Z"]["X"]})["V2.Z"]
+    spread = found.spread({"K": 0.03, "X": 0.04 / abs(found.slopes["V2.Z"]["X"])})["V2.Z"]
     assert (spread.worst, spread.typical) == pytest.approx((0.07, 0.05))
     with pytest.raises(FamilyError, match="no word R; there are X, A, K, B, P, Q"):
         found.spread({"R": 1})
+
+
+@pytest.mark.parametrize(
+    ("options", "error", "message"),
+    [
+        ({"units": "cm"}, ValueError, "units cannot be 'cm'; choose from mm, inch"),
+        ({"rules": "none"}, ValueError, "rules cannot be 'none'; choose from enforce, warn, off"),
+        ({"start": ("X40.", "Z0.")}, TypeError, "the start is a text"),
+        ({"vary": ["A", "B"]}, TypeError, "vary is a mapping"),
+        (
+            {"vary": {"A": range(10**6), "P": range(10**6)}},
+            FamilyError,
+            "1,000,000,000,000 rows do not fit into memory",
+        ),
+    ],
+)
+def test_a_wrong_call_says_what_is_wrong(options, error, message):
+    with pytest.raises(error, match=message):
+        family(BLOCK, **{"start": START, "vary": {"A": [170]}, **options})
 
 
 @pytest.mark.parametrize(

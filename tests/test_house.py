@@ -11,7 +11,7 @@ import pytest
 import contoursolve
 
 FLOORS = (
-    "source tolerance shown",
+    "source tolerance shown choices",
     "diagnostic",
     "syntax comments",
     "files",

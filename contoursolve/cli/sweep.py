@@ -52,7 +52,7 @@ from contoursolve.project import SettingError
     "a CSV or Parquet file; may be repeated. Where several blocks have the word, LINE:WORD, such as 2:,A=10:20:1; "
     "start.X is the X of --start, and 'length of line 1' the value of that --fact.",
 )
-@click.option("--fact", "facts", multiple=True, metavar="FACT", help="A fact besides the words; may be repeated.")
+@click.option("--fact", "facts", multiple=True, metavar="FACT", help="A further fact, as for solve; may be repeated.")
 @click.option("--paired", "is_paired", is_flag=True, help="Values side by side; without it, every combination.")
 @click.option("-o", "--output", metavar="FILE", help="Where to write every row: FILE.parquet or FILE.csv.")
 @click.option(
@@ -90,6 +90,8 @@ def sweep_(
     The words in --vary stand in the block with any value. FILE gets a row for each set of values: the words, status,
     reason, all points and corners (mm, X of a lathe as radius), the room left on each element, the largest residual.
     The same command goes on where it was stopped.
+
+    Exit status: 0 all are told, whatever became of them, 2 could not run.
 
     \b
     contoursolve sweep --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0." \\

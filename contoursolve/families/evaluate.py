@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from contoursolve import syntax
 from contoursolve.backends.columns import Array
+from contoursolve.choices import choice_of
 from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.examine import Policy
 from contoursolve.families.distribute import in_order
@@ -85,6 +86,10 @@ def template_of(
     facts: Iterable[str] = (),
 ) -> Template:
     """A block with those of its words free that are asked for; arguments and errors as for `family`."""
+    for name, text in (("block", block), ("start", start or "")):
+        if not isinstance(text, str):
+            raise TypeError(f"the {name} is a text (str), not {type(text).__name__}")
+    length, policy = choice_of(Length, units, "units"), choice_of(Policy, rules, "rules")
     program = syntax.parse(block, "<block>")
     dialect = choose(control, program)
     if dialect is None:
@@ -92,7 +97,7 @@ def template_of(
     dialect = (configure(settings, dialect) if settings else {}).get(dialect.name, dialect)
     beginning = syntax.parse(start, "<start>", first_line=0) if start is not None else None
     apart = tuple(syntax.read_directive(fact, -number) for number, fact in enumerate(facts, 1))
-    return Template(program, dialect, Length(units), Policy(rules), beginning, free(program), apart)
+    return Template(program, dialect, length, policy, beginning, free(program), apart)
 
 
 def template_with(
@@ -151,6 +156,8 @@ def family(
         FamilyError: a word is not there, the values are none, or the blocks are no single contour with a known start.
         UnknownControlError: the control is unknown, or the block does not tell it.
         FactPlaceError: facts for a program of several contours.
+        SettingError: there is no such setting, or it has no such value.
+        ValueError: units or rules is none of its choices.
 
     >>> found = family("G111 X100. A180. K-30. B120. P5.", start="X40. Z0.", vary={"A": [180, 170], "P": [5, 20, 60]})
     >>> found["status"].tolist()
@@ -169,7 +176,12 @@ def family(
         rules=rules,
         settings=settings,
     )
-    table, count = ready.empty(ready.ranges.count), _check_workers(workers)
+    count = _check_workers(workers)
+    try:
+        table = ready.empty(ready.ranges.count)
+    except MemoryError as error:
+        told = "take fewer values, or write them to a file with `contoursolve sweep`"
+        raise FamilyError(f"{ready.ranges.count:,} rows do not fit into memory ({error}); {told}") from None
     parts = Stretches(ready.ranges.count, STRETCH)
 
     def fill(first: int, last: int) -> None:

@@ -85,6 +85,8 @@ START = "start"
 
 def ranges_of(vary: Mapping[str, ArrayLike], *, is_paired: bool) -> Ranges:
     """The ranges of a mapping. Raises FamilyError for what is no list of numbers."""
+    if not isinstance(vary, Mapping):
+        raise TypeError(f"vary is a mapping of words to their values, such as {{'A': [170, 180]}}, not {vary!r}")
     if not vary:
         raise FamilyError("no word varies; name one with its values, such as A with 170 to 190")
     values: dict[str, Array] = {}

@@ -81,7 +81,7 @@ def region(
         block: the block, or the blocks of one contour.
         words: the two words, as for `feasible`.
         within: the range of each, lower value first.
-        start: and all others as for `family`, with the same errors.
+        start: and all others as for `feasible`, with the same errors.
 
     A grid is laid over the box, and its lines are searched for where the contour begins to fail; cell by cell these
     points are joined, and each is brought onto the zero of what fails. Interval arithmetic proves of every other cell
