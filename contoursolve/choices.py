@@ -1,4 +1,4 @@
-"""Closed choices by the words that people write."""
+"""Choices that are named by a text: the member of an enum with that value, or an error that lists them all."""
 
 from enum import Enum
 from typing import TypeVar

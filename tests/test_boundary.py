@@ -136,6 +136,8 @@ def test_the_range_itself_ends_without_a_reason():
         ("R", None, "the block has no word R"),
         ("P", (5, 1), "no range"),
         ("P", (1, float("inf")), "no range"),
+        ("P", (0, 2e6), "beyond 1,000,000 mm"),
+        ("P", 5, "two numbers"),
     ],
 )
 def test_a_range_that_makes_no_sense_is_refused(word, within, message):

@@ -148,6 +148,25 @@ def test_a_sweep_runs_on_the_cluster_of_a_scheduler(tmp_path):
     assert (tmp_path / "one.parquet").read_bytes() == (tmp_path / "two.parquet").read_bytes()
 
 
+def test_a_scheduler_that_goes_away_ends_the_sweep(tmp_path):
+    pytest.importorskip("distributed")
+    file = tmp_path / "scheduler.json"
+    command = [sys.executable, "-m", "distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0"]
+    options = {"cwd": tmp_path, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    with subprocess.Popen([*command, "--no-dashboard", "--scheduler-file", str(file)], **options) as scheduler:
+        deadline = time.monotonic() + 60
+        while not file.exists() and time.monotonic() < deadline:
+            time.sleep(0.05)
+        address = json.loads(file.read_text())["address"]
+        with start(*SWEEP, "--dask", address, cwd=tmp_path) as child:
+            first = child.stderr.readline()
+            scheduler.kill()
+            _, errors = child.communicate(timeout=120)
+    assert "has no workers; waiting for one" in first
+    assert (child.returncode, errors.count("\n")) == (2, 1), errors
+    assert f"the Dask scheduler at {address} does not answer any more" in errors
+
+
 def test_a_scheduler_that_does_not_answer_is_one_line_and_status_2(tmp_path):
     pytest.importorskip("distributed")
     with start(*SWEEP, "--dask", "tcp://127.0.0.1:1", cwd=tmp_path) as child:

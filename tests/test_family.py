@@ -364,6 +364,9 @@ def test_values_come_from_a_column_of_a_file(tmp_path, monkeypatch):
         ("A=@in.csv:B", "has no column B; there are A, C"),
         ("A=@in.csv", "line 3, column A: 'x' is no number"),
         ("C=@in.csv", "line 3, column C: there is no number"),
+        ("A=@comma.csv", "line 2 has 2 columns, the first line 1"),
+        ("A=@twice.csv", "2 columns A"),
+        ("A=@head.csv", "there are no numbers"),
         ("V1.Z=@in.parquet", "row 1: there is no number"),
         ("A=@broken.parquet", "broken.parquet, column A: "),
     ],
@@ -374,6 +377,9 @@ def test_a_column_that_is_none_is_one_line_and_status_2(text, message, tmp_path,
 
     monkeypatch.chdir(tmp_path)
     (tmp_path / "in.csv").write_text("A,C\n1,2\nx,\n")
+    (tmp_path / "comma.csv").write_text("A\n1,5\n")
+    (tmp_path / "twice.csv").write_text("A,A\n1,2\n")
+    (tmp_path / "head.csv").write_text("A\n")
     (tmp_path / "broken.parquet").write_text("no parquet")
     parquet.write_table(table({"V1.Z": [None, 1.0]}), "in.parquet")
     status, _, errors = run(*ON_BLOCK, "--vary", text)
@@ -472,10 +478,29 @@ def test_derivatives_are_central_differences(block, options):
 
 def test_tolerances_add_up_at_worst_and_in_squares():
     found = sensitivity(BLOCK, start=START)
-    spread = found.spread({"K": 0.03, "X": 0.04 / found.slopes["V2.Z"]["X"]})["V2.Z"]
+    spread = found.spread({"K": 0.03, "X": 0.04 / abs(found.slopes["V2.Z"]["X"])})["V2.Z"]
     assert (spread.worst, spread.typical) == pytest.approx((0.07, 0.05))
     with pytest.raises(FamilyError, match="no word R; there are X, A, K, B, P, Q"):
         found.spread({"R": 1})
+
+
+@pytest.mark.parametrize(
+    ("options", "error", "message"),
+    [
+        ({"units": "cm"}, ValueError, "units cannot be 'cm'; choose from mm, inch"),
+        ({"rules": "none"}, ValueError, "rules cannot be 'none'; choose from enforce, warn, off"),
+        ({"start": ("X40.", "Z0.")}, TypeError, "the start is a text"),
+        ({"vary": ["A", "B"]}, TypeError, "vary is a mapping"),
+        (
+            {"vary": {"A": range(10**6), "P": range(10**6)}},
+            FamilyError,
+            "1,000,000,000,000 rows do not fit into memory",
+        ),
+    ],
+)
+def test_a_wrong_call_says_what_is_wrong(options, error, message):
+    with pytest.raises(error, match=message):
+        family(BLOCK, **{"start": START, "vary": {"A": [170]}, **options})
 
 
 @pytest.mark.parametrize(

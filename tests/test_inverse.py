@@ -139,6 +139,21 @@ def test_words_and_facts_are_found_where_there_is_no_closed_form(word, goal):
     assert at == pytest.approx(float(want[1:]), abs=0.002)
 
 
+@pytest.mark.parametrize(("within", "turns"), [(None, [0]), ((-400, 400), [-1, 0]), ((-171, 188), [])])
+def test_an_angle_that_is_asked_for_is_looked_for_in_its_range(within, turns):
+    """The direction of 188.794 degrees is that of -171.206 degrees, too."""
+    block, facts = "G111 X100. A180. K-30. B120. P?", ["straight part of line 2 = 20"]
+    found = find_word(block, "A", "end Z-50.", start=START, facts=facts, within=within)
+    assert [hit.value for hit in found.hits] == pytest.approx([188.79397 + 360 * each for each in turns], abs=1e-5)
+
+
+def test_a_block_that_leaves_something_open_has_no_answer():
+    with pytest.raises(FamilyError, match="nothing determines corner 1"):
+        find_word("G111 X100. A180. K-30. B120. P?", "A", "end Z-50.", start=START)
+    with pytest.raises(FamilyError, match="no range"):
+        find_word(BLOCK, "A", "end Z-50.", start=START, facts=["length of line 1 = 30"], within=(200, 100))
+
+
 def test_the_block_to_write_has_the_value_in_least_increments():
     (hit,) = find_word(BLOCK, "A", "end Z-50.", start=START).hits
     assert (hit.rounded, hit.block) == (179.314, "G111 X100. A179.314 K-30. B120. P5. Q5.")

@@ -57,6 +57,21 @@ def test_tolerances_beyond_which_there_is_no_contour_are_told():
     assert (found.limits.count, found.limits.without) == (4, 1)
 
 
+def test_no_combination_of_the_limits_may_have_a_contour():
+    limits = tolerances(BLOCK, {"A": 1e9}, start=START).limits
+    assert (limits.count, limits.without) == (2, 2)
+    assert np.isnan([*limits.low, *limits.high]).all()
+
+
+@pytest.mark.parametrize(
+    ("allowed", "message"),
+    [({"A": 1, "a": 2}, "two tolerances"), ({"A": -1}, "not below 0"), ({"A": float("nan")}, "finite")],
+)
+def test_a_tolerance_that_makes_no_sense_is_refused(allowed, message):
+    with pytest.raises(FamilyError, match=message):
+        tolerances(BLOCK, allowed, start=START)
+
+
 def test_a_point_in_the_middle_and_inches():
     block = "G111 X4. A180. K-1.2 B120. P.2 Q.2"
     found = tolerances(block, {"P": 0.01}, point="corner 1.center", start="X1.6 Z0.", units="inch")

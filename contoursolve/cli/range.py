@@ -42,7 +42,7 @@ def range_(
 
     Every range is found: the values are divided until it is proven of each part that the contour exists there or does
     not. Each end is solved on both sides. For two words, the lines that bound the region are found, each with what
-    fails beyond it; --format json has their points.
+    fails beyond it; --format json has their points. A block with facts or ? has no closed form, and no range.
 
     Exit status: 0 the contour exists for some value, 1 for none, 2 could not run.
 

@@ -13,7 +13,9 @@ from contoursolve.output.tolerances import tolerances_data, tolerances_lines
 @click.command("sensitivity", short_help="Tell which word moves a point most, and what tolerances come to.")
 @block_options
 @format_option
-@click.option("--point", default="end", show_default=True, help="The point: end, V2, 'corner 1.center', ...")
+@click.option(
+    "--point", metavar="POINT", default="end", show_default=True, help="The point: end, V2, 'corner 1.center', ..."
+)
 @click.option(
     "--tolerance",
     "allowed",
@@ -27,11 +29,17 @@ def sensitivity(allowed: tuple[str, ...], point: str, facts: tuple[str, ...], fo
     of the control to its least increment. What tolerances come to is told to first order, at worst and in the root of
     the sum of squares, and solved again at all combinations of their limits.
 
+    Exit status: 0 told, 2 could not run, or the block has no contour.
+
     \b
     contoursolve sensitivity --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0." \\
       --tolerance A=0.1 --tolerance K=0.02
     """
-    given = dict(map(_read_tolerance, allowed))
+    given: dict[str, float] = {}
+    for name, number in map(_read_tolerance, allowed):
+        if name in given:
+            raise click.UsageError(f"--tolerance names {name} twice")
+        given[name] = number
     with usage():
         found = tolerances(allowed=given, point=point, facts=facts, **read_options(options))
     if format_ == "json":

@@ -4,7 +4,6 @@ import sys
 import time
 from collections.abc import Iterator
 from concurrent.futures import Executor
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +11,7 @@ import click
 import numpy
 
 from contoursolve.cli.blocks import block_options, fact_option, read_options, usage
-from contoursolve.cli.options import CouldNotRunError
+from contoursolve.cli.cluster import open_cluster
 from contoursolve.cli.pictured import bytes_of, check_picture
 from contoursolve.cli.varied import read_range
 from contoursolve.extras import need
@@ -76,6 +75,8 @@ def sweep_(
     reason, all points and corners (mm, X of a lathe as radius), the room left on each element, the largest residual.
     The same command goes on where it was stopped.
 
+    Exit status: 0 all are told, whatever became of them, 2 could not run.
+
     \b
     contoursolve sweep --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0." \\
       --vary A=170:190:0.1 --vary P=1,2,5 -o family.parquet
@@ -92,7 +93,7 @@ def sweep_(
             vary[name] = values
         ready = sweep(vary=vary, facts=facts, paired=is_paired, **read_options(options))
         drawn = bytes_of(draw_sweep(ready), picture) if picture is not None else b""
-        with _cluster(dask) as executor:
+        with open_cluster(dask) as executor:
             counts = _run(ready, workers if executor is None else None, executor, target)
         if picture is not None:
             write_whole(picture, [drawn], keeps_backup=False)
@@ -113,21 +114,6 @@ def _target(output: str | None, is_forced: bool) -> Path | None:
             need("pyarrow", "family", "a Parquet file")
         check_target(target, None, is_forced=is_forced)
     return target
-
-
-@contextmanager
-def _cluster(address: str | None) -> Iterator[Executor | None]:
-    """The executor of a Dask cluster; None without an address. Raises CouldNotRunError."""
-    if address is None:
-        yield None
-        return
-    distributed = need("distributed", "dask", "solving on a cluster")
-    try:
-        client = distributed.Client(address, timeout="10s", set_as_default=False)
-    except (OSError, ValueError) as error:
-        raise CouldNotRunError(f"no Dask scheduler answers at {address}: {error}") from None
-    with client:
-        yield client.get_executor()
 
 
 def _run(ready: Sweep, workers: int | None, executor: Executor | None, target: Path | None) -> Any:
@@ -190,7 +176,7 @@ def _write(target: Path, parts: Parts, tables: Iterator[dict[str, Any]]) -> None
 
 def _summary(counts: Any) -> list[str]:
     """How many contours have each status, and why."""
-    rows = [(f"{counts.sum():,}", "contours")]
+    rows = [(f"{counts.sum():,}", "contour" if counts.sum() == 1 else "contours")]
     for code in Code:
         if not counts[code].sum():
             continue

@@ -57,11 +57,14 @@ def _read_column(word: str, text: str) -> Numbers:
         raise click.UsageError(f"--vary {word}={text}: name a file that ends with .csv or .parquet, @FILE:COLUMN")
     file, column = Path(match["file"]), match["column"] or word
     try:
-        return (_from_csv if match["kind"].lower() == "csv" else _from_parquet)(file, column)
+        found = (_from_csv if match["kind"].lower() == "csv" else _from_parquet)(file, column)
     except FileNotFoundError:
         raise FamilyError(f"{file}: no such file") from None
     except (OSError, UnicodeDecodeError) as error:
         raise FamilyError(f"{file} cannot be read: {error}") from None
+    if not found.size:
+        raise FamilyError(f"{file}, column {column}: there are no numbers")
+    return found
 
 
 def _from_csv(file: Path, column: str) -> Numbers:
@@ -75,6 +78,9 @@ def _from_csv(file: Path, column: str) -> Numbers:
         for row in rows:
             if not row:
                 continue
+            if any(cell.strip() for cell in row[len(names) :]):
+                told = f"line {rows.line_num} has {len(row)} columns, the first line {len(names)}"
+                raise FamilyError(f"{file}: {told}; numbers have a decimal point, no comma")
             try:
                 found.append(float(row[at]))
             except (IndexError, ValueError):
@@ -103,4 +109,6 @@ def _from_parquet(file: Path, column: str) -> Numbers:
 def _find(file: Path, column: str, names: list[str]) -> int:
     if column not in names:
         raise FamilyError(f"{file} has no column {column}; there are {', '.join(names) or 'none'}")
+    if names.count(column) > 1:
+        raise FamilyError(f"{file} has {names.count(column)} columns {column}; give one of them another name")
     return names.index(column)

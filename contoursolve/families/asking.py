@@ -12,6 +12,7 @@ from contoursolve.families.template import Template, is_same, write
 from contoursolve.model import Figure, Unit
 from contoursolve.pipeline import run
 from contoursolve.reading import Trouble
+from contoursolve.solving import Status
 from contoursolve.syntax import FACT, Directive, Word
 
 
@@ -33,6 +34,8 @@ def asked_values(template: Template, word: str, goal: Goal, answer: Answer) -> t
         raise FamilyError(unread[0])
     if len(result.answers) != 1:
         raise FamilyError(errors[0] if errors else "the block is no single contour")
+    if result.answers[0].status in (Status.UNDERDETERMINED, Status.REJECTED):
+        raise FamilyError(errors[0])
     return list(_values(result.answers[0], typed)), _is_complete(result.answers[0])
 
 

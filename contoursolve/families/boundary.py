@@ -107,7 +107,8 @@ def feasible(
         word: the word by its letter (`P`, `,A`), or with its line where several have it (`2:,A`).
         within: the range to look at; without it, an angle turns once (0 to 360, or -360 to 0 for a negative one), and
             a length is looked at for 1 m to either side.
-        start: and all others as for `family`, with the same errors.
+        start: and all others as for `family`, with the same errors; also raises FamilyError for a block with facts or
+            `?`, which has no closed form.
 
     The range is divided into stretches in each of which all that is checked of a contour is bounded by intervals, so
     that no part with or without a contour is overlooked. Each end is computed, and solved on both sides.

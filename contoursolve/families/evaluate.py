@@ -12,7 +12,7 @@ from contoursolve.backends.columns import Array
 from contoursolve.dialects import Dialect
 from contoursolve.families.distribute import in_order
 from contoursolve.families.prepared import Examples, Kinds, Sweep, Table, examples_of, kinds_of
-from contoursolve.families.ranges import FamilyError, Ranges, ranges_of, stretches
+from contoursolve.families.ranges import FamilyError, Ranges, Stretches, ranges_of
 from contoursolve.families.recipe import Recipe, recipe_of
 from contoursolve.families.result import Family
 
@@ -105,8 +105,13 @@ def family(
         rules=rules,
         settings=settings,
     )
-    table, count = ready.empty(ready.ranges.count), _check_workers(workers)
-    parts = stretches(ready.ranges.count, STRETCH)
+    count = _check_workers(workers)
+    try:
+        table = ready.empty(ready.ranges.count)
+    except MemoryError as error:
+        told = "take fewer values, or write them to a file with `contoursolve sweep`"
+        raise FamilyError(f"{ready.ranges.count:,} rows do not fit into memory ({error}); {told}") from None
+    parts = Stretches(ready.ranges.count, STRETCH)
 
     def fill(first: int, last: int) -> None:
         ready.evaluate(first, last, {name: column[first:last] for name, column in table.items()})
@@ -125,7 +130,7 @@ def family(
 def pieces(ready: Sweep, workers: int | None = None, executor: Executor | None = None) -> Iterator[Table]:
     """The words and results of all rows in order, some thousands at a time, so that any number of rows takes no more
     memory than a few of these. Raises FamilyError for less than one worker."""
-    parts = stretches(ready.ranges.count, STRETCH)
+    parts = Stretches(ready.ranges.count, STRETCH)
     for (first, last), part in zip(parts, solve_parts(ready, parts, workers, executor), strict=True):
         yield {**ready.words(first, last), **part}
 

@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import ROUND_HALF_EVEN, Decimal
+from math import ceil, floor
 
 import numpy
 
@@ -15,11 +16,11 @@ from contoursolve.families.goals import Curve, Goal, end_name, place_of, read_go
 from contoursolve.families.kinds import Kind, value_of
 from contoursolve.families.margins import compile_results
 from contoursolve.families.prepared import results_of
-from contoursolve.families.ranges import FamilyError
+from contoursolve.families.ranges import FamilyError, read_limits
 from contoursolve.families.recipe import recipe_of
 from contoursolve.families.roots import find_zeros
-from contoursolve.families.survey import Piece, Survey, short
-from contoursolve.families.template import Template, is_same
+from contoursolve.families.survey import Piece, Survey, short, usual_range
+from contoursolve.families.template import Template, is_same, unit_word
 from contoursolve.model import Length, Plane, Unit
 from contoursolve.shown import Shown
 from contoursolve.solving import Point
@@ -29,6 +30,9 @@ from contoursolve.tolerance import LARGEST
 
 ARRIVED = 1e-9
 """mm. A point this close to the place where it is wanted is there."""
+
+TURN = 360.0
+"""Degrees."""
 
 BESIDE = 1e-5
 """Share of a value (at least of 1). How far beside it others are looked at, whether they are nearer to the goal."""
@@ -77,8 +81,8 @@ def find_word(
     *,
     start: str | None = None,
     within: tuple[float, float] | None = None,
-    facts: Iterable[str] = (),
     control: str | Dialect | None = None,
+    facts: Iterable[str] = (),
     units: str = "mm",
     rules: str = "enforce",
     settings: Mapping[str, str] | None = None,
@@ -129,7 +133,14 @@ def _by_asking(template: Template, word: str, goal: Goal, answer: Answer, within
     row = lexicon.addresses.get(typed.address)
     given = next((each for each in answer.profile.givens.values() if each.word and is_same(typed, each.word)), None)
     kind = row.unit if row is not None else given.unit if given is not None else Unit.MM
-    low, high = within or (-LARGEST, LARGEST)
+    unit, stated = "deg" if kind is Unit.DEGREE else answer.unit.value, value_of(typed, answer)
+    one = lexicon.value(unit_word(typed, has_point=True), answer.unit) if row is not None else None
+    scale = float(one or (1 if kind is Unit.DEGREE else answer.unit.in_mm))
+    low, high = usual_range(stated, scale, is_angle=kind is Unit.DEGREE)
+    if within is not None:
+        low, high = read_limits(word, within, LARGEST / scale, unit)
+    if kind is Unit.DEGREE:
+        values = [each for value in values for each in _turned(value, low, high)]
     step = lexicon.numbers.step(kind, answer.unit)
     hits = []
     for value in sorted(short(each) for each in values):
@@ -143,9 +154,13 @@ def _by_asking(template: Template, word: str, goal: Goal, answer: Answer, within
         texts = [*template.texts({word: rounded})]
         away = None if there is None else goal.away(there)
         hits.append(Hit(value, at, goal.away(at), solved.certificate, rounded, "\n".join(texts), away))
-    unit = "deg" if kind is Unit.DEGREE else answer.unit.value
-    stated = value_of(typed, answer)
     return Found(word, unit, stated, goal, answer.plane, answer.unit, (low, high), tuple(hits), is_complete)
+
+
+def _turned(angle: float, low: float, high: float) -> list[float]:
+    """The angles of the same direction between two others, degrees."""
+    first, last = ceil((low - angle) / TURN), floor((high - angle) / TURN)
+    return [angle + number * TURN for number in range(first, last + 1)]
 
 
 class _Search:

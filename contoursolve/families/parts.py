@@ -14,7 +14,7 @@ import numpy
 
 from contoursolve.families.evaluate import STRETCH, solve_parts
 from contoursolve.families.prepared import Sweep, Table
-from contoursolve.families.ranges import stretches
+from contoursolve.families.ranges import Stretches
 
 WHOLE = "whole.tmp"
 """The file that is being written, until it is moved into place."""
@@ -31,7 +31,7 @@ class Parts:
     ready: Sweep
 
     def __iter__(self) -> Iterator[tuple[int, int]]:
-        return iter(stretches(self.ready.ranges.count, STRETCH))
+        return iter(Stretches(self.ready.ranges.count, STRETCH))
 
     def is_done(self, number: int) -> bool:
         """Whether a part was finished, as far as its file's being there tells."""

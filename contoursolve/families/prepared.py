@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from contoursolve.backends.columns import ROWS, Array, ColumnFunction, Columns, compile_columns
 from contoursolve.constraints import System
 from contoursolve.families.kinds import Input, Kind, alike, intervals_of, kind_of, limits_of
-from contoursolve.families.ranges import FamilyError, Places, Ranges, stretches
+from contoursolve.families.ranges import FamilyError, Places, Ranges, Stretches
 from contoursolve.families.recipe import Recipe
 from contoursolve.families.several import BLOCK, Several, asked_of
 from contoursolve.families.template import Template
@@ -127,11 +127,11 @@ class Sweep:
                 continue
             if not kind.is_closed:
                 solve = self._solve_open if kind.open_points else self._solve_several
-                for begin, end in stretches(own.size, BLOCK):
+                for begin, end in Stretches(own.size, BLOCK):
                     part = {word: place[own[begin:end]] for word, place in places.items()}
                     solve(each, kind, ranges, part, own[begin:end], table)
                 continue
-            for begin, end in stretches(own.size, ROWS):
+            for begin, end in Stretches(own.size, ROWS):
                 target: Target = slice(begin, end) if is_all else own[begin:end]
                 part = {word: place[target] for word, place in places.items()}
                 self._evaluate(each, kind, ranges, part, target, end - begin, table)
@@ -198,7 +198,7 @@ class Sweep:
         for point, side in branches_of(kind).items():
             table[f"branch.{point}"][target] = numpy.where(settled.is_path, side, 0)
         shown = numpy.flatnonzero(settled.is_shown)
-        for first, last in stretches(shown.size, ROWS):
+        for first, last in Stretches(shown.size, ROWS):
             rows = shown[first:last]
             out, worst = several.path_of(settled, rows, ranges, places)
             origin = kind.origin(ranges, {word: place[rows] for word, place in places.items()})

@@ -1,7 +1,8 @@
 """Which values the free words of a family take, row by row."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
+from math import isfinite
 
 import numpy
 from numpy.typing import ArrayLike, NDArray
@@ -84,6 +85,8 @@ START = "start"
 
 def ranges_of(vary: Mapping[str, ArrayLike], *, is_paired: bool) -> Ranges:
     """The ranges of a mapping. Raises FamilyError for what is no list of numbers."""
+    if not isinstance(vary, Mapping):
+        raise TypeError(f"vary is a mapping of words to their values, such as {{'A': [170, 180]}}, not {vary!r}")
     if not vary:
         raise FamilyError("no word varies; name one with its values, such as A with 170 to 190")
     values: dict[str, Array] = {}
@@ -107,6 +110,35 @@ def ranges_of(vary: Mapping[str, ArrayLike], *, is_paired: bool) -> Ranges:
     return Ranges(values, is_paired)
 
 
-def stretches(count: int, size: int) -> Sequence[tuple[int, int]]:
-    """The rows from 0 to `count` in stretches of at most `size`."""
-    return [(first, min(first + size, count)) for first in range(0, count, size)]
+def read_limits(word: str, within: tuple[float, float], largest: float, unit: str) -> tuple[float, float]:
+    """The range in which a word is looked at, as it is written. Raises FamilyError for one that is none, or that goes
+    beyond the largest value that is read."""
+    try:
+        low, high = map(float, within)
+    except (TypeError, ValueError):
+        raise FamilyError(f"the range of {word} is two numbers, the smaller one first, not {within!r}") from None
+    told = f"{word} from {low:g} to {high:g}"
+    if not (isfinite(low) and isfinite(high)):
+        raise FamilyError(f"{told} is no range; give two finite numbers")
+    if low >= high:
+        raise FamilyError(f"{told} is no range; the smaller number comes first")
+    if low < -largest or high > largest:
+        raise FamilyError(f"{told} goes beyond {largest:,.0f} {unit}, the largest value that is read; look at less")
+    return low, high
+
+
+@dataclass(frozen=True, slots=True)
+class Stretches(Collection[tuple[int, int]]):
+    """The rows from 0 to `count` in stretches of at most `size`; however many, they take no memory."""
+
+    count: int
+    size: int
+
+    def __len__(self) -> int:
+        return (self.count + self.size - 1) // self.size
+
+    def __iter__(self) -> Iterator[tuple[int, int]]:
+        return ((first, min(first + self.size, self.count)) for first in range(0, self.count, self.size))
+
+    def __contains__(self, stretch: object) -> bool:
+        return any(stretch == each for each in self)

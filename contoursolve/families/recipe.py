@@ -29,6 +29,9 @@ class Recipe:
     def template(self) -> Template:
         """The block with its free words. Raises FamilyError for a word that is not there, UnknownControlError,
         SettingError, and ValueError for units or rules that are none of their choices."""
+        for name, text in (("block", self.block), ("start", self.start or "")):
+            if not isinstance(text, str):
+                raise TypeError(f"the {name} is a text (str), not {type(text).__name__}")
         program = syntax.parse(self.block, "<block>")
         dialect = choose(self.control, program, dict(self.settings))
         if dialect is None:

@@ -15,14 +15,14 @@ from contoursolve.families.ends import Reason, about_of, called, phrase, same
 from contoursolve.families.kinds import Kind, alike, kind_of, limits_of, value_of
 from contoursolve.families.margins import compile_margins
 from contoursolve.families.outline import BISECTIONS, NODES, Box, Field, Trace, edge_of, gaps_of
-from contoursolve.families.ranges import FamilyError
+from contoursolve.families.ranges import FamilyError, read_limits
 from contoursolve.families.recipe import recipe_of
 from contoursolve.families.result import Family
 from contoursolve.families.template import Template, find_words
 from contoursolve.model import Unit
 from contoursolve.shown import Shown
 from contoursolve.solving import RefusalKind
-from contoursolve.tolerance import LENGTH
+from contoursolve.tolerance import LARGEST, LENGTH
 from contoursolve.wording import value_text
 
 Point = tuple[float, float]
@@ -84,7 +84,7 @@ def region(
         block: the block, or the blocks of one contour.
         words: the two words, as for `feasible`.
         within: the range of each, lower value first.
-        start: and all others as for `family`, with the same errors.
+        start: and all others as for `feasible`, with the same errors.
 
     A grid is laid over the box, and its lines are searched for where the contour begins to fail; cell by cell these
     points are joined, and each is brought onto the zero of what fails. Interval arithmetic proves of every other cell
@@ -94,6 +94,8 @@ def region(
     >>> [each.reason.text for each in found.boundaries]
     ['P too large for line 1', 'P too large for line 2']
     """
+    if isinstance(words, str) or len(words) != 2 or len(within) != 2:  # noqa: PLR2004 - axes of a map
+        raise FamilyError("name two words, and a range for each of them")
     recipe = recipe_of(block, words, start=start, control=control, units=units, rules=rules, settings=settings)
     return _region(recipe.template(), (recipe.names[0], recipe.names[1]), within)
 
@@ -116,9 +118,6 @@ def region_of(family: Family, words: tuple[str, str]) -> Region:
 
 def _region(template: Template, names: tuple[str, str], within: tuple[Point, Point]) -> Region:
     """The region of two words of a block that is read."""
-    for name, (low, high) in zip(names, within, strict=True):
-        if not -numpy.inf < low < high < numpy.inf:
-            raise FamilyError(f"{name} from {low:g} to {high:g} is no range; the smaller number comes first")
     if names[0] == names[1]:
         raise FamilyError(f"{names[0]} is named twice")
     return _Map(template, names, within).run()
@@ -129,7 +128,6 @@ class _Map:
 
     def __init__(self, template: Template, words: tuple[str, str], within: tuple[Point, Point]) -> None:
         self.template, self.words = template, words
-        self.within = tuple((float(low), float(high)) for low, high in within)
         answer = template.solve({})
         self.stated = tuple(value_of(template.words[word], answer) for word in words)
         values = dict(zip(words, self.stated, strict=True))
@@ -139,6 +137,10 @@ class _Map:
                 raise FamilyError(f"{template.words[word].text} has no range; name words that state lengths or angles")
         self.units = tuple("deg" if row and row.unit is Unit.DEGREE else answer.unit.value for row in rows)
         scales, bounds = limits_of(template, values)
+        self.within = tuple(
+            read_limits(word, each, LARGEST / abs(scale), unit)
+            for word, each, scale, unit in zip(words, within, scales, self.units, strict=True)
+        )
         self.marks = [
             [low, *(each for limit in bounds[axis] if low < (each := limit / scales[axis]) < high), high]
             for axis, (low, high) in enumerate(self.within)

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from math import hypot, nan, pi
+from math import hypot, inf, nan, pi
 
 from contoursolve.backends.angle import direction
 from contoursolve.backends.inputs import COSINE, SINE
@@ -44,15 +44,41 @@ class Sensitivity(Shown):
     slopes: Mapping[str, Mapping[str, float]]
 
     def spread(self, tolerances: Mapping[str, float]) -> dict[str, Spread]:
-        """How far each result moves when the words are off by up to these tolerances, as written."""
-        unknown = [word for word in tolerances if word not in next(iter(self.slopes.values()))]
-        if unknown:
-            raise FamilyError(f"no word {unknown[0]}; there are {', '.join(next(iter(self.slopes.values())))}")
+        """How far each result moves when the words are off by up to these tolerances, as written. Raises FamilyError
+        for a word that is not there, and a tolerance below 0."""
+        tolerances = read_tolerances(tolerances, next(iter(self.slopes.values())))
         found: dict[str, Spread] = {}
         for result, slopes in self.slopes.items():
             parts = [abs(slopes[word] * tolerance) for word, tolerance in tolerances.items()]
             found[result] = Spread(sum(parts), hypot(*parts))
         return found
+
+
+def read_tolerances(allowed: Mapping[str, float], known: Iterable[str]) -> dict[str, float]:
+    """Tolerances by the names of the words. Raises FamilyError."""
+    if not isinstance(allowed, Mapping):
+        raise TypeError(f"tolerances are a mapping of words to numbers, such as {{'A': 0.1}}, not {allowed!r}")
+    found: dict[str, float] = {}
+    for word, value in allowed.items():
+        name = _named(word, known)
+        if name in found:
+            raise FamilyError(f"{name} has two tolerances; name it once")
+        try:
+            found[name] = float(value)
+        except (TypeError, ValueError):
+            raise FamilyError(f"the tolerance of {name} is a number, not {value!r}") from None
+        if not 0 <= found[name] < inf:
+            raise FamilyError(f"the tolerance of {name} is {value}; it is a finite number, not below 0")
+    return found
+
+
+def _named(word: str, known: Iterable[str]) -> str:
+    """The name of a word among those that there are. Raises FamilyError."""
+    names = {name.lower(): name for name in known}
+    found = names.get(" ".join(word.lower().split()))
+    if found is None:
+        raise FamilyError(f"no word {word}; there are {', '.join(names.values())}")
+    return found
 
 
 def sensitivity(

@@ -12,7 +12,7 @@ from contoursolve.examine import Answer
 from contoursolve.families.isolate import Stretch, divide
 from contoursolve.families.kinds import Kind, alike, kind_in, kind_of, limits_of, value_of
 from contoursolve.families.margins import Margin, Margins, compile_margins
-from contoursolve.families.ranges import START, FamilyError
+from contoursolve.families.ranges import START, FamilyError, read_limits
 from contoursolve.families.template import Template
 from contoursolve.model import Unit
 from contoursolve.tolerance import LARGEST, LENGTH
@@ -68,6 +68,15 @@ class Crossing:
     is_closed: bool
 
 
+def usual_range(stated: float, scale: float, *, is_angle: bool) -> tuple[float, float]:
+    """The range to look at where none is given: an angle turns once. `stated` is the value that the word has,
+    `scale` mm for each unit of it."""
+    if is_angle:
+        return (0.0, 360.0) if stated >= 0 else (-360.0, 0.0)
+    reach = max(REACH / scale, 2 * abs(stated))
+    return -reach, reach
+
+
 class Survey:
     """One word of one block."""
 
@@ -87,7 +96,6 @@ class Survey:
             raise FamilyError(f"{typed.text} chooses between two places; it has no range")
         self.is_angle = row.unit is Unit.DEGREE
         self.unit = "deg" if self.is_angle else answer.unit.value
-        self._largest = LARGEST / self.scale
         self._answers: dict[float, Answer] = {self.stated: answer}
         self.crossings: dict[float, Crossing] = {}
         """What fails beyond the ends of the pieces, by their values."""
@@ -105,16 +113,10 @@ class Survey:
         return self.solve(value).contour is not None
 
     def range_of(self, within: tuple[float, float] | None) -> tuple[float, float]:
-        """The range to look at; without one an angle turns once. Raises FamilyError for one that is none."""
-        if within is None and self.is_angle:
-            return (0.0, 360.0) if self.stated >= 0 else (-360.0, 0.0)
+        """The range to look at. Raises FamilyError for one that is none."""
         if within is None:
-            reach = max(REACH / self.scale, 2 * abs(self.stated))
-            return -reach, reach
-        low, high = map(float, within)
-        if not -inf < low < high < inf:
-            raise FamilyError(f"{low:g} to {high:g} is no range; the smaller number comes first")
-        return max(low, -self._largest), min(high, self._largest)
+            return usual_range(self.stated, self.scale, is_angle=self.is_angle)
+        return read_limits(self.word, within, LARGEST / self.scale, self.unit)
 
     def pieces(self, low: float, high: float) -> list[Piece]:
         """The range in order: stretches, with the value between two of them wherever it may differ from both."""

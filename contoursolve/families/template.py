@@ -38,7 +38,7 @@ class Template:
             raise FamilyError(reasons[0] if reasons and not result.answers else told)
         answer = result.answers[0]
         if not answer.start.is_known:
-            raise FamilyError("the start point is not known; state it, such as start='X40. Z0.'")
+            raise FamilyError('the start point is not known; state it as the start, such as "X40. Z0."')
         return answer
 
     def texts(self, values: Mapping[str, float]) -> Iterator[str]:

@@ -15,7 +15,7 @@ from contoursolve.families.goals import end_name, place_of
 from contoursolve.families.kinds import value_of
 from contoursolve.families.ranges import FamilyError
 from contoursolve.families.recipe import recipe_of
-from contoursolve.families.slopes import Spread, slopes_of, stated_words
+from contoursolve.families.slopes import Spread, read_tolerances, slopes_of, stated_words
 from contoursolve.families.template import Template, find_words
 from contoursolve.model import Length, Plane, Unit
 from contoursolve.shown import Shown
@@ -92,9 +92,11 @@ def tolerances(
     all combinations of their limits.
 
     Args:
+        block: the block, or the blocks of one contour.
         allowed: how far words may be off, as written, by name (`{"P": 0.05}`); of a fact by what it gives the value of.
         point: a point as a `Family` names it (`V2`, `corner 1.center`), or `end`.
-        start: and all others as for `sensitivity`, with the same errors.
+        start: and all others as for `sensitivity`, with the same errors; also raises FamilyError for a word or a point
+            that is not there, and a tolerance below 0.
 
     >>> found = tolerances("G111 X100. A180. K-30. B120. P5. Q5.", {"A": 0.1, "K": 0.02}, start="X40. Z0.")
     >>> [(each.word, round(each.moves, 4)) for each in found.effects[:2]]
@@ -111,7 +113,7 @@ def tolerances(
     first, second = (slopes[f"{name}.{axis}"] for axis in axes)
     study = _Study(template, answer, point)
     by_word = {word: (first[word] * study.unit(word), second[word] * study.unit(word)) for word in first}
-    allowed = {_named(word, by_word): abs(float(value)) for word, value in (allowed or {}).items()}
+    allowed = read_tolerances({} if allowed is None else allowed, by_word)
     effects = [study.effect(word, slope, allowed.get(word)) for word, slope in by_word.items()]
     effects.sort(key=lambda each: (not isnan(each.moves), -each.moves, -(each.by_half or 0.0)))
     parts = [[abs(by_word[word][axis]) * value for word, value in allowed.items()] for axis in (0, 1)]
@@ -128,18 +130,11 @@ def tolerances(
             rules=rules,
             settings=settings,
         )
-        limits = _limits(*(found[each].ravel() for each in (f"{name}.{axes[0]}", f"{name}.{axes[1]}")))
+        # A family without any contour has no points.
+        none = numpy.full(len(found), nan)
+        limits = _limits(*(found.columns.get(f"{name}.{axis}", none) for axis in axes))
     spread = Spread(sum(parts[0]), hypot(*parts[0])), Spread(sum(parts[1]), hypot(*parts[1]))
     return Tolerances(point, study.place, answer.plane, answer.unit, tuple(effects), spread, limits)
-
-
-def _named(word: str, known: Iterable[str]) -> str:
-    """The name of a word among those that there are. Raises FamilyError."""
-    names = {name.lower(): name for name in known}
-    found = names.get(" ".join(word.lower().split()))
-    if found is None:
-        raise FamilyError(f"no word {word}; there are {', '.join(names.values())}")
-    return found
 
 
 def _limits(first: Array, second: Array) -> Limits:
