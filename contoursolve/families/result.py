@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from contoursolve.families.export import to_arrow, to_parquet, to_xarray
 from contoursolve.families.ranges import Ranges
+from contoursolve.families.recipe import Recipe
 from contoursolve.shown import Shown
 from contoursolve.solving import Status
 from contoursolve.solving.verdict import Code
@@ -36,7 +37,7 @@ class Family(Shown):
 
     ranges: Ranges
     columns: Mapping[str, NDArray[Any]]
-    recipe: Any = field(default=None, repr=False)
+    recipe: Recipe | None = field(default=None, repr=False)
     """Plain data from which its block can be read again."""
 
     @property
