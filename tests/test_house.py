@@ -99,12 +99,22 @@ G111 = "contoursolve.solve('G111 X100. A180. K-30. {}', start='X40. Z0.').answer
 PAIR = r"contoursolve.solve('G17 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q-1').answers[0]"
 
 
+MANY = r"contoursolve.solve('G0 X40. Z0.\n' + 'G111 X100. A180. K-30. B120.\nG0 X40. Z0.\n' * 60).answers[59].contour"
+HEAVY = {"anywidget", "htpy", "matplotlib", "pyarrow", "scipy", "sympy", "xarray", "contoursolve.families"}
+
+
 @pytest.mark.parametrize(
     "use",
-    ["pass", f"{G111.format('B120. P5.')}.contour.end", f"{PAIR}.contour.end", f"{G111.format('')}.diagnostics[0]"],
-    ids=["importing the package", "solving G111", "solving a circle and a line", "refusing G111"],
+    [
+        "pass",
+        f"{G111.format('B120. P5.')}.contour.end",
+        f"{PAIR}.contour.end",
+        f"{G111.format('')}.diagnostics[0]",
+        MANY,
+    ],
+    ids=["importing the package", "solving G111", "solving a circle and a line", "refusing G111", "solving many"],
 )
-def test_neither_sympy_nor_scipy_is_needed_for(use):
-    program = f"import sys, contoursolve\n{use}\nprint(*sorted({{'sympy', 'scipy'}} & sys.modules.keys()))"
+def test_nothing_heavy_is_needed_for(use):
+    program = f"import sys, contoursolve\n{use}\nprint(*sorted({HEAVY} & sys.modules.keys()))"
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert done.stdout.split() == []
