@@ -24,7 +24,7 @@ FLOORS = (
     "solving",
     "settling",
     "contour posts reliance numbering",
-    "beyond",
+    "beyond carried",
     "emit explain sketch",
     "spelling",
     "examine",
