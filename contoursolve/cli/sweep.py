@@ -10,6 +10,7 @@ from typing import Any
 import click
 import numpy
 
+from contoursolve.cli.blocks import print_json
 from contoursolve.cli.cluster import open_cluster
 from contoursolve.cli.loading import settings_of
 from contoursolve.cli.options import CouldNotRunError, rules_option, settings_option, units_option
@@ -69,6 +70,14 @@ from contoursolve.project import SettingError
 @units_option
 @rules_option
 @settings_option
+@click.option(
+    "--format",
+    "format_",
+    type=click.Choice(["text", "json"]),
+    default="text",
+    show_default=True,
+    help="How to print what became of the contours.",
+)
 def sweep_(
     blocks: tuple[str, ...],
     start: str | None,
@@ -84,6 +93,7 @@ def sweep_(
     units: str,
     rules: str,
     assignments: tuple[str, ...],
+    format_: str,
 ) -> None:
     """Solve one contour for many values of some of its words, and count what becomes of it.
 
@@ -134,7 +144,10 @@ def sweep_(
         raise CouldNotRunError(str(error)) from None
     except UnknownControlError as error:
         raise CouldNotRunError(f"{error}; say which with --control {'|'.join(DIALECTS)}") from None
-    click.echo("\n".join(_summary(counts)))
+    if format_ == "json":
+        print_json(_summary_data(counts))
+    else:
+        click.echo("\n".join(_summary(counts)))
     for path in filter(None, (target, picture)):
         click.echo(f"{path} written", err=True)
 
@@ -216,12 +229,23 @@ def _write(target: Path, parts: Parts, tables: Iterator[dict[str, Any]]) -> None
 def _summary(counts: Any) -> list[str]:
     """How many contours have each status, and why."""
     rows = [(f"{counts.sum():,}", "contour" if counts.sum() == 1 else "contours")]
-    for code in Code:
-        if not counts[code].sum():
-            continue
-        rows.append((f"{counts[code].sum():,}", code.status.value))
-        for number in sorted(range(1, len(REASONS)), key=lambda each: -counts[code, each]):
-            kind = REASONS[number]
-            if counts[code, number] and kind is not None:
-                rows.append((f"{counts[code, number]:,}", f"  {kind.value}"))
+    for status, count, reasons in _counted(counts):
+        rows.append((f"{count:,}", status))
+        rows += [(f"{many:,}", f"  {reason}") for reason, many in reasons.items()]
     return columns(rows, left=(1,), indent="")
+
+
+def _summary_data(counts: Any) -> dict[str, Any]:
+    """The same for JSON."""
+    statuses = [{"status": each, "count": count, "reasons": reasons} for each, count, reasons in _counted(counts)]
+    return {"schema": "contoursolve/sweep/1", "contours": int(counts.sum()), "statuses": statuses}
+
+
+def _counted(counts: Any) -> Iterator[tuple[str, int, dict[str, int]]]:
+    """Each status that there is, how often, and how often for each reason, the most frequent first."""
+    for code in Code:
+        if counts[code].sum():
+            numbers = sorted(range(1, len(REASONS)), key=lambda each: -counts[code, each])
+            kinds = [(REASONS[number], int(counts[code, number])) for number in numbers if counts[code, number]]
+            reasons = {kind.value: count for kind, count in kinds if kind is not None}
+            yield code.status.value, int(counts[code].sum()), reasons
