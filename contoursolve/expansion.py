@@ -1,11 +1,11 @@
 """A program with its contours written as plain G-code, and everything else byte for byte as it was."""
 
-import re
 from collections import deque
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import chain
 
 from contoursolve.batch import Batch
+from contoursolve.carried import carried, frame_of
 from contoursolve.comments import LEFT_MARK, comment_out, own_comments, remark
 from contoursolve.contour import Segment
 from contoursolve.diagnostic import Severity
@@ -21,7 +21,7 @@ from contoursolve.pending import Step
 from contoursolve.pipeline import attach, walk
 from contoursolve.posts import Machine
 from contoursolve.reading import Effect, State, apply_modes, codes_of, motion_of, words_of
-from contoursolve.reliance import MOTIONS, STANDING_ALONE, Reliance, reliance, restate, why_unmet
+from contoursolve.reliance import STANDING_ALONE, Reliance, reliance, restate, why_unmet
 from contoursolve.solving import Point
 from contoursolve.syntax import Block, Directive, Passage, Program, Word, parse_block
 from contoursolve.unfamiliar import Watch
@@ -29,17 +29,11 @@ from contoursolve.unfamiliar import Watch
 OPENING = object()
 """Stands where the words belong that the target needs before anything else."""
 
-_BLANK = r"[ \t\f\v\x02\x03\x11-\x14\x1a\ufeff%]*"
 _NO_MOTION = -1
 """The motion that is in force where none is: the control starts with it."""
 
-_FRAME = re.compile(rf"(?P<head>{_BLANK})(?P<skip>/[1-9]?(?!\d)[ \t]*)?.*?(?P<tail>{_BLANK})", re.DOTALL)
-
 _NAMES = tuple(f"G{code:02}" for code in range(4))
 """The codes of motions as they are written."""
-
-_AFTER_MOTION = frozenset({0, 1, 2, 5, 9, 30, 60, 98, 99})
-"""M codes that act after the motion of their block: stop, end, spindle and coolant off, pallet, calls."""
 
 
 def expand_lines(
@@ -321,52 +315,22 @@ class _Expander:
 
     def _write(self, block: Block, moves: list[Move], end: str, state: State) -> str:
         """The lines in place of a block. Its number and what it sets stand in the first, what ends it in the last."""
-        head, skip, tail = _frame(block.text)
-        indent, specials = _split(head)
+        frame, rest = frame_of(block.text), carried(block, self.modes)
+        indent = frame.indent
         lines = [indent + text for text in comment_out(block.text.strip())] if self.options.has_comments else []
-        numbers, codes, words, last = self._carried(block, state)
+        self.watch.look(block, rest.kept, state)
         comments = [] if self.options.has_comments else own_comments(block.text)
         texts = [[_NAMES[move.code], *move.words] for move in moves]
-        texts = texts or ([[]] if numbers or codes or words or last or comments else [])
+        texts = texts or ([[]] if rest.says_something or comments else [])
         if texts:
-            texts[0] = [*codes, *texts[0], *words, *comments]
-            texts[-1] += last
-            self._tell(block, self.numberer.number(block, numbers, texts))
-        lines += [indent + skip + " ".join(text) for text in texts]
+            texts[0] = [*rest.codes, *texts[0], *rest.words, *comments]
+            texts[-1] += rest.last
+            self._tell(block, self.numberer.number(block, [*rest.numbers], texts))
+        lines += [indent + frame.skip + " ".join(text) for text in texts]
         if lines:
-            lines[0] = specials + lines[0]
-            lines[-1] += tail.strip(" \t")
+            lines[0] = frame.before + lines[0]
+            lines[-1] += frame.behind
         return (end or self.lines.end).join(lines) + end if lines else ""
-
-    def _carried(self, block: Block, state: State) -> tuple[list[str], list[str], list[str], list[str]]:
-        """What a block says besides its contour: its numbers, G codes, words for its first and for its last line."""
-        numbers: list[str] = []
-        codes: list[str] = []
-        words: list[str] = []
-        last: list[str] = []
-        kept: list[Word] = []
-        if not block.words:
-            return numbers, codes, words, last
-        rows = iter(codes_of(block, self.modes))
-        dropped = (*MOTIONS, Effect.CONTOUR)
-        for word in block.words:
-            text = word.text.strip()
-            if word.address == "G":
-                row = next(rows)
-                if not isinstance(row, Word) and row.effect in dropped:
-                    continue
-                codes.append(text)
-            elif word.address in "NO":
-                numbers.append(text)
-            elif word.address in self.modes.lexicon.addresses:
-                continue
-            elif word.address == "M" and word.number in _AFTER_MOTION:
-                last.append(text)
-            else:
-                words.append(text)
-            kept.append(word)
-        self.watch.look(block, kept, state)
-        return numbers, codes, words, last
 
 
 def _in_turn(steps: Iterator[Step], coming: deque[Step]) -> Iterator[Step]:
@@ -389,21 +353,6 @@ def _blocks_of(step: Step) -> Iterable[Block]:
     return (
         parse_block(line.rstrip("\r\n"), number) for number, line in enumerate(step.passage.lines, step.passage.line)
     )
-
-
-def _frame(text: str) -> tuple[str, str, str]:
-    """What stands before the words of a block, its block skip, and what stands behind them."""
-    if text[:1].isalpha() and (text[-1].isalnum() or text[-1] == "."):
-        return "", "", ""
-    frame = _FRAME.fullmatch(text)
-    return (frame["head"], frame["skip"] or "", frame["tail"]) if frame else ("", "", "")
-
-
-def _split(head: str) -> tuple[str, str]:
-    """What stands before the words of a block: blanks, and what is for a tape reader."""
-    if not head:
-        return "", ""
-    return "".join(c for c in head if c in " \t"), "".join(c for c in head if c not in " \t")
 
 
 def _is_active(block: Block) -> bool:

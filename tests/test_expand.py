@@ -283,6 +283,15 @@ def test_what_cannot_be_expanded_is_told_and_nothing_is_written(text, reason):
     assert contoursolve.expand(kept.text, keep_going=True, control=kept.control).text == kept.text
 
 
+def test_a_contour_that_is_left_without_an_error_of_its_own_is_told_with_its_reason(tmp_path):
+    old = tmp_path / "old.nc"
+    old.write_text("G00 X40. Z0.\n/G00 X50.\nG111 X100. A180. K-30. B120.\n")
+    status, _, said = run("expand", old)[:3]
+    assert status == 1
+    assert "info[start-skippable]" in said
+    assert "error: line 3: it begins where a block with / leads" in said
+
+
 def test_what_the_target_reads_otherwise_is_named_once():
     text = f"G50 S2000\nG50 S1500\n{START}{TAPER}\nG01 X50 F.1\nG01 U5.\nIF [#1 GT 2] GOTO 5"
     for post, told in (

@@ -1,5 +1,6 @@
 """A family says of every row what a single solve says of the block with these values."""
 
+import json
 import re
 import sys
 
@@ -332,6 +333,12 @@ def test_a_sweep_counts_what_becomes_of_the_contours():
         ["1", "no-solution"],
         ["1", "corner-too-large"],
     ]
+    status, output, _ = run(*ON_BLOCK, "--vary", "P=-1,1,20,80", "--format", "json")
+    data = json.loads(output)
+    assert (status, data["schema"], data["contours"]) == (0, "contoursolve/sweep/1", 4)
+    counted = [(each["status"], each["count"]) for each in data["statuses"]]
+    assert counted == [("solved", 2), ("rejected", 1), ("no-solution", 1)]
+    assert data["statuses"][-1]["reasons"] == {"corner-too-large": 1}
 
 
 def test_a_range_has_both_ends_and_no_rounding_adds_up():
@@ -494,7 +501,7 @@ def test_tolerances_add_up_at_worst_and_in_squares():
         (
             {"vary": {"A": range(10**6), "P": range(10**6)}},
             FamilyError,
-            "1,000,000,000,000 rows do not fit into memory",
+            "1,000,000,000,000 rows do not fit",
         ),
     ],
 )

@@ -25,7 +25,7 @@ FLOORS = (
     "solving",
     "settling",
     "contour posts reliance numbering wording",
-    "beyond",
+    "beyond carried",
     "emit explain sketch",
     "spelling",
     "examine",

@@ -46,6 +46,12 @@ BETWEEN = (
     "G28 U0 W0",
     "G40 G01 X{x} Z5.",
     "X 50. Z -3.",
+    "G71 P10 Q{n} U.4",
+    "M98 P1000",
+    "G76 X{x}",
+    "/W-1.",
+    "N{n}",
+    "W-1. (OPEN",
 )
 
 
@@ -68,7 +74,7 @@ def fill(rng, text):
 
 def lathe_program(rng):
     tapers = rng.sample(TAPERS, rng.randint(1, 6))
-    between = rng.choices(BETWEEN, (9, 9, 9, 9, 3, 2, 2, 2, 1, 1, 1, 1, 1, 1, 1, 1, 1), k=8)
+    between = rng.choices(BETWEEN, (*(9,) * 4, 3, *(2,) * 3, *(1,) * 15), k=8)
     lines = ["G00 X40. Z0."]
     for _ in range(rng.randint(5, 60)):
         lines += [fill(rng, rng.choice(between)) for _ in range(rng.choice((0, 1, 1, 2, 4)))]
@@ -110,6 +116,14 @@ def test_contours_solved_together_are_those_solved_one_by_one(seed, alone, monke
     rng = Random(seed)
     control, text = ("nct-99m", mill_program(rng)) if seed % 4 == 3 else ("yasnac-lx3", lathe_program(rng))
     post, rules = rng.choice(("same", "linuxcnc", "fanuc")), rng.choice(("enforce", "enforce", "warn", "off"))
+    written = {
+        "arcs": rng.choice(("center", "radius")),
+        "decimals": rng.choice((None, None, 2, 5)),
+        "comments": rng.random() < 0.6,
+        "block_numbers": rng.choice(("first", "all")),
+        "units": rng.choice(("mm", "inch")),
+        "start": rng.choice((None, "X40. Z0." if control == "yasnac-lx3" else "X0 Y0")),
+    }
     monkeypatch.setattr(pipeline, "_FIRST", rng.choice((1, 4, 16)))
     monkeypatch.setattr(pipeline, "_WINDOW", rng.choice((8, 64, 4096)))
     monkeypatch.setattr("contoursolve.batch.FEWEST", rng.choice((1, 2, 8)))
@@ -117,9 +131,9 @@ def test_contours_solved_together_are_those_solved_one_by_one(seed, alone, monke
     for is_alone in (False, True):
         if is_alone:
             alone()
-        expansion = contoursolve.expand(text, post=post, rules=rules, control=control, keep_going=True)
+        expansion = contoursolve.expand(text, post=post, rules=rules, control=control, keep_going=True, **written)
         summary = expansion.summary
-        told = summary.replaced, summary.warnings, summary.deviation, summary.unfamiliar
+        told = summary.replaced, summary.warnings, summary.deviation, summary.unfamiliar, summary.line_end
         left = [(each.lines, each.reason, each.diagnostics) for each in summary.left]
         result = contoursolve.solve(text, rules=rules, control=control, depth="full" if seed % 6 == 0 else "verdict")
         bounds = [answer.error_bound for answer in result.answers]

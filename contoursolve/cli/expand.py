@@ -15,6 +15,7 @@ from contoursolve.api import MOST_DECIMALS
 from contoursolve.cli.loading import settings_of
 from contoursolve.cli.options import FOUND_ERRORS, CouldNotRunError, common_options, settings_option, units_option
 from contoursolve.cli.printing import style_of_output
+from contoursolve.diagnostic import Severity
 from contoursolve.dialects import DIALECTS
 from contoursolve.examine import Policy
 from contoursolve.files import CannotWriteError, Tape, check_target, open_tape, tape_of, write_whole
@@ -244,7 +245,7 @@ def _print(rewritten: Rewritten) -> None:
 def _report_left(summary: Summary, name: str, style: Style) -> None:
     """Why contours were not expanded, on standard error."""
     for left in summary.left:
-        if not left.diagnostics:
+        if all(finding.severity is not Severity.ERROR for finding in left.diagnostics):
             click.echo(f"{style('error', 'error')}: line {left.lines[0]}: {left.reason}", err=True)
         for finding in left.diagnostics:
             here = tuple(label for label in finding.labels if label.span.line in left.sources)

@@ -10,7 +10,7 @@ from typing import Any
 import click
 import numpy
 
-from contoursolve.cli.blocks import block_options, fact_option, read_options, usage
+from contoursolve.cli.blocks import block_options, fact_option, format_option, print_json, read_options, usage
 from contoursolve.cli.cluster import open_cluster
 from contoursolve.cli.pictured import bytes_of, check_picture
 from contoursolve.cli.varied import read_range
@@ -58,6 +58,7 @@ from contoursolve.pictures import draw_sweep
 @click.option("--force", "is_forced", is_flag=True, help="Replace FILE if it exists.")
 @click.option("--workers", type=click.IntRange(1, 256), default=1, show_default=True, help="Threads.")
 @click.option("--dask", metavar="ADDRESS", help="Solve on the cluster of the Dask scheduler at this address.")
+@format_option
 def sweep_(
     varied: tuple[str, ...],
     facts: tuple[str, ...],
@@ -67,6 +68,7 @@ def sweep_(
     is_forced: bool,
     workers: int,
     dask: str | None,
+    format_: str,
     **options: Any,
 ) -> None:
     """Solve one contour for many values of some of its words, and count what becomes of it.
@@ -97,7 +99,10 @@ def sweep_(
             counts = _run(ready, workers if executor is None else None, executor, target)
         if picture is not None:
             write_whole(picture, [drawn], keeps_backup=False)
-    click.echo("\n".join(_summary(counts)))
+    if format_ == "json":
+        print_json(_summary_data(counts))
+    else:
+        click.echo("\n".join(_summary(counts)))
     for path in filter(None, (target, picture)):
         click.echo(f"{path} written", err=True)
 
@@ -177,12 +182,23 @@ def _write(target: Path, parts: Parts, tables: Iterator[dict[str, Any]]) -> None
 def _summary(counts: Any) -> list[str]:
     """How many contours have each status, and why."""
     rows = [(f"{counts.sum():,}", "contour" if counts.sum() == 1 else "contours")]
-    for code in Code:
-        if not counts[code].sum():
-            continue
-        rows.append((f"{counts[code].sum():,}", code.status.value))
-        for number in sorted(range(1, len(REASONS)), key=lambda each: -counts[code, each]):
-            kind = REASONS[number]
-            if counts[code, number] and kind is not None:
-                rows.append((f"{counts[code, number]:,}", f"  {kind.value}"))
+    for status, count, reasons in _counted(counts):
+        rows.append((f"{count:,}", status))
+        rows += [(f"{many:,}", f"  {reason}") for reason, many in reasons.items()]
     return columns(rows, left=(1,), indent="")
+
+
+def _summary_data(counts: Any) -> dict[str, Any]:
+    """The same for JSON."""
+    statuses = [{"status": each, "count": count, "reasons": reasons} for each, count, reasons in _counted(counts)]
+    return {"schema": "contoursolve/sweep/1", "contours": int(counts.sum()), "statuses": statuses}
+
+
+def _counted(counts: Any) -> Iterator[tuple[str, int, dict[str, int]]]:
+    """Each status that there is, how often, and how often for each reason, the most frequent first."""
+    for code in Code:
+        if counts[code].sum():
+            numbers = sorted(range(1, len(REASONS)), key=lambda each: -counts[code, each])
+            kinds = [(REASONS[number], int(counts[code, number])) for number in numbers if counts[code, number]]
+            reasons = {kind.value: count for kind, count in kinds if kind is not None}
+            yield code.status.value, int(counts[code].sum()), reasons
