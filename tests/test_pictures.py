@@ -117,6 +117,31 @@ def test_labels_of_all_programs_in_the_repository_stand_apart(path):
         check(draw_answer(answer))
 
 
+def words_in(picture):
+    return ["".join(each.itertext()) for each in ElementTree.fromstring(picture.svg).iter(f"{SVG}text")]
+
+
+def test_contours_that_begin_at_one_place_share_a_label_beside_the_path():
+    (path,) = (each for each in PROGRAMS if each.stem == "unusual")
+    result = contoursolve.solve_file(path)
+    assert len({answer.contour.start for answer in result.answers}) == 1
+    words = words_in(draw_result(result))
+    assert "unusual.nc: 4 contours (4 solved)" in words
+    assert [word for word in words if "line" in word] == ["1, 2, 3, 4  lines 5, 8, 11, 14"]
+
+
+@pytest.mark.parametrize("block", ["G111 A180.", "G111 A180. B120.", "G111 B-120.", "G111 A170. B100. P5."])
+def test_what_is_free_is_drawn_whatever_way_the_words_lead(block):
+    (answer,) = contoursolve.solve(block, start="X40. Z0.").answers
+    assert "end (free)" in words_in(draw_answer(answer))
+
+
+def test_a_drawing_in_inches_says_so():
+    inches, millimetres = (words_in(draw_answer(*answers_of(name))) for name in ("inches", "solved"))
+    assert {"X (diameter, inch)", "Z (inch)"} <= set(inches)
+    assert {"X (diameter)", "Z"} <= set(millimetres)
+
+
 @pytest.mark.parametrize(("control", "code", "program"), examples("rejected"))
 def test_what_a_rule_refuses_is_drawn(control, code, program):
     result = examine(program, control)

@@ -25,6 +25,9 @@ MOST_GHOSTS = 3
 _STEPS = (0.6, 1.0, 0.35, 1.5, -0.6, -1.0, -0.35, -1.5)
 """Where a free coordinate is put, from where the line begins, in lengths of the drawing."""
 
+_TURNED = (0.6, -0.6, 1.0, -1.0)
+"""The same, with backwards as likely as onwards: a line at 180 deg leads to lower Z."""
+
 
 def complete(profile: Profile, singular: Sequence[str] = ()) -> Known:
     """A contour with what its words leave free put somewhere, so that the control would make it if that can be;
@@ -35,8 +38,11 @@ def complete(profile: Profile, singular: Sequence[str] = ()) -> Known:
     size = drawing_size(profile)
     found: list[Solution] = []
     placed: frozenset[str] = frozenset()
-    for number, (full, names) in enumerate(_completions(profile, known, size, singular)):
-        if number >= MOST_TRIED or len(found) > MOST_GHOSTS:
+    # All onwards first; the ways in which some turn back only where that gives no contour.
+    for full, names in (
+        each for steps in (_STEPS, _TURNED) if not found for each in _completions(profile, known, size, singular, steps)
+    ):
+        if len(found) > MOST_GHOSTS:
             break
         placed = names
         if is_closed(assemble(full)) and is_chosen(full):
@@ -57,7 +63,7 @@ def _is_apart(one: Point, other: Point, size: float) -> bool:
 
 
 def _completions(
-    profile: Profile, known: Known, size: float, singular: Sequence[str]
+    profile: Profile, known: Known, size: float, singular: Sequence[str], steps: Sequence[float]
 ) -> Iterator[tuple[Profile, frozenset[str]]]:
     """The profile with further facts that determine it, and the points that these are about."""
     names = [name for name in singular if _is_placeable(name, profile)]
@@ -71,9 +77,10 @@ def _completions(
         names.append(max(open_, key=lambda name: round(moves.get(name, 1.0), 6)))
         extended = _with(profile, dict.fromkeys(names, 0.0))
     points = frozenset(name.rpartition(".")[0] for name in names if name not in profile.figure.radii)
-    for steps in sorted(product(_STEPS, repeat=len(names)), key=lambda each: sum(map(_STEPS.index, each)))[:MOST_TRIED]:
+    tried = sorted(product(steps, repeat=len(names)), key=lambda each: sum(map(steps.index, each)))[:MOST_TRIED]
+    for lengths in tried:
         values: dict[str, float] = {}
-        for name, step in zip(names, steps, strict=True):
+        for name, step in zip(names, lengths, strict=True):
             if name in profile.figure.radii:
                 values[name] = abs(step) * size
                 continue

@@ -6,7 +6,7 @@ from dataclasses import replace
 from contoursolve.contour import Contour, Segment, trace
 from contoursolve.diagnostic import Diagnostic, Severity
 from contoursolve.examine import Answer
-from contoursolve.model import FIRST, SECOND, Plane
+from contoursolve.model import FIRST, SECOND, Length, Plane
 from contoursolve.output.solutions import list_solutions
 from contoursolve.pictures.construction import list_construction, list_rings, list_slides
 from contoursolve.pictures.dimensions import list_dimensions
@@ -57,7 +57,7 @@ def compose(answer: Answer, title: str | None = None) -> Scene:
     marks = list_marks(answer, known, roles, noted, places, end, is_free)
     return Scene(
         title=title if title is not None else title_of(answer),
-        axes=(axis_name(plane, FIRST), axis_name(plane, SECOND)),
+        axes=(axis_name(plane, FIRST, answer.unit), axis_name(plane, SECOND, answer.unit)),
         trails=(*ghosts, *main),
         thins=(
             *list_construction(profile, known, elements),
@@ -85,9 +85,10 @@ def title_of(answer: Answer) -> str:
     return f"{form.name} ({form.title}), {where}: {answer.status.value}"
 
 
-def axis_name(plane: Plane, axis: int) -> str:
-    """An axis as a drawing names it."""
-    return f"{plane.axes[axis]} (diameter)" if plane.diameters[axis] else plane.axes[axis]
+def axis_name(plane: Plane, axis: int, unit: Length) -> str:
+    """An axis as a drawing names it; a drawing that says no unit is in mm."""
+    notes = [*(["diameter"] if plane.diameters[axis] else []), *(["inch"] if unit is Length.INCH else [])]
+    return f"{plane.axes[axis]} ({', '.join(notes)})" if notes else plane.axes[axis]
 
 
 def roles_of(answer: Answer) -> dict[str, Role]:

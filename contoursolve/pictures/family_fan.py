@@ -49,7 +49,7 @@ def compose_fan(word: str, values: Sequence[float], answers: Sequence[Answer], t
     shown = title if title is not None else f"{span}, {len(answers)} contours: {told}"
     return Scene(
         shown,
-        (axis_name(plane, FIRST), axis_name(plane, SECOND)),
+        (axis_name(plane, FIRST, answers[0].unit), axis_name(plane, SECOND, answers[0].unit)),
         tuple(trails),
         marks=tuple(marks),
         meanings={Role.GIVEN: "solved", Role.CONFLICTING: "no contour"},

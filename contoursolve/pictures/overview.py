@@ -2,9 +2,10 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
+from pathlib import PurePath
 
 from contoursolve.examine import Answer
-from contoursolve.model import FIRST, SECOND
+from contoursolve.model import FIRST, SECOND, Length
 from contoursolve.pictures.compose import axis_name, main_trails, remarks_of
 from contoursolve.pictures.finding import find_known
 from contoursolve.pictures.moves import Move, list_moves
@@ -12,7 +13,7 @@ from contoursolve.pictures.scene import Kind, Mark, Scene, Trail, Weight
 from contoursolve.pictures.sheet import Run
 from contoursolve.pictures.theme import Role
 from contoursolve.pipeline import Result
-from contoursolve.solving import Status
+from contoursolve.solving import Point, Status
 
 MOST_CONTOURS = 400
 """Contours that are drawn; a picture of more says how many it leaves out."""
@@ -41,7 +42,9 @@ def _title(result: Result) -> str:
     counts = {status: sum(answer.status is status for answer in result.answers) for status in Status}
     told = ", ".join(f"{counts[status]} {status.value}" for status in reversed(Status) if counts[status])
     number = len(result.answers)
-    return f"{result.program.name}: {number} contour{'' if number == 1 else 's'}" + (f" ({told})" if told else "")
+    return f"{PurePath(result.program.name).name}: {number} contour{'' if number == 1 else 's'}" + (
+        f" ({told})" if told else ""
+    )
 
 
 def _scene(answers: Sequence[tuple[int, Answer]], moves: Sequence[Move]) -> Scene:
@@ -51,20 +54,25 @@ def _scene(answers: Sequence[tuple[int, Answer]], moves: Sequence[Move]) -> Scen
     remarks = []
     if trails:
         remarks.append((Run("thin: the moves that lead to contours and away from them", Role.MUTED),))
-    for place, (number, answer) in enumerate(answers[:MOST_CONTOURS]):
-        own = main_trails(answer, find_known(answer))
-        is_solved = answer.contour is not None
-        role = Role.INK if is_solved else Role.CONFLICTING
-        trails += [replace(trail, role=role) for trail in own]
-        label = (Run(f"{number}", role), Run(f"  line {answer.lines[0]}", Role.MUTED))
-        if not is_solved:
+    drawn = [(number, answer, main_trails(answer, find_known(answer))) for number, answer in answers[:MOST_CONTOURS]]
+    begun: dict[Point, list[tuple[int, Answer]]] = {}
+    for number, answer, own in drawn[:MOST_LABELED]:
+        if own:
+            begun.setdefault(own[0].segments[0].start, []).append((number, answer))
+    for place, (number, answer, own) in enumerate(drawn):
+        trails += [replace(trail, role=_role(answer)) for trail in own]
+        if answer.contour is None:
             remarks.append((Run(f"{number}, line {answer.lines[0]}: {answer.status.value}", Role.CONFLICTING),))
         if own and place < MOST_LABELED:
-            marks.append(Mark(own[0].segments[0].start, Kind.START, label, label[:1]))
+            here = begun.pop(own[0].segments[0].start, None)
+            if here:
+                label = _label(here)
+                marks.append(Mark(own[0].segments[0].start, Kind.START, label, label[:-1]))
             marks.append(Mark(own[-1].segments[-1].end, Kind.END))
     if len(answers) > MOST_CONTOURS:
         remarks.append((Run(f"... and {len(answers) - MOST_CONTOURS} more contours, which are not drawn", Role.MUTED),))
-    names = axis_name(plane, FIRST), axis_name(plane, SECOND)
+    # It has no numbers, so that contours in mm and in inches may stand together.
+    names = axis_name(plane, FIRST, Length.MM), axis_name(plane, SECOND, Length.MM)
     return Scene(
         "",
         names,
@@ -74,3 +82,14 @@ def _scene(answers: Sequence[tuple[int, Answer]], moves: Sequence[Move]) -> Scen
         meanings={Role.CONFLICTING: "no contour"},
         has_turning_axis=plane.diameters[SECOND],
     )
+
+
+def _label(here: Sequence[tuple[int, Answer]]) -> tuple[Run, ...]:
+    """The numbers and the lines of the contours that begin at one place."""
+    numbers = [Run(f"{', ' if place else ''}{number}", _role(answer)) for place, (number, answer) in enumerate(here)]
+    lines = ", ".join(str(answer.lines[0]) for _, answer in here)
+    return (*numbers, Run(f"  line{'s' if len(here) > 1 else ''} {lines}", Role.MUTED))
+
+
+def _role(answer: Answer) -> Role:
+    return Role.INK if answer.contour is not None else Role.CONFLICTING

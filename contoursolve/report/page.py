@@ -107,7 +107,7 @@ def _contours(result: Result, places: Places, progress: Progress) -> h.Element |
             _line_link(answer.lines[0], places),
             short(f"{answer.claim.form.name} ({answer.claim.form.title})"),
             _status(answer),
-            place_text(answer, answer.contour.end) if answer.contour else "",
+            h.span(".place")[place_text(answer, answer.contour.end)] if answer.contour else "",
             _found(answer.diagnostics),
         )
         for number, answer in enumerate(result.answers, 1)
@@ -115,6 +115,7 @@ def _contours(result: Result, places: Places, progress: Progress) -> h.Element |
     return h.section(id="contours")[
         h.h2["Contours"],
         table("Every contour, with what became of it", header, rows),
+        figure(result) if len(result.answers) > 1 else None,
         (_contour(answer, number, result, places, progress) for number, answer in enumerate(result.answers, 1)),
     ]
 
