@@ -199,6 +199,10 @@ def test_in_jupyterlab_a_slider_moves_the_path_and_a_finding_comes_and_goes(brow
         assert explorer.locator(".state").inner_text().startswith("solved")
 
         number = row.locator("input[type=number]")
+        kept = number.input_value()
+        number.fill("")
+        number.press("Enter")
+        page.wait_for_function("([input, kept]) => input.value === kept", arg=[number.element_handle(), kept])
         number.fill("60")
         number.press("Enter")
         finding.wait_for()
@@ -241,6 +245,7 @@ def test_the_report_opens_in_light_and_dark_and_prints(browser, tmp_path, artefa
         page = watched.page
         page.goto(written.as_uri())
         assert page.locator("article figure svg").count() == page.locator("article").count() >= 6
+        assert page.locator("#contours > figure svg").count() == 1
         papers.append(page.evaluate(PAPER))
         page.screenshot(path=artefacts / f"report-{name}-{scheme}.png")
         page.screenshot(path=artefacts / f"report-{name}-{scheme}-all.png", full_page=True)

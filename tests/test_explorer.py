@@ -65,6 +65,19 @@ def test_a_freed_word_gets_the_value_that_the_others_give_or_its_own_back():
     assert explore.set_word(open_, "A", 175).text == WHOLE.replace("A180.", "A175.")
 
 
+def test_a_freed_word_is_drawn_with_where_it_may_lead():
+    freed = explore.free(explore.begin(WHOLE, **START), "X")
+    picture = view_of(freed)["picture"]
+    assert all(text in picture for text in ("end (free)", "other values", "Z-30 X40"))
+    assert not re.search(r"end\s*</tspan>", picture)  # V1 is no end
+
+
+def test_a_number_that_no_control_reads_is_told_as_that():
+    now = explore.begin(WHOLE, **START)
+    with pytest.raises(ValueError, match=r"P takes numbers below 1,000,000,000, not 1e9"):
+        explore.set_word(now, "P", "1e9")
+
+
 def test_each_fix_gives_the_block_that_it_promises():
     now = explore.begin("G111 X100. A180. K-30. B120. P60.", **START)
     (found,) = view_of(now)["findings"]
@@ -197,6 +210,8 @@ def test_a_range_on_a_slider_ends_where_single_solves_say_so():
                     assert explore.set_word(now, each["key"], end - inward * 0.002).answer.contour is None
     assert range_of(now, field(now, "P"))["note"] == "0 ≤ P ≤ 51.961"
     assert range_of(now, field(now, "A"))["note"] == "138.219 ≤ A < 270"
+    freed = explore.free(now, "X")
+    assert [range_of(freed, field(freed, key)) for key in "AKBP"] == [{}] * 4  # another word is missing
     assert range_of(explore.begin(f"{PAIR} Q-1"), {**field(explore.begin(f"{PAIR} Q-1"), "Q")}) == {}
 
 

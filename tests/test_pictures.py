@@ -136,6 +136,12 @@ def test_what_is_free_is_drawn_whatever_way_the_words_lead(block):
     assert "end (free)" in words_in(draw_answer(answer))
 
 
+@pytest.mark.parametrize("name", ["parallel", "missed"])
+def test_the_end_is_shown_only_where_the_path_gets_there(name):
+    (answer,) = answers_of(name)
+    assert not any(word.startswith("end") for word in words_in(draw_answer(answer)))
+
+
 def test_a_drawing_in_inches_says_so():
     inches, millimetres = (words_in(draw_answer(*answers_of(name))) for name in ("inches", "solved"))
     assert {"X (diameter, inch)", "Z (inch)"} <= set(inches)

@@ -182,8 +182,10 @@ def _written(answer: Answer, word: Word, value: float | str) -> str:
         number = Decimal(str(value))
     except InvalidOperation:
         number = Decimal("NaN")
-    if not number.is_finite() or number.adjusted() > MOST_DIGITS:
+    if not number.is_finite():
         raise ValueError(f"{word.address} needs a number, not {value!r}")
+    if number.adjusted() > MOST_DIGITS:
+        raise ValueError(f"{word.address} takes numbers below {10 ** (MOST_DIGITS + 1):,}, not {value}")
     lexicon = answer.claim.lexicon
     if lexicon.addresses[word.address].unit is Unit.SIGN:
         return f"{word.address}{'-' if number < 0 else ''}1"

@@ -138,6 +138,7 @@ function render({ model, el }) {
     number.addEventListener("change", () => {
       shown.isTyping = false;
       if (number.value !== "") act({ do: "move", key: field.key, value: number.value });
+      else showWords(model.get("view").fields, false); // what is no number changes nothing
     });
     const shown = { row, slider, number, free, band, range, label, scale: null, text: "", isTyping: false };
     return shown;
@@ -145,6 +146,7 @@ function render({ model, el }) {
 
   function showWords(fields, isNew) {
     const active = el.getRootNode().activeElement;
+    const isSeveral = model.get("view").solutions.items.length > 1;
     const gone = new Set(rows.keys());
     const order = [];
     for (const field of fields) {
@@ -166,7 +168,8 @@ function render({ model, el }) {
       const isMoving = waiting && active === row.slider;
       if (!isMoving && !row.isTyping) row.number.value = field.value ?? "";
       if (!isMoving && field.value !== null) row.slider.value = field.value;
-      if (field.state === "free") row.text = field.value === null ? "free; nothing gives its value" : "free; the others give its value";
+      if (field.state === "free" && field.value !== null) row.text = "free; the others give its value";
+      else if (field.state === "free") row.text = isSeveral ? "free; each solution gives its own" : "free; nothing gives its value";
       else if (field.state === "ignored") row.text = "ignored by the control";
       else row.text = "";
       order.push(row.row);

@@ -7,6 +7,7 @@ from typing import Any
 from contoursolve.families import FamilyError, Feasible, feasible
 from contoursolve.families.boundary import End, Interval, Way
 from contoursolve.notebook.exploration import Exploration, words_of
+from contoursolve.reading import Trouble
 from contoursolve.syntax import Word
 
 _DIGITS = Decimal("0.001")
@@ -39,6 +40,8 @@ def _frame(exploration: Exploration, word: Word) -> str:
 def range_of(exploration: Exploration, field: Mapping[str, Any]) -> Data:
     """The ranges of the word of a field, and the ends that its slider needs to show them; nothing for a word of which
     no range can be told."""
+    if any(finding.about is Trouble.UNDERDETERMINED for finding in exploration.result.diagnostics):
+        return {}  # whatever this word says, others are missing
     low, high = field["low"], field["high"]
     within = (low - (high - low) / 2, high + (high - low) / 2) if field["unit"] == "deg" else None
     try:

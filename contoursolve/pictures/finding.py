@@ -29,7 +29,10 @@ def find_known(answer: Answer) -> Known:
     system = assemble(profile)
     verdict = judge(system)
     if profile.is_extended:
-        return _of_alternatives(answer) or in_part(profile)
+        found = _of_alternatives(answer)
+        if found is None and not verdict.is_determined and not answer.claim.directives:
+            return complete(profile)  # words that are asked for, and nothing gives them
+        return found or in_part(profile)
     if verdict.is_determined and is_closed(system):
         return _worked_out(profile)
     if verdict.is_determined:
