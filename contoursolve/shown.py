@@ -1,4 +1,4 @@
-"""Records that show themselves in notebooks."""
+"""Records that show themselves in notebooks, and are text where they are printed."""
 
 from importlib import import_module
 from typing import Any
@@ -11,6 +11,10 @@ class Shown:
     """
 
     __slots__ = ()
+
+    def __str__(self) -> str:
+        """What the terminal prints of this record; its `repr` has all its fields."""
+        return "\n".join(import_module("contoursolve.notebook.text").text_of(self)).rstrip()
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
         """Text, HTML and SVG of this record, as IPython asks for them; what cannot be drawn is text."""

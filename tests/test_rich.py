@@ -191,6 +191,17 @@ def test_a_contour_of_each_status_has_a_picture_and_a_table_beside_it(status, mo
         check(answer.diagnosis._repr_mimebundle_())
 
 
+def test_a_record_that_is_printed_is_the_text_that_a_notebook_shows():
+    result = contoursolve.solve(BROKEN, start="X60. Z-55.")
+    (answer,) = result.answers
+    solved = contoursolve.solve(WHOLE, start="X40. Z0.").answers[0]
+    family = contoursolve.family(WHOLE, start="X40. Z0.", vary={"P": [1, 60]})
+    shown = (result, answer, result.program, *result.diagnostics, answer.diagnosis, *result.program.blocks)
+    for record in (*shown, solved.contour, family, DIALECTS["yasnac-lx3"].rules[0]):
+        assert str(record) == record._repr_mimebundle_()[TEXT]
+        assert f"{type(record).__name__}(" not in str(record)
+
+
 def test_the_text_is_what_the_terminal_prints():
     from click.testing import CliRunner  # noqa: PLC0415
 
