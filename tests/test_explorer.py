@@ -70,6 +70,8 @@ def test_a_freed_word_is_drawn_with_where_it_may_lead():
     picture = view_of(freed)["picture"]
     assert all(text in picture for text in ("end (free)", "other values", "Z-30 X40"))
     assert not re.search(r"end\s*</tspan>", picture)  # V1 is no end
+    fixes = [fix["text"] for finding in view_of(freed)["findings"] for fix in finding["fixes"]]
+    assert fixes == ["add Z?", "add W?"]  # U would say what X does
 
 
 def test_a_number_that_no_control_reads_is_told_as_that():

@@ -5,14 +5,14 @@ from collections.abc import Iterable, Iterator
 from decimal import ROUND_HALF_EVEN, Decimal
 from itertools import combinations, product
 
-from contoursolve.constraints import assemble
+from contoursolve.constraints import Coordinate, Offset, assemble
 from contoursolve.diagnosis.attempt import Before, examine_edited
 from contoursolve.diagnosis.drafts import change, drop, marked, missing_points, unreadable, variants
 from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, write_word
 from contoursolve.diagnostic import Diagnostic, Severity
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer, AskedValue
-from contoursolve.model import FIRST, SECOND, Length, Profile, Unit, scalar
+from contoursolve.model import FIRST, SECOND, Fact, Length, Profile, Unit, scalar
 from contoursolve.reading import Lexicon, Trouble
 from contoursolve.settling import tied_with
 from contoursolve.solving import RefusalKind, RemarkKind, Status
@@ -114,9 +114,12 @@ def _is_at(profile: Profile, name: str, span: Span) -> bool:
 
 
 def _additions(answer: Answer) -> Iterator[tuple[Edit, ...]]:
-    """Words that the form could have besides, without their numbers: each alone, then several."""
+    """Words that the form could have besides, without their numbers: each alone, then several; none for the coordinate
+    that a word asks for, as U beside X?."""
     claim = answer.claim
-    names = [row.fact.given for row in claim.form.facts if row.fact.given in claim.vocabulary]
+    facts = [row.fact for row in claim.form.facts if row.fact.given in claim.vocabulary]
+    asked = {_coordinate(fact) for fact in facts if fact.given in claim.words and claim.words[fact.given].is_asked}
+    names = [fact.given for fact in facts if _coordinate(fact) is None or _coordinate(fact) not in asked]
     absent = [name for name in dict.fromkeys(names) if name not in claim.words]
     edits = []
     for name in absent:
@@ -124,6 +127,11 @@ def _additions(answer: Answer) -> Iterator[tuple[Edit, ...]]:
         edits.append(Edit(EditKind.ADD, address, text=address + PLACEHOLDER, line=claim.blocks[index].line))
     for size in range(1, MOST_ADDED + 1):
         yield from combinations(edits, size)
+
+
+def _coordinate(fact: Fact) -> tuple[str, int] | None:
+    """The point and the axis of the coordinate that a fact states."""
+    return (fact.point, fact.axis) if isinstance(fact, Coordinate | Offset) else None
 
 
 def _exchanged(answer: Answer, findings: list[Diagnostic]) -> Iterator[tuple[Edit, ...]]:

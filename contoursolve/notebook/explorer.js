@@ -190,6 +190,7 @@ function render({ model, el }) {
       row.band.replaceChildren();
       row.range.textContent = row.text || (isFresh && found.note) || "";
       row.range.title = (isFresh && found.reason) || "";
+      row.range.classList.toggle("nowhere", !row.text && Boolean(isFresh && found.intervals?.length === 0));
       row.slider.setAttribute("aria-description", [row.range.textContent, row.range.title].filter(Boolean).join("; "));
       if (!isFresh || !row.scale || !found.intervals) continue;
       row.scale.low = Math.min(row.scale.low, found.low);
