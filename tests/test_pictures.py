@@ -142,6 +142,15 @@ def test_the_end_is_shown_only_where_the_path_gets_there(name):
     assert not any(word.startswith("end") for word in words_in(draw_answer(answer)))
 
 
+def test_what_words_leave_free_is_never_shown_as_worked_out():
+    (arc,) = contoursolve.solve("G112 U0 I? K-30. R32. P3. Q3.", start="X60. Z-44.").answers
+    words = words_in(draw_answer(arc))
+    assert {"V1", "V2", "end (free)"} <= set(words)
+    (rounding,) = contoursolve.solve("G111 X100. A180. K-30. B120. P? Q5.", start="X40. Z0.").answers
+    words = words_in(draw_answer(rounding))
+    assert not any(word.startswith("end") for word in words)  # it lies behind Q5., which is not worked out
+
+
 def test_a_drawing_in_inches_says_so():
     inches, millimetres = (words_in(draw_answer(*answers_of(name))) for name in ("inches", "solved"))
     assert {"X (diameter, inch)", "Z (inch)"} <= set(inches)

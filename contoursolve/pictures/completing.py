@@ -33,7 +33,8 @@ def complete(profile: Profile, singular: Sequence[str] = ()) -> Known:
     """A contour with what its words leave free put somewhere, so that the control would make it if that can be;
     `singular` is what they leave free at their values only."""
     known = in_part(profile)
-    if len(judge(assemble(profile)).free) > MOST_FREE:
+    free = judge(assemble(profile)).free
+    if len(free) > MOST_FREE:
         return known
     size = drawing_size(profile)
     found: list[Solution] = []
@@ -52,9 +53,12 @@ def complete(profile: Profile, singular: Sequence[str] = ()) -> Known:
     if not found:
         return known
     first, *others = found
-    moved = placed | {
-        name for name, at in first.points.items() for other in others if _is_apart(at, other.points[name], size)
-    }
+    open_ = {point for point, _, axis in (name.rpartition(".") for name in free) if axis.isdigit()}
+    moved = (
+        placed
+        | open_
+        | {name for name, at in first.points.items() for other in others if _is_apart(at, other.points[name], size)}
+    )
     return replace(known_of(first), placed=frozenset(moved), others=tuple(others))
 
 

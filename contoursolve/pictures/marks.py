@@ -53,6 +53,8 @@ def list_marks(
     start = known.points.get(profile.figure.start)
     if start is None:
         return
+    if _lacks_last_corner(answer, known):
+        end = None
     spots = _spots(known)
     ranks = {"start": start, **({"end": end} if end is not None else {})}
     spots.sort(key=lambda spot: next((n for n, at in enumerate(ranks.values()) if distance(spot.at, at) <= SAME), 2))
@@ -66,6 +68,13 @@ def list_marks(
             if all(distance(at, spot.at) > SAME for spot in spots):
                 runs = [Run(name, Role.GHOST), *([Run(selects, Role.GHOST)] if selects else [])]
                 yield Mark(at, Kind.PLACE, _joined([*runs, _computed(answer, at)]), _joined(runs), Role.GHOST)
+
+
+def _lacks_last_corner(answer: Answer, known: Known) -> bool:
+    """Whether the path ends behind a corner that has not been worked out."""
+    figure = answer.profile.figure
+    last = {corner.name for corner in figure.corners if corner.at == figure.path[-1].head}
+    return answer.contour is None and not known.refusals and not last <= known.corners.keys()
 
 
 def _spots(known: Known) -> list[_Spot]:
