@@ -440,6 +440,7 @@ def test_a_missing_package_is_named_with_the_extra_that_brings_it(monkeypatch, t
         ((*ON_BLOCK, "--vary", "A=1", "-o", "x.txt"), ".parquet or .csv"),
         (("--block", BLOCK, "--vary", "A=1"), "start point"),
         (("--block", "A1", "--vary", "A=1"), "--control"),
+        ((*ON_BLOCK, "--vary", "A=1", "--dask", "tcp://127.0.0.1:1", "--workers", "2"), "the cluster has its own"),
     ],
 )
 def test_a_sweep_that_makes_no_sense_is_one_line_and_status_2(arguments, message):

@@ -150,6 +150,8 @@ def test_an_angle_that_is_asked_for_is_looked_for_in_its_range(within, turns):
 def test_a_block_that_leaves_something_open_has_no_answer():
     with pytest.raises(FamilyError, match="nothing determines corner 1"):
         find_word("G111 X100. A180. K-30. B120. P?", "A", "end Z-50.", start=START)
+    with pytest.raises(FamilyError, match="K does not move end in this direction"):
+        find_word(BLOCK.replace("P5.", "P?"), "K", "end X300.", start=START, facts=["straight part of line 2 = 20"])
     with pytest.raises(FamilyError, match="no range"):
         find_word(BLOCK, "A", "end Z-50.", start=START, facts=["length of line 1 = 30"], within=(200, 100))
 

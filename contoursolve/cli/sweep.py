@@ -56,7 +56,7 @@ from contoursolve.pictures import draw_sweep
     help="Where to draw the contours of one word that varies, or the outcomes over two: FILE.svg or FILE.png.",
 )
 @click.option("--force", "is_forced", is_flag=True, help="Replace FILE if it exists.")
-@click.option("--workers", type=click.IntRange(1, 256), default=1, show_default=True, help="Threads.")
+@click.option("--workers", type=click.IntRange(1, 256), help="Threads (1 without it); not with --dask.")
 @click.option("--dask", metavar="ADDRESS", help="Solve on the cluster of the Dask scheduler at this address.")
 @format_option
 def sweep_(
@@ -66,7 +66,7 @@ def sweep_(
     output: str | None,
     picture: Path | None,
     is_forced: bool,
-    workers: int,
+    workers: int | None,
     dask: str | None,
     format_: str,
     **options: Any,
@@ -83,6 +83,8 @@ def sweep_(
     contoursolve sweep --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0." \\
       --vary A=170:190:0.1 --vary P=1,2,5 -o family.parquet
     """
+    if workers is not None and dask is not None:
+        raise click.UsageError("--workers are threads of this machine; with --dask, the cluster has its own workers")
     target = _target(output, is_forced)
     if picture is not None:
         check_picture(picture, is_forced=is_forced)
@@ -96,7 +98,7 @@ def sweep_(
         ready = sweep(vary=vary, facts=facts, paired=is_paired, **read_options(options))
         drawn = bytes_of(draw_sweep(ready), picture) if picture is not None else b""
         with open_cluster(dask) as executor:
-            counts = _run(ready, workers if executor is None else None, executor, target)
+            counts = _run(ready, workers, executor, target)
         if picture is not None:
             write_whole(picture, [drawn], keeps_backup=False)
     if format_ == "json":

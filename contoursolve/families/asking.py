@@ -34,7 +34,11 @@ def asked_values(template: Template, word: str, goal: Goal, answer: Answer) -> t
         raise FamilyError(unread[0])
     if len(result.answers) != 1:
         raise FamilyError(errors[0] if errors else "the block is no single contour")
-    if result.answers[0].status in (Status.UNDERDETERMINED, Status.REJECTED):
+    status = result.answers[0].status
+    if status is Status.UNDERDETERMINED and answer.contour is not None:
+        # The goal says nothing of the word, which is open without its value.
+        raise FamilyError(f"{word} does not move {goal.point} in this direction")
+    if status in (Status.UNDERDETERMINED, Status.REJECTED):
         raise FamilyError(errors[0])
     return list(_values(result.answers[0], typed)), _is_complete(result.answers[0])
 
