@@ -78,6 +78,9 @@ class Sweep:
     found: Kinds
     ranges: Ranges
     local: threading.local = field(default_factory=threading.local)
+    turn: threading.Lock = field(default_factory=threading.Lock)
+    """Held for the checks, which are many short steps: two threads in them would spend more time handing over the
+    interpreter's lock. While one checks, another is inside CasADi or writes results."""
 
     @property
     def kinds(self) -> tuple[Kind, ...]:
@@ -115,13 +118,18 @@ class Sweep:
             ranges, first, last = ranges.rows(first, last), 0, last - first
             self.local.__dict__.pop("inputs", None)
         places = {word: ranges.places(word, first, last) for word in ranges.values}
+        is_all = len(self.kinds) == 1
+        if is_all and self.kinds[0].status is None and self.kinds[0].is_closed:
+            for begin, end in Stretches(last - first, ROWS):
+                part = {word: place[begin:end] for word, place in places.items()}
+                self._evaluate(0, self.kinds[0], ranges, part, slice(begin, end), end - begin, table)
+            return
         number = numpy.zeros(last - first, numpy.int64)
-        if len(self.kinds) > 1:
+        if not is_all:
             key = self.examples.key(list(ranges.values.values()), list(places.values()))
             number = self.found.numbers[numpy.searchsorted(self.found.keys, key)]
-        is_all = len(self.kinds) == 1
         for each, kind in enumerate(self.kinds):
-            own = numpy.arange(last - first) if is_all else numpy.flatnonzero(number == each)
+            own = numpy.flatnonzero(number == each)
             if kind.status is not None:
                 table["status"][own] = code_of(kind.status)
                 continue
@@ -132,7 +140,7 @@ class Sweep:
                     solve(each, kind, ranges, part, own[begin:end], table)
                 continue
             for begin, end in Stretches(own.size, ROWS):
-                target: Target = slice(begin, end) if is_all else own[begin:end]
+                target = own[begin:end]
                 part = {word: place[target] for word, place in places.items()}
                 self._evaluate(each, kind, ranges, part, target, end - begin, table)
 
@@ -158,12 +166,13 @@ class Sweep:
         out = function.evaluate(rows)
         machine, figure = kind.machine, kind.system.figure
         plan = machine.plan
-        verdict = Verdict(
-            figure, len(plan.basis), plan.checks, plan.steps, machine.corner_residuals, cosines, out, rows
-        )
-        status, reason = verdict.status, verdict.reason
-        again = numpy.flatnonzero(verdict.again)
-        is_path = (status <= Code.OVERDETERMINED) & (reason == 0) & ~verdict.again
+        with self.turn:
+            verdict = Verdict(
+                figure, len(plan.basis), plan.checks, plan.steps, machine.corner_residuals, cosines, out, rows
+            )
+            status, reason = verdict.status, verdict.reason
+            again = numpy.flatnonzero(verdict.again)
+            is_path = (status <= Code.OVERDETERMINED) & (reason == 0) & ~verdict.again
         # Where there is no contour, NaN is added with what coordinates count from: one pass over each column.
         gaps = 0.0 if is_path.all() else numpy.where(is_path, 0.0, numpy.nan)
         added = {axis: value + gaps for axis, value in enumerate(kind.origin(ranges, places))}
@@ -181,7 +190,7 @@ class Sweep:
             table[f"branch.{point}"][target] = is_path.view(numpy.int8) * numpy.int8(side)
         table["status"][target] = status
         table["reason"][target] = reason
-        at = numpy.arange(rows)[again] + target.start if isinstance(target, slice) else target[again]
+        at = again + target.start if isinstance(target, slice) else target[again]
         for row, place in zip(again.tolist(), at.tolist(), strict=True):
             fill_row(kind, ranges.row(places, row), place, table)
 
