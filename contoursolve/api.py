@@ -263,7 +263,7 @@ def expand(
     if decimals is not None and (isinstance(decimals, bool) or decimals not in range(1, MOST_DECIMALS + 1)):
         raise ValueError(f"decimals cannot be {decimals!r}; choose 1 to {MOST_DECIMALS}, or None for the target's own")
     numbering = choice_of(Numbering, block_numbers, "block_numbers")
-    options = Options(find_post(post), choice_of(Arcs, arcs, "arcs"), decimals, comments, keep_going, numbering)
+    options = Options(find_post(post), choice_of(Arcs, arcs, "arcs"), decimals, comments, numbering)
     summary, unit, policy = Summary(), choice_of(Length, units, "units"), choice_of(Policy, rules, "rules")
     if dialect is None:
         summary.left += filter(None, map(left_unread, program.blocks))

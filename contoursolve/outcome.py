@@ -15,13 +15,12 @@ _KEPT_WARNINGS = 20
 @dataclass(frozen=True, slots=True)
 class Options:
     """What is asked of an expansion: the target, how it writes arcs, decimals (None: the target's own), whether the
-    original blocks are kept as comments, whether to go on past a contour that cannot be expanded, and block numbers."""
+    original blocks are kept as comments, and block numbers."""
 
     post: Post = SAME
     arcs: Arcs = Arcs.CENTER
     decimals: int | None = None
     has_comments: bool = True
-    keeps_going: bool = False
     numbering: Numbering = Numbering.FIRST
 
 

@@ -112,7 +112,7 @@ def expand(
     if start is not None and not blocks:
         raise click.UsageError("--start goes with --block; a PROGRAM states its own positions")
     target = _target(program, output, is_in_place, is_forced)
-    wish = Options(POSTS[post], Arcs(arcs), decimals, not no_comments, keeps_going, Numbering(block_numbers))
+    wish = Options(POSTS[post], Arcs(arcs), decimals, not no_comments, Numbering(block_numbers))
     source = tape_of("".join(f"{block}\n" for block in blocks), "<block>") if blocks else open_tape(program or "-")
     with TemporaryFile() as body:
         with _progress_bar() as progress:
