@@ -166,6 +166,8 @@ class Verdict:
 
     def _step(self, tail: str, head: str) -> tuple[Array, Array]:
         """From one point to another, mm."""
+        if tail == self.figure.start:
+            return self._point(head)
         (a, b), (c, d) = self._point(tail), self._point(head)
         return c - a, d - b
 
