@@ -87,6 +87,11 @@ class Sweep:
         """The kinds of rows."""
         return self.found.items
 
+    @property
+    def is_one_function(self) -> bool:
+        """Whether one function answers all rows."""
+        return len(self.kinds) == 1 and self.kinds[0].status is None and self.kinds[0].is_closed
+
     def columns(self) -> dict[str, type[numpy.generic]]:
         """The names and types of all results, in order."""
         found: dict[str, type[numpy.generic]] = {"status": numpy.uint8, "reason": numpy.uint8}
@@ -100,7 +105,7 @@ class Sweep:
 
     def empty(self, rows: int) -> Table:
         """Room for the results of so many rows; NaN and 0 where not every kind has all of them."""
-        if len(self.kinds) == 1 and self.kinds[0].status is None and self.kinds[0].is_closed:
+        if self.is_one_function:
             return {name: numpy.empty(rows, kind) for name, kind in self.columns().items()}
         return {
             name: numpy.full(rows, numpy.nan) if kind is numpy.float64 else numpy.zeros(rows, kind)
@@ -118,14 +123,13 @@ class Sweep:
             ranges, first, last = ranges.rows(first, last), 0, last - first
             self.local.__dict__.pop("inputs", None)
         places = {word: ranges.places(word, first, last) for word in ranges.values}
-        is_all = len(self.kinds) == 1
-        if is_all and self.kinds[0].status is None and self.kinds[0].is_closed:
+        if self.is_one_function:
             for begin, end in Stretches(last - first, ROWS):
                 part = {word: place[begin:end] for word, place in places.items()}
                 self._evaluate(0, self.kinds[0], ranges, part, slice(begin, end), end - begin, table)
             return
         number = numpy.zeros(last - first, numpy.int64)
-        if not is_all:
+        if len(self.kinds) > 1:
             key = self.examples.key(list(ranges.values.values()), list(places.values()))
             number = self.found.numbers[numpy.searchsorted(self.found.keys, key)]
         for each, kind in enumerate(self.kinds):
