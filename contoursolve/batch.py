@@ -8,7 +8,7 @@ from functools import lru_cache
 import numpy
 from numpy.typing import NDArray
 
-from contoursolve.backends.numeric import inverse_norms
+from contoursolve.backends.numeric import Compiled, inverse_norms
 from contoursolve.constraints import System, assemble
 from contoursolve.contour import Contour, trace
 from contoursolve.dialects import Dialect
@@ -21,6 +21,7 @@ from contoursolve.rules import Rule, is_refused_by_values
 from contoursolve.solving import Status
 from contoursolve.solving.certificate import Proof, up_to_one_digit
 from contoursolve.solving.certify import certify
+from contoursolve.solving.checks import Check, compile_checks
 from contoursolve.solving.compile import Machine, compile_system
 from contoursolve.solving.numbers import inputs_at, inputs_of, sizes_of, solution_at
 from contoursolve.solving.plan import LineCircleStep, TwoCirclesStep
@@ -55,6 +56,9 @@ class Kind:
     answer: Answer
     system: System
     machine: Machine
+    checks: tuple[Check, ...]
+    function: Compiled
+    """The function of the machine, with the margins of the checks."""
     wanted: tuple[str, ...]
     """The outputs of which a contour is made."""
 
@@ -105,7 +109,9 @@ class Batch:
             system = assemble(answer.profile)
             machine = compile_system(system)
             wanted = (name for name in machine.function.outputs if name in system.unknowns or name.startswith(_MADE_OF))
-            self.kinds.setdefault(key, Kind(answer, system, machine, tuple(wanted)))
+            checked = compile_checks(system)
+            kind = Kind(answer, system, machine, checked.checks, checked.tape.finish(), tuple(wanted))
+            self.kinds.setdefault(key, kind)
             self._make_mould(key, answer.claim)
 
     def _make_mould(self, key: Hashable, claim: Claim) -> None:
@@ -280,11 +286,11 @@ def _evaluate(kind: Kind, inputs: Sequence[Mapping[str, float]]) -> list[tuple[d
     """The outputs at many inputs and a bound of their errors, mm; None where something speaks against them."""
     if not inputs:
         return []
-    function = kind.machine.function
+    function = kind.function
     rows = [[each[name] for name in function.inputs] for each in inputs]
     found = function.rows(rows)
     out = dict(zip(function.outputs, numpy.ascontiguousarray(found.T), strict=True))
-    plain, bounds = _examine(kind, dict(zip(function.inputs, numpy.array(rows).T, strict=True)), out, len(rows))
+    plain, bounds = _examine(kind, out, len(rows))
     wanted = numpy.stack([out[name] for name in kind.wanted], axis=1).tolist()
     return [
         (dict(zip(kind.wanted, row, strict=True)), bound) if is_plain else None
@@ -292,13 +298,10 @@ def _evaluate(kind: Kind, inputs: Sequence[Mapping[str, float]]) -> list[tuple[d
     ]
 
 
-def _examine(
-    kind: Kind, inputs: Columns, out: Columns, rows: int
-) -> tuple[NDArray[numpy.bool_], NDArray[numpy.float64]]:
+def _examine(kind: Kind, out: Columns, rows: int) -> tuple[NDArray[numpy.bool_], NDArray[numpy.float64]]:
     """Which rows are solved without anything to say of them, and bounds of the errors of those, mm."""
     figure, plan = kind.system.figure, kind.machine.plan
-    residuals = kind.machine.corner_residuals
-    verdict = Verdict(figure, len(plan.basis), plan.checks, plan.steps, residuals, inputs, out, rows)
+    verdict = Verdict(kind.checks, out, rows)
     plain = (verdict.status == Code.SOLVED) & (verdict.reason == 0) & ~verdict.again
     for element in figure.path:
         if isinstance(element, Line):

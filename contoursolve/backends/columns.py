@@ -2,6 +2,7 @@
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any
 
 import casadi
@@ -13,8 +14,13 @@ from contoursolve.backends.numeric import Tape
 Array = NDArray[numpy.float64]
 
 ROWS = 32_768
-"""Rows of one call: so many that threads seldom wait for the interpreter's lock (two of them take 0.6 of the time at
-32,768, 0.8 at 8,192), and few enough for the processor's cache."""
+"""Rows of one call: so many that threads seldom wait for the interpreter's lock."""
+
+_NOWHERE: Mapping[str, Array] = MappingProxyType({})
+
+PART = 1_024
+"""Rows that go through all instructions before the next ones, within one call: few enough for what lies between the
+instructions to stay in the processor's nearest caches (three quarters of the time of `ROWS` at once)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -42,7 +48,7 @@ def columns_of(function: Any, inputs: Sequence[str], outputs: Sequence[str], nam
     fixed = tuple(name for name in inputs if name not in names)
     varied = tuple(name for name in inputs if name in names)
     # An argument for each column: parts of one would be copied first.
-    scalars, columns = casadi.MX.sym("fixed", len(fixed)), [casadi.MX.sym("varied", ROWS) for _ in varied]
+    scalars, columns = casadi.MX.sym("fixed", len(fixed)), [casadi.MX.sym("varied", PART) for _ in varied]
     places = {name: scalars[number] for number, name in enumerate(fixed)}
     places |= dict(zip(varied, columns, strict=True))
     results = _replay(function, [places[name] for name in inputs])
@@ -59,7 +65,7 @@ def columns_of(function: Any, inputs: Sequence[str], outputs: Sequence[str], nam
             many[name] = list(unique).index(each.__hash__())
     results = [casadi.vertcat(casadi.MX(0, 1), *(named[name] for name in single)), *unique.values()]
     replayed = casadi.Function("columns", [scalars, *columns], [casadi.densify(each) for each in results])
-    return ColumnFunction(replayed, fixed, varied, single, many, given)
+    return ColumnFunction(replayed.map(ROWS // PART), fixed, varied, single, many, given)
 
 
 class Columns:
@@ -69,26 +75,46 @@ class Columns:
     def __init__(self, compiled: ColumnFunction) -> None:
         self.compiled = compiled
         self.inputs = numpy.zeros((len(compiled.varied), ROWS))
-        self.numbers = numpy.zeros(len(compiled.fixed))
-        self._results = (
-            numpy.zeros(len(compiled.single)),
-            numpy.zeros((max(compiled.many.values(), default=-1) + 1, ROWS)),
-        )
+        # Every part has the single numbers again.
+        self._numbers = numpy.zeros((ROWS // PART, len(compiled.fixed)))
+        self._single = numpy.zeros((ROWS // PART, len(compiled.single)))
+        self._many = list(numpy.zeros((max(compiled.many.values(), default=-1) + 1, ROWS)))
+        self._elsewhere: frozenset[int] = frozenset()
+        """The results that the last call wrote elsewhere."""
         self._buffer, self._trigger = compiled.function.buffer()
-        for number, argument in enumerate((self.numbers, *self.inputs)):
+        for number, argument in enumerate((self._numbers, *self.inputs)):
             self._buffer.set_arg(number, _memory(argument))
-        single, many = self._results
-        for number, result in enumerate((single, *many)):
+        for number, result in enumerate((self._single, *self._many)):
             self._buffer.set_res(number, _memory(result))
 
-    def evaluate(self, rows: int) -> dict[str, Array]:
-        """The outputs of the first rows of `inputs` (varied input, row) at `numbers` (fixed input): views by name,
-        true until the next call; of what does not vary, one number."""
+    @property
+    def numbers(self) -> Array:
+        """The fixed inputs, to read."""
+        found: Array = self._numbers[0]
+        return found
+
+    def fix(self, places: int | slice | Sequence[int], numbers: float | Sequence[float]) -> None:
+        """Set some fixed inputs."""
+        self._numbers[:, places] = numbers
+
+    def evaluate(self, rows: int, into: Mapping[str, Array] = _NOWHERE) -> dict[str, Array]:
+        """The outputs of the first rows of `inputs` (varied input, row) at the fixed inputs, by name: of what does not
+        vary, one number; of the others views, true until the next call. Those that are named in `into` are written
+        there."""
+        compiled = self.compiled
+        # As many rows as a call has are written in place, once.
+        direct = {compiled.many[name]: into[name] for name in into if name in compiled.many and rows == ROWS}
+        for number in self._elsewhere | direct.keys():
+            self._buffer.set_res(1 + number, _memory(direct.get(number, self._many[number])))
+        self._elsewhere = frozenset(direct)
         self._trigger()
-        single, many = self._results
-        found = {name: single[number : number + 1] for number, name in enumerate(self.compiled.single)}
-        found |= {name: self.inputs[number, :rows] for name, number in self.compiled.given.items()}
-        return found | {name: many[number, :rows] for name, number in self.compiled.many.items()}
+        found = {name: self._single[0, number : number + 1] for number, name in enumerate(compiled.single)}
+        found |= {name: self.inputs[number, :rows] for name, number in compiled.given.items()}
+        found |= {name: direct.get(number, self._many[number])[:rows] for name, number in compiled.many.items()}
+        for name, array in into.items():
+            if direct.get(compiled.many.get(name, -1)) is not array:
+                array[:] = found[name]
+        return found
 
 
 def _memory(array: Any) -> Any:

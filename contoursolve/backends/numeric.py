@@ -2,6 +2,8 @@
 
 import threading
 from collections.abc import Iterable, Mapping, Sequence
+from functools import reduce
+from math import inf
 from typing import Any
 
 import casadi
@@ -119,6 +121,35 @@ def where(condition: Any, then: Any, otherwise: Any) -> Expression:
     return Expression(casadi.if_else(_sx(condition), _sx(then), _sx(otherwise)))
 
 
+def at_most(first: Any, second: Any) -> Expression:
+    """Whether the first is not larger, 1 or 0; what is not a number is not."""
+    return _binary(casadi.OP_LE, first, second)
+
+
+def below(first: Any, second: Any) -> Expression:
+    """Whether the first is smaller, 1 or 0; what is not a number is not."""
+    return _binary(casadi.OP_LT, first, second)
+
+
+def opposite(condition: Any) -> Expression:
+    """1 where a condition is 0, else 0."""
+    return _unary(casadi.OP_NOT, condition)
+
+
+def all_of(conditions: Iterable[Any]) -> Expression:
+    """1 where all conditions are 1, else 0."""
+    # A product is computed on columns in a fifth of the time of a logical operation.
+    return reduce(Expression.__mul__, conditions, Expression(casadi.SX(1)))
+
+
+def largest(values: Iterable[Any]) -> Expression:
+    """The largest absolute value; NaN if any value is, and 0 of none."""
+    sizes = [magnitude(value) for value in values] or [Expression(casadi.SX(0))]
+    total = reduce(Expression.__add__, sizes)
+    # The larger of two is the one that is a number.
+    return where(below(total, inf), reduce(larger, sizes), total)
+
+
 def is_zero(value: Any) -> Expression:
     """Whether a value is exactly zero, as an expression."""
     return _binary(casadi.OP_EQ, value, 0)
@@ -170,13 +201,17 @@ class Tape:
         return casadi.Function("contour", [_stack(self._inputs.values())], [casadi.cse(outputs)])
 
     def keep(self, prefixes: tuple[str, ...], names: Sequence[str]) -> "Tape":
-        """The same tape with only the outputs of these names, or that begin so."""
+        """A tape of its own with only the outputs of these names, or that begin so."""
         kept = Tape()
-        kept._inputs = self._inputs
+        kept._inputs = dict(self._inputs)
         kept._outputs = {
             name: each for name, each in self._outputs.items() if name in names or name.startswith(prefixes)
         }
         return kept
+
+    def copy(self) -> "Tape":
+        """A tape of its own with the same inputs and outputs."""
+        return self.keep(("",), ())
 
     def slopes(self, outputs: Sequence[str], inputs: Sequence[str]) -> "Compiled":
         """The derivatives of some outputs by some inputs, as outputs named `output by input`."""

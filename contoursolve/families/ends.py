@@ -3,9 +3,9 @@
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 
-from contoursolve.families.margins import Margin
 from contoursolve.model import Line, Profile
 from contoursolve.solving import RefusalKind
+from contoursolve.solving.checks import Check
 from contoursolve.wording import join, unknowns_text
 
 
@@ -41,7 +41,7 @@ class About:
                 texts.append(given.word.text)
         return join(list(dict.fromkeys(texts)))
 
-    def sizes(self, check: Margin) -> tuple[str, ...]:
+    def sizes(self, check: Check) -> tuple[str, ...]:
         """The sizes of the corners that a check is about: of one corner, or of all on an element."""
         return tuple(
             corner.size
@@ -55,12 +55,12 @@ class About:
         return [each.name for each in path if isinstance(each, Line) and each.heading in givens]
 
 
-def phrase(check: Margin, kind: RefusalKind, about: About) -> str:
+def phrase(check: Check, kind: RefusalKind, about: About) -> str:
     """What fails where a check does not pass, without values."""
     return _PHRASES[kind](check, about)
 
 
-def _parallel(check: Margin, about: About) -> str:
+def _parallel(check: Check, about: About) -> str:
     lines = about.lines(check.givens)
     if len(lines) > 1:
         return f"{join(lines)} are parallel"
@@ -77,7 +77,7 @@ def _parallel(check: Margin, about: About) -> str:
     return f"{about.words(check.givens) or 'the words'} leave {free} open"
 
 
-def _too_large(check: Margin, about: About) -> str:
+def _too_large(check: Check, about: About) -> str:
     sizes = about.sizes(check)
     where = check.element or "its lines"
     # Of several corners on an element, the free ones are those to change.
@@ -85,12 +85,12 @@ def _too_large(check: Margin, about: About) -> str:
     return f"{words} too large for {where}" if words else f"{check.subject} does not fit on {where}"
 
 
-def _reversed(check: Margin, about: About) -> str:
+def _reversed(check: Check, about: About) -> str:
     angle = about.words(tuple(filter(None, (about.profile.figure.line(check.element).heading,))))
     return f"{check.element} would run against {angle or 'its direction'}"
 
 
-def _disagrees(check: Margin, about: About) -> str:
+def _disagrees(check: Check, about: About) -> str:
     return f"{about.words((check.subject,))} disagrees with the other words"
 
 
@@ -105,11 +105,11 @@ def called(word: str) -> str:
     return f"{address} of block {line}" if line else address
 
 
-def _always(text: str) -> Callable[[Margin, About], str]:
+def _always(text: str) -> Callable[[Check, About], str]:
     return lambda check, _: text.format(subject=check.subject)
 
 
-_PHRASES: Mapping[RefusalKind, Callable[[Margin, About], str]] = {
+_PHRASES: Mapping[RefusalKind, Callable[[Check, About], str]] = {
     RefusalKind.LINES_PARALLEL: _parallel,
     RefusalKind.NOT_FIXED: _parallel,
     RefusalKind.CIRCLE_MISSED: _always("the line misses the circle"),

@@ -19,6 +19,7 @@ from contoursolve.model import Given, Profile, Start, Unit
 from contoursolve.reading import Trouble
 from contoursolve.rules import Rule, Value
 from contoursolve.solving import RemarkKind, Solution, Status, is_closed, points_with_two_solutions
+from contoursolve.solving.checks import Check, compile_checks
 from contoursolve.solving.compile import Machine, compile_system
 from contoursolve.solving.numbers import inputs_of
 from contoursolve.solving.solve import solve
@@ -46,6 +47,9 @@ class Input:
         if self.start is not None:
             out[:] = difference(out, self.start[places[self.since]])
 
+
+ORIGIN = "origin:"
+"""What the inputs for the coordinates of the start point begin with."""
 
 MOST_OPEN = 3
 """Points of which both places are tried in columns."""
@@ -87,9 +91,15 @@ class Kind:
         """The function of a single solve."""
         return compile_system(self.system)
 
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """The checks of a single solve, in their order."""
+        return compile_checks(self.system).checks
+
     def numbers(self) -> dict[str, float]:
         """The inputs of the function that stay."""
-        return inputs_of(self.profile, self.system)
+        start = {f"{ORIGIN}{axis}": float(value or 0) for axis, value in enumerate(self.profile.start.values)}
+        return inputs_of(self.profile, self.system) | start
 
     @property
     def _counted(self) -> dict[str, int]:
@@ -104,7 +114,7 @@ class Kind:
             is_angle = self.profile.givens[given].unit is Unit.DEGREE
             names += (given + COSINE, given + SINE) if is_angle else (given,)
         counted = (given for given, axis in self._counted.items() if axis in self.moves and given not in self.free)
-        return (*names, *counted)
+        return (*names, *counted, *(f"{ORIGIN}{axis}" for axis in self.moves))
 
     def columns(self, ranges: Ranges) -> dict[str, Input]:
         """The inputs of the function that vary."""
@@ -125,7 +135,8 @@ class Kind:
             if axis in self.moves and given not in self.free:
                 value = float(self.profile.givens[given].value)
                 found[given] = Input(self.moves[axis][0], difference(value, self.begins(axis, ranges)))
-        return found
+        moves = {f"{ORIGIN}{axis}": Input(move[0], self.begins(axis, ranges)) for axis, move in self.moves.items()}
+        return found | moves
 
     def follows(self, words: Sequence[str]) -> Follows:
         """The values that follow the free words, and those that count from a start point that does."""

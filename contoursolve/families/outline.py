@@ -8,8 +8,9 @@ import numpy
 from numpy.typing import NDArray
 
 from contoursolve.backends.intervals import Array, Intervals
-from contoursolve.families.margins import Margins, Test
+from contoursolve.families.margins import Margins
 from contoursolve.solving import RefusalKind
+from contoursolve.solving.checks import Test
 
 NODES = 65
 """Nodes of the grid along each word."""

@@ -5,15 +5,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import product
-from math import prod
+from math import nan, prod
 from typing import Any
 
 import numpy
 from numpy.typing import NDArray
 
 from contoursolve.backends.columns import ROWS, Array, ColumnFunction, Columns, compile_columns
+from contoursolve.backends.numeric import where
 from contoursolve.constraints import System
-from contoursolve.families.kinds import Input, Kind, alike, intervals_of, kind_of, limits_of
+from contoursolve.families.kinds import ORIGIN, Input, Kind, alike, intervals_of, kind_of, limits_of
 from contoursolve.families.ranges import FamilyError, Places, Ranges, Stretches
 from contoursolve.families.recipe import Recipe
 from contoursolve.families.several import BLOCK, Several, asked_of
@@ -21,7 +22,7 @@ from contoursolve.families.template import Template
 from contoursolve.model import FIRST, SECOND, CornerShape, scalar
 from contoursolve.reading import Trouble
 from contoursolve.solving import RemarkKind
-from contoursolve.solving.compile import compile_system
+from contoursolve.solving.checks import compile_checks
 from contoursolve.solving.plan import Step, TwoCirclesStep
 from contoursolve.solving.verdict import Code, Verdict, code_of, reason_of
 from contoursolve.tolerance import TOUCHING
@@ -29,13 +30,8 @@ from contoursolve.tolerance import TOUCHING
 Table = dict[str, NDArray[Any]]
 Results = Mapping[str, NDArray[Any]]
 Target = slice | Places
-_Ready = tuple[Columns, Mapping[str, tuple[str, int | None]]]
-
-_OUTPUTS = (
-    "determinant:", "offset:", "radius:", "scale:", "distance:", "residual:", "length:", "turn:", "cosine:",
-    "setback-in:", "setback-out:", "landing:", "begin:", "end:", "center:", "corner-residual:", "room:",
-)  # fmt: skip
-"""What the verdict and the result read."""
+_NEEDED = ("margin:", "cosine:", "offset:", "radius:", "scale:", "worst", "clear")
+"""What the verdict reads."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,9 +74,6 @@ class Sweep:
     found: Kinds
     ranges: Ranges
     local: threading.local = field(default_factory=threading.local)
-    turn: threading.Lock = field(default_factory=threading.Lock)
-    """Held for the checks, which are many short steps: two threads in them would spend more time handing over the
-    interpreter's lock. While one checks, another is inside CasADi or writes results."""
 
     @property
     def kinds(self) -> tuple[Kind, ...]:
@@ -158,42 +151,22 @@ class Sweep:
         rows: int,
         table: Results,
     ) -> None:
-        function, results = self._function(number, kind)
-        inputs = self._inputs(number, kind, ranges)
-        cosines: dict[str, Array] = {
-            name: function.numbers[place : place + 1] for place, name in enumerate(function.compiled.fixed)
-        }
+        function, inputs = self._function(number, kind), self._inputs(number, kind, ranges)
         for place, name in enumerate(function.compiled.varied):
-            column = function.inputs[place, :rows]
-            inputs[name].fill(places, column)
-            cosines[name] = column
-        out = function.evaluate(rows)
-        machine, figure = kind.machine, kind.system.figure
-        plan = machine.plan
-        with self.turn:
-            verdict = Verdict(
-                figure, len(plan.basis), plan.checks, plan.steps, machine.corner_residuals, cosines, out, rows
-            )
-            status, reason = verdict.status, verdict.reason
-            again = numpy.flatnonzero(verdict.again)
-            is_path = (status <= Code.OVERDETERMINED) & (reason == 0) & ~verdict.again
-        # Where there is no contour, NaN is added with what coordinates count from: one pass over each column.
-        gaps = 0.0 if is_path.all() else numpy.where(is_path, 0.0, numpy.nan)
-        added = {axis: value + gaps for axis, value in enumerate(kind.origin(ranges, places))}
-        for name, (output, axis) in results.items():
-            if name.endswith(".room"):
+            inputs[name].fill(places, function.inputs[place, :rows])
+        names = _names(kind)
+        into = {output: table[name][target] for output, name in names.items()} if isinstance(target, slice) else {}
+        out = function.evaluate(rows, into)
+        if not isinstance(target, slice):
+            for output, name in names.items():
                 table[name][target] = out[output]
-                continue
-            more = gaps if axis is None else added[axis]
-            if isinstance(target, slice):
-                numpy.add(out[output], more, out=table[name][target])
-            else:
-                table[name][target] = out[output] + more
-        table["residual"][target] = verdict.worst
+        is_path = numpy.broadcast_to(out["clear"] != 0, rows)
+        verdict = Verdict(kind.checks, out, rows, numpy.flatnonzero(~is_path))
         for point, side in branches_of(kind).items():
             table[f"branch.{point}"][target] = is_path.view(numpy.int8) * numpy.int8(side)
-        table["status"][target] = status
-        table["reason"][target] = reason
+        table["status"][target] = verdict.status
+        table["reason"][target] = verdict.reason
+        again = numpy.flatnonzero(verdict.again)
         at = again + target.start if isinstance(target, slice) else target[again]
         for row, place in zip(again.tolist(), at.tolist(), strict=True):
             fill_row(kind, ranges.row(places, row), place, table)
@@ -227,30 +200,26 @@ class Sweep:
         self, number: int, kind: Kind, ranges: Ranges, places: Mapping[str, Places], target: Places, table: Results
     ) -> None:
         """The rows of a kind with choices that nothing makes: every side of every point is tried."""
-        function, results = self._function(number, kind)
-        inputs, origin = self._inputs(number, kind, ranges), kind.origin(ranges, places)
-        plan, rows = kind.machine.plan, target.size
+        function, inputs = self._function(number, kind), self._inputs(number, kind, ranges)
+        names, plan, rows = _names(kind), kind.machine.plan, target.size
         count, again = numpy.zeros(rows, numpy.int64), numpy.zeros(rows, bool)
         reason = numpy.zeros(rows, numpy.uint8)
         sides = [function.compiled.fixed.index(f"side:{point}") for point in kind.open_points]
         for place, name in enumerate(function.compiled.varied):
             inputs[name].fill(places, function.inputs[place, :rows])
         for signs in product((1.0, -1.0), repeat=len(sides)):
-            function.numbers[sides] = signs
+            function.fix(sides, signs)
             out = function.evaluate(rows)
-            residuals = kind.machine.corner_residuals
-            verdict = Verdict(kind.system.figure, len(plan.basis), (), plan.steps, residuals, {}, out, rows)
+            verdict = Verdict(kind.checks, out, rows)
             is_path = (verdict.reason == 0) & ~verdict.again
             again |= verdict.again | _halves(plan.steps, out, rows)
             reason = numpy.where(reason == 0, verdict.reason, reason)
             shown = numpy.flatnonzero(is_path & (count == 0))
             count += is_path
-            for name, (output, axis) in results.items():
-                values = out[output] + (0.0 if axis is None else origin[axis])
-                table[name][target[shown]] = numpy.broadcast_to(values, rows)[shown]
-            table["residual"][target[shown]] = verdict.worst[shown]
+            for output, name in names.items():
+                table[name][target[shown]] = numpy.broadcast_to(out[output], rows)[shown]
         several = target[count > 1]
-        for name in (*results, "residual"):
+        for name in names.values():
             table[name][several] = numpy.nan
         table["status"][target] = numpy.choose(
             numpy.minimum(count, 2), (Code.NO_SOLUTION, Code.SOLVED, Code.AMBIGUOUS)
@@ -259,7 +228,7 @@ class Sweep:
         for point, side in branches_of(kind).items():
             table[f"branch.{point}"][target] = numpy.where(count == 1, side, 0)
         if again.any():
-            for name in (*results, "residual"):
+            for name in names.values():
                 table[name][target[again]] = numpy.nan
             part = {word: place[again] for word, place in places.items()}
             self._solve_several(number, kind, ranges, part, target[again], table)
@@ -272,15 +241,15 @@ class Sweep:
         found: Mapping[str, Input] = made[number]
         return found
 
-    def _function(self, number: int, kind: Kind) -> _Ready:
+    def _function(self, number: int, kind: Kind) -> Columns:
         """The function of a kind for this thread."""
         made = self.local.__dict__.setdefault("functions", {})
         if number not in made:
-            function = Columns(_compile(kind.system, frozenset(kind.varied)))
+            function = Columns(_compile(kind.system, frozenset(kind.varied), tuple(results_of(kind).values())))
             numbers = {f"side:{point}": 1.0 for point in kind.open_points} | kind.numbers()
-            function.numbers[:] = [numbers[name] for name in function.compiled.fixed]
-            made[number] = function, results_of(kind)
-        found: _Ready = made[number]
+            function.fix(slice(None), [numbers[name] for name in function.compiled.fixed])
+            made[number] = function
+        found: Columns = made[number]
         return found
 
 
@@ -294,10 +263,32 @@ def _halves(steps: Sequence[Step], out: Results, rows: int) -> NDArray[numpy.boo
     return found
 
 
+Shown = tuple[str, int | None]
+"""The output behind a result, and the axis of a coordinate: inside they count from the start point."""
+
+
 @lru_cache(maxsize=64)
-def _compile(system: System, varied: frozenset[str]) -> ColumnFunction:
-    """The function of a system for columns."""
-    return compile_columns(compile_system(system).tape.keep(_OUTPUTS, system.unknowns), varied)
+def _compile(system: System, varied: frozenset[str], shown: tuple[Shown, ...]) -> ColumnFunction:
+    """The function of a system for columns: what the verdict reads, and the results as they are shown."""
+    tape = compile_checks(system).tape
+    kept = tape.keep(_NEEDED, ())
+    gap = where(tape.expression("clear"), 0.0, nan)
+    for output, axis in shown:
+        value = tape.expression(output)
+        if not output.startswith("room:"):
+            value += gap if axis is None else kept.input(f"{ORIGIN}{axis}") + gap
+        kept.output(shown_as(output), value)
+    return compile_columns(kept, varied)
+
+
+def shown_as(output: str) -> str:
+    """The output that has the results."""
+    return f"shown:{output}"
+
+
+def _names(kind: Kind) -> dict[str, str]:
+    """The names of the results, by the outputs that have them."""
+    return {"worst": "residual"} | {shown_as(output): name for name, (output, _) in results_of(kind).items()}
 
 
 def examples_of(template: Template, ranges: Ranges) -> Examples:
@@ -362,7 +353,7 @@ def branches_of(kind: Kind) -> dict[str, int]:
     return {choice.point: choice.side.sign for choice in kind.profile.choices if choice.given and choice.point in shown}
 
 
-def results_of(kind: Kind) -> dict[str, tuple[str, int | None]]:
+def results_of(kind: Kind) -> dict[str, Shown]:
     """The output behind each result, and the axis of a coordinate: inside they count from the start point."""
     figure = kind.system.figure
     axes = list(zip((FIRST, SECOND), kind.profile.plane.axes, strict=True))

@@ -10,13 +10,14 @@ from contoursolve.analysis import Group, judge, order
 from contoursolve.backends import ball
 from contoursolve.backends.columns import ROWS, Array, Columns, columns_of, compile_columns, directions
 from contoursolve.backends.inputs import COSINE, SIDE, SINE, lookup
-from contoursolve.backends.numeric import Tape
+from contoursolve.backends.numeric import Tape, largest
 from contoursolve.constraints import Coordinate, Radius, System, Values
 from contoursolve.families.cells import cells_of
 from contoursolve.families.kinds import Kind
 from contoursolve.families.ranges import Places, Ranges
 from contoursolve.model import FIRST, SECOND, Fact, Question, Unit, scalar
 from contoursolve.solving import RefusalKind, Solution
+from contoursolve.solving.checks import Source, add_margins, at_origin, check_facts, check_path, check_residuals
 from contoursolve.solving.compile import PathMachine, compile_path
 from contoursolve.solving.kernel import Kernel, make_kernel
 from contoursolve.solving.verdict import Code, Verdict, code_of, reason_of
@@ -72,18 +73,27 @@ class Several:
         self.system: System = kind.system
         verdict = judge(self.system)
         self.basis = tuple(self.system.facts[index] for index in verdict.basis)
-        self.checks = tuple(fact for index, fact in enumerate(self.system.facts) if index not in verdict.basis)
+        checks = tuple(fact for index, fact in enumerate(self.system.facts) if index not in verdict.basis)
         self.groups: tuple[Group, ...] = order(self.system, self.basis)
         self.steps = [_step(make_kernel(self.system, group)) for group in self.groups]
         tape = Tape()
-        for number, fact in enumerate((*self.basis, *self.checks)):
-            tape.output(f"residual:{number}", fact.residual(lookup(self.system, tape, {})))
+        at = lookup(self.system, tape, {})
+        for number, fact in enumerate((*self.basis, *checks)):
+            tape.output(f"residual:{number}", fact.residual(at))
         self.solved = [f"residual:{number}" for number in range(len(self.basis))]
         """The outputs of the equations that are solved."""
+        equations = check_residuals(largest(tape.expression(name) for name in self.solved))
+        facts = [equations, *check_facts(Source(self.system.figure, tape, at), checks, len(self.basis))]
+        add_margins(tape, facts)
         self.residuals = Columns(compile_columns(tape, tape.inputs))
         self.machine: PathMachine = compile_path(self.system)
-        path = self.machine.function
-        self.path = Columns(columns_of(path.function, path.inputs, path.outputs, path.inputs))
+        relative = self.machine.tape.copy()
+        origin = lookup(self.system, relative, at_origin(self.system.figure))
+        corners = largest(relative.expression(name) for name in self.machine.corner_residuals)
+        path = [*check_path(Source(self.system.figure, relative, origin)), check_residuals(corners)]
+        add_margins(relative, path, len(facts))
+        self.path = Columns(compile_columns(relative, relative.inputs))
+        self.checks = tuple(check for check, _ in (*facts, *path))
 
     def solve(self, ranges: Ranges, places: Mapping[str, Places]) -> Settled:
         """What becomes of some rows."""
@@ -241,9 +251,7 @@ class Several:
         residuals = _run(self.residuals, known, rows)
         relative = self._relative(known)
         out = {**relative, **_run(self.path, relative, rows), **residuals}
-        return Verdict(
-            self.system.figure, len(self.basis), self.checks, (), self.machine.corner_residuals, here, out, rows
-        )
+        return Verdict(self.checks, out, rows)
 
     def _relative(self, known: Mapping[str, Array]) -> dict[str, Array]:
         """The inputs of the path: coordinates counted from the start, and the sizes of all corners."""

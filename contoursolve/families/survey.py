@@ -11,10 +11,11 @@ from contoursolve.backends.intervals import Array
 from contoursolve.examine import Answer
 from contoursolve.families.isolate import Stretch, divide
 from contoursolve.families.kinds import Kind, alike, kind_in, kind_of, limits_of, value_of
-from contoursolve.families.margins import Margin, Margins, compile_margins
+from contoursolve.families.margins import Margins, compile_margins
 from contoursolve.families.ranges import START, FamilyError, read_limits
 from contoursolve.families.template import Template
 from contoursolve.model import Unit
+from contoursolve.solving.checks import Check
 from contoursolve.tolerance import LARGEST, LENGTH
 
 LEAST_GAP = 1e-4
@@ -63,7 +64,7 @@ class Crossing:
     """Where a check begins to fail: the check, how the words are read, and whether the value is a zero in closed
     form."""
 
-    check: Margin
+    check: Check
     kind: Kind
     is_closed: bool
 
@@ -200,7 +201,7 @@ class Survey:
             yield Piece(begin, end, state, kind)
             begin = end
 
-    def failing(self, kind: Kind, value: float) -> list[Margin]:
+    def failing(self, kind: Kind, value: float) -> list[Check]:
         """The checks that fail at a value, in their order."""
         margins = self.margins(kind)
         values = margins.chart.at([numpy.array([value])], kind.fixed(margins.chart.fixed))

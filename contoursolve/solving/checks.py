@@ -1,0 +1,294 @@
+"""What must hold of a contour: every check of its steps, its facts and its path, as one table of margins.
+
+`solving.solve` and `solving.path` ask the same of a single contour, in words; the columns of `solving.verdict` and the
+ranges of `families.margins` read this table.
+"""
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from enum import Enum
+from functools import lru_cache
+from math import pi
+from typing import Any
+
+from contoursolve.backends.inputs import lookup
+from contoursolve.backends.numeric import (
+    Tape,
+    all_of,
+    angle,
+    at_most,
+    below,
+    larger,
+    largest,
+    magnitude,
+    opposite,
+    sqrt,
+)
+from contoursolve.constraints import Coordinate, Heading, Offset, OnCircle, Radius, System, Values
+from contoursolve.model import FIRST, SECOND, Arc, Corner, CornerShape, Fact, Figure, Line, scalar
+from contoursolve.solving.compile import compile_system
+from contoursolve.solving.corners import Pair
+from contoursolve.solving.plan import AffineStep, DistanceStep, Step, TwoCirclesStep
+from contoursolve.solving.solution import RefusalKind
+from contoursolve.tolerance import AGREEMENT, LENGTH, RADIUS_DIFFERENCE, REGULAR, RESIDUAL, TOUCHING
+
+
+class Test(Enum):
+    """When a check is passed; what is not a number fails, unless it says otherwise."""
+
+    AT_LEAST = "at least"
+    """The margin is at least the limit."""
+    ABOVE = "above"
+    """The margin is more than the limit."""
+    NOT_BELOW = "not below"
+    """The margin is not less than the limit; what is not a number passes, and fails a later check."""
+    APART = "apart"
+    """The margin is farther from zero than the limit, on either side."""
+
+
+class Role(Enum):
+    """What a check is about."""
+
+    CONTOUR = "contour"
+    """Whether there is a contour."""
+    FACT = "fact"
+    """Whether a fact that was not needed agrees with the others."""
+    TOUCHING = "touching"
+    """Whether two solutions are apart, as far as floats can tell. There is a contour in either case."""
+    EQUATION = "equation"
+    """Whether the equations are satisfied, as they are by construction but for rounding."""
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """One check: what is refused where it fails, about which point, element or corner, and on which element."""
+
+    kind: RefusalKind
+    subject: str
+    element: str
+    test: Test
+    limit: float
+    givens: tuple[str, ...] = ()
+    """The values of the facts that it is about."""
+    role: Role = Role.CONTOUR
+    is_doubtful: bool = False
+    """Whether floats cannot tell what is wrong where it fails, but only the exact arithmetic of a single solve."""
+    fact: str = ""
+    """The value that a fact states which was not needed."""
+    opposite: RefusalKind | None = None
+    """What is refused instead where both directions at the corner are opposite."""
+
+
+Checks = Iterator[tuple[Check, Any]]
+"""Checks with their margins, mm but for turns and landings (1)."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Source:
+    """Where the expressions come from of which margins are made: the outputs of a tape, and what stands for the
+    coordinates, radii and angles of a figure."""
+
+    figure: Figure
+    tape: Tape
+    at: Values
+
+    def out(self, name: str) -> Any:
+        """An output of the tape."""
+        return self.tape.expression(name)
+
+    def point(self, name: str) -> Pair:
+        """The coordinates of a point, mm."""
+        return self.at.coordinate(name, FIRST), self.at.coordinate(name, SECOND)
+
+    def way(self, tail: str, head: str) -> Pair:
+        """From one point to another, mm."""
+        (a, b), (c, d) = self.point(tail), self.point(head)
+        return c - a, d - b
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Checked:
+    """The checks of a system, in the order in which they count, and a tape with their margins."""
+
+    checks: tuple[Check, ...]
+    tape: Tape
+    """The outputs of the system; `margin:0` and so on, one for each check; `worst`, the largest residual of the
+    equations that were solved (mm; NaN if any is), and `clear`, 1 where every check is passed, else 0."""
+
+
+@lru_cache(maxsize=1024)
+def compile_checks(system: System) -> Checked:
+    """The checks of a determined system in closed form."""
+    machine = compile_system(system)
+    plan, tape = machine.plan, machine.tape.copy()
+    known = {name: tape.expression(name) for name in system.unknowns}
+    source = Source(system.figure, tape, lookup(system, tape, known | at_origin(system.figure)))
+    basis = largest(tape.expression(f"residual:{number}") for number in range(len(plan.basis)))
+    corners = largest(tape.expression(name) for name in machine.corner_residuals)
+    pairs = [
+        *check_steps(source, plan.steps),
+        check_residuals(basis),
+        *check_facts(source, plan.checks, len(plan.basis)),
+        *check_path(source),
+        check_residuals(corners),
+    ]
+    add_margins(tape, pairs)
+    tape.output("worst", largest([basis, corners]))
+    tape.output("clear", all_of(is_passed(check, margin) for check, margin in pairs))
+    return Checked(tuple(check for check, _ in pairs), tape)
+
+
+def at_origin(figure: Figure) -> dict[str, float]:
+    """The coordinates of the start point, from which the others count."""
+    return {scalar(figure.start, axis): 0.0 for axis in (FIRST, SECOND)}
+
+
+def add_margins(tape: Tape, pairs: Iterable[tuple[Check, Any]], first: int = 0) -> None:
+    """Declare the margins of checks as outputs."""
+    for number, (_, margin) in enumerate(pairs, first):
+        tape.output(f"margin:{number}", margin)
+
+
+def is_passed(check: Check, margin: Any) -> Any:
+    """Whether a check is passed, as an expression of its margin."""
+    match check.test:
+        case Test.AT_LEAST:
+            return at_most(check.limit, margin)
+        case Test.ABOVE:
+            return below(check.limit, margin)
+        case Test.NOT_BELOW:
+            return opposite(below(margin, check.limit))
+        case Test.APART:
+            return below(check.limit, magnitude(margin))
+
+
+def check_steps(source: Source, steps: Sequence[Step]) -> Checks:
+    """Whether each step of a construction has a solution."""
+    for number, step in enumerate(steps):
+        yield from _check_step(source, number, step)
+
+
+def _check_step(source: Source, number: int, step: Step) -> Checks:
+    out = source.out
+    if isinstance(step, AffineStep):
+        givens = tuple(fact.given for fact in step.facts if fact.given)
+        kind, subject = RefusalKind.LINES_PARALLEL, ",".join(step.unknowns)
+        yield Check(kind, subject, "", Test.APART, REGULAR, givens, is_doubtful=True), out(f"determinant:{number}")
+        return
+    if isinstance(step, DistanceStep):
+        yield Check(RefusalKind.CIRCLE_UNDEFINED, step.circle.center, "", Test.ABOVE, LENGTH), out(step.circle.radius)
+        return
+    kind, is_half = RefusalKind.CIRCLE_MISSED, False
+    if isinstance(step, TwoCirclesStep):
+        subject, is_half = step.point, step.is_equal
+        kind = RefusalKind.RADIUS_TOO_SMALL if is_half else RefusalKind.CIRCLES_APART
+        undefined = RefusalKind.CIRCLE_UNDEFINED if is_half else kind
+        yield Check(undefined, subject, "", Test.ABOVE, LENGTH), out(f"distance:{number}")
+    else:
+        subject = step.circle.point
+    offset, radius = out(f"offset:{number}"), out(f"radius:{number}")
+    give = out(f"scale:{number}") * TOUCHING
+    meets = Check(kind, subject, "", Test.AT_LEAST, 0.0)
+    yield meets, radius - offset + give
+    yield meets, radius + offset + give
+    if not is_half:
+        # A circle about the middle of two points is an ordinary half circle.
+        apart = magnitude(radius - magnitude(offset)) - give
+        yield Check(kind, subject, "", Test.ABOVE, 0.0, role=Role.TOUCHING, is_doubtful=True), apart
+
+
+def check_residuals(worst: Any) -> tuple[Check, Any]:
+    """Whether equations that were solved are satisfied, by their largest residual (mm)."""
+    return Check(RefusalKind.NOT_VERIFIED, "", "", Test.AT_LEAST, -RESIDUAL, role=Role.EQUATION), -worst
+
+
+def check_facts(source: Source, facts: Sequence[Fact], first: int) -> Checks:
+    """Whether facts that were not needed agree, whose residuals are numbered from `first`, at the points that the
+    others give."""
+    for number, fact in enumerate(facts, first):
+        is_doubtful = bool(fact.given) and not isinstance(fact, Coordinate | Offset | Radius | Heading)
+        for kind, subject, margin in _compare(source, fact, source.out(f"residual:{number}")):
+            least = Test.AT_LEAST
+            yield Check(kind, subject, "", least, 0.0, (), Role.FACT, is_doubtful, fact.given), margin
+
+
+def _compare(source: Source, fact: Fact, off: Any) -> Iterator[tuple[RefusalKind, str, Any]]:
+    """What is refused, about what, and the margins."""
+    kind, subject, limit = RefusalKind.WORDS_DISAGREE, fact.given, AGREEMENT
+    if isinstance(fact, OnCircle) and not fact.given:
+        # The residual is the difference of the radii to first order only.
+        first, second = source.way(fact.center, fact.point)
+        off = sqrt(first**2 + second**2) - source.at.radius(fact.radius)
+        kind, subject, limit = RefusalKind.RADIUS_DIFFERENCE, fact.point, RADIUS_DIFFERENCE
+    elif isinstance(fact, Heading):
+        first, second = source.way(fact.tail, fact.head)
+        cosine, sine = source.at.direction(fact.given)
+        turned = angle(cosine * second - sine * first, cosine * first + sine * second) * (180 / pi)
+        yield kind, subject, larger(limit - magnitude(off), limit - magnitude(turned))
+        return
+    elif not fact.given:
+        kind = RefusalKind.FACT_DISAGREES
+    yield kind, subject, limit - off
+    yield kind, subject, limit + off
+
+
+def check_path(source: Source) -> Checks:
+    """Whether the control can make the path: the direction of travel, and the room for each corner."""
+    figure, out = source.figure, source.out
+    for element in figure.path:
+        yield _check_element(source, element)
+    for corner in figure.corners:
+        yield from _check_corner(source, corner)
+    for corner in figure.corners:
+        for name, way in zip(_elements(source, corner), ("in", "out"), strict=False):
+            setback = out(f"setback-{way}:{corner.name}")
+            fits = Check(RefusalKind.CORNER_TOO_LARGE, corner.name, name, Test.AT_LEAST, -LENGTH)
+            yield fits, setback
+            yield fits, out(f"length:{name}") - setback
+    for element in figure.path if figure.corners else ():
+        overlap = Check(RefusalKind.CORNERS_OVERLAP, element.name, element.name, Test.NOT_BELOW, -LENGTH)
+        yield overlap, out(f"room:{element.name}")
+
+
+def _check_element(source: Source, element: Line | Arc) -> tuple[Check, Any]:
+    name = element.name
+    if isinstance(element, Arc):
+        first, second = source.way(element.tail, element.head)
+        return Check(RefusalKind.ARC_EMPTY, name, name, Test.ABOVE, LENGTH), sqrt(first**2 + second**2)
+    kind = RefusalKind.LINE_BACKWARDS if element.heading is None else RefusalKind.LINE_REVERSED
+    return Check(kind, name, name, Test.AT_LEAST, -LENGTH), source.out(f"length:{name}")
+
+
+def _check_corner(source: Source, corner: Corner) -> Checks:
+    out, name = source.out, corner.name
+    for element in _elements(source, corner):
+        yield Check(RefusalKind.CORNER_TOO_LARGE, name, element, Test.ABOVE, LENGTH), out(f"length:{element}")
+    if f"landing:{name}" in source.tape.outputs:
+        yield Check(RefusalKind.LANDING_UNKNOWN, name, "", Test.APART, 0.5), out(f"landing:{name}")
+    reverses = RefusalKind.CORNER_REVERSES
+    yield Check(RefusalKind.CORNER_STRAIGHT, name, "", Test.APART, REGULAR, opposite=reverses), out(f"turn:{name}")
+    if corner.shape is CornerShape.CHAMFER_AXIS_45:
+        for margin in _inside(source, corner):
+            yield Check(RefusalKind.BEVEL_OUTSIDE, name, "", Test.NOT_BELOW, -LENGTH), margin
+        for way in ("in", "out"):
+            # Not a number is a bevel that is too large for its arc.
+            in_band = Check(RefusalKind.BEVEL_IN_BAND, name, "", Test.NOT_BELOW, -LENGTH)
+            yield in_band, out(f"setback-{way}:{name}")
+
+
+def _inside(source: Source, corner: Corner) -> Iterator[Any]:
+    """How far a corner lies inside the rectangle spanned by the ends of its two lines, mm."""
+    path = {element.name: element for element in source.figure.path}
+    before, after = path[corner.before], path.get(corner.after or "")
+    if after is None or isinstance(before, Arc) or isinstance(after, Arc):
+        return
+    tail, head, at = source.point(before.tail), source.point(after.head), source.point(corner.at)
+    for axis in (FIRST, SECOND):
+        yield larger(at[axis] - tail[axis], at[axis] - head[axis])
+        yield larger(tail[axis] - at[axis], head[axis] - at[axis])
+
+
+def _elements(source: Source, corner: Corner) -> list[str]:
+    """The elements that a corner joins, as far as they have two ends."""
+    after = corner.after or corner.lands_on
+    return [corner.before, *([after] if after and f"length:{after}" in source.tape.outputs else [])]
