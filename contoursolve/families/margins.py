@@ -63,7 +63,7 @@ def compile_margins(system: System, words: int, follows: Follows) -> Margins:
     """The margins of a system that has a closed form as functions of some words."""
     checked = compile_checks(system)
     kept = {number: check for number, check in enumerate(checked.checks) if check.role in _ROLES}
-    outputs = {str(number): checked.tape.expression(f"margin:{number}") for number in kept}
+    outputs = {str(number): checked.margins[number] for number in kept}
     return Margins(tuple(kept.values()), Chart(checked.tape, outputs, words, dict(follows)))
 
 

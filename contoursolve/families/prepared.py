@@ -30,8 +30,11 @@ from contoursolve.tolerance import TOUCHING
 Table = dict[str, NDArray[Any]]
 Results = Mapping[str, NDArray[Any]]
 Target = slice | Places
-_NEEDED = ("margin:", "cosine:", "offset:", "radius:", "scale:", "worst", "clear")
+_NEEDED = ("passed", "margin:", "cosine:", "worst")
 """What the verdict reads."""
+
+_HALVES = ("offset:", "radius:", "scale:")
+"""What tells that the two places of the centre of a half circle are one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,12 +101,14 @@ class Sweep:
 
     def empty(self, rows: int) -> Table:
         """Room for the results of so many rows; NaN and 0 where not every kind has all of them."""
-        if self.is_one_function:
-            return {name: numpy.empty(rows, kind) for name, kind in self.columns().items()}
-        return {
-            name: numpy.full(rows, numpy.nan) if kind is numpy.float64 else numpy.zeros(rows, kind)
-            for name, kind in self.columns().items()
-        }
+        kinds = self.columns()
+        numbers = [name for name, kind in kinds.items() if kind is numpy.float64]
+        # In one piece: the system hands out large pieces in large pages, a twentieth of the time of a family.
+        block = numpy.empty((len(numbers), rows))
+        if not self.is_one_function:
+            block.fill(numpy.nan)
+        found = dict(zip(numbers, block, strict=True))
+        return {name: found[name] if name in found else numpy.zeros(rows, kind) for name, kind in kinds.items()}
 
     def words(self, first: int, last: int) -> dict[str, Array]:
         """The values of the free words in these rows."""
@@ -160,10 +165,9 @@ class Sweep:
         if not isinstance(target, slice):
             for output, name in names.items():
                 table[name][target] = out[output]
-        is_path = numpy.broadcast_to(out["clear"] != 0, rows)
-        verdict = Verdict(kind.checks, out, rows, numpy.flatnonzero(~is_path))
+        verdict = Verdict(kind.checks, out, rows)
         for point, side in branches_of(kind).items():
-            table[f"branch.{point}"][target] = is_path.view(numpy.int8) * numpy.int8(side)
+            table[f"branch.{point}"][target] = verdict.is_clear.view(numpy.int8) * numpy.int8(side)
         table["status"][target] = verdict.status
         table["reason"][target] = verdict.reason
         again = numpy.flatnonzero(verdict.again)
@@ -211,7 +215,7 @@ class Sweep:
             function.fix(sides, signs)
             out = function.evaluate(rows)
             verdict = Verdict(kind.checks, out, rows)
-            is_path = (verdict.reason == 0) & ~verdict.again
+            is_path = verdict.is_clear
             again |= verdict.again | _halves(plan.steps, out, rows)
             reason = numpy.where(reason == 0, verdict.reason, reason)
             shown = numpy.flatnonzero(is_path & (count == 0))
@@ -245,7 +249,9 @@ class Sweep:
         """The function of a kind for this thread."""
         made = self.local.__dict__.setdefault("functions", {})
         if number not in made:
-            function = Columns(_compile(kind.system, frozenset(kind.varied), tuple(results_of(kind).values())))
+            function = Columns(
+                _compile(kind.system, frozenset(kind.varied), tuple(results_of(kind).values()), bool(kind.open_points))
+            )
             numbers = {f"side:{point}": 1.0 for point in kind.open_points} | kind.numbers()
             function.fix(slice(None), [numbers[name] for name in function.compiled.fixed])
             made[number] = function
@@ -268,11 +274,12 @@ Shown = tuple[str, int | None]
 
 
 @lru_cache(maxsize=64)
-def _compile(system: System, varied: frozenset[str], shown: tuple[Shown, ...]) -> ColumnFunction:
+def _compile(system: System, varied: frozenset[str], shown: tuple[Shown, ...], is_open: bool) -> ColumnFunction:
     """The function of a system for columns: what the verdict reads, and the results as they are shown."""
-    tape = compile_checks(system).tape
-    kept = tape.keep(_NEEDED, ())
-    gap = where(tape.expression("clear"), 0.0, nan)
+    checked = compile_checks(system)
+    tape = checked.tape
+    kept = tape.keep(_NEEDED + _HALVES if is_open else _NEEDED, ())
+    gap = where(checked.is_clear, 0.0, nan)
     for output, axis in shown:
         value = tape.expression(output)
         if not output.startswith("room:"):

@@ -17,7 +17,7 @@ from contoursolve.families.kinds import Kind
 from contoursolve.families.ranges import Places, Ranges
 from contoursolve.model import FIRST, SECOND, Fact, Question, Unit, scalar
 from contoursolve.solving import RefusalKind, Solution
-from contoursolve.solving.checks import Source, add_margins, at_origin, check_facts, check_path, check_residuals
+from contoursolve.solving.checks import Source, add_checks, at_origin, check_facts, check_path, check_residuals
 from contoursolve.solving.compile import PathMachine, compile_path
 from contoursolve.solving.kernel import Kernel, make_kernel
 from contoursolve.solving.verdict import Code, Verdict, code_of, reason_of
@@ -84,15 +84,17 @@ class Several:
         """The outputs of the equations that are solved."""
         equations = check_residuals(largest(tape.expression(name) for name in self.solved))
         facts = [equations, *check_facts(Source(self.system.figure, tape, at), checks, len(self.basis))]
-        add_margins(tape, facts)
+        add_checks(tape, facts)
         self.residuals = Columns(compile_columns(tape, tape.inputs))
         self.machine: PathMachine = compile_path(self.system)
         relative = self.machine.tape.copy()
         origin = lookup(self.system, relative, at_origin(self.system.figure))
         corners = largest(relative.expression(name) for name in self.machine.corner_residuals)
         path = [*check_path(Source(self.system.figure, relative, origin)), check_residuals(corners)]
-        add_margins(relative, path, len(facts))
+        add_checks(relative, path, len(facts))
         self.path = Columns(compile_columns(relative, relative.inputs))
+        self.before_path = len(facts)
+        """The number of checks that do not concern the path."""
         self.checks = tuple(check for check, _ in (*facts, *path))
 
     def solve(self, ranges: Ranges, places: Mapping[str, Places]) -> Settled:
@@ -248,10 +250,12 @@ class Several:
     def _judge(self, here: Mapping[str, Array], scalars: Scalars, rows: int) -> Verdict:
         """What speaks against each of some solutions."""
         known = {**here, **scalars}
-        residuals = _run(self.residuals, known, rows)
         relative = self._relative(known)
-        out = {**relative, **_run(self.path, relative, rows), **residuals}
-        return Verdict(self.checks, out, rows)
+        out = {**relative, **_run(self.path, relative, rows)}
+        found = _run(self.residuals, known, rows)
+        # The checks of the path come after those of the facts.
+        passed = numpy.where(found["passed"] == self.before_path, found["passed"] + out["passed"], found["passed"])
+        return Verdict(self.checks, {**out, **found, "passed": passed}, rows)
 
     def _relative(self, known: Mapping[str, Array]) -> dict[str, Array]:
         """The inputs of the path: coordinates counted from the start, and the sizes of all corners."""

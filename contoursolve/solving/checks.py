@@ -14,7 +14,6 @@ from typing import Any
 from contoursolve.backends.inputs import lookup
 from contoursolve.backends.numeric import (
     Tape,
-    all_of,
     angle,
     at_most,
     below,
@@ -23,6 +22,7 @@ from contoursolve.backends.numeric import (
     magnitude,
     opposite,
     sqrt,
+    true,
 )
 from contoursolve.constraints import Coordinate, Heading, Offset, OnCircle, Radius, System, Values
 from contoursolve.model import FIRST, SECOND, Arc, Corner, CornerShape, Fact, Figure, Line, scalar
@@ -108,12 +108,15 @@ class Source:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Checked:
-    """The checks of a system, in the order in which they count, and a tape with their margins."""
+    """The checks of a system, in the order in which they count, their margins, and a tape of what came of them."""
 
     checks: tuple[Check, ...]
+    margins: tuple[Any, ...]
     tape: Tape
-    """The outputs of the system; `margin:0` and so on, one for each check; `worst`, the largest residual of the
-    equations that were solved (mm; NaN if any is), and `clear`, 1 where every check is passed, else 0."""
+    """The outputs of the system, of its checks (see `add_checks`), and `worst`: the largest residual of the equations
+    that were solved (mm; NaN if any is)."""
+    is_clear: Any
+    """1 where every check is passed, else 0."""
 
 
 @lru_cache(maxsize=1024)
@@ -132,21 +135,28 @@ def compile_checks(system: System) -> Checked:
         *check_path(source),
         check_residuals(corners),
     ]
-    add_margins(tape, pairs)
+    is_clear = add_checks(tape, pairs)
     tape.output("worst", largest([basis, corners]))
-    tape.output("clear", all_of(is_passed(check, margin) for check, margin in pairs))
-    return Checked(tuple(check for check, _ in pairs), tape)
+    checks, margins = zip(*pairs, strict=True)
+    return Checked(checks, margins, tape, is_clear)
+
+
+def add_checks(tape: Tape, pairs: Iterable[tuple[Check, Any]], first: int = 0) -> Any:
+    """Declare what comes of checks, which are numbered from `first`: as `passed`, how many are passed in their order
+    until one is not, and as `margin:0` and so on the margins of facts. Whether all are passed, as 1 or 0."""
+    is_clear, passed = true(), 0 * true()
+    for number, (check, margin) in enumerate(pairs, first):
+        is_clear *= is_passed(check, margin)
+        passed += is_clear
+        if check.role is Role.FACT:
+            tape.output(f"margin:{number}", margin)
+    tape.output("passed", passed)
+    return is_clear
 
 
 def at_origin(figure: Figure) -> dict[str, float]:
     """The coordinates of the start point, from which the others count."""
     return {scalar(figure.start, axis): 0.0 for axis in (FIRST, SECOND)}
-
-
-def add_margins(tape: Tape, pairs: Iterable[tuple[Check, Any]], first: int = 0) -> None:
-    """Declare the margins of checks as outputs."""
-    for number, (_, margin) in enumerate(pairs, first):
-        tape.output(f"margin:{number}", margin)
 
 
 def is_passed(check: Check, margin: Any) -> Any:

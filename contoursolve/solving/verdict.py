@@ -7,12 +7,12 @@ import numpy
 from numpy.typing import NDArray
 
 from contoursolve.backends.columns import Array
-from contoursolve.solving.checks import Check, Role, Test
+from contoursolve.solving.checks import Check, Role
 from contoursolve.solving.solution import RefusalKind, Status
 
 Mask = NDArray[numpy.bool_]
 Codes = NDArray[numpy.uint8]
-Places = NDArray[numpy.int64]
+Places = NDArray[numpy.intp]
 Out = Mapping[str, Array]
 
 
@@ -54,26 +54,28 @@ class Verdict:
     """What the checks found, row by row: `status` and `reason` as numbers; and the rows `again` that need the exact
     arithmetic of a single solve: a step that is singular, a line that touches its circle.
 
-    The outputs hold the margins of the checks, by number. With `among`, the other rows are known to pass all checks.
+    `out` has the outputs of `checks.add_checks`, and the cosines at the corners.
     """
 
-    def __init__(self, checks: Sequence[Check], out: Out, rows: int, among: Places | None = None) -> None:
-        self.out = out
+    def __init__(self, checks: Sequence[Check], out: Out, rows: int) -> None:
+        passed = numpy.broadcast_to(out["passed"], rows)
+        self.is_clear: Mask = passed == len(checks)
+        """Where every check is passed."""
         self.reason: Codes = numpy.zeros(rows, numpy.uint8)
         self.again: Mask = numpy.zeros(rows, bool)
         self.agreeing: dict[str, Mask] = {}
         """Where a fact that was not needed agrees, by the value that it states."""
         self.differing: dict[str, Mask] = {}
         self._conflicts: Mask = numpy.zeros(rows, bool)
-        self._open: Places = numpy.arange(rows) if among is None else among
-        """The rows against which nothing was found until here."""
-        self._wrong: Mask = numpy.zeros(rows, bool)
-        with numpy.errstate(invalid="ignore"):
-            for number, check in enumerate(checks):
-                if check.role is Role.FACT:
-                    self._compare(check, numpy.broadcast_to(out[f"margin:{number}"], rows))
-                elif self._open.size:
-                    self._examine(check, self._of(f"margin:{number}"))
+        rest = numpy.flatnonzero(~self.is_clear)
+        if rest.size:
+            self._note_first(checks, rest, passed[rest].astype(numpy.intp), out)
+        facts = {number: check for number, check in enumerate(checks) if check.role is Role.FACT}
+        if facts:
+            wrong = [number for number, check in enumerate(checks) if check.role is Role.EQUATION]
+            is_solved = ~numpy.isin(passed, wrong)
+            for number, check in facts.items():
+                self._compare(check, out[f"margin:{number}"], is_solved)
 
     @property
     def status(self) -> Codes:
@@ -84,54 +86,28 @@ class Verdict:
         status[self._conflicts] = Code.CONFLICTING
         return status
 
-    def _of(self, name: str) -> Array:
-        """An output in the rows that are open."""
-        column = self.out[name]
-        if column.size == 1:
-            return numpy.broadcast_to(column, self._open.size)
-        return column if self._open.size == self.reason.size else column[self._open]
+    def _note_first(self, checks: Sequence[Check], rows: Places, failed: Places, out: Out) -> None:
+        """Rows with the first check that each fails."""
+        self.again[rows] = numpy.array([check.is_doubtful for check in checks])[failed]
+        self.reason[rows] = numpy.array([_reason_where(check) for check in checks], numpy.uint8)[failed]
+        for number, check in enumerate(checks):
+            if check.opposite is not None:
+                bent = rows[failed == number]
+                cosine = numpy.broadcast_to(out[f"cosine:{check.subject}"], self.reason.size)[bent]
+                self.reason[bent[~(cosine > 0)]] = reason_of(check.opposite)
 
-    def _examine(self, check: Check, margin: Array) -> None:
-        fails = _fails(check, margin)
-        if not fails.any():
-            return
-        rows = self._open[fails]
-        if check.is_doubtful:
-            self.again[rows] = True
-        elif check.opposite is not None:
-            is_straight = self._of(f"cosine:{check.subject}")[fails] > 0
-            self.reason[rows] = numpy.where(is_straight, reason_of(check.kind), reason_of(check.opposite))
-        else:
-            self.reason[rows] = reason_of(check.kind)
-        if check.role is Role.EQUATION:
-            self._wrong[rows] = True
-        self._open = self._open[~fails]
-
-    def _compare(self, check: Check, margin: Array) -> None:
+    def _compare(self, check: Check, margin: Array, is_solved: Mask) -> None:
         """A fact that was not needed, at the points that the others give."""
-        fails, is_known = _fails(check, margin), numpy.isfinite(margin) & ~self._wrong
-        differs = fails & is_known
+        is_known = numpy.isfinite(margin) & is_solved
+        agrees = (margin >= check.limit) & is_known
+        differs = is_known & ~agrees
         if check.fact:
             # A fact may have several checks.
-            agrees = ~fails & is_known
             self.differing[check.fact] = self.differing.get(check.fact, False) | differs
             self.agreeing[check.fact] = self.agreeing.get(check.fact, True) & agrees
         self._conflicts |= differs
-        is_new = differs & (self.reason == 0)
-        if check.is_doubtful:
-            self.again |= is_new
-        self.reason[is_new] = reason_of(check.kind)
-        self._open = self._open[~differs[self._open]]
 
 
-def _fails(check: Check, margin: Array) -> Mask:
-    """Where a check is not passed; `checks.is_passed` says the same of expressions."""
-    match check.test:
-        case Test.AT_LEAST:
-            return ~(margin >= check.limit)
-        case Test.ABOVE:
-            return ~(margin > check.limit)
-        case Test.NOT_BELOW:
-            return margin < check.limit
-        case Test.APART:
-            return ~(numpy.abs(margin) > check.limit)
+def _reason_where(check: Check) -> int:
+    """The reason against rows of which it is the first check that fails."""
+    return reason_of(None if check.is_doubtful and check.role is not Role.FACT else check.kind)
