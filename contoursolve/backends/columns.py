@@ -23,12 +23,17 @@ PART = 1_024
 instructions to stay in the processor's nearest caches (three quarters of the time of `ROWS` at once)."""
 
 
+SIZES = (PART, 8 * PART, ROWS)
+"""How many rows are computed at once, so that few rows take little time."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class ColumnFunction:
-    """A function of columns of `ROWS` rows: its inputs that are single numbers and those that vary, its outputs that
-    are single numbers, as they follow from those alone, and those that vary."""
+    """A function of columns: its inputs that are single numbers and those that vary, its outputs that are single
+    numbers, as they follow from those alone, and those that vary."""
 
-    function: Any
+    functions: tuple[Any, ...]
+    """One for each of `SIZES`."""
     fixed: tuple[str, ...]
     varied: tuple[str, ...]
     single: tuple[str, ...]
@@ -65,7 +70,8 @@ def columns_of(function: Any, inputs: Sequence[str], outputs: Sequence[str], nam
             many[name] = list(unique).index(each.__hash__())
     results = [casadi.vertcat(casadi.MX(0, 1), *(named[name] for name in single)), *unique.values()]
     replayed = casadi.Function("columns", [scalars, *columns], [casadi.densify(each) for each in results])
-    return ColumnFunction(replayed.map(ROWS // PART), fixed, varied, single, many, given)
+    functions = tuple(replayed.map(size // PART) for size in SIZES)
+    return ColumnFunction(functions, fixed, varied, single, many, given)
 
 
 class Columns:
@@ -81,11 +87,14 @@ class Columns:
         self._many = list(numpy.zeros((max(compiled.many.values(), default=-1) + 1, ROWS)))
         self._elsewhere: frozenset[int] = frozenset()
         """The results that the last call wrote elsewhere."""
-        self._buffer, self._trigger = compiled.function.buffer()
-        for number, argument in enumerate((self._numbers, *self.inputs)):
-            self._buffer.set_arg(number, _memory(argument))
-        for number, result in enumerate((self._single, *self._many)):
-            self._buffer.set_res(number, _memory(result))
+        arguments = (self._numbers, *self.inputs)
+        self._buffers: dict[int, tuple[Any, Any]] = {}
+        for size, function in zip(SIZES, compiled.functions, strict=True):
+            buffer, _ = self._buffers[size] = function.buffer()
+            for number, argument in enumerate(arguments):
+                buffer.set_arg(number, _memory(argument))
+            for number, result in enumerate((self._single, *self._many)):
+                buffer.set_res(number, _memory(result))
 
     @property
     def numbers(self) -> Array:
@@ -104,10 +113,13 @@ class Columns:
         compiled = self.compiled
         # As many rows as a call has are written in place, once.
         direct = {compiled.many[name]: into[name] for name in into if name in compiled.many and rows == ROWS}
-        for number in self._elsewhere | direct.keys():
-            self._buffer.set_res(1 + number, _memory(direct.get(number, self._many[number])))
-        self._elsewhere = frozenset(direct)
-        self._trigger()
+        size = next(size for size in SIZES if rows <= size)
+        buffer, trigger = self._buffers[size]
+        if size == ROWS:
+            for number in self._elsewhere | direct.keys():
+                buffer.set_res(1 + number, _memory(direct.get(number, self._many[number])))
+            self._elsewhere = frozenset(direct)
+        trigger()
         found = {name: self._single[0, number : number + 1] for number, name in enumerate(compiled.single)}
         found |= {name: self.inputs[number, :rows] for name, number in compiled.given.items()}
         found |= {name: direct.get(number, self._many[number])[:rows] for name, number in compiled.many.items()}
