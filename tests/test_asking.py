@@ -23,6 +23,7 @@ from contoursolve import Answer, ArcSegment, Contour, Status, solve
 from contoursolve.cli import main
 from contoursolve.output.solutions import list_solutions
 from contoursolve.pipeline import FactPlaceError
+from contoursolve.solving.enumerate import Effort
 
 OFTEN = 20
 """Cases of a kind after which there is no need for more."""
@@ -1113,8 +1114,7 @@ def test_words_and_facts_that_do_not_go_together_are_named(block: str, fact: str
 
 
 def test_a_search_that_is_given_up_is_undecided_and_says_what_was_tried(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("contoursolve.solving.enumerate.INTERVALS", 200)
-    monkeypatch.setattr("contoursolve.solving.enumerate.LEAST", 100)
+    monkeypatch.setattr("contoursolve.solving.enumerate.DRAWING", Effort(200, 100, is_guessing=True))
     block, fact = "G111 X100. K-30. B120. P? Q5.", "straight part of line 2 = 5"
     contour, found = contour_of(block, fact, "corner 1 tangent to line [Z-70. X30. A90.]")
     assert contour["status"] == "undecided"

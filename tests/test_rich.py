@@ -17,6 +17,7 @@ from contoursolve.contour import ArcSegment
 from contoursolve.dialects import DIALECTS
 from contoursolve.markup import style
 from contoursolve.notebook import bundle as bundles
+from contoursolve.solving.enumerate import Effort
 
 BLOCKS = int(os.environ.get("CONTOURSOLVE_RICH", "160"))
 SHARDS = 4
@@ -175,8 +176,7 @@ UNUSUAL = {
 def test_a_contour_of_each_status_has_a_picture_and_a_table_beside_it(status, monkeypatch):
     text, rules = UNUSUAL[status]
     if status is Status.UNDECIDED:
-        monkeypatch.setattr("contoursolve.solving.enumerate.INTERVALS", 200)
-        monkeypatch.setattr("contoursolve.solving.enumerate.LEAST", 100)
+        monkeypatch.setattr("contoursolve.solving.enumerate.DRAWING", Effort(200, 100, is_guessing=True))
     start = None if "G17" in text else "X40. Z0."
     result = contoursolve.solve(text, start=start, rules=rules)
     (answer,) = result.answers

@@ -126,6 +126,8 @@ def contract(equations: Replay, boxes: Boxes, known: Sequence[Intervals], margin
 
 def approach(equations: Replay, starts: Boxes, known: Sequence[Intervals], steps: int) -> Boxes:
     """Where Newton's method leads from many points at once, as far as it ends: each such place once, nothing proven."""
+    if not len(starts):
+        return starts
     size = starts.low.shape[1]
     points, moved = starts.low, numpy.full_like(starts.low, numpy.inf)
     for _ in range(steps):

@@ -4,8 +4,8 @@ What the search proves there holds for every row whose values lie in the box: so
 its own and on the same side for all of them. A box in which something remains undecided is divided.
 """
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy
 from numpy.typing import NDArray
@@ -20,13 +20,16 @@ from contoursolve.families.kinds import Kind
 from contoursolve.model import FIRST, SECOND, Profile, Unit, scalar
 from contoursolve.solving.alternatives import BOTH, sides_of
 from contoursolve.solving.elimination import Close
-from contoursolve.solving.enumerate import Found, enumerate_on
+from contoursolve.solving.enumerate import DRAWING, Effort, Enumeration, Found, enumerate_many, enumerate_on
 from contoursolve.solving.ground import BALLS, Ground, ground_of
 
-BUDGET, LEAST = 4_000, 1_500
-"""How many intervals are looked at for one box, and for each step of it, before it is divided."""
+BOX, SMALL_BOX = Effort(4_000, 1_500), Effort(0, 0)
+"""For a box of values before it is divided; what has a closed form for one row needs a smaller box, not a search."""
 
-FEW, FEW_SEARCHED = 2, 16
+ROW = replace(DRAWING, is_guessing=False)
+"""For one row; a row for which it does not suffice is solved by itself."""
+
+FEW, FEW_SEARCHED = 2, 64
 """Rows that are solved one by one sooner than in a box; and where a step has no closed form, so that a box of values
 costs several times as much as one row if it remains undecided."""
 
@@ -61,12 +64,14 @@ class Box(Ground):
 class Cell:
     """Rows with the same solutions, each proven to be alone in its box; None where a single solve must decide.
 
-    `is_chosen` tells of each whether it lies on the sides that the words choose.
+    `is_chosen` tells of each whether it lies on the sides that the words choose, `is_lost` that there is none because
+    a search found none.
     """
 
     rows: Rows
     solutions: tuple[Found, ...] | None
     is_chosen: tuple[bool, ...] = ()
+    is_lost: bool = False
 
 
 def cells_of(kind: Kind, groups: tuple[Group, ...], values: Mapping[str, Array]) -> Iterator[Cell]:
@@ -78,7 +83,7 @@ def cells_of(kind: Kind, groups: tuple[Group, ...], values: Mapping[str, Array])
     first = dict(zip(words, columns[:, 0].tolist(), strict=True))
     is_searched = _is_searched(kind, groups, first)
     few = FEW_SEARCHED if is_searched else FEW
-    pending = [numpy.arange(columns.shape[1])]
+    pending, apart = [numpy.arange(columns.shape[1])], list[Rows]()
     while pending:
         rows = pending.pop()
         own = columns[:, rows]
@@ -87,20 +92,43 @@ def cells_of(kind: Kind, groups: tuple[Group, ...], values: Mapping[str, Array])
         if rows.size > few:
             ends = [dict(zip(words, each.tolist(), strict=True)) for each in (low, high)]
             cell = _solve(kind, groups, rows, *ends, is_searched=is_searched)
-        if cell.solutions is not None or rows.size <= few or (high == low).all():
+        if cell.solutions is not None:
             yield cell
-            continue
-        widest = int(((high - low) / spread).argmax())
-        order = numpy.sort(own[widest])
-        middle = order[order.size // 2] if order[order.size // 2] > order[0] else order[order > order[0]][0]
-        is_low = own[widest] < middle
-        pending += [rows[~is_low], rows[is_low]]
+        elif rows.size <= few or (high == low).all():
+            apart.append(rows)
+        else:
+            widest = int(((high - low) / spread).argmax())
+            order = numpy.sort(own[widest])
+            middle = order[order.size // 2] if order[order.size // 2] > order[0] else order[order > order[0]][0]
+            is_low = own[widest] < middle
+            pending += [rows[~is_low], rows[is_low]]
+    if apart:
+        rows = numpy.concatenate(apart)
+        yield from _solve_each(
+            kind, groups, rows, [dict(zip(words, each, strict=True)) for each in columns[:, rows].T.tolist()]
+        )
+
+
+def _solve_each(
+    kind: Kind, groups: tuple[Group, ...], rows: Rows, values: Sequence[Mapping[str, float]]
+) -> Iterator[Cell]:
+    """A cell for each row; all rows are searched together."""
+    with ball.precision(ball.WORKING):
+        grounds = [ground_of(kind.at(each)) for each in values]
+        try:
+            enumerations = enumerate_many(grounds, kind.system, groups, Close.REFUSE, ROW)
+        except (ArithmeticError, ValueError):
+            enumerations = []
+        if not enumerations:
+            yield Cell(rows, None)
+        for row, ground, enumeration in zip(rows[:, None], grounds, enumerations, strict=False):
+            yield _cell(kind, row, ground, enumeration)
 
 
 def _is_searched(kind: Kind, groups: tuple[Group, ...], values: Mapping[str, float]) -> bool:
     """Whether the row of these values has a step without a closed form."""
     with ball.precision(ball.WORKING):
-        return enumerate_on(ground_of(kind.at(values)), kind.system, groups, Close.DOUBLE, BUDGET, LEAST).is_searched
+        return enumerate_on(ground_of(kind.at(values)), kind.system, groups, Close.DOUBLE, BOX).is_searched
 
 
 def _solve(
@@ -112,26 +140,32 @@ def _solve(
     *,
     is_searched: bool,
 ) -> Cell:
-    system, undecided = kind.system, Cell(rows, None)
     with ball.precision(ball.WORKING):
         box = _box(kind, low, high)
         try:
-            # What has a closed form for one row needs a smaller box, not a search.
-            limits = (BUDGET, LEAST) if is_searched else (0, 0)
-            enumeration = enumerate_on(box, system, groups, Close.REFUSE, *limits)
-            if not enumeration.is_complete or any(each.doubles for each in enumeration.found):
-                return undecided
-            if enumeration.is_searched and not all(_is_near(each, box, system) for each in enumeration.found):
-                return undecided
-            choices = kind.profile.choices
-            sides = [
-                sides_of(system, box.values(each.scalars, each.signs, system), {choice.point for choice in choices})
-                for each in enumeration.found
-            ]
+            enumeration = enumerate_on(box, kind.system, groups, Close.REFUSE, BOX if is_searched else SMALL_BOX)
         except (ArithmeticError, ValueError):
-            return undecided
-    if any(each.get(choice.point) == BOTH for each in sides for choice in choices):
-        return undecided
+            return Cell(rows, None)
+        if enumeration.is_searched and not all(_is_near(each, box, kind.system) for each in enumeration.found):
+            return Cell(rows, None)
+        return _cell(kind, rows, box, enumeration)
+
+
+def _cell(kind: Kind, rows: Rows, ground: Ground, enumeration: Enumeration) -> Cell:
+    """The cell of rows for all of which a search on a ground holds."""
+    choices = kind.profile.choices
+    points = {choice.point for choice in choices}
+    if not enumeration.is_complete or any(each.doubles for each in enumeration.found):
+        return Cell(rows, None)
+    try:
+        sides = [
+            sides_of(kind.system, ground.values(each.scalars, each.signs, kind.system), points)
+            for each in enumeration.found
+        ]
+    except (ArithmeticError, ValueError):
+        return Cell(rows, None)
+    if any(each.get(point) == BOTH for each in sides for point in points):
+        return Cell(rows, None)
     items: list[Found] = []
     is_chosen: list[bool] = []
     for each, own in zip(enumeration.found, sides, strict=True):
@@ -140,7 +174,7 @@ def _solve(
         if all(fits[choice] for choice in choices if not choice.given):
             items.append(each)
             is_chosen.append(all(fits.values()))
-    return Cell(rows, tuple(items), tuple(is_chosen))
+    return Cell(rows, tuple(items), tuple(is_chosen), enumeration.is_lost)
 
 
 def _is_near(found: Found, box: Box, system: System) -> bool:

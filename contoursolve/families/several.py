@@ -146,6 +146,10 @@ class Several:
             if cell.solutions is None:
                 settled.again[cell.rows] = True
                 continue
+            if cell.is_lost:
+                settled.status[cell.rows] = Code.NO_SOLUTION
+                settled.reason[cell.rows] = reason_of(RefusalKind.NO_POINT)
+                continue
             if not any(cell.is_chosen):
                 # Why there is none is the same for all of them.
                 middle = cell.rows[cell.rows.size // 2]

@@ -7,6 +7,7 @@ matters most. Boxes are looked at in batches, in doubles rounded outwards (Kearf
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import pairwise
 
 import numpy
 
@@ -61,6 +62,18 @@ class Conditions:
     arguments: tuple[str, ...]
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Task:
+    """Where solutions of a group are searched for: cases, each with the values of the group's other inputs, the range
+    of each unknown, and how many intervals may be looked at for all of the cases together. With `is_guessing`, points
+    near which there may be solutions are looked for in what remains undecided."""
+
+    cases: Sequence[Mapping[str, Number]]
+    reach: Mapping[str, tuple[float, float]]
+    budget: int
+    is_guessing: bool
+
+
 @dataclass(frozen=True, slots=True)
 class Division:
     """Boxes that are proven to hold exactly one solution, and whether they hold all of them.
@@ -99,55 +112,69 @@ def conditions_of(system: System, group: Group) -> Conditions:
     )
 
 
-def divide(
-    conditions: Conditions,
-    cases: Sequence[Mapping[str, Number]],
-    reach: Mapping[str, tuple[float, float]],
-    budget: int,
-) -> tuple[list[Division], int]:
-    """All solutions within reach for each case, which gives the values of a group's other inputs; and how many
-    intervals were looked at, of which `budget` is the number for all cases together."""
+def divide(conditions: Conditions, tasks: Sequence[Task]) -> list[tuple[list[Division], int]]:
+    """All solutions within reach for each case of each task, and how many intervals were looked at for the task."""
     size = len(conditions.unknowns)
+    cases = [case for task in tasks for case in task.cases]
+    owner = numpy.repeat(numpy.arange(len(tasks)), [len(task.cases) for task in tasks])
     narrowed_at, known = (
         [_by_case(name, cases) for name in names[size:]] for names in (conditions.narrowed_by, conditions.arguments)
     )
-    low, high = numpy.array([reach[name] for name in conditions.unknowns]).T
-    every = numpy.arange(len(cases))
-    pending = [Boxes(numpy.tile(low, (len(cases), 1)), numpy.tile(high, (len(cases), 1)), every)]
+    low, high = (
+        numpy.array([[task.reach[name][end] for name in conditions.unknowns] for task in tasks])[owner]
+        for end in (0, 1)
+    )
+    ranges = high - low
+    pending = [Boxes(low, high, numpy.arange(len(cases)))]
     proven, undecided = [pending[0][:0]], [pending[0][:0]]
-    looked_at = 0
+    looked_at, budgets = numpy.zeros(len(tasks), int), numpy.array([task.budget for task in tasks])
     with numpy.errstate(all="ignore"):
-        while pending and looked_at * size < budget:
+        while pending:
             boxes, pending = _batch(pending)
-            looked_at += len(boxes)
-            boxes = _narrowed(conditions.narrower, boxes, narrowed_at)
+            is_over = (looked_at * size >= budgets)[owner[boxes.case]]
+            undecided.append(boxes[is_over])
+            boxes = boxes[~is_over]
+            looked_at += numpy.bincount(owner[boxes.case], minlength=len(tasks))
+            if len(boxes):
+                boxes = _narrowed(conditions.narrower, boxes, narrowed_at)
             if not len(boxes):
                 continue
             found = contract(conditions.equations, boxes, known, MARGINS[0])
             proven.append(found.boxes[found.is_proven])
             boxes, slopes = found.boxes[~found.is_proven], found.slopes[~found.is_proven]
-            is_small = (boxes.high - boxes.low <= NARROWEST * (high - low)).all(axis=1)
+            is_small = (boxes.high - boxes.low <= NARROWEST * ranges[boxes.case]).all(axis=1)
             small, boxes, slopes = boxes[is_small], boxes[~is_small], slopes[~is_small]
-            for margin in MARGINS[1:]:
+            for margin in MARGINS[1:] if len(small) else ():
                 found = contract(conditions.equations, small, known, margin)
                 proven.append(found.boxes[found.is_proven])
                 small = found.boxes[~found.is_proven]
             undecided.append(small)
             if len(boxes):
-                pending.append(_divided(boxes, slopes, high - low))
-        rest, alone = joined([*undecided, *pending]), joined(proven)
-        likely = approach(conditions.equations, rest[:: max(1, len(rest) // STARTS)].middle, known, STEPS)
-    divisions = [
-        Division(alone[alone.case == case], likely.low[likely.case == case].tolist(), case not in rest.case)
-        for case in range(len(cases))
+                pending.append(_divided(boxes, slopes, ranges))
+        rest, alone = joined(undecided), joined(proven)
+        guessed = rest[numpy.array([task.is_guessing for task in tasks])[owner[rest.case]]]
+        likely = approach(conditions.equations, guessed[:: max(1, len(guessed) // STARTS)].middle, known, STEPS)
+    is_open = numpy.bincount(rest.case, minlength=len(cases)) > 0
+    parts = zip(_by(alone, len(cases)), _by(likely, len(cases)), is_open.tolist(), strict=True)
+    divisions = [Division(own, near.low.tolist(), not is_left) for own, near, is_left in parts]
+    firsts = numpy.searchsorted(owner, numpy.arange(len(tasks) + 1)).tolist()
+    return [
+        (divisions[first:last], count * size)
+        for (first, last), count in zip(pairwise(firsts), looked_at.tolist(), strict=True)
     ]
-    return divisions, looked_at * size
 
 
 def _by_case(name: str, cases: Sequence[Mapping[str, Number]]) -> Intervals:
     """The bounds of an input in every case."""
     bounds = [ball.bounds(case[name]) for case in cases]
     return Intervals(numpy.array([low for low, _ in bounds]), numpy.array([high for _, high in bounds]))
+
+
+def _by(boxes: Boxes, cases: int) -> list[Boxes]:
+    """The boxes of each case."""
+    order = numpy.argsort(boxes.case, kind="stable")
+    ends = numpy.searchsorted(boxes.case[order], numpy.arange(cases + 1)).tolist()
+    return [boxes[order[first:last]] for first, last in pairwise(ends)]
 
 
 def _batch(pending: list[Boxes]) -> tuple[Boxes, list[Boxes]]:
@@ -190,7 +217,7 @@ def _divided(boxes: Boxes, slopes: intervals.Array, ranges: intervals.Array) -> 
     """Two parts of each box, or more where there are few boxes: a batch of a few takes as long as one of many."""
     parts = boxes
     while True:
-        where = _where(slopes, parts.high - parts.low, ranges)
+        where = _where(slopes, parts.high - parts.low, ranges[parts.case])
         every = numpy.arange(len(parts))
         begin, end = parts.low[every, where], parts.high[every, where]
         low, high = parts.low.copy(), parts.high.copy()

@@ -1,8 +1,10 @@
 """All solutions of a determined system, step by step, with proof of their number or an honest doubt."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import product
+from typing import TypeVar
 
 from contoursolve.analysis import Group, judge, order
 from contoursolve.analysis.generic import witness_of
@@ -10,19 +12,29 @@ from contoursolve.backends import ball
 from contoursolve.backends.ball import Number
 from contoursolve.constraints import System
 from contoursolve.model import Line, Profile, scalar
-from contoursolve.solving.division import conditions_of, divide
+from contoursolve.solving.division import Division, Task, conditions_of, divide
 from contoursolve.solving.elimination import Close, Obstacle, ObstacleError, Root, solve_step
 from contoursolve.solving.ground import Ground, ground_of
 from contoursolve.solving.kernel import Kernel, make_kernel
 from contoursolve.solving.polynomial import Coefficient
 from contoursolve.solving.search import settle
 
-INTERVALS = 200_000
-"""How many intervals, one for each unknown of a box, are looked at for one drawing before the search is given up as
-undecided; about two seconds."""
 
-LEAST = 30_000
-"""How many intervals every step may look at, however many the ones before it used."""
+@dataclass(frozen=True, slots=True)
+class Effort:
+    """How many intervals, one for each unknown of a box, are looked at for one drawing before the search is given up
+    as undecided; and how many every step may look at, however many the ones before it used.
+
+    With `is_guessing`, a search that is given up is followed by one for solutions near what it left undecided.
+    """
+
+    intervals: int
+    least: int
+    is_guessing: bool = False
+
+
+DRAWING = Effort(200_000, 30_000, is_guessing=True)
+"""For a single drawing; about two seconds."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,6 +65,8 @@ class Enumeration:
     doubts: tuple[Doubt, ...]
     is_searched: bool = False
     """Whether some step has no closed form, so that solutions were searched for within reach only."""
+    is_lost: bool = False
+    """Whether there is none because the search of such a step found none."""
 
     @property
     def is_complete(self) -> bool:
@@ -71,7 +85,7 @@ def enumerate_solutions(profile: Profile, system: System) -> Enumeration:
     enumeration = Enumeration((), ())
     for bits, close in ((ball.WORKING, Close.REFUSE), (ball.HIGHEST, Close.DOUBLE)):
         with ball.precision(bits):
-            enumeration = enumerate_on(ground_of(profile), system, groups, close, INTERVALS, LEAST)
+            enumeration = enumerate_on(ground_of(profile), system, groups, close, DRAWING)
         # More digits do not finish a search.
         if not any(doubt.obstacle in (Obstacle.TOUCHING, Obstacle.UNDECIDED) for doubt in enumeration.doubts):
             break
@@ -79,44 +93,75 @@ def enumerate_solutions(profile: Profile, system: System) -> Enumeration:
 
 
 def enumerate_on(
-    ground: Ground, system: System, groups: tuple[Group, ...], close: Close, budget: int, least: int
+    ground: Ground, system: System, groups: tuple[Group, ...], close: Close, effort: Effort
 ) -> Enumeration:
     """All solutions on a ground, with the balls of the precision that is set. Where the ground is a whole box of
     values, each one is proven for all of them."""
-    return _Search(system, groups, ground, close, budget, least).run()
+    return enumerate_many([ground], system, groups, close, effort)[0]
 
+
+def enumerate_many(
+    grounds: Sequence[Ground], system: System, groups: tuple[Group, ...], close: Close, effort: Effort
+) -> list[Enumeration]:
+    """All solutions on each ground; what has no closed form is searched for on all of them together."""
+    searches = [_Search(system, groups, ground, close, effort).run() for ground in grounds]
+    found: dict[int, Enumeration] = {}
+    waiting: dict[int, tuple[Group, Task]] = {}
+
+    def go_on(number: int, step: Callable[[], tuple[Group, Task]]) -> None:
+        try:
+            waiting[number] = step()
+        except StopIteration as end:
+            found[number] = end.value
+
+    for number, search in enumerate(searches):
+        go_on(number, search.__next__)
+    for group in groups:
+        together = [number for number, (where, _) in waiting.items() if where is group]
+        if together:
+            answers = divide(conditions_of(system, group), [waiting.pop(number)[1] for number in together])
+            for number, answer in zip(together, answers, strict=True):
+                go_on(number, partial(searches[number].send, answer))
+    return [found[number] for number in range(len(searches))]
+
+
+_Result = TypeVar("_Result")
+_Steps = Generator[tuple[Group, Task], tuple[list[Division], int], _Result]
+"""Stops where a step has no closed form, and goes on with what its task leads to."""
 
 MOST_SOLUTIONS = 512
 """Solutions that are followed; each point that may lie in two places doubles their number."""
 
 
 class _Search:
-    def __init__(
-        self, system: System, groups: tuple[Group, ...], ground: Ground, close: Close, budget: int, least: int
-    ) -> None:
+    def __init__(self, system: System, groups: tuple[Group, ...], ground: Ground, close: Close, effort: Effort) -> None:
         self.system = system
         self.groups = groups
         self.ground = ground
         self.close = close
         self.doubts: list[Doubt] = []
-        self.is_searched = False
-        self.budget = budget
-        self.least = least
+        self.is_searched = self.is_lost = False
+        self.effort = effort
+        self.left = effort.intervals
         self.reach = ground.reach(system)
         lines = [line for line in (*system.figure.path, *system.figure.lines) if isinstance(line, Line)]
         carriers = [line for line in lines if line.name in system.figure.carriers]
         self.runs = [line for line in carriers if line.tail and line.head]
         self.free = [line.name for line in carriers if not line.tail]
 
-    def run(self) -> Enumeration:
+    def run(self) -> _Steps[Enumeration]:
+        """Everything but the steps without a closed form, which are left to whoever runs it."""
         states = [Found({}, {})]
         for group in self.groups:
-            states = self._advance(states, group)
+            self.is_lost = False
+            states = yield from self._advance(states, group)
+            if not states:
+                break
             if len(states) > MOST_SOLUTIONS:
                 self.doubts.append(Doubt(group.unknowns, Obstacle.UNFINISHED))
                 states = states[:MOST_SOLUTIONS]
         states = [self._with_sides(state) for state in states]
-        return Enumeration(tuple(states), tuple(dict.fromkeys(self.doubts)), self.is_searched)
+        return Enumeration(tuple(states), tuple(dict.fromkeys(self.doubts)), self.is_searched, self.is_lost)
 
     def _with_sides(self, state: Found) -> Found:
         """The state with the sides of facts that were not needed: where the fact is nearer to being true."""
@@ -133,13 +178,12 @@ class _Search:
                     signs[side] = 1 if off[1] <= off[-1] else -1
         return Found(state.scalars, signs, state.doubles)
 
-    def _advance(self, states: Sequence[Found], group: Group) -> list[Found]:
+    def _advance(self, states: Sequence[Found], group: Group) -> _Steps[list[Found]]:
         kernel = make_kernel(self.system, group)
         cases = [Found(state.scalars, signs, state.doubles) for state in states for signs in _choices(state, kernel)]
         solved = [self._solve(kernel, case) for case in cases]
-        searched = iter(
-            self._search(group, kernel, [case for case, roots in zip(cases, solved, strict=True) if roots is None])
-        )
+        unsolved = [case for case, roots in zip(cases, solved, strict=True) if roots is None]
+        searched = iter((yield from self._search(group, kernel, unsolved)) if unsolved else [])
         found: list[Found] = []
         for case, roots in zip(cases, solved, strict=True):
             for root in next(searched) if roots is None else roots:
@@ -166,20 +210,20 @@ class _Search:
             self.doubts.append(Doubt(kernel.unknowns, Obstacle.TOUCHING))
         return roots
 
-    def _search(self, group: Group, kernel: Kernel, cases: Sequence[Found]) -> Iterator[list[Root]]:
+    def _search(self, group: Group, kernel: Kernel, cases: Sequence[Found]) -> _Steps[list[list[Root]]]:
         """All solutions of a step without a closed form, for each case; all cases are searched together."""
-        if not cases:
-            return
         self.is_searched = True
         conditions = conditions_of(self.system, group)
         names = {*conditions.narrowed_by, *conditions.arguments} - {*kernel.unknowns}
         inputs = [{name: self.ground.number(name, case.scalars, case.signs) for name in names} for case in cases]
-        divisions, looked_at = divide(conditions, inputs, self.reach, max(self.budget, self.least))
-        self.budget -= looked_at
-        for division, at in zip(divisions, inputs, strict=True):
-            if not division.is_complete:
-                self.doubts.append(Doubt(kernel.unknowns, Obstacle.UNFINISHED))
-            yield settle(kernel, division, at)
+        budget = max(self.left, self.effort.least)
+        divisions, looked_at = yield group, Task(inputs, self.reach, budget, self.effort.is_guessing)
+        self.left -= looked_at
+        if not all(division.is_complete for division in divisions):
+            self.doubts.append(Doubt(kernel.unknowns, Obstacle.UNFINISHED))
+        found = [settle(kernel, division, at) for division, at in zip(divisions, inputs, strict=True)]
+        self.is_lost = not any(found)
+        return found
 
     def _coefficients(
         self, kernel: Kernel, scalars: Mapping[str, Number], signs: Mapping[str, int]

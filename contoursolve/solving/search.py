@@ -11,6 +11,9 @@ from contoursolve.solving.elimination import Root
 from contoursolve.solving.kernel import Kernel
 from contoursolve.solving.krawczyk import keep, prove, refine
 
+NARROW = 2.0**-60
+"""1 (share of the coordinates). A box that is wider is tried to be enclosed otherwise."""
+
 
 def settle(kernel: Kernel, division: Division, inputs: Mapping[str, Number]) -> list[Root]:
     """All solutions that are proven."""
@@ -33,10 +36,13 @@ def search(kernel: Kernel, guess: Sequence[float], inputs: Mapping[str, Number])
 
 def _pinned(kernel: Kernel, box: list[Number], inputs: Mapping[str, Number]) -> list[Number]:
     """The solution in a box that is proven to hold exactly one, as narrowly as it can be enclosed."""
-    near = search(kernel, [ball.middle(each) for each in box], inputs)
-    if near is not None and all(ball.contains(outer, inner) for outer, inner in zip(box, near, strict=True)):
+    narrow = refine(kernel, box, inputs)
+    if all(ball.width(each) <= NARROW * max(1.0, abs(ball.middle(each))) for each in narrow):
+        return narrow
+    near = search(kernel, [ball.middle(each) for each in narrow], inputs)
+    if near is not None and all(ball.contains(outer, inner) for outer, inner in zip(narrow, near, strict=True)):
         return near
-    return refine(kernel, box, inputs)
+    return narrow
 
 
 @lru_cache(maxsize=256)
