@@ -8,8 +8,19 @@ from typing import Any
 
 from contoursolve.analysis import Group, judge, order
 from contoursolve.backends.inputs import SIDE, lookup
-from contoursolve.backends.numeric import Expression, Tape, is_number, larger, quadratic_parts, sqrt, symbol
-from contoursolve.constraints import Radius, System, Values
+from contoursolve.backends.numeric import (
+    Expression,
+    Tape,
+    is_number,
+    is_zero,
+    larger,
+    quadratic_parts,
+    sqrt,
+    symbol,
+    where,
+)
+from contoursolve.constraints import ChamferLeg, Parallel, Radius, System, Values
+from contoursolve.constraints.lines import moves_of
 from contoursolve.model import FIRST, SECOND, Fact, Line, scalar
 from contoursolve.solving.alternatives import side_values
 from contoursolve.solving.compile import Machine, compile_path
@@ -180,9 +191,7 @@ class _Closing:
         """What must run in its stated sense, as `enumerate` says."""
         at, figure = self._at(), self.system.figure
         for fact in self.system.facts:
-            if len(getattr(fact, "advance", ())) > 1:
-                raise NoFormulaError("which way the path advances depends on the values", (fact,), ())
-            for value in fact.senses(at):
+            for value in self._senses(fact, at):
                 self._need(Need.POSITIVE, value, (fact,), self.system.unknowns_among(fact.sense_reads()))
         for line in (*figure.path, *figure.lines):
             if not isinstance(line, Line) or line.name not in figure.carriers:
@@ -193,6 +202,16 @@ class _Closing:
                 cosine, sine = at.bearing(line.name)
                 first, second = (at.coordinate(line.head, axis) - at.coordinate(line.tail, axis) for axis in (0, 1))
                 self._need(Need.POSITIVE, first * cosine + second * sine, (), (line.name,))
+
+    def _senses(self, fact: Fact, at: Values) -> Iterator[Any]:
+        """What must be positive; which of several lines tells how a path advances follows from the values."""
+        if not isinstance(fact, Parallel | ChamferLeg) or len(fact.advance) < 2:  # noqa: PLR2004 - several lines
+            yield from fact.senses(at)
+            return
+        way, *others = reversed(moves_of(at, fact.advance, fact.axis))
+        for move in others:
+            way = where(is_zero(move), way, move)
+        yield way * (at.bearing(fact.line)[fact.axis] if isinstance(fact, Parallel) else at.side(fact.side))
 
     def _sides(self, at: Values) -> Iterator[tuple[str, tuple[str, str]]]:
         chosen = set(self.system.choices)
