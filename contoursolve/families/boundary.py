@@ -105,14 +105,17 @@ def feasible(
 
     Args:
         block: the block, or the blocks of one contour.
-        word: the word by its letter (`P`, `,A`), or with its line where several have it (`2:,A`).
+        word: the word by its letter (`P`, `,A`), or with its line where several have it (`2:,A`); a word of the start
+            point as `start.X`; a fact by what it gives the value of (`length of line 1`).
         within: the range to look at; without it, an angle turns once (0 to 360, or -360 to 0 for a negative one), and
             a length is looked at for 1 m to either side.
-        start: and all others as for `family`, with the same errors; also raises FamilyError for a block with facts or
-            `?`, which has no closed form.
+        start: and all others as for `family`, with the same errors; also raises FamilyError where facts or `?` leave no
+            closed form, and names them: `family` solves such a block value by value.
 
     The range is divided into stretches in each of which all that is checked of a contour is bounded by intervals, so
-    that no part with or without a contour is overlooked. Each end is computed, and solved on both sides.
+    that no part with or without a contour is overlooked. Each end is computed, and solved on both sides. Where facts,
+    `?` or a choice that nothing makes leave several solutions, all are followed; the contour exists where one alone
+    can be made.
 
     >>> found = feasible("G111 X100. A180. K-30. B120. P5. Q5.", "P", start="X40. Z0.")
     >>> [(round(each.low.value, 4), round(each.high.value, 4)) for each in found.intervals]

@@ -12,6 +12,7 @@ from contoursolve.backends.chart import Chart
 from contoursolve.backends.inputs import lookup
 from contoursolve.backends.numeric import larger, sqrt
 from contoursolve.constraints import Distance, System
+from contoursolve.families.ends import about_of
 from contoursolve.families.isolate import LEVEL
 from contoursolve.families.kinds import Follows, Kind
 from contoursolve.families.margins import Margins, compile_margins, compile_results
@@ -94,9 +95,9 @@ def distinct(branches: Sequence[Branch], low: Sequence[float], high: Sequence[fl
 
 def _texts(kind: Kind, givens: Sequence[str]) -> str:
     """The words and facts that state values, and those that ask."""
-    words = [kind.profile.givens[name].word for name in givens]
-    asked = [question.word.text for question in kind.profile.questions]
-    return join(list(dict.fromkeys([*(word.text for word in words if word is not None), *asked])))
+    stated = about_of(kind.free, kind.profile).words(givens)
+    asked = join(list(dict.fromkeys(question.word.text for question in kind.profile.questions)))
+    return f"{stated} with {asked}" if stated and asked else stated or asked
 
 
 def _givens(kind: Kind, facts: Sequence[Fact], unknowns: Sequence[str]) -> tuple[str, ...]:

@@ -44,7 +44,8 @@ class Hit:
     """A value of the word that brings the point where it is wanted, or nearer than its neighbours do.
 
     `point` is where the point is then, `away` how far from the goal (mm). `certificate` is that of the single solve.
-    `block` is the text with the value rounded to the control's least increment, which is `rounded`, and
+    `block` is the text with the value rounded to the control's least increment, which is `rounded` (for a word of the
+    start point the words of that, and facts that stand beside the block on lines of their own), and
     `rounded_away` how far from the goal the point is then; None where the block with the rounded value has no contour.
     """
 
@@ -92,15 +93,16 @@ def find_word(
 
     Args:
         block: the block, or the blocks of one contour; the word stands in it with any value.
-        word: the word by its letter (`A`, `,A`), or with its line where several have it (`2:,A`); a fact by what it
-            gives the value of (`length of line 1`).
+        word: the word by its letter (`A`, `,A`), or with its line where several have it (`2:,A`); a word of the start
+            point as `start.X`; a fact by what it gives the value of (`length of line 1`).
         goal: a point and where it is wanted, as the control writes it: `end Z-50.`, `V1 X44.`, `corner 1.center Z-30.`.
             With both coordinates, such as `end Z-50. X100.`, the values are found at which it is nearest to there.
         within: and all others as for `feasible`, with the same errors; also raises FamilyError for a point that the
             contour does not have, or that does not depend on the word.
 
-    Where the contour exists, interval arithmetic isolates every zero; each is solved and certified by itself. With
-    facts or `?` in the block, the word is asked for and the goal stated as one coordinate more, as `solve` does it.
+    Where the contour exists, interval arithmetic isolates every zero; each is solved and certified by itself. Where
+    facts or `?` leave no closed form, the word is asked for and the goal stated as one coordinate more, as `solve` does
+    it.
 
     >>> found = find_word("G111 X100. A180. K-30. B120. P5. Q5.", "B", "end Z-50.", start="X40. Z0.")
     >>> [(round(each.value, 4), each.block) for each in found.hits]

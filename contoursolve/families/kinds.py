@@ -210,7 +210,11 @@ def value_of(word: Word, answer: Answer) -> float:
 
 
 def unit_of(word: Word, answer: Answer) -> Unit:
-    """What a word of a block or of the start point, or a fact, states. Raises FamilyError where nothing tells."""
+    """What a word of a block or of the start point, or a fact, states. Raises FamilyError where nothing tells, or a
+    fact cannot be read."""
+    unread = next((each for each in answer.diagnostics if each.about is Trouble.FACT_UNREADABLE), None)
+    if unread is not None:
+        raise FamilyError(unread.message)
     row = answer.claim.lexicon.addresses.get(word.address)
     given = next((each for each in answer.profile.givens.values() if each.word and is_same(word, each.word)), None)
     if row is None and given is None:

@@ -107,18 +107,17 @@ class Field:
         parts = self._parts(values)
         if len(parts) == 1:
             return self.branches[0].margins.first_failing(values)
-        pairs = list(zip(self.branches, parts, strict=True))
-        fails = numpy.stack([branch.margins.failing(part) for branch, part in pairs])
-        margins = [
-            numpy.abs(numpy.where(each.is_apart, numpy.abs(part), part) - each.limits)
-            for each, part in ((branch.margins, part) for branch, part in pairs)
-        ]
-        passes = numpy.asarray(~fails.any(axis=1))
-        # None passes because a check just fails, or a second solution passes because one just does not.
-        is_short = passes.sum(axis=0) == 0
-        counts = numpy.where(is_short, fails, passes[:, None, :] & ~fails)
-        sizes = numpy.where(counts & ~numpy.isnan(margins), margins, numpy.inf).reshape(len(values), -1)
-        found: NDArray[numpy.int64] = numpy.where(passes.sum(axis=0) == 1, -1, sizes.argmin(axis=0))
+        excess = []
+        for branch, part in zip(self.branches, parts, strict=True):
+            size = numpy.where(branch.margins.is_apart, numpy.abs(part), part)
+            excess.append(numpy.nan_to_num(size - branch.margins.limits, nan=-numpy.inf))
+        least = numpy.stack([each.min(axis=0) for each in excess])
+        passing = (least >= 0).sum(axis=0)
+        # Where none passes, one just fails; where several pass, one of them just does.
+        closest = numpy.where((least >= 0) == (passing > 0), numpy.abs(least), numpy.inf).argmin(axis=0)
+        every = numpy.stack(excess)[closest, :, numpy.arange(values.shape[1])]
+        own = (every <= numpy.maximum(every.min(axis=1), 0.0)[:, None] + LEVEL).argmax(axis=1)
+        found: NDArray[numpy.int64] = numpy.where(passing == 1, -1, closest * len(parts[0]) + own)
         return found
 
     def share(self, vectors: Array) -> Array:

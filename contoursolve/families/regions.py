@@ -83,7 +83,7 @@ def region(
 
     Args:
         block: the block, or the blocks of one contour.
-        words: the two words, as for `feasible`.
+        words: the two words, words of the start point, or facts, as for `feasible`.
         within: the range of each, lower value first.
         start: and all others as for `feasible`, with the same errors.
 

@@ -46,6 +46,9 @@ Part = tuple[float, float, bool]
 ASIDE = 0.382
 """Share of a piece at which a single solve must agree with the solutions in closed form."""
 
+SMALL = 1e-4
+"""Share of a value (at least of 1). In a piece that is no wider rounding may be too large."""
+
 TOGETHER = 1e-9
 """Share of a value (at least of 1). Values this close at which two branches change are one."""
 
@@ -182,9 +185,14 @@ class Survey:
             return
         for piece in self._together(kind, branches, lines):
             at = piece.low + ASIDE * (piece.high - piece.low)
-            if self.is_solved(at) is not piece.is_solved:
+            if self.is_solved(at) is piece.is_solved:
+                yield piece
+                continue
+            if piece.high - piece.low > SMALL * max(1.0, abs(at)):
                 raise NotClosedError(f"at {self.word} {value_text(at, self.unit)} the closed form fails; {INSTEAD}")
-            yield piece
+            # So close to a singular value rounding alone keeps the closed form from telling.
+            self.is_complete = False
+            yield Piece(piece.low, piece.high, not piece.is_solved, kind)
 
     def _parts(self, branch: Branch, low: float, high: float) -> tuple[list[Part], list[float]]:
         """Where the checks of one solution are passed, and single values that may differ from the parts."""
@@ -225,19 +233,23 @@ class Survey:
     ) -> Iterator[Piece]:
         """Pieces of several solutions: there is a contour where one of them alone passes its checks."""
         holes = sorted({hole for _, own in lines for hole in own})
-        cuts = list[float]()
-        for value in sorted({value for parts, _ in lines for part in parts for value in part[:2]}):
-            if not cuts or value - cuts[-1] > TOGETHER * max(1.0, abs(value)):
+        changes = {one[1] for parts, _ in lines for one, other in pairwise(parts) if one[2] is not other[2]}
+        low, high = lines[0][0][0][0], lines[0][0][-1][1]
+        cuts = [low]
+        for value in sorted(changes):
+            if value - cuts[-1] > TOGETHER * max(1.0, abs(value)):
                 cuts.append(value)
-        cuts[-1] = lines[0][0][-1][1]
+        cuts.append(high)
         found: list[tuple[float, tuple[int, ...]]] = []
-        for low, high in pairwise(cuts):
-            middle = (low + high) / 2
-            passing = tuple(n for n, (parts, _) in enumerate(lines) if any(a < middle < b and ok for a, b, ok in parts))
+        for begin, end in pairwise(cuts):
+            middle = (begin + end) / 2
+            passing = tuple(
+                n for n, (parts, _) in enumerate(lines) if any(a <= middle <= b and ok for a, b, ok in parts)
+            )
             if found and found[-1][1] == passing:
-                found[-1] = high, passing
+                found[-1] = end, passing
             else:
-                found.append((high, passing))
+                found.append((end, passing))
         begin = cuts[0]
         for (end, passing), after in zip(found, [*found[1:], None], strict=False):
             branch = branches[passing[0]] if len(passing) == 1 else None
