@@ -464,7 +464,7 @@ def test_a_map_names_every_outcome_with_its_boundary():
     picture = draw_family_map(family)
     check(picture)
     told = " ".join(labels(picture))
-    for name in ("solved", "line reversed", "corner too large", "corners overlap"):
+    for name in ("solved", "line reversed", "corner too large", "corners overlap", "A [deg]", "P [mm]"):
         assert name in told
     turned = draw_family_map(family, ("P", "A"), theme=Theme.PAGE)
     assert check(turned).tag

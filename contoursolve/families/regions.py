@@ -119,6 +119,23 @@ def region_of(family: Family, words: tuple[str, str]) -> Region:
     return _region(template, words, (first, second))
 
 
+def units_of(family: Family, words: Sequence[str]) -> tuple[str, ...]:
+    """What words of a family are written in (mm, inch or deg); empty for one that only chooses between two places, and
+    where nothing tells."""
+    if family.recipe is None:
+        return ("",) * len(words)
+    template = family.recipe.template()
+    answer = template.solve({})
+    found = []
+    for word in words:
+        try:
+            kind = unit_of(template.words[word], answer)
+        except FamilyError:
+            kind = Unit.SIGN
+        found.append({Unit.MM: answer.unit.value, Unit.DEGREE: "deg", Unit.SIGN: ""}[kind])
+    return tuple(found)
+
+
 def _region(template: Template, names: tuple[str, str], within: tuple[Point, Point]) -> Region:
     """The region of two words of a block that is read."""
     if names[0] == names[1]:
