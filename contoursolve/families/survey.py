@@ -250,14 +250,41 @@ class Survey:
                 found[-1] = end, passing
             else:
                 found.append((end, passing))
+        found = self._without_slivers(cuts[0], found)
         begin = cuts[0]
         for (end, passing), after in zip(found, [*found[1:], None], strict=False):
             branch = branches[passing[0]] if len(passing) == 1 else None
-            yield from self._parted(Piece(begin, end, branch is not None, kind, branch), holes)
             # Where solutions part, they may be one; where another one takes over, there may be none, or both.
-            if after is not None and (len(passing) == 1) is (len(after[1]) == 1):
+            is_alike = after is not None and (len(passing) == 1) is (len(after[1]) == 1)
+            if is_alike:
+                end = self._least_increment(end, is_solved=branch is not None)  # noqa: PLW2901
+            yield from self._parted(Piece(begin, end, branch is not None, kind, branch), holes)
+            if is_alike:
                 yield Piece(end, end, self.is_solved(end), None)
             begin = end
+
+    def _without_slivers(
+        self, low: float, found: Sequence[tuple[float, tuple[int, ...]]]
+    ) -> list[tuple[float, tuple[int, ...]]]:
+        """The stretches from `low` on, by their ends and the solutions that pass there, without those that rounding
+        alone has made of a single value in thousandths."""
+        left: list[tuple[float, tuple[int, ...]]] = []
+        for number, (end, passing) in enumerate(found):
+            begin, is_solved = found[number - 1][0] if number else low, len(passing) == 1
+            if 0 < number < len(found) - 1 and end - begin <= LEAST_GAP:
+                beside = [len(each) == 1 for _, each in (found[number - 1], found[number + 1])]
+                value = self._least_increment((begin + end) / 2, is_solved=not is_solved)
+                if is_solved not in beside and value == round(value, 3):
+                    self.is_complete = False
+                    left[-1] = value, left[-1][1]
+                    continue
+            left.append((end, passing))
+        return left
+
+    def _least_increment(self, value: float, *, is_solved: bool) -> float:
+        """The value in thousandths close to one at which two solutions change, if that differs from what is beside."""
+        near = round(value, 3) + 0.0
+        return near if abs(near - value) <= LEAST_GAP and self.is_solved(near) is not is_solved else value
 
     def failing(self, branch: Branch, value: float) -> list[Check]:
         """The checks that fail at a value, in their order."""
