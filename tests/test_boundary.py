@@ -286,6 +286,11 @@ FACTS = {
         {"start": "X1.6 Z0.", "units": "inch", "facts": ["line 2 passes through (Z-1.6 X3.2)"]},
         {"start.X": (0, 4), "start.Z": (-1.5, 1.5), "K": (-2.4, 0), "P": (0, 2)},
     ),
+    "facts of which the first ones fix nothing, in inches": (
+        "G111 X4. A180. K? B120. P.2 Q.2",
+        {"start": "X1.6 Z0.", "units": "inch", "facts": ["X of V1 = 1.6", "Z of V1 = -1.2"]},
+        {"Z of V1": (-3, 0)},
+    ),
     "a tangent circle": (
         "G111 X100. A180. K-30. B? P5.",
         {"start": START, "facts": ["line 2 tangent to circle (Z-60. X60. R5.)"]},

@@ -18,7 +18,7 @@ from contoursolve.families.kinds import Follows, Kind
 from contoursolve.families.margins import Margins, compile_margins, compile_results
 from contoursolve.families.ranges import NotClosedError
 from contoursolve.model import Choice, Fact
-from contoursolve.settling import settled_by
+from contoursolve.settling import orders_of, settled_by
 from contoursolve.solving import RefusalKind
 from contoursolve.solving.checks import Check, Checks, Source, Test, at_origin, check_facts, check_path
 from contoursolve.solving.closed import ROOT, ClosedForm, Need, NoFormulaError, close
@@ -52,8 +52,22 @@ class Branch:
         return chart, self.kind.fixed(chart.fixed, dict(self.signs))
 
 
-def branches_of(kind: Kind, words: Sequence[str]) -> tuple[Branch, ...]:
-    """The branches of a kind that is solved. Raises NotClosedError where there is no closed form."""
+def branches_of(kind: Kind, words: Sequence[str], low: Sequence[float], high: Sequence[float]) -> tuple[Branch, ...]:
+    """The branches of a kind that is solved, in a box of its words. Raises NotClosedError where there is no closed
+    form."""
+    try:
+        return _distinct(_branches(kind, words), low, high)
+    except NotClosedError:
+        # Facts that are singular at their values may have another in their place, as in a single solve.
+        for profile in orders_of(kind.profile):
+            try:
+                return _distinct(_branches(replace(kind, profile=profile), words), low, high)
+            except NotClosedError:
+                continue
+        raise
+
+
+def _branches(kind: Kind, words: Sequence[str]) -> tuple[Branch, ...]:
     follows = kind.follows(words)
     if kind.is_closed:
         margins = compile_margins(kind.system, len(words), follows)
@@ -71,7 +85,7 @@ def branches_of(kind: Kind, words: Sequence[str]) -> tuple[Branch, ...]:
     return tuple(found)
 
 
-def distinct(branches: Sequence[Branch], low: Sequence[float], high: Sequence[float]) -> tuple[Branch, ...]:
+def _distinct(branches: Sequence[Branch], low: Sequence[float], high: Sequence[float]) -> tuple[Branch, ...]:
     """The branches without those that are another one for all values in a box, as the two places of the centre of a
     half circle. Raises NotClosedError where what is divided by is zero for all of them."""
     if branches[0].kind.is_closed:

@@ -11,7 +11,7 @@ from contoursolve.backends.intervals import Array
 from contoursolve.diagnostic import Severity
 from contoursolve.dialects import Dialect
 from contoursolve.families.boundary import ASIDE, Way
-from contoursolve.families.branches import branches_of, distinct
+from contoursolve.families.branches import branches_of
 from contoursolve.families.ends import Reason, about_of, called, phrase, same
 from contoursolve.families.kinds import Kind, alike, kind_of, limits_of, unit_of, value_of
 from contoursolve.families.outline import BISECTIONS, NODES, Box, Field, Trace, edge_of, gaps_of
@@ -221,7 +221,7 @@ class _Map:
 
     def _field(self, place: tuple[int, int], kind: Kind) -> Field:
         low, high = ([self.marks[axis][place[axis] + side] for axis in (0, 1)] for side in (0, 1))
-        branches = distinct(branches_of(kind, self.words), low, high)
+        branches = branches_of(kind, self.words, low, high)
         return Field(branches, Box((low[0], low[1]), (high[0], high[1])))
 
     def _boundary(self, field: Field, kind: Kind, trace: Trace, *, is_gap: bool) -> Boundary:

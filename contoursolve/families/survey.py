@@ -9,7 +9,7 @@ import numpy
 
 from contoursolve.backends.intervals import Array
 from contoursolve.examine import Answer
-from contoursolve.families.branches import INSTEAD, Branch, branches_of, distinct
+from contoursolve.families.branches import INSTEAD, Branch, branches_of
 from contoursolve.families.isolate import Stretch, divide
 from contoursolve.families.kinds import Kind, alike, kind_of, limits_of, unit_of, value_of
 from contoursolve.families.ranges import FamilyError, NotClosedError, read_limits
@@ -178,7 +178,7 @@ class Survey:
         if kind.status is not None:
             yield Piece(low, high, is_solved=False, kind=kind)
             return
-        branches = distinct(branches_of(kind, [self.word]), [low], [high])
+        branches = branches_of(kind, [self.word], [low], [high])
         lines = [self._parts(branch, low, high) for branch in branches]
         if kind.is_closed:
             yield from self._joined(branches[0], *lines[0])
