@@ -2,6 +2,7 @@
 
 import json
 from math import asin, atan2, degrees, hypot, radians, sin, tan
+from random import Random
 
 import numpy as np
 import pytest
@@ -10,7 +11,8 @@ from test_family import CASES, text_of
 
 import contoursolve
 from contoursolve.cli import main
-from contoursolve.families import FamilyError, Way, feasible, region
+from contoursolve.families import Code, FamilyError, Way, family, feasible, region
+from contoursolve.families.ranges import NotClosedError
 
 BLOCK, START = "G111 X100. A180. K-30. B120. P5. Q5.", "X40. Z0."
 WORDS = [(name, word) for name, (_, _, ranges) in CASES.items() for word in ranges if not word.endswith("Q")]
@@ -253,7 +255,223 @@ def test_the_command_prints_the_ranges():
     assert run(*on_block, "--word", "A", "--word", "P")[0] == 2
     status, output, _ = run("--block", BLOCK.replace("B120. ", ""), "--start", START, "--word", "P")
     assert (status, "line 2 needs two of B, X or U, Z or W" in output) == (1, True)
+    asked = ("--block", "G111 X100. A180. K-30. B120. P?", "--start", START, "--fact", "straight part of line 2 = 20")
+    status, output, _ = run(*asked, "--word", "straight part of line 2")
+    assert (status, "straight part of line 2, now 20.0000 mm" in output, "34.641 mm at most" in output) == (
+        0,
+        True,
+        True,
+    )
+    assert "start.X, now 40.0000 mm" in run(*on_block, "--word", "Start.x")[1]
     for wrong, message in ((("--word", "R"), "no word R"), (("--word", "P", "--within", "5"), "LOW:HIGH")):
         status, output, errors = run(*on_block, *wrong)
         assert (status, output) == (2, "")
         assert message in errors
+
+
+MILL = "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 {} {}\nG1 X-50 Y42.857 {}"
+FACTS = {
+    "a radius from a straight part": (
+        "G111 X100. A180. K-30. B120. P?",
+        {"start": START, "facts": ["straight part of line 2 = 20"]},
+        {"K": (-60, 5), "straight part of line 2": (-5, 60), "B": (60, 200), "start.X": (10, 120)},
+    ),
+    "an angle from a length": (
+        "G111 X100. A? K-30. B120. (contoursolve: length of line 1 = 35.)",
+        {"start": START},
+        {"K": (-60, 5), "length of line 1": (5, 70)},
+    ),
+    "a place, in inches": (
+        "G111 X4. A180. K-1.2 B? P.2 Q.2",
+        {"start": "X1.6 Z0.", "units": "inch", "facts": ["line 2 passes through (Z-1.6 X3.2)"]},
+        {"start.X": (0, 4), "start.Z": (-1.5, 1.5), "K": (-2.4, 0), "P": (0, 2)},
+    ),
+    "facts of which the first ones fix nothing, in inches": (
+        "G111 X4. A180. K? B120. P.2 Q.2",
+        {"start": "X1.6 Z0.", "units": "inch", "facts": ["X of V1 = 1.6", "Z of V1 = -1.2"]},
+        {"Z of V1": (-3, 0)},
+    ),
+    "a tangent circle": (
+        "G111 X100. A180. K-30. B? P5.",
+        {"start": START, "facts": ["line 2 tangent to circle (Z-60. X60. R5.)"]},
+        {"start.X": (0, 100), "K": (-100, 0)},
+    ),
+    "a last corner asked for, beside a shoulder": (
+        "G111 X100. A180. K-30. B90. P5. Q?",
+        {"start": START, "facts": ["straight part of line 2 = 22."]},
+        {"B": (60, 170), "K": (-60, 10), "X": (40, 150), "P": (0, 20)},
+    ),
+    "a last bevel asked for, on a line to a place": (
+        "G111 X100. A180. K-30. B120. P5. D?",
+        {"start": START, "facts": ["corner 2 meets line to (Z-90. X130.)", "straight part of line 2 = 22."]},
+        {"start.X": (20, 90), "straight part of line 2": (0, 40)},
+    ),
+    "said twice": (
+        "G111 X100. A180. K-30. B120. P5. Q5.",
+        {"start": START, "facts": ["length of line 1 = 30"]},
+        {"K": (-30.01, -29.99), "length of line 1": (29.99, 30.01), "A": (179, 181)},
+    ),
+    "words that ask alone": (
+        "G111 X100. A180. K-30. B120. P5. Q5.",
+        {"start": START, "facts": ["length of line 1 = ?"]},
+        {"A": (100, 300), "P": (-1, 60)},
+    ),
+    "a start point": (BLOCK, {"start": START}, {"start.X": (-10, 120), "start.Z": (-20, 20)}),
+    "a start point that is a block": (MILL.format("R50", "", ",A171.87 Q-1"), {}, {"1:X": (45, 55), ",A": (100, 260)}),
+    "a choice that nothing makes": (
+        MILL.format("R50", ",R3", ",A171.87"),
+        {"rules": "off"},
+        {"R": (-70, 80), ",A": (100, 260)},
+    ),
+    "a choice, and a half circle": (
+        MILL.format("R50", "", ",A171.87 Q-1"),
+        {"facts": ["length of line = ?"]},
+        {",A": (100, 260), "R": (40, 90)},
+    ),
+    "a choice that a fact makes": (
+        MILL.format("R50", "", ",A171.87"),
+        {"facts": ["X of P1 = 40"], "rules": "off"},
+        {"X of P1": (39.99, 40.01), ",A": (171.8, 171.9)},
+    ),
+    "an angle from a point": (
+        MILL.format("R50", "", ",A? Q-1"),
+        {"facts": ["X of P1 = 40"]},
+        {"R": (45, 150), "X of P1": (-60, 60)},
+    ),
+}
+
+
+def solved_in(block, vary, options):
+    """Whether each row of a family, which is followed in boxes and not in closed form, has a contour."""
+    return np.isin(family(block, vary=vary, **options)["status"], (Code.SOLVED, Code.OVERDETERMINED))
+
+
+def check_against_family(block, word, found, options):
+    """A range is what a fine family shows, beside its ends, too."""
+    low, high = found.within
+    ends = [end for each in found.intervals for end in (each.low, each.high)]
+    values = {*np.round(np.linspace(low, high, 81), 3).tolist()}
+    values |= {round(end.value + step, 3) for end in ends for step in (-0.003, -0.001, 0, 0.001, 0.003)}
+    values = [v for v in sorted(values) if low <= v <= high and all(abs(v - end.value) > 2e-5 for end in ends)]
+    solved = solved_in(block, {word: values}, options)
+    wrong = [value for value, is_solved in zip(values, solved, strict=True) if (value in found) is not bool(is_solved)]
+    assert not wrong, (word, wrong, found.intervals)
+    return bool(solved.any())
+
+
+@pytest.mark.parametrize("name", FACTS)
+def test_ranges_with_facts_and_start_points_are_those_of_a_fine_family(name):
+    block, options, ranges = FACTS[name]
+    exists = []
+    for word, within in ranges.items():
+        found = feasible(block, word, within=within, **options)
+        assert all(end.is_verified for each in found.intervals for end in (each.low, each.high)), found.intervals
+        exists.append(check_against_family(block, word, found, options))
+    assert any(exists)
+
+
+TOLD = [
+    *(f"length of line {number}" for number in (1, 2)),
+    *(f"straight part of line {number}" for number in (1, 2)),
+    *(f"direction of line {number}" for number in (1, 2)),
+    *("X of V1", "Z of V2", "angle from line 1 to line 2", "Z of end of corner 2", "X of begin of corner 1"),
+    *("radius of corner 1", "radius of corner 2", "Z of center of corner 1"),
+]
+
+
+def random_block(rng):
+    """A block with as many facts that are true of it as it asks for, and what may vary: None where no facts fit."""
+    words = {
+        "X": rng.uniform(60, 120),
+        "A": rng.uniform(150, 200),
+        "K": rng.uniform(-50, -20),
+        "B": rng.uniform(100, 150),
+    }
+    words |= {rng.choice(pair): rng.uniform(1, 6) for pair in ("PC", "QD") if rng.random() < 0.7}
+    asked = rng.sample(list(words), rng.choice((1, 1, 2)))
+    text = "G111 " + " ".join(f"{word}{value:.1f}" for word, value in words.items())
+    facts = []
+    for fact in rng.sample(TOLD, len(TOLD)):
+        answer = contoursolve.solve(text, start=START, facts=[f"{fact} = ?"]).answers[0]
+        if answer.answers and answer.answers[0].value is not None:
+            value = answer.answers[0].value * (2 if fact.startswith("X of") else 1)
+            facts.append(f"{fact} = {value:.3f}")
+        if len(facts) == len(asked):
+            break
+    else:
+        return None
+    text = "G111 " + " ".join(f"{word}?" if word in asked else f"{word}{words[word]:.1f}" for word in words)
+    free = [*(word for word in words if word not in asked), *(fact.partition(" =")[0] for fact in facts), "start.X"]
+    return text, facts, rng.choice(free)
+
+
+def test_ranges_of_random_facts_are_those_of_a_fine_family():
+    rng, existing = Random(5), 0
+    while existing < 6:
+        drawn = random_block(rng)
+        if drawn is None:
+            continue
+        text, facts, word = drawn
+        options = {"start": START, "facts": facts}
+        try:
+            found = feasible(text, word, **options)
+        except NotClosedError:
+            continue
+        if found.intervals:
+            near = found.stated
+            low, high = max(found.within[0], near - 90), min(found.within[1], near + 90)
+            found = feasible(text, word, within=(low, high), **options)
+            existing += check_against_family(text, word, found, options)
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("a radius from a straight part", ("K", "straight part of line 2")),
+        ("a radius from a straight part", ("start.X", "B")),
+        ("a start point", ("start.X", "P")),
+        ("an angle from a length", ("K", "length of line 1")),
+        ("an angle from a point", ("R", "X of P1")),
+    ],
+)
+def test_a_cut_through_a_region_with_facts_is_what_a_fine_family_shows(name, words):
+    block, options, ranges = FACTS[name]
+    within = [ranges.get(word, (0, 60)) for word in words]
+    found = region(block, words, within, **options)
+    (low, high), span = within
+    axis = np.linspace(*span, 161)
+    for value in np.round(np.random.default_rng(len(name)).uniform(low, high, 5), 3).tolist():
+        solved = solved_in(block, {words[0]: [value], words[1]: axis}, options)[0]
+        changes = np.flatnonzero(solved[1:] != solved[:-1])
+        at = sorted(crossings(found, value))
+        assert len(at) == changes.size, (value, at, axis[changes])
+        assert all(axis[n] - 0.05 <= each <= axis[n + 1] + 0.05 for n, each in zip(changes, at, strict=True))
+
+
+@pytest.mark.parametrize(
+    ("block", "facts", "message"),
+    [
+        (
+            "G111 X100. A? K-30. B?",
+            ["length of line 1 = 35", "angle from line 1 to line 2 = -50"],
+            "length of line 1 = 35 and K with A. and B.: they have no closed form together; .* with `family`",
+        ),
+        (BLOCK, ["lenght of line 1 = 30"], "lenght"),
+    ],
+)
+def test_facts_of_which_no_range_can_be_told_are_named(block, facts, message):
+    with pytest.raises(FamilyError, match=message):
+        feasible(block, "K", start=START, facts=facts)
+    with pytest.raises(FamilyError, match=message):
+        region(block, ("K", "X"), ((-40, -20), (80, 120)), start=START, facts=facts)
+
+
+def test_the_end_where_a_second_contour_begins_says_so():
+    block, options, _ = FACTS["an angle from a length"]
+    found = feasible(block, "K", within=(-1000, 0), **options)
+    touching, rest = found.intervals
+    assert touching.low.value == touching.high.value == -35, "there both are one"
+    assert "2 contours satisfy the block" in rest.low.reason.text
+    # From there on the one that runs down would run against B120.
+    assert rest.low.value == pytest.approx(-((35**2 - 30**2) ** 0.5), abs=1e-9)
+    assert "2 contours" in found.refusal

@@ -278,6 +278,16 @@ def test_facts_choices_and_start_points_vary_as_words_do(name):
     assert len(seen) > 1
 
 
+def test_which_way_a_path_advances_is_told_row_by_row():
+    """Over all rows line 2 may advance either way, for all that one box of values tells."""
+    block = "G111 X? A? K{} B107.8 D4.4"
+    options = {"start": START, "facts": ["straight part of line 2 = 3.314", "length of line 1 = 24.695"]}
+    values = [-24.5, -22.25, -20.0, -10.0]
+    found = family(block.format(-24.5), vary={"K": values}, **options)
+    single = [contoursolve.solve(block.format(value), **options).answers[0].status for value in values]
+    assert [Code(code).status for code in found["status"]] == single == [contoursolve.Status.AMBIGUOUS] * 4
+
+
 def test_a_value_that_is_asked_for_is_a_column():
     options = {"start": START, "facts": ["straight part of line 2 = 20", "length of line 1 = ?"]}
     found = family("G111 X100. A180. K-30. B120. P?", vary={"K": [-30, -40]}, **options)

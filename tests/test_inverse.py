@@ -5,7 +5,8 @@ import json
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from test_family import CASES, text_of
+from test_boundary import FACTS
+from test_family import CASES, filled, text_of
 
 import contoursolve
 from contoursolve.cli import main
@@ -205,3 +206,56 @@ def test_the_command_prints_the_values():
     assert run("--word", "A", "--bring", "end Z900.")[0] == 1
     status, output, errors = run("--word", "A", "--bring", "nowhere")
     assert (status, output, "is no goal" in errors) == (2, "", True)
+
+
+FREE = [
+    ("a radius from a straight part", "K", "end"),
+    ("a radius from a straight part", "straight part of line 2", "corner 1.center"),
+    ("a radius from a straight part", "start.X", "corner 1.begin"),
+    ("an angle from a length", "length of line 1", "V1"),
+    ("a place, in inches", "start.X", "end"),
+    ("a last corner asked for, beside a shoulder", "X", "end"),
+    ("a start point", "start.X", "end"),
+    ("a start point", "start.Z", "corner 1.center"),
+    ("a start point that is a block", "1:X", "P1"),
+    ("a tangent circle", "K", "V2"),
+]
+
+
+@pytest.mark.parametrize(("name", "word", "point"), FREE)
+def test_facts_and_start_points_are_found_again_as_words_are(name, word, point):
+    """The value of a random single solve is among those that bring its point where it was."""
+    block, options, ranges = FACTS[name]
+    low, high = ranges[word]
+    rng, compared = np.random.default_rng(len(name + word)), 0
+    for value in np.round(rng.uniform(low, high, 60), 3).tolist():
+        text, more = filled(block, options, {word: value})
+        answer = contoursolve.solve(text, depth="verdict", **more).answers[0]
+        if answer.contour is None or place_of(point, answer.contour) is None or compared == 2:
+            continue
+        at = place_of(point, answer.contour)
+        text, more = filled(block, options, {word: round(value + 0.003, 3)})
+        aside = contoursolve.solve(text, depth="verdict", **more).answers[0].contour
+        axes = tuple(axis for axis in (0, 1) if aside and abs(at[axis] - place_of(point, aside)[axis]) > 1e-6)
+        if not axes:
+            continue
+        compared += 1
+        for goal in (goal_of(point, answer, axes[:1]), goal_of(point, answer)):
+            found = find_word(block, word, goal, within=(low, high), **options)
+            near = [hit for hit in found.hits if abs(hit.value - value) <= 1e-6 * max(1, abs(value))]
+            assert near, (goal, value, found.hits)
+            assert near[0].away <= 1e-9
+            assert near[0].rounded_away <= 1e-9
+    assert compared
+
+
+def test_what_is_written_for_a_fact_and_for_the_start_point():
+    (hit,) = find_word(BLOCK, "start.X", "end Z-60.", start=START).hits
+    assert hit.block == "X6.077 Z0."
+    again = contoursolve.solve(BLOCK, start=hit.block).answers[0].contour
+    assert hit.rounded_away == pytest.approx(abs(again.end[0] + 60), abs=1e-12)
+    block, facts = "G111 X100. A180. K-30. B120. P?", ["straight part of line 2 = 20"]
+    (hit,) = find_word(block, "straight part of line 2", "corner 1.begin Z-20.", start=START, facts=facts).hits
+    text, fact = hit.block.split("\n")
+    again = contoursolve.solve(text, start=START, facts=[fact]).answers[0].contour
+    assert abs(place_of("corner 1.begin", again)[0] + 20) == pytest.approx(hit.rounded_away, abs=1e-12)

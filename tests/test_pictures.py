@@ -464,7 +464,7 @@ def test_a_map_names_every_outcome_with_its_boundary():
     picture = draw_family_map(family)
     check(picture)
     told = " ".join(labels(picture))
-    for name in ("solved", "line reversed", "corner too large", "corners overlap"):
+    for name in ("solved", "line reversed", "corner too large", "corners overlap", "A [deg]", "P [mm]"):
         assert name in told
     turned = draw_family_map(family, ("P", "A"), theme=Theme.PAGE)
     assert check(turned).tag
@@ -533,10 +533,9 @@ def dense(line):
 
 
 def test_where_no_exact_line_can_be_told_the_cells_have_their_boundaries():
-    vary = {"A": numpy.arange(150, 210, 2.0), "K": numpy.arange(-40, -20, 1.0)}
-    told = contoursolve.family(
-        BLOCK.replace("P5.", "P?"), start=START, vary=vary, facts=["straight part of line 2 = 20"]
-    )
+    facts = ["length of line 1 = 35", "angle from line 1 to line 2 = -50"]
+    vary = {"X": numpy.arange(80, 121, 10.0), "K": numpy.arange(-55, -10, 5.0)}
+    told = contoursolve.family("G111 X100. A? K-30. B?", start=START, vary=vary, facts=facts)
     picture = draw_family_map(told)
     check(picture)
     assert lines_of(picture, width=3.0) == []

@@ -159,6 +159,12 @@ def is_zero(value: Any) -> Expression:
     return _binary(casadi.OP_EQ, value, 0)
 
 
+def is_number(value: Expression, number: float | None = None) -> bool:
+    """Whether an expression is a number, or this one."""
+    sx = casadi.SX(value.sx)
+    return bool(sx.is_constant()) and (number is None or float(sx) == number)
+
+
 class Tape:
     """Collects the inputs and outputs of one function under construction."""
 

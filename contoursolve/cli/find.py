@@ -22,7 +22,13 @@ from contoursolve.output.inverse import found_data, found_lines
 @click.command("find", short_help="Find the value of a word that brings a point where it is wanted.")
 @block_options
 @format_option
-@click.option("--word", required=True, metavar="WORD", help="A word of the block, such as A, or 2:,A for line 2.")
+@click.option(
+    "--word",
+    required=True,
+    metavar="WORD",
+    help="A word of the block, such as A, or 2:,A for line 2; start.X of the start point; a fact, by what it "
+    "gives the value of.",
+)
 @click.option(
     "--bring",
     "goal",

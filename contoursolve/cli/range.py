@@ -4,7 +4,15 @@ from typing import Any
 
 import click
 
-from contoursolve.cli.blocks import block_options, format_option, print_json, read_options, read_within, usage
+from contoursolve.cli.blocks import (
+    block_options,
+    fact_option,
+    format_option,
+    print_json,
+    read_options,
+    read_within,
+    usage,
+)
 from contoursolve.cli.options import FOUND_ERRORS
 from contoursolve.cli.printing import print_lines
 from contoursolve.families import feasible, region
@@ -20,7 +28,8 @@ from contoursolve.output.ranges import range_data, range_lines, region_data, reg
     multiple=True,
     required=True,
     metavar="WORD",
-    help="A word of the block, such as P, or 2:,A for line 2; given twice, the region of both.",
+    help="A word of the block, such as P, or 2:,A for line 2; start.X of the start point; a fact, by what it "
+    "gives the value of. Given twice, the region of both.",
 )
 @click.option(
     "--within",
@@ -29,12 +38,14 @@ from contoursolve.output.ranges import range_data, range_lines, region_data, reg
     help="The range to look at, for each word in turn; without it, one turn for an angle, and 1 m to either side for "
     "a length.",
 )
+@fact_option
 @click.pass_context
 def range_(
     context: click.Context,
     /,
     words: tuple[str, ...],
     within: tuple[str, ...],
+    facts: tuple[str, ...],
     format_: str,
     **options: Any,
 ) -> None:
@@ -42,7 +53,8 @@ def range_(
 
     Every range is found: the values are divided until it is proven of each part that the contour exists there or does
     not. Each end is solved on both sides. For two words, the lines that bound the region are found, each with what
-    fails beyond it; --format json has their points. A block with facts or ? has no closed form, and no range.
+    fails beyond it; --format json has their points. With facts or ?, all solutions are followed, and the contour
+    exists where one alone can be made; where they leave no closed form, sweep solves the block value by value.
 
     Exit status: 0 the contour exists for some value, 1 for none, 2 could not run.
 
@@ -52,12 +64,13 @@ def range_(
     ranges = [read_within(each) for each in within]
     if len(words) > 2 or (len(words) == 2 and len(ranges) != 2) or len(ranges) > len(words):  # noqa: PLR2004
         raise click.UsageError("name one --word, or two with a --within LOW:HIGH for each")
+    about = {"facts": facts, **read_options(options)}
     with usage():
         if len(words) == 1:
-            found = feasible(word=words[0], within=ranges[0] if ranges else None, **read_options(options))
+            found = feasible(word=words[0], within=ranges[0] if ranges else None, **about)
             exists, lines, document = bool(found.intervals), range_lines(found), range_data(found)
         else:
-            both = region(words=(words[0], words[1]), within=(ranges[0], ranges[1]), **read_options(options))
+            both = region(words=(words[0], words[1]), within=(ranges[0], ranges[1]), **about)
             exists, lines, document = both.exists, region_lines(both), region_data(both)
     if format_ == "json":
         print_json(document)

@@ -1,5 +1,6 @@
 """Facts about lines as a whole: their direction, what they pass through, what they touch, how far they go."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from math import atan2, degrees
 from typing import Any
@@ -94,12 +95,12 @@ class Foot(Equation):
 
 @dataclass(frozen=True, slots=True)
 class Parallel(Equation):
-    """The line is parallel to `axis` and runs the way that a path advances along it: the first of the pairs of
-    points in `advance` that moves along the axis tells."""
+    """The line is parallel to `axis` and runs the way that a path advances along it: the first in `advance` that moves
+    along the axis tells, each of these a line whose direction is stated, or a pair of points."""
 
     line: str
     axis: int
-    advance: tuple[tuple[str, str], ...]
+    advance: tuple[tuple[str, ...], ...]
     given: str = ""
 
     def reads(self) -> tuple[str, ...]:
@@ -112,7 +113,7 @@ class Parallel(Equation):
         return (at.bearing(self.line)[self.axis] * way(at, self.advance, self.axis),)
 
     def sense_reads(self) -> tuple[str, ...]:
-        return *line_scalars(self.line)[:2], *(scalar(point, self.axis) for ends in self.advance for point in ends)
+        return *line_scalars(self.line)[:2], *_ends(self.advance, self.axis)
 
 
 @dataclass(frozen=True, slots=True)
@@ -170,7 +171,7 @@ class ChamferLeg(Equation):
     size: str
     side: str
     axis: int
-    advance: tuple[tuple[str, str], ...]
+    advance: tuple[tuple[str, ...], ...]
     between: tuple[str, ...] = ()
     given: str = ""
 
@@ -191,7 +192,7 @@ class ChamferLeg(Equation):
 
     def sense_reads(self) -> tuple[str, ...]:
         lines = (name for line in self.between for name in line_scalars(line)[:2])
-        return *self.reads(), *lines, *(scalar(point, self.axis) for ends in self.advance for point in ends)
+        return *self.reads(), *lines, *_ends(self.advance, self.axis)
 
 
 @dataclass(frozen=True, slots=True)
@@ -264,10 +265,23 @@ class TurnBetween(Equation):
         return degrees(atan2(float(cross(first, second)), float(dot(first, second))))
 
 
-def way(at: Lookup, advance: tuple[tuple[str, str], ...], axis: int) -> Any:
-    """How far a path advances along an axis, by the first of its lines that moves along it at all."""
-    moves = [at.coordinate(head, axis) - at.coordinate(tail, axis) for tail, head in advance]
-    return next((move for move in moves if move != 0), moves[0])
+def _ends(advance: tuple[tuple[str, ...], ...], axis: int) -> Iterator[str]:
+    """The coordinates by which lines advance."""
+    return (scalar(point, axis) for each in advance if len(each) > 1 for point in each)
+
+
+def moves_of(at: Lookup, advance: tuple[tuple[str, ...], ...], axis: int) -> list[Any]:
+    """How far each part of a path advances along an axis, mm, or that part of a line's direction."""
+    found = []
+    for name, *head in advance:
+        found.append(at.coordinate(head[0], axis) - at.coordinate(name, axis) if head else at.bearing(name)[axis])
+    return found
+
+
+def way(at: Lookup, advance: tuple[tuple[str, ...], ...], axis: int) -> Any:
+    """How a path advances along an axis, by the first of its lines that moves along it at all."""
+    moves = moves_of(at, advance, axis)
+    return next((move for move in moves if not at.vanishes(move)), moves[0])
 
 
 def left_of(at: Lookup, line: str, point: str) -> Any:

@@ -8,6 +8,10 @@ from typing import Any
 from contoursolve.model import FIRST, SECOND, Figure, Line, line_scalars, scalar
 
 
+def _may_vanish(value: Any) -> bool:
+    return bool(value != 0) is False
+
+
 @dataclass(frozen=True, slots=True)
 class Functions:
     """What equations need beyond arithmetic, for one kind of number."""
@@ -15,6 +19,8 @@ class Functions:
     root: Callable[[Any], Any] = math.sqrt
     cosine: Callable[[Any], Any] = math.cos
     sine: Callable[[Any], Any] = math.sin
+    vanishes: Callable[[Any], bool] = _may_vanish
+    """Whether a number is zero; of a ball about one number, whether it may be."""
 
 
 FLOATS = Functions()
@@ -68,6 +74,9 @@ class Values:
 
     def rotation(self, angle: Any) -> tuple[Any, Any]:
         return self.functions.cosine(angle), self.functions.sine(angle)
+
+    def vanishes(self, value: Any) -> bool:
+        return self.functions.vanishes(value)
 
     def root(self, value: Any) -> Any:
         return self.functions.root(value)

@@ -9,7 +9,7 @@ from contoursolve.families.inverse import Found, Hit, find_word
 from contoursolve.families.parts import WHOLE, Parts, others, parts_of
 from contoursolve.families.prepared import Sweep
 from contoursolve.families.ranges import FamilyError, name_of
-from contoursolve.families.regions import Boundary, Region, region, region_of
+from contoursolve.families.regions import Boundary, Region, region, region_of, units_of
 from contoursolve.families.result import Family, summary_of
 from contoursolve.families.slopes import Sensitivity, Spread, sensitivity
 from contoursolve.families.tolerance import Effect, Limits, Tolerances, tolerances
@@ -52,5 +52,6 @@ __all__ = [
     "summary_of",
     "sweep",
     "tolerances",
+    "units_of",
     "write_parquet",
 ]

@@ -1,6 +1,6 @@
 """Where a contour exists: every range of one word's values in which it is solved, and what ends each."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
 
@@ -10,7 +10,7 @@ from contoursolve.families.ends import Reason, about_of, called, phrase, same
 from contoursolve.families.recipe import recipe_of
 from contoursolve.families.survey import LEAST_GAP, Crossing, Piece, Survey
 from contoursolve.shown import Shown
-from contoursolve.solving import RefusalKind
+from contoursolve.solving import RefusalKind, RemarkKind
 from contoursolve.wording import value_text
 
 __all__ = ["LEAST_GAP", "End", "Feasible", "Interval", "Way", "feasible"]
@@ -96,6 +96,7 @@ def feasible(
     start: str | None = None,
     within: tuple[float, float] | None = None,
     control: str | Dialect | None = None,
+    facts: Iterable[str] = (),
     units: str = "mm",
     rules: str = "enforce",
     settings: Mapping[str, str] | None = None,
@@ -104,14 +105,17 @@ def feasible(
 
     Args:
         block: the block, or the blocks of one contour.
-        word: the word by its letter (`P`, `,A`), or with its line where several have it (`2:,A`).
+        word: the word by its letter (`P`, `,A`), or with its line where several have it (`2:,A`); a word of the start
+            point as `start.X`; a fact by what it gives the value of (`length of line 1`).
         within: the range to look at; without it, an angle turns once (0 to 360, or -360 to 0 for a negative one), and
             a length is looked at for 1 m to either side.
-        start: and all others as for `family`, with the same errors; also raises FamilyError for a block with facts or
-            `?`, which has no closed form.
+        start: and all others as for `family`, with the same errors; also raises FamilyError where facts or `?` leave no
+            closed form, and names them: `family` solves such a block value by value.
 
     The range is divided into stretches in each of which all that is checked of a contour is bounded by intervals, so
-    that no part with or without a contour is overlooked. Each end is computed, and solved on both sides.
+    that no part with or without a contour is overlooked. Each end is computed, and solved on both sides. Where facts,
+    `?` or a choice that nothing makes leave several solutions, all are followed; the contour exists where one alone
+    can be made.
 
     >>> found = feasible("G111 X100. A180. K-30. B120. P5. Q5.", "P", start="X40. Z0.")
     >>> [(round(each.low.value, 4), round(each.high.value, 4)) for each in found.intervals]
@@ -120,7 +124,7 @@ def feasible(
     'P too large for line 1: 51.962 mm at most'
     """
     template = recipe_of(
-        block, (word,), start=start, control=control, units=units, rules=rules, settings=settings
+        block, (word,), start=start, control=control, facts=facts, units=units, rules=rules, settings=settings
     ).template()
     name = next(iter(template.words))
     survey = Survey(template, name)
@@ -190,6 +194,9 @@ def _reason(
     if kind is RefusalKind.NOT_VERIFIED:
         # Close to a singular case rounding alone keeps the equations from holding.
         kind, code, message = None, "", ""
+    if finding is not None and finding.about is RemarkKind.SEVERAL:
+        # Another solution becomes a contour, too.
+        return Reason(f"{message}: {limit}", code, message), False
     read_as = crossing.kind if crossing is not None else next((each.kind for each in near if each.kind), None)
     if finding is not None and kind is None and code:
         says = f"rule {code} refuses" if finding.about is None else f"{code} is found for"
@@ -197,7 +204,8 @@ def _reason(
     if read_as is None:
         return Reason(f"{message or 'there is no contour'}: {limit}", code, message), True
     about = about_of(read_as.free, read_as.profile)
-    failing = survey.failing(read_as, there) if read_as.status is None else []
+    branch = crossing.branch if crossing is not None else near[1].branch
+    failing = survey.failing(branch, there) if branch is not None else []
     if crossing is not None:
         failing.insert(0, crossing.check)
     check = next((each for each in failing if kind is None or same(each.kind, kind)), None)

@@ -36,6 +36,17 @@ costs several times as much as one row if it remains undecided."""
 Rows = NDArray[numpy.int64]
 
 
+def _vanishes(value: Number) -> bool:
+    sign = ball.sign(value)
+    if sign is None:
+        raise ArithmeticError("for some rows it may be zero, for others not")
+    return sign == 0
+
+
+BOXES = replace(BALLS, vanishes=_vanishes)
+"""The functions of balls that stand for a whole box."""
+
+
 @dataclass(frozen=True, slots=True)
 class Box(Ground):
     """The ground for all rows of a box. `nearest` is the ground for the value of each that is nearest to zero."""
@@ -46,7 +57,7 @@ class Box(Ground):
     nearest: Ground
 
     def values(self, scalars: Mapping[str, Number], signs: Mapping[str, int], system: System) -> Values:
-        return Values({**self.scalars, **scalars}, self.amounts, self.directions, system.headed, signs, BALLS)
+        return Values({**self.scalars, **scalars}, self.amounts, self.directions, system.headed, signs, BOXES)
 
     def reach(self, system: System) -> dict[str, tuple[float, float]]:
         ranges = self.lowest.reach(system), self.highest.reach(system)

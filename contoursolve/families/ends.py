@@ -94,6 +94,11 @@ def _disagrees(check: Check, about: About) -> str:
     return f"{about.words((check.subject,))} disagrees with the other words"
 
 
+def _apart(check: Check, about: About) -> str:
+    words = about.words(check.givens) or "the words"
+    return f"{words} {'cannot hold together' if len(check.givens) > 1 else 'does not hold'}"
+
+
 def about_of(free: Mapping[str, tuple[str, object]], profile: Profile) -> About:
     """What a phrase may mention of a profile whose values follow free words."""
     return About({given: called(word) for given, (word, _) in free.items()}, profile)
@@ -128,6 +133,7 @@ _PHRASES: Mapping[RefusalKind, Callable[[Check, About], str]] = {
     RefusalKind.BEVEL_OUTSIDE: _always("the bevel of {subject} lies outside the rectangle of its lines"),
     RefusalKind.BEVEL_IN_BAND: _always("no 45 deg bevel joins the lines of {subject}"),
     RefusalKind.LANDING_UNKNOWN: _always("no line advances along the line that {subject} lands on"),
+    RefusalKind.NO_POINT: _apart,
     RefusalKind.ARC_EMPTY: _always("{subject} ends where it begins"),
 }
 

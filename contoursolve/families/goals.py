@@ -80,26 +80,37 @@ def end_name(figure: Figure) -> str:
 
 class Curve:
     """A function of the word whose zeros are sought: a coordinate less its goal, or half the rate at which the square
-    of the distance to the goal grows."""
+    of the distance to the goal grows. `drift` is by how many mm the start point, from which coordinates count inside,
+    moves for each unit of the word, coordinate by coordinate."""
 
     def __init__(
-        self, chart: Chart, rate: Chart, fixed: tuple[list[float], list[float]], place: Sequence[float]
+        self,
+        chart: Chart,
+        rate: Chart,
+        fixed: tuple[list[float], list[float]],
+        place: Sequence[float],
+        drift: Sequence[float],
     ) -> None:
-        self.chart, self.rate, self.fixed, self.place = chart, rate, fixed, place
+        self.chart, self.rate, self.fixed, self.place, self.drift = chart, rate, fixed, place, drift
         self.is_nearest = len(place) > 1
 
     def is_constant(self, low: float, high: float) -> bool:
         """Whether the word does not move the point."""
         places = numpy.random.default_rng(PLACES).uniform(low, high, PLACES)
-        return bool((numpy.abs(self.chart.slopes_at([places], self.fixed[0])) <= CONSTANT).all())
+        return bool((numpy.abs(self._slopes_at(places)) <= CONSTANT).all())
 
     def at(self, places: Array) -> Array:
-        values = self.chart.at([places], self.fixed[0]) - numpy.array(self.place)[:, None]
+        drifted = numpy.array(self.drift)[:, None] * places
+        values = self.chart.at([places], self.fixed[0]) + drifted - numpy.array(self.place)[:, None]
         if not self.is_nearest:
             first: Array = values[0]
             return first
-        total: Array = (values * self.chart.slopes_at([places], self.fixed[0])[0]).sum(axis=0)
+        total: Array = (values * self._slopes_at(places)).sum(axis=0)
         return total
+
+    def _slopes_at(self, places: Array) -> Array:
+        found: Array = self.chart.slopes_at([places], self.fixed[0])[0] + numpy.array(self.drift)[:, None]
+        return found
 
     def between(self, cells: Intervals) -> tuple[Intervals, NDArray[numpy.bool_]]:
         away, is_smooth = self._away(cells)
@@ -123,9 +134,11 @@ class Curve:
     def _away(self, cells: Intervals) -> tuple[list[Intervals], NDArray[numpy.bool_]]:
         bounds = self.chart.between([cells], self.fixed[0])
         bounds = self.chart.narrowed(bounds, [cells], self.fixed[0])
-        rows = zip(bounds.low, bounds.high, self.place, strict=True)
-        return [Intervals(low, high) - constant(want) for low, high, want in rows], bounds.is_smooth
+        rows = zip(bounds.low, bounds.high, self.place, self.drift, strict=True)
+        away = [Intervals(low, high) + cells * constant(rate) - constant(want) for low, high, want, rate in rows]
+        return away, bounds.is_smooth
 
     def _rates(self, cells: Intervals) -> list[Intervals]:
         bounds = self.chart.slopes_between([cells], self.fixed[0])
-        return [Intervals(low, high) for low, high in zip(bounds.low, bounds.high, strict=True)]
+        rows = zip(bounds.low, bounds.high, self.drift, strict=True)
+        return [Intervals(low, high) + constant(rate) for low, high, rate in rows]

@@ -7,26 +7,27 @@ from math import ceil, floor
 
 import numpy
 
+from contoursolve.analysis import judge
+from contoursolve.constraints import assemble
 from contoursolve.contour import Contour
 from contoursolve.diagnosis.edits import write_word
+from contoursolve.diagnostic import Severity
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer
 from contoursolve.families.asking import asked_values
+from contoursolve.families.branches import Branch
 from contoursolve.families.goals import Curve, Goal, end_name, place_of, read_goal
-from contoursolve.families.kinds import Kind, value_of
-from contoursolve.families.margins import compile_results
 from contoursolve.families.prepared import results_of
-from contoursolve.families.ranges import FamilyError, read_limits
+from contoursolve.families.ranges import FamilyError, NotClosedError
 from contoursolve.families.recipe import recipe_of
 from contoursolve.families.roots import find_zeros
-from contoursolve.families.survey import Piece, Survey, short, usual_range
-from contoursolve.families.template import Template, is_same, unit_word
-from contoursolve.model import Length, Plane, Unit
+from contoursolve.families.survey import Piece, Survey, short
+from contoursolve.families.template import Template
+from contoursolve.model import FIRST, SECOND, Length, Plane, Unit
 from contoursolve.shown import Shown
-from contoursolve.solving import Point
+from contoursolve.solving import Point, Status
 from contoursolve.solving.certificate import Certificate
 from contoursolve.syntax import FACT
-from contoursolve.tolerance import LARGEST
 
 ARRIVED = 1e-9
 """mm. A point this close to the place where it is wanted is there."""
@@ -43,7 +44,8 @@ class Hit:
     """A value of the word that brings the point where it is wanted, or nearer than its neighbours do.
 
     `point` is where the point is then, `away` how far from the goal (mm). `certificate` is that of the single solve.
-    `block` is the text with the value rounded to the control's least increment, which is `rounded`, and
+    `block` is the text with the value rounded to the control's least increment, which is `rounded` (for a word of the
+    start point the words of that, and facts that stand beside the block on lines of their own), and
     `rounded_away` how far from the goal the point is then; None where the block with the rounded value has no contour.
     """
 
@@ -91,15 +93,16 @@ def find_word(
 
     Args:
         block: the block, or the blocks of one contour; the word stands in it with any value.
-        word: the word by its letter (`A`, `,A`), or with its line where several have it (`2:,A`); a fact by what it
-            gives the value of (`length of line 1`).
+        word: the word by its letter (`A`, `,A`), or with its line where several have it (`2:,A`); a word of the start
+            point as `start.X`; a fact by what it gives the value of (`length of line 1`).
         goal: a point and where it is wanted, as the control writes it: `end Z-50.`, `V1 X44.`, `corner 1.center Z-30.`.
             With both coordinates, such as `end Z-50. X100.`, the values are found at which it is nearest to there.
         within: and all others as for `feasible`, with the same errors; also raises FamilyError for a point that the
             contour does not have, or that does not depend on the word.
 
-    Where the contour exists, interval arithmetic isolates every zero; each is solved and certified by itself. With
-    facts or `?` in the block, the word is asked for and the goal stated as one coordinate more, as `solve` does it.
+    Where the contour exists, interval arithmetic isolates every zero; each is solved and certified by itself. Where
+    facts or `?` leave no closed form, the word is asked for and the goal stated as one coordinate more, as `solve` does
+    it.
 
     >>> found = find_word("G111 X100. A180. K-30. B120. P5. Q5.", "B", "end Z-50.", start="X40. Z0.")
     >>> [(round(each.value, 4), each.block) for each in found.hits]
@@ -111,12 +114,16 @@ def find_word(
     name = next(iter(template.words))
     answer = template.solve({})
     wanted = read_goal(goal, answer.plane, float(answer.unit.in_mm))
-    if template.words[name].address == FACT or answer.profile.is_extended:
-        return _by_asking(template, name, wanted, answer, within)
+    _check_open(answer)
     survey = Survey(template, name)
     low, high = survey.range_of(within)
     search = _Search(survey, wanted)
-    values = search.values(survey.pieces(low, high))
+    try:
+        values = search.values(survey.pieces(low, high))
+    except NotClosedError:
+        if template.words[name].span.line not in _lines(template):
+            raise
+        return _by_asking(template, survey, wanted, answer, (low, high))
     hits = [hit for value in values if (hit := search.hit(value)) is not None]
     if wanted.is_nearest:
         hits.sort(key=lambda each: each.away)
@@ -126,22 +133,27 @@ def find_word(
     )
 
 
-def _by_asking(template: Template, word: str, goal: Goal, answer: Answer, within: tuple[float, float] | None) -> Found:
-    """The same where the block has facts or asks for values: every solution of the equations is looked for."""
-    typed, lexicon = template.words[word], answer.claim.lexicon
+def _check_open(answer: Answer) -> None:
+    """Raise FamilyError where further facts cannot be used, or leave something open, whatever the values."""
+    if answer.profile.is_extended and answer.contour is None:
+        is_open = not judge(assemble(answer.profile)).is_determined
+        errors = [each.message for each in answer.diagnostics if each.severity is Severity.ERROR]
+        if errors and (is_open or answer.status is Status.REJECTED):
+            raise FamilyError(errors[0])
+
+
+def _lines(template: Template) -> set[int]:
+    """The lines of the block, and those of the facts beside it."""
+    return {block.line for block in template.program.blocks} | {fact.span.line for fact in template.facts}
+
+
+def _by_asking(template: Template, survey: Survey, goal: Goal, answer: Answer, within: tuple[float, float]) -> Found:
+    """The same where there is no closed form: every solution of the equations is looked for."""
+    word, (low, high) = survey.word, within
     values, is_complete = asked_values(template, word, goal, answer)
-    row = lexicon.addresses.get(typed.address)
-    given = next((each for each in answer.profile.givens.values() if each.word and is_same(typed, each.word)), None)
-    kind = row.unit if row is not None else given.unit if given is not None else Unit.MM
-    unit, stated = "deg" if kind is Unit.DEGREE else answer.unit.value, value_of(typed, answer)
-    one = lexicon.value(unit_word(typed, has_point=True), answer.unit) if row is not None else None
-    scale = float(one or (1 if kind is Unit.DEGREE else answer.unit.in_mm))
-    low, high = usual_range(stated, scale, is_angle=kind is Unit.DEGREE)
-    if within is not None:
-        low, high = read_limits(word, within, LARGEST / scale, unit)
-    if kind is Unit.DEGREE:
+    if survey.is_angle:
         values = [each for value in values for each in _turned(value, low, high)]
-    step = lexicon.numbers.step(kind, answer.unit)
+    step = answer.claim.lexicon.numbers.step(Unit.DEGREE if survey.is_angle else Unit.MM, answer.unit)
     hits = []
     for value in sorted(short(each) for each in values):
         solved = template.solve({word: value})
@@ -154,7 +166,8 @@ def _by_asking(template: Template, word: str, goal: Goal, answer: Answer, within
         texts = [*template.texts({word: rounded})]
         away = None if there is None else goal.away(there)
         hits.append(Hit(value, at, goal.away(at), solved.certificate, rounded, "\n".join(texts), away))
-    return Found(word, unit, stated, goal, answer.plane, answer.unit, (low, high), tuple(hits), is_complete)
+    stated, unit = survey.stated, survey.unit
+    return Found(word, unit, stated, goal, answer.plane, answer.unit, within, tuple(hits), is_complete)
 
 
 def _turned(angle: float, low: float, high: float) -> list[float]:
@@ -175,10 +188,10 @@ class _Search:
         found: list[float] = []
         moves = is_there = False
         for piece in pieces:
-            if piece.kind is None or not piece.is_solved:
+            if piece.branch is None:
                 found += [piece.low] if piece.is_value and piece.is_solved else []
                 continue
-            curve = self._curve(piece.kind)
+            curve = self._curve(piece.branch)
             if curve is None:
                 continue
             is_there = True
@@ -224,22 +237,22 @@ class _Search:
                 found.append(value)
         return found
 
-    def _curve(self, kind: Kind) -> Curve | None:
-        """The curve of a kind of contour; None where it has no such point, or the word does not move it."""
+    def _curve(self, branch: Branch) -> Curve | None:
+        """The curve of a solution; None where it has no such point."""
+        kind = branch.kind
         results, axes = results_of(kind), kind.profile.plane.axes
         point = end_name(kind.system.figure) if self.goal.point == "end" else self.goal.point
-        if kind.moves:
-            raise FamilyError(f"{self.survey.word} moves the start point; name a word of the block")
-        triples = zip(axes, self.goal.place, kind.profile.start.values, strict=True)
-        wanted = [
-            (f"{point}.{letter}", value - float(start or 0)) for letter, value, start in triples if value is not None
-        ]
-        if any(name not in results for name, _ in wanted):
+        wanted = [axis for axis in (FIRST, SECOND) if self.goal.place[axis] is not None]
+        if any(f"{point}.{axes[axis]}" not in results for axis in wanted):
             return None
-        names, place = tuple(results[name][0] for name, _ in wanted), [value for _, value in wanted]
-        follows = kind.follows([self.survey.word])
-        chart, rate = (compile_results(kind.system, 1, follows, names, is_rate=each) for each in (False, True))
-        return Curve(chart, rate, (kind.fixed(chart.fixed), kind.fixed(rate.fixed)), place)
+        # Coordinates count from the start point inside, which may follow the word.
+        starts = [kind.moves.get(axis, ("", 0, kind.profile.start.values[axis] or 0)) for axis in wanted]
+        place = [
+            (self.goal.place[axis] or 0.0) - float(base) for axis, (_, _, base) in zip(wanted, starts, strict=True)
+        ]
+        names = tuple(results[f"{point}.{axes[axis]}"][0] for axis in wanted)
+        (chart, fixed), (rate, others) = (branch.results(names, is_rate=each) for each in (False, True))
+        return Curve(chart, rate, (fixed, others), place, [float(each) for _, each, _ in starts])
 
     def hit(self, value: float) -> Hit | None:
         """What becomes of a value by its single solve; None if it does not meet the goal."""
@@ -268,16 +281,25 @@ class _Search:
     def _rounded(self, value: float) -> tuple[float, str, Contour | None]:
         """The value in least increments of the control, the block with it, and its contour; rounded to the other side
         if only that has one."""
-        typed, answer = self.survey.template.words[self.survey.word], self.survey.solve(self.survey.stated)
-        lexicon, scale = answer.claim.lexicon, self.survey.scale
-        nearest = write_word(typed.address, value * scale, lexicon, answer.unit)
-        step = float(lexicon.numbers.step(lexicon.addresses[typed.address].unit, answer.unit))
-        number = float(nearest[len(typed.address) :])
-        other = number + (step if number < value else -step)
-        texts = [nearest, write_word(typed.address, other * scale, lexicon, answer.unit)]
-        numbers = [number, float(texts[1][len(typed.address) :])]
-        chosen = next((each for each in (0, 1) if self._solved(numbers[each])[0] is not None), 0)
-        lines = {block.line: block.text for block in self.survey.template.program.blocks}
+        survey, answer = self.survey, self.survey.solve(self.survey.stated)
+        step = answer.claim.lexicon.numbers.step(Unit.DEGREE if survey.is_angle else Unit.MM, answer.unit)
+        nearest = Decimal(repr(value)).quantize(step, ROUND_HALF_EVEN)
+        numbers = [float(nearest), float(nearest + (step if nearest < Decimal(repr(value)) else -step))]
+        chosen = next((each for each in numbers if self._solved(each)[0] is not None), numbers[0])
+        return chosen, self._text(chosen, answer), self._solved(chosen)[0]
+
+    def _text(self, value: float, answer: Answer) -> str:
+        """The block with a value, and the facts beside it; for a word of the start point, the words of that."""
+        template, word = self.survey.template, self.survey.word
+        typed = template.words[word]
+        if typed.address == FACT:
+            return "\n".join(template.texts({word: value}))
+        written = write_word(typed.address, value * self.survey.scale, answer.claim.lexicon, answer.unit)
+        blocks = template.program.blocks
+        if template.start is not None and typed.span.line not in _lines(template):
+            blocks = template.start.blocks
+        lines = {block.line: block.text for block in blocks}
         line, span = lines[typed.span.line], typed.span
-        lines[span.line] = line[: span.column - 1] + texts[chosen] + line[span.end_column - 1 :]
-        return numbers[chosen], "\n".join(lines.values()), self._solved(numbers[chosen])[0]
+        lines[span.line] = line[: span.column - 1] + written + line[span.end_column - 1 :]
+        facts = template.facts if blocks is template.program.blocks else ()
+        return "\n".join([*lines.values(), *(fact.text for fact in facts)])

@@ -15,7 +15,7 @@ from contoursolve.diagnostic import Basis, Severity
 from contoursolve.examine import MOST_CHOICES, Answer, count_choices
 from contoursolve.families.ranges import FamilyError, Places, Ranges
 from contoursolve.families.template import Template, is_same, unit_word
-from contoursolve.model import Given, Profile, Start, Unit
+from contoursolve.model import FIRST, SECOND, Given, Profile, Start, Unit, scalar
 from contoursolve.reading import Trouble
 from contoursolve.rules import Rule, Value
 from contoursolve.solving import RemarkKind, Solution, Status, is_closed, points_with_two_solutions
@@ -104,7 +104,8 @@ class Kind:
     @property
     def _counted(self) -> dict[str, int]:
         """The axis of each value that is stated as a coordinate, which counts from the start point inside."""
-        return {fact.given: fact.axis for fact in self.system.facts if isinstance(fact, Coordinate)}
+        places = {scalar(place, axis): axis for place in self.system.figure.places for axis in (FIRST, SECOND)}
+        return places | {fact.given: fact.axis for fact in self.system.facts if isinstance(fact, Coordinate)}
 
     @property
     def varied(self) -> tuple[str, ...]:
@@ -150,9 +151,10 @@ class Kind:
                 found[given] = Following(words.index(word), -float(factor), is_angle=False)
         return tuple(found.items())
 
-    def fixed(self, names: Iterable[str]) -> list[float]:
-        """What a chart of the free words needs besides them, by name; of a value that follows a word, what is added."""
-        numbers, counted = self.numbers(), self._counted
+    def fixed(self, names: Iterable[str], signs: Mapping[str, float] | None = None) -> list[float]:
+        """What a chart of the free words needs besides them, by name; of a value that follows a word, what is added.
+        `signs` are inputs that choose a branch."""
+        numbers, counted = {**self.numbers(), **(signs or {})}, self._counted
         for given in (*self.free, *counted):
             value = Decimal(0) if given in self.free else self.profile.givens[given].value
             if given in counted:
@@ -207,6 +209,20 @@ def value_of(word: Word, answer: Answer) -> float:
     return float((lexicon.value(word, answer.unit) or Decimal(0)) / one)
 
 
+def unit_of(word: Word, answer: Answer) -> Unit:
+    """What a word of a block or of the start point, or a fact, states. Raises FamilyError where nothing tells, or a
+    fact cannot be read."""
+    unread = next((each for each in answer.diagnostics if each.about is Trouble.FACT_UNREADABLE), None)
+    if unread is not None:
+        raise FamilyError(unread.message)
+    row = answer.claim.lexicon.addresses.get(word.address)
+    given = next((each for each in answer.profile.givens.values() if each.word and is_same(word, each.word)), None)
+    if row is None and given is None:
+        errors = (each.message for each in answer.diagnostics if each.severity is Severity.ERROR)
+        raise FamilyError(next(errors, f"{word.text} states no value"))
+    return row.unit if row is not None else given.unit if given is not None else Unit.MM
+
+
 def limits_of(template: Template, values: Mapping[str, float]) -> tuple[list[float], list[tuple[float, ...]]]:
     """For each free word, the mm or degrees for each unit of it, and the limits of the rules, between which its values
     are treated alike. Raises FamilyError where the limits of two words depend on each other."""
@@ -223,6 +239,8 @@ def limits_of(template: Template, values: Mapping[str, float]) -> tuple[list[flo
             one = claim.lexicon.value(unit_word(word, has_point=True), answer.unit)
         elif word.address != FACT:
             raise FamilyError(f"{word.text} is no word of the contour")
+        elif stated:
+            one = _factor(answer, word, stated[0], Decimal(repr(values[name])))
         for given in stated:
             if given.name in claim.limits:
                 limits.add(claim.limits[given.name])
@@ -254,9 +272,10 @@ def _limits(rules: Iterable[Rule]) -> Iterable[Decimal]:
                     yield limit
 
 
-def kind_of(template: Template, values: Mapping[str, float]) -> Kind:
-    """The kind of the row with these values. Raises FamilyError where a word cannot vary."""
-    answer = template.solve(values)
+def kind_of(template: Template, values: Mapping[str, float], answer: Answer | None = None) -> Kind:
+    """The kind of the row with these values; `answer` is its single solve. Raises FamilyError where a word cannot
+    vary."""
+    answer = answer or template.solve(values)
     moving = [name for name, word in template.words.items() if not list(_stated_by(word, answer.profile))]
     moves = {axis: move for name in moving for axis, move in _moves(template, values, name, answer)}
     idle = [template.words[name].text for name in moving if name not in [word for word, _, _ in moves.values()]]

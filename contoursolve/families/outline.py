@@ -8,7 +8,7 @@ import numpy
 from numpy.typing import NDArray
 
 from contoursolve.backends.intervals import Array, Intervals
-from contoursolve.families.margins import Margins
+from contoursolve.families.branches import Branch
 from contoursolve.solving import RefusalKind
 from contoursolve.solving.checks import Test
 
@@ -60,29 +60,65 @@ class Box:
 
 
 class Field:
-    """The margins of one kind of contour on a grid over a box."""
+    """The margins of one kind of contour on a grid over a box, of all its solutions one after the other. Inside is
+    where one solution alone passes its checks."""
 
-    def __init__(self, margins: Margins, fixed: Sequence[float], box: Box) -> None:
-        self.margins, self.fixed, self.box = margins, fixed, box
+    def __init__(self, branches: Sequence[Branch], box: Box) -> None:
+        self.branches, self.box = branches, box
+        self.checks = tuple(check for branch in branches for check in branch.margins.checks)
         self.axes = [numpy.linspace(box.low[word], box.high[word], NODES) for word in (0, 1)]
         grid = numpy.meshgrid(*self.axes, indexing="ij")
         self.nodes = numpy.stack([each.ravel() for each in grid], axis=1)
         self.at_nodes = self.values(self.nodes)
-        self.is_inside = (margins.first_failing(self.at_nodes) < 0).reshape(NODES, NODES)
+        self.is_inside = (self._governing(self.at_nodes) < 0).reshape(NODES, NODES)
 
     def values(self, points: Array) -> Array:
         """All margins by (check, point)."""
-        return self.margins.chart.at([points[:, 0], points[:, 1]], self.fixed)
+        words = [points[:, 0], points[:, 1]]
+        return numpy.concatenate([branch.margins.chart.at(words, branch.fixed) for branch in self.branches])
 
     def slopes(self, points: Array) -> Array:
         """The derivatives of all margins by (word, check, point), each for the whole width of the box."""
-        slopes = self.margins.chart.slopes_at([points[:, 0], points[:, 1]], self.fixed)
-        found: Array = slopes * self.box.size[:, None, None]
+        words = [points[:, 0], points[:, 1]]
+        slopes = [branch.margins.chart.slopes_at(words, branch.fixed) for branch in self.branches]
+        found: Array = numpy.concatenate(slopes, axis=1) * self.box.size[:, None, None]
         return found
 
     def failing(self, points: Array) -> NDArray[numpy.int64]:
-        """The first check that fails at each point; -1 where none does."""
-        return self.margins.first_failing(self.values(points))
+        """The check by which each point is outside; -1 inside."""
+        return self._governing(self.values(points))
+
+    def fails(self, points: Array) -> NDArray[numpy.bool_]:
+        """Which checks fail, by (check, point)."""
+        parts = zip(self.branches, self._parts(self.values(points)), strict=True)
+        return numpy.concatenate([branch.margins.failing(values) for branch, values in parts])
+
+    def passing(self, number: int) -> NDArray[numpy.bool_]:
+        """The nodes at which the solution that a check is about passes all of its checks alone."""
+        own = number // len(self.branches[0].margins.checks)
+        fails = self.branches[own].margins.failing(self._parts(self.at_nodes)[own]).any(axis=0)
+        found: NDArray[numpy.bool_] = self.is_inside & ~fails.reshape(NODES, NODES)
+        return found
+
+    def _parts(self, values: Array) -> list[Array]:
+        return numpy.split(values, len(self.branches))
+
+    def _governing(self, values: Array) -> NDArray[numpy.int64]:
+        parts = self._parts(values)
+        if len(parts) == 1:
+            return self.branches[0].margins.first_failing(values)
+        excess = []
+        for branch, part in zip(self.branches, parts, strict=True):
+            size = numpy.where(branch.margins.is_apart, numpy.abs(part), part)
+            excess.append(numpy.nan_to_num(size - branch.margins.limits, nan=-numpy.inf))
+        least = numpy.stack([each.min(axis=0) for each in excess])
+        passing = (least >= 0).sum(axis=0)
+        # Where none passes, one just fails; where several pass, one of them just does.
+        closest = numpy.where((least >= 0) == (passing > 0), numpy.abs(least), numpy.inf).argmin(axis=0)
+        every = numpy.stack(excess)[closest, :, numpy.arange(values.shape[1])]
+        own = (every <= numpy.maximum(every.min(axis=1), 0.0)[:, None] + LEVEL).argmax(axis=1)
+        found: NDArray[numpy.int64] = numpy.where(passing == 1, -1, closest * len(parts[0]) + own)
+        return found
 
     def share(self, vectors: Array) -> Array:
         """The length of vectors by (point, word) in shares of the box."""
@@ -122,18 +158,9 @@ class Field:
         first, second = numpy.array(rest).T
         low = numpy.stack([self.axes[0][first], self.axes[1][second]], axis=1)
         high = numpy.stack([self.axes[0][first + 1], self.axes[1][second + 1]], axis=1)
-        is_level = numpy.nan_to_num(numpy.abs(self.at_nodes)).max(axis=1) <= LEVEL
-        chart = self.margins.chart
         for _ in range(LEVELS + 1):
-            words = [Intervals(low[:, word], high[:, word]) for word in (0, 1)]
-            bounds = chart.between(words, self.fixed)
-            is_open = ~numpy.logical_or(*self.margins.verdicts(bounds, is_level))
+            is_open = self._is_open([Intervals(low[:, word], high[:, word]) for word in (0, 1)])
             low, high = low[is_open], high[is_open]
-            if len(low):
-                words = [Intervals(low[:, word], high[:, word]) for word in (0, 1)]
-                bounds = chart.narrowed(bounds[is_open], words, self.fixed)
-                is_open = ~numpy.logical_or(*self.margins.verdicts(bounds, is_level))
-                low, high = low[is_open], high[is_open]
             # What is left along the edge of the box is narrower than a cell.
             is_within = ((low > self.box.low) & (high < self.box.high)).all(axis=1)
             if not is_within.any():
@@ -147,6 +174,25 @@ class Field:
             ]
             low, high = (numpy.concatenate([each[side] for each in quarters]) for side in (0, 1))
         return False
+
+    def _is_open(self, words: list[Intervals]) -> NDArray[numpy.bool_]:
+        """In which boxes it is not decided whether one solution alone passes its checks."""
+        size = words[0].low.size
+        undecided, passing = numpy.zeros(size, bool), numpy.zeros(size, numpy.int64)
+        for branch, at_nodes in zip(self.branches, self._parts(self.at_nodes), strict=True):
+            margins, chart = branch.margins, branch.margins.chart
+            is_level = numpy.nan_to_num(numpy.abs(at_nodes)).max(axis=1) <= LEVEL
+            bounds = chart.between(words, branch.fixed)
+            passes, fails = margins.verdicts(bounds, is_level)
+            rest = numpy.flatnonzero(~(passes | fails))
+            if rest.size:
+                part = [Intervals(each.low[rest], each.high[rest]) for each in words]
+                is_rest = ~(passes | fails)
+                finer = chart.narrowed(bounds[is_rest], part, branch.fixed)
+                passes[rest], fails[rest] = margins.verdicts(finer, is_level)
+            undecided |= ~(passes | fails)
+            passing += passes
+        return undecided & (passing < 2)  # noqa: PLR2004 - two contours are one too many, whatever the others are
 
 
 class Lines:
@@ -272,14 +318,14 @@ def edge_of(field: Field) -> Lines:
 
 def gaps_of(field: Field) -> Iterator[Lines]:
     """The lines within the region on which something is zero that must not be."""
-    for number, check in enumerate(field.margins.checks):
+    for number, check in enumerate(field.checks):
         if check.test is Test.APART and check.kind is not RefusalKind.LANDING_UNKNOWN:
             lines = Lines(
                 field,
                 (field.at_nodes[number] > 0).reshape(NODES, NODES),
                 lambda points, number=number: field.values(points)[number] > 0,  # type: ignore[misc]
                 lambda points, number=number: numpy.full(len(points), number),  # type: ignore[misc]
-                field.is_inside,
+                field.passing(number),
             )
             if lines.edges:
                 yield lines

@@ -19,6 +19,10 @@ class FamilyError(ValueError):
     """A family that cannot be evaluated; the message says why, and what to do."""
 
 
+class NotClosedError(FamilyError):
+    """What needs a closed form is asked about a block that has none."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Ranges:
     """The values of each free word, by its name: as columns side by side (`is_paired`), or as the axes of a grid whose

@@ -1,6 +1,6 @@
 """Where a contour exists in two words: the lines that bound the region, each with what fails beyond it."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise, product
 
@@ -11,9 +11,9 @@ from contoursolve.backends.intervals import Array
 from contoursolve.diagnostic import Severity
 from contoursolve.dialects import Dialect
 from contoursolve.families.boundary import ASIDE, Way
+from contoursolve.families.branches import branches_of
 from contoursolve.families.ends import Reason, about_of, called, phrase, same
-from contoursolve.families.kinds import Kind, alike, kind_of, limits_of, value_of
-from contoursolve.families.margins import compile_margins
+from contoursolve.families.kinds import Kind, alike, kind_of, limits_of, unit_of, value_of
 from contoursolve.families.outline import BISECTIONS, NODES, Box, Field, Trace, edge_of, gaps_of
 from contoursolve.families.ranges import FamilyError, read_limits
 from contoursolve.families.recipe import recipe_of
@@ -21,7 +21,7 @@ from contoursolve.families.result import Family
 from contoursolve.families.template import Template, find_words
 from contoursolve.model import Unit
 from contoursolve.shown import Shown
-from contoursolve.solving import RefusalKind
+from contoursolve.solving import RefusalKind, RemarkKind
 from contoursolve.tolerance import LARGEST, LENGTH
 from contoursolve.wording import value_text
 
@@ -74,6 +74,7 @@ def region(
     *,
     start: str | None = None,
     control: str | Dialect | None = None,
+    facts: Iterable[str] = (),
     units: str = "mm",
     rules: str = "enforce",
     settings: Mapping[str, str] | None = None,
@@ -82,7 +83,7 @@ def region(
 
     Args:
         block: the block, or the blocks of one contour.
-        words: the two words, as for `feasible`.
+        words: the two words, words of the start point, or facts, as for `feasible`.
         within: the range of each, lower value first.
         start: and all others as for `feasible`, with the same errors.
 
@@ -96,7 +97,9 @@ def region(
     """
     if isinstance(words, str) or len(words) != 2 or len(within) != 2:  # noqa: PLR2004 - axes of a map
         raise FamilyError("name two words, and a range for each of them")
-    recipe = recipe_of(block, words, start=start, control=control, units=units, rules=rules, settings=settings)
+    recipe = recipe_of(
+        block, words, start=start, control=control, facts=facts, units=units, rules=rules, settings=settings
+    )
     return _region(recipe.template(), (recipe.names[0], recipe.names[1]), within)
 
 
@@ -116,6 +119,23 @@ def region_of(family: Family, words: tuple[str, str]) -> Region:
     return _region(template, words, (first, second))
 
 
+def units_of(family: Family, words: Sequence[str]) -> tuple[str, ...]:
+    """What words of a family are written in (mm, inch or deg); empty for one that only chooses between two places, and
+    where nothing tells."""
+    if family.recipe is None:
+        return ("",) * len(words)
+    template = family.recipe.template()
+    answer = template.solve({})
+    found = []
+    for word in words:
+        try:
+            kind = unit_of(template.words[word], answer)
+        except FamilyError:
+            kind = Unit.SIGN
+        found.append({Unit.MM: answer.unit.value, Unit.DEGREE: "deg", Unit.SIGN: ""}[kind])
+    return tuple(found)
+
+
 def _region(template: Template, names: tuple[str, str], within: tuple[Point, Point]) -> Region:
     """The region of two words of a block that is read."""
     if names[0] == names[1]:
@@ -131,11 +151,11 @@ class _Map:
         answer = template.solve({})
         self.stated = tuple(value_of(template.words[word], answer) for word in words)
         values = dict(zip(words, self.stated, strict=True))
-        rows = [answer.claim.lexicon.addresses.get(template.words[word].address) for word in words]
-        for word, row in zip(words, rows, strict=True):
-            if row is None or row.unit is Unit.SIGN:
+        kinds = [unit_of(template.words[word], answer) for word in words]
+        for word, kind in zip(words, kinds, strict=True):
+            if kind is Unit.SIGN:
                 raise FamilyError(f"{template.words[word].text} has no range; name words that state lengths or angles")
-        self.units = tuple("deg" if row and row.unit is Unit.DEGREE else answer.unit.value for row in rows)
+        self.units = tuple("deg" if kind is Unit.DEGREE else answer.unit.value for kind in kinds)
         scales, bounds = limits_of(template, values)
         self.within = tuple(
             read_limits(word, each, LARGEST / abs(scale), unit)
@@ -183,12 +203,7 @@ class _Map:
         )
 
     def _kind(self, at: Sequence[float]) -> Kind:
-        kind = kind_of(self.template, dict(zip(self.words, map(float, at), strict=True)))
-        if kind.moves:
-            raise FamilyError("the start point cannot vary here; name words of the block")
-        if kind.status is None and not kind.is_closed:
-            raise FamilyError("the block has facts, ? or a choice that nothing makes; this needs a closed form")
-        return kind
+        return kind_of(self.template, dict(zip(self.words, map(float, at), strict=True)))
 
     def _merge(self, axis: int) -> None:
         """Leave out the limits of rules that change nothing for these words."""
@@ -205,9 +220,9 @@ class _Map:
                 mark += 1
 
     def _field(self, place: tuple[int, int], kind: Kind) -> Field:
-        margins = compile_margins(kind.system, 2, kind.follows(self.words))
         low, high = ([self.marks[axis][place[axis] + side] for axis in (0, 1)] for side in (0, 1))
-        return Field(margins, kind.fixed(margins.chart.fixed), Box((low[0], low[1]), (high[0], high[1])))
+        branches = branches_of(kind, self.words, low, high)
+        return Field(branches, Box((low[0], low[1]), (high[0], high[1])))
 
     def _boundary(self, field: Field, kind: Kind, trace: Trace, *, is_gap: bool) -> Boundary:
         """A line with what fails beyond it, solved on both sides of its points."""
@@ -241,11 +256,13 @@ class _Map:
         finding = next((each for each in answer.diagnostics if each.severity is Severity.ERROR), None)
         code, message = (finding.code, finding.message) if finding is not None else ("", "")
         refusal = finding.about if finding is not None and isinstance(finding.about, RefusalKind) else None
-        check, checks = field.margins.checks[number], field.margins.checks
+        if finding is not None and finding.about is RemarkKind.SEVERAL and not is_gap:
+            return Reason(message, code, message)
+        check, checks = field.checks[number], field.checks
         if refusal is RefusalKind.NOT_VERIFIED or is_gap:
             refusal, code, message = None, "", ""
         if refusal is not None and not same(check.kind, refusal):
-            fails = field.margins.failing(field.values(numpy.array([there])))[:, 0]
+            fails = field.fails(numpy.array([there]))[:, 0]
             check = next((checks[each] for each in numpy.flatnonzero(fails) if same(checks[each].kind, refusal)), check)
         text = phrase(check, refusal or check.kind, about_of(kind.free, kind.profile))
         return Reason(text, code, message)

@@ -1,7 +1,7 @@
 """The values of one word of a block in order: how they are read, and where the contour is solved."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import copysign, inf, isfinite, sqrt
 
@@ -9,14 +9,15 @@ import numpy
 
 from contoursolve.backends.intervals import Array
 from contoursolve.examine import Answer
+from contoursolve.families.branches import INSTEAD, Branch, branches_of
 from contoursolve.families.isolate import Stretch, divide
-from contoursolve.families.kinds import Kind, alike, kind_in, kind_of, limits_of, value_of
-from contoursolve.families.margins import Margins, compile_margins
-from contoursolve.families.ranges import START, FamilyError, read_limits
+from contoursolve.families.kinds import Kind, alike, kind_of, limits_of, unit_of, value_of
+from contoursolve.families.ranges import FamilyError, NotClosedError, read_limits
 from contoursolve.families.template import Template
 from contoursolve.model import Unit
 from contoursolve.solving.checks import Check
 from contoursolve.tolerance import LARGEST, LENGTH
+from contoursolve.wording import value_text
 
 LEAST_GAP = 1e-4
 """mm or degrees: a tenth of the controls' least increment. What is narrower may be missed."""
@@ -42,16 +43,26 @@ CLOSE = 1e-6
 Part = tuple[float, float, bool]
 """From one value to another, and whether all checks are passed there."""
 
+ASIDE = 0.382
+"""Share of a piece at which a single solve must agree with the solutions in closed form."""
+
+SMALL = 1e-4
+"""Share of a value (at least of 1). In a piece that is no wider rounding may be too large."""
+
+TOGETHER = 1e-9
+"""Share of a value (at least of 1). Values this close at which two branches change are one."""
+
 
 @dataclass(frozen=True, slots=True)
 class Piece:
     """Values from `low` to `high` without these two, or one value: whether the contour is solved there. `kind` is how
-    the words are read; None for one value."""
+    the words are read; None for one value. `branch` is the only solution that is a contour there, if there is one."""
 
     low: float
     high: float
     is_solved: bool
     kind: Kind | None
+    branch: Branch | None = None
 
     @property
     def is_value(self) -> bool:
@@ -61,12 +72,17 @@ class Piece:
 
 @dataclass(frozen=True, slots=True)
 class Crossing:
-    """Where a check begins to fail: the check, how the words are read, and whether the value is a zero in closed
+    """Where a check begins to fail: the check, the solution that it is about, and whether the value is a zero in closed
     form."""
 
     check: Check
-    kind: Kind
+    branch: Branch
     is_closed: bool
+
+    @property
+    def kind(self) -> Kind:
+        """How the words are read."""
+        return self.branch.kind
 
 
 def usual_range(stated: float, scale: float, *, is_angle: bool) -> tuple[float, float]:
@@ -90,12 +106,10 @@ class Survey:
         self.scale = abs(scales[0])
         """mm or degrees for each unit of the word."""
         self._limits = [bound / scales[0] for bound in bounds[0]]
-        row = answer.claim.lexicon.addresses.get(typed.address)
-        if row is None:
-            raise FamilyError(f"{typed.text}: what a fact may say cannot be told; name a word of the block")
-        if row.unit is Unit.SIGN:
+        kind = unit_of(typed, answer)
+        if kind is Unit.SIGN:
             raise FamilyError(f"{typed.text} chooses between two places; it has no range")
-        self.is_angle = row.unit is Unit.DEGREE
+        self.is_angle = kind is Unit.DEGREE
         self.unit = "deg" if self.is_angle else answer.unit.value
         self._answers: dict[float, Answer] = {self.stated: answer}
         self.crossings: dict[float, Crossing] = {}
@@ -154,14 +168,7 @@ class Survey:
         return self.stated if first < self.stated < last else (first + last) / 2
 
     def _kind_at(self, value: float) -> Kind:
-        values = {self.word: value}
-        if self.word.startswith(f"{START}."):
-            kind = kind_of(self.template, values)
-        else:
-            kind = kind_in(self.solve(value), self.template.words, values)
-        if kind.status is None and not kind.is_closed:
-            raise FamilyError("the block has facts, ? or a choice that nothing makes; this needs a closed form")
-        return kind
+        return kind_of(self.template, {self.word: value}, self.solve(value))
 
     def _goes_on(self, limit: float, kind: Kind, after: Kind) -> bool:
         """Whether a limit of some rule changes nothing for this word."""
@@ -171,53 +178,126 @@ class Survey:
         if kind.status is not None:
             yield Piece(low, high, is_solved=False, kind=kind)
             return
-        near = [self.stated] if low < self.stated < high else []
-        margins = self.margins(kind)
-        fixed = kind.fixed(margins.chart.fixed)
+        branches = branches_of(kind, [self.word], [low], [high])
+        lines = [self._parts(branch, low, high) for branch in branches]
+        if kind.is_closed:
+            yield from self._joined(branches[0], *lines[0])
+            return
+        for piece in self._together(kind, branches, lines):
+            at = piece.low + ASIDE * (piece.high - piece.low)
+            if self.is_solved(at) is piece.is_solved:
+                yield piece
+                continue
+            if piece.high - piece.low > SMALL * max(1.0, abs(at)):
+                raise NotClosedError(f"at {self.word} {value_text(at, self.unit)} the closed form fails; {INSTEAD}")
+            # So close to a singular value rounding alone keeps the closed form from telling.
+            self.is_complete = False
+            yield Piece(piece.low, piece.high, not piece.is_solved, kind)
+
+    def _parts(self, branch: Branch, low: float, high: float) -> tuple[list[Part], list[float]]:
+        """Where the checks of one solution are passed, and single values that may differ from the parts."""
         parts: list[Part] = []
         holes: list[float] = []
-        stretches = divide(margins, fixed, low, high, near=near)
+        near = [self.stated] if low < self.stated < high else []
+        stretches = divide(branch.margins, branch.fixed, low, high, near=near)
         for before, stretch, after in zip([None, *stretches], stretches, [*stretches[1:], None], strict=False):
             if stretch.is_passed is not None:
                 parts.append((stretch.low, stretch.high, stretch.is_passed))
                 continue
-            part = _Undecided(self, kind, margins, fixed)
-            more, between = part.decide(stretch, before, after)
+            more, between = _Undecided(self, branch).decide(stretch, before, after)
             parts += more
             holes += between
-        yield from self._joined(kind, parts, holes)
+        return parts, holes
 
-    def _joined(self, kind: Kind, parts: Sequence[Part], holes: Sequence[float]) -> Iterator[Piece]:
+    def _joined(self, branch: Branch, parts: Sequence[Part], holes: Sequence[float]) -> Iterator[Piece]:
         """Pieces of parts that go on without a break, apart from single values without a contour."""
         begin = parts[0][0]
         for (_, end, state), after in zip(parts, [*parts[1:], None], strict=False):
             if after is not None and after[2] is state:
                 continue
-            for hole in holes:
-                if begin < hole < end and state is not self.is_solved(hole):
-                    yield Piece(begin, hole, state, kind)
-                    yield Piece(hole, hole, not state, None)
-                    begin = hole
-            yield Piece(begin, end, state, kind)
+            yield from self._parted(Piece(begin, end, state, branch.kind, branch if state else None), holes)
             begin = end
 
-    def failing(self, kind: Kind, value: float) -> list[Check]:
-        """The checks that fail at a value, in their order."""
-        margins = self.margins(kind)
-        values = margins.chart.at([numpy.array([value])], kind.fixed(margins.chart.fixed))
-        return [margins.checks[number] for number in margins.failing(values)[:, 0].nonzero()[0]]
+    def _parted(self, piece: Piece, holes: Sequence[float]) -> Iterator[Piece]:
+        """A piece, parted by the single values in it that differ from it."""
+        begin = piece.low
+        for hole in holes:
+            if begin < hole < piece.high and piece.is_solved is not self.is_solved(hole):
+                yield replace(piece, low=begin, high=hole)
+                yield Piece(hole, hole, not piece.is_solved, None)
+                begin = hole
+        yield replace(piece, low=begin)
 
-    def margins(self, kind: Kind) -> Margins:
-        """What is checked of a kind of contour, by the word."""
-        return compile_margins(kind.system, 1, kind.follows([self.word]))
+    def _together(
+        self, kind: Kind, branches: Sequence[Branch], lines: Sequence[tuple[Sequence[Part], Sequence[float]]]
+    ) -> Iterator[Piece]:
+        """Pieces of several solutions: there is a contour where one of them alone passes its checks."""
+        holes = sorted({hole for _, own in lines for hole in own})
+        changes = {one[1] for parts, _ in lines for one, other in pairwise(parts) if one[2] is not other[2]}
+        low, high = lines[0][0][0][0], lines[0][0][-1][1]
+        cuts = [low]
+        for value in sorted(changes):
+            if value - cuts[-1] > TOGETHER * max(1.0, abs(value)):
+                cuts.append(value)
+        cuts.append(high)
+        found: list[tuple[float, tuple[int, ...]]] = []
+        for begin, end in pairwise(cuts):
+            middle = (begin + end) / 2
+            passing = tuple(
+                n for n, (parts, _) in enumerate(lines) if any(a <= middle <= b and ok for a, b, ok in parts)
+            )
+            if found and found[-1][1] == passing:
+                found[-1] = end, passing
+            else:
+                found.append((end, passing))
+        found = self._without_slivers(cuts[0], found)
+        begin = cuts[0]
+        for (end, passing), after in zip(found, [*found[1:], None], strict=False):
+            branch = branches[passing[0]] if len(passing) == 1 else None
+            # Where solutions part, they may be one; where another one takes over, there may be none, or both.
+            is_alike = after is not None and (len(passing) == 1) is (len(after[1]) == 1)
+            if is_alike:
+                end = self._least_increment(end, is_solved=branch is not None)  # noqa: PLW2901
+            yield from self._parted(Piece(begin, end, branch is not None, kind, branch), holes)
+            if is_alike:
+                yield Piece(end, end, self.is_solved(end), None)
+            begin = end
+
+    def _without_slivers(
+        self, low: float, found: Sequence[tuple[float, tuple[int, ...]]]
+    ) -> list[tuple[float, tuple[int, ...]]]:
+        """The stretches from `low` on, by their ends and the solutions that pass there, without those that rounding
+        alone has made of a single value in thousandths."""
+        left: list[tuple[float, tuple[int, ...]]] = []
+        for number, (end, passing) in enumerate(found):
+            begin, is_solved = found[number - 1][0] if number else low, len(passing) == 1
+            if 0 < number < len(found) - 1 and end - begin <= LEAST_GAP:
+                beside = [len(each) == 1 for _, each in (found[number - 1], found[number + 1])]
+                value = self._least_increment((begin + end) / 2, is_solved=not is_solved)
+                if is_solved not in beside and value == round(value, 3):
+                    self.is_complete = False
+                    left[-1] = value, left[-1][1]
+                    continue
+            left.append((end, passing))
+        return left
+
+    def _least_increment(self, value: float, *, is_solved: bool) -> float:
+        """The value in thousandths close to one at which two solutions change, if that differs from what is beside."""
+        near = round(value, 3) + 0.0
+        return near if abs(near - value) <= LEAST_GAP and self.is_solved(near) is not is_solved else value
+
+    def failing(self, branch: Branch, value: float) -> list[Check]:
+        """The checks that fail at a value, in their order."""
+        values = branch.margins.chart.at([numpy.array([value])], branch.fixed)
+        return [branch.margins.checks[number] for number in branch.margins.failing(values)[:, 0].nonzero()[0]]
 
 
 class _Undecided:
     """A narrow stretch in which intervals cannot tell whether all checks are passed: there they begin to fail, or one
     is passed by rounding alone."""
 
-    def __init__(self, survey: Survey, kind: Kind, margins: Margins, fixed: Sequence[float]) -> None:
-        self.survey, self.kind, self.margins, self.fixed = survey, kind, margins, fixed
+    def __init__(self, survey: Survey, branch: Branch) -> None:
+        self.survey, self.branch, self.margins, self.fixed = survey, branch, branch.margins, branch.fixed
 
     def decide(self, stretch: Stretch, before: Stretch | None, after: Stretch | None) -> tuple[list[Part], list[float]]:
         """Its parts, as far as samples tell, and single values that may differ from them."""
@@ -267,7 +347,7 @@ class _Undecided:
         if abs(round(value, 3) - value) <= 2 * LENGTH * max(1.0, abs(value)):
             # A length that counts as zero is not quite.
             value = round(value, 3) + 0.0
-        self.survey.crossings[value] = Crossing(self.margins.checks[number], self.kind, is_closed)
+        self.survey.crossings[value] = Crossing(self.margins.checks[number], self.branch, is_closed)
         return value
 
     def _exact(self, number: int, value: float) -> tuple[float, bool]:

@@ -39,6 +39,9 @@ class Lookup(Protocol):
     def root(self, value: Any) -> Any:
         """Square root."""
 
+    def vanishes(self, value: Any) -> bool:
+        """Whether a value is zero."""
+
 
 class Fact(Protocol):
     """One equation. Its residual is in mm; `equation` is the same without what makes it no polynomial."""

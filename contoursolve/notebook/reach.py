@@ -46,7 +46,7 @@ def range_of(exploration: Exploration, field: Mapping[str, Any]) -> Data:
     within = (low - (high - low) / 2, high + (high - low) / 2) if field["unit"] == "deg" else None
     try:
         found = feasible(exploration.text, field["key"], within=within, **exploration.options)
-    except FamilyError:  # facts, words that are asked for, words that only choose
+    except FamilyError:  # facts without a closed form, words that only choose
         return {}
     # An end that is far away on the scale of the contour is not worth a slider that is too coarse.
     near = (field["value"] - field["size"], field["value"] + field["size"])

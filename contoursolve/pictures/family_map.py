@@ -7,12 +7,13 @@ from math import floor
 import numpy
 from numpy.typing import NDArray
 
-from contoursolve.families import REASONS, Code, Family, FamilyError, region_of
+from contoursolve.families import REASONS, Code, Family, FamilyError, region_of, units_of
 from contoursolve.pictures.chart import BELOW, HIGH, LEFT, SIZE, TOP, WIDE, WIDTH, Chart, heading, over_cells
 from contoursolve.pictures.family_curves import Curve, curves_of, names_of, near, strokes
 from contoursolve.pictures.metrics import wrap
 from contoursolve.pictures.sheet import Anchor, Box, Item, Run, Shape, Sheet, Spot, Stroke, Text
 from contoursolve.pictures.theme import Role
+from contoursolve.pictures.wording import axis_text
 
 COLUMNS, ROWS = 305, 200
 """Cells of a map; of more values, the one nearest to the middle of each cell is shown."""
@@ -48,8 +49,9 @@ def lay_out_map(family: Family, words: tuple[str, ...], title: str) -> Sheet:
     outcomes = outcomes if own == list(words) else outcomes.T
     columns, rows = _picks(across, COLUMNS), _picks(up, ROWS)
     shown = outcomes[numpy.ix_(columns, rows)].T[::-1]
-    chart = Chart((words[0], words[1]), over_cells(across[columns]), over_cells(up[rows]))
-    curves = _curves(family, chart)
+    first, second = map(axis_text, words, units_of(family, words))
+    chart = Chart((first, second), over_cells(across[columns]), over_cells(up[rows]))
+    curves = _curves(family, (words[0], words[1]), chart)
     fields, others = _names(shown)
     borders = _boundaries(shown, curves)
     lines, unnamed = names_of(curves, chart, [each.box for each in fields], borders)
@@ -63,12 +65,13 @@ def lay_out_map(family: Family, words: tuple[str, ...], title: str) -> Sheet:
     return Sheet(WIDTH, height, Box(0.0, 0.0, WIDTH, height), tuple(items))
 
 
-def _curves(family: Family, chart: Chart) -> list[Curve]:
-    """The exact lines between where the contour exists and where not; none where they cannot be told, as for facts."""
+def _curves(family: Family, words: tuple[str, str], chart: Chart) -> list[Curve]:
+    """The exact lines between where the contour exists and where not; none where they cannot be told, as for facts that
+    leave no closed form."""
     if any(scale.values[0] == scale.values[-1] for scale in (chart.across, chart.up)):
         return []
     try:
-        return curves_of(region_of(family, chart.names), chart)
+        return curves_of(region_of(family, words), chart)
     except FamilyError:
         return []
 

@@ -9,7 +9,7 @@ from contoursolve.pictures.chart import LEFT, SIZE, TITLE, WIDE, WIDTH, heading,
 from contoursolve.pictures.metrics import shorten
 from contoursolve.pictures.sheet import Anchor, Box, Dot, Item, Run, Shape, Sheet, Text
 from contoursolve.pictures.theme import Role
-from contoursolve.pictures.wording import visible
+from contoursolve.pictures.wording import axis_text, visible
 
 _TOP, _HIGH = 52.0, 26.0
 """Pixels above the bar, and of the bar."""
@@ -50,8 +50,7 @@ def lay_out_range(found: Feasible, title: str) -> Sheet:
         x = LEFT + share * WIDE
         items.append(line((x, bottom), (x, bottom + 5.0), Role.INK))
         items.append(Text((x, bottom + 19.0), (Run(f"{value:g}", Role.INK),), SIZE, Anchor.MIDDLE))
-    unit = "in" if found.unit == "inch" else found.unit
-    name = visible(f"{found.word} [{unit}]")
+    name = axis_text(found.word, found.unit)
     items.append(Text((LEFT + WIDE / 2, bottom + 38.0), (Run(name, Role.INK),), TITLE, Anchor.MIDDLE, is_bold=True))
     items.append(Dot((x_of(found.stated), _TOP + _HIGH / 2), 4.0, Role.GIVEN))
     height = bottom + 62.0

@@ -10,7 +10,7 @@ from contoursolve.pictures.family_curves import Curve, curves_of, is_free, names
 from contoursolve.pictures.metrics import wrap
 from contoursolve.pictures.sheet import Anchor, Box, Dot, Item, Run, Sheet, Text
 from contoursolve.pictures.theme import Role
-from contoursolve.pictures.wording import visible
+from contoursolve.pictures.wording import axis_text, visible
 
 _LINE = 2.0
 """Pixels of a line that bounds the region."""
@@ -27,10 +27,7 @@ def region_title(region: Region) -> str:
 
 def lay_out_region(region: Region, title: str) -> Sheet:
     """The page of a region."""
-    first, second = (
-        visible(f"{word} [{'in' if unit == 'inch' else unit}]")
-        for word, unit in zip(region.words, region.units, strict=True)
-    )
+    first, second = map(axis_text, region.words, region.units)
     chart = Chart((first, second), *(over_range(low, high) for low, high in region.within))
     curves = curves_of(region, chart)
     rough = teeth(curves)

@@ -30,6 +30,11 @@ def word_text(text: str) -> str:
     return shown if len(shown) <= LONGEST else shown[: LONGEST - 1] + "…"
 
 
+def axis_text(word: str, unit: str) -> str:
+    """The name of an axis on which the values of a word stand, with the unit in which it is written, if it has one."""
+    return visible(f"{word} [{'in' if unit == 'inch' else unit}]" if unit else word)
+
+
 def visible(text: str) -> str:
     """The text with what cannot be seen as dots, tabs as blanks: one character each."""
     return "".join(each if each.isprintable() else (" " if each == "\t" else "·") for each in text)

@@ -38,7 +38,7 @@ def settle(profile: Profile) -> Settlement:
     """
     alternatives = find_alternatives(profile)
     if not alternatives.items and _singular(alternatives):
-        tried = (find_alternatives(other) for other in _orders(profile))
+        tried = (find_alternatives(other) for other in orders_of(profile))
         alternatives = next((found for found in tried if not _singular(found)), alternatives)
     nearest = tuple(sorted(alternatives.items, key=_disagreement))
     solution = decide(replace(alternatives, items=nearest), profile)
@@ -75,7 +75,7 @@ def _singular(alternatives: Alternatives) -> list[str]:
     return list(dict.fromkeys(name for doubt in doubts for name in doubt.unknowns))
 
 
-def _orders(profile: Profile) -> Iterator[Profile]:
+def orders_of(profile: Profile) -> Iterator[Profile]:
     """The profile with one of the facts that were not needed put first, so that it is."""
     basis = judge(assemble(profile)).basis
     for index, fact in enumerate(profile.facts):

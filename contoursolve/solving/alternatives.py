@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import inf
+from typing import Any
 
 from contoursolve.analysis import Group, judge, order
 from contoursolve.backends import ball
@@ -262,15 +263,24 @@ def sides_of(system: System, at: Values, chosen: Set[str]) -> dict[str, str]:
 
     `chosen` are the points whose side the control chooses.
     """
+    values = side_values(system, at, chosen).items()
+    sides = {name: {1: left, -1: right}.get(ball.sign(value) or 0, BOTH) for name, (value, left, right) in values}
+    for fact in system.facts:
+        for side in fact.sides():
+            words = ("outside", "inside") if isinstance(fact, TangentCircles) else ("left", "right")
+            sides[side.removesuffix(".side")] = words[0] if at.signs[side] == 1 else words[1]
+    return sides
 
-    def step(tail: str, head: str) -> tuple[Number, Number]:
+
+def side_values(system: System, at: Values, chosen: Set[str]) -> dict[str, tuple[Any, str, str]]:
+    """What tells on which side points and centres lie: numbers of any kind, each with the names of the sides on which
+    it is positive and negative."""
+
+    def step(tail: str, head: str) -> tuple[Any, Any]:
         first, second = (at.coordinate(head, axis) - at.coordinate(tail, axis) for axis in (FIRST, SECOND))
         return first, second
 
-    def name(value: Number, positive: str, negative: str) -> str:
-        return {1: positive, -1: negative}.get(ball.sign(value) or 0, BOTH)
-
-    sides: dict[str, str] = {}
+    sides: dict[str, tuple[Any, str, str]] = {}
     circles = [fact for fact in system.facts if isinstance(fact, OnCircle)]
     axes = {(fact.point, fact.axis) for fact in system.facts if isinstance(fact, Coordinate | Offset)}
     stated = {point for point, _ in axes}
@@ -286,13 +296,13 @@ def sides_of(system: System, at: Values, chosen: Set[str]) -> dict[str, str]:
                     way = at.direction(line.heading)
                 spoke = step(circle.center, circle.point)
                 along = way[FIRST] * spoke[FIRST] + way[SECOND] * spoke[SECOND]
-                sides[circle.point] = name(along, Side.FARTHER.value, Side.NEARER.value)
+                sides[circle.point] = along, Side.FARTHER.value, Side.NEARER.value
     arcs = [element for element in system.figure.path if isinstance(element, Arc)]
     for first, second in pairwise(arcs):
         if first.head == second.tail in unknown:
             centers, spoke = step(first.center, second.center), step(first.center, first.head)
             left = centers[FIRST] * spoke[SECOND] - centers[SECOND] * spoke[FIRST]
-            sides[first.head] = name(left, Side.LEFT.value, Side.RIGHT.value)
+            sides[first.head] = left, Side.LEFT.value, Side.RIGHT.value
     ends = {element.head for element in system.figure.path}
     for arc in arcs:
         on_it = [circle.point for circle in circles if circle.center == arc.center]
@@ -305,14 +315,10 @@ def sides_of(system: System, at: Values, chosen: Set[str]) -> dict[str, str]:
         chord, spoke = step(arc.tail, others[0] if is_chosen else arc.head), step(arc.tail, arc.center)
         twice = chord[FIRST] * spoke[SECOND] - chord[SECOND] * spoke[FIRST]
         if is_chosen:
-            sides[arc.center] = name(twice, Side.LEFT.value, Side.RIGHT.value)
+            sides[arc.center] = twice, Side.LEFT.value, Side.RIGHT.value
         else:
             # Turning left, the shorter way about a centre is the one that has it to the left of the chord.
-            sides[arc.name] = name(arc.turn.sign * twice, *ARCS)
-    for fact in system.facts:
-        for side in fact.sides():
-            words = ("outside", "inside") if isinstance(fact, TangentCircles) else ("left", "right")
-            sides[side.removesuffix(".side")] = words[0] if at.signs[side] == 1 else words[1]
+            sides[arc.name] = arc.turn.sign * twice, *ARCS
     return sides
 
 

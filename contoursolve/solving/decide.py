@@ -4,6 +4,7 @@ from dataclasses import replace
 
 from contoursolve.model import Profile
 from contoursolve.solving.alternatives import Alternative, Alternatives, choose
+from contoursolve.solving.elimination import Obstacle
 from contoursolve.solving.solution import Refusal, RefusalKind, Remark, RemarkKind, Solution, Status
 
 
@@ -43,8 +44,10 @@ def _without_selecting(solution: Solution, alternatives: Alternatives) -> Soluti
 
 
 def _refused(items: tuple[Alternative, ...], alternatives: Alternatives) -> Solution:
-    """Why there is no contour: what speaks against the first of the solutions, or that there is none."""
-    if items:
+    """Why there is no contour: what speaks against the first of the solutions, or that there is none. Where a search
+    was given up, there may be others."""
+    is_open = any(doubt.obstacle is Obstacle.UNFINISHED for doubt in alternatives.doubts)
+    if items and not is_open:
         return items[0].solution
     kind = RefusalKind.NO_POINT if alternatives.is_complete else RefusalKind.SEARCH_UNFINISHED
     return Solution(kind.status, refusals=(Refusal(kind, ""),))

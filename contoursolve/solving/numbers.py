@@ -42,7 +42,8 @@ def inputs_at(system: System, start: Start, givens: Iterable[tuple[str, Unit, De
 @lru_cache(maxsize=4096)
 def _axes(system: System) -> Mapping[str, int]:
     """The axis of each given that is a coordinate."""
-    return {fact.given: fact.axis for fact in system.facts if isinstance(fact, Coordinate)}
+    places = {scalar(place, axis): axis for place in system.figure.places for axis in (FIRST, SECOND)}
+    return places | {fact.given: fact.axis for fact in system.facts if isinstance(fact, Coordinate)}
 
 
 def solution_at(system: System, start: Start, sizes: Mapping[str, float], out: Mapping[str, float]) -> Solution:

@@ -237,14 +237,17 @@ class Draft:
         else:
             self.add(Setback(element.name, point, corner.at, size, way))
 
-    def _advance(self, corner: Corner) -> tuple[tuple[str, str], ...]:
-        """The pairs of points whose way along an axis is that of a 45 degree chamfer; the first that moves counts."""
+    def _advance(self, corner: Corner) -> tuple[tuple[str, ...], ...]:
+        """The lines, or pairs of points, whose way along an axis is that of a 45 degree chamfer; the first that moves
+        counts."""
         lines = [element for element in self.figure.path if isinstance(element, Line)]
         index = next(number for number, line in enumerate(lines) if line.name == corner.before)
         if corner.after is not None:
             after = next(line for line in lines if line.name == corner.after)
             return ((lines[index].tail, after.head),)
-        return tuple((line.tail, line.head) for line in reversed(lines[: index + 1]))
+        return tuple(
+            (line.tail, line.head) if line.heading is None else (line.name,) for line in reversed(lines[: index + 1])
+        )
 
     def _landing(self, corner: Corner) -> str:
         """The line that a last corner lands on."""
