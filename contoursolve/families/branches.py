@@ -10,8 +10,7 @@ import numpy
 
 from contoursolve.backends.chart import Chart
 from contoursolve.backends.inputs import lookup
-from contoursolve.backends.numeric import larger, sqrt
-from contoursolve.constraints import Distance, System
+from contoursolve.constraints import System
 from contoursolve.families.ends import about_of
 from contoursolve.families.isolate import LEVEL
 from contoursolve.families.kinds import Follows, Kind
@@ -22,7 +21,7 @@ from contoursolve.settling import orders_of, settled_by
 from contoursolve.solving import RefusalKind
 from contoursolve.solving.checks import Check, Checks, Source, Test, at_origin, check_facts, check_path
 from contoursolve.solving.closed import ROOT, ClosedForm, Need, NoFormulaError, close
-from contoursolve.tolerance import AGREEMENT, REGULAR
+from contoursolve.tolerance import REGULAR
 from contoursolve.wording import join
 
 INSTEAD = "solve it value by value with `family` (`contoursolve sweep`)"
@@ -137,7 +136,9 @@ def _compile(system: System, words: int, follows: Follows, choices: tuple[Choice
     tape = form.machine.tape
     known = {name: tape.expression(name) for name in system.unknowns}
     source = Source(system.figure, tape, lookup(system, tape, known | at_origin(system.figure)))
-    found = [*_conditions(form), *_sides(form, choices), *_facts(source, form), *check_path(source)]
+    plan = form.machine.plan
+    facts = check_facts(source, plan.checks, len(plan.basis))
+    found = [*_conditions(form), *_sides(form, choices), *facts, *check_path(source)]
     outputs = {str(number): expression for number, (_, expression) in enumerate(found)}
     return form, Margins(tuple(each for each, _ in found), Chart(tape, outputs, words, dict(follows)))
 
@@ -168,17 +169,3 @@ def _sides(form: ClosedForm, choices: Sequence[Choice]) -> Checks:
                 Check(RefusalKind.NO_POINT, choice.point, "", Test.AT_LEAST, 0.0, givens),
                 value if choice.side.value == positive else -value,
             )
-
-
-def _facts(source: Source, form: ClosedForm) -> Checks:
-    """The facts that were not needed."""
-    plan = form.machine.plan
-    for number, fact in enumerate(plan.checks, len(plan.basis)):
-        for way, (check, margin) in zip((1, -1), check_facts(source, [fact], number), strict=False):
-            if isinstance(fact, Distance):
-                # To first order the residual is the excess; where either is small, the lengths agree.
-                first, second = source.way(fact.tail, fact.head)
-                excess = sqrt(first**2 + second**2) - source.at.amount(fact.given)
-                yield check, larger(margin, AGREEMENT - way * excess)
-            else:
-                yield check, margin

@@ -24,7 +24,7 @@ from contoursolve.backends.numeric import (
     sqrt,
     true,
 )
-from contoursolve.constraints import Coordinate, Heading, Offset, OnCircle, Radius, System, Values
+from contoursolve.constraints import Coordinate, Distance, Heading, Offset, OnCircle, Radius, System, Values
 from contoursolve.model import FIRST, SECOND, Arc, Corner, CornerShape, Fact, Figure, Line, scalar
 from contoursolve.solving.compile import compile_system
 from contoursolve.solving.corners import Pair
@@ -235,6 +235,13 @@ def _compare(source: Source, fact: Fact, off: Any) -> Iterator[tuple[RefusalKind
         cosine, sine = source.at.direction(fact.given)
         turned = angle(cosine * second - sine * first, cosine * first + sine * second) * (180 / pi)
         yield kind, subject, larger(limit - magnitude(off), limit - magnitude(turned))
+        return
+    elif isinstance(fact, Distance):
+        # To first order the residual is the excess; where either is small, the lengths agree.
+        first, second = source.way(fact.tail, fact.head)
+        excess = sqrt(first**2 + second**2) - source.at.amount(fact.given)
+        yield kind, subject, larger(limit - off, limit - excess)
+        yield kind, subject, larger(limit + off, limit + excess)
         return
     elif not fact.given:
         kind = RefusalKind.FACT_DISAGREES
