@@ -32,7 +32,17 @@ from contoursolve.spelling import (
     explain_unmarked,
     explain_words,
 )
-from contoursolve.syntax import Block, Directive, FaultKind, Passage, Program, Word
+from contoursolve.syntax import (
+    Block,
+    Directive,
+    FaultKind,
+    Passage,
+    Program,
+    Word,
+    find_lookalikes,
+    has_lookalike_code,
+    parse_block,
+)
 
 if TYPE_CHECKING:
     from contoursolve.statements import Statement
@@ -202,8 +212,11 @@ class _Examiner:
     def _walk(self, blocks: Iterable[Line], start: Program | None) -> Iterator[Step | Pending]:
         """Every block and every contour, in order, contours as they are found."""
         if self.dialect is None:
-            for block in each_block(list(blocks), 0):
+            read = list(each_block(list(blocks), 0))
+            for index, block in enumerate(read):
                 self._check_block(block)
+                if has_lookalike_code(block):
+                    self._check_letters_of_any(read, index, start)
             none = DIALECTS["yasnac-lx3"].initial_state(self.unit)
             yield Step((), none, findings=self._findings())
             return
@@ -263,20 +276,42 @@ class _Examiner:
                     self._check_units(start, found)
                 else:
                     self._check_block(block)
-                    self._check_commas(view, (before, state))
+                    self._check_slips(view, (before, state))
                 yield Step(blocks_of_step, before, findings=self._findings())
             held, index = go_on(held, index, after)
 
-    def _check_commas(self, blocks: Sequence[Block], states: tuple[State, State]) -> None:
-        """Whether the first of some lines lacks the comma with which it would be a contour."""
+    def _check_slips(self, blocks: Sequence[Block], states: tuple[State, State]) -> None:
+        """Whether the first of some lines would be a contour without a slip."""
         block, dialect = blocks[0], self.dialect
         if dialect is None or self.depth is Depth.VERDICT:
             return
+        context = Context(self.rules, self.unit, place=block.span)
         if any(f",{word.address}" in dialect.modes.lexicon.addresses for word in block.words):
-            from contoursolve.commas import explain_commas  # noqa: PLC0415 - few programs need it
+            from contoursolve.slips import explain_commas  # noqa: PLC0415 - few programs need it
 
-            context = Context(self.rules, self.unit, place=block.span)
             self.diagnostics += explain_commas(context, dialect, blocks[:_NEAR], states)
+        if has_lookalike_code(block):
+            self._check_letters(dialect, blocks[:_NEAR], states[0])
+
+    def _check_letters(self, dialect: Dialect, blocks: Sequence[Block], before: State) -> None:
+        """Whether the first of some lines would be a contour with digits for letters, as the control would read it."""
+        from contoursolve.slips import explain_letters  # noqa: PLC0415 - few programs need it
+
+        block = blocks[0]
+        own = [each for each in self.diagnostics if each.span.line == block.line]
+        others = [each for each in self.diagnostics if each.span.line != block.line]
+        context = Context(self.rules, self.unit, place=block.span)
+        self.diagnostics = [*others, *explain_letters(context, dialect, blocks, before, own)]
+
+    def _check_letters_of_any(self, blocks: Sequence[Block], index: int, start: Program | None) -> None:
+        """The same for a line of a program that shows no control, by the control that shows if they are digits."""
+        meant = parse_block(" ".join(each.new for each in find_lookalikes(blocks[index])), blocks[index].line)
+        for dialect in DIALECTS.values():
+            if dialect.signs(meant):
+                state = dialect.initial_state(self.unit)
+                for block in (*(start.blocks if start else ()), *blocks[:index]):
+                    state = advance(state, block, dialect.modes)
+                self._check_letters(dialect, blocks[index : index + _NEAR], state)
 
     def _findings(self) -> tuple[Diagnostic, ...]:
         """What was found since the last step."""
@@ -323,7 +358,7 @@ class _Examiner:
     def _check_block(self, block: Block) -> None:
         context = Context(self.rules, self.unit, place=block.span)
         for fault in block.faults:
-            finding = explain_fault(context, fault)
+            finding = explain_fault(context, fault, block)
             if fault.kind in _FAULTS_OF_NO_CONSEQUENCE:
                 finding = replace(finding, severity=Severity.WARNING)
             self.diagnostics.append(finding)

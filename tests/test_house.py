@@ -31,7 +31,7 @@ FLOORS = (
     "examine",
     "dialects",
     "diagnosis",
-    "fill commas moulds project",
+    "fill slips moulds project",
     "ahead recognise",
     "pending",
     "pipeline verification unfamiliar",

@@ -10,7 +10,17 @@ from math import copysign
 
 from contoursolve.diagnosis.affine import AffineFacts, Circuit, affine_facts
 from contoursolve.diagnosis.attempt import LARGEST_ROLE, Before, Repairs, choose_repairs
-from contoursolve.diagnosis.drafts import change, commas, drop, has_faults, marked, missing_points, unreadable, variants
+from contoursolve.diagnosis.drafts import (
+    change,
+    commas,
+    digits,
+    drop,
+    has_faults,
+    marked,
+    missing_points,
+    unreadable,
+    variants,
+)
 from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, write_word
 from contoursolve.diagnostic import Diagnostic, Severity
 from contoursolve.dialects import Dialect
@@ -47,7 +57,7 @@ def find_repairs(answer: Answer, dialect: Dialect, following: tuple[Block, ...] 
     if reference is None and count_choices(answer.profile) <= MOST_CHOICES:
         reference = examine(claim, dialect.rules, Policy.OFF).contour
     stages = (stage(answer, dialect, whole) for stage in (_sets, _values, _slips))
-    slips = (missing_points(answer), commas(answer), marked(answer))
+    slips = (digits(answer), missing_points(answer), commas(answer), marked(answer))
     return choose_repairs(claim, dialect, (*slips, *stages), Before(codes, reference, following=following))
 
 

@@ -115,6 +115,16 @@ READING_RULES = (
         rejected=(_START + "G111 A180. K-30. B120. X100. R5.",),
     ),
     Rule(
+        code="letter-for-digit",
+        message="{words} has a letter where a digit seems to be meant: with {meant} this block would be a contour",
+        help="write {meant} if that is meant",
+        source=_GRAMMAR,
+        about=Trouble.LETTER_FOR_DIGIT,
+        severity=Severity.WARNING,
+        accepted=(_GOOD,),
+        rejected=(_GOOD + "\nG1l1 A180. B120. X160. Z-80.",),
+    ),
+    Rule(
         code="value-variable",
         message="{words} depends on a macro variable, whose value is known only to the control",
         help="write the number",

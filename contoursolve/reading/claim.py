@@ -23,6 +23,7 @@ class Trouble(Enum):
     WORD_IGNORED = "word-ignored"
     POINT_MISSING = "point-missing"
     COMMA_MISSING = "comma-missing"
+    LETTER_FOR_DIGIT = "letter-for-digit"
     VALUE_TOO_LARGE = "value-too-large"
     POSITION_UNKNOWN = "position-unknown"
     SKIPPABLE_START = "skippable-start"
