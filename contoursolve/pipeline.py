@@ -13,6 +13,7 @@ from contoursolve.explain import Context, report
 from contoursolve.model import Length, Plane
 from contoursolve.moulds import Cast
 from contoursolve.pending import Pending, Queue, Step, Together
+from contoursolve.percent import Marks
 from contoursolve.reading import (
     Claim,
     State,
@@ -192,6 +193,7 @@ class _Examiner:
         self.rules = dialect.rules if dialect else DIALECTS["yasnac-lx3"].rules
         self.together = together
         self.diagnostics: list[Diagnostic] = []
+        self.marks = Marks(Context(self.rules, unit))
         self.start_unit = unit
         """In which a start point that is stated apart counts, until a contour has another unit."""
         self.queue = Queue(dialect or DIALECTS["yasnac-lx3"], together, self._examine)
@@ -214,9 +216,11 @@ class _Examiner:
         if self.dialect is None:
             read = list(each_block(list(blocks), 0))
             for index, block in enumerate(read):
+                self.diagnostics += self.marks.look(block)
                 self._check_block(block)
                 if has_lookalike_code(block):
                     self._check_letters_of_any(read, index, start)
+            self.diagnostics += self.marks.finish()
             none = DIALECTS["yasnac-lx3"].initial_state(self.unit)
             yield Step((), none, findings=self._findings())
             return
@@ -235,16 +239,21 @@ class _Examiner:
                 held, index, is_whole = [*held[index:], *more], 0, not more
                 continue
             if index >= len(held):
+                self.diagnostics += self.marks.finish()
+                if self.diagnostics:
+                    yield Step((), state, findings=self._findings())
                 return
             if isinstance(held[index], Passage):
                 passed = pass_plainly(held, index, moves=is_plain(state), joins=dialect.has_runs)
                 if passed:
-                    yield Step((), state, passage=passed)
+                    self.diagnostics += self.marks.look(passed)
+                    yield Step((), state, findings=self._findings(), passage=passed)
                     state = advance_plainly(state, passed, dialect.modes)
                     held, index = go_on(held, index, len(passed.lines))
                     continue
             view, item = View(held, index), held[index]
             if isinstance(item, Cast) and start is None and item.mould.fits(state):
+                self.diagnostics += self.marks.look(item)
                 pending = self.queue.add(item, Step((), state, findings=self._findings()), view, 1)
                 yield pending
                 state = self.queue.leave(pending)
@@ -261,6 +270,8 @@ class _Examiner:
                 held, index, is_whole = [*held[index:], *more], 0, not more
                 continue
             blocks_of_step = (block,) if after == 1 else tuple(view[:after])
+            for each in blocks_of_step:
+                self.diagnostics += self.marks.look(each)
             if isinstance(found, Claim) and found.form.is_contour:
                 self._check_units(start, found)
                 pending = self.queue.add(found, Step(blocks_of_step, state, findings=self._findings()), view, after)

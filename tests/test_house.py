@@ -32,7 +32,7 @@ FLOORS = (
     "dialects",
     "diagnosis",
     "fill slips moulds project",
-    "ahead recognise",
+    "ahead percent recognise",
     "pending",
     "pipeline verification unfamiliar",
     "lines comparison families outcome",

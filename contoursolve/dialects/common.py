@@ -173,6 +173,17 @@ READING_RULES = (
         rejected=("G00 X40. Z0.\n/G01 X50.\nG111 A180. K-30. B120. X100.",),
     ),
     Rule(
+        code="text-outside",
+        message="this line stands {side} the % in {mark} that {does} the program: a control leaves it out, or takes it "
+        "for another program; here it is read as a block",
+        help="delete it, or put the % where the program {does}",
+        source=_own("tape format of ISO 6983 and RS-274: a program stands between two %"),
+        about=Trouble.TEXT_OUTSIDE,
+        severity=Severity.WARNING,
+        accepted=(f"%\nO1\n{_GOOD}\nM30\n%\n(end)", f"{_GOOD} (50%)\nM30\n%", f"(part)\n%\n{_GOOD}\nM30"),
+        rejected=(f"%\n{_GOOD}\n%\nG01 Z-90.", f"G01 Z5.\n%\n{_GOOD}\nM30\n%", f"{_GOOD}\n%\nG01 Z-90."),
+    ),
+    Rule(
         code="no-contour",
         message="nothing to solve: the program has no contour block",
         help="contour blocks {triggers}",

@@ -28,6 +28,7 @@ class Trouble(Enum):
     POSITION_UNKNOWN = "position-unknown"
     SKIPPABLE_START = "skippable-start"
     NO_CONTOUR = "no-contour"
+    TEXT_OUTSIDE = "text-outside"
     UNDERDETERMINED = "underdetermined"
     CORNER_TWICE = "corner-twice"
     CORNER_NEGATIVE = "corner-negative"
