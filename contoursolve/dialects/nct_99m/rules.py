@@ -444,7 +444,7 @@ GEOMETRY_RULES = (
     Rule(
         code="nct-corners-overlap",
         message="{words} overlap on {subject}: they need {actual}, it has {limit}",
-        help="make the corners smaller by {off} of it in all",
+        help="{smaller}",
         source=_manual("16.1; alarm 3084", Evidence.DERIVED),
         alarm=_TOO_HIGH,
         about=RefusalKind.CORNERS_OVERLAP,
