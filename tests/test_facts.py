@@ -628,8 +628,8 @@ def test_statements_as_objects_are_shown_as_text() -> None:
     assert "length of line 1 = 31 disagrees with" in result.diagnostics[0].message
 
 
-WORDS = ("A180.", "K-30.", "B120.", "X100.", "P5.")
-FACTS = (
+STATING = ("A180.", "K-30.", "B120.", "X100.", "P5.")
+STATED = (
     "length of line 1 = 30",
     "length of line 2 = 40",
     "length of line 1 = length of line 2",
@@ -644,8 +644,8 @@ FACTS = (
 def test_whatever_has_a_closed_form_is_solved_by_it_and_nothing_else_is_said_to_have_one() -> None:
     seen: Counter[bool] = Counter()
     for size in range(2, 6):
-        for words in combinations(WORDS, size):
-            for stated in (*((each,) for each in FACTS), *combinations(FACTS[:6], 2)):
+        for words in combinations(STATING, size):
+            for stated in (*((each,) for each in STATED), *combinations(STATED[:6], 2)):
                 text = " ".join(("G111", *words, *(f"(contoursolve: {each})" for each in stated)))
                 (answer,) = solve(text, start="X40. Z0.", rules="off", depth="verdict").answers
                 system = assemble(answer.profile)

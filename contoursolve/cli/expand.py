@@ -12,6 +12,7 @@ import click
 
 from contoursolve import syntax
 from contoursolve.api import MOST_DECIMALS
+from contoursolve.cli.control import control_option
 from contoursolve.cli.loading import settings_of
 from contoursolve.cli.options import (
     FOUND_ERRORS,
@@ -151,7 +152,7 @@ def expand(
 
 @click.command("filter", short_help="Expand a program as a filter of LinuxCNC.")
 @click.argument("program", metavar="FILE")
-@click.option("--control", type=click.Choice(list(DIALECTS)), help="The control; found from the program without it.")
+@control_option("The control; found from the program without it.")
 @units_option
 @rules_option
 @settings_option
