@@ -214,12 +214,12 @@ class _Examiner:
     def _walk(self, blocks: Iterable[Line], start: Program | None) -> Iterator[Step | Pending]:
         """Every block and every contour, in order, contours as they are found."""
         if self.dialect is None:
-            read = list(each_block(list(blocks), 0))
+            read, is_shown = list(each_block(list(blocks), 0)), False
             for index, block in enumerate(read):
                 self.diagnostics += self.marks.look(block)
                 self._check_block(block)
-                if has_lookalike_code(block):
-                    self._check_letters_of_any(read, index, start)
+                # One line is enough: with that mended, the control is known.
+                is_shown = is_shown or (has_lookalike_code(block) and self._check_letters_of_any(read, index, start))
             self.diagnostics += self.marks.finish()
             none = DIALECTS["yasnac-lx3"].initial_state(self.unit)
             yield Step((), none, findings=self._findings())
@@ -314,15 +314,18 @@ class _Examiner:
         context = Context(self.rules, self.unit, place=block.span)
         self.diagnostics = [*others, *explain_letters(context, dialect, blocks, before, own)]
 
-    def _check_letters_of_any(self, blocks: Sequence[Block], index: int, start: Program | None) -> None:
-        """The same for a line of a program that shows no control, by the control that shows if they are digits."""
+    def _check_letters_of_any(self, blocks: Sequence[Block], index: int, start: Program | None) -> bool:
+        """The same for a line of a program that shows no control, by the control that shows if they are digits; whether
+        there is one."""
         meant = parse_block(" ".join(each.new for each in find_lookalikes(blocks[index])), blocks[index].line)
-        for dialect in DIALECTS.values():
-            if dialect.signs(meant):
-                state = dialect.initial_state(self.unit)
-                for block in (*(start.blocks if start else ()), *blocks[:index]):
-                    state = advance(state, block, dialect.modes)
-                self._check_letters(dialect, blocks[index : index + _NEAR], state)
+        dialect = next((each for each in DIALECTS.values() if each.signs(meant)), None)
+        if dialect is None:
+            return False
+        state = dialect.initial_state(self.unit)
+        for block in (*(start.blocks if start else ()), *blocks[:index]):
+            state = advance(state, block, dialect.modes)
+        self._check_letters(dialect, blocks[index : index + _NEAR], state)
+        return True
 
     def _findings(self) -> tuple[Diagnostic, ...]:
         """What was found since the last step."""

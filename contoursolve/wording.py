@@ -19,7 +19,7 @@ def largest_text(value: float, unit: Length) -> str:
     """A length (mm) that is the largest one, so that what is shown is not larger, apart from rounding."""
     if not isfinite(value):
         return length_text(value, unit)
-    step = Decimal(unit.in_mm) / (10_000 if unit is Length.INCH else 1_000)
+    step = unit.in_mm / (10_000 if unit is Length.INCH else 1_000)
     return length_text(float(Decimal(value + ROUNDING) // step * step), unit)
 
 
