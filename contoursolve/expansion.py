@@ -20,7 +20,7 @@ from contoursolve.outcome import Left, Options, Summary, left_unread
 from contoursolve.pending import Step
 from contoursolve.pipeline import attach, walk
 from contoursolve.posts import Machine
-from contoursolve.reading import Effect, State, apply_modes, codes_of, motion_of, words_of
+from contoursolve.reading import Effect, State, Trouble, apply_modes, codes_of, motion_of, words_of
 from contoursolve.reliance import STANDING_ALONE, Reliance, reliance, restate, why_unmet
 from contoursolve.solving import Point
 from contoursolve.syntax import Block, Directive, Passage, Program, Word, parse_block
@@ -34,6 +34,10 @@ _NO_MOTION = -1
 
 _NAMES = tuple(f"G{code:02}" for code in range(4))
 """The codes of motions as they are written."""
+
+
+_TOLD = (Trouble.TEXT_OUTSIDE, Trouble.LETTER_FOR_DIGIT, Trouble.COMMA_MISSING)
+"""What is told about lines that stay: they may be cut in another way than they are meant."""
 
 
 def expand_lines(
@@ -109,6 +113,7 @@ class _Expander:
                 self.is_opened = True
                 self.summary.line_end = self.lines.end_of(step.blocks[0].line)
                 yield OPENING
+            self.summary.warn([each for each in step.findings if each.about in _TOLD])
             if step.passage is not None:
                 yield from self._pass(step.passage, step.before)
                 continue

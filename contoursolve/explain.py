@@ -16,11 +16,11 @@ from contoursolve.diagnostic import Basis, Diagnostic, Label
 from contoursolve.model import Given, Length, Profile, Role, Unit
 from contoursolve.reading import Claim, Trouble
 from contoursolve.rules import Offence, Rule
-from contoursolve.solving import Refusal, RefusalKind, Remark, RemarkKind, Solution, compare, lookup, scalars_of
+from contoursolve.solving import BESIDE, Refusal, RefusalKind, Remark, RemarkKind, Solution, compare, lookup, scalars_of
 from contoursolve.source import Span
 from contoursolve.syntax import FACT, Word
 from contoursolve.tolerance import AGREEMENT
-from contoursolve.wording import angle_text, join, length_text, place_text, shorten, unknowns_text
+from contoursolve.wording import angle_text, join, largest_text, length_text, place_text, shorten, unknowns_text
 
 if TYPE_CHECKING:
     from contoursolve.solving.alternatives import Alternatives
@@ -261,13 +261,37 @@ def explain_result(
     if event.kind is RefusalKind.SEARCH_UNFINISHED and alternatives is not None:
         fields["advice"] = _ADVICE[alternatives.doubts[0].obstacle.name]
         notes = tuple(_search_notes(profile, alternatives))
-    labels = _labels(event, fields)
+    labels = [f"expected {fields['expected']}"] if "expected" in fields else []
+    if event.kind is RefusalKind.CORNER_TOO_LARGE and "limit" in values:
+        fields["limit"] = largest_text(values["limit"], context.unit)
+        labels = [f"at most {fields['limit']}"]
+    if event.kind is RefusalKind.CORNERS_OVERLAP:
+        rooms = _beside(event, values, words, profile)
+        labels = [f"at most {limit} beside {other}" for _, limit, other in rooms]
+        told = [f"write at most {limit} for {own} if {other} stays" for own, limit, other in rooms]
+        fields["smaller"] = ", or ".join(told) or f"make the corners smaller by {fields['off']} of it in all"
     finding = report(context, context.row(event.kind), Basis.NUMERICAL, words, values, labels, **fields)
     if asked and isinstance(event, Refusal):
         causes = list(dict.fromkeys(text for word in asked for text in _causes(word, profile)))
         advice = f"change what that follows from: {join(causes)}" if causes else "change what that follows from"
         finding = replace(finding, help=advice, labels=tuple(replace(each, text="") for each in finding.labels))
     return replace(finding, notes=notes)
+
+
+def _beside(
+    event: Refusal | Remark, values: dict[str, float], words: Sequence[Word], profile: Profile
+) -> list[tuple[str, str, str]]:
+    """For either of two words for corners that overlap, in the order of the words, which the values then have, too: its
+    text, the largest size beside the other one, and the other one."""
+    known = {name: values.pop(key) for name, key in zip(event.givens, BESIDE, strict=False) if key in values}
+    sizes = {given.word: known[name] for name in known if (given := profile.givens.get(name)) and given.word}
+    own = sorted(words, key=lambda word: word.span)
+    if len(own) != len(BESIDE) or sizes.keys() != {*own}:
+        return []
+    values |= {key: sizes[word] for key, word in zip(BESIDE, own, strict=True)}
+    names = [f"{word.text} (line {word.span.line})" if len(profile.blocks) > 1 else word.text for word in own]
+    limits = [largest_text(sizes[word], profile.unit) for word in own]
+    return list(zip(names, limits, reversed(names), strict=True))
 
 
 def _causes(asked: Word, profile: Profile) -> Iterator[str]:
@@ -338,12 +362,3 @@ def explain_beyond(context: Context, profile: Profile, solution: Solution, conto
         place = place_text(profile, scalars_of({"": at}))
         fields: dict[str, Any] = {"element": element.name, "whole": whole, "place": place}
         yield report(context, context.row(Trouble.FACT_BEYOND), Basis.NUMERICAL, [word] if word else [], **fields)
-
-
-def _labels(event: Refusal | Remark, fields: Mapping[str, Any]) -> list[str]:
-    """What to write under the first word."""
-    if "limit" in fields and event.kind is RefusalKind.CORNER_TOO_LARGE:
-        return [f"at most {fields['limit']}"]
-    if "expected" in fields:
-        return [f"expected {fields['expected']}"]
-    return []

@@ -41,7 +41,7 @@ class Summary:
 
     replaced: int = 0
     warnings: int = 0
-    """How many warnings there are about contours that were replaced."""
+    """How many warnings there are about contours that were replaced, and lines that may be meant otherwise."""
     warned: list[Diagnostic] = field(default_factory=list)
     """The first of them."""
     deviation: float = 0.0
@@ -51,7 +51,7 @@ class Summary:
     """How the first line that has an end ends."""
 
     def warn(self, findings: Sequence[Diagnostic]) -> None:
-        """Note the warnings among the findings about a contour that was replaced."""
+        """Note the warnings among the findings about a contour that was replaced, or about lines that stay."""
         warnings = [each for each in findings if each.severity is Severity.WARNING]
         self.warnings += len(warnings)
         self.warned += warnings[: max(0, _KEPT_WARNINGS - len(self.warned))]

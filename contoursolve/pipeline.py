@@ -13,6 +13,7 @@ from contoursolve.explain import Context, report
 from contoursolve.model import Length, Plane
 from contoursolve.moulds import Cast
 from contoursolve.pending import Pending, Queue, Step, Together
+from contoursolve.percent import Marks
 from contoursolve.reading import (
     Claim,
     State,
@@ -32,7 +33,17 @@ from contoursolve.spelling import (
     explain_unmarked,
     explain_words,
 )
-from contoursolve.syntax import Block, Directive, FaultKind, Passage, Program, Word
+from contoursolve.syntax import (
+    Block,
+    Directive,
+    FaultKind,
+    Passage,
+    Program,
+    Word,
+    find_lookalikes,
+    has_lookalike_code,
+    parse_block,
+)
 
 if TYPE_CHECKING:
     from contoursolve.statements import Statement
@@ -182,6 +193,7 @@ class _Examiner:
         self.rules = dialect.rules if dialect else DIALECTS["yasnac-lx3"].rules
         self.together = together
         self.diagnostics: list[Diagnostic] = []
+        self.marks = Marks(Context(self.rules, unit))
         self.start_unit = unit
         """In which a start point that is stated apart counts, until a contour has another unit."""
         self.queue = Queue(dialect or DIALECTS["yasnac-lx3"], together, self._examine)
@@ -202,8 +214,13 @@ class _Examiner:
     def _walk(self, blocks: Iterable[Line], start: Program | None) -> Iterator[Step | Pending]:
         """Every block and every contour, in order, contours as they are found."""
         if self.dialect is None:
-            for block in each_block(list(blocks), 0):
+            read, is_shown = list(each_block(list(blocks), 0)), False
+            for index, block in enumerate(read):
+                self.diagnostics += self.marks.look(block)
                 self._check_block(block)
+                # One line is enough: with that mended, the control is known.
+                is_shown = is_shown or (has_lookalike_code(block) and self._check_letters_of_any(read, index, start))
+            self.diagnostics += self.marks.finish()
             none = DIALECTS["yasnac-lx3"].initial_state(self.unit)
             yield Step((), none, findings=self._findings())
             return
@@ -222,16 +239,21 @@ class _Examiner:
                 held, index, is_whole = [*held[index:], *more], 0, not more
                 continue
             if index >= len(held):
+                self.diagnostics += self.marks.finish()
+                if self.diagnostics:
+                    yield Step((), state, findings=self._findings())
                 return
             if isinstance(held[index], Passage):
                 passed = pass_plainly(held, index, moves=is_plain(state), joins=dialect.has_runs)
                 if passed:
-                    yield Step((), state, passage=passed)
+                    self.diagnostics += self.marks.look(passed)
+                    yield Step((), state, findings=self._findings(), passage=passed)
                     state = advance_plainly(state, passed, dialect.modes)
                     held, index = go_on(held, index, len(passed.lines))
                     continue
             view, item = View(held, index), held[index]
             if isinstance(item, Cast) and start is None and item.mould.fits(state):
+                self.diagnostics += self.marks.look(item)
                 pending = self.queue.add(item, Step((), state, findings=self._findings()), view, 1)
                 yield pending
                 state = self.queue.leave(pending)
@@ -248,6 +270,8 @@ class _Examiner:
                 held, index, is_whole = [*held[index:], *more], 0, not more
                 continue
             blocks_of_step = (block,) if after == 1 else tuple(view[:after])
+            for each in blocks_of_step:
+                self.diagnostics += self.marks.look(each)
             if isinstance(found, Claim) and found.form.is_contour:
                 self._check_units(start, found)
                 pending = self.queue.add(found, Step(blocks_of_step, state, findings=self._findings()), view, after)
@@ -263,20 +287,45 @@ class _Examiner:
                     self._check_units(start, found)
                 else:
                     self._check_block(block)
-                    self._check_commas(view, (before, state))
+                    self._check_slips(view, (before, state))
                 yield Step(blocks_of_step, before, findings=self._findings())
             held, index = go_on(held, index, after)
 
-    def _check_commas(self, blocks: Sequence[Block], states: tuple[State, State]) -> None:
-        """Whether the first of some lines lacks the comma with which it would be a contour."""
+    def _check_slips(self, blocks: Sequence[Block], states: tuple[State, State]) -> None:
+        """Whether the first of some lines would be a contour without a slip."""
         block, dialect = blocks[0], self.dialect
         if dialect is None or self.depth is Depth.VERDICT:
             return
+        context = Context(self.rules, self.unit, place=block.span)
         if any(f",{word.address}" in dialect.modes.lexicon.addresses for word in block.words):
-            from contoursolve.commas import explain_commas  # noqa: PLC0415 - few programs need it
+            from contoursolve.slips import explain_commas  # noqa: PLC0415 - few programs need it
 
-            context = Context(self.rules, self.unit, place=block.span)
             self.diagnostics += explain_commas(context, dialect, blocks[:_NEAR], states)
+        if has_lookalike_code(block):
+            self._check_letters(dialect, blocks[:_NEAR], states[0])
+
+    def _check_letters(self, dialect: Dialect, blocks: Sequence[Block], before: State) -> None:
+        """Whether the first of some lines would be a contour with digits for letters, as the control would read it."""
+        from contoursolve.slips import explain_letters  # noqa: PLC0415 - few programs need it
+
+        block = blocks[0]
+        own = [each for each in self.diagnostics if each.span.line == block.line]
+        others = [each for each in self.diagnostics if each.span.line != block.line]
+        context = Context(self.rules, self.unit, place=block.span)
+        self.diagnostics = [*others, *explain_letters(context, dialect, blocks, before, own)]
+
+    def _check_letters_of_any(self, blocks: Sequence[Block], index: int, start: Program | None) -> bool:
+        """The same for a line of a program that shows no control, by the control that shows if they are digits; whether
+        there is one."""
+        meant = parse_block(" ".join(each.new for each in find_lookalikes(blocks[index])), blocks[index].line)
+        dialect = next((each for each in DIALECTS.values() if each.signs(meant)), None)
+        if dialect is None:
+            return False
+        state = dialect.initial_state(self.unit)
+        for block in (*(start.blocks if start else ()), *blocks[:index]):
+            state = advance(state, block, dialect.modes)
+        self._check_letters(dialect, blocks[index : index + _NEAR], state)
+        return True
 
     def _findings(self) -> tuple[Diagnostic, ...]:
         """What was found since the last step."""
@@ -323,7 +372,7 @@ class _Examiner:
     def _check_block(self, block: Block) -> None:
         context = Context(self.rules, self.unit, place=block.span)
         for fault in block.faults:
-            finding = explain_fault(context, fault)
+            finding = explain_fault(context, fault, block)
             if fault.kind in _FAULTS_OF_NO_CONSEQUENCE:
                 finding = replace(finding, severity=Severity.WARNING)
             self.diagnostics.append(finding)

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import IO
 
+from contoursolve.dialects import Dialect
 from contoursolve.examine import Policy
 from contoursolve.expansion import OPENING, expand_lines, lines_of_facts, opening_of
 from contoursolve.files import Tape
@@ -49,7 +50,7 @@ def rewrite(
     body: IO[bytes],
     options: Options,
     *,
-    control: str | None = None,
+    control: str | Dialect | None = None,
     unit: Length = Length.MM,
     policy: Policy = Policy.ENFORCE,
     settings: Mapping[str, str] | None = None,
@@ -63,7 +64,8 @@ def rewrite(
     held in memory, to see which contour they are about.
     """
     unread: list[Left] = []
-    dialect = find_dialect(control) if control else first_sign(_blocks(tape, unread))
+    named = find_dialect(control) if isinstance(control, str) else control
+    dialect = named or first_sign(_blocks(tape, unread))
     summary = Summary()
     body.write(tape.mark)
     if dialect is None:

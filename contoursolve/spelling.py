@@ -9,7 +9,7 @@ from contoursolve.explain import Context, report
 from contoursolve.model import Given, Length, Unit
 from contoursolve.reading import Claim, Lexicon, Trouble
 from contoursolve.source import Span
-from contoursolve.syntax import Block, Fault, Word
+from contoursolve.syntax import Block, Fault, Word, find_lookalikes
 from contoursolve.tolerance import LARGEST
 from contoursolve.wording import angle_text, join, length_text
 
@@ -17,7 +17,7 @@ from contoursolve.wording import angle_text, join, length_text
 def explain_spelling(context: Context, claim: Claim) -> Iterator[Diagnostic]:
     """What keeps the words of a contour from being read: nothing can be said of what they mean then."""
     words = [word for block in claim.blocks for word in block.words]
-    yield from (explain_fault(context, fault) for block in claim.blocks for fault in block.faults)
+    yield from (explain_fault(context, fault, block) for block in claim.blocks for fault in block.faults)
     yield from explain_words(context, claim.lexicon, claim.repeated, words)
     yield from _explain_unknown(context, claim)
     yield from _explain_asked(context, claim)
@@ -64,11 +64,19 @@ def _answerable(claim: Claim) -> set[str]:
     return {row.fact.given for row in claim.form.facts} | sizes | set(claim.form.choices)
 
 
-def explain_fault(context: Context, fault: Fault) -> Diagnostic:
-    """Characters that are not a word."""
+def explain_fault(context: Context, fault: Fault, block: Block) -> Diagnostic:
+    """Characters of a block that are not a word."""
     shown = Word(fault.text[:1], None, False, fault.text.strip(), fault.span)
-    rule = context.row(fault.kind)
-    return replace(report(context, rule, Basis.RULE, [shown]), addresses=(fault.address,) if fault.address else ())
+    finding = report(context, context.row(fault.kind), Basis.RULE, [shown])
+    meant = _with_digits(block, fault.span)
+    advice = f"{meant} if that is meant; else {finding.help}" if meant else finding.help
+    return replace(finding, help=advice, addresses=(fault.address,) if fault.address else ())
+
+
+def _with_digits(block: Block, place: Span) -> str:
+    """What to write for a word at a place of a block, some letters of which look like digits; empty if none do."""
+    found = next((each for each in find_lookalikes(block) if each.covers(place)), None)
+    return f"write {found.new} for {found.old}" if found else ""
 
 
 def explain_words(
@@ -94,7 +102,8 @@ def _explain_unknown(context: Context, claim: Claim) -> Iterator[Diagnostic]:
     allowed = " ".join(own) + (f", and besides {' '.join(others)}" if others else "")
     for word in claim.unknown:
         rule, other = context.row(Trouble.UNKNOWN_ADDRESS), respelled(word, form.allowed)
-        do = f"write {other}" if other else "delete it"
+        block = next(block for block in claim.blocks if block.line == word.span.line)
+        do = f"write {other}" if other else _with_digits(block, word.span) or "delete it"
         name = form.name if form.name.startswith("G") else form.title
         yield report(context, rule, Basis.RULE, [word], form=name, allowed=allowed, do=do)
 

@@ -1,6 +1,8 @@
 """Values, places and names as messages say them: in the program's unit, with the axes of its plane."""
 
 from collections.abc import Sequence
+from decimal import Decimal
+from math import isfinite
 
 from contoursolve.model import CornerShape, Length, Profile
 
@@ -11,6 +13,18 @@ SHOWN = 60
 def length_text(value: float, unit: Length) -> str:
     """A length of so many mm in the program's unit."""
     return value_text(value / 25.4 if unit is Length.INCH else value, unit.value)
+
+
+def largest_text(value: float, unit: Length) -> str:
+    """A length (mm) that is the largest one, so that what is shown is not larger, apart from rounding."""
+    if not isfinite(value):
+        return length_text(value, unit)
+    step = unit.in_mm / (10_000 if unit is Length.INCH else 1_000)
+    return length_text(float(Decimal(value + ROUNDING) // step * step), unit)
+
+
+ROUNDING = 1e-10
+"""mm. A size that is so close below a decimal is that decimal; a tenth of what a corner may lack."""
 
 
 def angle_text(value: float) -> str:

@@ -18,7 +18,7 @@ import mpmath
 import numpy
 import pytest
 
-from contoursolve import Answer, completions, solve, what_if
+from contoursolve import Answer, completions, parse, solve, what_if
 from contoursolve.diagnostic import Applicability, Severity, Verdict
 
 START = "X40. Z0."
@@ -918,3 +918,58 @@ def test_an_angle_of_more_than_a_turn_is_told_as_one_within_a_turn_and_the_fix_r
     (error,) = answer.diagnostics
     assert said in error.help
     assert error.fixes[0].replacement == f"G111 {fixed} K-30. B120. X100."
+
+
+# Corners that overlap -------------------------------------------------------------------------------------
+
+OVERLAPPING = {
+    "two roundings": ("G00 X40. Z0.\nG111 X100. A180. K-30. B120. {} {}", "P35.", "Q35."),
+    "rounding and bevel": ("G00 X40. Z0.\nG111 X100. A180. K-30. B120. {} {}", "P40.", "D20."),
+    "no multiple of the least increment": ("G00 X40. Z0.\nG111 X100. A180. K-31.7 B127.3 {} {}", "P45.123", "Q33."),
+    "inches": ("G20 G00 X1.6 Z0.\nG111 X4. A180. K-2.7 B127.3 {} {}", "P2.2", "Q1.8"),
+    "two blocks": ("G17 G90 G0 X0 Y0\nG1 X30 {}\nY30 {}\nX60", ",C20.", ",R20."),
+    "on an arc": ("G17 G90 G0 X0 Y0\nG1 X30 {}\nG3 X0 Y30 R30 {}\nG1 Y0", ",R14", ",R14"),
+}
+
+
+@pytest.mark.parametrize("name", OVERLAPPING)
+def test_of_two_corners_that_overlap_each_is_told_how_large_it_may_be_if_the_other_stays(name):
+    text, *sizes = OVERLAPPING[name]
+    step, mm, unit = ("0.0001", "25.4", "in") if text.startswith("G20") else ("0.001", "1", "mm")
+
+    (error,) = solve(text.format(*sizes)).answers[0].diagnostics
+    assert error.code.endswith("corners-overlap")
+    for index, key in enumerate(("limit_first", "limit_second")):
+        own = sizes[index]
+        named = [f"{size} (line {line})" if text.startswith("G17") else size for line, size in enumerate(sizes, 2)]
+        largest = (Decimal(error.values[key]) / Decimal(mm) + Decimal("1e-10")) // Decimal(step) * Decimal(step)
+        assert f"at most {largest} {unit} for {named[index]} if {named[1 - index]} stays" in error.help
+        assert error.labels[index].text == f"at most {largest} {unit} beside {named[1 - index]}"
+        outcomes = []
+        for size in (largest + Decimal(step), largest):
+            words = [*sizes]
+            words[index] = f"{own.rstrip('0123456789.')}{size}"
+            outcomes.append(solve(text.format(*words)).answers[0].contour is not None)
+        assert outcomes == [False, True]
+        block = text.format(*words).partition("\n")[2]
+        assert numbers_of(block) in [numbers_of(fix.replacement) for fix in error.fixes]
+
+
+def numbers_of(block: str) -> list[tuple[str, Decimal]]:
+    """The words of a block, with their values."""
+    return [(word.address, word.number) for each in parse(block).blocks for word in each.words]
+
+
+def test_the_largest_sizes_of_overlapping_corners_come_in_the_order_of_the_words():
+    straight, turned = (
+        answer_to(f"G111 X100. A180. K-30. B120. {words}").diagnostics[0] for words in ("P35. Q30.", "Q30. P35.")
+    )
+    assert straight.addresses == ("P", "Q")
+    assert turned.addresses == ("Q", "P")
+    assert straight.values["limit_first"] == turned.values["limit_second"] > straight.values["limit_second"]
+
+
+def test_the_largest_size_of_a_corner_that_is_shown_fits():
+    (error,) = answer_to("G111 X100. A180. K-30. B120. P60.").diagnostics  # 51.9615 mm fit
+    assert "at most 51.961 mm fits" in error.message
+    assert answer_to("G111 X100. A180. K-30. B120. P51.961").contour is not None

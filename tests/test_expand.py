@@ -776,3 +776,17 @@ def test_the_filter_leaves_a_program_of_linuxcnc_alone(tmp_path):
     old = tmp_path / "own.ngc"
     old.write_bytes(b"o100 sub\nG1 X[#1+2] F#<_feed>\no100 endsub\nM2\n")
     assert run("filter", old)[:2] == (0, old.read_bytes())
+
+
+def test_the_filter_writes_and_refuses_as_its_options_ask(tmp_path):
+    old = tmp_path / "old.nc"
+    old.write_text(START + TAPER + " P5. Q5. M08\n")  # the manual allows no M word in this block
+    status, written, said = run("filter", old)
+    assert (status, written, "error[g111-m-s-t]" in said) == (1, b"", True)
+    options = ("--arcs", "radius", "--decimals", "3", "--no-comments")
+    status, written, said = run("filter", old, "--rules", "warn", *options)
+    assert (status, "warning[g111-m-s-t]" in said) == (0, True)
+    assert b"R5." in written
+    assert b"(" not in written
+    same = run("expand", old, "--post", "linuxcnc", "--rules", "warn", *options)
+    assert written == same[1]

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, fields, replace
 from decimal import Decimal
 from functools import cache
-from itertools import permutations
+from itertools import combinations, permutations
 from math import cos, pi, sin
 from random import Random
 from typing import Any
@@ -24,6 +24,7 @@ from hypothesis import strategies as st
 from sketches import chain_of, sketch_of
 
 from contoursolve import Sketch, solve
+from contoursolve.analysis import judge
 from contoursolve.constraints import (
     Along,
     ArcContact,
@@ -55,9 +56,12 @@ from contoursolve.constraints import (
     TurnBetween,
     UnitDirection,
     Values,
+    assemble,
 )
 from contoursolve.model import Length, Turn
 from contoursolve.output.document import to_json
+from contoursolve.solving import NoClosedFormError, is_closed
+from contoursolve.solving import solve as solve_in_closed_form
 from contoursolve.statements import (
     DirectionIs,
     EqualSizes,
@@ -622,3 +626,36 @@ def test_statements_as_objects_are_shown_as_text() -> None:
     result = solve("G111 A180. K-30. B120.", start=START, facts=facts)
     assert [each.text for each in result.facts] == ["X of V2 = 100", "length of line 1 = 31"]
     assert "length of line 1 = 31 disagrees with" in result.diagnostics[0].message
+
+
+STATING = ("A180.", "K-30.", "B120.", "X100.", "P5.")
+STATED = (
+    "length of line 1 = 30",
+    "length of line 2 = 40",
+    "length of line 1 = length of line 2",
+    "distance from S to V2 = 60",
+    "straight part of line 2 = 20",
+    "angle between line 1 and line 2 = 60",
+    "line 2 passes through [Z-40. X80.]",
+    "X of V1 = 44",
+)
+
+
+def test_whatever_has_a_closed_form_is_solved_by_it_and_nothing_else_is_said_to_have_one() -> None:
+    seen: Counter[bool] = Counter()
+    for size in range(2, 6):
+        for words in combinations(STATING, size):
+            for stated in (*((each,) for each in STATED), *combinations(STATED[:6], 2)):
+                text = " ".join(("G111", *words, *(f"(contoursolve: {each})" for each in stated)))
+                (answer,) = solve(text, start="X40. Z0.", rules="off", depth="verdict").answers
+                system = assemble(answer.profile)
+                if not judge(system).is_determined:
+                    continue
+                seen[is_closed(system)] += 1
+                if is_closed(system):
+                    solution = solve_in_closed_form(answer.profile, is_proven=False)
+                    assert solution.points or solution.refusals
+                else:
+                    with pytest.raises(NoClosedFormError):
+                        solve_in_closed_form(answer.profile, is_proven=False)
+    assert min(seen[True], seen[False]) > 50

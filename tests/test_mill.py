@@ -10,6 +10,7 @@ import re
 import time
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from decimal import Decimal
 from itertools import product
 from math import asin, atan2, degrees, hypot
 from random import Random
@@ -22,6 +23,7 @@ from oracle_corners import miss
 from oracle_nct import Run, runs
 
 from contoursolve import Result, check, solve
+from contoursolve.diagnostic import Applicability, Severity
 from contoursolve.dialects import DIALECTS
 from contoursolve.output.document import to_json
 
@@ -313,3 +315,21 @@ def test_what_is_told_of_an_arc_off_its_centre_and_of_a_word_beside_the_plane():
     assert not any("tied" in note for note in arc.notes)
     (beside,) = solve(text.format("G3 X-50 Y0 R50", " Z-5"), control="nct-99m").diagnostics
     assert "safe" not in {fix.applicability.value for fix in beside.fixes}
+
+
+@pytest.mark.parametrize(("angle", "within"), [("405", "45"), ("-675", "-315"), ("360.5", ".5"), ("-360.5", "-.5")])
+def test_an_angle_of_more_than_a_turn_is_solved_as_one_within_a_turn_and_told(angle, within):
+    before = "G17 G90 G0 X0 Y0\nG1 X30 ,A"
+    (turned,), (same,) = (solve(before + text).answers for text in (angle, within))
+    assert turned.contour.end == pytest.approx(same.contour.end)
+    (finding,) = turned.diagnostics
+    assert (finding.code, finding.severity, finding.source.evidence.value) == (
+        "nct-angle-range",
+        Severity.WARNING,
+        "assumed",
+    )
+    assert same.diagnostics == ()
+    assert finding.fixes[0].applicability is Applicability.SAFE
+    assert Decimal(finding.fixes[0].replacement.partition(",A")[2]) == Decimal(within)
+    for edge in ("360", "-360"):
+        assert solve(before + edge).diagnostics == ()

@@ -3,10 +3,13 @@
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from inspect import isfunction, signature
+from pathlib import Path
 
 import pytest
+from click.testing import CliRunner
 
 import contoursolve
+from contoursolve.cli import main
 from contoursolve.dialects import DIALECTS, NCT_99M
 from contoursolve.dialects.geometry import GEOMETRY_RULES
 from contoursolve.output.contours import contour_lines
@@ -121,3 +124,86 @@ def test_a_program_without_a_contour_is_told_what_shows_one_there():
     control = replace(MINE, contours="lines with ,A")
     (found,) = contoursolve.check("G0 X0 Y0", control=control)
     assert "of mine: lines with ,A" in found.help
+
+
+# On the command line --------------------------------------------------------------------------------------
+
+LINE = ("--block", "G1 X30 ,A45", "--start", "X0 Y0")
+COMMANDS = {
+    "check": ("check", "p.nc"),
+    "solve": ("solve", "p.nc"),
+    "expand": ("expand", "p.nc"),
+    "filter": ("filter", "p.nc"),
+    "diff": ("diff", "p.nc", "p.nc"),
+    "plot": ("plot", "p.nc", "--force"),
+    "sweep": ("sweep", *LINE, "--vary", ",A=0:80:1", "--workers", "2"),
+    "range": ("range", *LINE, "--word", "X"),
+    "find": ("find", *LINE, "--word", ",A", "--bring", "end Y20"),
+    "sensitivity": ("sensitivity", *LINE),
+    "explain": ("explain", "3017"),
+}
+OF_THEIR_OWN = {"report", "verify", "rules", "facts"}
+"""Tested below, or without a control."""
+
+
+@pytest.fixture
+def run(tmp_path, monkeypatch):
+    (tmp_path / "p.nc").write_text(PAIR)
+    (tmp_path / "tables_of_mine.py").write_text("from test_own_control import MINE\nOTHER = 5\n")
+    (tmp_path / "tables_that_fail.py").write_text("1 / 0\n")
+    monkeypatch.chdir(tmp_path)
+
+    def run_(*arguments):
+        done = CliRunner().invoke(main, arguments)
+        assert done.exception is None or isinstance(done.exception, SystemExit), done.exception
+        return done.exit_code, done.output
+
+    return run_
+
+
+def test_every_command_is_tested_with_tables_of_its_own():
+    assert COMMANDS.keys() | OF_THEIR_OWN == set(main.list_commands(None))
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_a_command_takes_the_tables_of_a_module(run, name):
+    status, output = run(*COMMANDS[name], "--control", "tables_of_mine:MINE")
+    built_in = run(*COMMANDS[name], "--control", "nct-99m")
+    assert (status, output.replace("mine", "nct-99m")) == built_in
+    assert status == 0
+
+
+def test_the_other_commands_take_them_too(run):
+    mine = ("--control", "tables_of_mine:MINE")
+    assert run("report", "p.nc", *mine)[0] == 0
+    assert "<dd>mine</dd>" in Path("p.html").read_text(encoding="utf-8")
+    assert run("rules", *mine)[1].startswith("mine: the machine in hall 2")
+    assert run("rules", "--table", *mine)[0] == 0
+    _, result = run("solve", "p.nc", "--format", "json", *mine)
+    Path("r.json").write_text(result, encoding="utf-8")
+    assert run("verify", "p.nc", "r.json", *mine)[0] == 0
+    assert "unknown control 'mine'" in run("verify", "p.nc", "r.json")[1]
+    assert run("check", "p.nc", "--format", "sarif", *mine)[0] == 0
+    broken = run("check", "--block", PAIR.replace("Q-1", ",R2 ,C2"), "--format", "sarif", *mine)
+    assert '"ruleId": "nct-two-corners"' in broken[1]
+    assert run("diff", "p.nc", "p.nc", "--new-control", "tables_of_mine:MINE")[0] == 0
+    _, chosen = run("solve", "p.nc", *mine, "--set", "mine.circle-circle-q=right-is-negative", "--format", "json")
+    assert '"circle-circle-q": "right-is-negative"' in chosen or "mine.circle-circle-q" in chosen
+
+
+@pytest.mark.parametrize(
+    ("control", "said"),
+    [
+        ("tables_of_mine:OTHER", "tables_of_mine has no contoursolve.Dialect of the name 'OTHER'"),
+        ("tables_of_mine:ABSENT", "no contoursolve.Dialect of the name 'ABSENT'"),
+        ("absent_tables:MINE", "absent_tables cannot be imported: ModuleNotFoundError"),
+        ("tables_that_fail:MINE", "tables_that_fail cannot be imported: ZeroDivisionError: division by zero"),
+        (":MINE", "cannot be imported: ValueError"),
+        ("tables_of_mine:", "of the name ''"),
+        ("mine", "'mine' is not one of 'yasnac-lx3', 'nct-99m'"),
+    ],
+)
+def test_tables_that_are_none_are_told_in_a_line(run, control, said):
+    status, output = run("solve", "p.nc", "--control", control)
+    assert (status, said in output) == (2, True), output
+    assert "Traceback" not in output

@@ -614,6 +614,8 @@ def test_sweep_draws_one_word_as_a_fan_and_two_as_a_map(tmp_path):
     status, output = sweep(*one, "--plot", tmp_path / "fan.svg")
     assert (status, "fan.svg written" in output) == (0, True)
     assert "21 contours" in (tmp_path / "fan.svg").read_text()
+    assert sweep(*one, "--plot", tmp_path / "fan.svg", "--force", "--theme", "dark")[0] == 0
+    assert DARK_COLORS[Role.PAPER] in (tmp_path / "fan.svg").read_text()
     both = (*one, "--vary", "P=1:60:0.5")
     status, output = sweep(*both, "--plot", tmp_path / "map.png")
     assert status == 0

@@ -160,10 +160,10 @@ def test_the_command_writes_one_page_and_tells_by_its_status_whether_there_are_e
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["x.nc"], "Missing option '-o'"),
-        (["x.nc", "-o", "x.pdf"], "name a page that ends with .html"),
+        (["x.nc", "-o", "x.pdf"], "x.pdf: pages end in .html"),
         (["absent.nc", "-o", "x.html"], "absent.nc: no such file"),
         (["-o", "x.html"], "missing PROGRAM"),
+        ([], "missing PROGRAM"),
         (["-", "-o", "absent/x.html"], "is no directory"),
         (["-", "--control", "fanuc", "-o", "x.html"], "'fanuc' is not one of"),
     ],
@@ -175,6 +175,24 @@ def test_what_cannot_be_done_is_said_in_a_line(tmp_path, monkeypatch, arguments,
     assert code == 2
     assert message in output
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_page_that_nobody_named_has_the_name_of_its_program(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    code, output = run(PROGRAMS[0])
+    assert (code, output.splitlines()[-1]) == (0, f"{PROGRAMS[0].stem}.html written")
+    assert "exists; give --force to replace it" in run(PROGRAMS[0])[1]
+    run("-", input="G00 X40. Z0.\nG111 X100. A180. K-30. B120.")
+    assert {each.name for each in tmp_path.iterdir()} == {f"{PROGRAMS[0].stem}.html", "contour.html"}
+
+
+def test_of_a_program_without_a_contour_the_command_writes_no_page_and_says_why(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for text, said in (("", "error[no-contour]: nothing to solve"), ("GX1", "error[number-missing]: G has no number")):
+        code, output = run("-", input=text)
+        assert (code, output.splitlines()[-1]) == (1, "contour.html: not written")
+        assert said in output
+        assert not list(tmp_path.iterdir())
 
 
 def test_without_htpy_the_extra_is_named(tmp_path):

@@ -260,6 +260,12 @@ def affine_parts(residuals: Sequence[Any], unknowns: Sequence[Any]) -> tuple[lis
     )
 
 
+def is_affine(residuals: Sequence[Any], unknowns: Sequence[Any]) -> bool:
+    """Whether residuals are affine in the unknowns (symbols), so that `affine_parts` are free of them."""
+    symbols = _stack(unknowns)
+    return not casadi.depends_on(casadi.jacobian(_stack(residuals), symbols), symbols)
+
+
 def jacobian_parts(
     residuals: Sequence[Any], unknowns: Sequence[Any], at: Sequence[Any]
 ) -> dict[tuple[int, int], Expression]:

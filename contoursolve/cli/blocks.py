@@ -7,6 +7,7 @@ from typing import Any
 
 import click
 
+from contoursolve.cli.control import control_option
 from contoursolve.cli.loading import settings_of
 from contoursolve.cli.options import CouldNotRunError, rules_option, settings_option, units_option
 from contoursolve.data import json_text
@@ -27,9 +28,7 @@ def block_options(command: Callable[..., None]) -> Callable[..., None]:
                 "--block", "blocks", multiple=True, required=True, metavar="TEXT", help="The block; may be repeated."
             ),
             click.option("--start", metavar="WORDS", help='The start point, such as "X40. Z0.".'),
-            click.option(
-                "--control", type=click.Choice(list(DIALECTS)), help="The control; found from the block without it."
-            ),
+            control_option("The control; found from the block without it."),
             units_option,
             rules_option,
             settings_option,

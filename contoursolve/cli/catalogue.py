@@ -2,28 +2,34 @@
 
 import click
 
-from contoursolve.cli.options import (
-    CouldNotRunError,
-)
+from contoursolve.cli.control import control_option
+from contoursolve.cli.options import CouldNotRunError
 from contoursolve.cli.printing import print_lines
-from contoursolve.dialects import DIALECTS
+from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.rules import Rule
 
 
 @click.command(short_help="List the whole catalogue of rules.")
-@click.option("--control", type=click.Choice(list(DIALECTS)), help="Only the rules of this control.")
+@control_option("Only the rules of this control.")
 @click.option(
     "--table",
     "is_table",
     is_flag=True,
     help="Instead: every set of words of every form, legal or not, determined or not.",
 )
-def rules(control: str | None, is_table: bool) -> None:
+def rules(control: str | Dialect | None, is_table: bool) -> None:
     """List the whole catalogue of rules and findings, with their evidence and the control's alarms."""
     from contoursolve.output.catalogue import catalogue_lines, table_lines  # noqa: PLC0415 - only here
 
-    chosen = [dialect for name, dialect in DIALECTS.items() if control in (None, name)]
+    chosen = _chosen(control)
     print_lines(table_lines(chosen) if is_table else catalogue_lines(chosen))
+
+
+def _chosen(control: str | Dialect | None) -> list[Dialect]:
+    """The control that is asked for, or all that are built in."""
+    if isinstance(control, Dialect):
+        return [control]
+    return [dialect for name, dialect in DIALECTS.items() if control in (None, name)]
 
 
 @click.command(short_help="List the further facts that can be stated about a contour.")
@@ -36,7 +42,8 @@ def facts() -> None:
 
 @click.command(short_help="Explain one rule, or all behind an alarm number.")
 @click.argument("code")
-def explain(code: str) -> None:
+@control_option("Only a rule of this control.")
+def explain(code: str, control: str | Dialect | None) -> None:
     """Explain a rule by its CODE, or all rules behind an alarm number of the control.
 
     Prints the rule in words, wrong blocks, right blocks, and its place in the manual.
@@ -49,10 +56,10 @@ def explain(code: str) -> None:
 
     wanted = code.strip().lower()
     found: dict[str, tuple[Rule, list[str]]] = {}
-    for name, dialect in DIALECTS.items():
+    for dialect in _chosen(control):
         for rule in dialect.rules:
             if wanted in (rule.code, rule.alarm.number.split()[0] if rule.alarm else ""):
-                found.setdefault(rule.code, (rule, []))[1].append(name)
+                found.setdefault(rule.code, (rule, []))[1].append(dialect.name)
     if not found:
         raise CouldNotRunError(f"no rule has the code or the alarm {code!r}; 'contoursolve rules' lists them")
     for rule, controls in found.values():

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import click
 
 from contoursolve.api import only_findings
+from contoursolve.cli.control import control_option
 from contoursolve.cli.loading import folder_of, read, settings_of
 from contoursolve.cli.options import (
     FOUND_ERRORS,
@@ -23,7 +24,7 @@ from contoursolve.project import SettingError, configure
 from contoursolve.recognise import UnknownControlError, recognise
 from contoursolve.syntax import Program
 
-_ANY_CONTROL = click.Choice([*DIALECTS, *PLAIN])
+_ANY_CONTROL = (*DIALECTS, *PLAIN)
 
 
 @click.command(short_help="Tell whether two programs describe the same path.")
@@ -37,12 +38,8 @@ _ANY_CONTROL = click.Choice([*DIALECTS, *PLAIN])
     metavar="MM",
     help="How far apart the paths may be, in mm.",
 )
-@click.option(
-    "--control", type=_ANY_CONTROL, help="The control of OLD. Without it, found from OLD where that is clear."
-)
-@click.option(
-    "--new-control", type=_ANY_CONTROL, help="The control of NEW. Without it, found from NEW, or that of OLD."
-)
+@control_option("The control of OLD. Without it, found from OLD where that is clear.", names=_ANY_CONTROL)
+@control_option("The control of NEW. Without it, found from NEW, or that of OLD.", "--new-control", _ANY_CONTROL)
 @units_option
 @click.option(
     "--new-units", type=click.Choice([unit.value for unit in Length]), help="The same for NEW. Without it, as for OLD."
@@ -59,8 +56,8 @@ def diff(
     old: str,
     new: str,
     tolerance: float,
-    control: str | None,
-    new_control: str | None,
+    control: str | Dialect | None,
+    new_control: str | Dialect | None,
     units: str,
     new_units: str | None,
     rules: str,
@@ -109,16 +106,19 @@ def diff(
     context.exit(0 if comparison.is_equal else FOUND_ERRORS)
 
 
-def _dialect_of(program: Program, name: str | None, otherwise: Dialect | None, assignments: Sequence[str]) -> Dialect:
+def _dialect_of(
+    program: Program, control: str | Dialect | None, otherwise: Dialect | None, assignments: Sequence[str]
+) -> Dialect:
     """The control of a program: the one that is named, or that it shows, or another."""
     try:
         settings = settings_of(folder_of(program), assignments)
-        dialect = {**DIALECTS, **PLAIN}[name] if name else recognise(program) or otherwise
+        named = {**DIALECTS, **PLAIN}[control] if isinstance(control, str) else control
+        dialect = named or recognise(program) or otherwise
         if dialect is not None:
             return configure(dialect, settings)
     except SettingError as error:
         raise CouldNotRunError(str(error)) from None
     except UnknownControlError as error:
         raise CouldNotRunError(f"{program.name}: {error}; say which with --control or --new-control") from None
-    choices = "|".join([*DIALECTS, *PLAIN])
+    choices = "|".join(_ANY_CONTROL)
     raise CouldNotRunError(f"{program.name}: no block shows the control; say which with --control {choices}")

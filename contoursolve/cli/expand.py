@@ -12,8 +12,16 @@ import click
 
 from contoursolve import syntax
 from contoursolve.api import MOST_DECIMALS
+from contoursolve.cli.control import control_option
 from contoursolve.cli.loading import settings_of
-from contoursolve.cli.options import FOUND_ERRORS, CouldNotRunError, common_options, settings_option, units_option
+from contoursolve.cli.options import (
+    FOUND_ERRORS,
+    CouldNotRunError,
+    common_options,
+    rules_option,
+    settings_option,
+    units_option,
+)
 from contoursolve.cli.printing import style_of_output
 from contoursolve.diagnostic import Severity
 from contoursolve.dialects import DIALECTS
@@ -34,6 +42,39 @@ STANDARD = "-"
 """Standard input, or standard output."""
 
 
+def wording_options(command: Callable[..., None]) -> Callable[..., None]:
+    """The options about what stands in the place of a block."""
+    for option in reversed(
+        (
+            click.option(
+                "--arcs",
+                type=click.Choice([arcs.value for arcs in Arcs]),
+                default="center",
+                show_default=True,
+                help="The centre of an arc by I J K from where it begins, or by R.",
+            ),
+            click.option(
+                "--decimals",
+                type=click.IntRange(1, MOST_DECIMALS),
+                metavar="COUNT",
+                help="Decimals of a length. Without it, as many as the target has.",
+            ),
+            click.option(
+                "--block-numbers",
+                type=click.Choice([numbering.value for numbering in Numbering]),
+                default="first",
+                show_default=True,
+                help="Which lines in the place of a block with a number N have one: the first (in the last block of "
+                "a profile that G70 to G73 calls, the last), or all, with numbers that the program neither has nor "
+                "jumps to. No other line is renumbered.",
+            ),
+            click.option("--no-comments", is_flag=True, help="Do not keep the original blocks as comments."),
+        )
+    ):
+        command = option(command)
+    return command
+
+
 @click.command(short_help="Write a program's contours as plain G-code.")
 @click.argument("program", metavar="OLD", required=False)
 @common_options
@@ -47,28 +88,7 @@ STANDARD = "-"
     show_default=True,
     help="For which control: the one that OLD is for, LinuxCNC, or Fanuc.",
 )
-@click.option(
-    "--arcs",
-    type=click.Choice([arcs.value for arcs in Arcs]),
-    default="center",
-    show_default=True,
-    help="The centre of an arc by I J K from where it begins, or by R.",
-)
-@click.option(
-    "--decimals",
-    type=click.IntRange(1, MOST_DECIMALS),
-    metavar="COUNT",
-    help="Decimals of a length. Without it, as many as the target has.",
-)
-@click.option(
-    "--block-numbers",
-    type=click.Choice([numbering.value for numbering in Numbering]),
-    default="first",
-    show_default=True,
-    help="Which lines in the place of a block with a number N have one: the first (in the last block of a profile that "
-    "G70 to G73 calls, the last), or all, with numbers that OLD neither has nor jumps to. No other line is renumbered.",
-)
-@click.option("--no-comments", is_flag=True, help="Do not keep the original blocks as comments.")
+@wording_options
 @click.option(
     "--keep-going",
     "keeps_going",
@@ -86,10 +106,6 @@ def expand(
     is_in_place: bool,
     is_forced: bool,
     post: str,
-    arcs: str,
-    decimals: int | None,
-    block_numbers: str,
-    no_comments: bool,
     keeps_going: bool,
     **options: Any,
 ) -> None:
@@ -112,7 +128,7 @@ def expand(
     if start is not None and not blocks:
         raise click.UsageError("--start goes with --block; a PROGRAM states its own positions")
     target = _target(program, output, is_in_place, is_forced)
-    wish = Options(POSTS[post], Arcs(arcs), decimals, not no_comments, Numbering(block_numbers))
+    wish = _wish(post, options)
     source = tape_of("".join(f"{block}\n" for block in blocks), "<block>") if blocks else open_tape(program or "-")
     with TemporaryFile() as body:
         with _progress_bar() as progress:
@@ -136,9 +152,11 @@ def expand(
 
 @click.command("filter", short_help="Expand a program as a filter of LinuxCNC.")
 @click.argument("program", metavar="FILE")
-@click.option("--control", type=click.Choice(list(DIALECTS)), help="The control; found from the program without it.")
+@control_option("The control; found from the program without it.")
 @units_option
+@rules_option
 @settings_option
+@wording_options
 @click.pass_context
 def filter_(context: click.Context, /, program: str, **options: Any) -> None:
     """Write FILE for LinuxCNC to standard output, as LinuxCNC asks a filter to.
@@ -156,8 +174,8 @@ def filter_(context: click.Context, /, program: str, **options: Any) -> None:
         click.echo(f"FILTER_PROGRESS={int(share * 100)}", err=True)
 
     with TemporaryFile() as body:
-        wish = Options(POSTS["linuxcnc"])
-        rewritten = _rewrite(open_tape(program), body, wish, None, {"rules": "enforce", **options}, progress)
+        wish = _wish("linuxcnc", options)
+        rewritten = _rewrite(open_tape(program), body, wish, None, options, progress)
         _report_left(rewritten.summary, program, plain)
         if rewritten.summary.left:
             context.exit(FOUND_ERRORS)
@@ -181,6 +199,12 @@ def _target(program: str | None, output: str | None, is_in_place: bool, is_force
     except CannotWriteError as error:
         raise CouldNotRunError(str(error)) from None
     return target
+
+
+def _wish(post: str, options: Mapping[str, Any]) -> Options:
+    """How the options ask the contours to be written."""
+    arcs, numbering = Arcs(options["arcs"]), Numbering(options["block_numbers"])
+    return Options(POSTS[post], arcs, options["decimals"], not options["no_comments"], numbering)
 
 
 def _rewrite(

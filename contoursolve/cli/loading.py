@@ -14,7 +14,7 @@ from contoursolve.dialects import DIALECTS
 from contoursolve.pipeline import FactPlaceError, Result
 from contoursolve.project import SettingError, find_settings, read_setting
 from contoursolve.recognise import UnknownControlError
-from contoursolve.syntax import Program
+from contoursolve.syntax import STANDARD_INPUT, Program
 
 
 def load(paths: Sequence[str], blocks: tuple[str, ...], start: str | None) -> list[Callable[[], Program]]:
@@ -36,6 +36,12 @@ def read(path: str) -> Program:
         return read_program(path)
     except UnreadableProgramError as error:
         raise CouldNotRunError(str(error)) from None
+
+
+def named_after(program: str | None, suffix: str) -> Path:
+    """The file in this folder for what is made of a program, where nobody gave it a name."""
+    is_named = program is not None and program != STANDARD_INPUT
+    return Path(f"{Path(program).stem if program and is_named else 'contour'}{suffix}")
 
 
 def examine(program: Program, start: str | None, assignments: Sequence[str], options: dict[str, Any]) -> Result:

@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import click
 
-from contoursolve.dialects import DIALECTS
+from contoursolve.cli.control import control_option
 from contoursolve.examine import Policy
 from contoursolve.model import Length
 
@@ -81,11 +81,7 @@ def common_options(command: Callable[..., None]) -> Callable[..., None]:
     for option in reversed(
         (
             apart_options,
-            click.option(
-                "--control",
-                type=click.Choice(list(DIALECTS)),
-                help="The control. Without it, the control is found from the program where that is clear.",
-            ),
+            control_option("The control. Without it, the control is found from the program where that is clear."),
             units_option,
             rules_option,
             settings_option,

@@ -2,11 +2,21 @@
 
 from pathlib import Path
 
+import click
+
 from contoursolve.cli.options import CouldNotRunError
 from contoursolve.files import CannotWriteError, check_target
-from contoursolve.pictures import Picture
+from contoursolve.pictures import Picture, Theme
 
 SVG, PNG = ".svg", ".png"
+
+theme_option = click.option(
+    "--theme",
+    type=click.Choice([Theme.LIGHT.value, Theme.DARK.value, Theme.PAGE.value]),
+    default=Theme.LIGHT.value,
+    show_default=True,
+    help="Colours of a picture; page follows the page or the reader of an SVG.",
+)
 
 
 def bytes_of(picture: Picture, target: Path) -> bytes:

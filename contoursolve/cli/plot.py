@@ -6,13 +6,13 @@ from typing import Any
 
 import click
 
-from contoursolve.cli.loading import examine, load
+from contoursolve.cli.loading import examine, load, named_after
 from contoursolve.cli.options import (
     FOUND_ERRORS,
     CouldNotRunError,
     common_options,
 )
-from contoursolve.cli.pictured import PNG, SVG, bytes_of
+from contoursolve.cli.pictured import PNG, SVG, bytes_of, theme_option
 from contoursolve.cli.printing import print_lines, style_of_output
 from contoursolve.examine import Answer
 from contoursolve.extras import MissingExtraError, importing
@@ -21,10 +21,8 @@ from contoursolve.output.layout import count
 from contoursolve.output.listing import lines_of_findings, summary_line
 from contoursolve.pictures import Theme, draw_answer, draw_result
 from contoursolve.pipeline import Result
-from contoursolve.syntax import STANDARD_INPUT
 
 _DXF = ".dxf"
-_FILE_THEMES = [Theme.LIGHT.value, Theme.DARK.value, Theme.PAGE.value]
 
 Written = tuple[Path, bytes, str]
 """A file, its bytes, and what is in it."""
@@ -41,13 +39,7 @@ Written = tuple[Path, bytes, str]
 )
 @click.option("--line", type=click.IntRange(1), help="Draw the contour that this line of PROGRAM belongs to, alone.")
 @click.option("--each", "is_each", is_flag=True, help="Draw every contour in a file of its own: OUT-LINE.svg.")
-@click.option(
-    "--theme",
-    type=click.Choice(_FILE_THEMES),
-    default=Theme.LIGHT.value,
-    show_default=True,
-    help="Colours; page follows the page or the reader of an SVG.",
-)
+@theme_option
 @click.option("--force", "is_forced", is_flag=True, help="Replace drawings that exist.")
 @common_options
 @click.pass_context
@@ -82,7 +74,7 @@ def plot(
     contoursolve plot --block "G111 X100. A180. K-30. B120. P5." --start "X40. Z0." -o block.dxf
     """
     loader = load([program] if program else [], blocks, start)[0]
-    target = output if output is not None else _default(program)
+    target = output if output is not None else named_after(program, SVG)
     kind = target.suffix.lower()
     if kind not in (SVG, PNG, _DXF):
         raise CouldNotRunError(f"{target}: drawings end in .svg, .png or .dxf")
@@ -112,12 +104,6 @@ def plot(
     if not files:
         click.echo(f"{target}: not written")
     context.exit(FOUND_ERRORS if result.has_errors or not files else 0)
-
-
-def _default(program: str | None) -> Path:
-    """The drawing of a program whose name nobody gave."""
-    is_named = program is not None and program != STANDARD_INPUT
-    return Path(f"{Path(program).stem if program and is_named else 'contour'}{SVG}")
 
 
 def _pictures(result: Result, target: Path, line: int | None, theme: Theme, *, is_each: bool) -> Iterator[Written]:

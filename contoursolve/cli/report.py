@@ -7,17 +7,22 @@ from typing import Any
 import click
 
 from contoursolve import __version__
-from contoursolve.cli.loading import examine, load
+from contoursolve.cli.loading import examine, load, named_after
 from contoursolve.cli.options import FOUND_ERRORS, CouldNotRunError, common_options
+from contoursolve.cli.printing import print_lines, style_of_output
 from contoursolve.extras import MissingExtraError, importing
 from contoursolve.files import CannotWriteError, check_target, write_whole
-from contoursolve.output.listing import summary_line
+from contoursolve.output.listing import lines_of_findings, summary_line
 
 
 @click.command(short_help="Make a page about a program, to read, send and print.")
 @click.argument("program", required=False)
 @click.option(
-    "-o", "--output", required=True, metavar="OUT.html", type=click.Path(path_type=Path), help="The page to write."
+    "-o",
+    "--output",
+    metavar="OUT.html",
+    type=click.Path(path_type=Path),
+    help="The page to write; without it, one with the name of PROGRAM in this folder.",
 )
 @click.option("--force", "is_forced", is_flag=True, help="Replace the page if it exists.")
 @common_options
@@ -26,7 +31,7 @@ def report(
     context: click.Context,
     /,
     program: str | None,
-    output: Path,
+    output: Path | None,
     is_forced: bool,
     blocks: tuple[str, ...],
     start: str | None,
@@ -37,27 +42,32 @@ def report(
 
     Every contour with its picture, its elements and its findings with their fixes; the program's text, linked with
     them; and the manual's places with how well each is known. The page opens without a network, in light and dark,
-    and prints. Needs the extra contoursolve[report].
+    and prints. For a program without a contour none is written. Needs the extra contoursolve[report].
 
     \b
-    contoursolve report shaft.nc -o shaft.html
+    contoursolve report shaft.nc
     contoursolve report --block "G111 X100. A180. K-30. B120. P5." --start "X40. Z0." -o block.html --force
     """
-    if output.suffix.lower() not in (".html", ".htm"):
-        raise click.UsageError(f"{output}: name a page that ends with .html")
     loader = load([program] if program else [], blocks, start)[0]
+    target = output if output is not None else named_after(program, ".html")
+    if target.suffix.lower() not in (".html", ".htm"):
+        raise CouldNotRunError(f"{target}: pages end in .html")
     try:
         with importing("report", "a report"):
             from contoursolve.report import report_page  # noqa: PLC0415 - needs an extra
-        check_target(output, Path(program) if program else None, is_forced=is_forced)
+        check_target(target, Path(program) if program else None, is_forced=is_forced)
         result = examine(loader(), start, assignments, options)
+        if not result.answers:
+            print_lines(lines_of_findings(result, result.diagnostics, style_of_output()))
+            click.echo(f"{summary_line([result])}\n{target}: not written")
+            context.exit(FOUND_ERRORS)
         with click.progressbar(
             length=len(result.answers), label="drawing", file=sys.stderr, hidden=not sys.stderr.isatty()
         ) as bar:
             pieces = report_page(result, __version__, lambda: bar.update(1))
-            write_whole(output, (piece.encode("utf-8", "replace") for piece in pieces), keeps_backup=False)
+            write_whole(target, (piece.encode("utf-8", "replace") for piece in pieces), keeps_backup=False)
     except (CannotWriteError, MissingExtraError) as error:
         raise CouldNotRunError(str(error)) from None
     click.echo(summary_line([result]))
-    click.echo(f"{output} written")
+    click.echo(f"{target} written")
     context.exit(FOUND_ERRORS if result.has_errors else 0)

@@ -16,6 +16,7 @@ from contoursolve.cli.options import (
 )
 from contoursolve.cli.printing import print_lines, style_of_output
 from contoursolve.diagnostic import Severity
+from contoursolve.dialects import Dialect
 from contoursolve.output.document import findings_to_json, to_json
 from contoursolve.output.listing import lines_of_findings, listing_lines, summary_line
 
@@ -120,7 +121,8 @@ def check(
         case "sarif":
             from contoursolve.output.exchange import to_sarif  # noqa: PLC0415 - only here
 
-            click.echo(to_sarif(results, __version__))
+            control = options["control"]
+            click.echo(to_sarif(results, __version__, control if isinstance(control, Dialect) else None))
         case "github":
             from contoursolve.output.exchange import to_github  # noqa: PLC0415 - only here
 

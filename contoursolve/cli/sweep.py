@@ -12,7 +12,7 @@ import numpy
 
 from contoursolve.cli.blocks import block_options, fact_option, format_option, print_json, read_options, usage
 from contoursolve.cli.cluster import open_cluster
-from contoursolve.cli.pictured import bytes_of, check_picture
+from contoursolve.cli.pictured import bytes_of, check_picture, theme_option
 from contoursolve.cli.varied import read_range
 from contoursolve.extras import need
 from contoursolve.families import (
@@ -30,7 +30,7 @@ from contoursolve.families import (
 )
 from contoursolve.files import CannotWriteError, check_target, write_whole
 from contoursolve.output.layout import columns
-from contoursolve.pictures import draw_sweep
+from contoursolve.pictures import Theme, draw_sweep
 
 
 @click.command("sweep", short_help="Solve a block for many values of its words.")
@@ -55,6 +55,7 @@ from contoursolve.pictures import draw_sweep
     type=click.Path(path_type=Path),
     help="Where to draw the contours of one word that varies, or the outcomes over two: FILE.svg or FILE.png.",
 )
+@theme_option
 @click.option("--force", "is_forced", is_flag=True, help="Replace FILE if it exists.")
 @click.option("--workers", type=click.IntRange(1, 256), help="Threads (1 without it); not with --dask.")
 @click.option("--dask", metavar="ADDRESS", help="Solve on the cluster of the Dask scheduler at this address.")
@@ -65,6 +66,7 @@ def sweep_(
     is_paired: bool,
     output: str | None,
     picture: Path | None,
+    theme: str,
     is_forced: bool,
     workers: int | None,
     dask: str | None,
@@ -96,7 +98,7 @@ def sweep_(
                 raise click.UsageError(f"--vary names {name} twice")
             vary[name] = values
         ready = sweep(vary=vary, facts=facts, paired=is_paired, **read_options(options))
-        drawn = bytes_of(draw_sweep(ready), picture) if picture is not None else b""
+        drawn = bytes_of(draw_sweep(ready, theme=Theme(theme)), picture) if picture is not None else b""
         with open_cluster(dask) as executor:
             counts = _run(ready, workers, executor, target)
         if picture is not None:

@@ -4,6 +4,7 @@ from typing import Any
 
 import click
 
+from contoursolve.cli.control import control_option
 from contoursolve.cli.options import (
     FOUND_ERRORS,
     CouldNotRunError,
@@ -11,17 +12,12 @@ from contoursolve.cli.options import (
     units_option,
 )
 from contoursolve.cli.printing import print_lines
-from contoursolve.dialects import DIALECTS
 
 
 @click.command(short_help="Check a claimed answer, independently.")
 @click.argument("inputs", nargs=-1, metavar="PROGRAM RESULT.json")
 @apart_options
-@click.option(
-    "--control",
-    type=click.Choice(list(DIALECTS)),
-    help="The control. Without it, the one that the result names.",
-)
+@control_option("The control. Without it, the one that the result names.")
 @units_option
 @click.option(
     "--format",

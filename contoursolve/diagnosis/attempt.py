@@ -16,7 +16,7 @@ from contoursolve.examine import Answer, Policy, examine
 from contoursolve.model import Profile
 from contoursolve.reading import Claim, read
 from contoursolve.solving import Status
-from contoursolve.syntax import Block, parse_block
+from contoursolve.syntax import Block, parse_block, with_digits
 from contoursolve.tolerance import AGREEMENT
 
 MOST_TRIED = 60
@@ -98,8 +98,9 @@ def choose_repairs(
 
 def _order(repair: Repair) -> tuple[bool, bool, int, int, float]:
     is_placeholder = repair.applicability is Applicability.PLACEHOLDER
-    # A forgotten point or comma is the commonest slip, and one slip however many words lack it.
-    is_slip = all(edit.text == f"{edit.old}." or _is_comma(edit) for edit in repair.edits)
+    # A forgotten point or comma is the commonest slip, and one slip however many words lack it; so is a letter that
+    # looks like a digit.
+    is_slip = all(edit.text == f"{edit.old}." or _is_comma(edit) or _is_digit(edit) for edit in repair.edits)
     return is_placeholder, not is_slip, len(repair.edits), repair.warnings, repair.deviation
 
 
@@ -192,6 +193,11 @@ def _with_facts(profile: Profile, claim: Claim, next_place: tuple[Decimal, Decim
 def _is_comma(edit: Edit) -> bool:
     """Whether the address gets a comma or loses it."""
     return edit.kind is EditKind.CHANGE and edit.text != edit.old and edit.text.strip(", ") == edit.old.strip(", ")
+
+
+def _is_digit(edit: Edit) -> bool:
+    """Whether letters become the digits that they look like."""
+    return edit.kind is EditKind.CHANGE and edit.text == with_digits(edit.old)
 
 
 def _find(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], following: tuple[Block, ...] = ()) -> Claim | None:

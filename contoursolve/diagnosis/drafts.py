@@ -9,7 +9,7 @@ from contoursolve.examine import Answer
 from contoursolve.model import Given, Length, Unit
 from contoursolve.reading import Claim, Lexicon, Trouble
 from contoursolve.spelling import respelled, unanswerable
-from contoursolve.syntax import FACT, FaultKind, Word
+from contoursolve.syntax import FACT, FaultKind, Word, find_lookalikes
 
 
 def missing_points(answer: Answer) -> Iterator[tuple[Edit, ...]]:
@@ -32,6 +32,22 @@ def commas(answer: Answer) -> Iterator[tuple[Edit, ...]]:
     words = dict.fromkeys((*claim.unknown, *claim.words.values()))
     found = [(word, respelled(word, claim.form.allowed)) for word in words if word.span in blamed]
     edits = [change(word, text) for word, text in found if text]
+    if edits:
+        yield tuple(edits)
+    if len(edits) > 1:
+        yield from ((edit,) for edit in edits)
+
+
+def digits(answer: Answer) -> Iterator[tuple[Edit, ...]]:
+    """Letters that look like digits as these digits, in G codes and where something cannot be read: all and each
+    alone."""
+    claim, edits = answer.claim, list[Edit]()
+    for block in claim.blocks:
+        unread = [fault.span for fault in block.faults]
+        unread += [word.span for word in claim.unknown if word.span.line == block.line]
+        for each in find_lookalikes(block):
+            if each.is_code or any(map(each.covers, unread)):
+                edits.append(Edit(EditKind.CHANGE, each.address, each.span, each.old, each.new))
     if edits:
         yield tuple(edits)
     if len(edits) > 1:

@@ -5,12 +5,13 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from decimal import ROUND_DOWN, ROUND_HALF_EVEN, Decimal
 from enum import Enum
+from math import copysign
 
 from contoursolve.model import Length, Unit
 from contoursolve.reading import Lexicon, WithoutPoint
 from contoursolve.source import Span
 from contoursolve.syntax import FACT, Block, Directive, read_directive
-from contoursolve.wording import shorten
+from contoursolve.wording import ROUNDING, shorten
 
 PLACEHOLDER = "?"
 """Stands for a number that the block does not give."""
@@ -111,7 +112,8 @@ def write_word(address: str, value: float, lexicon: Lexicon, unit: Length, is_li
     A limit is rounded towards zero, so that the value still fits.
     """
     row, numbers = lexicon.addresses[address], lexicon.numbers
-    number, step = Decimal(repr(value)), numbers.step(row.unit, unit)
+    exact = value + copysign(ROUNDING, value) if is_limit else value
+    number, step = Decimal(repr(exact)), numbers.step(row.unit, unit)
     if row.unit is not Unit.DEGREE:
         number = number / unit.in_mm * (2 if row.is_diameter else 1)
     number = number.quantize(step, ROUND_DOWN if is_limit else ROUND_HALF_EVEN)

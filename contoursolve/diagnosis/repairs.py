@@ -10,7 +10,17 @@ from math import copysign
 
 from contoursolve.diagnosis.affine import AffineFacts, Circuit, affine_facts
 from contoursolve.diagnosis.attempt import LARGEST_ROLE, Before, Repairs, choose_repairs
-from contoursolve.diagnosis.drafts import change, commas, drop, has_faults, marked, missing_points, unreadable, variants
+from contoursolve.diagnosis.drafts import (
+    change,
+    commas,
+    digits,
+    drop,
+    has_faults,
+    marked,
+    missing_points,
+    unreadable,
+    variants,
+)
 from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, write_word
 from contoursolve.diagnostic import Diagnostic, Severity
 from contoursolve.dialects import Dialect
@@ -18,7 +28,7 @@ from contoursolve.examine import MOST_CHOICES, Answer, Policy, count_choices, ex
 from contoursolve.model import Given, Profile, Role, Unit
 from contoursolve.reading import Claim, Form, read
 from contoursolve.rules import Rule, check
-from contoursolve.solving import Status, lookup
+from contoursolve.solving import BESIDE, RefusalKind, Status, lookup
 from contoursolve.syntax import Block, Word
 from contoursolve.tolerance import AGREEMENT
 
@@ -47,7 +57,7 @@ def find_repairs(answer: Answer, dialect: Dialect, following: tuple[Block, ...] 
     if reference is None and count_choices(answer.profile) <= MOST_CHOICES:
         reference = examine(claim, dialect.rules, Policy.OFF).contour
     stages = (stage(answer, dialect, whole) for stage in (_sets, _values, _slips))
-    slips = (missing_points(answer), commas(answer), marked(answer))
+    slips = (digits(answer), missing_points(answer), commas(answer), marked(answer))
     return choose_repairs(claim, dialect, (*slips, *stages), Before(codes, reference, following=following))
 
 
@@ -313,7 +323,14 @@ def _sizes(claim: Claim) -> set[str]:
 def _asked(answer: Answer, word: Word, given: Given) -> Iterator[tuple[str, float]]:
     """The values that errors about a word ask for, in mm (radius) or degrees."""
     for finding in answer.diagnostics:
-        if finding.severity is Severity.ERROR and finding.labels and finding.labels[0].span == word.span:
+        if finding.severity is not Severity.ERROR:
+            continue
+        if finding.about is RefusalKind.CORNERS_OVERLAP:
+            limits = zip(finding.labels, BESIDE, strict=False)
+            yield from (
+                (key, finding.values[key]) for label, key in limits if label.span == word.span and key in finding.values
+            )
+        elif finding.labels and finding.labels[0].span == word.span:
             for key in ("expected", "limit"):
                 if given.unit is Unit.DEGREE and key == "limit":
                     yield from (("expected", angle) for angle in _meeting(finding, given))

@@ -115,6 +115,16 @@ READING_RULES = (
         rejected=(_START + "G111 A180. K-30. B120. X100. R5.",),
     ),
     Rule(
+        code="letter-for-digit",
+        message="{words} has a letter where a digit seems to be meant: with {meant} this block would be a contour",
+        help="write {meant} if that is meant",
+        source=_GRAMMAR,
+        about=Trouble.LETTER_FOR_DIGIT,
+        severity=Severity.WARNING,
+        accepted=(_GOOD,),
+        rejected=(_GOOD + "\nG1l1 A180. B120. X160. Z-80.",),
+    ),
+    Rule(
         code="value-variable",
         message="{words} depends on a macro variable, whose value is known only to the control",
         help="write the number",
@@ -161,6 +171,17 @@ READING_RULES = (
         severity=Severity.INFO,
         accepted=(_GOOD,),
         rejected=("G00 X40. Z0.\n/G01 X50.\nG111 A180. K-30. B120. X100.",),
+    ),
+    Rule(
+        code="text-outside",
+        message="this line stands {side} the % in {mark} that {does} the program: a control leaves it out, or takes it "
+        "for another program; here it is read as a block",
+        help="delete it, or put the % where the program {does}",
+        source=_own("tape format of ISO 6983 and RS-274: a program stands between two %"),
+        about=Trouble.TEXT_OUTSIDE,
+        severity=Severity.WARNING,
+        accepted=(f"%\nO1\n{_GOOD}\nM30\n%\n(end)", f"{_GOOD} (50%)\nM30\n%", f"(part)\n%\n{_GOOD}\nM30"),
+        rejected=(f"%\n{_GOOD}\n%\nG01 Z-90.", f"G01 Z5.\n%\n{_GOOD}\nM30\n%", f"{_GOOD}\n%\nG01 Z-90."),
     ),
     Rule(
         code="no-contour",

@@ -103,7 +103,7 @@ GEOMETRY_RULES = (
     _row(
         RefusalKind.CORNERS_OVERLAP,
         "{words} overlap on {subject}: they need {actual}, it has {limit}",
-        "make the corners smaller by {off} of it in all",
+        "{smaller}",
         _CUT,
         _MILL + "G1 X30 ,C20\nY30 ,C20\nX60",
     ),

@@ -8,7 +8,7 @@ from urllib.parse import quote
 
 from contoursolve.data import json_text
 from contoursolve.diagnostic import Applicability, Diagnostic, Fix, Severity
-from contoursolve.dialects import DIALECTS
+from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.pipeline import Result
 from contoursolve.rules import Rule
 
@@ -16,13 +16,15 @@ _LEVEL = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "
 _COMMAND = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "notice"}
 
 
-def to_sarif(results: Sequence[Result], version: str) -> str:
-    """One SARIF log (OASIS SARIF 2.1.0): every rule of the catalogue declared, every finding a result.
+def to_sarif(results: Sequence[Result], version: str, own: Dialect | None = None) -> str:
+    """One SARIF log (OASIS SARIF 2.1.0): every rule of the catalogue declared, every finding a result. `own` is a
+    control that is not built in.
 
     A result's fingerprint is made of the rule, the text of the line and how often both have occurred
     before, so that it stays the same when lines are inserted elsewhere.
     """
-    rules = sorted({rule.code: rule for dialect in DIALECTS.values() for rule in dialect.rules}.items())
+    controls = [*DIALECTS.values(), *([own] if own else [])]
+    rules = sorted({rule.code: rule for dialect in controls for rule in dialect.rules}.items())
     index = {code: number for number, (code, _) in enumerate(rules)}
     run = {
         "tool": {"driver": {"name": "contoursolve", "version": version, "rules": [_rule(rule) for _, rule in rules]}},

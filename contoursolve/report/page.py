@@ -87,7 +87,7 @@ def _conditions(result: Result) -> h.Element:
     """The control, and everything apart from the program that the result depends on."""
     dialect = DIALECTS.get(result.control or "")
     rows = [("program", result.program.name)]
-    rows.append(("control", f"{dialect.title} ({dialect.name})" if dialect else "not known"))
+    rows.append(("control", f"{dialect.title} ({dialect.name})" if dialect else result.control or "not known"))
     if result.policy is not Policy.ENFORCE:
         rows.append(("rules of the manual", result.policy.value))
     rows += [("setting", f"{result.control}.{name}={value}") for name, value in sorted(result.settings.items())]

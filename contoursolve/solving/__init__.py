@@ -3,6 +3,7 @@
 from contoursolve.solving.numbers import lookup, scalars_of
 from contoursolve.solving.plan import NoClosedFormError, Plan, is_closed, make_plan, points_with_two_solutions
 from contoursolve.solving.solution import (
+    BESIDE,
     CornerSolution,
     Point,
     Refusal,
@@ -15,6 +16,7 @@ from contoursolve.solving.solution import (
 from contoursolve.solving.solve import compare, solve
 
 __all__ = [
+    "BESIDE",
     "CornerSolution",
     "NoClosedFormError",
     "Plan",

@@ -1,10 +1,10 @@
 """Can the control make the path? Direction of travel, and the room for each corner."""
 
 from collections.abc import Callable, Mapping, Sequence
-from math import hypot, inf
+from math import hypot, inf, isfinite
 
 from contoursolve.model import FIRST, SECOND, Arc, Corner, CornerShape, Figure, Line, Profile
-from contoursolve.solving.solution import Point, Refusal, RefusalKind, Remark, RemarkKind
+from contoursolve.solving.solution import BESIDE, Point, Refusal, RefusalKind, Remark, RemarkKind
 from contoursolve.tolerance import LENGTH, REGULAR, RESIDUAL
 
 Outputs = Mapping[str, float]
@@ -121,6 +121,8 @@ def _check_room(
         if room < -LENGTH and not refused & {corner.name for corner in corners}:
             length = out[f"length:{element.name}"]
             values = {"limit": length, "actual": length - room, "off_by_mm": -room}
+            largest = [_largest(corner, figure, out, sizes[corner.size], resize) for corner in corners]
+            values |= {key: limit for key, limit in zip(BESIDE, largest, strict=False) if isfinite(limit)}
             givens = tuple(corner.size for corner in corners)
             refusals.append(Refusal(RefusalKind.CORNERS_OVERLAP, element.name, givens, values))
     return refusals

@@ -4,7 +4,9 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from contoursolve.analysis import Group, judge, order
-from contoursolve.constraints import Collinear, Heading, OnCircle, System
+from contoursolve.backends.inputs import lookup
+from contoursolve.backends.numeric import Tape, is_affine
+from contoursolve.constraints import Collinear, Coordinate, Heading, Level, Offset, OnCircle, System
 from contoursolve.model import FIRST, SECOND, Fact, scalar
 
 
@@ -58,7 +60,7 @@ Step = AffineStep | DistanceStep | LineCircleStep | TwoCirclesStep
 
 
 class NoClosedFormError(Exception):
-    """A group of facts for which no step exists; names the facts."""
+    """A group of facts for which no step exists, or facts that hold on either side; names the facts or the sides."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,22 +76,27 @@ class Plan:
 def make_plan(system: System) -> Plan:
     """The plan of a determined system.
 
-    Raises NoClosedFormError if a group of facts has no step, ValueError if the system is not determined.
+    Raises NoClosedFormError if a group of facts has no step or a fact holds on either side, ValueError if the system
+    is not determined.
     """
     verdict = judge(system)
     if not verdict.is_determined:
         raise ValueError(f"not determined: {', '.join(verdict.free)}")
+    sides = [side for fact in system.facts for side in fact.sides()]
+    if sides:
+        raise NoClosedFormError(f"nothing states {', '.join(dict.fromkeys(sides))}")
     basis = tuple(system.facts[index] for index in verdict.basis)
     checks = tuple(fact for index, fact in enumerate(system.facts) if index not in verdict.basis)
-    return Plan(tuple(_step(group) for group in order(system, basis)), basis, checks)
+    return Plan(tuple(_step(group, system) for group in order(system, basis)), basis, checks)
 
 
-def _step(group: Group) -> Step:
+def _step(group: Group, system: System) -> Step:
     circles = [fact for fact in group.facts if isinstance(fact, OnCircle)]
     lines = [fact for fact in group.facts if isinstance(fact, Heading | Collinear)]
     unknowns = set(group.unknowns)
     if not circles:
-        if len(group.facts) <= 2:  # noqa: PLR2004 - Cramer's rule is written out for two
+        # Cramer's rule is written out for two.
+        if len(group.facts) <= 2 and all(_is_affine(fact, unknowns, system) for fact in group.facts):  # noqa: PLR2004
             return AffineStep(group.facts, group.unknowns)
     elif len(group.facts) == 1 and unknowns == {circles[0].radius}:
         return DistanceStep(circles[0])
@@ -100,6 +107,19 @@ def _step(group: Group) -> Step:
             if unknowns == _both(point) and point in (circles[1].center, circles[1].point):
                 return TwoCirclesStep(circles[0], circles[1], point)
     raise NoClosedFormError(f"{', '.join(map(str, group.facts))} for {', '.join(group.unknowns)}")
+
+
+def _is_affine(fact: Fact, unknowns: set[str], system: System) -> bool:
+    """Whether a fact is affine in unknowns while everything else is known."""
+    if isinstance(fact, Coordinate | Offset | Level | Heading):
+        return True
+    if isinstance(fact, Collinear):
+        # Affine in either of two points, at which the line may be taken to end.
+        return unknowns.isdisjoint(_both(fact.tail)) and not all(
+            unknowns & _both(point) for point in (fact.through, fact.point)
+        )
+    tape = Tape()
+    return is_affine([fact.residual(lookup(system, tape, {}))], [tape.input(name) for name in sorted(unknowns)])
 
 
 def is_closed(system: System) -> bool:

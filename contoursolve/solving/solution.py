@@ -86,11 +86,15 @@ class RemarkKind(Enum):
     """Two points of a circle differ in radius, by less than the control allows."""
 
 
+BESIDE = ("limit_first", "limit_second")
+"""For two corners that overlap: the largest size of either, mm, if the other one stays."""
+
+
 @dataclass(frozen=True, slots=True)
 class Refusal:
     """One reason against a contour: the element or corner, the givens involved, the values compared.
 
-    `values` may hold limit, expected, actual (mm or degrees) and off_by_mm.
+    `values` may hold limit, expected, actual (mm or degrees) and off_by_mm, and those of `BESIDE`.
     """
 
     kind: RefusalKind

@@ -54,7 +54,8 @@ def solve(profile: Profile, *, is_proven: bool = True) -> Solution:
     """The contour of a profile whose system is determined and whose start is known.
 
     With more facts than unknowns, the first determined subset that is regular at these values is
-    solved, and the remaining facts must agree with it. Raises ValueError if nothing is determined.
+    solved, and the remaining facts must agree with it. Raises ValueError if nothing is determined, NoClosedFormError
+    if some step has no closed form (see `is_closed`).
     """
     system = assemble(profile)
     verdict = judge(system)

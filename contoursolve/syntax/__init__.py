@@ -10,6 +10,7 @@ from contoursolve.syntax.lexer import (
     split_lines,
     split_simply,
 )
+from contoursolve.syntax.lookalikes import Lookalike, find_lookalikes, has_lookalike_code, with_digits
 from contoursolve.syntax.text import BINARY, STANDARD_INPUT, UnreadableProgramError, decode, is_folder, read_bytes
 from contoursolve.syntax.word import FACT, Block, Directive, Fault, FaultKind, Macro, Passage, Program, Word
 
@@ -22,13 +23,16 @@ __all__ = [
     "Directive",
     "Fault",
     "FaultKind",
+    "Lookalike",
     "Macro",
     "Passage",
     "Program",
     "UnreadableProgramError",
     "Word",
     "decode",
+    "find_lookalikes",
     "find_words",
+    "has_lookalike_code",
     "is_folder",
     "parse",
     "parse_block",
@@ -37,4 +41,5 @@ __all__ = [
     "read_simply",
     "split_lines",
     "split_simply",
+    "with_digits",
 ]

@@ -24,7 +24,7 @@ _RULES = Omission("the rules of the manual", "the result does not say under whic
 def verify(
     program: Document,
     result: Document,
-    control: str | None = None,
+    control: str | Dialect | None = None,
     units: str = "mm",
     start: str | None = None,
     facts: Sequence[str] = (),
@@ -34,7 +34,7 @@ def verify(
     Args:
         program: the program.
         result: what `contoursolve solve PROGRAM --format json` printed for it.
-        control: the control; without it the one that the result names.
+        control: the control, by its name or as its tables; without it the one that the result names.
         units: `mm` or `inch`, for numbers before any G20 or G21.
         start: words that give the start point apart from the program, such as `X40. Z0.`.
         facts: further facts about the only contour, as they were given to solve.
@@ -76,8 +76,10 @@ def verify(
     )
 
 
-def _dialect(program: Program, claims: ClaimedResult, control: str | None) -> Dialect | None:
+def _dialect(program: Program, claims: ClaimedResult, control: str | Dialect | None) -> Dialect | None:
     """The control that is asked for, the one that the result names, or the only one that the program shows."""
+    if isinstance(control, Dialect):
+        return control
     wanted = control or claims.control
     if wanted is None:
         signs = [each for each in DIALECTS.values() if any(map(each.signs, program.blocks))]

@@ -205,6 +205,17 @@ COMBINATION_RULES = (
         rejected=(_START + "G3 X-50 Y0 R50 ,A90\n" + _LINE,),
     ),
     Rule(
+        code="nct-angle-range",
+        message="{words} is more than a turn; it is taken as {within}, the same direction",
+        help="write {within} if that is meant",
+        source=_manual("16.2, 16.3: the range of ,A is not on the pages that we have", Evidence.ASSUMED),
+        severity=Severity.WARNING,
+        roles=(LINE, OVER_LINE),
+        when=Value((",A",), least=Decimal(-360), most=Decimal(360)),
+        accepted=(_BY_ANGLE, _BY_ANGLE.replace(",A45", ",A-315")),
+        rejected=(_BY_ANGLE.replace(",A45", ",A405"), _GOOD.replace(",A171.87", ",A-548.13")),
+    ),
+    Rule(
         code="nct-direction-twice",
         message="{words}: an over-defined block follows, so this line ends in an intersection; its direction is "
         "given by ,A and by a point",
@@ -433,7 +444,7 @@ GEOMETRY_RULES = (
     Rule(
         code="nct-corners-overlap",
         message="{words} overlap on {subject}: they need {actual}, it has {limit}",
-        help="make the corners smaller by {off} of it in all",
+        help="{smaller}",
         source=_manual("16.1; alarm 3084", Evidence.DERIVED),
         alarm=_TOO_HIGH,
         about=RefusalKind.CORNERS_OVERLAP,

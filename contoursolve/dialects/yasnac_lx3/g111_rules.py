@@ -243,7 +243,7 @@ _GEOMETRY_RULES = (
     Rule(
         code="g111-corners-overlap",
         message="{words} overlap on {subject}: they need {actual}, the line has {limit}",
-        help="make the corners smaller by {off} of line in all",
+        help="{smaller}",
         source=_FITS,
         alarm=_GEOMETRY,
         roles=(_ROLE,),

@@ -1,0 +1,84 @@
+"""Finds what was meant where a slip keeps a block from being a contour: a comma that is missing, a letter that looks
+like a digit."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from contoursolve.diagnosis import Edit, EditKind, apply_edits
+from contoursolve.diagnostic import Applicability, Basis, Diagnostic, Fix
+from contoursolve.dialects import Dialect
+from contoursolve.examine import Depth, Policy, examine
+from contoursolve.explain import Context, report
+from contoursolve.reading import Claim, Effect, State, Trouble, codes_of
+from contoursolve.spelling import respelled
+from contoursolve.syntax import Block, Word, find_lookalikes, parse_block
+from contoursolve.wording import join
+
+_LINE = 1
+_OF_A_LINE = (
+    Effect.MOTION,
+    Effect.PLANE,
+    Effect.UNITS,
+    Effect.COMPENSATION,
+    Effect.ABSOLUTE,
+    Effect.INCREMENTAL,
+    Effect.NONE,
+)
+
+
+def explain_commas(
+    context: Context, dialect: Dialect, blocks: Sequence[Block], states: tuple[State, State]
+) -> Iterator[Diagnostic]:
+    """Words of a line, the first of some blocks, whose address the control reads with a comma only: each with the
+    comma as its fix, if that makes a contour that is solved. `states` are those before and after the block."""
+    block, (before, after) = blocks[0], states
+    addresses = dialect.modes.lexicon.addresses
+    codes = codes_of(block, dialect.modes)
+    is_line = after.motion == _LINE and not block.macro and any(map(block.find, after.plane.axes))
+    if not is_line or any(isinstance(code, Word) or code.effect not in _OF_A_LINE for code in codes):
+        return
+    for word in block.words:
+        text = "" if word.address.startswith(",") else respelled(word, addresses)
+        if not text:
+            continue
+        finding = report(context, context.row(Trouble.COMMA_MISSING), Basis.RULE, [word], meant=text)
+        edit = Edit(EditKind.CHANGE, word.address, word.span, word.text, text)
+        found, replacement = _read(dialect, blocks, [edit], before)
+        yield replace(finding, fixes=tuple(_tried(dialect, found, [edit], replacement)))
+
+
+def explain_letters(
+    context: Context, dialect: Dialect, blocks: Sequence[Block], before: State, findings: Sequence[Diagnostic]
+) -> Iterator[Diagnostic]:
+    """The findings about a block, the first of some, that is a contour if letters of its G code are the digits that
+    they look like: with these digits as the fix, if it is solved then. `before` is the state before it."""
+    block = blocks[0]
+    unread = [fault.span for fault in block.faults]
+    meant = [each for each in find_lookalikes(block) if each.is_code or any(map(each.covers, unread))]
+    edits = [Edit(EditKind.CHANGE, each.address, each.span, each.old, each.new) for each in meant]
+    found, replacement = _read(dialect, blocks, edits, before)
+    if found is None or not any(each.is_code for each in meant):
+        yield from findings
+        return
+    fixes = tuple(_tried(dialect, found, edits, replacement))
+    blamed = [each for each in findings if any(other.covers(each.span) for other in meant)]
+    if not blamed:
+        words = [Word(each.address, None, False, each.old, each.span) for each in meant]
+        text = join([each.new for each in meant])
+        row = context.row(Trouble.LETTER_FOR_DIGIT)
+        yield replace(report(context, row, Basis.RULE, words, meant=text), fixes=fixes)
+    for each in findings:
+        yield replace(each, fixes=fixes) if blamed and each is blamed[0] else each
+
+
+def _read(dialect: Dialect, blocks: Sequence[Block], edits: Sequence[Edit], before: State) -> tuple[Claim | None, str]:
+    """The contour that begins with the first of some blocks when it is edited, if one does; and its text then."""
+    (text,) = apply_edits(blocks[:1], edits)
+    found = dialect.find([parse_block(text, blocks[0].line), *blocks[1:]], 0, before, dialect.modes)
+    return (found if isinstance(found, Claim) and found.form.is_contour else None), text
+
+
+def _tried(dialect: Dialect, found: Claim | None, edits: Sequence[Edit], replacement: str) -> Iterator[Fix]:
+    """The edits as a fix, if they make a contour that is solved."""
+    if found is not None and examine(found, dialect.rules, Policy.ENFORCE, depth=Depth.VERDICT).contour:
+        yield Fix("; ".join(map(str, edits)), replacement, Applicability.CHANGES_CONTOUR)

@@ -1,0 +1,74 @@
+"""A letter typed for the digit that it looks like: the first fix writes the digit, tried and solved."""
+
+import re
+
+import pytest
+
+from contoursolve import Status, solve
+from contoursolve.diagnostic import Severity
+
+TAPER = "N10 G111 X100. A180. K-30. B120. P5. Q5."
+BLOCKS = {
+    "G111": ("yasnac-lx3", "G00 X40. Z0.\n", TAPER),
+    "G112": ("yasnac-lx3", "G00 X100. Z-50.\n", "G112 U0 I10. K-50. P5. Q5. R30."),
+    "G11": ("yasnac-lx3", "G00 X30. Z0\n", "G11 Z-20. I8. F30."),
+    "circle-line": ("nct-99m", "G17 G42 G0 X50 Y0\nG3 X-50 Y0 R50\n", "G1 X-50 Y42.857 ,A171.87 Q-1"),
+}
+SHAPES = {"1": "lI", "0": "Oo"}
+
+
+def typed_wrong(block: str) -> list[str]:
+    """The block with each digit in turn that looks like a letter as that letter, numbers of blocks apart."""
+    places = [(at, letter) for at, digit in enumerate(block) for letter in SHAPES.get(digit, "")]
+    return [block[:at] + letter + block[at + 1 :] for at, letter in places if not block[:at].strip().startswith("N1")]
+
+
+def fixes_of(text: str, **options: str) -> list[str]:
+    """The fixes of the finding that has some."""
+    return [fix.replacement for each in solve(text, **options).diagnostics for fix in each.fixes]
+
+
+# A line that a contour ends with is none by itself, and `I.87` is a word that the control reads.
+NOT_MENDED = {"Gl X-50 Y42.857 ,A171.87 Q-1", "GI X-50 Y42.857 ,A171.87 Q-1", "G1 X-50 Y42.857 ,A17I.87 Q-1"}
+
+
+@pytest.mark.parametrize("name", BLOCKS)
+def test_a_letter_for_a_digit_is_found_and_the_first_fix_writes_the_digit(name):
+    control, before, block = BLOCKS[name]
+    for text in typed_wrong(block):
+        result = solve(before + text, control=control)
+        assert any(each.severity is Severity.ERROR for each in result.diagnostics), text
+        fixes = fixes_of(before + text, control=control)
+        assert text in NOT_MENDED or fixes[0].split("\n")[-1] == block, text
+
+
+@pytest.mark.parametrize("code", ["G11l", "G1l1", "GIII", "Glll", "g1I1", "G 1l1", "GlllXlOO.A18O. (GO) ;l"])
+@pytest.mark.parametrize("control", ["yasnac-lx3", None])
+def test_a_code_with_letters_for_digits_is_told_as_the_code_whether_or_not_the_control_is_known(code, control):
+    rest = " X100. A180. K-30. B120." if "X" not in code else ""
+    text = code.replace("A18O.", "A18O. K-30. B120.") + rest
+    meant = re.sub(r"(?i)^g *[1lI]{3}(?=[ X])", lambda found: found[0].replace("l", "1").replace("I", "1"), text)
+    meant = meant.replace("XlOO.", "X100.").replace("A18O.", "A180.")
+    assert fixes_of(text, start="X40. Z0.", control=control)[0] == meant
+    assert solve(meant, start="X40. Z0.").answers[0].status is Status.SOLVED
+
+
+def test_a_block_that_is_read_without_an_error_gets_a_warning_that_names_the_code():
+    found = solve(f"G00 X40. Z0.\n{TAPER}\nG1l1 A180. B120. X160. Z-80.", control="yasnac-lx3").diagnostics
+    (finding,) = found
+    assert (finding.code, finding.severity, finding.span.line) == ("letter-for-digit", Severity.WARNING, 3)
+    assert "with G111 this block would be a contour" in finding.message
+    assert [fix.replacement for fix in finding.fixes] == ["G111 A180. B120. X160. Z-80."]
+    # Not solved: told, and not offered as a fix.
+    (finding,) = solve(f"G00 X40. Z0.\n{TAPER}\nG1l1 A180. B120. X160.", control="yasnac-lx3").diagnostics
+    assert (finding.code, finding.fixes) == ("letter-for-digit", ())
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["G1 X10 Y5 (G1l1 X5)", "G17 G0 X0 Y0\nG2X10Y0I5J0", "O1001\nG1 X1O", "GO X10.", "(GIII)\nGOTO 10", "TOOL 1", ""],
+)
+def test_what_is_no_contour_with_digits_either_is_not_called_one(text):
+    for control in ("yasnac-lx3", "nct-99m", None):
+        assert not fixes_of(text, control=control)
+        assert "letter-for-digit" not in {each.code for each in solve(text, control=control).diagnostics}
