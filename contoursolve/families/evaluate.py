@@ -11,7 +11,8 @@ from numpy.typing import ArrayLike
 from contoursolve.backends.columns import Array
 from contoursolve.dialects import Dialect
 from contoursolve.families.distribute import in_order
-from contoursolve.families.prepared import Examples, Kinds, Sweep, Table, examples_of, kinds_of
+from contoursolve.families.examples import Examples, Kinds, examples_of, kinds_of
+from contoursolve.families.prepared import Sweep, Table
 from contoursolve.families.ranges import FamilyError, Ranges, Stretches, ranges_of
 from contoursolve.families.recipe import Recipe, recipe_of
 from contoursolve.families.result import Family

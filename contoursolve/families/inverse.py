@@ -17,9 +17,9 @@ from contoursolve.examine import Answer
 from contoursolve.families.asking import asked_values
 from contoursolve.families.branches import Branch
 from contoursolve.families.goals import Curve, Goal, end_name, place_of, read_goal
-from contoursolve.families.prepared import results_of
 from contoursolve.families.ranges import FamilyError, NotClosedError
 from contoursolve.families.recipe import recipe_of
+from contoursolve.families.results import results_of
 from contoursolve.families.roots import find_zeros
 from contoursolve.families.survey import Piece, Survey, short
 from contoursolve.families.template import Template

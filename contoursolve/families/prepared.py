@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import product
-from math import nan, prod
+from math import nan
 from typing import Any
 
 import numpy
@@ -14,57 +14,25 @@ from numpy.typing import NDArray
 from contoursolve.backends.columns import ROWS, Array, ColumnFunction, Columns, compile_columns
 from contoursolve.backends.numeric import where
 from contoursolve.constraints import System
-from contoursolve.families.kinds import ORIGIN, Input, Kind, alike, intervals_of, kind_of, limits_of
-from contoursolve.families.ranges import FamilyError, Places, Ranges, Stretches
+from contoursolve.families.examples import Examples, Kinds
+from contoursolve.families.kinds import ORIGIN, Input, Kind
+from contoursolve.families.ranges import Places, Ranges, Stretches
 from contoursolve.families.recipe import Recipe
+from contoursolve.families.results import Results, Shown, branches_of, fill_row, names_of, results_of, shown_as
 from contoursolve.families.several import BLOCK, Several, asked_of
-from contoursolve.families.template import Template
-from contoursolve.model import FIRST, SECOND, CornerShape, scalar
-from contoursolve.reading import Trouble
-from contoursolve.solving import RemarkKind
 from contoursolve.solving.checks import compile_checks
 from contoursolve.solving.plan import Step, TwoCirclesStep
-from contoursolve.solving.verdict import Code, Verdict, code_of, reason_of
+from contoursolve.solving.verdict import Code, Verdict, code_of
 from contoursolve.tolerance import TOUCHING
 
 Table = dict[str, NDArray[Any]]
-Results = Mapping[str, NDArray[Any]]
 Target = slice | Places
+
 _NEEDED = ("passed", "margin:", "cosine:", "worst")
 """What the verdict reads."""
 
 _HALVES = ("offset:", "radius:", "scale:")
 """What tells that the two places of the centre of a half circle are one."""
-
-
-@dataclass(frozen=True, slots=True)
-class Examples:
-    """One row of each kind that the rules may tell apart, as plain data.
-
-    Each word has a scale and bounds: its values, scaled, lie between two bounds or on one, which gives a number;
-    `rows` are the numbers of all words, with values that have them.
-    """
-
-    scales: tuple[float, ...]
-    bounds: tuple[tuple[float, ...], ...]
-    rows: tuple[tuple[tuple[int, ...], tuple[float, ...]], ...]
-
-    def key(self, values: Sequence[Array], places: Sequence[Places]) -> NDArray[numpy.int64]:
-        """The numbers of all words as one, row by row."""
-        key = numpy.zeros(places[0].size, numpy.int64)
-        for each, at, scale, bounds in zip(values, places, self.scales, self.bounds, strict=True):
-            key = key * (2 * len(bounds) + 1) + intervals_of(each * scale, bounds)[at]
-        return key
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Kinds:
-    """The kinds of rows of a family; `keys`, in order, are the keys of `Examples`, and `numbers` the kind of each."""
-
-    template: Template
-    items: tuple[Kind, ...]
-    keys: NDArray[numpy.int64]
-    numbers: NDArray[numpy.int64]
 
 
 @dataclass(slots=True, eq=False)
@@ -159,7 +127,7 @@ class Sweep:
         function, inputs = self._function(number, kind), self._inputs(number, kind, ranges)
         for place, name in enumerate(function.compiled.varied):
             inputs[name].fill(places, function.inputs[place, :rows])
-        names = _names(kind)
+        names = names_of(kind)
         into = {output: table[name][target] for output, name in names.items()} if isinstance(target, slice) else {}
         out = function.evaluate(rows, into)
         if not isinstance(target, slice):
@@ -205,7 +173,7 @@ class Sweep:
     ) -> None:
         """The rows of a kind with choices that nothing makes: every side of every point is tried."""
         function, inputs = self._function(number, kind), self._inputs(number, kind, ranges)
-        names, plan, rows = _names(kind), kind.machine.plan, target.size
+        names, plan, rows = names_of(kind), kind.machine.plan, target.size
         count, again = numpy.zeros(rows, numpy.int64), numpy.zeros(rows, bool)
         reason = numpy.zeros(rows, numpy.uint8)
         sides = [function.compiled.fixed.index(f"side:{point}") for point in kind.open_points]
@@ -269,10 +237,6 @@ def _halves(steps: Sequence[Step], out: Results, rows: int) -> NDArray[numpy.boo
     return found
 
 
-Shown = tuple[str, int | None]
-"""The output behind a result, and the axis of a coordinate: inside they count from the start point."""
-
-
 @lru_cache(maxsize=64)
 def _compile(system: System, varied: frozenset[str], shown: tuple[Shown, ...], is_open: bool) -> ColumnFunction:
     """The function of a system for columns: what the verdict reads, and the results as they are shown."""
@@ -286,113 +250,3 @@ def _compile(system: System, varied: frozenset[str], shown: tuple[Shown, ...], i
             value += gap if axis is None else kept.input(f"{ORIGIN}{axis}") + gap
         kept.output(shown_as(output), value)
     return compile_columns(kept, varied)
-
-
-def shown_as(output: str) -> str:
-    """The output that has the results."""
-    return f"shown:{output}"
-
-
-def _names(kind: Kind) -> dict[str, str]:
-    """The names of the results, by the outputs that have them."""
-    return {"worst": "residual"} | {shown_as(output): name for name, (output, _) in results_of(kind).items()}
-
-
-def examples_of(template: Template, ranges: Ranges) -> Examples:
-    """A row for each set of intervals in which the values lie. Raises FamilyError."""
-    scales, bounds = limits_of(template, {name: float(values[0]) for name, values in ranges.values.items()})
-    if prod(2 * len(limits) + 1 for limits in bounds) >= 2**63:
-        raise FamilyError(f"{len(bounds)} words are too many to vary at once")
-    columns = [
-        intervals_of(values * scale, limits)
-        for values, scale, limits in zip(ranges.values.values(), scales, bounds, strict=True)
-    ]
-    rows: list[tuple[tuple[int, ...], tuple[float, ...]]] = []
-    words = list(ranges.values.values())
-    if ranges.is_paired:
-        keys, firsts = numpy.unique(numpy.stack(columns, axis=1), axis=0, return_index=True)
-        for key, row in zip(keys.tolist(), firsts.tolist(), strict=True):
-            rows.append((tuple(key), tuple(float(values[row]) for values in words)))
-    else:
-        found = [
-            zip(*(part.tolist() for part in numpy.unique(each, return_index=True)), strict=True) for each in columns
-        ]
-        for choice in product(*found):
-            places = zip(words, (place for _, place in choice), strict=True)
-            rows.append((tuple(int(number) for number, _ in choice), tuple(float(each[at]) for each, at in places)))
-    return Examples(tuple(scales), tuple(bounds), tuple(rows))
-
-
-def kinds_of(template: Template, examples: Examples) -> Kinds:
-    """The kinds of the example rows. Raises FamilyError."""
-    items: list[Kind] = []
-    numbers: dict[int, int] = {}
-    for parts, values in examples.rows:
-        kind = kind_of(template, dict(zip(template.words, values, strict=True)))
-        same = next((number for number, each in enumerate(items) if alike(each, kind)), None)
-        key = 0
-        for part, bounds in zip(parts, examples.bounds, strict=True):
-            key = key * (2 * len(bounds) + 1) + part
-        numbers[key] = len(items) if same is None else same
-        if same is None:
-            items.append(kind)
-    if all(kind.status is not None for kind in items):
-        _check_facts(template, dict(zip(template.words, examples.rows[0][1], strict=True)))
-    ordered = sorted(numbers.items())
-    return Kinds(
-        template,
-        tuple(items),
-        numpy.array([key for key, _ in ordered], numpy.int64),
-        numpy.array([number for _, number in ordered], numpy.int64),
-    )
-
-
-def _check_facts(template: Template, values: Mapping[str, float]) -> None:
-    """Raise FamilyError for a fact that cannot be used, whatever the values: no row would be solved."""
-    for finding in template.solve(values).diagnostics:
-        if finding.about in (Trouble.FACT_UNREADABLE, Trouble.FACT_IMPOSSIBLE):
-            raise FamilyError(finding.message)
-
-
-def branches_of(kind: Kind) -> dict[str, int]:
-    """The sides that the words choose, by the point: +1 farther or left, -1 nearer or right."""
-    shown = kind.profile.intersections
-    return {choice.point: choice.side.sign for choice in kind.profile.choices if choice.given and choice.point in shown}
-
-
-def results_of(kind: Kind) -> dict[str, Shown]:
-    """The output behind each result, and the axis of a coordinate: inside they count from the start point."""
-    figure = kind.system.figure
-    axes = list(zip((FIRST, SECOND), kind.profile.plane.axes, strict=True))
-    found: dict[str, tuple[str, int | None]] = {}
-    for point in figure.points:
-        found |= {f"{point}.{letter}": (scalar(point, axis), axis) for axis, letter in axes}
-    found |= {f"{radius}": (radius, None) for radius in figure.radii}
-    for corner in figure.corners:
-        for place in ("begin", "end", *(("center",) if corner.shape is CornerShape.FILLET else ())):
-            for axis, letter in axes:
-                found[f"{corner.name}.{place}.{letter}"] = f"{place}:{corner.name}.{axis}", axis
-    return found | {f"{element.name}.room": (f"room:{element.name}", None) for element in figure.path}
-
-
-def fill_row(kind: Kind, values: Mapping[str, float], row: int, table: Results) -> None:
-    """The results of a single solve in a row."""
-    solution = kind.solve(values)
-    table["status"][row] = code_of(solution.status)
-    table["reason"][row] = reason_of(solution.refusals[0].kind if solution.refusals else None)
-    if not solution.points:
-        return
-    letters = kind.profile.plane.axes
-    for radius, value in solution.radii.items():
-        table[radius][row] = value
-    pairs = dict(solution.points)
-    del pairs[kind.system.figure.start]
-    for name, corner in solution.corners.items():
-        pairs |= {f"{name}.begin": corner.begin, f"{name}.end": corner.end}
-        pairs |= {f"{name}.center": corner.center} if corner.center is not None else {}
-    for name, pair in pairs.items():
-        for letter, value in zip(letters, pair, strict=True):
-            table[f"{name}.{letter}"][row] = value
-    touching = {remark.subject for remark in solution.remarks if remark.kind is RemarkKind.TOUCHES}
-    for point, side in branches_of(kind).items():
-        table[f"branch.{point}"][row] = 0 if point in touching else side

@@ -11,9 +11,9 @@ from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer
 from contoursolve.families.implicit import Implicit
 from contoursolve.families.kinds import Kind, kind_in
-from contoursolve.families.prepared import results_of
 from contoursolve.families.ranges import FamilyError
 from contoursolve.families.recipe import recipe_of
+from contoursolve.families.results import results_of
 from contoursolve.families.template import call
 from contoursolve.model import Given, Profile, Unit
 from contoursolve.shown import Shown
