@@ -6,7 +6,7 @@ from contoursolve.backends import numeric, residue
 from contoursolve.backends.inputs import COSINE, SIDE, SINE, lookup
 from contoursolve.backends.numeric import Tape
 from contoursolve.backends.replay import Replay
-from contoursolve.backends.residue import ExactRank, Residue, draw, draw_direction
+from contoursolve.backends.residue import ExactRank, Residue, Row, draw, draw_direction
 from contoursolve.constraints import System
 from contoursolve.model import Fact
 
@@ -18,21 +18,18 @@ def generic_rank(system: System) -> ExactRank:
     return residue.exact_rank(rows, len(columns))
 
 
-def _gradient(system: System, fact: Fact, columns: Mapping[str, int]) -> list[int]:
+def _gradient(system: System, fact: Fact, columns: Mapping[str, int]) -> Row:
     tape = Tape()
     names = system.unknowns_of(fact)
-    row = [0] * len(columns)
     if not names:
-        return row
+        return {}
     unknowns = [tape.input(name) for name in names]
     equation = fact.equation(lookup(system, tape, {}))
     for number, expression in enumerate(numeric.derivatives([equation], unknowns)):
         tape.output(str(number), expression)
     replay = Replay(tape.function(), residue.Drawn, lambda value: Residue(residue.rational(value)))
     values = replay([Residue(witness_of(name)) for name in tape.inputs])
-    for name, value in zip(names, values, strict=True):
-        row[columns[name]] = value.value
-    return row
+    return {columns[name]: value.value for name, value in zip(names, values, strict=True) if value.value}
 
 
 def witness_of(name: str, signs: Mapping[str, int] | None = None) -> int:

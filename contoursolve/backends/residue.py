@@ -96,43 +96,51 @@ class ExactRank:
     """Columns whose unknown is not determined."""
 
 
-def exact_rank(matrix: Sequence[Sequence[int]], columns: int) -> ExactRank:
+Row = dict[int, int]
+"""What is not zero of a row, by column."""
+
+
+def exact_rank(matrix: Sequence[Row], columns: int) -> ExactRank:
     """Rank and null spaces of a matrix of residues."""
-    kept: list[tuple[int, list[int], dict[int, int]]] = []
-    """Pivot column, reduced row, and of which rows it is made."""
+    kept: dict[int, tuple[Row, Row]] = {}
+    """By its pivot, each reduced row, and of which rows it is made."""
     dependent: set[int] = set()
     independent: list[int] = []
     for number, entries in enumerate(matrix):
-        row, made_of = [each % PRIME for each in entries], {number: 1}
-        for pivot, other, others in kept:
-            if row[pivot]:
-                factor = row[pivot]
-                row = [(a - factor * b) % PRIME for a, b in zip(row, other, strict=True)]
-                for index, share in others.items():
-                    made_of[index] = (made_of.get(index, 0) - factor * share) % PRIME
-        lead = next((column for column, value in enumerate(row) if value), None)
-        if lead is None:
-            dependent |= {index for index, share in made_of.items() if share}
+        row, made_of = entries, {number: 1}
+        # A row that is kept is zero at the pivots of all others.
+        for pivot in [column for column in row if column in kept]:
+            factor, (other, others) = row[pivot], kept[pivot]
+            row, made_of = _less(row, factor, other), _less(made_of, factor, others)
+        if not row:
+            dependent |= made_of.keys()
             continue
+        lead = min(row)
         scale = pow(row[lead], -1, PRIME)
-        row = [value * scale % PRIME for value in row]
-        made_of = {index: share * scale % PRIME for index, share in made_of.items()}
-        kept = [
-            (
-                pivot,
-                [(a - other[lead] * b) % PRIME for a, b in zip(other, row, strict=True)],
-                _less(others, other[lead], made_of),
-            )
-            for pivot, other, others in kept
-        ]
-        kept.append((lead, row, made_of))
+        row, made_of = _times(row, scale), _times(made_of, scale)
+        for pivot, (other, others) in kept.items():
+            if lead in other:
+                kept[pivot] = _less(other, other[lead], row), _less(others, other[lead], made_of)
+        kept[lead] = row, made_of
         independent.append(number)
-    pivots = {pivot for pivot, _, _ in kept}
-    free = set(range(columns)) - pivots
+    free = set(range(columns)) - kept.keys()
     # An unknown with a pivot is determined unless its row holds a free one as well.
-    loose = {pivot for pivot, row, _ in kept if any(row[column] for column in free)}
+    loose = {pivot for pivot, (row, _) in kept.items() if not free.isdisjoint(row)}
     return ExactRank(len(kept), tuple(independent), tuple(sorted(dependent)), tuple(sorted(free | loose)))
 
 
-def _less(row: dict[int, int], factor: int, other: dict[int, int]) -> dict[int, int]:
-    return {index: (row.get(index, 0) - factor * other.get(index, 0)) % PRIME for index in row.keys() | other.keys()}
+def _less(row: Row, factor: int, other: Row) -> Row:
+    """A row less a multiple of another."""
+    less = row.copy()
+    for index, value in other.items():
+        left = (less.get(index, 0) - factor * value) % PRIME
+        if left:
+            less[index] = left
+        else:
+            less.pop(index, None)
+    return less
+
+
+def _times(row: Row, factor: int) -> Row:
+    """A multiple of a row."""
+    return {index: value * factor % PRIME for index, value in row.items()}
