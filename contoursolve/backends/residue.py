@@ -3,41 +3,75 @@
 The chance that something else is zero by accident is about its degree / PRIME, 1e-17 (Schwartz 1980).
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+
+from contoursolve.constraints import Functions
 
 PRIME = 2**61 - 1
 
 
 class Residue:
-    """A number modulo `PRIME`."""
+    """A number modulo `PRIME`, and its derivatives by unknowns, by name."""
 
-    __slots__ = ("value",)
+    __slots__ = ("slopes", "value")
 
-    def __init__(self, value: int) -> None:
+    def __init__(self, value: int, slopes: Mapping[str, int]) -> None:
         self.value = value % PRIME
+        self.slopes = slopes
 
-    def __add__(self, other: "Residue") -> "Residue":
-        return Residue(self.value + other.value)
+    def __add__(self, other: "Residue | float") -> "Residue":
+        second = _constant(other)
+        return Residue(self.value + second.value, _sum(self, 1, second, 1))
 
-    def __sub__(self, other: "Residue") -> "Residue":
-        return Residue(self.value - other.value)
+    def __sub__(self, other: "Residue | float") -> "Residue":
+        second = _constant(other)
+        return Residue(self.value - second.value, _sum(self, 1, second, -1))
 
-    def __mul__(self, other: "Residue") -> "Residue":
-        return Residue(self.value * other.value)
+    def __mul__(self, other: "Residue | float") -> "Residue":
+        second = _constant(other)
+        return Residue(self.value * second.value, _sum(self, second.value, second, self.value))
 
-    def __truediv__(self, other: "Residue") -> "Residue":
-        return Residue(self.value * pow(other.value, -1, PRIME))
+    def __truediv__(self, other: "Residue | float") -> "Residue":
+        second = _constant(other)
+        inverse = pow(second.value, -1, PRIME)
+        value = self.value * inverse
+        return Residue(value, _sum(self, inverse, second, -value * inverse))
 
-    def __rtruediv__(self, one: int) -> "Residue":
-        return Residue(one * pow(self.value, -1, PRIME))
+    def __radd__(self, other: float) -> "Residue":
+        return _constant(other) + self
 
-    def __pow__(self, exponent: "int | Residue") -> "Residue":
-        return Residue(pow(self.value, exponent if isinstance(exponent, int) else exponent.value, PRIME))
+    def __rsub__(self, other: float) -> "Residue":
+        return _constant(other) - self
+
+    def __rmul__(self, other: float) -> "Residue":
+        return _constant(other) * self
+
+    def __rtruediv__(self, other: float) -> "Residue":
+        return _constant(other) / self
+
+    def __pow__(self, exponent: int) -> "Residue":
+        return Residue(pow(self.value, exponent, PRIME), self.chain(exponent * pow(self.value, exponent - 1, PRIME)))
 
     def __neg__(self) -> "Residue":
-        return Residue(-self.value)
+        return Residue(-self.value, self.chain(-1))
+
+    def chain(self, factor: int) -> Mapping[str, int]:
+        """The derivatives of a function that has this derivative here."""
+        return {name: slope * factor % PRIME for name, slope in self.slopes.items()}
+
+
+def _constant(value: Residue | float) -> Residue:
+    return value if isinstance(value, Residue) else Residue(rational(value), {})
+
+
+def _sum(first: Residue, one: int, second: Residue, other: int) -> Mapping[str, int]:
+    """The derivatives of both, each times a factor."""
+    slopes = dict(first.chain(one))
+    for name, slope in second.chain(other).items():
+        slopes[name] = (slopes.get(name, 0) + slope) % PRIME
+    return slopes
 
 
 EXPONENT = 0x1E3779B97F4A7C15
@@ -64,23 +98,26 @@ def draw_direction(name: str) -> tuple[int, int]:
     return (1 - parameter**2) * scale % PRIME, 2 * parameter * scale % PRIME
 
 
-class Drawn:
-    """What is not arithmetic, for `Replay`: a root is any number; cosine and sine belong together."""
+def _root(value: Residue) -> Residue:
+    """A number that has nothing to do with any other."""
+    root = draw(f"root {value.value}")
+    return Residue(root, value.chain(pow(2 * root, -1, PRIME)))
 
-    @staticmethod
-    def root(value: Residue) -> Residue:
-        """A number that has nothing to do with any other."""
-        return Residue(draw(f"root {value.value}"))
 
-    @staticmethod
-    def cosine(value: Residue) -> Residue:
-        """The cosine that belongs to an angle."""
-        return Residue(draw_direction(str(value.value))[0])
+def _cosine(angle: Residue) -> Residue:
+    """The cosine that belongs to an angle."""
+    cosine, sine = draw_direction(str(angle.value))
+    return Residue(cosine, angle.chain(-sine))
 
-    @staticmethod
-    def sine(value: Residue) -> Residue:
-        """The sine that belongs to an angle."""
-        return Residue(draw_direction(str(value.value))[1])
+
+def _sine(angle: Residue) -> Residue:
+    """The sine that belongs to an angle."""
+    cosine, sine = draw_direction(str(angle.value))
+    return Residue(sine, angle.chain(cosine))
+
+
+RESIDUES = Functions(_root, _cosine, _sine)
+"""What is not arithmetic: a root is any number; cosine and sine belong together."""
 
 
 @dataclass(frozen=True, slots=True)
