@@ -103,6 +103,7 @@ class _Search:
         self.budget = budget
         self.least = least
         self.reach = ground.reach(system)
+        self.senses = [(fact, frozenset(system.unknowns_among(fact.sense_reads()))) for fact in system.facts]
         lines = [line for line in (*system.figure.path, *system.figure.lines) if isinstance(line, Line)]
         carriers = [line for line in lines if line.name in system.figure.carriers]
         self.runs = [line for line in carriers if line.tail and line.head]
@@ -206,9 +207,8 @@ class _Search:
         new = set(kernel.unknowns)
         yield from (state.scalars[name] for name in self.system.figure.radii if name in new)
         at = self.ground.values(state.scalars, state.signs, self.system)
-        for fact in self.system.facts:
-            names = self.system.unknowns_among(fact.sense_reads())
-            if new & set(names) and all(name in state.scalars for name in names):
+        for fact, names in self.senses:
+            if not new.isdisjoint(names) and names <= state.scalars.keys():
                 yield from fact.senses(at)
         for line in self.runs:
             yield from self._run(line, state, new)
