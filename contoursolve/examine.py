@@ -187,9 +187,10 @@ def examine(
         # Whatever the rules say of it: nothing is dropped without a word.
         if word.span not in explained:
             notebook.add(report(context, context.row(Trouble.WORD_UNUSED), Basis.RULE, [word], form=claim.form.name))
-    solution, alternatives = Solution(Status.REJECTED), None
     if is_readable:
         solution, alternatives = _examine_geometry(context, claim, profile, notebook, depth)
+    else:
+        solution, alternatives = Solution(Status.REJECTED), None
     for offence in ignoring:
         notebook.add(explain_ignored(context, offence, profile, solution))
     notebook.findings += without_point(context, claim, notebook.findings)

@@ -60,9 +60,9 @@ def solve(profile: Profile, *, is_proven: bool = True) -> Solution:
     verdict = judge(system)
     if not verdict.is_determined:
         raise ValueError(f"not determined: {', '.join(verdict.free)}")
-    tied = frozenset(system.facts[index] for index in verdict.tied)
     attempt = _Attempt(profile, system)
     answer = attempt.answer(is_proven=is_proven)
+    tied = frozenset(system.facts[index] for index in verdict.tied) if attempt.stuck else frozenset()
     if not attempt.stuck & tied:
         # Where it is singular nothing is said twice, and so nothing can stand in for it.
         return answer
@@ -134,9 +134,10 @@ class _Attempt:
                 return self._refused()
         self._check_equations()
         points = {name: self._point(name) for name in (self.system.figure.start, *self.system.figure.points)}
+        sizes = sizes_of(self.profile)
         if not self.refusals:
             refusals, remarks = check_path(
-                self.profile, self.machine.corner_residuals, points, self.out, sizes_of(self.profile), self._resize
+                self.profile, self.machine.corner_residuals, points, self.out, sizes, self._resize
             )
             self.refusals += refusals
             self.remarks += remarks
@@ -147,7 +148,7 @@ class _Attempt:
             self.remarks.append(Remark(RemarkKind.SENSITIVE, "", (), {"limit": ERROR_BOUND_WARNING, "actual": bound}))
         agrees = any(remark.kind is RemarkKind.WORDS_AGREE for remark in self.remarks)
         return replace(
-            solution_at(self.system, self.profile.start, sizes_of(self.profile), self.out),
+            solution_at(self.system, self.profile.start, sizes, self.out),
             status=Status.OVERDETERMINED if agrees else Status.SOLVED,
             remarks=tuple(self.remarks),
             error_bound=bound,
