@@ -39,7 +39,7 @@ def coordinates(place: Sequence[float | None], plane: Plane, unit: Length) -> st
 
 
 def _unsigned_zero(text: str) -> str:
-    return text.removeprefix("-") if float(text) == 0 else text
+    return text[1:] if text.startswith("-") and float(text) == 0 else text
 
 
 def count(number: int, noun: str) -> str:

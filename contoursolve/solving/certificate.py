@@ -50,4 +50,7 @@ def up_to_one_digit(value: float) -> float:
     if not 0 < value < inf:
         return value
     digit = 10.0 ** floor(log10(value))
-    return next(number * digit for number in range(1, 11) if number * digit >= value)
+    number = max(1, int(value / digit))
+    while number * digit < value:
+        number += 1
+    return number * digit

@@ -102,6 +102,7 @@ def _step(group: Group) -> Step:
     raise NoClosedFormError(f"{', '.join(map(str, group.facts))} for {', '.join(group.unknowns)}")
 
 
+@lru_cache(maxsize=8192)
 def is_closed(system: System) -> bool:
     """Whether a determined system has a plan of steps in closed form."""
     try:
