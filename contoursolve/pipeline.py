@@ -220,8 +220,8 @@ class _Examiner:
             state = advance(state, block, dialect.modes)
         self.start_unit = state.unit
         is_whole, index, size = isinstance(blocks, Sequence), 0, _FIRST
-        held: list[Line] = list(blocks) if isinstance(blocks, Sequence) else []
-        rest = iter(() if isinstance(blocks, Sequence) else blocks)
+        held: list[Line] = list(blocks) if is_whole else []
+        rest = iter(() if is_whole else blocks)
         while True:
             if index >= len(held) - 1 and not is_whole:
                 more, size = list(islice(rest, size)), min(2 * size, _BATCH)

@@ -298,8 +298,7 @@ class _Attempt:
 
     def _check_equations(self) -> None:
         """All original equations: those solved must hold to rounding, the others as well as words can say."""
-        solved = len(self.plan.basis)
-        residuals = [self.out[f"residual:{number}"] for number in range(solved)]
+        residuals = [self.out[name] for name in self.machine.residuals]
         if not all(abs(residual) <= RESIDUAL for residual in residuals):  # true for NaN
             worst = max(residuals, key=lambda residual: abs(residual) if isfinite(residual) else float("inf"))
             self.refusals.append(_refuse(RefusalKind.NOT_VERIFIED, "", (), limit=RESIDUAL, actual=abs(worst)))
@@ -337,9 +336,8 @@ class _Attempt:
         }
         for row, direction_of in self.doubles.items():
             entries |= {(row, unknowns.index(name)): value for name, value in direction_of.items()}
-        coordinates = (*self._point(self.system.figure.start), *(self.out[name] for name in self.system.unknowns))
-        largest = max(1.0, *map(abs, coordinates))
-        worst = max(abs(self.out[f"residual:{number}"]) for number in range(size))
+        largest = max(1.0, *[abs(self.out[name]) for name in unknowns])
+        worst = max([abs(self.out[name]) for name in self.machine.residuals])
         bound = inverse_norm(entries, size) * (worst + ROUNDING * largest) + self.split
         return up_to_one_digit(bound) if isfinite(bound) else inf
 
