@@ -9,7 +9,7 @@ from contoursolve.analysis.generic import witness_of
 from contoursolve.backends import ball
 from contoursolve.backends.ball import Number
 from contoursolve.constraints import System
-from contoursolve.model import Line, Profile, scalar
+from contoursolve.model import Fact, Line, Profile, scalar
 from contoursolve.solving.division import conditions_of, divide
 from contoursolve.solving.elimination import Close, Obstacle, ObstacleError, Root, solve_step
 from contoursolve.solving.ground import Ground, ground_of
@@ -90,6 +90,10 @@ MOST_SOLUTIONS = 512
 """Solutions that are followed; each point that may lie in two places doubles their number."""
 
 
+Sense = tuple[Fact, frozenset[str]]
+"""A fact, and the unknowns that its senses read."""
+
+
 class _Search:
     def __init__(
         self, system: System, groups: tuple[Group, ...], ground: Ground, close: Close, budget: int, least: int
@@ -103,7 +107,9 @@ class _Search:
         self.budget = budget
         self.least = least
         self.reach = ground.reach(system)
-        self.senses = [(fact, frozenset(system.unknowns_among(fact.sense_reads()))) for fact in system.facts]
+        self.senses: list[Sense] = [
+            (fact, frozenset(system.unknowns_among(fact.sense_reads()))) for fact in system.facts
+        ]
         lines = [line for line in (*system.figure.path, *system.figure.lines) if isinstance(line, Line)]
         carriers = [line for line in lines if line.name in system.figure.carriers]
         self.runs = [line for line in carriers if line.tail and line.head]
@@ -141,13 +147,14 @@ class _Search:
         searched = iter(
             self._search(group, kernel, [case for case, roots in zip(cases, solved, strict=True) if roots is None])
         )
+        senses = [(fact, names) for fact, names in self.senses if not names.isdisjoint(kernel.unknowns)]
         found: list[Found] = []
         for case, roots in zip(cases, solved, strict=True):
             for root in next(searched) if roots is None else roots:
                 values = {kernel.unknowns[index]: each for index, each in root.values.items()}
                 doubles = case.doubles + (kernel.unknowns if root.is_double else ())
                 after = Found({**case.scalars, **values}, case.signs, doubles)
-                if self._is_possible(after, kernel):
+                if self._is_possible(after, kernel, senses):
                     found.append(after)
         return found
 
@@ -189,9 +196,9 @@ class _Search:
             Coefficient(self.ground.number(name, scalars, signs), witness_of(name, signs)) for name in kernel.parameters
         ]
 
-    def _is_possible(self, state: Found, kernel: Kernel) -> bool:
+    def _is_possible(self, state: Found, kernel: Kernel, senses: Sequence[Sense]) -> bool:
         """Whether radii are positive and everything runs in its stated sense; what cannot be decided is a doubt."""
-        for value in self._must_be_positive(state, kernel):
+        for value in self._must_be_positive(state, kernel, senses):
             match ball.sign(value):
                 case None:
                     # With all the digits there are, what may still be zero is taken for it, and said so.
@@ -203,12 +210,12 @@ class _Search:
                     return False
         return True
 
-    def _must_be_positive(self, state: Found, kernel: Kernel) -> Iterator[Number]:
+    def _must_be_positive(self, state: Found, kernel: Kernel, senses: Sequence[Sense]) -> Iterator[Number]:
         new = set(kernel.unknowns)
         yield from (state.scalars[name] for name in self.system.figure.radii if name in new)
         at = self.ground.values(state.scalars, state.signs, self.system)
-        for fact, names in self.senses:
-            if not new.isdisjoint(names) and names <= state.scalars.keys():
+        for fact, names in senses:
+            if names <= state.scalars.keys():
                 yield from fact.senses(at)
         for line in self.runs:
             yield from self._run(line, state, new)
