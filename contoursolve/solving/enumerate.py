@@ -143,7 +143,7 @@ class _Search:
     def _advance(self, states: Sequence[Found], group: Group) -> list[Found]:
         kernel = make_kernel(self.system, group)
         cases = [Found(state.scalars, signs, state.doubles) for state in states for signs in _choices(state, kernel)]
-        solved = [self._solve(kernel, case) for case in cases]
+        solved = self._solve_each(kernel, cases)
         searched = iter(
             self._search(group, kernel, [case for case, roots in zip(cases, solved, strict=True) if roots is None])
         )
@@ -158,12 +158,24 @@ class _Search:
                     found.append(after)
         return found
 
-    def _solve(self, kernel: Kernel, case: Found) -> list[Root] | None:
+    def _solve_each(self, kernel: Kernel, cases: Sequence[Found]) -> list[list[Root] | None]:
+        """All solutions of a step for each case. Cases that differ elsewhere alone have the very same numbers here, and
+        are solved once."""
+        solved: dict[tuple[int, ...], list[Root] | None] = {}
+        given = [[self.ground.number(name, case.scalars, case.signs) for name in kernel.parameters] for case in cases]
+        keys = [tuple(map(id, numbers)) for numbers in given]
+        for key, numbers, case in zip(keys, given, cases, strict=True):
+            if key not in solved:
+                witnesses = [witness_of(name, case.signs) for name in kernel.parameters]
+                solved[key] = self._solve(kernel, list(map(Coefficient, numbers, witnesses)))
+        return [solved[key] for key in keys]
+
+    def _solve(self, kernel: Kernel, coefficients: list[Coefficient]) -> list[Root] | None:
         """All solutions of a step; None if it has no closed form."""
         if kernel.coefficients is None:
             return None
         try:
-            roots = solve_step(kernel, self._coefficients(kernel, case.scalars, case.signs), self.close)
+            roots = solve_step(kernel, coefficients, self.close)
         except ObstacleError as error:
             if error.obstacle is Obstacle.NO_CLOSED_FORM:
                 return None
@@ -188,13 +200,6 @@ class _Search:
             if not division.is_complete:
                 self.doubts.append(Doubt(kernel.unknowns, Obstacle.UNFINISHED))
             yield settle(kernel, division, at)
-
-    def _coefficients(
-        self, kernel: Kernel, scalars: Mapping[str, Number], signs: Mapping[str, int]
-    ) -> list[Coefficient]:
-        return [
-            Coefficient(self.ground.number(name, scalars, signs), witness_of(name, signs)) for name in kernel.parameters
-        ]
 
     def _is_possible(self, state: Found, kernel: Kernel, senses: Sequence[Sense]) -> bool:
         """Whether radii are positive and everything runs in its stated sense; what cannot be decided is a doubt."""
