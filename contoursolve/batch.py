@@ -240,10 +240,10 @@ class Batch:
     def _answer(
         self, kind: Kind, claim: Claim, profile: Profile, out: Mapping[str, float], bound: float
     ) -> Answer | None:
-        certificate = certify(profile, kind.system, out, up_to_one_digit(bound)) if self.is_proven else None
+        like, bound = kind.answer, up_to_one_digit(bound)
+        certificate = certify(profile, kind.system, out, bound) if self.is_proven else None
         if certificate is not None and certificate.proof not in (Proof.EXACT, Proof.UNIQUE):
             return None
-        like, bound = kind.answer, up_to_one_digit(bound)
         return Answer(
             form=like.form,
             lines=tuple([block.line for block in claim.blocks]),

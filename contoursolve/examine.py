@@ -6,10 +6,11 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from enum import Enum
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from contoursolve.analysis import judge
-from contoursolve.constraints import assemble
+from contoursolve.constraints import System, assemble
 from contoursolve.contour import Contour, trace
 from contoursolve.diagnostic import Basis, Diagnosis, Diagnostic, Severity
 from contoursolve.explain import (
@@ -187,9 +188,10 @@ def examine(
         # Whatever the rules say of it: nothing is dropped without a word.
         if word.span not in explained:
             notebook.add(report(context, context.row(Trouble.WORD_UNUSED), Basis.RULE, [word], form=claim.form.name))
-    solution, alternatives = Solution(Status.REJECTED), None
     if is_readable:
         solution, alternatives = _examine_geometry(context, claim, profile, notebook, depth)
+    else:
+        solution, alternatives = Solution(Status.REJECTED), None
     for offence in ignoring:
         notebook.add(explain_ignored(context, offence, profile, solution))
     notebook.findings += without_point(context, claim, notebook.findings)
@@ -229,9 +231,15 @@ the one that the words choose is worked out."""
 def count_choices(profile: Profile) -> int:
     """The points that may lie in two places each, for all that the form says of it; 0 where the system is not
     determined or has no closed form."""
-    system, decided = assemble(profile), {choice.point for choice in profile.choices if not choice.given}
+    points = _chosen_points(assemble(profile))
+    return len(points - {choice.point for choice in profile.choices if not choice.given}) if points else 0
+
+
+@lru_cache(maxsize=8192)
+def _chosen_points(system: System) -> frozenset[str]:
+    """The points that may lie in two places each; none where the system is not determined or has no closed form."""
     is_ordered = judge(system).is_determined and is_closed(system)
-    return len({*points_with_two_solutions(system)} - decided) if is_ordered else 0
+    return frozenset(points_with_two_solutions(system) if is_ordered else ())
 
 
 def list_alternatives(answer: Answer) -> Alternatives | None:

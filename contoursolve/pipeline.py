@@ -177,7 +177,11 @@ _BATCH = 1_000
 """Blocks that are read at once."""
 
 _FIRST, _WINDOW = 16, 4_096
-"""Steps of which the contours are solved together, in the beginning, when nothing is known, and later."""
+"""Steps of a program of which the contours are solved together while it is read: in the beginning, when nothing is
+known, and later."""
+
+_WHOLE = 32_768
+"""The same for a program that has been read: the more there are of a kind, the less each of them takes."""
 
 
 class _Examiner:
@@ -201,13 +205,15 @@ class _Examiner:
     def steps(self, blocks: Iterable[Line], start: Program | None) -> Iterator[Step]:
         """Every block and every contour, in order; without a dialect, only what is found."""
         window: list[Step | Pending] = []
-        size = 1 if self.together is None else _FIRST
+        size, most = (_WHOLE, _WHOLE) if isinstance(blocks, Sequence) else (_FIRST, _WINDOW)
+        if self.together is None:
+            size, most = 1, 1
         for each in self._walk(blocks, start):
             window.append(each)
             if len(window) >= size:
                 self.queue.settle()
                 yield from (other.step if isinstance(other, Pending) else other for other in window)
-                window, size = [], 1 if self.together is None else min(2 * size, _WINDOW)
+                window, size = [], min(2 * size, most)
         self.queue.settle()
         yield from (other.step if isinstance(other, Pending) else other for other in window)
 
@@ -231,8 +237,8 @@ class _Examiner:
             state = advance(state, block, dialect.modes)
         self.start_unit = state.unit
         is_whole, index, size = isinstance(blocks, Sequence), 0, _FIRST
-        held: list[Line] = list(blocks) if isinstance(blocks, Sequence) else []
-        rest = iter(() if isinstance(blocks, Sequence) else blocks)
+        held: list[Line] = list(blocks) if is_whole else []
+        rest = iter(() if is_whole else blocks)
         while True:
             if index >= len(held) - 1 and not is_whole:
                 more, size = list(islice(rest, size)), min(2 * size, _BATCH)

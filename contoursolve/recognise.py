@@ -40,10 +40,10 @@ def recognise(program: Program) -> Dialect | None:
 
     Raises UnknownControlError if its blocks show more than one.
     """
-    signs = {name: sign for name, dialect in DIALECTS.items() for sign in [what_shows(program.blocks, dialect)] if sign}
-    if len(signs) > 1:
-        raise several_controls(signs)
-    return DIALECTS[next(iter(signs))] if signs else None
+    shown = [dialect for dialect in DIALECTS.values() if any(map(dialect.signs, program.blocks))]
+    if len(shown) > 1:
+        raise several_controls({each.name: what_shows(program.blocks, each) for each in shown})
+    return shown[0] if shown else None
 
 
 def several_controls(signs: Mapping[str, str]) -> UnknownControlError:

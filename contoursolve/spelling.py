@@ -45,16 +45,18 @@ def explain_start_units(context: Context, unit: Length, block: Block) -> Diagnos
 
 
 def _explain_asked(context: Context, claim: Claim) -> Iterator[Diagnostic]:
-    names = _answerable(claim)
-    allowed = ", ".join(dict.fromkeys(claim.vocabulary[name][0] for name in claim.vocabulary if name in names))
     for word in unanswerable(claim):
+        names = _answerable(claim)
+        allowed = ", ".join(dict.fromkeys(claim.vocabulary[name][0] for name in claim.vocabulary if name in names))
         yield report(context, context.row(Trouble.ASKED_NOTHING), Basis.RULE, [word], allowed=allowed)
 
 
 def unanswerable(claim: Claim) -> list[Word]:
     """Words that ask for something that is not part of a contour."""
-    answered = [claim.words[name] for name in _answerable(claim) if name in claim.words]
     asking = [word for block in claim.blocks for word in block.words if word.is_asked]
+    if not asking:
+        return []
+    answered = [claim.words[name] for name in _answerable(claim) if name in claim.words]
     return [word for word in asking if word not in answered and word not in claim.unknown]
 
 
@@ -79,6 +81,9 @@ def _with_digits(block: Block, place: Span) -> str:
     return f"write {found.new} for {found.old}" if found else ""
 
 
+_LARGEST = Decimal(LARGEST)
+
+
 def explain_words(
     context: Context, lexicon: Lexicon, repeated: Sequence[Word], words: Sequence[Word]
 ) -> Iterator[Diagnostic]:
@@ -90,12 +95,14 @@ def explain_words(
         yield report(context, context.row(Trouble.REPEATED_ADDRESS), Basis.RULE, same)
     for word in words:
         value = lexicon.value(word, context.unit) if word.address in lexicon.addresses else None
-        if value is not None and abs(value) > Decimal(LARGEST):
+        if value is not None and abs(value) > _LARGEST:
             limit = length_text(LARGEST, context.unit)
             yield report(context, context.row(Trouble.VALUE_TOO_LARGE), Basis.RULE, [word], limit=limit)
 
 
 def _explain_unknown(context: Context, claim: Claim) -> Iterator[Diagnostic]:
+    if not claim.unknown:
+        return
     form = claim.form
     own = [address for address in claim.lexicon.addresses if address in form.allowed]
     others = sorted(form.allowed - {"N", "G", *own})
@@ -178,7 +185,9 @@ def tell_points(context: Context, claim: Claim, findings: Iterable[Diagnostic]) 
     """Findings, the errors about a word that lacks its point with how it was read, before what else may be done."""
     findings = list(findings)
     lacking = {label.span for each in findings if each.about is Trouble.POINT_MISSING for label in each.labels}
-    counted = {word: value for word, value in _counted(context, claim).items() if word.span in lacking}
+    counted = (
+        {word: value for word, value in _counted(context, claim).items() if word.span in lacking} if lacking else {}
+    )
     for finding in findings:
         spans = {label.span for label in finding.labels}
         blamed = {word: value for word, value in counted.items() if word.span in spans}
@@ -193,9 +202,10 @@ def tell_points(context: Context, claim: Claim, findings: Iterable[Diagnostic]) 
 def _counted(context: Context, claim: Claim) -> Mapping[Word, str]:
     """The words of a contour that count least increments, each with its value in the order of the block."""
     counted = {}
-    for given in sorted((each for each in claim.givens.values() if each.word), key=_place):
+    pointless = [each for each in claim.givens.values() if each.word and not each.word.has_point]
+    for given in sorted(pointless, key=_place):
         word = given.word
-        if word is None or not word.number or word.has_point or given.unit is Unit.SIGN:
+        if word is None or not word.number or given.unit is Unit.SIGN:
             continue
         typed = given.value * 2 if given.is_diameter else given.value
         if abs(typed) < abs(word.number):

@@ -1,12 +1,11 @@
 """Which facts determine which unknowns for nearly all values: the rank of their derivatives at random values."""
 
 from collections.abc import Mapping
+from typing import NamedTuple
 
-from contoursolve.backends import numeric, residue
+from contoursolve.backends import residue
 from contoursolve.backends.inputs import COSINE, SIDE, SINE, lookup
-from contoursolve.backends.numeric import Tape
-from contoursolve.backends.replay import Replay
-from contoursolve.backends.residue import ExactRank, Residue, draw, draw_direction
+from contoursolve.backends.residue import RESIDUES, ExactRank, Residue, Row, draw, draw_direction
 from contoursolve.constraints import System
 from contoursolve.model import Fact
 
@@ -18,21 +17,19 @@ def generic_rank(system: System) -> ExactRank:
     return residue.exact_rank(rows, len(columns))
 
 
-def _gradient(system: System, fact: Fact, columns: Mapping[str, int]) -> list[int]:
-    tape = Tape()
-    names = system.unknowns_of(fact)
-    row = [0] * len(columns)
-    if not names:
-        return row
-    unknowns = [tape.input(name) for name in names]
-    equation = fact.equation(lookup(system, tape, {}))
-    for number, expression in enumerate(numeric.derivatives([equation], unknowns)):
-        tape.output(str(number), expression)
-    replay = Replay(tape.function(), residue.Drawn, lambda value: Residue(residue.rational(value)))
-    values = replay([Residue(witness_of(name)) for name in tape.inputs])
-    for name, value in zip(names, values, strict=True):
-        row[columns[name]] = value.value
-    return row
+class _Witnesses(NamedTuple):
+    """Random values of all inputs, some of which are unknowns."""
+
+    unknowns: Mapping[str, int]
+
+    def input(self, name: str) -> Residue:
+        """The value of an input; the derivative of an unknown by itself is 1."""
+        return Residue(witness_of(name), {name: 1} if name in self.unknowns else {})
+
+
+def _gradient(system: System, fact: Fact, columns: Mapping[str, int]) -> Row:
+    value = fact.equation(lookup(system, _Witnesses(columns), {}, RESIDUES))
+    return {columns[name]: slope for name, slope in value.slopes.items() if slope}
 
 
 def witness_of(name: str, signs: Mapping[str, int] | None = None) -> int:

@@ -1,16 +1,22 @@
-"""A lookup whose values are inputs of a CasADi function under construction."""
+"""A lookup whose values are inputs by name: of a CasADi function under construction, or numbers that stand for them."""
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, Protocol
 
 from contoursolve.backends import numeric
-from contoursolve.backends.numeric import Tape
 from contoursolve.constraints import Functions, System, Values
 
 COSINE, SINE, SIDE = ":cos", ":sin", "side:"
 """What the inputs for a given angle end with, and that for a side begins with."""
 
 _SYMBOLS = Functions(numeric.sqrt, numeric.cosine, numeric.sine)
+
+
+class Tape(Protocol):
+    """Gives the inputs of formulas."""
+
+    def input(self, name: str) -> Any:
+        """The value of an input."""
 
 
 class Inputs(Mapping[str, Any]):
@@ -41,7 +47,7 @@ class Directions(Inputs):
         return self._tape.input(name + COSINE), self._tape.input(name + SINE)
 
 
-def lookup(system: System, tape: Tape, symbols: Mapping[str, Any]) -> Values:
+def lookup(system: System, tape: Tape, symbols: Mapping[str, Any], functions: Functions = _SYMBOLS) -> Values:
     """A lookup whose values are symbols, or inputs of a tape."""
     return Values(
         Inputs(tape, symbols),
@@ -49,5 +55,5 @@ def lookup(system: System, tape: Tape, symbols: Mapping[str, Any]) -> Values:
         Directions(tape, {}),
         system.headed,
         Inputs(tape, {}, SIDE),
-        _SYMBOLS,
+        functions,
     )

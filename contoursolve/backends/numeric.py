@@ -78,7 +78,8 @@ def _binary(operation: int, first: Any, second: Any) -> Expression:
 
 def _stack(values: Iterable[Any]) -> Any:
     """Scalars as one vector."""
-    return casadi.SX(casadi.vertcat(*map(_sx, values)))  # of numbers alone it would be another kind of matrix
+    stacked = casadi.vertcat(*map(_sx, values))
+    return stacked if isinstance(stacked, casadi.SX) else casadi.SX(stacked)  # of numbers alone it is another matrix
 
 
 def sqrt(value: Any) -> Expression:

@@ -115,12 +115,13 @@ def _legal_sets(
     if not whole.is_singular:
         extra -= present ^ extra if _is_clean_set(claim, dialect.rules) else set()
     changes = smallest_changes(claim.form, dialect.rules, present, names & frozenset(extra), claim.circumstances)
+    corrections = tuple(_corrections(claim, dialect))
     bases: list[tuple[Edit, ...]] = []
     for swap in changes:
         drops = tuple(drop(claim.words[name]) for name in sorted(swap & present))
         kept = _Geometry.of(claim, present - swap) if swap - present else whole
         added = [_additions(claim, dialect, name, (whole, kept)) for name in sorted(swap - present)]
-        corrected = [options for name, options in _corrections(claim, dialect) if name not in swap]
+        corrected = [options for name, options in corrections if name not in swap]
         bases += [(*forced, *drops, *edits) for edits in product(*added, *corrected)]
     yield from bases
     # A legal block may still have corners that cannot be made.

@@ -22,7 +22,7 @@ class Role:
         calls = ("",) if len(self.prefixes) == 1 else tuple(f"{number}:" for number in range(1, len(self.prefixes) + 1))
         return {
             call + name.removeprefix(prefix): name
-            for name in stated
+            for name in [name for name in stated if name.startswith(self.prefixes)]
             for prefix, call in zip(self.prefixes, calls, strict=True)
             if name.startswith(prefix)
         }

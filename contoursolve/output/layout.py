@@ -21,12 +21,12 @@ def printable(text: str) -> str:
 
 def length_of(mm: float, unit: Length) -> str:
     """A length in the unit of a program: four decimals of a millimetre, five of an inch; no negative zero."""
-    return _unsigned_zero(f"{mm:.4f}" if unit is Length.MM else f"{mm / _INCH:.5f}")
+    return f"{mm:z.4f}" if unit is Length.MM else f"{mm / _INCH:z.5f}"
 
 
 def written(value: float, unit: str) -> str:
     """A value as its word has it, with its unit (mm, inch or deg); decimals as for lengths."""
-    return f"{_unsigned_zero(f'{value:.5f}')} in" if unit == "inch" else f"{_unsigned_zero(f'{value:.4f}')} {unit}"
+    return f"{value:z.5f} in" if unit == "inch" else f"{value:z.4f} {unit}"
 
 
 def coordinates(place: Sequence[float | None], plane: Plane, unit: Length) -> str:
@@ -36,10 +36,6 @@ def coordinates(place: Sequence[float | None], plane: Plane, unit: Length) -> st
         for letter, value, is_diameter in zip(plane.axes, place, plane.diameters, strict=True)
         if value is not None
     )
-
-
-def _unsigned_zero(text: str) -> str:
-    return text.removeprefix("-") if float(text) == 0 else text
 
 
 def count(number: int, noun: str) -> str:

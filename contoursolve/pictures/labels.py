@@ -1,7 +1,7 @@
 """Where labels find room: off the path, off other labels, near what they belong to."""
 
 from collections.abc import Iterable, Sequence
-from math import ceil, cos, hypot, pi, sin
+from math import ceil, cos, hypot, inf, pi, sin
 
 from contoursolve.pictures.sheet import Box, Spot
 
@@ -12,6 +12,12 @@ _FAR = (9.0, 15.0, 24.0, 36.0, 52.0, 72.0, 100.0, 140.0, 190.0)
 """Pixels from a place to the nearest point of its label, tried in this order."""
 
 _WAYS = 16
+_TURNS = tuple(
+    (cos(number * 2 * pi / _WAYS), sin(number * 2 * pi / _WAYS), min(number, _WAYS - number) * 2 * pi / _WAYS)
+    for number in sorted(range(_WAYS), key=lambda number: (min(number, _WAYS - number), number))
+)
+"""Cosine and sine of the turns from the wanted direction that are tried, and their sizes (radians), in order."""
+
 _PER_PIXEL = 0.35
 """What a pixel of distance weighs."""
 
@@ -50,8 +56,11 @@ class Grid:
 
     def cost(self, box: Box) -> float:
         """How much a text would cover; infinite where another text is, or outside the page."""
-        if not self.page.holds(box) or any(box.meets(other) for other in self.taken):
-            return float("inf")
+        if not self.page.holds(box):
+            return inf
+        for other in self.taken:
+            if box.meets(other):
+                return inf
         total = 0.0
         first, last = int((box.left - self.page.left) / CELL), int((box.right - self.page.left) / CELL)
         for row in range(int((box.top - self.page.top) / CELL), int((box.bottom - self.page.top) / CELL) + 1):
@@ -73,7 +82,12 @@ class Grid:
 
     def is_crossed(self, a: Spot, b: Spot) -> bool:
         """Whether a line would run through a text."""
-        return any(clip(a, b, box) is not None for box in self.taken)
+        (left, right), (top, bottom) = sorted((a[0], b[0])), sorted((a[1], b[1]))
+        return any(
+            clip(a, b, box) is not None
+            for box in self.taken
+            if box.left <= right and left <= box.right and box.top <= bottom and top <= box.bottom
+        )
 
 
 def clip(a: Spot, b: Spot, box: Box) -> tuple[Spot, Spot] | None:
@@ -100,14 +114,14 @@ def clip(a: Spot, b: Spot, box: Box) -> tuple[Spot, Spot] | None:
 def boxes_around(at: Spot, width: float, height: float, away: Spot) -> Iterable[tuple[Box, float, float]]:
     """Boxes of a size near a place with their distance and how far they are turned from the wanted direction
     (radians), nearest first."""
-    turns = sorted(range(_WAYS), key=lambda number: (min(number, _WAYS - number), number))
+    ways = [
+        ((away[0] * cosine - away[1] * sine, away[0] * sine + away[1] * cosine), turned)
+        for cosine, sine, turned in _TURNS
+    ]
     for far in _FAR:
-        for number in turns:
-            angle = number * 2 * pi / _WAYS
-            way = away[0] * cos(angle) - away[1] * sin(angle), away[0] * sin(angle) + away[1] * cos(angle)
+        for way, turned in ways:
             # The box stands so that its nearest point is as far as it should be.
             middle = at[0] + way[0] * (far + width / 2), at[1] + way[1] * (far + height / 2)
-            turned = min(number, _WAYS - number) * 2 * pi / _WAYS
             shifts: tuple[float, ...] = (0.0,)
             if abs(way[0]) < 0.2:  # noqa: PLR2004 - right above or below
                 middle, shifts = (at[0], middle[1]), (0.0, width / 2 - 8.0, 8.0 - width / 2)
@@ -132,7 +146,7 @@ def place_label(
             if best is not None and own >= best[0]:
                 continue
             cost = own + grid.cost(box.grow(1.5))
-            if cost == float("inf") or (far > _TOUCHING and grid.is_crossed(at, nearest(box, at))):
+            if cost == inf or (far > _TOUCHING and grid.is_crossed(at, nearest(box, at))):
                 continue
             if far > _TOUCHING:
                 cost += grid.crossings(nearest(box, at), at)

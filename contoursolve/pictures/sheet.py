@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field, replace
 from enum import Enum
 from math import pi
+from typing import NamedTuple
 
 from contoursolve.pictures.metrics import ASCENT, DESCENT, width_of
 from contoursolve.pictures.theme import Role
@@ -66,9 +67,8 @@ class Run:
     role: Role
 
 
-@dataclass(frozen=True, slots=True)
-class Box:
-    """An upright rectangle."""
+class Box(NamedTuple):
+    """An upright rectangle; thousands are tried for each label."""
 
     left: float
     top: float

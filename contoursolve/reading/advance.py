@@ -1,6 +1,6 @@
 """Follows the modal state through blocks that are not contours."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from decimal import Decimal
 from functools import partial
@@ -79,12 +79,13 @@ def advance(state: State, block: Block, modes: Modes) -> State:
     for word in block.words:
         if word.address == "M" and word.number in modes.calls:
             return state.lose(modes.axes, f"{word.text} calls or ends a subprogram", word.span)
-    for code in codes_of(block, modes):
+    codes = codes_of(block, modes)
+    for code in codes:
         if isinstance(code, Word):
             # Whatever it does, it may do to every axis.
             return state.lose(modes.axes, f"{code.text} is not known to contoursolve", code.span)
     lost = _lost_by_faults(block, modes)
-    effect, reason = _effect(state, block, modes)
+    effect, reason = _effect(state, codes, modes)
     words = [word for word in block.words if _axis(word, modes)]
     if effect is Effect.NO_MOTION:
         return state
@@ -143,9 +144,9 @@ def _axis(word: Word, modes: Modes) -> str:
     return row.axis if row else ""
 
 
-def _effect(state: State, block: Block, modes: Modes) -> tuple[Effect, str]:
-    """What the block does with its axis words, and the reason to give if the position is lost."""
-    for code in codes_of(block, modes):
+def _effect(state: State, codes: Sequence[Code | Word], modes: Modes) -> tuple[Effect, str]:
+    """What a block of these G codes does with its axis words, and the reason to give if the position is lost."""
+    for code in codes:
         if isinstance(code, Word):
             continue
         if code.effect is Effect.SINGLE:

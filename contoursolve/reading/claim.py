@@ -128,6 +128,8 @@ def unused_words(claim: Claim, profile: Profile) -> list[Word]:
 
 def _questions(claim: Claim, asked: frozenset[str], layout: Layout) -> Iterator[Question]:
     """The words that are asked for, each with the fact that it would state about what there is."""
+    if not asked:
+        return
     drawn = {layout.figure.start, *layout.figure.points, *layout.figure.radii}
     facts: dict[str, Fact] = {}
     for row in claim.form.facts:

@@ -95,9 +95,9 @@ def is_refused_by_values(rules: tuple[Rule, ...], roles: Sequence[Role], stated:
 
 def _check_role(rules: tuple[Rule, ...], role: Role, stated: Stated) -> tuple[Offence, ...]:
     by_names, by_values = _rules_of(rules, role.name)
-    offences = _offences_by_names(by_names, role, frozenset(stated))
+    names = role.names(stated)
+    offences = _offences_by_names(by_names, role, frozenset(names.values()))
     if by_values:
-        names = role.names(stated)
         own = {call: stated[name] for call, name in names.items()}
         offences += tuple(_offence(rule, role, own, names) for rule in by_values if rule.holds(own))
     return offences

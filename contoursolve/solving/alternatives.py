@@ -6,7 +6,7 @@ from itertools import pairwise
 from math import inf
 from typing import Any
 
-from contoursolve.analysis import Group, judge, order
+from contoursolve.analysis import judge, order
 from contoursolve.backends import ball
 from contoursolve.backends.angle import direction
 from contoursolve.backends.ball import Number
@@ -20,7 +20,7 @@ from contoursolve.solving.enumerate import Doubt, Enumeration, Found, enumerate_
 from contoursolve.solving.ground import ground_of
 from contoursolve.solving.numbers import corner_of, sizes_of
 from contoursolve.solving.path import check_path
-from contoursolve.solving.prove import prove_found, radius_of
+from contoursolve.solving.prove import Prover, radius_of
 from contoursolve.solving.solution import (
     CornerSolution,
     Point,
@@ -84,7 +84,8 @@ def find_alternatives(profile: Profile) -> Alternatives:
     basis = tuple(system.facts[index] for index in judge(system).basis)
     groups = order(system, basis)
     with ball.precision(ball.WORKING):
-        items = [_alternative(profile, system, groups, found) for found in enumeration.found]
+        prover = Prover(system, groups, ground_of(profile))
+        items = [_alternative(profile, system, prover, found) for found in enumeration.found]
     doubts = enumeration.doubts
     if any(refusal.kind is RefusalKind.NOT_VERIFIED for item in items for refusal in item.solution.refusals):
         doubts = (*doubts, Doubt((), Obstacle.UNDECIDED))
@@ -109,15 +110,14 @@ ARCS = ("short arc", "long arc")
 """The two arcs of one radius and sense between two points: less and more than half a circle."""
 
 
-def _alternative(profile: Profile, system: System, groups: Sequence[Group], found: Found) -> Alternative:
-    ground = ground_of(profile)
-    proof, boxes = prove_found(system, groups, ground, found.scalars, found.signs)
+def _alternative(profile: Profile, system: System, prover: Prover, found: Found) -> Alternative:
+    proof, boxes = prover.prove(found.scalars, found.signs)
     starts = [float(value) for value in profile.start.values if value is not None]
     scalars = {name: ball.middle(value) for name, value in boxes.items()}
     machine = compile_path(system)
     values, points = _path_values(profile, system, boxes)
     out = machine.function(values)
-    at = ground.values(boxes, found.signs, system)
+    at = prover.ground.values(boxes, found.signs, system)
     refusals, remarks = _compare(profile, system, at, scalars)
     if not refusals:
         more, about = check_path(

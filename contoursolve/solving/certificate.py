@@ -36,12 +36,15 @@ class Certificate:
         return self.gap is not None
 
     def __str__(self) -> str:
-        known = {
-            Proof.EXACT: "exact",
-            Proof.UNIQUE: f"the only solution within {self.radius:.0e} mm, proven",
-            Proof.VERIFIED: f"verified, known to {self.radius:.0e} mm",
-            Proof.UNKNOWN: f"unknown ({self.reason})",
-        }[self.proof]
+        match self.proof:
+            case Proof.EXACT:
+                known = "exact"
+            case Proof.UNIQUE:
+                known = f"the only solution within {self.radius:.0e} mm, proven"
+            case Proof.VERIFIED:
+                known = f"verified, known to {self.radius:.0e} mm"
+            case Proof.UNKNOWN:
+                known = f"unknown ({self.reason})"
         return f"double: touches; {known}" if self.is_double else known
 
 
@@ -50,4 +53,7 @@ def up_to_one_digit(value: float) -> float:
     if not 0 < value < inf:
         return value
     digit = 10.0 ** floor(log10(value))
-    return next(number * digit for number in range(1, 11) if number * digit >= value)
+    number = max(1, int(value / digit))
+    while number * digit < value:
+        number += 1
+    return number * digit

@@ -1,16 +1,17 @@
 """Certifies a contour that was solved in closed form: the same steps once more, in exact numbers and balls."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
 from contoursolve.backends import ball
 from contoursolve.backends.ball import Number
 from contoursolve.backends.inputs import COSINE, SINE
-from contoursolve.constraints import Coordinate, System
+from contoursolve.constraints import System
 from contoursolve.model import FIRST, SECOND, Profile, Unit, scalar
 from contoursolve.solving.certificate import Certificate, Proof, up_to_one_digit
 from contoursolve.solving.compile import ProofMachine, compile_proof
+from contoursolve.solving.numbers import axes_of
 
 BITS = 128
 """Bits of the balls: enough for a radius far below the rounding of the floats that are certified."""
@@ -28,14 +29,14 @@ def certify(profile: Profile, system: System, out: Mapping[str, float], bound: f
     """
     proof = _proof_of(system)
     with ball.precision(BITS):
-        inputs = _inputs(profile, system)
+        start = [(ball.exact(value), float(value)) for value in profile.start.values if value is not None]
+        inputs = _inputs(profile, system, [exact for exact, _ in start])
         try:
             results = proof.machine.replay([inputs[name] for name in proof.machine.inputs])
         except (ArithmeticError, ValueError):
             return Certificate(Proof.VERIFIED, bound, "a step cannot be decided in interval arithmetic")
         if any(ball.sign(results[index]) not in signs for index, signs in proof.signs):
             return Certificate(Proof.VERIFIED, bound, "two solutions are too close to be told apart")
-        start = [(ball.exact(value), float(value)) for value in profile.start.values if value is not None]
         places = [(results[index], out[name]) for index, name in proof.radii]
         for index, name, axis in proof.coordinates:
             exact, rounded = start[axis]
@@ -79,11 +80,10 @@ def _proof_of(system: System) -> _Proof:
     )
 
 
-def _inputs(profile: Profile, system: System) -> dict[str, Number]:
+def _inputs(profile: Profile, system: System, start: Sequence[Number]) -> dict[str, Number]:
     """All inputs, as in `solve`: coordinates are counted from the start point."""
-    start = [ball.exact(value) for value in profile.start.values if value is not None]
     inputs: dict[str, Number] = {scalar(system.figure.start, axis): ball.exact(0) for axis in (FIRST, SECOND)}
-    absolute = {fact.given: fact.axis for fact in system.facts if isinstance(fact, Coordinate)}
+    absolute = axes_of(system)
     for name, given in profile.givens.items():
         if given.unit is Unit.DEGREE:
             inputs[name + COSINE], inputs[name + SINE] = ball.direction(given.value)

@@ -126,7 +126,7 @@ def compile_checks(system: System) -> Checked:
     plan, tape = machine.plan, machine.tape.copy()
     known = {name: tape.expression(name) for name in system.unknowns}
     source = Source(system.figure, tape, lookup(system, tape, known | at_origin(system.figure)))
-    basis = largest(tape.expression(f"residual:{number}") for number in range(len(plan.basis)))
+    basis = largest(tape.expression(name) for name in machine.residuals)
     corners = largest(tape.expression(name) for name in machine.corner_residuals)
     pairs = [
         *check_steps(source, plan.steps),

@@ -115,10 +115,12 @@ class _Closing:
         for number, fact in enumerate((*self.basis, *self.checks)):
             self.tape.output(f"residual:{number}", fact.residual(at))
         sides = dict(self._sides(at))
-        residuals = self._path()
+        residuals = tuple(f"residual:{number}" for number in range(len(self.basis)))
+        corner_residuals = self._path()
         if len(self.signs) > MOST_SIGNS:
             raise NoFormulaError(f"it has {2 ** len(self.signs):,} solutions to look at", self.basis, ())
-        machine = Machine(Plan((), self.basis, self.checks), self.tape.finish(), (), residuals, self.tape)
+        plan = Plan((), self.basis, self.checks)
+        machine = Machine(plan, self.tape.finish(), residuals, (), corner_residuals, self.tape)
         return ClosedForm(machine, tuple(self.signs), tuple(self.conditions), sides)
 
     def _at(self, symbols: Mapping[str, Any] | None = None) -> Values:

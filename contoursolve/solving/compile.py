@@ -302,6 +302,8 @@ class Machine:
 
     plan: Plan
     function: Compiled
+    residuals: tuple[str, ...]
+    """Of the basis."""
     slopes: tuple[tuple[int, int, str], ...]
     """(row, column, output) of the Jacobian of the basis by the unknowns."""
     corner_residuals: tuple[str, ...]
@@ -317,8 +319,9 @@ def compile_system(system: System) -> Machine:
     for number, step in enumerate(plan.steps):
         builder.run(step, number)
     slopes = builder.outputs(plan)
-    residuals = builder.path()
-    return Machine(plan, builder.tape.finish(), slopes, residuals, builder.tape)
+    residuals = tuple(f"residual:{number}" for number in range(len(plan.basis)))
+    corner_residuals = builder.path()
+    return Machine(plan, builder.tape.finish(), residuals, slopes, corner_residuals, builder.tape)
 
 
 @dataclass(frozen=True, slots=True)

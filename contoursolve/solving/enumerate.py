@@ -11,7 +11,7 @@ from contoursolve.analysis.generic import witness_of
 from contoursolve.backends import ball
 from contoursolve.backends.ball import Number
 from contoursolve.constraints import System
-from contoursolve.model import Line, Profile, scalar
+from contoursolve.model import Fact, Line, Profile, scalar
 from contoursolve.solving.division import Division, Task, conditions_of, divide
 from contoursolve.solving.elimination import Close, Obstacle, ObstacleError, Root, solve_step
 from contoursolve.solving.ground import Ground, ground_of
@@ -133,6 +133,10 @@ MOST_SOLUTIONS = 512
 """Solutions that are followed; each point that may lie in two places doubles their number."""
 
 
+Sense = tuple[Fact, frozenset[str]]
+"""A fact, and the unknowns that its senses read."""
+
+
 class _Search:
     def __init__(self, system: System, groups: tuple[Group, ...], ground: Ground, close: Close, effort: Effort) -> None:
         self.system = system
@@ -144,6 +148,9 @@ class _Search:
         self.effort = effort
         self.left = effort.intervals
         self.reach = ground.reach(system)
+        self.senses: list[Sense] = [
+            (fact, frozenset(system.unknowns_among(fact.sense_reads()))) for fact in system.facts
+        ]
         lines = [line for line in (*system.figure.path, *system.figure.lines) if isinstance(line, Line)]
         carriers = [line for line in lines if line.name in system.figure.carriers]
         self.runs = [line for line in carriers if line.tail and line.head]
@@ -181,25 +188,38 @@ class _Search:
     def _advance(self, states: Sequence[Found], group: Group) -> _Steps[list[Found]]:
         kernel = make_kernel(self.system, group)
         cases = [Found(state.scalars, signs, state.doubles) for state in states for signs in _choices(state, kernel)]
-        solved = [self._solve(kernel, case) for case in cases]
+        solved = self._solve_each(kernel, cases)
         unsolved = [case for case, roots in zip(cases, solved, strict=True) if roots is None]
         searched = iter((yield from self._search(group, kernel, unsolved)) if unsolved else [])
+        senses = [(fact, names) for fact, names in self.senses if not names.isdisjoint(kernel.unknowns)]
         found: list[Found] = []
         for case, roots in zip(cases, solved, strict=True):
             for root in next(searched) if roots is None else roots:
                 values = {kernel.unknowns[index]: each for index, each in root.values.items()}
                 doubles = case.doubles + (kernel.unknowns if root.is_double else ())
                 after = Found({**case.scalars, **values}, case.signs, doubles)
-                if self._is_possible(after, kernel):
+                if self._is_possible(after, kernel, senses):
                     found.append(after)
         return found
 
-    def _solve(self, kernel: Kernel, case: Found) -> list[Root] | None:
+    def _solve_each(self, kernel: Kernel, cases: Sequence[Found]) -> list[list[Root] | None]:
+        """All solutions of a step for each case. Cases that differ elsewhere alone have the very same numbers here, and
+        are solved once."""
+        solved: dict[tuple[int, ...], list[Root] | None] = {}
+        given = [[self.ground.number(name, case.scalars, case.signs) for name in kernel.parameters] for case in cases]
+        keys = [tuple(map(id, numbers)) for numbers in given]
+        for key, numbers, case in zip(keys, given, cases, strict=True):
+            if key not in solved:
+                witnesses = [witness_of(name, case.signs) for name in kernel.parameters]
+                solved[key] = self._solve(kernel, list(map(Coefficient, numbers, witnesses)))
+        return [solved[key] for key in keys]
+
+    def _solve(self, kernel: Kernel, coefficients: list[Coefficient]) -> list[Root] | None:
         """All solutions of a step; None if it has no closed form."""
         if kernel.coefficients is None:
             return None
         try:
-            roots = solve_step(kernel, self._coefficients(kernel, case.scalars, case.signs), self.close)
+            roots = solve_step(kernel, coefficients, self.close)
         except ObstacleError as error:
             if error.obstacle is Obstacle.NO_CLOSED_FORM:
                 return None
@@ -225,16 +245,9 @@ class _Search:
         self.is_lost = not any(found)
         return found
 
-    def _coefficients(
-        self, kernel: Kernel, scalars: Mapping[str, Number], signs: Mapping[str, int]
-    ) -> list[Coefficient]:
-        return [
-            Coefficient(self.ground.number(name, scalars, signs), witness_of(name, signs)) for name in kernel.parameters
-        ]
-
-    def _is_possible(self, state: Found, kernel: Kernel) -> bool:
+    def _is_possible(self, state: Found, kernel: Kernel, senses: Sequence[Sense]) -> bool:
         """Whether radii are positive and everything runs in its stated sense; what cannot be decided is a doubt."""
-        for value in self._must_be_positive(state, kernel):
+        for value in self._must_be_positive(state, kernel, senses):
             match ball.sign(value):
                 case None:
                     # With all the digits there are, what may still be zero is taken for it, and said so.
@@ -246,13 +259,12 @@ class _Search:
                     return False
         return True
 
-    def _must_be_positive(self, state: Found, kernel: Kernel) -> Iterator[Number]:
+    def _must_be_positive(self, state: Found, kernel: Kernel, senses: Sequence[Sense]) -> Iterator[Number]:
         new = set(kernel.unknowns)
         yield from (state.scalars[name] for name in self.system.figure.radii if name in new)
         at = self.ground.values(state.scalars, state.signs, self.system)
-        for fact in self.system.facts:
-            names = self.system.unknowns_among(fact.sense_reads())
-            if new & set(names) and all(name in state.scalars for name in names):
+        for fact, names in senses:
+            if names <= state.scalars.keys():
                 yield from fact.senses(at)
         for line in self.runs:
             yield from self._run(line, state, new)

@@ -17,6 +17,8 @@ SMALLEST = 1e-4
 that a search looks at: a tenth of the controls' least increment. A circle without a radius is a point, which touches
 and meets whatever passes through it, and a line without a length has any direction."""
 
+_SIDES = {sign: ball.exact(sign) for sign in (1, -1)}
+
 BALLS = Functions(ball.root, ball.cosine, ball.sine)
 
 
@@ -71,7 +73,7 @@ class Ground:
         if found is not None:
             return found
         if name.startswith(SIDE):
-            return ball.exact(signs[name.removeprefix(SIDE)])
+            return _SIDES[signs[name.removeprefix(SIDE)]]
         given, _, part = name.rpartition(":")
         cosine, sine = ball.direction(self.angles[given].value)
         return cosine if f":{part}" == COSINE else sine

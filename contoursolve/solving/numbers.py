@@ -28,7 +28,7 @@ def inputs_at(system: System, start: Start, givens: Iterable[tuple[str, Unit, De
     if first is None or second is None:
         raise ValueError("the start point is not known")
     inputs = {scalar(system.figure.start, axis): 0.0 for axis in (FIRST, SECOND)}
-    absolute = _axes(system)
+    absolute = axes_of(system)
     for name, unit, value in givens:
         if unit is Unit.DEGREE:
             inputs[name + COSINE], inputs[name + SINE] = direction(value)
@@ -40,7 +40,7 @@ def inputs_at(system: System, start: Start, givens: Iterable[tuple[str, Unit, De
 
 
 @lru_cache(maxsize=4096)
-def _axes(system: System) -> Mapping[str, int]:
+def axes_of(system: System) -> Mapping[str, int]:
     """The axis of each given that is a coordinate."""
     places = {scalar(place, axis): axis for place in system.figure.places for axis in (FIRST, SECOND)}
     return places | {fact.given: fact.axis for fact in system.facts if isinstance(fact, Coordinate)}

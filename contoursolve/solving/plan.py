@@ -122,6 +122,7 @@ def _is_affine(fact: Fact, unknowns: set[str], system: System) -> bool:
     return is_affine([fact.residual(lookup(system, tape, {}))], [tape.input(name) for name in sorted(unknowns)])
 
 
+@lru_cache(maxsize=8192)
 def is_closed(system: System) -> bool:
     """Whether a determined system has a plan of steps in closed form."""
     try:

@@ -61,9 +61,9 @@ def solve(profile: Profile, *, is_proven: bool = True) -> Solution:
     verdict = judge(system)
     if not verdict.is_determined:
         raise ValueError(f"not determined: {', '.join(verdict.free)}")
-    tied = frozenset(system.facts[index] for index in verdict.tied)
     attempt = _Attempt(profile, system)
     answer = attempt.answer(is_proven=is_proven)
+    tied = frozenset(system.facts[index] for index in verdict.tied) if attempt.stuck else frozenset()
     if not attempt.stuck & tied:
         # Where it is singular nothing is said twice, and so nothing can stand in for it.
         return answer
@@ -135,9 +135,10 @@ class _Attempt:
                 return self._refused()
         self._check_equations()
         points = {name: self._point(name) for name in (self.system.figure.start, *self.system.figure.points)}
+        sizes = sizes_of(self.profile)
         if not self.refusals:
             refusals, remarks = check_path(
-                self.profile, self.machine.corner_residuals, points, self.out, sizes_of(self.profile), self._resize
+                self.profile, self.machine.corner_residuals, points, self.out, sizes, self._resize
             )
             self.refusals += refusals
             self.remarks += remarks
@@ -148,7 +149,7 @@ class _Attempt:
             self.remarks.append(Remark(RemarkKind.SENSITIVE, "", (), {"limit": ERROR_BOUND_WARNING, "actual": bound}))
         agrees = any(remark.kind is RemarkKind.WORDS_AGREE for remark in self.remarks)
         return replace(
-            solution_at(self.system, self.profile.start, sizes_of(self.profile), self.out),
+            solution_at(self.system, self.profile.start, sizes, self.out),
             status=Status.OVERDETERMINED if agrees else Status.SOLVED,
             remarks=tuple(self.remarks),
             error_bound=bound,
@@ -298,8 +299,7 @@ class _Attempt:
 
     def _check_equations(self) -> None:
         """All original equations: those solved must hold to rounding, the others as well as words can say."""
-        solved = len(self.plan.basis)
-        residuals = [self.out[f"residual:{number}"] for number in range(solved)]
+        residuals = [self.out[name] for name in self.machine.residuals]
         if not all(abs(residual) <= RESIDUAL for residual in residuals):  # true for NaN
             worst = max(residuals, key=lambda residual: abs(residual) if isfinite(residual) else float("inf"))
             self.refusals.append(_refuse(RefusalKind.NOT_VERIFIED, "", (), limit=RESIDUAL, actual=abs(worst)))
@@ -337,9 +337,8 @@ class _Attempt:
         }
         for row, direction_of in self.doubles.items():
             entries |= {(row, unknowns.index(name)): value for name, value in direction_of.items()}
-        coordinates = (*self._point(self.system.figure.start), *(self.out[name] for name in self.system.unknowns))
-        largest = max(1.0, *map(abs, coordinates))
-        worst = max(abs(self.out[f"residual:{number}"]) for number in range(size))
+        largest = max(1.0, *[abs(self.out[name]) for name in unknowns])
+        worst = max([abs(self.out[name]) for name in self.machine.residuals])
         bound = inverse_norm(entries, size) * (worst + ROUNDING * largest) + self.split
         return up_to_one_digit(bound) if isfinite(bound) else inf
 
