@@ -20,6 +20,8 @@ import contoursolve
 
 BLOCK, START = "G111 X100. A180. K-30. B120. P5.", "X40. Z0."
 ROWS = 200_000
+ROUNDS = 5
+"""The quickest counts, for other work slows a short one by half."""
 RNG = np.random.default_rng(1)
 A, P = np.round(RNG.uniform(150, 210, ROWS), 3), np.round(RNG.uniform(0.5, 9, ROWS), 3)
 K, B, X = -30.0, radians(120), 50.0
@@ -195,9 +197,12 @@ def test_contours_a_second_beside_general_tools(capsys: pytest.CaptureFixture[st
         except pytest.skip.Exception as reason:
             missing.append(f"{name}: {reason}")
             continue
-        begin = process_time()
-        found = solve(rows)
-        rates[name] = rows / (process_time() - begin)
+        times = []
+        for _ in range(ROUNDS):
+            begin = process_time()
+            found = solve(rows)
+            times.append(process_time() - begin)
+        rates[name] = rows / min(times)
         is_known = np.isfinite(expected[:rows]).all(axis=1)
         off = [hypot(*each) for each in (found - expected[:rows])[is_known]]
         right[name] = np.mean(np.array(off) < 1e-6)
