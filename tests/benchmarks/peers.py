@@ -3,7 +3,8 @@
     python tests/benchmarks/peers.py 500 7
 
 prints a table for 500 chains of seed 7. A peer is given the facts as its user would give them; what it answers is
-judged by `chains.measure` alone. planegcs (FreeCAD) is not installable here: no wheel, and its sdist does not build.
+judged by `chains.measure` alone. `pip install -e '.[test,peers]'` has them all but planegcs: `by_planegcs.py` says how
+to install it. What is not installed is named below the others.
 """
 
 import importlib.util
@@ -15,6 +16,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from importlib.metadata import version
 from math import radians
 from pathlib import Path
 from random import Random
@@ -26,6 +28,7 @@ import numpy
 from scipy.optimize import least_squares
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
+from by_planegcs import solve_in_plane
 from chains import (
     Chain,
     Fact,
@@ -42,7 +45,6 @@ TRUE = 1e-6
 """mm and degrees. A chain is a solution if no residual is larger."""
 SAME = 1e-3
 """Of a chain's extent. Two solutions this close are one, that an iteration has not quite reached."""
-NOT_INSTALLABLE = {"planegcs": "no wheel; the sdist does not build here"}
 
 
 class Case(NamedTuple):
@@ -314,6 +316,22 @@ class SolveSpace:
         return Attempt((sketch.result(),), says_solved, seconds)
 
 
+# FreeCAD
+
+
+@dataclass(frozen=True)
+class PlaneGCS:
+    algorithm: str = "DogLeg"
+
+    @property
+    def name(self) -> str:
+        return f"planegcs {version('planegcs')} (FreeCAD) {self.algorithm}"
+
+    def solve(self, case: Case) -> Attempt:
+        found, says_solved, seconds = solve_in_plane(case.guess, case.facts, self.algorithm)
+        return Attempt((found,), says_solved, seconds)
+
+
 # SciPy
 
 
@@ -393,11 +411,17 @@ class Ours:
         return Attempt(chains, bool(chains) or drawings.is_complete, seconds, drawings.is_complete)
 
 
-ADAPTERS: list[Adapter] = [SolveSpace(), LeastSquares(), LeastSquares(is_checking=True), LeastSquares("trf"), Ours()]
+OPTIONAL: dict[str, list[Adapter]] = {"slvs": [SolveSpace()], "planegcs": [PlaneGCS(), PlaneGCS("LevenbergMarquardt")]}
+"""By the package that they need."""
+MISSING = [package for package in OPTIONAL if importlib.util.find_spec(package) is None]
+ADAPTERS: list[Adapter] = [
+    *(adapter for package, adapters in OPTIONAL.items() if package not in MISSING for adapter in adapters),
+    LeastSquares(),
+    LeastSquares(is_checking=True),
+    LeastSquares("trf"),
+    Ours(),
+]
 """Append to it what has a `name` and a `solve`."""
-if importlib.util.find_spec("slvs") is None:
-    NOT_INSTALLABLE["slvs"] = "not installed"
-    del ADAPTERS[0]
 
 
 # The table
@@ -467,7 +491,7 @@ def table(rows: Sequence[Row]) -> str:
     """Rows as Markdown."""
     lines = [f"| peer | cases | {' | '.join(CLASSES)} | median ms | slowest ms |", "|---" * 9 + "|"]
     lines += [f"| {' | '.join(map(str, row[:-2]))} | {row.median_ms:.2f} | {row.slowest_ms:.2f} |" for row in rows]
-    lines += [f"| {name} | {why} |{' |' * 7}" for name, why in NOT_INSTALLABLE.items()]
+    lines += [f"| {package} | not installed |{' |' * 7}" for package in MISSING]
     return "\n".join(lines)
 
 
