@@ -5,6 +5,7 @@ import re
 import sys
 
 import click
+import flint
 import numpy as np
 import pytest
 from click.testing import CliRunner
@@ -13,6 +14,7 @@ import contoursolve
 from contoursolve.cli import main
 from contoursolve.cli.varied import read_range
 from contoursolve.families import REASONS, Code, FamilyError, family, sensitivity
+from contoursolve.solving import RefusalKind
 
 LATHE, MILL = {"start": "X40. Z0."}, {}
 _NCT = "G17 G90 {comp} G0 X{x} Y{y}\n"
@@ -168,6 +170,25 @@ def test_the_number_of_threads_changes_nothing():
         assert one[name].tobytes() == two[name].tobytes(), name
 
 
+@pytest.mark.parametrize("name", ["of facts", "a search"])
+def test_nor_where_balls_prove_what_is_found(name, monkeypatch):
+    """The number of their bits is one for the whole process."""
+    monkeypatch.setattr("contoursolve.families.evaluate.STRETCH", 60)
+    block, options, ranges = next(case for key, case in SEVERAL.items() if name in key)
+    values, bits = draw(ranges, 240, 1), flint.ctx.prec
+    one, two = (family(block, vary=values, paired=True, workers=workers, **options) for workers in (1, 2))
+    for column in one.names:
+        assert one[column].tobytes() == two[column].tobytes(), column
+    assert flint.ctx.prec == bits
+
+
+def test_a_value_that_is_refused_does_not_end_a_family():
+    facts = {"facts": ["length of line 1 = 30"], "start": START}
+    found = family("G111 X100. A? K-30. B120. P5.", vary={"length of line 1": [30.0, 0.0, 35.0]}, **facts)
+    codes = [Code.SOLVED, Code.REJECTED, Code.AMBIGUOUS]
+    assert found["status"].tolist() == codes
+
+
 def test_types_are_as_documented_and_reasons_have_names():
     found = family(BLOCK, start=START, vary={"P": [5, 80]})
     assert (found["status"].dtype, found["reason"].dtype, found["V1.Z"].dtype) == (np.uint8, np.uint8, np.float64)
@@ -267,7 +288,11 @@ def test_facts_choices_and_start_points_vary_as_words_do(name):
         answer = contoursolve.solve(text, depth="verdict", **more).answers[0]
         assert Code(int(found["status"][row])).status is answer.status, (text, more)
         seen.add(answer.status)
+        assert found.has_contour[row] == (answer.contour is not None)
         if answer.contour is None:
+            reason = REASONS[found["reason"][row]]
+            is_nowhere = any(each.code == "no-point" for each in answer.diagnostics)
+            assert (reason is RefusalKind.NO_POINT) == is_nowhere, (text, more)
             continue
         assert found["residual"][row] < 1e-9
         for key, value in expected_points(answer):

@@ -31,7 +31,7 @@ from contoursolve.pictures import (
     draw_result,
 )
 from contoursolve.pictures.png import PIXELS
-from contoursolve.pictures.sheet import Box, Stroke, Text
+from contoursolve.pictures.sheet import Box, Shape, Stroke, Text
 from contoursolve.pictures.theme import DARK_COLORS, DASHES, LIGHT_COLORS, Role
 
 PROGRAMS = sorted((Path(__file__).parent.parent / "notebooks" / "programs").glob("*.nc"))
@@ -519,7 +519,7 @@ def test_the_exact_lines_of_a_map_part_single_solves_that_have_a_contour_from_th
         assert any(line.shape == expected.shape and abs(line - expected).max() < 1e-6 for line in drawn)
     # Where cells beside each other are not alike, a line runs between their middles.
     spots = numpy.concatenate([dense(line) for line in drawn])
-    has_contour = numpy.isin(family["status"], (Code.SOLVED, Code.OVERDETERMINED))
+    has_contour = family.has_contour
     first, second = axes.values()
     for row, column in zip(*numpy.nonzero(has_contour[:-1] != has_contour[1:]), strict=True):
         middle = spot_of(((first[row] + first[row + 1]) / 2, second[column]), whole)
@@ -571,8 +571,19 @@ def test_a_region_has_its_lines_with_names_and_teeth_where_there_is_no_contour(n
         family = contoursolve.family(
             block, vary={word: [pair[n] for pair in ends] for n, word in enumerate(names)}, paired=True, **options
         )
-        inside, outside = numpy.isin(family["status"], (Code.SOLVED, Code.OVERDETERMINED))
+        inside, outside = family.has_contour
         assert (inside, outside) == (True, False), ends
+
+
+def test_what_is_refused_is_painted_as_refused_though_words_agree():
+    block = "G111 A135. I10. K-10. B120. Z-40."
+    vary = {"B": numpy.arange(10.0, 90.0, 5), "I": [10.0, 10.0001]}
+    found = contoursolve.family(block, start=START, rules="off", vary=vary)
+    assert (found["status"] == Code.OVERDETERMINED).all()
+    assert not numpy.isfinite(found["V2.X"]).any()
+    picture = draw_family_map(found)
+    shapes = [item for item in picture.sheet.drawing if isinstance(item, Shape)]
+    assert {shape.role for shape in shapes} == {Role.REFUSED_FIELD}
 
 
 def test_a_bar_shows_the_ranges_of_a_word_with_what_ends_them():

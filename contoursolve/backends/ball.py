@@ -4,11 +4,12 @@ A number here is either exact (`fmpq`) or a ball (`arb`); arithmetic mixes them,
 stays exact. Balls have the precision of the innermost `precision` block.
 """
 
-from collections.abc import Iterable, Sequence
-from contextlib import AbstractContextManager
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from decimal import Decimal
 from functools import lru_cache
 from math import inf, nextafter
+from threading import RLock
 from typing import Any
 
 import flint
@@ -21,10 +22,15 @@ WORKING, HIGHEST = 212, 848
 """Bits of a ball's midpoint: four and sixteen times those of a double."""
 
 
-def precision(bits: int) -> AbstractContextManager[None]:
-    """Balls made inside have midpoints of this many bits."""
-    block: AbstractContextManager[None] = flint.ctx.workprec(bits)
-    return block
+_TURN = RLock()
+
+
+@contextmanager
+def precision(bits: int) -> Iterator[None]:
+    """Balls made inside have midpoints of this many bits. It is one number for the whole process, so that one thread
+    at a time is inside."""
+    with _TURN, flint.ctx.workprec(bits):
+        yield
 
 
 def exact(value: Decimal | float) -> Number:

@@ -20,7 +20,7 @@ from contoursolve.families.kinds import Kind
 from contoursolve.model import FIRST, SECOND, Profile, Unit, scalar
 from contoursolve.solving.alternatives import BOTH, sides_of
 from contoursolve.solving.elimination import Close
-from contoursolve.solving.enumerate import DRAWING, Effort, Enumeration, Found, enumerate_many, enumerate_on
+from contoursolve.solving.enumerate import DRAWING, Effort, Enumeration, Found, enumerate_many
 from contoursolve.solving.ground import BALLS, Ground, ground_of
 
 BOX, SMALL_BOX = Effort(4_000, 1_500), Effort(0, 0)
@@ -72,6 +72,14 @@ class Box(Ground):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Place:
+    """Where a solution lies, alone: the bounds of every unknown, and the sides at which elements touch."""
+
+    bounds: Mapping[str, tuple[float, float]]
+    signs: Mapping[str, int]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Cell:
     """Rows with the same solutions, each proven to be alone in its box; None where a single solve must decide.
 
@@ -80,7 +88,7 @@ class Cell:
     """
 
     rows: Rows
-    solutions: tuple[Found, ...] | None
+    solutions: tuple[Place, ...] | None
     is_chosen: tuple[bool, ...] = ()
     is_lost: bool = False
 
@@ -120,26 +128,22 @@ def cells_of(kind: Kind, groups: tuple[Group, ...], values: Mapping[str, Array])
         )
 
 
-def _solve_each(
-    kind: Kind, groups: tuple[Group, ...], rows: Rows, values: Sequence[Mapping[str, float]]
-) -> Iterator[Cell]:
+def _solve_each(kind: Kind, groups: tuple[Group, ...], rows: Rows, values: Sequence[Mapping[str, float]]) -> list[Cell]:
     """A cell for each row; all rows are searched together."""
     with ball.precision(ball.WORKING):
         grounds = [ground_of(kind.at(each)) for each in values]
-        try:
-            enumerations = enumerate_many(grounds, kind.system, groups, Close.REFUSE, ROW)
-        except (ArithmeticError, ValueError):
-            enumerations = []
-        if not enumerations:
-            yield Cell(rows, None)
-        for row, ground, enumeration in zip(rows[:, None], grounds, enumerations, strict=False):
-            yield _cell(kind, row, ground, enumeration)
+        enumerations = enumerate_many(grounds, kind.system, groups, Close.REFUSE, ROW)
+        return [
+            _cell(kind, row, ground, each) if isinstance(each, Enumeration) else Cell(row, None)
+            for row, ground, each in zip(rows[:, None], grounds, enumerations, strict=True)
+        ]
 
 
 def _is_searched(kind: Kind, groups: tuple[Group, ...], values: Mapping[str, float]) -> bool:
-    """Whether the row of these values has a step without a closed form."""
+    """Whether the row of these values has a step without a closed form, or cannot be told to have none."""
     with ball.precision(ball.WORKING):
-        return enumerate_on(ground_of(kind.at(values)), kind.system, groups, Close.DOUBLE, BOX).is_searched
+        (found,) = enumerate_many([ground_of(kind.at(values))], kind.system, groups, Close.DOUBLE, BOX)
+        return not isinstance(found, Enumeration) or found.is_searched
 
 
 def _solve(
@@ -153,13 +157,13 @@ def _solve(
 ) -> Cell:
     with ball.precision(ball.WORKING):
         box = _box(kind, low, high)
-        try:
-            enumeration = enumerate_on(box, kind.system, groups, Close.REFUSE, BOX if is_searched else SMALL_BOX)
-        except (ArithmeticError, ValueError):
+        effort = BOX if is_searched else SMALL_BOX
+        (found,) = enumerate_many([box], kind.system, groups, Close.REFUSE, effort)
+        if not isinstance(found, Enumeration):
             return Cell(rows, None)
-        if enumeration.is_searched and not all(_is_near(each, box, kind.system) for each in enumeration.found):
+        if found.is_searched and not all(_is_near(each, box, kind.system) for each in found.found):
             return Cell(rows, None)
-        return _cell(kind, rows, box, enumeration)
+        return _cell(kind, rows, box, found)
 
 
 def _cell(kind: Kind, rows: Rows, ground: Ground, enumeration: Enumeration) -> Cell:
@@ -177,13 +181,14 @@ def _cell(kind: Kind, rows: Rows, ground: Ground, enumeration: Enumeration) -> C
         return Cell(rows, None)
     if any(each.get(point) == BOTH for each in sides for point in points):
         return Cell(rows, None)
-    items: list[Found] = []
+    items: list[Place] = []
     is_chosen: list[bool] = []
     for each, own in zip(enumeration.found, sides, strict=True):
         fits = {choice: own.get(choice.point) in (choice.side.value, None) for choice in choices}
         # What the form chooses by itself is no alternative.
         if all(fits[choice] for choice in choices if not choice.given):
-            items.append(each)
+            bounds = {name: ball.bounds(value) for name, value in each.scalars.items()}
+            items.append(Place(bounds, each.signs))
             is_chosen.append(all(fits.values()))
     return Cell(rows, tuple(items), tuple(is_chosen), enumeration.is_lost)
 

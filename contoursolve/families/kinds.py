@@ -10,18 +10,18 @@ from contoursolve.analysis import judge
 from contoursolve.backends.chart import Following
 from contoursolve.backends.columns import Array, difference, directions
 from contoursolve.backends.inputs import COSINE, SINE
-from contoursolve.constraints import Coordinate, System, assemble
+from contoursolve.constraints import System, assemble
 from contoursolve.diagnostic import Basis, Severity
 from contoursolve.examine import MOST_CHOICES, Answer, count_choices
 from contoursolve.families.ranges import FamilyError, Places, Ranges
 from contoursolve.families.template import Template, is_same, unit_word
-from contoursolve.model import FIRST, SECOND, Given, Profile, Start, Unit, scalar
+from contoursolve.model import Given, Profile, Start, Unit
 from contoursolve.reading import Trouble
 from contoursolve.rules import Rule, Value
 from contoursolve.solving import RemarkKind, Solution, Status, is_closed, points_with_two_solutions
 from contoursolve.solving.checks import Check, compile_checks
 from contoursolve.solving.compile import Machine, compile_system
-from contoursolve.solving.numbers import inputs_of
+from contoursolve.solving.numbers import axes_of, inputs_of
 from contoursolve.solving.solve import solve
 from contoursolve.solving.verdict import Codes
 from contoursolve.syntax import FACT, Word
@@ -102,10 +102,9 @@ class Kind:
         return inputs_of(self.profile, self.system) | start
 
     @property
-    def _counted(self) -> dict[str, int]:
+    def _counted(self) -> Mapping[str, int]:
         """The axis of each value that is stated as a coordinate, which counts from the start point inside."""
-        places = {scalar(place, axis): axis for place in self.system.figure.places for axis in (FIRST, SECOND)}
-        return places | {fact.given: fact.axis for fact in self.system.facts if isinstance(fact, Coordinate)}
+        return axes_of(self.system)
 
     @property
     def varied(self) -> tuple[str, ...]:
@@ -277,12 +276,16 @@ def kind_of(template: Template, values: Mapping[str, float], answer: Answer | No
     vary."""
     answer = answer or template.solve(values)
     moving = [name for name, word in template.words.items() if not list(_stated_by(word, answer.profile))]
+    words = {name: word for name, word in template.words.items() if name not in moving}
+    kind = kind_in(answer, words, values)
+    if kind.status is not None:
+        # What is refused may not even state the value.
+        return kind
     moves = {axis: move for name in moving for axis, move in _moves(template, values, name, answer)}
     idle = [template.words[name].text for name in moving if name not in [word for word, _, _ in moves.values()]]
-    if idle and _verdict(answer) is None:
+    if idle:
         raise FamilyError(f"{idle[0]} cannot vary: the contour has no value of it")
-    words = {name: word for name, word in template.words.items() if name not in moving}
-    return replace(kind_in(answer, words, values), moves=moves)
+    return replace(kind, moves=moves)
 
 
 def _moves(

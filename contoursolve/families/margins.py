@@ -35,7 +35,8 @@ class Margins:
         return numpy.array([[each.test is Test.APART] for each in self.checks])
 
     def failing(self, values: Array) -> NDArray[numpy.bool_]:
-        """Which checks fail, by (check, place). NaN fails."""
+        """Which checks fail, by (check, place). NaN fails, and a margin that is just at its limit passes, whatever the
+        test says of these: ends are looked at by single solves."""
         size = numpy.where(self.is_apart, numpy.abs(values), values)
         return ~numpy.where(self.is_apart, size > self.limits, size >= self.limits)
 

@@ -184,11 +184,10 @@ class Field:
             is_level = numpy.nan_to_num(numpy.abs(at_nodes)).max(axis=1) <= LEVEL
             bounds = chart.between(words, branch.fixed)
             passes, fails = margins.verdicts(bounds, is_level)
-            rest = numpy.flatnonzero(~(passes | fails))
-            if rest.size:
+            rest = ~(passes | fails)
+            if rest.any():
                 part = [Intervals(each.low[rest], each.high[rest]) for each in words]
-                is_rest = ~(passes | fails)
-                finer = chart.narrowed(bounds[is_rest], part, branch.fixed)
+                finer = chart.narrowed(bounds[rest], part, branch.fixed)
                 passes[rest], fails[rest] = margins.verdicts(finer, is_level)
             undecided |= ~(passes | fails)
             passing += passes

@@ -18,11 +18,12 @@ from contoursolve.families.examples import Examples, Kinds
 from contoursolve.families.kinds import ORIGIN, Input, Kind
 from contoursolve.families.ranges import Places, Ranges, Stretches
 from contoursolve.families.recipe import Recipe
-from contoursolve.families.results import Results, Shown, branches_of, fill_row, names_of, results_of, shown_as
+from contoursolve.families.results import Behind, Results, fill_row, names_of, results_of, shown_as, sides_of_choice
 from contoursolve.families.several import BLOCK, Several, asked_of
-from contoursolve.solving.checks import compile_checks
+from contoursolve.solving import RefusalKind
+from contoursolve.solving.checks import NO_PLACE, compile_checks
 from contoursolve.solving.plan import Step, TwoCirclesStep
-from contoursolve.solving.verdict import Code, Verdict, code_of
+from contoursolve.solving.verdict import Code, Verdict, code_of, reason_of
 from contoursolve.tolerance import TOUCHING
 
 Table = dict[str, NDArray[Any]]
@@ -33,6 +34,10 @@ _NEEDED = ("passed", "margin:", "cosine:", "worst")
 
 _HALVES = ("offset:", "radius:", "scale:")
 """What tells that the two places of the centre of a half circle are one."""
+
+
+_NOWHERE = [reason_of(kind) for kind in (None, *NO_PLACE)]
+"""Reasons of places that do not exist; where that is so of all, no point satisfies the block."""
 
 
 @dataclass(slots=True, eq=False)
@@ -61,7 +66,7 @@ class Sweep:
         found: dict[str, type[numpy.generic]] = {"status": numpy.uint8, "reason": numpy.uint8}
         for kind in self.kinds:
             if kind.status is None:
-                found |= {f"branch.{point}": numpy.int8 for point in branches_of(kind)}
+                found |= {f"branch.{point}": numpy.int8 for point in sides_of_choice(kind)}
         for kind in self.kinds:
             if kind.status is None:
                 found |= dict.fromkeys((*results_of(kind), *asked_of(kind)), numpy.float64)
@@ -134,7 +139,7 @@ class Sweep:
             for output, name in names.items():
                 table[name][target] = out[output]
         verdict = Verdict(kind.checks, out, rows)
-        for point, side in branches_of(kind).items():
+        for point, side in sides_of_choice(kind).items():
             table[f"branch.{point}"][target] = verdict.is_clear.view(numpy.int8) * numpy.int8(side)
         table["status"][target] = verdict.status
         table["reason"][target] = verdict.reason
@@ -153,7 +158,7 @@ class Sweep:
         several: Several = made[number]
         settled = several.solve(ranges, places)
         table["status"][target], table["reason"][target] = settled.status, settled.reason
-        for point, side in branches_of(kind).items():
+        for point, side in sides_of_choice(kind).items():
             table[f"branch.{point}"][target] = numpy.where(settled.is_path, side, 0)
         shown = numpy.flatnonzero(settled.is_shown)
         for first, last in Stretches(shown.size, ROWS):
@@ -175,7 +180,7 @@ class Sweep:
         function, inputs = self._function(number, kind), self._inputs(number, kind, ranges)
         names, plan, rows = names_of(kind), kind.machine.plan, target.size
         count, again = numpy.zeros(rows, numpy.int64), numpy.zeros(rows, bool)
-        reason = numpy.zeros(rows, numpy.uint8)
+        reason = numpy.full(rows, reason_of(RefusalKind.NO_POINT), numpy.uint8)
         sides = [function.compiled.fixed.index(f"side:{point}") for point in kind.open_points]
         for place, name in enumerate(function.compiled.varied):
             inputs[name].fill(places, function.inputs[place, :rows])
@@ -185,7 +190,8 @@ class Sweep:
             verdict = Verdict(kind.checks, out, rows)
             is_path = verdict.is_clear
             again |= verdict.again | _halves(plan.steps, out, rows)
-            reason = numpy.where(reason == 0, verdict.reason, reason)
+            is_first = (reason == reason_of(RefusalKind.NO_POINT)) & ~numpy.isin(verdict.reason, _NOWHERE)
+            reason = numpy.where(is_first, verdict.reason, reason)
             shown = numpy.flatnonzero(is_path & (count == 0))
             count += is_path
             for output, name in names.items():
@@ -197,7 +203,7 @@ class Sweep:
             numpy.minimum(count, 2), (Code.NO_SOLUTION, Code.SOLVED, Code.AMBIGUOUS)
         ).astype(numpy.uint8)
         table["reason"][target] = numpy.where(count == 0, reason, 0)
-        for point, side in branches_of(kind).items():
+        for point, side in sides_of_choice(kind).items():
             table[f"branch.{point}"][target] = numpy.where(count == 1, side, 0)
         if again.any():
             for name in names.values():
@@ -238,7 +244,7 @@ def _halves(steps: Sequence[Step], out: Results, rows: int) -> NDArray[numpy.boo
 
 
 @lru_cache(maxsize=64)
-def _compile(system: System, varied: frozenset[str], shown: tuple[Shown, ...], is_open: bool) -> ColumnFunction:
+def _compile(system: System, varied: frozenset[str], shown: tuple[Behind, ...], is_open: bool) -> ColumnFunction:
     """The function of a system for columns: what the verdict reads, and the results as they are shown."""
     checked = compile_checks(system)
     tape = checked.tape

@@ -61,6 +61,12 @@ class Family(Shown):
     def __len__(self) -> int:
         return self.ranges.count
 
+    @property
+    def has_contour(self) -> NDArray[numpy.bool_]:
+        """Where there is a contour: solved, or with words that agree; and nothing speaks against it."""
+        is_solved = (self["status"] <= Code.OVERDETERMINED) & (self["reason"] == 0)
+        return numpy.asarray(is_solved)
+
     def summary(self) -> dict[Status, int]:
         """How many rows have each status, without those that none has."""
         return summary_of(numpy.bincount(self.columns["status"], minlength=len(Code)))

@@ -1,6 +1,7 @@
 """The results of a kind of row: which there are, what they are called, and those of a single solve."""
 
 from collections.abc import Mapping
+from math import isfinite, nan
 from typing import Any
 
 from numpy.typing import NDArray
@@ -13,7 +14,7 @@ from contoursolve.solving.verdict import code_of, reason_of
 Results = Mapping[str, NDArray[Any]]
 """Columns by name."""
 
-Shown = tuple[str, int | None]
+Behind = tuple[str, int | None]
 """The output behind a result, and the axis of a coordinate: inside they count from the start point."""
 
 
@@ -27,13 +28,13 @@ def names_of(kind: Kind) -> dict[str, str]:
     return {"worst": "residual"} | {shown_as(output): name for name, (output, _) in results_of(kind).items()}
 
 
-def branches_of(kind: Kind) -> dict[str, int]:
+def sides_of_choice(kind: Kind) -> dict[str, int]:
     """The sides that the words choose, by the point: +1 farther or left, -1 nearer or right."""
     shown = kind.profile.intersections
     return {choice.point: choice.side.sign for choice in kind.profile.choices if choice.given and choice.point in shown}
 
 
-def results_of(kind: Kind) -> dict[str, Shown]:
+def results_of(kind: Kind) -> dict[str, Behind]:
     """The output behind each result, and the axis of a coordinate: inside they count from the start point."""
     figure = kind.system.figure
     axes = list(zip((FIRST, SECOND), kind.profile.plane.axes, strict=True))
@@ -54,6 +55,9 @@ def fill_row(kind: Kind, values: Mapping[str, float], row: int, table: Results) 
     table["status"][row] = code_of(solution.status)
     table["reason"][row] = reason_of(solution.refusals[0].kind if solution.refusals else None)
     if not solution.points:
+        for name in (*(name for name in table if name.endswith(".room")), "residual"):
+            # A room without points is none.
+            table[name][row] = table[name][row] if isfinite(table[name][row]) else nan
         return
     letters = kind.profile.plane.axes
     for radius, value in solution.radii.items():
@@ -67,5 +71,5 @@ def fill_row(kind: Kind, values: Mapping[str, float], row: int, table: Results) 
         for letter, value in zip(letters, pair, strict=True):
             table[f"{name}.{letter}"][row] = value
     touching = {remark.subject for remark in solution.remarks if remark.kind is RemarkKind.TOUCHES}
-    for point, side in branches_of(kind).items():
+    for point, side in sides_of_choice(kind).items():
         table[f"branch.{point}"][row] = 0 if point in touching else side

@@ -7,7 +7,6 @@ import numpy
 from numpy.typing import NDArray
 
 from contoursolve.analysis import Group, judge, order
-from contoursolve.backends import ball
 from contoursolve.backends.columns import ROWS, Array, Columns, columns_of, compile_columns, directions
 from contoursolve.backends.inputs import COSINE, SIDE, SINE, lookup
 from contoursolve.backends.numeric import Tape, largest
@@ -159,7 +158,7 @@ class Several:
                 rows.append(cell.rows)
                 chosen.append(numpy.full(cell.rows.size, is_chosen))
                 for name in names:
-                    low, high = ball.bounds(found.scalars[name])
+                    low, high = found.bounds[name]
                     middles[name].append(numpy.full(cell.rows.size, (low + high) / 2))
                     radii[name].append(numpy.full(cell.rows.size, (high - low) / 2))
                 for side, sign in found.signs.items():

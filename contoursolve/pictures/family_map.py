@@ -19,6 +19,7 @@ COLUMNS, ROWS = 305, 200
 """Cells of a map; of more values, the one nearest to the middle of each cell is shown."""
 
 _FIELDS = {Code.SOLVED: Role.SOLVED_FIELD, Code.OVERDETERMINED: Role.SOLVED_FIELD, Code.NO_SOLUTION: Role.REFUSED_FIELD}
+"""How an outcome without a reason against it is painted; with one, there is no contour."""
 _OVER = 0.6
 """Pixels by which a field reaches under the next, so that the paper does not shine through between them."""
 
@@ -99,18 +100,25 @@ def _fields(shown: Outcomes) -> list[Item]:
         cuts = [0, *(numpy.flatnonzero(numpy.diff(shown[begin])) + 1).tolist(), shown.shape[1]]
         top, bottom = TOP + begin * high, min(TOP + row * high + _OVER, TOP + HIGH)
         for first, last in pairwise(cuts):
-            role = _FIELDS.get(Code(int(shown[begin, first]) // len(REASONS)), Role.OTHER_FIELD)
+            role = _field(int(shown[begin, first]))
             left, right = LEFT + first * wide, min(LEFT + last * wide + _OVER, LEFT + WIDE)
             items.append(Shape(((left, top), (right, top), (right, bottom), (left, bottom)), role))
         begin = row
     return items
 
 
+def _field(outcome: int) -> Role:
+    """How an outcome is painted."""
+    code, reason = divmod(outcome, len(REASONS))
+    role = _FIELDS.get(Code(code), Role.OTHER_FIELD)
+    return Role.REFUSED_FIELD if reason and role is Role.SOLVED_FIELD else role
+
+
 def _boundaries(shown: Outcomes, curves: Sequence[Curve]) -> list[Stroke]:
     """Lines between fields, each as long as it is straight; where an exact line says the same, only that."""
     wide, high = _cell(shown)
     close = near(curves, *shown.shape)
-    has_contour = numpy.isin(shown // len(REASONS), [code for code in Code if _FIELDS.get(code) is Role.SOLVED_FIELD])
+    has_contour = numpy.isin(shown, [each for each in numpy.unique(shown) if _field(int(each)) is Role.SOLVED_FIELD])
     role, width = (Role.MUTED, 1.0) if curves else (Role.INK, 1.4)
     items: list[Stroke] = []
     edges = (shown[1:] != shown[:-1]) & ~((close[1:] | close[:-1]) & (has_contour[1:] != has_contour[:-1]))

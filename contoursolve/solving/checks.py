@@ -41,7 +41,7 @@ class Test(Enum):
     ABOVE = "above"
     """The margin is more than the limit."""
     NOT_BELOW = "not below"
-    """The margin is not less than the limit; what is not a number passes, and fails a later check."""
+    """The margin is not less than the limit; what is not a number passes, and fails another check."""
     APART = "apart"
     """The margin is farther from zero than the limit, on either side."""
 
@@ -78,6 +78,15 @@ class Check:
     opposite: RefusalKind | None = None
     """What is refused instead where both directions at the corner are opposite."""
 
+
+NO_PLACE = (
+    RefusalKind.CIRCLE_MISSED,
+    RefusalKind.RADIUS_TOO_SMALL,
+    RefusalKind.CIRCLES_APART,
+    RefusalKind.CIRCLE_UNDEFINED,
+    RefusalKind.NOT_VERIFIED,
+)
+"""What is refused where a step of the construction has no solution."""
 
 Checks = Iterator[tuple[Check, Any]]
 """Checks with their margins, mm but for turns and landings (1)."""
@@ -218,8 +227,8 @@ def check_facts(source: Source, facts: Sequence[Fact], first: int) -> Checks:
     for number, fact in enumerate(facts, first):
         is_doubtful = bool(fact.given) and not isinstance(fact, Coordinate | Offset | Radius | Heading)
         for kind, subject, margin in _compare(source, fact, source.out(f"residual:{number}")):
-            least = Test.AT_LEAST
-            yield Check(kind, subject, "", least, 0.0, (), Role.FACT, is_doubtful, fact.given), margin
+            agrees = Test.NOT_BELOW
+            yield Check(kind, subject, "", agrees, 0.0, (), Role.FACT, is_doubtful, fact.given), margin
 
 
 def _compare(source: Source, fact: Fact, off: Any) -> Iterator[tuple[RefusalKind, str, Any]]:

@@ -97,15 +97,23 @@ def enumerate_on(
 ) -> Enumeration:
     """All solutions on a ground, with the balls of the precision that is set. Where the ground is a whole box of
     values, each one is proven for all of them."""
-    return enumerate_many([ground], system, groups, close, effort)[0]
+    (found,) = enumerate_many([ground], system, groups, close, effort)
+    if not isinstance(found, Enumeration):
+        raise found
+    return found
+
+
+Undecidable = ArithmeticError | ValueError
+"""What numbers raise that are too wide to decide by."""
 
 
 def enumerate_many(
     grounds: Sequence[Ground], system: System, groups: tuple[Group, ...], close: Close, effort: Effort
-) -> list[Enumeration]:
-    """All solutions on each ground; what has no closed form is searched for on all of them together."""
+) -> list[Enumeration | Undecidable]:
+    """All solutions on each ground, or the error in which the search ended; what has no closed form is searched for on
+    all of them together."""
     searches = [_Search(system, groups, ground, close, effort).run() for ground in grounds]
-    found: dict[int, Enumeration] = {}
+    found: dict[int, Enumeration | Undecidable] = {}
     waiting: dict[int, tuple[Group, Task]] = {}
 
     def go_on(number: int, step: Callable[[], tuple[Group, Task]]) -> None:
@@ -113,6 +121,8 @@ def enumerate_many(
             waiting[number] = step()
         except StopIteration as end:
             found[number] = end.value
+        except (ArithmeticError, ValueError) as error:
+            found[number] = error
 
     for number, search in enumerate(searches):
         go_on(number, search.__next__)
@@ -129,12 +139,11 @@ _Result = TypeVar("_Result")
 _Steps = Generator[tuple[Group, Task], tuple[list[Division], int], _Result]
 """Stops where a step has no closed form, and goes on with what its task leads to."""
 
-MOST_SOLUTIONS = 512
-"""Solutions that are followed; each point that may lie in two places doubles their number."""
-
-
 Sense = tuple[Fact, frozenset[str]]
 """A fact, and the unknowns that its senses read."""
+
+MOST_SOLUTIONS = 512
+"""Solutions that are followed; each point that may lie in two places doubles their number."""
 
 
 class _Search:

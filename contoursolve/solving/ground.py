@@ -6,8 +6,9 @@ from dataclasses import dataclass
 from contoursolve.backends import ball
 from contoursolve.backends.ball import Number
 from contoursolve.backends.inputs import COSINE, SIDE
-from contoursolve.constraints import Coordinate, Functions, System, Values
+from contoursolve.constraints import Functions, System, Values
 from contoursolve.model import FIRST, SECOND, Given, Profile, Unit, scalar
+from contoursolve.solving.numbers import axes_of
 
 REACH = 4.0
 """How many times as far as anything that is given a search goes."""
@@ -42,8 +43,7 @@ class Ground:
         least `SMALLEST`.
         """
         starts = [ball.middle(self.scalars.get(scalar(system.figure.start, axis), ball.exact(0.0))) for axis in (0, 1)]
-        absolute = {fact.given: fact.axis for fact in system.facts if isinstance(fact, Coordinate)}
-        absolute |= {scalar(place, axis): axis for place in system.figure.places for axis in (0, 1)}
+        absolute = axes_of(system)
         sizes = [
             abs(ball.middle(value) - (starts[absolute[name]] if name in absolute else 0.0))
             for name, value in self.amounts.items()
