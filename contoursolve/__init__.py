@@ -139,9 +139,14 @@ _ROOMS = {
 }
 """Where the public names live; the others are in `api`."""
 
+_PACKAGES = ("families", "pictures")
+"""Rooms with public names of their own."""
+
 
 def __getattr__(name: str) -> Any:
     """A public name, imported when it is first used: `import contoursolve` itself costs nothing."""
+    if name in _PACKAGES:
+        return import_module(f"{__name__}.{name}")
     if name not in __all__:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     room = next((room for room, names in _ROOMS.items() if name in names), "api")
@@ -151,4 +156,4 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return [*globals(), *__all__]
+    return [*globals(), *_PACKAGES, *__all__]
