@@ -48,9 +48,8 @@ from contoursolve.spelling import (
     explain_spelling,
     explain_start,
     explain_unmarked,
-    tell_points,
-    without_point,
 )
+from contoursolve.unpointed import start_without_point, tell_points, without_point
 
 if TYPE_CHECKING:
     from contoursolve.solving.alternatives import Alternatives
@@ -195,6 +194,7 @@ def examine(
     for offence in ignoring:
         notebook.add(explain_ignored(context, offence, profile, solution))
     notebook.findings += without_point(context, claim, notebook.findings)
+    notebook.findings += start_without_point(context, claim, notebook.findings)
 
     is_path = bool(solution.points) and notebook.status in (Status.SOLVED, Status.OVERDETERMINED)
     contour = trace(profile, solution) if is_path else None

@@ -71,8 +71,8 @@ class Result(Shown):
         return any(each.severity is Severity.ERROR for each in self.diagnostics)
 
     def place(self, span: Span) -> Span:
-        """The place itself, or for a fact stated apart from the program the block that it is about."""
-        if span.line >= 0:
+        """The place itself, or for what was stated apart from the program the block that it is about."""
+        if span.line > 0:
             return span
         lines = [answer.lines[-1] for answer in self.answers]
         blocks = [block for block in self.program.blocks if block.words or block.line in lines]

@@ -1,17 +1,17 @@
 """Findings about characters, words and positions, before the equations are looked at."""
 
-from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterator, Sequence
 from dataclasses import replace
 from decimal import Decimal
 
-from contoursolve.diagnostic import Basis, Diagnostic, Label, Severity
+from contoursolve.diagnostic import Basis, Diagnostic, Label
 from contoursolve.explain import Context, report
-from contoursolve.model import Given, Length, Unit
+from contoursolve.model import Length
 from contoursolve.reading import Claim, Lexicon, Trouble
 from contoursolve.source import Span
 from contoursolve.syntax import Block, Fault, Word, find_lookalikes
 from contoursolve.tolerance import LARGEST
-from contoursolve.wording import angle_text, join, length_text
+from contoursolve.wording import length_text
 
 
 def explain_spelling(context: Context, claim: Claim) -> Iterator[Diagnostic]:
@@ -152,77 +152,3 @@ def explain_skippable(context: Context, claim: Claim) -> Iterator[Diagnostic]:
     skippable = {block.is_skippable for block in claim.blocks}
     if len(skippable) > 1 or any(claim.before.axes[axis].is_skippable for axis in claim.before.plane.axes):
         yield report(context, context.row(Trouble.SKIPPABLE_START), Basis.RULE, [])
-
-
-_FULL_TURN, _MANY_INCREMENTS = 360, 1_000
-"""A number that is no larger says a direction in degrees, or a length under 1 mm in least increments."""
-
-
-def without_point(context: Context, claim: Claim, findings: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
-    """Words that are read in least increments because they have no decimal point: each where others have one, and all
-    together where none has and the values are hardly meant like this."""
-    counted = _counted(context, claim)
-    words = list(counted)
-    rule = context.row(Trouble.POINT_MISSING)
-    if any(given.word and given.word.number and given.word.has_point for given in claim.givens.values()):
-        for word, value in counted.items():
-            yield report(context, rule, Basis.RULE, [word], are="is", have="has", actual=value)
-    elif words and _is_slip(claim, words, has_error=any(each.severity is Severity.ERROR for each in findings)):
-        several = len(words) > 1
-        values = join(list(counted.values()))
-        yield report(
-            context,
-            rule,
-            Basis.RULE,
-            words,
-            are="are" if several else "is",
-            have="have" if several else "has",
-            actual=values,
-        )
-
-
-def tell_points(context: Context, claim: Claim, findings: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
-    """Findings, the errors about a word that lacks its point with how it was read, before what else may be done."""
-    findings = list(findings)
-    lacking = {label.span for each in findings if each.about is Trouble.POINT_MISSING for label in each.labels}
-    counted = (
-        {word: value for word, value in _counted(context, claim).items() if word.span in lacking} if lacking else {}
-    )
-    for finding in findings:
-        spans = {label.span for label in finding.labels}
-        blamed = {word: value for word, value in counted.items() if word.span in spans}
-        if not blamed or finding.severity is Severity.INFO or finding.basis is not Basis.NUMERICAL:
-            yield finding
-            continue
-        notes = tuple(f"{word.text} is read as {value}: it has no decimal point" for word, value in blamed.items())
-        meant = join([f"{word.text}." for word in blamed])
-        yield replace(finding, notes=notes + finding.notes, help=f"write {meant} if that is meant; else {finding.help}")
-
-
-def _counted(context: Context, claim: Claim) -> Mapping[Word, str]:
-    """The words of a contour that count least increments, each with its value in the order of the block."""
-    counted = {}
-    pointless = [each for each in claim.givens.values() if each.word and not each.word.has_point]
-    for given in sorted(pointless, key=_place):
-        word = given.word
-        if word is None or not word.number or given.unit is Unit.SIGN:
-            continue
-        typed = given.value * 2 if given.is_diameter else given.value
-        if abs(typed) < abs(word.number):
-            is_length = given.unit is Unit.MM
-            counted[word] = length_text(float(typed), context.unit) if is_length else angle_text(float(typed))
-    return counted
-
-
-def _place(given: Given) -> Span:
-    return given.word.span if given.word else Span(0, 0, 0)
-
-
-def _is_slip(claim: Claim, words: Sequence[Word], *, has_error: bool) -> bool:
-    """Whether words without any point mean what they say: their angles would be directions in degrees, or without
-    an angle a block that is refused would have no length of 1 mm."""
-    angles = [word for word in words if claim.lexicon.addresses[word.address].unit is Unit.DEGREE]
-    most = _FULL_TURN if angles else _MANY_INCREMENTS
-    return (bool(angles) or has_error) and all(
-        word.number is None or abs(word.number) <= most for word in angles or words
-    )

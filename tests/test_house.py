@@ -27,7 +27,7 @@ FLOORS = (
     "contour posts reliance numbering wording",
     "beyond carried",
     "emit explain sketch",
-    "spelling",
+    "spelling unpointed",
     "examine",
     "dialects",
     "diagnosis",
