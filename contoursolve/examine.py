@@ -404,6 +404,7 @@ def _examine_system(context: Context, claim: Claim, profile: Profile) -> Iterato
             yield Status.CONFLICTING, report(context, rule, Basis.STRUCTURAL, words, subject=name)
 
 
-def rank(finding: Diagnostic) -> tuple[int, int, Span, str]:
-    """By line, the worst first."""
-    return finding.span.line, list(Severity).index(finding.severity), finding.span, finding.code
+def rank(finding: Diagnostic) -> tuple[int, int, bool, Span, str]:
+    """By line, the worst first, and what follows from lines before after what does not."""
+    follows = finding.about is Trouble.POSITION_UNKNOWN
+    return finding.span.line, list(Severity).index(finding.severity), follows, finding.span, finding.code

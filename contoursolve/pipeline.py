@@ -32,6 +32,7 @@ from contoursolve.spelling import (
     explain_start_units,
     explain_unmarked,
     explain_words,
+    faults_of,
 )
 from contoursolve.syntax import (
     Block,
@@ -377,7 +378,7 @@ class _Examiner:
 
     def _check_block(self, block: Block) -> None:
         context = Context(self.rules, self.unit, place=block.span)
-        for fault in block.faults:
+        for fault in faults_of(block):
             finding = explain_fault(context, fault, block)
             if fault.kind in _FAULTS_OF_NO_CONSEQUENCE:
                 finding = replace(finding, severity=Severity.WARNING)

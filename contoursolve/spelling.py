@@ -7,17 +7,17 @@ from decimal import Decimal
 from contoursolve.diagnostic import Basis, Diagnostic, Label
 from contoursolve.explain import Context, report
 from contoursolve.model import Length
-from contoursolve.reading import Claim, Lexicon, Trouble
+from contoursolve.reading import Claim, Lexicon, Position, Trouble
 from contoursolve.source import Span
-from contoursolve.syntax import Block, Fault, Word, find_lookalikes
+from contoursolve.syntax import Block, Fault, Lookalike, Word, find_lookalikes
 from contoursolve.tolerance import LARGEST
-from contoursolve.wording import length_text
+from contoursolve.wording import join, length_text
 
 
 def explain_spelling(context: Context, claim: Claim) -> Iterator[Diagnostic]:
     """What keeps the words of a contour from being read: nothing can be said of what they mean then."""
     words = [word for block in claim.blocks for word in block.words]
-    yield from (explain_fault(context, fault, block) for block in claim.blocks for fault in block.faults)
+    yield from (explain_fault(context, fault, block) for block in claim.blocks for fault in faults_of(block))
     yield from explain_words(context, claim.lexicon, claim.repeated, words)
     yield from _explain_unknown(context, claim)
     yield from _explain_asked(context, claim)
@@ -66,19 +66,55 @@ def _answerable(claim: Claim) -> set[str]:
     return {row.fact.given for row in claim.form.facts} | sizes | set(claim.form.choices)
 
 
+def faults_of(block: Block) -> Iterator[Fault]:
+    """The faults of a block; of those that letters for digits make in one word, the first."""
+    told: set[Span] = set()
+    for fault in block.faults:
+        meant = meant_at(block, fault.span)
+        if meant is None or meant.span not in told:
+            yield fault
+        told |= {meant.span} if meant else set()
+
+
 def explain_fault(context: Context, fault: Fault, block: Block) -> Diagnostic:
     """Characters of a block that are not a word."""
     shown = Word(fault.text[:1], None, False, fault.text.strip(), fault.span)
     finding = report(context, context.row(fault.kind), Basis.RULE, [shown])
-    meant = _with_digits(block, fault.span)
-    advice = f"{meant} if that is meant; else {finding.help}" if meant else finding.help
-    return replace(finding, help=advice, addresses=(fault.address,) if fault.address else ())
+    finding = replace(finding, addresses=(fault.address,) if fault.address else ())
+    meant = meant_at(block, fault.span)
+    if meant is None:
+        return finding
+    advice = f"write {meant.new} for {meant.old} if that is meant; else {finding.help}"
+    return replace(finding, message=_ask_for_digits(meant), help=advice)
 
 
-def _with_digits(block: Block, place: Span) -> str:
-    """What to write for a word at a place of a block, some letters of which look like digits; empty if none do."""
-    found = next((each for each in find_lookalikes(block) if each.covers(place)), None)
-    return f"write {found.new} for {found.old}" if found else ""
+def meant_at(block: Block, place: Span) -> Lookalike | None:
+    """The word at a place of a block, some letters of which look like digits; None unless all there is of such
+    words."""
+    found = find_lookalikes(block)
+    columns = range(place.column, place.end_column)
+    text = {column: block.text[column - 1 : column] for column in columns}
+    rest = (column for column in columns if not text[column].isspace())
+    if not all(any(each.span.column <= column < each.span.end_column for each in found) for column in rest):
+        return None
+    return next((each for each in found if each.covers(place)), None)
+
+
+def _ask_for_digits(meant: Lookalike) -> str:
+    """Whether digits are meant by letters."""
+    pairs = dict(pair for pair in zip(meant.old, meant.new, strict=True) if pair[0] != pair[1])
+    plural = "s" if len(pairs) > 1 else ""
+    letters, digits = join(list(pairs)), join(list(pairs.values()))
+    return f"letter{plural} {letters} in {meant.old}: did you mean the digit{plural} {digits} ({meant.new})?"
+
+
+def torn_codes(claim: Claim) -> tuple[Lookalike, ...]:
+    """The G codes of a contour that letters for digits keep from being read: what the words are is not known then."""
+    unread = [fault.span for block in claim.blocks for fault in block.faults] + [word.span for word in claim.unknown]
+    if not unread:
+        return ()
+    found = (each for block in claim.blocks for each in find_lookalikes(block) if each.is_code)
+    return tuple(each for each in found if any(each.span.line == span.line and each.covers(span) for span in unread))
 
 
 _LARGEST = Decimal(LARGEST)
@@ -103,16 +139,20 @@ def explain_words(
 def _explain_unknown(context: Context, claim: Claim) -> Iterator[Diagnostic]:
     if not claim.unknown:
         return
-    form = claim.form
+    form, torn = claim.form, torn_codes(claim)
     own = [address for address in claim.lexicon.addresses if address in form.allowed]
     others = sorted(form.allowed - {"N", "G", *own})
     allowed = " ".join(own) + (f", and besides {' '.join(others)}" if others else "")
     for word in claim.unknown:
+        if any(each.span.line == word.span.line and not each.covers(word.span) for each in torn):
+            continue
         rule, other = context.row(Trouble.UNKNOWN_ADDRESS), respelled(word, form.allowed)
         block = next(block for block in claim.blocks if block.line == word.span.line)
-        do = f"write {other}" if other else _with_digits(block, word.span) or "delete it"
+        meant = None if other else meant_at(block, word.span)
+        do = f"write {other}" if other else f"write {meant.new} for {meant.old}" if meant else "delete it"
         name = form.name if form.name.startswith("G") else form.title
-        yield report(context, rule, Basis.RULE, [word], form=name, allowed=allowed, do=do)
+        finding = report(context, rule, Basis.RULE, [word], form=name, allowed=allowed, do=do)
+        yield replace(finding, message=_ask_for_digits(meant)) if meant else finding
 
 
 def respelled(word: Word, allowed: Container[str]) -> str:
@@ -128,7 +168,7 @@ def explain_start(context: Context, claim: Claim) -> Diagnostic:
     """Which axes of the start point are unknown, and which line made them so."""
     unknown = [axis for axis in claim.before.plane.axes if claim.before.axes[axis].value is None]
     places = [claim.before.axes[axis] for axis in unknown]
-    reasons = dict.fromkeys(f"{each.reason}{_on_line(each.span)}" for each in places)
+    reasons = dict.fromkeys(f"{each.reason}{_on_line(each)}" for each in places)
     if claim.before.is_incremental and any(each.span is None for each in places):
         reasons["G91 is active, and an increment from an unknown position gives none"] = None
     finding = report(
@@ -143,8 +183,11 @@ def explain_start(context: Context, claim: Claim) -> Diagnostic:
     return replace(finding, labels=finding.labels + tuple(dict.fromkeys(labels)), addresses=tuple(unknown))
 
 
-def _on_line(span: Span | None) -> str:
-    return f" (line {span.line})" if span else ""
+def _on_line(place: Position) -> str:
+    """Where a position was lost, unless the reason says so."""
+    if place.span is None or f"line {place.span.line}," in place.reason:
+        return ""
+    return f" (line {place.span.line})" if place.span.line else " (--start)"
 
 
 def explain_skippable(context: Context, claim: Claim) -> Iterator[Diagnostic]:

@@ -44,7 +44,7 @@ def start_without_point(context: Context, claim: Claim, findings: Iterable[Diagn
     other words have one, or those of the contour are hardly meant like this, either."""
     places = [claim.before.axes[axis] for axis in claim.before.plane.axes]
     words = {each.word.span: each.word for each in places if each.word and is_counted_start(each, claim.lexicon)}
-    if not words:
+    if not words or any(each.value is None for each in places):
         return
     stated = (*(given.word for given in claim.givens.values()), *(each.word for each in places))
     is_suspected = any(each.about is Trouble.POINT_MISSING for each in findings)

@@ -190,6 +190,13 @@ def test_every_rule_is_listed_and_explained():
             assert (status, rule.code in listing, text.startswith(rule.code)) == (0, True, True)
 
 
+def test_a_code_that_is_almost_one_is_asked_about():
+    status, _, errors = run("explain", "g111-line1")
+    assert status == 2
+    assert "did you mean g111-line-1 or " in errors
+    assert "did you mean" not in run("explain", "999")[2]
+
+
 def test_color_goes_only_to_who_wants_it(monkeypatch):
     bad = ["check", "--block", "G111 X100. A180. B120.", "--start", "X40. Z0."]
     monkeypatch.delenv("NO_COLOR", raising=False)
@@ -682,6 +689,22 @@ def test_a_start_point_in_another_unit_than_the_contour_is_pointed_out():
         _, output, _ = run("solve", *inches, *arguments)
         assert "start-units" not in output
         assert "start X   2.00000" in output
+
+
+def test_what_follows_from_a_line_before_comes_last_and_names_that_line(save):
+    lines = ("G00 X40. Z0.", "G111 X100. A180. B120.", "G111 X1l0. A180. K-30. B120.", "G111 X120. A180. K-30. B120.")
+    waiting = "the start point is not known in Z: this contour waits for line {}, which is not solved"
+    for third, causes in ((lines[2], (2, 3)), ("G111 X110. A180. K-30. B120.", (2, 2))):
+        text = "\n".join((*lines[:2], third, lines[3], "G111 X130. A180. K-30. B120."))
+        _, output, _ = run("check", save(text), "--format", "json")
+        found = [each for each in json.loads(output)["diagnostics"] if each["severity"] == "error"]
+        last = {each["line"]: each["message"] for each in found}
+        assert [last[3], last[4], last[5]] == [waiting.format(line) for line in (2, causes[1], causes[1])]
+        assert next(each["code"] for each in found if each["line"] == 3) == (
+            "address-unknown" if causes[1] == 3 else "position-unknown"
+        )
+    _, output, _ = run("check", *ONE[:2], "--start", "X40. Z")
+    assert "the start point is not known in Z: the block has an error (--start)" in output
 
 
 def test_the_other_control_is_named_with_the_words_that_show_it(save):

@@ -37,6 +37,7 @@ def find_as_theirs(blocks, index, state, modes):
 
 THEIRS = replace(MINE, name="theirs", find=find_as_theirs)
 """A control with forms of its own."""
+BARE = replace(MINE, name="bare", forms=())
 PAIR = "G17 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q-1"
 ROWS = [pytest.param(rule, id=rule.code) for rule in GEOMETRY_RULES]
 
@@ -159,7 +160,7 @@ OF_THEIR_OWN = {"report", "verify", "rules", "facts"}
 @pytest.fixture
 def run(tmp_path, monkeypatch):
     (tmp_path / "p.nc").write_text(PAIR)
-    (tmp_path / "tables_of_mine.py").write_text("from test_own_control import MINE, THEIRS\nOTHER = 5\n")
+    (tmp_path / "tables_of_mine.py").write_text("from test_own_control import BARE, MINE, THEIRS\nOTHER = 5\n")
     (tmp_path / "tables_that_fail.py").write_text("1 / 0\n")
     monkeypatch.chdir(tmp_path)
 
@@ -189,6 +190,11 @@ def test_the_other_commands_take_them_too(run):
     assert "<dd>mine</dd>" in Path("p.html").read_text(encoding="utf-8")
     assert run("rules", *mine)[1].startswith("mine: the machine in hall 2")
     assert run("rules", "--table", *mine)[0] == 0
+    status, output = run("rules", "--table", "--control", "tables_of_mine:BARE")
+    assert (status, output) == (
+        0,
+        "bare: this control has no table of word sets, because none of its forms has a sample\n",
+    )
     _, result = run("solve", "p.nc", "--format", "json", *mine)
     Path("r.json").write_text(result, encoding="utf-8")
     assert run("verify", "p.nc", "r.json", *mine)[0] == 0
@@ -223,9 +229,11 @@ def test_verify_says_that_it_cannot_check_forms_that_are_not_built_in(run, block
 @pytest.mark.parametrize(
     ("control", "said"),
     [
-        ("tables_of_mine:OTHER", "tables_of_mine has no contoursolve.Dialect of the name 'OTHER'"),
+        ("tables_of_mine:OTHER", "tables_of_mine.py) has no contoursolve.Dialect of the name 'OTHER'"),
         ("tables_of_mine:ABSENT", "no contoursolve.Dialect of the name 'ABSENT'"),
         ("absent_tables:MINE", "absent_tables cannot be imported: ModuleNotFoundError"),
+        ("absent_tables:MINE", "a module is looked for among those of Python, then in this folder, "),
+        ("tables_of_mine.py:MINE", "; write the module without .py, tables_of_mine:NAME"),
         ("tables_that_fail:MINE", "tables_that_fail cannot be imported: ZeroDivisionError: division by zero"),
         (":MINE", "cannot be imported: ValueError"),
         ("tables_of_mine:", "of the name ''"),
