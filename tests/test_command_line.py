@@ -197,6 +197,29 @@ def test_a_code_that_is_almost_one_is_asked_about():
     assert "did you mean" not in run("explain", "999")[2]
 
 
+def test_solve_says_for_which_control_it_read_and_what_shows_that(save):
+    line = ("--block", "G1 X30 ,A45", "--start", "X0 Y0")
+    for arguments, told in (
+        (ONE, "yasnac-lx3: G111 in line 1 shows it"),
+        (line, "nct-99m: ,A45 in line 1 shows it"),
+        (
+            ("--block", "G11 Z-20. I8.", "--start", "X30. Z0.", "--control", "yasnac-lx3"),
+            "yasnac-lx3: G11 in line 1 shows",
+        ),
+        ((save(GOOD), "--control", "nct-99m"), "nct-99m, as was asked for"),
+    ):
+        _, output, _ = run("solve", *arguments)
+        assert output.splitlines()[-2].startswith(f"read as {told}")
+    assert "read as" not in run("solve", "--block", "X1")[1]
+
+
+def test_every_column_of_numbers_has_its_unit():
+    for words, start, unit in ((ONE[1], "X40. Z0.", "mm"), ("G20 G111 X4. A180. K-1. B120. P.2", "G20 X2. Z0.", "in")):
+        _, output, _ = run("solve", "--block", words, "--start", start)
+        (head,) = (each for each in output.splitlines() if "radius [" in each)
+        assert head.count(f"[{unit}]") == head.count("[") == 5
+
+
 def test_color_goes_only_to_who_wants_it(monkeypatch):
     bad = ["check", "--block", "G111 X100. A180. B120.", "--start", "X40. Z0."]
     monkeypatch.delenv("NO_COLOR", raising=False)
