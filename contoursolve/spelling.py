@@ -1,6 +1,6 @@
 """Findings about characters, words and positions, before the equations are looked at."""
 
-from collections.abc import Container, Iterator, Sequence
+from collections.abc import Container, Iterable, Iterator, Sequence
 from dataclasses import replace
 from decimal import Decimal
 
@@ -90,14 +90,37 @@ def explain_fault(context: Context, fault: Fault, block: Block) -> Diagnostic:
 
 def meant_at(block: Block, place: Span) -> Lookalike | None:
     """The word at a place of a block, some letters of which look like digits; None unless all there is of such
-    words."""
-    found = find_lookalikes(block)
-    columns = range(place.column, place.end_column)
-    text = {column: block.text[column - 1 : column] for column in columns}
-    rest = (column for column in columns if not text[column].isspace())
-    if not all(any(each.span.column <= column < each.span.end_column for each in found) for column in rest):
+    words, and none where a word that may mean what it says begins in the middle, as in X I5."""
+    begins = [word.span.column for word in block.words if word.number is not None and word.address not in _NEVER_MEANT]
+    found = [
+        each
+        for each in find_lookalikes(block)
+        if each.is_code or not any(each.span.column < begin < each.span.end_column for begin in begins)
+    ]
+    stretch = block.text[place.column - 1 : place.end_column - 1]
+    columns = (place.column + index for index, char in enumerate(stretch) if not char.isspace())
+    if not all(any(each.span.column <= column < each.span.end_column for each in found) for column in columns):
         return None
     return next((each for each in found if each.covers(place)), None)
+
+
+_NEVER_MEANT = ("L", "O")
+"""Letters that look like digits and state nothing about a contour on any control."""
+
+
+def meant_words(claim: Claim) -> tuple[Lookalike, ...]:
+    """The words of a contour that letters for digits keep from being read."""
+    found: dict[Span, Lookalike] = {}
+    for block in claim.blocks:
+        unread = [fault.span for fault in block.faults]
+        unread += [word.span for word in claim.unknown if word.span.line == block.line]
+        found |= {each.span: each for each in (meant_at(block, span) for span in unread) if each}
+    return tuple(found.values())
+
+
+def is_in(span: Span, words: Iterable[Lookalike]) -> bool:
+    """Whether a place lies in one of some words."""
+    return any(each.span.line == span.line and each.covers(span) for each in words)
 
 
 def _ask_for_digits(meant: Lookalike) -> str:
@@ -110,11 +133,7 @@ def _ask_for_digits(meant: Lookalike) -> str:
 
 def torn_codes(claim: Claim) -> tuple[Lookalike, ...]:
     """The G codes of a contour that letters for digits keep from being read: what the words are is not known then."""
-    unread = [fault.span for block in claim.blocks for fault in block.faults] + [word.span for word in claim.unknown]
-    if not unread:
-        return ()
-    found = (each for block in claim.blocks for each in find_lookalikes(block) if each.is_code)
-    return tuple(each for each in found if any(each.span.line == span.line and each.covers(span) for span in unread))
+    return tuple(each for each in meant_words(claim) if each.is_code)
 
 
 _LARGEST = Decimal(LARGEST)

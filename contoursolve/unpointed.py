@@ -9,7 +9,8 @@ from contoursolve.explain import Context, report
 from contoursolve.model import Given, Length, Unit
 from contoursolve.reading import Claim, Lexicon, Position, Trouble, WithoutPoint
 from contoursolve.source import Span
-from contoursolve.syntax import Word, find_lookalikes
+from contoursolve.spelling import is_in, meant_words
+from contoursolve.syntax import Word
 from contoursolve.wording import angle_text, join, length_text
 
 _FULL_TURN, _MANY_INCREMENTS = 360, 1_000
@@ -112,27 +113,17 @@ def _counted(context: Context, claim: Claim) -> Mapping[Word, str]:
     """The words of a contour that count least increments, each with its value in the order of the block."""
     counted = {}
     pointless = [each for each in claim.givens.values() if each.word and not each.word.has_point]
-    torn = _torn(claim) if pointless else ()
+    # Such as A18 in A18O.
+    torn = meant_words(claim) if pointless else ()
     for given in sorted(pointless, key=_place):
         word = given.word
-        if word is None or not word.number or given.unit is Unit.SIGN or word.span in torn:
+        if word is None or not word.number or given.unit is Unit.SIGN or is_in(word.span, torn):
             continue
         typed = given.value * 2 if given.is_diameter else given.value
         if abs(typed) < abs(word.number):
             is_length = given.unit is Unit.MM
             counted[word] = length_text(float(typed), context.unit) if is_length else angle_text(float(typed))
     return counted
-
-
-def _torn(claim: Claim) -> frozenset[Span]:
-    """The places of words that a letter for a digit cuts short, such as A18 in A18O."""
-    unread = {fault.span for block in claim.blocks for fault in block.faults} | {word.span for word in claim.unknown}
-    if not unread:
-        return frozenset()
-    meant = [each for block in claim.blocks for each in find_lookalikes(block)]
-    cut = [each for each in meant if any(each.covers(span) for span in unread if span.line == each.span.line)]
-    words = (word.span for block in claim.blocks for word in block.words)
-    return frozenset(span for span in words if any(each.covers(span) for each in cut if span.line == each.span.line))
 
 
 def _place(given: Given) -> Span:

@@ -108,6 +108,12 @@ def test_a_word_that_only_begins_like_a_number_is_no_slip():
         assert "if that is meant" not in finding.help
 
 
+def test_a_word_that_means_what_it_says_is_no_part_of_another_one():
+    (finding,) = solve("G111 A135. B180. Z-60. K I5.", start="X40. Z0.").diagnostics
+    assert finding.message == "K has no number"
+    assert [fix.replacement for fix in finding.fixes] == ["G111 A135. B180. Z-60. I5."]
+
+
 def test_a_word_that_a_letter_cuts_short_is_not_said_to_lack_its_point():
     found = solve("G111 A18O. B120 K-30. X100.", start="X40. Z0.").diagnostics
     assert {each.code: each.addresses for each in found} == {"number-malformed": ("O",), "point-missing": ("B",)}

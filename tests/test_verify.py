@@ -1202,6 +1202,7 @@ def test_the_text_says_what_is_wrong_and_by_how_much(desk):
     status, output, _ = desk.verify(result)
     assert status == 0
     assert output.endswith("1 contour (1 verified); every claim that was checked is right\n")
+    assert f"program {desk.program}: SHA-256 {sha256(desk.program.read_bytes()).hexdigest()}\n" in output
 
 
 def test_what_is_wrong_is_said_as_what_was_expected_and_found(desk):
@@ -1357,6 +1358,8 @@ def test_inputs_that_cannot_be_read_are_named(desk, tmp_path):
         status, output, errors = run("verify", program, claimed)
         assert (status, output) == (2, "")
         assert message in errors
+    _, _, errors = run("verify", desk.program, desk.program)
+    assert f"{desk.program} is not a result of 'solve --format json': it is no JSON document" in errors
     desk.program.write_bytes(PROGRAM.encode("utf-16"))
     status, _, errors = run("verify", desk.program, desk.result)
     assert status == 2

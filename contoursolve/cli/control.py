@@ -40,7 +40,7 @@ def control_option(
 ) -> Callable[[Callable[..., None]], Callable[..., None]]:
     """An option for a control; its value is a name, a Dialect, or None."""
     choices = [*names]
-    own = f"{help_} {_OWN} names a Dialect of your own in a Python module."
+    own = f"{help_} {_OWN} names a Dialect of your own in a Python module, also one in this folder."
     return click.option(name, type=ControlType(choices), metavar=f"[{'|'.join((*choices, _OWN))}]", help=own)
 
 

@@ -1,6 +1,6 @@
 """Edits that repairs of every kind are made of: words dropped and changed, characters corrected, points added."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from itertools import product
 
 from contoursolve.diagnosis.edits import Edit, EditKind, write_word
@@ -8,9 +8,8 @@ from contoursolve.diagnostic import Severity
 from contoursolve.examine import Answer
 from contoursolve.model import Given, Length, Unit
 from contoursolve.reading import Claim, Lexicon, Trouble
-from contoursolve.source import Span
-from contoursolve.spelling import meant_at, respelled, unanswerable
-from contoursolve.syntax import FACT, Block, FaultKind, Lookalike, Word, find_lookalikes
+from contoursolve.spelling import is_in, meant_words, respelled, unanswerable
+from contoursolve.syntax import FACT, FaultKind, Word, find_lookalikes
 
 
 def missing_points(answer: Answer) -> Iterator[tuple[Edit, ...]]:
@@ -81,13 +80,13 @@ def has_faults(claim: Claim) -> bool:
 def unreadable(claim: Claim) -> Iterator[tuple[Edit, ...]]:
     """What every repair must take out or correct: characters, addresses without a meaning, repetitions. Of an
     address that is given twice, either word may be the one that is meant. Letters for digits become these."""
-    meant = {each.span: each for block in claim.blocks for each in _slips(claim, block)}
-    edits = [Edit(EditKind.CHANGE, each.address, each.span, each.old, each.new) for each in meant.values()]
-    unknown = [word for word in claim.unknown if not _is_within(word.span, meant)]
+    meant = meant_words(claim)
+    edits = [Edit(EditKind.CHANGE, each.address, each.span, each.old, each.new) for each in meant]
+    unknown = [word for word in claim.unknown if not is_in(word.span, meant)]
     edits += [drop(word) for word in (*unknown, *unanswerable(claim))]
     for block in claim.blocks:
         for fault in block.faults:
-            if fault.kind is FaultKind.COMMENT_NOT_CLOSED or _is_within(fault.span, meant):
+            if fault.kind is FaultKind.COMMENT_NOT_CLOSED or is_in(fault.span, meant):
                 continue
             text = fault.text.replace(",", ".") if fault.address and fault.text.count(",") == 1 else ""
             kind = EditKind.CHANGE if text else EditKind.DROP
@@ -98,17 +97,6 @@ def unreadable(claim: Claim) -> Iterator[tuple[Edit, ...]]:
     ]
     for choice in product(*either):
         yield (*edits, *choice)
-
-
-def _slips(claim: Claim, block: Block) -> Iterator[Lookalike]:
-    """The words of a block that letters for digits keep from being read."""
-    unread = [fault.span for fault in block.faults]
-    unread += [word.span for word in claim.unknown if word.span.line == block.line]
-    yield from filter(None, (meant_at(block, span) for span in unread))
-
-
-def _is_within(span: Span, meant: Mapping[Span, Lookalike]) -> bool:
-    return any(each.span.line == span.line and each.covers(span) for each in meant.values())
 
 
 def _is_same(first: Word, word: Word) -> bool:
