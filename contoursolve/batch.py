@@ -27,9 +27,9 @@ from contoursolve.solving.numbers import inputs_at, inputs_of, sizes_of, solutio
 from contoursolve.solving.plan import LineCircleStep, TwoCirclesStep
 from contoursolve.solving.solve import ROUNDING
 from contoursolve.solving.verdict import Code, Verdict
-from contoursolve.spelling import without_point
 from contoursolve.syntax import Word, split_simply
 from contoursolve.tolerance import AGREEMENT, ERROR_BOUND_WARNING, LARGEST, LENGTH, TOUCHING
+from contoursolve.unpointed import is_counted_start, without_point
 
 Columns = Mapping[str, NDArray[numpy.float64]]
 
@@ -136,7 +136,7 @@ class Batch:
         before, after = claim.before, claim.after
         for axis in before.plane.axes:
             position = before.axes[axis]
-            if position.value is None or position.is_skippable:
+            if position.value is None or position.is_skippable or is_counted_start(position, claim.lexicon):
                 return None
         sharp = []
         for size in _sizes(claim.form):
@@ -231,7 +231,8 @@ class Batch:
             if not -_SMALL <= value <= _SMALL:
                 return None
         for axis in state.plane.axes:
-            if state.axes[axis].is_skippable:
+            position = state.axes[axis]
+            if position.is_skippable or is_counted_start(position, self.dialect.modes.lexicon):
                 return None
         if self.policy is not Policy.OFF and is_refused_by_values(self.rules, kind.answer.claim.form.roles, values):
             return None

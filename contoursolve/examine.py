@@ -48,9 +48,8 @@ from contoursolve.spelling import (
     explain_spelling,
     explain_start,
     explain_unmarked,
-    tell_points,
-    without_point,
 )
+from contoursolve.unpointed import start_without_point, tell_points, without_point
 
 if TYPE_CHECKING:
     from contoursolve.solving.alternatives import Alternatives
@@ -195,6 +194,7 @@ def examine(
     for offence in ignoring:
         notebook.add(explain_ignored(context, offence, profile, solution))
     notebook.findings += without_point(context, claim, notebook.findings)
+    notebook.findings += start_without_point(context, claim, notebook.findings)
 
     is_path = bool(solution.points) and notebook.status in (Status.SOLVED, Status.OVERDETERMINED)
     contour = trace(profile, solution) if is_path else None
@@ -404,6 +404,7 @@ def _examine_system(context: Context, claim: Claim, profile: Profile) -> Iterato
             yield Status.CONFLICTING, report(context, rule, Basis.STRUCTURAL, words, subject=name)
 
 
-def rank(finding: Diagnostic) -> tuple[int, int, Span, str]:
-    """By line, the worst first."""
-    return finding.span.line, list(Severity).index(finding.severity), finding.span, finding.code
+def rank(finding: Diagnostic) -> tuple[int, int, bool, Span, str]:
+    """By line, the worst first, and what follows from lines before after what does not."""
+    follows = finding.about is Trouble.POSITION_UNKNOWN
+    return finding.span.line, list(Severity).index(finding.severity), follows, finding.span, finding.code

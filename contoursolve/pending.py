@@ -7,13 +7,14 @@ from typing import Protocol, cast
 
 from contoursolve.ahead import View
 from contoursolve.contour import Contour
-from contoursolve.diagnostic import Diagnostic
+from contoursolve.diagnostic import Diagnostic, Severity
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer
 from contoursolve.model import Start
 from contoursolve.moulds import Cast, Mould, Moulded
-from contoursolve.reading import Awaited, Claim, Modes, Position, State, end_of_contour, leave
+from contoursolve.reading import Awaited, Claim, Modes, Position, State, Trouble, end_of_contour, leave
 from contoursolve.syntax import Block, Passage
+from contoursolve.wording import join
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,8 +140,23 @@ def _after(claim: Claim, modes: Modes, answer: Answer) -> State:
     """The state that a contour leaves."""
     if answer.contour is not None:
         return leave(claim, answer.contour.end, modes)
-    lines = " and ".join(str(line) for line in answer.lines)
-    return leave(claim, None, modes, f"the contour of line {lines} before it is not solved")
+    origin = _awaited(claim, answer)
+    if origin is not None:
+        return leave(claim, None, modes, origin.reason, origin.span)
+    lines = (
+        f"line {answer.lines[0]}, which is"
+        if len(answer.lines) == 1
+        else f"lines {join(list(map(str, answer.lines)))}, which are"
+    )
+    return leave(claim, None, modes, f"this contour waits for {lines} not solved")
+
+
+def _awaited(claim: Claim, answer: Answer) -> Position | None:
+    """What made the start of a contour unknown, if nothing else is wrong with it."""
+    errors = [each.about for each in answer.diagnostics if each.severity is Severity.ERROR]
+    places = [claim.before.axes[axis] for axis in claim.before.plane.axes]
+    unknown = [each for each in places if each.value is None and each.span is not None]
+    return unknown[0] if unknown and errors == [Trouble.POSITION_UNKNOWN] else None
 
 
 def _behind_cast(answer: Moulded) -> State:

@@ -32,6 +32,7 @@ from contoursolve.spelling import (
     explain_start_units,
     explain_unmarked,
     explain_words,
+    faults_of,
 )
 from contoursolve.syntax import (
     Block,
@@ -71,8 +72,8 @@ class Result(Shown):
         return any(each.severity is Severity.ERROR for each in self.diagnostics)
 
     def place(self, span: Span) -> Span:
-        """The place itself, or for a fact stated apart from the program the block that it is about."""
-        if span.line >= 0:
+        """The place itself, or for what was stated apart from the program the block that it is about."""
+        if span.line > 0:
             return span
         lines = [answer.lines[-1] for answer in self.answers]
         blocks = [block for block in self.program.blocks if block.words or block.line in lines]
@@ -377,7 +378,7 @@ class _Examiner:
 
     def _check_block(self, block: Block) -> None:
         context = Context(self.rules, self.unit, place=block.span)
-        for fault in block.faults:
+        for fault in faults_of(block):
             finding = explain_fault(context, fault, block)
             if fault.kind in _FAULTS_OF_NO_CONSEQUENCE:
                 finding = replace(finding, severity=Severity.WARNING)

@@ -1,23 +1,23 @@
 """Findings about characters, words and positions, before the equations are looked at."""
 
-from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Sequence
 from dataclasses import replace
 from decimal import Decimal
 
-from contoursolve.diagnostic import Basis, Diagnostic, Label, Severity
+from contoursolve.diagnostic import Basis, Diagnostic, Label
 from contoursolve.explain import Context, report
-from contoursolve.model import Given, Length, Unit
-from contoursolve.reading import Claim, Lexicon, Trouble
+from contoursolve.model import Length
+from contoursolve.reading import Claim, Lexicon, Position, Trouble
 from contoursolve.source import Span
-from contoursolve.syntax import Block, Fault, Word, find_lookalikes
+from contoursolve.syntax import Block, Fault, Lookalike, Word, find_lookalikes
 from contoursolve.tolerance import LARGEST
-from contoursolve.wording import angle_text, join, length_text
+from contoursolve.wording import join, length_text
 
 
 def explain_spelling(context: Context, claim: Claim) -> Iterator[Diagnostic]:
     """What keeps the words of a contour from being read: nothing can be said of what they mean then."""
     words = [word for block in claim.blocks for word in block.words]
-    yield from (explain_fault(context, fault, block) for block in claim.blocks for fault in block.faults)
+    yield from (explain_fault(context, fault, block) for block in claim.blocks for fault in faults_of(block))
     yield from explain_words(context, claim.lexicon, claim.repeated, words)
     yield from _explain_unknown(context, claim)
     yield from _explain_asked(context, claim)
@@ -66,19 +66,74 @@ def _answerable(claim: Claim) -> set[str]:
     return {row.fact.given for row in claim.form.facts} | sizes | set(claim.form.choices)
 
 
+def faults_of(block: Block) -> Iterator[Fault]:
+    """The faults of a block; of those that letters for digits make in one word, the first."""
+    told: set[Span] = set()
+    for fault in block.faults:
+        meant = meant_at(block, fault.span)
+        if meant is None or meant.span not in told:
+            yield fault
+        told |= {meant.span} if meant else set()
+
+
 def explain_fault(context: Context, fault: Fault, block: Block) -> Diagnostic:
     """Characters of a block that are not a word."""
     shown = Word(fault.text[:1], None, False, fault.text.strip(), fault.span)
     finding = report(context, context.row(fault.kind), Basis.RULE, [shown])
-    meant = _with_digits(block, fault.span)
-    advice = f"{meant} if that is meant; else {finding.help}" if meant else finding.help
-    return replace(finding, help=advice, addresses=(fault.address,) if fault.address else ())
+    finding = replace(finding, addresses=(fault.address,) if fault.address else ())
+    meant = meant_at(block, fault.span)
+    if meant is None:
+        return finding
+    advice = f"write {meant.new} for {meant.old} if that is meant; else {finding.help}"
+    return replace(finding, message=_ask_for_digits(meant), help=advice)
 
 
-def _with_digits(block: Block, place: Span) -> str:
-    """What to write for a word at a place of a block, some letters of which look like digits; empty if none do."""
-    found = next((each for each in find_lookalikes(block) if each.covers(place)), None)
-    return f"write {found.new} for {found.old}" if found else ""
+def meant_at(block: Block, place: Span) -> Lookalike | None:
+    """The word at a place of a block, some letters of which look like digits; None unless all there is of such
+    words, and none where a word that may mean what it says begins in the middle, as in X I5."""
+    begins = [word.span.column for word in block.words if word.number is not None and word.address not in _NEVER_MEANT]
+    found = [
+        each
+        for each in find_lookalikes(block)
+        if each.is_code or not any(each.span.column < begin < each.span.end_column for begin in begins)
+    ]
+    stretch = block.text[place.column - 1 : place.end_column - 1]
+    columns = (place.column + index for index, char in enumerate(stretch) if not char.isspace())
+    if not all(any(each.span.column <= column < each.span.end_column for each in found) for column in columns):
+        return None
+    return next((each for each in found if each.covers(place)), None)
+
+
+_NEVER_MEANT = ("L", "O")
+"""Letters that look like digits and state nothing about a contour on any control."""
+
+
+def meant_words(claim: Claim) -> tuple[Lookalike, ...]:
+    """The words of a contour that letters for digits keep from being read."""
+    found: dict[Span, Lookalike] = {}
+    for block in claim.blocks:
+        unread = [fault.span for fault in block.faults]
+        unread += [word.span for word in claim.unknown if word.span.line == block.line]
+        found |= {each.span: each for each in (meant_at(block, span) for span in unread) if each}
+    return tuple(found.values())
+
+
+def is_in(span: Span, words: Iterable[Lookalike]) -> bool:
+    """Whether a place lies in one of some words."""
+    return any(each.span.line == span.line and each.covers(span) for each in words)
+
+
+def _ask_for_digits(meant: Lookalike) -> str:
+    """Whether digits are meant by letters."""
+    pairs = dict(pair for pair in zip(meant.old, meant.new, strict=True) if pair[0] != pair[1])
+    plural = "s" if len(pairs) > 1 else ""
+    letters, digits = join(list(pairs)), join(list(pairs.values()))
+    return f"letter{plural} {letters} in {meant.old}: did you mean the digit{plural} {digits} ({meant.new})?"
+
+
+def torn_codes(claim: Claim) -> tuple[Lookalike, ...]:
+    """The G codes of a contour that letters for digits keep from being read: what the words are is not known then."""
+    return tuple(each for each in meant_words(claim) if each.is_code)
 
 
 _LARGEST = Decimal(LARGEST)
@@ -103,16 +158,20 @@ def explain_words(
 def _explain_unknown(context: Context, claim: Claim) -> Iterator[Diagnostic]:
     if not claim.unknown:
         return
-    form = claim.form
+    form, torn = claim.form, torn_codes(claim)
     own = [address for address in claim.lexicon.addresses if address in form.allowed]
     others = sorted(form.allowed - {"N", "G", *own})
     allowed = " ".join(own) + (f", and besides {' '.join(others)}" if others else "")
     for word in claim.unknown:
+        if any(each.span.line == word.span.line and not each.covers(word.span) for each in torn):
+            continue
         rule, other = context.row(Trouble.UNKNOWN_ADDRESS), respelled(word, form.allowed)
         block = next(block for block in claim.blocks if block.line == word.span.line)
-        do = f"write {other}" if other else _with_digits(block, word.span) or "delete it"
+        meant = None if other else meant_at(block, word.span)
+        do = f"write {other}" if other else f"write {meant.new} for {meant.old}" if meant else "delete it"
         name = form.name if form.name.startswith("G") else form.title
-        yield report(context, rule, Basis.RULE, [word], form=name, allowed=allowed, do=do)
+        finding = report(context, rule, Basis.RULE, [word], form=name, allowed=allowed, do=do)
+        yield replace(finding, message=_ask_for_digits(meant)) if meant else finding
 
 
 def respelled(word: Word, allowed: Container[str]) -> str:
@@ -128,7 +187,7 @@ def explain_start(context: Context, claim: Claim) -> Diagnostic:
     """Which axes of the start point are unknown, and which line made them so."""
     unknown = [axis for axis in claim.before.plane.axes if claim.before.axes[axis].value is None]
     places = [claim.before.axes[axis] for axis in unknown]
-    reasons = dict.fromkeys(f"{each.reason}{_on_line(each.span)}" for each in places)
+    reasons = dict.fromkeys(f"{each.reason}{_on_line(each)}" for each in places)
     if claim.before.is_incremental and any(each.span is None for each in places):
         reasons["G91 is active, and an increment from an unknown position gives none"] = None
     finding = report(
@@ -143,8 +202,11 @@ def explain_start(context: Context, claim: Claim) -> Diagnostic:
     return replace(finding, labels=finding.labels + tuple(dict.fromkeys(labels)), addresses=tuple(unknown))
 
 
-def _on_line(span: Span | None) -> str:
-    return f" (line {span.line})" if span else ""
+def _on_line(place: Position) -> str:
+    """Where a position was lost, unless the reason says so."""
+    if place.span is None or f"line {place.span.line}," in place.reason:
+        return ""
+    return f" (line {place.span.line})" if place.span.line else " (--start)"
 
 
 def explain_skippable(context: Context, claim: Claim) -> Iterator[Diagnostic]:
@@ -152,77 +214,3 @@ def explain_skippable(context: Context, claim: Claim) -> Iterator[Diagnostic]:
     skippable = {block.is_skippable for block in claim.blocks}
     if len(skippable) > 1 or any(claim.before.axes[axis].is_skippable for axis in claim.before.plane.axes):
         yield report(context, context.row(Trouble.SKIPPABLE_START), Basis.RULE, [])
-
-
-_FULL_TURN, _MANY_INCREMENTS = 360, 1_000
-"""A number that is no larger says a direction in degrees, or a length under 1 mm in least increments."""
-
-
-def without_point(context: Context, claim: Claim, findings: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
-    """Words that are read in least increments because they have no decimal point: each where others have one, and all
-    together where none has and the values are hardly meant like this."""
-    counted = _counted(context, claim)
-    words = list(counted)
-    rule = context.row(Trouble.POINT_MISSING)
-    if any(given.word and given.word.number and given.word.has_point for given in claim.givens.values()):
-        for word, value in counted.items():
-            yield report(context, rule, Basis.RULE, [word], are="is", have="has", actual=value)
-    elif words and _is_slip(claim, words, has_error=any(each.severity is Severity.ERROR for each in findings)):
-        several = len(words) > 1
-        values = join(list(counted.values()))
-        yield report(
-            context,
-            rule,
-            Basis.RULE,
-            words,
-            are="are" if several else "is",
-            have="have" if several else "has",
-            actual=values,
-        )
-
-
-def tell_points(context: Context, claim: Claim, findings: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
-    """Findings, the errors about a word that lacks its point with how it was read, before what else may be done."""
-    findings = list(findings)
-    lacking = {label.span for each in findings if each.about is Trouble.POINT_MISSING for label in each.labels}
-    counted = (
-        {word: value for word, value in _counted(context, claim).items() if word.span in lacking} if lacking else {}
-    )
-    for finding in findings:
-        spans = {label.span for label in finding.labels}
-        blamed = {word: value for word, value in counted.items() if word.span in spans}
-        if not blamed or finding.severity is Severity.INFO or finding.basis is not Basis.NUMERICAL:
-            yield finding
-            continue
-        notes = tuple(f"{word.text} is read as {value}: it has no decimal point" for word, value in blamed.items())
-        meant = join([f"{word.text}." for word in blamed])
-        yield replace(finding, notes=notes + finding.notes, help=f"write {meant} if that is meant; else {finding.help}")
-
-
-def _counted(context: Context, claim: Claim) -> Mapping[Word, str]:
-    """The words of a contour that count least increments, each with its value in the order of the block."""
-    counted = {}
-    pointless = [each for each in claim.givens.values() if each.word and not each.word.has_point]
-    for given in sorted(pointless, key=_place):
-        word = given.word
-        if word is None or not word.number or given.unit is Unit.SIGN:
-            continue
-        typed = given.value * 2 if given.is_diameter else given.value
-        if abs(typed) < abs(word.number):
-            is_length = given.unit is Unit.MM
-            counted[word] = length_text(float(typed), context.unit) if is_length else angle_text(float(typed))
-    return counted
-
-
-def _place(given: Given) -> Span:
-    return given.word.span if given.word else Span(0, 0, 0)
-
-
-def _is_slip(claim: Claim, words: Sequence[Word], *, has_error: bool) -> bool:
-    """Whether words without any point mean what they say: their angles would be directions in degrees, or without
-    an angle a block that is refused would have no length of 1 mm."""
-    angles = [word for word in words if claim.lexicon.addresses[word.address].unit is Unit.DEGREE]
-    most = _FULL_TURN if angles else _MANY_INCREMENTS
-    return (bool(angles) or has_error) and all(
-        word.number is None or abs(word.number) <= most for word in angles or words
-    )

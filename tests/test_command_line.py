@@ -190,6 +190,36 @@ def test_every_rule_is_listed_and_explained():
             assert (status, rule.code in listing, text.startswith(rule.code)) == (0, True, True)
 
 
+def test_a_code_that_is_almost_one_is_asked_about():
+    status, _, errors = run("explain", "g111-line1")
+    assert status == 2
+    assert "did you mean g111-line-1 or " in errors
+    assert "did you mean" not in run("explain", "999")[2]
+
+
+def test_solve_says_for_which_control_it_read_and_what_shows_that(save):
+    line = ("--block", "G1 X30 ,A45", "--start", "X0 Y0")
+    for arguments, told in (
+        (ONE, "yasnac-lx3: G111 in line 1 shows it"),
+        (line, "nct-99m: ,A45 in line 1 shows it"),
+        (
+            ("--block", "G11 Z-20. I8.", "--start", "X30. Z0.", "--control", "yasnac-lx3"),
+            "yasnac-lx3: G11 in line 1 shows",
+        ),
+        ((save(GOOD), "--control", "nct-99m"), "nct-99m, as was asked for"),
+    ):
+        _, output, _ = run("solve", *arguments)
+        assert output.splitlines()[-2].startswith(f"read as {told}")
+    assert "read as" not in run("solve", "--block", "X1")[1]
+
+
+def test_every_column_of_numbers_has_its_unit():
+    for words, start, unit in ((ONE[1], "X40. Z0.", "mm"), ("G20 G111 X4. A180. K-1. B120. P.2", "G20 X2. Z0.", "in")):
+        _, output, _ = run("solve", "--block", words, "--start", start)
+        (head,) = (each for each in output.splitlines() if "radius [" in each)
+        assert head.count(f"[{unit}]") == head.count("[") == 5
+
+
 def test_color_goes_only_to_who_wants_it(monkeypatch):
     bad = ["check", "--block", "G111 X100. A180. B120.", "--start", "X40. Z0."]
     monkeypatch.delenv("NO_COLOR", raising=False)
@@ -559,6 +589,83 @@ def test_start_is_read_as_the_control_reads_a_block(arguments, start):
     assert ("position-unknown" in {each["code"] for each in document["diagnostics"]}) == (None in start)
 
 
+COUNTED = {
+    "in the program": (("G00 X40 Z0", "G111 X100. A180. K-30. B120."), (), "X40", "0.040 mm", "40.000 mm", "X0.04"),
+    "both words": (
+        ("G00 X40 Z-2", "G111 X100. A180. K-30. B120."),
+        (),
+        "X40 and Z-2",
+        "0.040 mm and -0.002 mm",
+        "40.000 mm and -2.000 mm",
+        "X0.04 and Z-0.002",
+    ),
+    "apart": (("G111 X100. A180. K-30. B120.",), ("--start", "X40 Z0"), "X40", "0.040 mm", "40.000 mm", "X0.04"),
+    "as a step": (
+        ("G00 X40. Z0.", "W-5", "G111 X100. A180. K-30. B120."),
+        (),
+        "W-5",
+        "-0.005 mm",
+        "-5.000 mm",
+        "W-0.005",
+    ),
+    "no point anywhere": (("G00 X40 Z0", "G111 X100 A180 K-30 B120"), (), "X40", "0.040 mm", "40.000 mm", "X0.04"),
+    "inches": (("G20 G00 X2 Z0.", "G111 X4. A180. K-1. B120."), (), "X2", "0.0002 in", "2.0000 in", "X0.0002"),
+}
+
+
+@pytest.mark.parametrize("name", COUNTED)
+def test_a_start_point_that_counts_least_increments_is_told_with_both_readings(name, save):
+    lines, start, words, actual, expected, same = COUNTED[name]
+    blocks = [part for line in lines for part in ("--block", line)]
+    _, output, _ = run("check", *blocks, *start, "--format", "json")
+    (found,) = (each for each in json.loads(output)["diagnostics"] if each["code"] == "start-in-increments")
+    several = "have no decimal point and are" if " and " in words else "has no decimal point and is"
+    meant = " and ".join(f"{word}." for word in words.split(" and "))
+    told = f"{words} of the start point {several} read as {actual}; {meant} would be {expected}"
+    assert (found["severity"], found["message"]) == ("warning", told)
+    assert f"else {same}," in found["help"]
+    assert found["line"] == max(1, len(lines) - 1)
+    assert found.get("start") == ({"column": 1, "end_column": 4} if start else None)
+    assert found["fixes"] == []
+    # Written as it is meant, or as it is read, nothing is left to say of it.
+    for texts in (meant, same):
+        again = "\n".join((*lines, *start))
+        for old, new in zip(words.split(" and "), texts.split(" and "), strict=True):
+            again = again.replace(old, new)
+        text, _, apart = again.partition("\n--start\n")
+        _, output, _ = run("check", "--block", text, "--start", apart)
+        assert "start-in-increments" not in output
+
+
+@pytest.mark.parametrize(
+    "program",
+    [
+        "G00 X40000 Z0\nG111 X100. A180. K-30. B120.",
+        "G00 X40 Z0\nG111 X9000 A180000 K-30000 B120000",
+        "G17 G90 G0 X90 Y0\nG1 X30 ,A45",
+    ],
+)
+def test_a_start_point_that_can_be_meant_as_it_is_read_is_not_told(program, save):
+    assert "start-in-increments" not in run("check", save(program))[1]
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        ("sweep", "--vary", "A=170,180"),
+        ("range", "--word", "P"),
+        ("find", "--word", "A", "--bring", "end Z-50."),
+        ("sensitivity",),
+    ],
+)
+def test_commands_about_one_block_warn_of_its_start_point_beside_their_output(command):
+    status, output, errors = run(*command, *ONE[:2], "--start", "X40 Z0", "--format", "json")
+    assert status == 0
+    assert json.loads(output)["schema"].startswith("contoursolve/")
+    assert errors.startswith("warning: X40 of the start point has no decimal point and is read as 0.040 mm; X40. would")
+    assert run(*command, *ONE)[2] == ""
+
+
 def test_inches_are_shown_in_inches_and_written_to_json_in_mm():
     block = ("--block", "G111 X4. A180. K-1. B120.", "--start", "X2. Z0.", "--units", "inch")
     assert solve_json(*block)["contours"][0]["points"]["V1"] == pytest.approx([-25.4, 25.4])
@@ -605,6 +712,22 @@ def test_a_start_point_in_another_unit_than_the_contour_is_pointed_out():
         _, output, _ = run("solve", *inches, *arguments)
         assert "start-units" not in output
         assert "start X   2.00000" in output
+
+
+def test_what_follows_from_a_line_before_comes_last_and_names_that_line(save):
+    lines = ("G00 X40. Z0.", "G111 X100. A180. B120.", "G111 X1l0. A180. K-30. B120.", "G111 X120. A180. K-30. B120.")
+    waiting = "the start point is not known in Z: this contour waits for line {}, which is not solved"
+    for third, causes in ((lines[2], (2, 3)), ("G111 X110. A180. K-30. B120.", (2, 2))):
+        text = "\n".join((*lines[:2], third, lines[3], "G111 X130. A180. K-30. B120."))
+        _, output, _ = run("check", save(text), "--format", "json")
+        found = [each for each in json.loads(output)["diagnostics"] if each["severity"] == "error"]
+        last = {each["line"]: each["message"] for each in found}
+        assert [last[3], last[4], last[5]] == [waiting.format(line) for line in (2, causes[1], causes[1])]
+        assert next(each["code"] for each in found if each["line"] == 3) == (
+            "address-unknown" if causes[1] == 3 else "position-unknown"
+        )
+    _, output, _ = run("check", *ONE[:2], "--start", "X40. Z")
+    assert "the start point is not known in Z: the block has an error (--start)" in output
 
 
 def test_the_other_control_is_named_with_the_words_that_show_it(save):

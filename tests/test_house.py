@@ -28,6 +28,7 @@ FLOORS = (
     "beyond carried",
     "emit explain sketch",
     "spelling",
+    "unpointed",
     "examine",
     "dialects",
     "diagnosis",

@@ -177,11 +177,12 @@ def test_a_value_at_an_end_is_rounded_to_the_side_with_a_contour():
     [
         ("A", "end", "no goal"),
         ("A", "end Y3", "the axes of this contour are Z and X"),
-        ("A", "end Z3 Z4", "twice"),
+        ("A", "end Z3. Z4.", "twice"),
         ("A", "end Z3..4", "no number"),
-        ("A", "V9 Z3", "no point V9; there are end, V1, V2"),
+        ("A", "V9 Z3.", "no point V9; there are end, V1, V2"),
         ("A", "end X100.", "A does not move end"),
         ("length of line 1", "end Z-50.", "no fact says what length of line 1 is"),
+        ("A", "end Z-50", r"Z-50 has no decimal point.* reads it as -0.050 mm; write Z-50. for -50.000 mm, or Z-0.05"),
     ],
 )
 def test_a_goal_that_makes_no_sense_is_refused(word, goal, message):
@@ -193,6 +194,14 @@ def run(*arguments):
     done = CliRunner().invoke(main, ["find", "--block", BLOCK, "--start", START, *map(str, arguments)])
     assert done.exception is None or isinstance(done.exception, SystemExit), done.exception
     return done.exit_code, done.stdout, done.stderr
+
+
+def test_a_goal_is_read_as_the_control_reads_words():
+    on_lathe = [find_word(BLOCK, "A", goal, start=START).hits for goal in ("end Z-50.", "end Z-50000")]
+    assert on_lathe[0] == on_lathe[1]
+    on_mill = [find_word("G1 X30 ,A45", ",A", goal, start="X50 Y0").hits for goal in ("end Y20.", "end Y20")]
+    assert on_mill[0] == on_mill[1]
+    assert on_mill[0][0].point == pytest.approx((30, 20))
 
 
 def test_the_command_prints_the_values():

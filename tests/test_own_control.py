@@ -15,6 +15,7 @@ from contoursolve.dialects.geometry import GEOMETRY_RULES
 from contoursolve.output.contours import contour_lines
 from contoursolve.posts import LINUXCNC
 from contoursolve.project import SettingError
+from contoursolve.reading import Claim
 from contoursolve.solving import RefusalKind, RemarkKind
 
 GENERAL = {rule.about for rule in GEOMETRY_RULES}
@@ -27,6 +28,16 @@ def relative(dialect):
 
 
 MINE = relative(NCT_99M)
+
+
+def find_as_theirs(blocks, index, state, modes):
+    found = NCT_99M.find(blocks, index, state, modes)
+    return replace(found, form=replace(found.form, name="their own")) if isinstance(found, Claim) else found
+
+
+THEIRS = replace(MINE, name="theirs", find=find_as_theirs)
+"""A control with forms of its own."""
+BARE = replace(MINE, name="bare", forms=())
 PAIR = "G17 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q-1"
 ROWS = [pytest.param(rule, id=rule.code) for rule in GEOMETRY_RULES]
 
@@ -149,7 +160,7 @@ OF_THEIR_OWN = {"report", "verify", "rules", "facts"}
 @pytest.fixture
 def run(tmp_path, monkeypatch):
     (tmp_path / "p.nc").write_text(PAIR)
-    (tmp_path / "tables_of_mine.py").write_text("from test_own_control import MINE\nOTHER = 5\n")
+    (tmp_path / "tables_of_mine.py").write_text("from test_own_control import BARE, MINE, THEIRS\nOTHER = 5\n")
     (tmp_path / "tables_that_fail.py").write_text("1 / 0\n")
     monkeypatch.chdir(tmp_path)
 
@@ -169,6 +180,8 @@ def test_every_command_is_tested_with_tables_of_its_own():
 def test_a_command_takes_the_tables_of_a_module(run, name):
     status, output = run(*COMMANDS[name], "--control", "tables_of_mine:MINE")
     built_in = run(*COMMANDS[name], "--control", "nct-99m")
+    # That a control is shown by the program is only known of those that are built in.
+    output = output.replace("read as mine, as was asked for", "read as mine: ,A171.87 in line 3 shows it")
     assert (status, output.replace("mine", "nct-99m")) == built_in
     assert status == 0
 
@@ -179,10 +192,17 @@ def test_the_other_commands_take_them_too(run):
     assert "<dd>mine</dd>" in Path("p.html").read_text(encoding="utf-8")
     assert run("rules", *mine)[1].startswith("mine: the machine in hall 2")
     assert run("rules", "--table", *mine)[0] == 0
+    status, output = run("rules", "--table", "--control", "tables_of_mine:BARE")
+    assert (status, output) == (
+        0,
+        "bare: this control has no table of word sets, because none of its forms has a sample\n",
+    )
     _, result = run("solve", "p.nc", "--format", "json", *mine)
     Path("r.json").write_text(result, encoding="utf-8")
     assert run("verify", "p.nc", "r.json", *mine)[0] == 0
-    assert "unknown control 'mine'" in run("verify", "p.nc", "r.json")[1]
+    told = run("verify", "p.nc", "r.json")[1]
+    assert "unknown control 'mine'; choose from yasnac-lx3, nct-99m, or name the tables" in told
+    assert "--control MODULE:NAME" in told
     assert run("check", "p.nc", "--format", "sarif", *mine)[0] == 0
     broken = run("check", "--block", PAIR.replace("Q-1", ",R2 ,C2"), "--format", "sarif", *mine)
     assert '"ruleId": "nct-two-corners"' in broken[1]
@@ -191,12 +211,31 @@ def test_the_other_commands_take_them_too(run):
     assert '"circle-circle-q": "right-is-negative"' in chosen or "mine.circle-circle-q" in chosen
 
 
+@pytest.mark.parametrize(("block", "status"), [(PAIR, "solved"), (PAIR.replace("Q-1", ",R2 ,C2"), "rejected")])
+def test_verify_says_that_it_cannot_check_forms_that_are_not_built_in(run, block, status):
+    theirs = ("--control", "tables_of_mine:THEIRS")
+    Path("p.nc").write_text(block, encoding="utf-8")
+    Path("r.json").write_text(run("solve", "p.nc", "--format", "json", *theirs)[1], encoding="utf-8")
+    code, output = run("verify", "p.nc", "r.json", *theirs)
+    assert code == 2
+    assert f"p.nc:2: their own: claimed {status}: not checked (neither path nor status; " in output
+    reasons = {
+        "solved": "the path: there are formulas for the forms of the controls that are built in, and 'their own' is",
+        "rejected": "the status: what the manual of theirs refuses is known to its tables alone",
+    }
+    assert f"not checked: {reasons[status]}" in output
+    assert "asked for" not in output
+    assert output.endswith("1 contour (1 not checked); checked nothing: see above what was not checked, and why\n")
+
+
 @pytest.mark.parametrize(
     ("control", "said"),
     [
-        ("tables_of_mine:OTHER", "tables_of_mine has no contoursolve.Dialect of the name 'OTHER'"),
+        ("tables_of_mine:OTHER", "tables_of_mine.py) has no contoursolve.Dialect of the name 'OTHER'"),
         ("tables_of_mine:ABSENT", "no contoursolve.Dialect of the name 'ABSENT'"),
         ("absent_tables:MINE", "absent_tables cannot be imported: ModuleNotFoundError"),
+        ("absent_tables:MINE", "a module is looked for among those of Python, then in this folder, "),
+        ("tables_of_mine.py:MINE", "; write the module without .py, tables_of_mine:NAME"),
         ("tables_that_fail:MINE", "tables_that_fail cannot be imported: ZeroDivisionError: division by zero"),
         (":MINE", "cannot be imported: ValueError"),
         ("tables_of_mine:", "of the name ''"),

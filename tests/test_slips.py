@@ -6,6 +6,7 @@ import pytest
 
 from contoursolve import Status, solve
 from contoursolve.diagnostic import Severity
+from contoursolve.output.findings import finding_lines
 
 TAPER = "N10 G111 X100. A180. K-30. B120. P5. Q5."
 BLOCKS = {
@@ -72,3 +73,47 @@ def test_what_is_no_contour_with_digits_either_is_not_called_one(text):
     for control in ("yasnac-lx3", "nct-99m", None):
         assert not fixes_of(text, control=control)
         assert "letter-for-digit" not in {each.code for each in solve(text, control=control).diagnostics}
+
+
+ASKED = {
+    "G11l X100. A180. K-30. B120.": ("number-missing", "letter l in G11l: did you mean the digit 1 (G111)?"),
+    "GIII X100. A180. K-30. B120.": ("number-missing", "letter I in GIII: did you mean the digit 1 (G111)?"),
+    "G111 X1OO. A180. K-30. B120.": ("number-missing", "letter O in X1OO.: did you mean the digit 0 (X100.)?"),
+    "G111 X100. A180. K-3O.l B120.": (
+        "number-malformed",
+        "letters O and l in K-3O.l: did you mean the digits 0 and 1 (K-30.1)?",
+    ),
+    "G111 X1l0. A180. K-30. B120.": ("address-unknown", "letter l in X1l0.: did you mean the digit 1 (X110.)?"),
+}
+
+
+@pytest.mark.parametrize("text", ASKED)
+def test_a_letter_for_a_digit_is_asked_about_and_nothing_is_said_that_follows_from_it(text):
+    (finding,) = solve(text, start="X40. Z0.", control="yasnac-lx3").diagnostics
+    code, message = ASKED[text]
+    assert (finding.code, finding.message) == (code, message)
+    assert all("delete" not in fix.description for fix in finding.fixes)
+    assert any("fix [makes it readable]: write" in line for line in finding_lines(finding, "", {}))
+
+
+def test_a_code_with_a_letter_is_not_taken_for_another_code():
+    # G11 X80. K5. would be a contour, and is not what anybody wrote.
+    (finding,) = solve("G00 X60. Z0.\nG11l X80. K5.").diagnostics
+    assert (finding.fixes, finding.help.partition(" if")[0]) == ((), "write G111 for G11l")
+
+
+def test_a_word_that_only_begins_like_a_number_is_no_slip():
+    for finding in solve("hello world", control="yasnac-lx3").diagnostics:
+        assert "did you mean" not in finding.message
+        assert "if that is meant" not in finding.help
+
+
+def test_a_word_that_means_what_it_says_is_no_part_of_another_one():
+    (finding,) = solve("G111 A135. B180. Z-60. K I5.", start="X40. Z0.").diagnostics
+    assert finding.message == "K has no number"
+    assert [fix.replacement for fix in finding.fixes] == ["G111 A135. B180. Z-60. I5."]
+
+
+def test_a_word_that_a_letter_cuts_short_is_not_said_to_lack_its_point():
+    found = solve("G111 A18O. B120 K-30. X100.", start="X40. Z0.").diagnostics
+    assert {each.code: each.addresses for each in found} == {"number-malformed": ("O",), "point-missing": ("B",)}

@@ -52,6 +52,7 @@ BETWEEN = (
     "/W-1.",
     "N{n}",
     "W-1. (OPEN",
+    "G00 X60 Z5",
 )
 
 
@@ -74,7 +75,7 @@ def fill(rng, text):
 
 def lathe_program(rng):
     tapers = rng.sample(TAPERS, rng.randint(1, 6))
-    between = rng.choices(BETWEEN, (*(9,) * 4, 3, *(2,) * 3, *(1,) * 15), k=8)
+    between = rng.choices(BETWEEN, (*(9,) * 4, 3, *(2,) * 3, *(1,) * 15, 4), k=8)
     lines = ["G00 X40. Z0."]
     for _ in range(rng.randint(5, 60)):
         lines += [fill(rng, rng.choice(between)) for _ in range(rng.choice((0, 1, 1, 2, 4)))]

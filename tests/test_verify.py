@@ -138,7 +138,7 @@ class Desk:
     def receipt(self, result: object, *options: str) -> dict[str, Any]:
         status, output, _ = self.verify(result, "--format", "json", *options)
         receipt: dict[str, Any] = json.loads(output)
-        assert status == (receipt["verdict"] == "failed")
+        assert status == {"verified": 0, "failed": 1, "nothing-checked": 2}[receipt["verdict"]]
         return receipt
 
 
@@ -588,8 +588,9 @@ def test_checking_nothing_is_not_finding_nothing_wrong(desk):
     open_questions = ["the path", "the status", "whether these are all solutions", *DIAGNOSED]
     assert [each["what"] for each in receipt["contours"][0]["not_checked"]] == open_questions
     status, output, _ = desk.verify(loose)
-    assert status == 0
-    assert "checked nothing" in output
+    assert status == 2
+    assert "not checked (neither path nor status; " in output
+    assert "checked nothing: see above" in output
     assert "right" not in output
 
 
@@ -598,6 +599,7 @@ def test_a_program_without_a_contour_has_nothing_to_check(desk, text, control):
     result = desk.solve(text, *(["--control", control] if control else []))
     receipt = desk.receipt(result)
     assert (receipt["control"], receipt["contours"], receipt["verdict"]) == (control, [], "nothing-checked")
+    assert "checked nothing: there is no contour to check" in desk.verify(result)[1]
 
 
 def test_facts_about_a_form_that_is_checked_by_its_words_alone_are_listed(desk):
@@ -1200,6 +1202,7 @@ def test_the_text_says_what_is_wrong_and_by_how_much(desk):
     status, output, _ = desk.verify(result)
     assert status == 0
     assert output.endswith("1 contour (1 verified); every claim that was checked is right\n")
+    assert f"program {desk.program}: SHA-256 {sha256(desk.program.read_bytes()).hexdigest()}\n" in output
 
 
 def test_what_is_wrong_is_said_as_what_was_expected_and_found(desk):
@@ -1355,6 +1358,8 @@ def test_inputs_that_cannot_be_read_are_named(desk, tmp_path):
         status, output, errors = run("verify", program, claimed)
         assert (status, output) == (2, "")
         assert message in errors
+    _, _, errors = run("verify", desk.program, desk.program)
+    assert f"{desk.program} is not a result of 'solve --format json': it is no JSON document" in errors
     desk.program.write_bytes(PROGRAM.encode("utf-16"))
     status, _, errors = run("verify", desk.program, desk.result)
     assert status == 2
@@ -1395,8 +1400,9 @@ def test_whatever_is_put_in_a_result_gets_an_answer(desk, data):
     wrong = changed(result, data.draw(st.sampled_from(list(places(result)))), data.draw(JSON))
     status, output, errors = desk.verify(wrong, "--format", data.draw(st.sampled_from(("text", "json"))))
     assert status in (0, 1, 2)
-    assert bool(output) == (status != 2)
-    assert bool(errors) == (status == 2)
+    # Without an error, what could not be checked is on the receipt.
+    assert bool(output) != bool(errors)
+    assert status == 2 if errors else "nothing" in output or status != 2
 
 
 GARBAGE = ("", "A" + "9" * 31, "\n", "\ud800", "length of line 1 = ?", "X of V2 = 1", "G111 X", "V1", "R5")

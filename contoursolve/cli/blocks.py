@@ -7,6 +7,7 @@ from typing import Any
 
 import click
 
+from contoursolve.api import solve
 from contoursolve.cli.control import control_option
 from contoursolve.cli.loading import settings_of
 from contoursolve.cli.options import CouldNotRunError, rules_option, settings_option, units_option
@@ -17,6 +18,7 @@ from contoursolve.families import FamilyError
 from contoursolve.files import CannotWriteError
 from contoursolve.pipeline import FactPlaceError
 from contoursolve.project import SettingError
+from contoursolve.reading import Trouble
 from contoursolve.recognise import UnknownControlError
 
 
@@ -27,7 +29,11 @@ def block_options(command: Callable[..., None]) -> Callable[..., None]:
             click.option(
                 "--block", "blocks", multiple=True, required=True, metavar="TEXT", help="The block; may be repeated."
             ),
-            click.option("--start", metavar="WORDS", help='The start point, such as "X40. Z0.".'),
+            click.option(
+                "--start",
+                metavar="WORDS",
+                help='The start point, such as "X40. Z0.", in words as the control reads them.',
+            ),
             control_option("The control; found from the block without it."),
             units_option,
             rules_option,
@@ -48,9 +54,15 @@ fact_option = click.option(
 
 
 def read_options(options: dict[str, Any]) -> dict[str, Any]:
-    """The arguments of a function about a block, from the options of a command."""
+    """The arguments of a function about a block, from the options of a command, after a warning on standard error if
+    its start point may be meant otherwise."""
     rest = {name: options[name] for name in ("start", "control", "units", "rules")}
-    return {"block": "\n".join(options["blocks"]), **rest, "settings": settings_of(Path(), options["assignments"])}
+    rest["settings"] = settings_of(Path(), options["assignments"])
+    block = "\n".join(options["blocks"])
+    for finding in solve(block, **rest, depth="verdict").diagnostics:
+        if finding.about is Trouble.START_IN_INCREMENTS:
+            click.echo(f"{finding.severity.value}: {finding.message}; {finding.help}", err=True)
+    return {"block": block, **rest}
 
 
 @contextmanager

@@ -1,5 +1,7 @@
 """The commands that tell what there is: rules, facts, explain."""
 
+from difflib import get_close_matches
+
 import click
 
 from contoursolve.cli.control import control_option
@@ -61,6 +63,8 @@ def explain(code: str, control: str | Dialect | None) -> None:
             if wanted in (rule.code, rule.alarm.number.split()[0] if rule.alarm else ""):
                 found.setdefault(rule.code, (rule, []))[1].append(dialect.name)
     if not found:
-        raise CouldNotRunError(f"no rule has the code or the alarm {code!r}; 'contoursolve rules' lists them")
+        near = get_close_matches(wanted, sorted({rule.code for each in _chosen(control) for rule in each.rules}))
+        hint = f"did you mean {' or '.join(near)}? " if near else ""
+        raise CouldNotRunError(f"no rule has the code or the alarm {code!r}; {hint}'contoursolve rules' lists them")
     for rule, controls in found.values():
         click.echo("\n".join((*rule_lines(rule, controls), "")))

@@ -40,7 +40,7 @@ def control_option(
 ) -> Callable[[Callable[..., None]], Callable[..., None]]:
     """An option for a control; its value is a name, a Dialect, or None."""
     choices = [*names]
-    own = f"{help_} {_OWN} names a Dialect of your own in a Python module."
+    own = f"{help_} {_OWN} names a Dialect of your own in a Python module, also one in this folder."
     return click.option(name, type=ControlType(choices), metavar=f"[{'|'.join((*choices, _OWN))}]", help=own)
 
 
@@ -50,10 +50,22 @@ def _load(module: str, name: str) -> Dialect:
     if here not in sys.path:
         sys.path.append(here)
     try:
-        found = getattr(import_module(module), name, None)
+        imported = import_module(module)
     except Exception as error:
         # Whatever the module does.
-        raise ImportError(f"{module or 'the module'} cannot be imported: {type(error).__name__}: {error}") from None
+        told = f"{module or 'the module'} cannot be imported: {type(error).__name__}: {error}"
+        raise ImportError(f"{told}{_where(module, error)}") from None
+    found = getattr(imported, name, None)
     if not isinstance(found, Dialect):
-        raise TypeError(f"{module} has no contoursolve.Dialect of the name {name!r}")
+        file = f" ({imported.__file__})" if imported.__file__ else ""
+        raise TypeError(f"{module}{file} has no contoursolve.Dialect of the name {name!r}")
     return found
+
+
+def _where(module: str, error: Exception) -> str:
+    """What to do about a module that is not there."""
+    if not isinstance(error, ModuleNotFoundError) or error.name not in (module, module.partition(".")[0]):
+        return ""
+    if module.endswith(".py"):
+        return f"; write the module without .py, {module.removesuffix('.py')}:NAME"
+    return f"; a module is looked for among those of Python, then in this folder, {Path.cwd()}"

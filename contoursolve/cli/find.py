@@ -34,13 +34,14 @@ from contoursolve.output.inverse import found_data, found_lines
     "goal",
     required=True,
     metavar="GOAL",
-    help="A point and where it is wanted, as the control writes it: 'end Z-50.', 'V1 X44.', 'corner 1.center Z-20.'. "
-    "With both coordinates, what comes nearest is found.",
+    help="A point and where it is wanted, in words as the control reads them: 'end Z-50.', 'V1 X44.', "
+    "'corner 1.center Z-20.'. With both coordinates, what comes nearest is found.",
 )
 @click.option(
     "--within",
     metavar="LOW:HIGH",
-    help="The values to look at; without it, one turn for an angle, and 1 m to either side for a length.",
+    help="The values to look at, as they stand; without it, one turn for an angle, and 1 m to either side for a "
+    "length.",
 )
 @fact_option
 @click.pass_context

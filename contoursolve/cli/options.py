@@ -60,7 +60,8 @@ def apart_options(command: Callable[..., None]) -> Callable[..., None]:
             click.option(
                 "--start",
                 metavar="WORDS",
-                help='Start point for --block, such as "X40. Z0.", in --units unless it says "G20 X2. Z0.".',
+                help='Start point for --block, such as "X40. Z0.", in words as the control reads them, in --units '
+                'unless it says "G20 X2. Z0.".',
             ),
             click.option(
                 "--fact",

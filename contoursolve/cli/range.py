@@ -35,8 +35,8 @@ from contoursolve.output.ranges import range_data, range_lines, region_data, reg
     "--within",
     multiple=True,
     metavar="LOW:HIGH",
-    help="The range to look at, for each word in turn; without it, one turn for an angle, and 1 m to either side for "
-    "a length.",
+    help="The range to look at, for each word in turn, as it stands; without it, one turn for an angle, and 1 m to "
+    "either side for a length.",
 )
 @fact_option
 @click.pass_context
@@ -64,8 +64,8 @@ def range_(
     ranges = [read_within(each) for each in within]
     if len(words) > 2 or (len(words) == 2 and len(ranges) != 2) or len(ranges) > len(words):  # noqa: PLR2004
         raise click.UsageError("name one --word, or two with a --within LOW:HIGH for each")
-    about = {"facts": facts, **read_options(options)}
     with usage():
+        about = {"facts": facts, **read_options(options)}
         if len(words) == 1:
             found = feasible(word=words[0], within=ranges[0] if ranges else None, **about)
             exists, lines, document = bool(found.intervals), range_lines(found), range_data(found)

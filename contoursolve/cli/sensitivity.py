@@ -21,7 +21,8 @@ from contoursolve.output.tolerances import tolerances_data, tolerances_lines
     "allowed",
     multiple=True,
     metavar="WORD=VALUE",
-    help="By how much a word may be off, as it is written; may be repeated. A fact goes by what it gives the value of.",
+    help="By how much a word may be off to either side, as the number stands; may be repeated. A fact goes by what it "
+    "gives the value of.",
 )
 @fact_option
 def sensitivity(allowed: tuple[str, ...], point: str, facts: tuple[str, ...], format_: str, **options: Any) -> None:

@@ -18,7 +18,7 @@ from contoursolve.cli.printing import print_lines, style_of_output
 from contoursolve.diagnostic import Severity
 from contoursolve.dialects import Dialect
 from contoursolve.output.document import findings_to_json, to_json
-from contoursolve.output.listing import lines_of_findings, listing_lines, summary_line
+from contoursolve.output.listing import closing_lines, lines_of_findings, listing_lines, summary_line
 
 
 @click.command(short_help="Solve every contour block of a program.")
@@ -61,7 +61,7 @@ def solve(
         click.echo(to_json(result))
     else:
         print_lines(listing_lines(result, style_of_output(), is_explained=is_explained))
-        click.echo(summary_line([result]))
+        print_lines(closing_lines(result))
     context.exit(FOUND_ERRORS if result.has_errors else 0)
 
 

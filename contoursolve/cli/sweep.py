@@ -41,9 +41,9 @@ from contoursolve.pictures import Theme, draw_sweep
     multiple=True,
     required=True,
     metavar="WORD=VALUES",
-    help="A word of the block and its values: START:STOP:STEP with both ends, V1,V2,..., or @FILE:COLUMN, a column of "
-    "a CSV or Parquet file; may be repeated. Where several blocks have the word, LINE:WORD, such as 2:,A=10:20:1; "
-    "start.X is the X of --start, and 'length of line 1' the value of that --fact.",
+    help="A word of the block and its values, as they stand: START:STOP:STEP with both ends, V1,V2,..., or "
+    "@FILE:COLUMN, a column of a CSV or Parquet file; may be repeated. Where several blocks have the word, LINE:WORD, "
+    "such as 2:,A=10:20:1; start.X is the X of --start, and 'length of line 1' the value of that --fact.",
 )
 @fact_option
 @click.option("--paired", "is_paired", is_flag=True, help="Values side by side; without it, every combination.")

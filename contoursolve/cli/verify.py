@@ -6,6 +6,7 @@ import click
 
 from contoursolve.cli.control import control_option
 from contoursolve.cli.options import (
+    COULD_NOT_RUN,
     FOUND_ERRORS,
     CouldNotRunError,
     apart_options,
@@ -42,10 +43,10 @@ def verify(
     RESULT.json is what solve printed with --format json. Each point, radius and direction, each value that was asked
     for and each listed solution is held against the words and further facts with formulas of its own, none of the
     solver's; so are the status and the number of solutions where there are words alone. What was not checked is named,
-    too. The program is read with the settings that RESULT.json names. Give --block, --start and --fact as they were
-    given to solve.
+    too; of a control of your own, that is every contour of a form that no built-in control has. The program is read
+    with the settings that RESULT.json names. Give --block, --start and --fact as they were given to solve.
 
-    Exit status: 0 nothing claimed is wrong, 1 something is, 2 could not run.
+    Exit status: 0 what was checked is right, 1 something is wrong, 2 could not run, or nothing could be checked.
 
     \b
     contoursolve solve shaft.nc --format json > shaft.json
@@ -71,4 +72,5 @@ def verify(
         click.echo(verification.to_json(receipt))
     else:
         print_lines(verification.report_lines(receipt))
-    context.exit(FOUND_ERRORS if receipt.verdict is verification.Verdict.FAILED else 0)
+    verdict = verification.Verdict
+    context.exit({verdict.FAILED: FOUND_ERRORS, verdict.NOTHING_CHECKED: COULD_NOT_RUN}.get(receipt.verdict, 0))

@@ -14,7 +14,7 @@ from contoursolve.diagnostic import Applicability, Diagnostic, Severity
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer, Policy, examine
 from contoursolve.model import Profile
-from contoursolve.reading import Claim, read
+from contoursolve.reading import Claim, Trouble, read
 from contoursolve.solving import Status
 from contoursolve.syntax import Block, parse_block, with_digits
 from contoursolve.tolerance import AGREEMENT
@@ -116,7 +116,8 @@ def _try(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], before: Before
     answer = examine_edited(claim, dialect, edits, before)
     if answer is None or answer.contour is None or not _is_settled(answer, edits):
         return None
-    findings = [each for each in answer.diagnostics if each.severity is not Severity.INFO]
+    # No change of the block moves its start.
+    findings = [each for each in answer.diagnostics if each.severity is not Severity.INFO and not _is_before(each)]
     rules = [each for each in findings if answer.profile.is_extended and _is_rule(each)]
     if not all(each in rules or _now_agrees(each, before) for each in findings):
         return None
@@ -140,6 +141,11 @@ def _is_settled(answer: Answer, edits: tuple[Edit, ...]) -> bool:
     if answer.status is Status.OVERDETERMINED:
         return answer.profile.is_extended and any(edit.kind is EditKind.CHANGE for edit in edits)
     return answer.status is Status.SOLVED
+
+
+def _is_before(finding: Diagnostic) -> bool:
+    """Whether it is about what stands before the contour."""
+    return finding.about is Trouble.START_IN_INCREMENTS
 
 
 def _is_rule(finding: Diagnostic) -> bool:

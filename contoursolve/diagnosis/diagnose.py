@@ -56,7 +56,8 @@ def _main(findings: list[Diagnostic], *, is_extended: bool) -> int | None:
     severities = [Severity.ERROR, Severity.WARNING]
     for group in [[each] for each in severities] if is_extended else [severities]:
         for index, finding in enumerate(findings):
-            if finding.severity in group and not (is_extended and finding.about is None):
+            is_before = finding.about is Trouble.START_IN_INCREMENTS
+            if finding.severity in group and not is_before and not (is_extended and finding.about is None):
                 return index
     return None
 

@@ -8,7 +8,7 @@ from contoursolve.diagnostic import Severity
 from contoursolve.examine import Answer
 from contoursolve.model import Given, Length, Unit
 from contoursolve.reading import Claim, Lexicon, Trouble
-from contoursolve.spelling import respelled, unanswerable
+from contoursolve.spelling import is_in, meant_words, respelled, unanswerable
 from contoursolve.syntax import FACT, FaultKind, Word, find_lookalikes
 
 
@@ -79,11 +79,14 @@ def has_faults(claim: Claim) -> bool:
 
 def unreadable(claim: Claim) -> Iterator[tuple[Edit, ...]]:
     """What every repair must take out or correct: characters, addresses without a meaning, repetitions. Of an
-    address that is given twice, either word may be the one that is meant."""
-    edits = [drop(word) for word in (*claim.unknown, *unanswerable(claim))]
+    address that is given twice, either word may be the one that is meant. Letters for digits become these."""
+    meant = meant_words(claim)
+    edits = [Edit(EditKind.CHANGE, each.address, each.span, each.old, each.new) for each in meant]
+    unknown = [word for word in claim.unknown if not is_in(word.span, meant)]
+    edits += [drop(word) for word in (*unknown, *unanswerable(claim))]
     for block in claim.blocks:
         for fault in block.faults:
-            if fault.kind is FaultKind.COMMENT_NOT_CLOSED:
+            if fault.kind is FaultKind.COMMENT_NOT_CLOSED or is_in(fault.span, meant):
                 continue
             text = fault.text.replace(",", ".") if fault.address and fault.text.count(",") == 1 else ""
             kind = EditKind.CHANGE if text else EditKind.DROP

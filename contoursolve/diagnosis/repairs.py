@@ -29,6 +29,7 @@ from contoursolve.model import Given, Profile, Role, Unit
 from contoursolve.reading import Claim, Form, read
 from contoursolve.rules import Rule, check
 from contoursolve.solving import BESIDE, RefusalKind, Status, lookup
+from contoursolve.spelling import torn_codes
 from contoursolve.syntax import Block, Word
 from contoursolve.tolerance import AGREEMENT
 
@@ -45,6 +46,9 @@ def find_repairs(answer: Answer, dialect: Dialect, following: tuple[Block, ...] 
     if not answer.start.is_known:
         return Repairs((), is_complete=False)
     codes = frozenset(each.code for each in answer.diagnostics)
+    if torn_codes(claim):
+        # Without its letters the code is another one, which nobody has written.
+        return choose_repairs(claim, dialect, [digits(answer)], Before(codes, None, following=following))
     if answer.profile.is_extended:
         # Few blocks state more than their words.
         from contoursolve.diagnosis.further import further_drafts, next_place_of  # noqa: PLC0415

@@ -154,6 +154,21 @@ READING_RULES = (
         rejected=(_GOOD + " P2", _START + "G111 A180 K-30 B120 X100"),
     ),
     Rule(
+        code="start-in-increments",
+        message="{words} of the start point {have} no decimal point and {are} read as {actual}; {meant} would be "
+        "{expected}",
+        help="write {meant} if that is meant; else {same}, which says the same",
+        source=_READING,
+        about=Trouble.START_IN_INCREMENTS,
+        severity=Severity.WARNING,
+        accepted=(
+            _GOOD,
+            "G00 X40000 Z0\nG111 A180. K-30. B120. X100.",
+            "G00 X40 Z0\nG111 A180000 K-30000 B120000 X9000",
+        ),
+        rejected=("G00 X40 Z0\nG111 A180. K-30. B120. X100.", "G00 X40 Z2\nG111 A180 K-30 B120 X100"),
+    ),
+    Rule(
         code="position-unknown",
         message="the start point is not known in {axes}: {reason}",
         help="position {axes} with an absolute word before this block (with --block: by --start)",

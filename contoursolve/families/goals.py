@@ -13,8 +13,12 @@ from contoursolve.backends.chart import Chart
 from contoursolve.backends.intervals import Array, Intervals, constant
 from contoursolve.contour import Contour
 from contoursolve.families.ranges import FamilyError
-from contoursolve.model import Figure, Plane
+from contoursolve.model import Figure, Length, Plane, Unit
+from contoursolve.reading import Lexicon, WithoutPoint
 from contoursolve.solving import Point
+from contoursolve.source import Span
+from contoursolve.syntax import Word
+from contoursolve.unpointed import counts_few, readings
 
 PLACES, CONSTANT = 64, 1e-10
 """A coordinate whose rate, mm for each unit of the word, is less at so many places drawn at random never changes."""
@@ -37,8 +41,9 @@ class Goal:
         return hypot(*(have - want for have, want in zip(at, self.place, strict=True) if want is not None))
 
 
-def read_goal(text: str, plane: Plane, in_mm: float) -> Goal:
-    """The goal that a text states. Raises FamilyError for one that is none."""
+def read_goal(text: str, plane: Plane, lexicon: Lexicon, unit: Length) -> Goal:
+    """The goal that a text states in words, which count as the control counts. Raises FamilyError for one that is none,
+    and for words that may be meant in another way."""
     match = re.fullmatch(r"\s*(\S.*?)((?:\s+[A-Za-z]\s*[-+]?[\d.]+)+)\s*", text)
     if match is None:
         raise FamilyError(f"{text!r} is no goal; write a point and where it is wanted, such as 'end Z-50.'")
@@ -48,9 +53,16 @@ def read_goal(text: str, plane: Plane, in_mm: float) -> Goal:
             raise FamilyError(f"{letter}{number}: the axes of this contour are {' and '.join(plane.axes)}")
         axis = plane.axes.index(letter.upper())
         try:
-            value = float(Decimal(number)) * in_mm / (2 if plane.diameters[axis] else 1)
+            word = Word(letter.upper(), Decimal(number), "." in number, f"{letter}{number}", Span(0, 1, 2))
         except InvalidOperation:
             raise FamilyError(f"{letter}{number} is no number") from None
+        if counts_few(word, lexicon):
+            actual, expected, same = readings(word, lexicon, unit)
+            told = f"{word.text} has no decimal point, and the control reads it as {actual}"
+            raise FamilyError(f"{text!r}: {told}; write {word.text}. for {expected}, or {same} for {actual}")
+        is_counted = not word.has_point and lexicon.numbers.without_point is WithoutPoint.LEAST_INCREMENTS
+        written = Decimal(number) * (lexicon.numbers.step(Unit.MM, unit) if is_counted else 1)
+        value = float(written) * float(unit.in_mm) / (2 if plane.diameters[axis] else 1)
         if place[axis] is not None:
             raise FamilyError(f"{text!r} states {letter.upper()} twice")
         place[axis] = value

@@ -95,8 +95,9 @@ def find_word(
         block: the block, or the blocks of one contour; the word stands in it with any value.
         word: the word by its letter (`A`, `,A`), or with its line where several have it (`2:,A`); a word of the start
             point as `start.X`; a fact by what it gives the value of (`length of line 1`).
-        goal: a point and where it is wanted, as the control writes it: `end Z-50.`, `V1 X44.`, `corner 1.center Z-30.`.
-            With both coordinates, such as `end Z-50. X100.`, the values are found at which it is nearest to there.
+        goal: a point and where it is wanted, in words as the control reads them: `end Z-50.`, `V1 X44.`,
+            `corner 1.center Z-30.`. With both coordinates, such as `end Z-50. X100.`, the values are found at which it
+            is nearest to there.
         within: and all others as for `feasible`, with the same errors; also raises FamilyError for a point that the
             contour does not have, or that does not depend on the word.
 
@@ -113,7 +114,7 @@ def find_word(
     ).template()
     name = next(iter(template.words))
     answer = template.solve({})
-    wanted = read_goal(goal, answer.plane, float(answer.unit.in_mm))
+    wanted = read_goal(goal, answer.plane, answer.claim.lexicon, answer.unit)
     _check_open(answer)
     survey = Survey(template, name)
     low, high = survey.range_of(within)

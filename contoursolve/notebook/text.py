@@ -15,7 +15,7 @@ from contoursolve.output.contours import check_rows
 from contoursolve.output.findings import finding_lines, plain
 from contoursolve.output.inverse import found_lines
 from contoursolve.output.layout import columns, count, printable
-from contoursolve.output.listing import listing_lines, summary_line
+from contoursolve.output.listing import closing_lines, listing_lines
 from contoursolve.output.ranges import range_lines, region_lines
 from contoursolve.output.tolerances import tolerances_lines
 from contoursolve.pipeline import Result
@@ -50,7 +50,7 @@ def result_of(answer: Answer) -> Result:
 
 def _result(result: Result) -> Iterator[str]:
     yield from listing_lines(result, plain)
-    yield summary_line([result])
+    yield from closing_lines(result)
 
 
 def _answer(answer: Answer) -> Iterator[str]:

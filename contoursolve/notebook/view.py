@@ -12,7 +12,7 @@ from contoursolve.markup.tables import short
 from contoursolve.model import Length, Unit
 from contoursolve.notebook.exploration import Exploration, words_of
 from contoursolve.output.contours import count_text, path_rows, solution_rows
-from contoursolve.output.findings import APPLICABILITY, finding_pieces
+from contoursolve.output.findings import effect_of, finding_pieces
 from contoursolve.output.listing import sources_of
 from contoursolve.output.solutions import list_solutions
 from contoursolve.syntax import Word
@@ -155,7 +155,7 @@ def _findings(exploration: Exploration) -> Iterator[Data]:
                     "finding": number,
                     "number": place,
                     "text": short(fix.description),
-                    "effect": APPLICABILITY[fix.applicability],
+                    "effect": effect_of(fix, finding),
                     "is_safe": fix.applicability is Applicability.SAFE,
                 }
                 for place, fix in enumerate(finding.fixes[:MOST_FIXES])

@@ -38,7 +38,10 @@ def _setting_lines(dialect: Dialect) -> Iterator[str]:
 def table_lines(dialects: Iterable[Dialect]) -> Iterator[str]:
     """Legality and determinacy of every set of words of every form."""
     for dialect in dialects:
-        for form in (form for form in dialect.forms if form.sample is not None):
+        sampled = [form for form in dialect.forms if form.sample is not None]
+        if not sampled:
+            yield f"{dialect.name}: this control has no table of word sets, because none of its forms has a sample"
+        for form in sampled:
             yield f"{dialect.name} {form.name}, {form.title}: words | the manual's rules | the equations"
             yield from (str(row) for row in tabulate(form, dialect))
             yield ""

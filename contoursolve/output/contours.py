@@ -200,7 +200,7 @@ def path_rows(answer: Answer) -> list[tuple[str, ...]]:
     arcs = [element for element in contour.elements if isinstance(element, ArcSegment)]
     heads = [f"{name} [{unit}]" for name in names]
     if arcs:
-        heads += [f"center {name}" for name in names] + ["radius"]
+        heads += [f"center {name} [{unit}]" for name in names] + [f"radius [{unit}]"]
     header = ("", "", *heads)
     blank = [""] * (len(heads) - 2)
 

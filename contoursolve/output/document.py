@@ -58,7 +58,8 @@ def _indented(data: Any, depth: int = 1) -> str:
 
 
 def finding_data(finding: Diagnostic, result: Result) -> dict[str, Any]:
-    """One finding as plain data. What is about a fact stated apart stands at the block, with the place in the fact."""
+    """One finding as plain data. What is about a fact or a start point stated apart stands at the block, with the place
+    in the fact or the start point."""
     return {
         "code": finding.code,
         "severity": finding.severity.value,
@@ -88,10 +89,11 @@ def finding_data(finding: Diagnostic, result: Result) -> dict[str, Any]:
 
 
 def _place(span: Span, result: Result) -> dict[str, Any]:
-    shown, fact = result.place(span), {}
-    if span.line < 0:
-        fact = {"fact": {"number": -span.line, "column": span.column, "end_column": span.end_column}}
-    return {"line": shown.line, "column": shown.column, "end_column": shown.end_column, **fact}
+    shown, columns = result.place(span), {"column": span.column, "end_column": span.end_column}
+    apart: dict[str, Any] = {}
+    if span.line <= 0:
+        apart = {"fact": {"number": -span.line, **columns}} if span.line else {"start": columns}
+    return {"line": shown.line, "column": shown.column, "end_column": shown.end_column, **apart}
 
 
 def _contour(answer: Answer) -> dict[str, Any]:

@@ -2,8 +2,10 @@
 
 from collections.abc import Callable, Mapping
 
-from contoursolve.diagnostic import Applicability, Diagnostic, Label
+from contoursolve.diagnostic import Applicability, Diagnostic, Fix, Label
 from contoursolve.output.layout import printable
+from contoursolve.reading import Trouble
+from contoursolve.syntax import FaultKind
 
 WIDTH = 100
 """Characters of a program line shown around the place."""
@@ -17,6 +19,15 @@ APPLICABILITY = {
     Applicability.PLACEHOLDER: "needs a number",
 }
 """What applying a fix does, in words."""
+
+
+def effect_of(fix: Fix, finding: Diagnostic) -> str:
+    """What applying a fix does, in words; what could not be read was no contour that it could change."""
+    is_unread = isinstance(finding.about, FaultKind) or finding.about is Trouble.UNKNOWN_ADDRESS
+    if is_unread and fix.applicability is Applicability.CHANGES_CONTOUR:
+        return "makes it readable"
+    return APPLICABILITY[fix.applicability]
+
 
 Piece = tuple[str, str]
 """A text and its role: error, warning, info, frame, bold, place (line and column of the program), or none."""
@@ -66,7 +77,7 @@ def finding_pieces(finding: Diagnostic, name: str, sources: Mapping[int, str]) -
     if finding.help and not any(fix.applicability is Applicability.SAFE for fix in finding.fixes):
         lines.append([*foot, (f" help: {finding.help}", "")])
     for fix in finding.fixes[:SHOWN_FIXES]:
-        lines.append([*foot, (f" fix [{APPLICABILITY[fix.applicability]}]: {fix.description}", "")])
+        lines.append([*foot, (f" fix [{effect_of(fix, finding)}]: {fix.description}", "")])
         if fix.applicability is not Applicability.PLACEHOLDER:
             shown = (printable(line.strip())[:WIDTH] for line in fix.replacement.split("\n"))
             lines += [[(f"{' ' * (gutter + 4)} {line}", "")] for line in shown]

@@ -4,11 +4,13 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 
 from contoursolve.diagnostic import Diagnostic, Severity
+from contoursolve.dialects import DIALECTS
 from contoursolve.examine import Answer
 from contoursolve.output.contours import contour_lines
 from contoursolve.output.findings import Style, finding_lines
 from contoursolve.output.layout import count
 from contoursolve.pipeline import Result
+from contoursolve.recognise import what_shows
 from contoursolve.solving import Status
 
 
@@ -45,6 +47,15 @@ def sources_of(result: Result, finding: Diagnostic) -> dict[int, str]:
     if result.start:
         sources[0] = result.start.text
     return sources | {fact.span.line: fact.text for fact in result.facts}
+
+
+def closing_lines(result: Result) -> Iterator[str]:
+    """For which control a program was read and what shows that, and what was found in all."""
+    if result.control is not None:
+        own = DIALECTS.get(result.control)
+        sign = what_shows(result.program.blocks, own) if own else ""
+        yield f"read as {result.control}" + (f": {sign} shows it" if sign else ", as was asked for")
+    yield summary_line([result])
 
 
 def summary_line(results: Sequence[Result]) -> str:

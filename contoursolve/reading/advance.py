@@ -126,7 +126,7 @@ def _led(
     if value is None:
         return Position(None, f"{word.text} depends on a variable", word.span)
     if before is None:
-        return Position(value, word.text, word.span, is_skippable)
+        return Position(value, word.text, word.span, is_skippable, word)
     if isinstance(before, Awaited):
         return before.then(partial(_step, by=value, word=word, is_skippable=is_skippable))
     return _step(before, value, word, is_skippable)
@@ -136,7 +136,7 @@ def _step(before: Position, by: Decimal, word: Word, is_skippable: bool) -> Posi
     """Where an increment leads, mm."""
     if before.value is None:
         return before
-    return Position(before.value + by, word.text, word.span, is_skippable or before.is_skippable)
+    return Position(before.value + by, word.text, word.span, is_skippable or before.is_skippable, word)
 
 
 def _axis(word: Word, modes: Modes) -> str:

@@ -11,10 +11,13 @@ from contoursolve.source import Span
 from contoursolve.syntax import Block, Word
 
 
-def leave(claim: Claim, end: tuple[float, float] | None, modes: Modes, reason: str = "") -> State:
+def leave(
+    claim: Claim, end: tuple[float, float] | None, modes: Modes, reason: str = "", cause: Span | None = None
+) -> State:
     """The modes of a contour's blocks, and the position where it ends, mm.
 
-    Where it has no end, for this reason, an axis that its last block programs is still known.
+    Where it has no end, for this reason, whose `cause` may lie in a line before it, an axis that its last block
+    programs is still known.
     """
     state, last = claim.after, claim.blocks[-1]
     if end is not None:
@@ -24,7 +27,7 @@ def leave(claim: Claim, end: tuple[float, float] | None, modes: Modes, reason: s
         )
         ends = zip(axes, end, strict=True)
         return state.move({axis: end_of_contour(value, last.span, is_skippable=is_skippable) for axis, value in ends})
-    lost = state.lose(state.plane.axes, reason, last.span)
+    lost = state.lose(state.plane.axes, reason, cause or last.span)
     if last.faults:
         return lost
     absolute = replace(state, is_incremental=False)

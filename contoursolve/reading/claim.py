@@ -22,6 +22,7 @@ class Trouble(Enum):
     VARIABLE = "variable"
     WORD_IGNORED = "word-ignored"
     POINT_MISSING = "point-missing"
+    START_IN_INCREMENTS = "start-in-increments"
     COMMA_MISSING = "comma-missing"
     LETTER_FOR_DIGIT = "letter-for-digit"
     VALUE_TOO_LARGE = "value-too-large"

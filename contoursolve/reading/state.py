@@ -6,6 +6,7 @@ from decimal import Decimal
 
 from contoursolve.model import Length, Plane, Start
 from contoursolve.source import Span
+from contoursolve.syntax import Word
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,6 +21,8 @@ class Position:
     span: Span | None = None
     is_skippable: bool = False
     """The block that set it begins with `/`."""
+    word: Word | None = None
+    """The axis word that set it, where one did."""
 
 
 class Awaited(Position):
@@ -70,6 +73,10 @@ class Awaited(Position):
     @property
     def is_skippable(self) -> bool:
         return self.found().is_skippable
+
+    @property
+    def word(self) -> Word | None:
+        return self.found().word
 
 
 _DEEPEST = 50

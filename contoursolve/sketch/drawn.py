@@ -26,9 +26,9 @@ class Asked:
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Drawn(Shown):
-    """One way to draw a sketch, in mm: points, radii, and lines by their direction (cosine, sine) and how far the
-    origin lies to the right of them. `contour` is the path, if there is one. `asked` are the values of the facts
-    that ask for one, in the order in which they were stated."""
+    """One way to draw a sketch, in mm: points (the start among them if a path begins there), radii, and lines by their
+    direction (cosine, sine) and how far the origin lies to the right of them. `contour` is the path, if there is one.
+    `asked` are the values of the facts that ask for one, in the order in which they were stated."""
 
     points: dict[str, tuple[float, float]]
     radii: dict[str, float]
@@ -40,7 +40,7 @@ class Drawn(Shown):
 
     def __repr__(self) -> str:
         parts = [f"{name} {_place(at)}" for name, at in self.points.items()]
-        parts += [f"{name} {_shown(radius)}" for name, radius in self.radii.items()]
+        parts += [f"{name} {_shown(radius)} mm" for name, radius in self.radii.items()]
         parts += map(str, self.asked)
         return f"<Drawn {self.name or 'only drawing'}: {', '.join(parts)}>"
 
@@ -52,12 +52,14 @@ class Drawn(Shown):
         for name, at in self.points.items():
             yield f"  {name}: {_place(at)}"
         for name, radius in self.radii.items():
-            yield f"  {name}: {_shown(radius)}"
+            yield f"  {name}: {_shown(radius)} mm"
         for name, (cosine, sine, offset) in self.lines.items():
             angle = degrees(atan2(sine, cosine))
-            yield f"  {name}: at {_shown(angle)} deg, the origin {_shown(offset)} to the right of it"
+            yield f"  {name}: at {_shown(angle)} deg, the origin {_shown(offset)} mm to the right of it"
         for element in self.contour.elements if self.contour else ():
-            arc = f", radius {_shown(element.radius)}, {element.turn.value}" if isinstance(element, ArcSegment) else ""
+            arc = (
+                f", radius {_shown(element.radius)} mm, {element.turn.value}" if isinstance(element, ArcSegment) else ""
+            )
             yield f"  {element.name}: from {_place(element.start)} to {_place(element.end)}{arc}"
         for asked in self.asked:
             yield f"  {asked}"
@@ -123,7 +125,7 @@ def _unknown(name: str) -> str:
 
 
 def _place(at: tuple[float, float]) -> str:
-    return f"X{_shown(at[0])} Y{_shown(at[1])}"
+    return f"X{_shown(at[0])} Y{_shown(at[1])} mm"
 
 
 def _shown(value: float) -> str:

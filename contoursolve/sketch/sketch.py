@@ -222,7 +222,7 @@ def _drawn(item: Alternative, profile: Profile, questions: Questions, texts: Map
     lines = {line: tuple(item.scalars[f"{line}.{part}"] for part in ("cos", "sin", "off")) for line in figure.carriers}
     at = lookup(profile, {**solution.scalars, **scalars_of(solution.points), **solution.radii})
     return Drawn(
-        points=dict(solution.points),
+        points={name: at for name, at in solution.points.items() if figure.path or name != figure.start},
         radii=dict(solution.radii),
         lines={name: (cosine, sine, offset) for name, (cosine, sine, offset) in lines.items()},
         contour=trace(profile, solution) if figure.path else None,

@@ -8,7 +8,7 @@ from contoursolve.verification.case import Case, make_case
 from contoursolve.verification.claimed import ClaimedContour
 from contoursolve.verification.facts import check_readable, read_facts
 from contoursolve.verification.filled import check_filled
-from contoursolve.verification.forms import CHECKERS
+from contoursolve.verification.forms import CHECKERS, foreign
 from contoursolve.verification.ledger import Ledger
 from contoursolve.verification.path import check_certificate, check_path
 from contoursolve.verification.refusals import HARMLESS, too_large
@@ -27,7 +27,7 @@ def examine(found: Found, claimed: ClaimedContour, ledger: Ledger, selected: Map
         ledger.omit("the path", "the program does not tell where it starts")
         return False
     if checker is None:
-        ledger.omit("the path", f"contours of the form {claim.form.name} cannot be checked yet")
+        ledger.omit("the path", foreign(claim.form.name))
         return False
     case = make_case(claim, claimed, (first, second), found.start_error)
     case = replace(

@@ -96,3 +96,8 @@ CHECKERS: Mapping[str, FormChecker] = {
     "chain": _NCT,
     **dict.fromkeys(("G112", "G11", "G12", "G01"), _LATHE),
 }
+
+
+def foreign(form: str) -> str:
+    """Why a contour of a form that has no row is not checked."""
+    return f"there are formulas for the forms of the controls that are built in, and {form!a} is none of them"

@@ -28,7 +28,8 @@ def _parse(document: Document) -> Any:
         return json.loads(document.data, parse_constant=_refuse_constant, object_pairs_hook=_unambiguous)
     except (ValueError, RecursionError) as error:
         reason = "it is nested too deeply" if isinstance(error, RecursionError) else str(error)
-        raise CannotVerifyError(f"{document.name} is no JSON document: {reason}") from None
+        told = f"{document.name} is not a result of 'solve --format json'"
+        raise CannotVerifyError(f"{told}: it is no JSON document ({reason})") from None
 
 
 def _refuse_constant(name: str) -> NoReturn:

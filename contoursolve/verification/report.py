@@ -23,15 +23,18 @@ def report_lines(receipt: Receipt) -> Iterator[str]:
         yield f"{receipt.program.name}: read with {_plain(name)}={_plain(value)}, as the result says"
     if receipt.contours or receipt.omissions or receipt.settings:
         yield ""
-    yield f"program {receipt.program.checksum}  {receipt.program.name}"
-    yield f"result  {receipt.result.checksum}  {receipt.result.name}"
+    yield f"program {receipt.program.name}: SHA-256 {receipt.program.checksum}"
+    yield f"result {receipt.result.name}: SHA-256 {receipt.result.checksum}"
     yield _summary(receipt)
 
 
 def _contour_lines(receipt: Receipt, contour: ContourReceipt) -> Iterator[str]:
     claimed = f"claimed {contour.status}" if contour.status else "not in the result"
     place = f"{receipt.program.name}:{contour.line}: {_plain(contour.form)}: {claimed}"
-    yield f"{place}: {_VERDICTS[contour.verdict]} ({_count(len(contour.checks), 'check')}{_largest(contour)})"
+    checks = _count(len(contour.checks), "check")
+    if contour.verdict is Verdict.NOTHING_CHECKED:
+        checks = f"neither path nor status; {checks} of other things passed"
+    yield f"{place}: {_VERDICTS[contour.verdict]} ({checks}{_largest(contour)})"
     for check in contour.checks:
         if not check.passed:
             yield f"  wrong: {_check_text(check)}"
@@ -67,7 +70,8 @@ def _summary(receipt: Receipt) -> str:
     meaning = {
         Verdict.VERIFIED: "every claim that was checked is right",
         Verdict.FAILED: "the result is not right",
-        Verdict.NOTHING_CHECKED: "checked nothing: the result claims nothing that could be checked",
+        Verdict.NOTHING_CHECKED: "checked nothing: "
+        + ("see above what was not checked, and why" if verdicts else "there is no contour to check"),
     }
     return f"{examined}; {meaning[receipt.verdict]}"
 

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from decimal import Decimal
 
+from contoursolve.dialects import DIALECTS
 from contoursolve.verification.case import Case, make_case
 from contoursolve.verification.claimed import (
     ClaimedCertificate,
@@ -14,7 +15,7 @@ from contoursolve.verification.claimed import (
 )
 from contoursolve.verification.examination import examine, signs_of
 from contoursolve.verification.facts import read_facts
-from contoursolve.verification.forms import CHECKERS, FormChecker
+from contoursolve.verification.forms import CHECKERS, FormChecker, foreign
 from contoursolve.verification.ledger import Ledger
 from contoursolve.verification.refusals import refused, unaskable, unreadable
 from contoursolve.verification.standing import Candidate, Standing
@@ -32,9 +33,10 @@ def check_status(found: Found, claimed: ClaimedContour, ledger: Ledger) -> bool:
     checker = CHECKERS.get(claim.form.name)
     has_list = claimed.has_path or claimed.status is ClaimedStatus.AMBIGUOUS
     if claim.directives or any(word.is_asked for word in claim.words.values()) or checker is None:
+        why = _NOT_ASKED if checker else foreign(claim.form.name)
         if not has_list:
-            ledger.omit("the status", _NOT_ASKED if checker else f"the form {claim.form.name} cannot be checked yet")
-        ledger.omit("whether these are all solutions", _NOT_ASKED)
+            ledger.omit("the status", why)
+        ledger.omit("whether these are all solutions", why)
         return False
     standing = _stand(found, claimed, checker)
     if standing is None:
@@ -67,8 +69,12 @@ def _check_rejected(found: Found, claimed: ClaimedContour, ledger: Ledger) -> bo
     if checker and not claim.directives:
         reasons += unaskable(claim, checker.reads(claim))
     is_extended = bool(claim.directives) or any(word.is_asked for word in claim.words.values())
+    has_sheet = checker is not None and found.dialect.name in DIALECTS
+    if is_rejected and not reasons and not has_sheet:
+        ledger.omit("the status", f"what the manual of {found.dialect.name} refuses is known to its tables alone")
+        return False
     # What states or asks more than the control reads is not a block for the control yet: its rules only warn.
-    if not is_extended and (found.rules is Rules.ENFORCE or (found.rules is None and is_rejected)):
+    if has_sheet and not is_extended and (found.rules is Rules.ENFORCE or (found.rules is None and is_rejected)):
         reasons += refused(claim)
     name = "a block that cannot be read, or that the sheet refuses, is rejected, and no other"
     if reasons or (is_rejected and not claim.directives):

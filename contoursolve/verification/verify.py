@@ -85,7 +85,8 @@ def _dialect(program: Program, claims: ClaimedResult, control: str | Dialect | N
         signs = [each for each in DIALECTS.values() if any(map(each.signs, program.blocks))]
         return signs[0] if signs else None
     if wanted not in DIALECTS:
-        raise CannotVerifyError(f"unknown control {wanted!a}; choose from {', '.join(DIALECTS)}")
+        choices = f"choose from {', '.join(DIALECTS)}, or name the tables of your own with --control MODULE:NAME"
+        raise CannotVerifyError(f"unknown control {wanted!a}; {choices}")
     return DIALECTS[wanted]
 
 
