@@ -192,7 +192,7 @@ def test_types_are_as_documented_and_reasons_have_names():
         (BLOCK + " (contoursolve: length of line 1 = ?)", {"length of line 1": [1]}, "? is no number"),
         ("G112 X100. K-30. I10. R20.", {"X": [1], "start.X": [1]}, "vary one of them at a time"),
         (BLOCK + "\n" + BLOCK, {"1:A": [180]}, "2 contours"),
-        (BLOCK + "\n" + BLOCK, {"A": [180]}, "2 words A; its words are 1:X, 1:A"),
+        (BLOCK + "\n" + BLOCK, {"A": [180]}, "the block has 2 words A; write 1:A or 2:A"),
         ("G112 X100. K-30. I10. R20.", {"X": [1], "I": [1]}, "vary one of them at a time"),
     ],
 )

@@ -12,6 +12,7 @@ from contoursolve.families.ranges import FamilyError, name_of
 from contoursolve.families.regions import Boundary, Region, region, region_of, units_of
 from contoursolve.families.result import Family, summary_of
 from contoursolve.families.slopes import Sensitivity, Spread, sensitivity
+from contoursolve.families.template import RefusedError
 from contoursolve.families.tolerance import Effect, Limits, Tolerances, tolerances
 from contoursolve.solving.verdict import REASONS, Code
 
@@ -32,6 +33,7 @@ __all__ = [
     "Limits",
     "Parts",
     "Reason",
+    "RefusedError",
     "Region",
     "Sensitivity",
     "Spread",

@@ -15,6 +15,7 @@ from contoursolve.families.examples import Examples, Kinds, examples_of, kinds_o
 from contoursolve.families.prepared import Sweep, Table
 from contoursolve.families.ranges import FamilyError, Ranges, Stretches, ranges_of
 from contoursolve.families.recipe import Recipe, recipe_of
+from contoursolve.families.refusal import check_block
 from contoursolve.families.result import Family
 
 STRETCH = 65_536
@@ -43,7 +44,10 @@ def sweep(
     )
     template = recipe.template()
     examples = examples_of(template, ranges)
-    return Sweep(recipe, examples, kinds_of(template, examples), ranges)
+    kinds = kinds_of(template, examples)
+    if all(kind.status is not None for kind in kinds.items):
+        check_block(template, dict(zip(template.words, examples.rows[0][1], strict=True)))
+    return Sweep(recipe, examples, kinds, ranges)
 
 
 def family(
@@ -83,7 +87,9 @@ def family(
     the same, byte for byte, for any number of workers and any executor.
 
     Raises:
-        FamilyError: a word is not there, the values are none, or the blocks are no single contour with a known start.
+        FamilyError: a word is not there, the values are none, the blocks are no single contour with a known start, or
+            they are refused whatever the values (they cannot be read, break a rule, or lack words): a RefusedError,
+            whose message has the first finding and its fix, and whose `result` has all.
         UnknownControlError: the control is unknown, or the block does not tell it.
         FactPlaceError: facts for a program of several contours.
         SettingError: there is no such setting, or it has no such value.

@@ -19,6 +19,7 @@ from contoursolve.families.branches import Branch
 from contoursolve.families.goals import Curve, Goal, end_name, place_of, read_goal
 from contoursolve.families.ranges import FamilyError, NotClosedError
 from contoursolve.families.recipe import recipe_of
+from contoursolve.families.refusal import check_block
 from contoursolve.families.results import results_of
 from contoursolve.families.roots import find_zeros
 from contoursolve.families.survey import Piece, Survey, short
@@ -111,6 +112,7 @@ def find_word(
     template = recipe_of(
         block, (word,), start=start, control=control, facts=facts, units=units, rules=rules, settings=settings
     ).template()
+    check_block(template)
     name = next(iter(template.words))
     answer = template.solve({})
     wanted = read_goal(goal, answer.plane, float(answer.unit.in_mm))

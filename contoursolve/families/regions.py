@@ -17,6 +17,7 @@ from contoursolve.families.kinds import Kind, alike, kind_of, limits_of, unit_of
 from contoursolve.families.outline import BISECTIONS, NODES, Box, Field, Trace, edge_of, gaps_of
 from contoursolve.families.ranges import FamilyError, read_limits
 from contoursolve.families.recipe import recipe_of
+from contoursolve.families.refusal import check_block
 from contoursolve.families.result import Family
 from contoursolve.families.template import Template, find_words
 from contoursolve.model import Unit
@@ -100,7 +101,9 @@ def region(
     recipe = recipe_of(
         block, words, start=start, control=control, facts=facts, units=units, rules=rules, settings=settings
     )
-    return _region(recipe.template(), (recipe.names[0], recipe.names[1]), within)
+    template = recipe.template()
+    check_block(template)
+    return _region(template, (recipe.names[0], recipe.names[1]), within)
 
 
 def region_of(family: Family, words: tuple[str, str]) -> Region:
