@@ -11,8 +11,7 @@ from test_family import CASES, text_of
 
 import contoursolve
 from contoursolve.cli import main
-from contoursolve.families import Code, FamilyError, Way, family, feasible, region
-from contoursolve.families import RefusedError
+from contoursolve.families import Code, FamilyError, RefusedError, Way, family, feasible, region
 from contoursolve.families.ranges import NotClosedError
 
 BLOCK, START = "G111 X100. A180. K-30. B120. P5. Q5.", "X40. Z0."
