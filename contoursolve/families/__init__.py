@@ -13,7 +13,7 @@ from contoursolve.families.regions import Boundary, Region, region, region_of, u
 from contoursolve.families.result import Family, summary_of
 from contoursolve.families.slopes import Sensitivity, Spread, sensitivity
 from contoursolve.families.template import RefusedError
-from contoursolve.families.tolerance import Effect, Limits, Tolerances, tolerances
+from contoursolve.families.tolerance import Effect, Limits, Missing, Tolerances, tolerances
 from contoursolve.solving.verdict import REASONS, Code
 
 __all__ = [
@@ -31,6 +31,7 @@ __all__ = [
     "Hit",
     "Interval",
     "Limits",
+    "Missing",
     "Parts",
     "Reason",
     "RefusedError",
