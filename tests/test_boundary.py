@@ -253,7 +253,9 @@ def test_the_command_prints_the_ranges():
     data = json.loads(run(*on_block, *two, "--format", "json")[1])
     assert (data["schema"], data["complete"], len(data["boundaries"])) == ("contoursolve/region/1", True, 2)
     assert run(*on_block, "--word", "A", "--word", "P")[0] == 2
-    status, output, _ = run("--block", BLOCK.replace("P5.", "P60."), "--start", START, "--word", "P", "--within", "55:60")
+    status, output, _ = run(
+        "--block", BLOCK.replace("P5.", "P60."), "--start", START, "--word", "P", "--within", "55:60"
+    )
     assert (status, "as it stands, the block has none: corner 1 does not fit" in output) == (1, True)
     asked = ("--block", "G111 X100. A180. K-30. B120. P?", "--start", START, "--fact", "straight part of line 2 = 20")
     status, output, _ = run(*asked, "--word", "straight part of line 2")

@@ -68,7 +68,11 @@ def test_no_combination_of_the_limits_may_have_a_contour():
 
 @pytest.mark.parametrize(
     ("allowed", "message"),
-    [({"A": 1, "a": 2}, "two tolerances"), ({"A": -0.1}, r"positive: 0\.1 means \+-0\.1"), ({"A": float("nan")}, "finite")],
+    [
+        ({"A": 1, "a": 2}, "two tolerances"),
+        ({"A": -0.1}, r"positive: 0\.1 means \+-0\.1"),
+        ({"A": float("nan")}, "finite"),
+    ],
 )
 def test_a_tolerance_that_makes_no_sense_is_refused(allowed, message):
     with pytest.raises(FamilyError, match=message):

@@ -176,7 +176,7 @@ def _write(target: Path, parts: Parts, tables: Iterator[dict[str, Any]]) -> None
             with whole.open("w", encoding="utf-8", newline="") as file:
                 file.writelines(csv_lines(tables))
         else:
-            write_parquet(whole, tables)
+            write_parquet(whole, tables, parts.ready.measures())
         whole.replace(target)
     except OSError as error:
         raise CannotWriteError(f"{target} cannot be written: {error.strerror or error}") from None

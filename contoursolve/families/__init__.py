@@ -6,6 +6,7 @@ from contoursolve.families.evaluate import family, pieces, sweep
 from contoursolve.families.export import csv_lines, write_parquet
 from contoursolve.families.goals import Goal
 from contoursolve.families.inverse import Found, Hit, find_word
+from contoursolve.families.measures import Measure
 from contoursolve.families.parts import WHOLE, Parts, others, parts_of
 from contoursolve.families.prepared import Sweep
 from contoursolve.families.ranges import FamilyError, name_of
@@ -31,6 +32,7 @@ __all__ = [
     "Hit",
     "Interval",
     "Limits",
+    "Measure",
     "Missing",
     "Parts",
     "Reason",

@@ -33,10 +33,11 @@ def effect_rows(found: Tolerances) -> list[list[str]]:
 def spread_lines(found: Tolerances) -> Iterator[str]:
     """What the tolerances come to, and what rounding does; first of all at which limits there is no contour."""
     limits, unit = found.limits, found.length
-    for each in limits.missing if limits is not None else ():
-        place = ", ".join(f"{word} {value:g}" for word, value in each.values.items())
-        which = f"such as {place}" if each.count > 1 else f"at {place}"
-        yield f"no contour at {each.count} of {count(limits.count, 'combination')} of the limits, {which}: {each.message}"
+    for missing in limits.missing if limits is not None else ():
+        place = ", ".join(f"{word} {value:g}" for word, value in missing.values.items())
+        which = f"such as {place}" if missing.count > 1 else f"at {place}"
+        many = f"{missing.count} of {count(limits.count, 'combination')}" if limits is not None else ""
+        yield f"no contour at {many} of the limits, {which}: {missing.message}"
     if _has_tolerances(found):
         pairs = zip(_letters(found), found.spread, found.plane.diameters, strict=True)
         spreads = [(letter, each, 2 if is_diameter else 1) for letter, each, is_diameter in pairs]
@@ -49,7 +50,8 @@ def spread_lines(found: Tolerances) -> Iterator[str]:
         yield f"solved at {solved} combinations of the limits: from {lowest} to {highest}"
     for each in found.effects:
         if each.rounded is not None and each.rounded != each.stated:
-            moved = "leaves no contour" if each.by_rounding is None else f"moves it by {length_in(each.by_rounding, unit)}"
+            by = "" if each.by_rounding is None else length_in(each.by_rounding, unit)
+            moved = f"moves it by {by}" if by else "leaves no contour"
             linear = f"{length_in(each.by_rounding_linear, unit)} by the derivatives"
             yield f"{each.word} rounded to {written(each.rounded, each.unit)} {moved} ({linear})"
 
