@@ -3,6 +3,7 @@
 import json
 import multiprocessing
 import os
+import signal
 import subprocess
 import sys
 import time
@@ -107,6 +108,25 @@ def test_a_sweep_that_was_killed_goes_on_and_ends_with_the_same_bytes(name, tmp_
     assert errors.startswith("going on after ")
     assert (broken / name).read_bytes() == (unbroken / name).read_bytes()
     assert [path.name for path in broken.iterdir()] == [name]
+
+
+@pytest.mark.parametrize("told", [signal.SIGINT, signal.SIGTERM])
+def test_a_sweep_that_was_told_to_stop_says_what_is_kept(told, tmp_path):
+    longer = [*SWEEP[:-1], "P=0:60:0.01", "-o", "family.csv"]
+    with start(*longer, cwd=tmp_path) as child:
+        deadline = time.monotonic() + 60
+        while len(list(tmp_path.glob(".*.parts/*.npz"))) < 2 and time.monotonic() < deadline:
+            time.sleep(0.005)
+        child.send_signal(told)
+        output, errors = child.communicate()
+    (folder,) = tmp_path.iterdir()
+    kept = len(list(folder.glob("*.npz")))
+    assert (child.returncode, output) == (130, "")
+    assert errors.startswith(
+        f"stopped after {kept * 65_536:,} of 3,606,601 contours, which are kept in {folder.name}: "
+    )
+    assert "the same command goes on there" in errors
+    assert not (folder / "whole.tmp").exists()
 
 
 def test_another_sweep_does_not_go_on_where_one_was_killed(tmp_path):

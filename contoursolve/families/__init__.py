@@ -2,6 +2,7 @@
 
 from contoursolve.families.boundary import End, Feasible, Interval, Way, feasible
 from contoursolve.families.ends import Reason
+from contoursolve.families.estimate import MOST_ROWS, room_of, seconds_of
 from contoursolve.families.evaluate import family, pieces, sweep
 from contoursolve.families.export import csv_lines, write_parquet
 from contoursolve.families.goals import Goal
@@ -13,11 +14,13 @@ from contoursolve.families.ranges import FamilyError, name_of
 from contoursolve.families.regions import Boundary, Region, region, region_of, units_of
 from contoursolve.families.result import Family, summary_of
 from contoursolve.families.slopes import Sensitivity, Spread, sensitivity
+from contoursolve.families.telling import Tally, Telling, telling_of
 from contoursolve.families.template import RefusedError
 from contoursolve.families.tolerance import Effect, Limits, Missing, Tolerances, tolerances
 from contoursolve.solving.verdict import REASONS, Code
 
 __all__ = [
+    "MOST_ROWS",
     "REASONS",
     "WHOLE",
     "Boundary",
@@ -41,6 +44,8 @@ __all__ = [
     "Sensitivity",
     "Spread",
     "Sweep",
+    "Tally",
+    "Telling",
     "Tolerances",
     "Way",
     "csv_lines",
@@ -53,9 +58,12 @@ __all__ = [
     "pieces",
     "region",
     "region_of",
+    "room_of",
+    "seconds_of",
     "sensitivity",
     "summary_of",
     "sweep",
+    "telling_of",
     "tolerances",
     "units_of",
     "write_parquet",

@@ -89,3 +89,14 @@ def kinds_of(template: Template, examples: Examples) -> Kinds:
         numpy.array([key for key, _ in ordered], numpy.int64),
         numpy.array([number for _, number in ordered], numpy.int64),
     )
+
+
+def weights_of(examples: Examples, ranges: Ranges) -> list[int]:
+    """How many rows of a family are like each of the examples."""
+    words = zip(ranges.values.values(), examples.scales, examples.bounds, strict=True)
+    columns = [intervals_of(values * scale, bounds) for values, scale, bounds in words]
+    if ranges.is_paired:
+        counts: list[int] = numpy.unique(numpy.stack(columns, axis=1), axis=0, return_counts=True)[1].tolist()
+        return counts
+    many = [numpy.bincount(column).tolist() for column in columns]
+    return [prod(each[part] for each, part in zip(many, parts, strict=True)) for parts, _ in examples.rows]
