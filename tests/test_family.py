@@ -427,20 +427,25 @@ def test_a_block_that_is_refused_whatever_the_values_says_so_as_solve_does(block
         assert fix in str(caught.value)
 
 
+def test_a_start_point_that_cannot_be_read_is_told_as_such():
+    status, _, errors = run("--block", BLOCK, "--start", "X40. Z", "--vary", "A=170")
+    assert (status, "error[number-missing]: Z has no number" in errors, "--start:6" in errors) == (2, True, True)
+
+
 def test_rows_that_values_alone_refuse_are_rows():
     """Of the rules that refuse P and Q, each speaks of a value; with others there is a contour."""
     words = {"P": [-5, -6], "Q": [-4, -3]}
     assert family(BLOCK, start=START, vary=words).summary() == {contoursolve.Status.REJECTED: 4}
     status, output, _ = run(*ON_BLOCK, "--vary", "P=-5,-6", "--vary", "Q=-4,3")
     assert status == 0
-    assert output.splitlines()[-1].startswith("4 of them such as P=-5.0, Q=-4.0: P-5.0 and Q-4.0 is negative")
+    assert output.splitlines()[-1].startswith("4 of them, such as P=-5.0, Q=-4.0: P-5.0 and Q-4.0 is negative")
 
 
 def test_where_no_row_has_a_contour_the_reason_of_most_is_named_with_a_row():
     """The largest P is 51.96 at A180, more at A170."""
     status, output, _ = run(*ON_BLOCK, "--vary", "P=52:60:1", "--vary", "A=180")
     assert status == 0
-    last = "9 of them such as P=52.0, A=180.0: corner 1 does not fit: P52.0 is 52.000 mm, at most 51.961 mm fits"
+    last = "9 of them, such as P=52.0, A=180.0: corner 1 does not fit: P52.0 is 52.000 mm, at most 51.961 mm fits"
     assert output.splitlines()[-1].startswith(last)
     example = json.loads(run(*ON_BLOCK, "--vary", "P=52:60:1", "--format", "json")[1])["example"]
     assert (example["count"], example["values"], example["code"]) == (9, {"P": 52.0}, "g111-corner-too-large")

@@ -65,7 +65,7 @@ def usage() -> Iterator[None]:
         result = error.result
         for line in lines_of_findings(result, result.diagnostics, style_of_output()):
             click.echo(line, err=True)
-        raise CouldNotRunError("the block has no contour, whatever the values of its free words") from None
+        raise CouldNotRunError("the block is refused, whatever the values that vary; nothing was computed") from None
     except (FamilyError, SettingError, FactPlaceError, MissingExtraError, CannotWriteError) as error:
         raise CouldNotRunError(str(error)) from None
     except UnknownControlError as error:

@@ -1,5 +1,6 @@
 """How far a long command is, and what tells it to stop."""
 
+import os
 import signal
 import sys
 import threading
@@ -9,6 +10,8 @@ from contextlib import contextmanager
 from types import FrameType
 
 import click
+
+from contoursolve.families import THREADS
 
 BETWEEN = 30.0
 """Seconds between two lines about progress where no terminal shows a bar."""
@@ -69,3 +72,9 @@ def stoppable() -> Iterator[None]:
 
 def _stop(_number: int, _frame: FrameType | None) -> None:
     raise KeyboardInterrupt
+
+
+def leave_threads(status: int) -> None:
+    """End the process now if threads are still solving: Python would wait for them, which may take minutes."""
+    if any(thread.name.startswith(THREADS) for thread in threading.enumerate()):
+        os._exit(status)

@@ -11,7 +11,7 @@ from contoursolve.cli.blocks import block_options, fact_option, format_option, p
 from contoursolve.cli.cluster import open_cluster
 from contoursolve.cli.extent import check_extent
 from contoursolve.cli.pictured import bytes_of, check_picture, theme_option
-from contoursolve.cli.progress import STOPPED, progress, stoppable
+from contoursolve.cli.progress import STOPPED, leave_threads, progress, stoppable
 from contoursolve.cli.varied import read_range
 from contoursolve.extras import need
 from contoursolve.families import (
@@ -122,6 +122,7 @@ def sweep_(
             telling = telling_of(ready, tally)
     except KeyboardInterrupt:
         click.echo(_stopped(parts, tally), err=True)
+        leave_threads(STOPPED)
         context.exit(STOPPED)
     if format_ == "json":
         print_json(_summary_data(tally.counts, telling))
@@ -226,7 +227,7 @@ def _summary(counts: Any, telling: Telling | None) -> list[str]:
     lines = columns(rows, left=(1,), indent="")
     if telling is not None:
         values = ", ".join(f"{word}={value!r}" for word, value in telling.values.items())
-        lines.append(f"{telling.count:,} of them such as {values}: {telling.message}")
+        lines.append(f"{telling.count:,} of them, such as {values}: {telling.message}")
     return lines
 
 

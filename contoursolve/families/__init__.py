@@ -1,6 +1,7 @@
 """Families: one block with some words free, a million contours at once."""
 
 from contoursolve.families.boundary import End, Feasible, Interval, Way, feasible
+from contoursolve.families.distribute import THREADS
 from contoursolve.families.ends import Reason
 from contoursolve.families.estimate import MOST_ROWS, room_of, seconds_of
 from contoursolve.families.evaluate import family, pieces, sweep
@@ -22,6 +23,7 @@ from contoursolve.solving.verdict import REASONS, Code
 __all__ = [
     "MOST_ROWS",
     "REASONS",
+    "THREADS",
     "WHOLE",
     "Boundary",
     "Code",

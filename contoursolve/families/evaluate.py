@@ -2,15 +2,14 @@
 
 import pickle
 from collections.abc import Collection, Iterable, Iterator, Mapping
-from concurrent.futures import Executor, ThreadPoolExecutor
-from contextlib import nullcontext
+from concurrent.futures import Executor
 from functools import lru_cache, partial
 
 from numpy.typing import ArrayLike
 
 from contoursolve.backends.columns import Array
 from contoursolve.dialects import Dialect
-from contoursolve.families.distribute import in_order
+from contoursolve.families.distribute import in_order, threads
 from contoursolve.families.examples import Examples, Kinds, examples_of, kinds_of
 from contoursolve.families.prepared import Sweep, Table
 from contoursolve.families.ranges import FamilyError, Ranges, Stretches, ranges_of
@@ -128,8 +127,8 @@ def family(
             for name, column in table.items():
                 column[first:last] = part[name]
         return Family(ready.ranges, table, ready.recipe)
-    with ThreadPoolExecutor(count) if min(count, len(parts)) > 1 else nullcontext() as threads:
-        for _ in in_order((partial(fill, *part) for part in parts), threads, count):
+    with threads(min(count, len(parts))) as pool:
+        for _ in in_order((partial(fill, *part) for part in parts), pool, count):
             pass
     return Family(ready.ranges, table, ready.recipe)
 
@@ -152,8 +151,8 @@ def solve_parts(
         tasks = (partial(solve_rows, packed, dict(ready.ranges.rows(*part).values)) for part in parts)
         yield from in_order(tasks, executor, AHEAD if workers is None else count)
         return
-    with ThreadPoolExecutor(count) if min(count, len(parts)) > 1 else nullcontext() as threads:
-        yield from in_order((partial(_solve, ready, *part) for part in parts), threads, count)
+    with threads(min(count, len(parts))) as pool:
+        yield from in_order((partial(_solve, ready, *part) for part in parts), pool, count)
 
 
 def _pack(ready: Sweep) -> bytes:

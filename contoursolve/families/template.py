@@ -52,6 +52,8 @@ class Template:
             raise FamilyError(reasons[0] if reasons and not result.answers else told)
         answer = result.answers[0]
         if not answer.start.is_known:
+            if any(each.severity is Severity.ERROR and not each.span.line for each in result.diagnostics):
+                raise RefusedError(self.examined())
             raise FamilyError('the start point is not known; state it as the start, such as "X40. Z0."')
         return answer
 
