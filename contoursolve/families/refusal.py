@@ -6,6 +6,7 @@ from itertools import pairwise
 from contoursolve.diagnostic import Basis, Severity
 from contoursolve.examine import Answer
 from contoursolve.families.kinds import limits_of, value_of
+from contoursolve.families.ranges import FamilyError
 from contoursolve.families.template import RefusedError, Template
 from contoursolve.reading import Trouble
 from contoursolve.solving import Status
@@ -31,7 +32,10 @@ def check_block(template: Template, values: Mapping[str, float] | None = None) -
     for name, scale, bounds in limits:
         for value in _probes(bounds):
             tried = {**chosen, name: value / scale}
-            found = _refusals(template.solve(tried))
+            try:
+                found = _refusals(template.solve(tried))
+            except FamilyError:  # with this value it is no single contour
+                continue
             if _weight(found) < _weight(left):
                 left, chosen = found, tried
             if not left:
@@ -61,6 +65,7 @@ def _weight(refusals: Refusals) -> tuple[int, int]:
 
 
 _USELESS = (Trouble.FACT_UNREADABLE, Trouble.FACT_IMPOSSIBLE)
+"""Findings about facts that cannot be used, whatever they rest on."""
 
 
 def _probes(bounds: tuple[float, ...]) -> Iterator[float]:

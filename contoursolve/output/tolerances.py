@@ -69,7 +69,7 @@ def _letters(found: Tolerances) -> list[str]:
 
 def _row(each: Effect, found: Tolerances, has_tolerances: bool) -> list[str]:
     slopes = [
-        f"{_length(slope * (2 if is_diameter else 1), found.length)}"
+        _length(slope * (2 if is_diameter else 1), found.length)
         for slope, is_diameter in zip(each.slope, found.plane.diameters, strict=True)
     ]
     slopes = [slope if slope == _NONE else f"{slope}/{short_name(each.unit)}" for slope in slopes]
