@@ -11,7 +11,7 @@ from test_family import CASES, text_of
 
 import contoursolve
 from contoursolve.cli import main
-from contoursolve.families import Code, FamilyError, Way, family, feasible, region
+from contoursolve.families import Code, FamilyError, RefusedError, Way, family, feasible, region
 from contoursolve.families.ranges import NotClosedError
 
 BLOCK, START = "G111 X100. A180. K-30. B120. P5. Q5.", "X40. Z0."
@@ -253,8 +253,10 @@ def test_the_command_prints_the_ranges():
     data = json.loads(run(*on_block, *two, "--format", "json")[1])
     assert (data["schema"], data["complete"], len(data["boundaries"])) == ("contoursolve/region/1", True, 2)
     assert run(*on_block, "--word", "A", "--word", "P")[0] == 2
-    status, output, _ = run("--block", BLOCK.replace("B120. ", ""), "--start", START, "--word", "P")
-    assert (status, "line 2 needs two of B, X or U, Z or W" in output) == (1, True)
+    status, output, _ = run(
+        "--block", BLOCK.replace("P5.", "P60."), "--start", START, "--word", "P", "--within", "55:60"
+    )
+    assert (status, "as it stands, the block has none: corner 1 does not fit" in output) == (1, True)
     asked = ("--block", "G111 X100. A180. K-30. B120. P?", "--start", START, "--fact", "straight part of line 2 = 20")
     status, output, _ = run(*asked, "--word", "straight part of line 2")
     assert (status, "straight part of line 2, now 20.0000 mm" in output, "34.641 mm at most" in output) == (
@@ -416,6 +418,10 @@ def test_ranges_of_random_facts_are_those_of_a_fine_family():
         try:
             found = feasible(text, word, **options)
         except NotClosedError:
+            continue
+        except RefusedError:
+            with pytest.raises(RefusedError):
+                family(text, vary={word: [1, 2]}, **options)
             continue
         if found.intervals:
             near = found.stated

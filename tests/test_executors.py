@@ -3,6 +3,7 @@
 import json
 import multiprocessing
 import os
+import signal
 import subprocess
 import sys
 import time
@@ -107,6 +108,40 @@ def test_a_sweep_that_was_killed_goes_on_and_ends_with_the_same_bytes(name, tmp_
     assert errors.startswith("going on after ")
     assert (broken / name).read_bytes() == (unbroken / name).read_bytes()
     assert [path.name for path in broken.iterdir()] == [name]
+
+
+@pytest.mark.parametrize(("told", "workers"), [(signal.SIGINT, "1"), (signal.SIGTERM, "2")])
+def test_a_sweep_that_was_told_to_stop_says_what_is_kept(told, workers, tmp_path):
+    longer = [*SWEEP[:-1], "P=0:60:0.01", "--workers", workers, "-o", "family.csv"]
+    with start(*longer, cwd=tmp_path) as child:
+        deadline = time.monotonic() + 60
+        while len(list(tmp_path.glob(".*.parts/*.npz"))) < 2 and time.monotonic() < deadline:
+            time.sleep(0.005)
+        child.send_signal(told)
+        output, errors = child.communicate()
+    (folder,) = tmp_path.iterdir()
+    kept = len(list(folder.glob("*.npz")))
+    assert (child.returncode, output) == (130, "")
+    assert errors.startswith(
+        f"stopped after {kept * 65_536:,} of 3,606,601 contours, which are kept in {folder.name}: "
+    )
+    assert "the same command goes on there" in errors
+    assert not (folder / "whole.tmp").exists()
+
+
+def test_whoever_stops_a_sweep_does_not_wait_for_what_its_threads_have_under_way(tmp_path):
+    """Without a closed form a stretch of rows takes minutes."""
+    block = ["--block", "G112 X50. K-30. I-10. R? Q2.", "--start", START, "--fact", "length of arc = 20"]
+    slow = ["sweep", *block, "--vary", "X=45:60:0.01", "--vary", "K=-35:-25:0.01", "--workers", "2", "-o", "family.csv"]
+    with start(*slow, cwd=tmp_path) as child:
+        deadline = time.monotonic() + 60
+        while not list(tmp_path.glob(".*.parts/whole.tmp")) and time.monotonic() < deadline:
+            time.sleep(0.005)
+        time.sleep(0.5)
+        child.send_signal(signal.SIGINT)
+        _, errors = child.communicate(timeout=30)
+    assert (child.returncode, errors) == (130, "stopped; there are no finished contours to go on from\n")
+    assert not list(tmp_path.iterdir())
 
 
 def test_another_sweep_does_not_go_on_where_one_was_killed(tmp_path):

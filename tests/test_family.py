@@ -3,6 +3,7 @@
 import json
 import re
 import sys
+from types import SimpleNamespace
 
 import click
 import flint
@@ -213,7 +214,7 @@ def test_types_are_as_documented_and_reasons_have_names():
         (BLOCK + " (contoursolve: length of line 1 = ?)", {"length of line 1": [1]}, "? is no number"),
         ("G112 X100. K-30. I10. R20.", {"X": [1], "start.X": [1]}, "vary one of them at a time"),
         (BLOCK + "\n" + BLOCK, {"1:A": [180]}, "2 contours"),
-        (BLOCK + "\n" + BLOCK, {"A": [180]}, "2 words A; its words are 1:X, 1:A"),
+        (BLOCK + "\n" + BLOCK, {"A": [180]}, "the block has 2 words A; write 1:A or 2:A"),
         ("G112 X100. K-30. I10. R20.", {"X": [1], "I": [1]}, "vary one of them at a time"),
     ],
 )
@@ -340,12 +341,48 @@ def test_families_go_to_arrow_parquet_and_xarray(tmp_path):
     assert tuple(table.column_names) == found.names
     found.to_parquet(tmp_path / "family.parquet")
     again = parquet.read_table(tmp_path / "family.parquet")
-    assert again.schema.equals(table.schema)
-    assert all(np.array_equal(again[name], found[name].ravel(), equal_nan=True) for name in found.names)
+    assert again.schema.equals(table.schema, check_metadata=True)
+    check_table(again, found)
     pytest.importorskip("xarray")
     data = found.to_xarray()
     assert dict(data.sizes) == {"A": 3, "P": 2}
     assert float(data["V2.X"].sel(A=180, P=1)) == found["V2.X"][1, 0]
+    meanings = data["status"].attrs["flag_meanings"].split()
+    assert [meanings[code] for code in data["status"].values[0]] == ["solved", "no-solution"]
+
+
+def check_table(table, found):
+    """A table has the numbers of a family, and the status and the reason of each row in words."""
+    assert table["status"].to_pylist() == [Code(code).status.value for code in found["status"].ravel()]
+    reasons = [REASONS[number] for number in found["reason"].ravel()]
+    assert table["reason"].to_pylist() == [kind.value if kind else None for kind in reasons]
+    for name in set(found.names) - {"status", "reason"}:
+        assert np.array_equal(table[name], found[name].ravel(), equal_nan=True), name
+
+
+def test_every_column_names_its_unit_as_in_one_row_words_and_points_differ():
+    """X4. is a diameter in inches; the end point is a radius in mm."""
+    pytest.importorskip("pyarrow")
+    pytest.importorskip("xarray")
+    block, options = "G111 X4. A180. K-1.2 B120. P.2 Q.2", {"start": "X1.6 Z0.", "units": "inch"}
+    found = family(block, vary={"X": [4.0], "A": [180.0], "start.Z": [0.0]}, **options)
+    assert (found["X"].item(), found["V2.X"].item()) == (4.0, pytest.approx(2 * 25.4))
+    schema, data = found.to_arrow().schema, found.to_xarray()
+    expected = {
+        "X": ("inch", "diameter"),
+        "A": ("deg", None),
+        "start.Z": ("inch", None),
+        "V2.X": ("mm", "radius"),
+        "V2.Z": ("mm", None),
+        "line 1.room": ("mm", None),
+        "residual": ("mm", None),
+    }
+    for name, (unit, measure) in expected.items():
+        metadata = {key.decode(): value.decode() for key, value in schema.field(name).metadata.items()}
+        assert (metadata["unit"], metadata.get("measure")) == (unit, measure), name
+        assert (data[name].attrs["units"], data[name].attrs.get("measure")) == (unit, measure), name
+    asked = family("G111 X100. A? K-30. B120. P5.", start=START, facts=["length of line 1 = 40"], vary={"K": [-30.0]})
+    assert [asked.measures()[name].unit for name in ("asked.A", "status")] == ["deg", ""]
 
 
 ON_BLOCK = ("--block", BLOCK, "--start", START)
@@ -374,6 +411,103 @@ def test_a_sweep_counts_what_becomes_of_the_contours():
     counted = [(each["status"], each["count"]) for each in data["statuses"]]
     assert counted == [("solved", 2), ("rejected", 1), ("no-solution", 1)]
     assert data["statuses"][-1]["reasons"] == {"corner-too-large": 1}
+
+
+@pytest.mark.parametrize(
+    ("block", "finding", "fix"),
+    [
+        ("G11l X100. A180. K-30. B120.", "l has no number", "write G111 for G11l"),
+        ("G1ll X100. A180. K-30. B120.", "ll has no number", "write G111 for G1ll"),
+        ("G111 X100. A180.", "line 2 needs two of B, X or U, Z or W", "add B?"),
+        ("G111 X100. A180. K-30. B120. P?", "nothing determines corner 1", "give P? a value"),
+        ("G111 X100. A180. K-30. B120. P-5.", "P-5. is negative", "write P5. for P-5."),
+    ],
+)
+def test_a_block_that_is_refused_whatever_the_values_says_so_as_solve_does(block, finding, fix):
+    start = ("--start", START)
+    printed = CliRunner().invoke(main, ["solve", "--block", block, *start]).stdout
+    findings = printed[min(at for at in (printed.find("error["), printed.find("warning[")) if at >= 0) :]
+    for command in (
+        ["sweep", "--vary", "A=170:190:1"],
+        ["find", "--word", "A", "--bring", "end Z-50."],
+        ["range", "--word", "A"],
+        ["range", "--word", "A", "--word", "X", "--within", "1:2", "--within", "1:2"],
+        ["sensitivity"],
+    ):
+        done = CliRunner().invoke(main, [*command, "--block", block, *start])
+        assert (done.exit_code, done.stdout) == (2, ""), command
+        *told, _ = done.stderr.rstrip().split("\n")
+        assert "\n".join(told).strip() == findings.rpartition("\n\n")[0].strip(), command
+        assert finding in done.stderr
+        assert fix in done.stderr
+    for call in (
+        lambda: family(block, start=START, vary={"A": [170, 180]}),
+        lambda: contoursolve.feasible(block, "A", start=START),
+        lambda: contoursolve.find_word(block, "A", "end Z-50.", start=START),
+        lambda: contoursolve.region(block, ("A", "X"), ((1, 2), (1, 2)), start=START),
+    ):
+        with pytest.raises(FamilyError) as caught:
+            call()
+        assert finding in str(caught.value)
+        assert fix in str(caught.value)
+
+
+def test_a_start_point_that_cannot_be_read_is_told_as_such():
+    status, _, errors = run("--block", BLOCK, "--start", "X40. Z", "--vary", "A=170")
+    assert (status, "error[number-missing]: Z has no number" in errors, "--start:6" in errors) == (2, True, True)
+
+
+def test_rows_that_values_alone_refuse_are_rows():
+    """Of the rules that refuse P and Q, each speaks of a value; with others there is a contour."""
+    words = {"P": [-5, -6], "Q": [-4, -3]}
+    assert family(BLOCK, start=START, vary=words).summary() == {contoursolve.Status.REJECTED: 4}
+    status, output, _ = run(*ON_BLOCK, "--vary", "P=-5,-6", "--vary", "Q=-4,3")
+    assert status == 0
+    assert output.splitlines()[-1].startswith("4 of them, such as P=-5.0, Q=-4.0: P-5.0 and Q-4.0 is negative")
+
+
+def test_where_no_row_has_a_contour_the_reason_of_most_is_named_with_a_row():
+    """The largest P is 51.96 at A180, more at A170."""
+    status, output, _ = run(*ON_BLOCK, "--vary", "P=52:60:1", "--vary", "A=180")
+    assert status == 0
+    last = "9 of them, such as P=52.0, A=180.0: corner 1 does not fit: P52.0 is 52.000 mm, at most 51.961 mm fits"
+    assert output.splitlines()[-1].startswith(last)
+    example = json.loads(run(*ON_BLOCK, "--vary", "P=52:60:1", "--format", "json")[1])["example"]
+    assert (example["count"], example["values"], example["code"]) == (9, {"P": 52.0}, "g111-corner-too-large")
+    assert json.loads(run(*ON_BLOCK, "--vary", "P=5,60", "--format", "json")[1])["example"] is None
+
+
+def test_more_contours_than_anybody_means_are_not_begun(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    grid = ("--vary", "A=0:360:0.001", "--vary", "B=0:360:0.001")
+    status, output, errors = run(*ON_BLOCK, *grid, "-o", "family.csv")
+    assert (status, output) == (2, "")
+    assert re.search(r"129,600,720,001 contours are more than 100,000,000: about .* (h|days) on one thread", errors)
+    assert re.search(r"family\.csv, with the rows .* may need [\d.]+ TB, where .* free; .* give --force", errors)
+    assert not list(tmp_path.iterdir())
+    status, _, errors = run(*ON_BLOCK, *grid, *(f"--vary={word}=0:100:0.0001" for word in "PQKX"), "--force")
+    assert (status, "cannot be counted" in errors) == (2, True)
+
+
+def test_a_file_for_which_the_disk_has_no_room_is_begun_only_by_force(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("contoursolve.cli.extent.disk_usage", lambda _: SimpleNamespace(free=1000))
+    arguments = (*ON_BLOCK, "--vary", "A=170:190:1", "-o", "family.csv")
+    status, _, errors = run(*arguments)
+    assert (status, "where 1 kB are free; take larger steps, or give --force" in errors) == (2, True)
+    assert run(*arguments, "--force")[0] == 0
+    # What was estimated is not less than what it took.
+    needed = re.search(r"may need ([\d.]+) kB", errors)
+    assert float(needed[1]) * 1000 >= (tmp_path / "family.csv").stat().st_size
+
+
+def test_without_a_terminal_a_line_now_and_then_tells_how_far_it_is(monkeypatch):
+    monkeypatch.setattr("contoursolve.cli.progress.BETWEEN", 0.0)
+    grid = ("--vary", "A=150:200:0.1", "--vary", "P=1:60:0.2")
+    told = run(*ON_BLOCK, *grid)[2].splitlines()
+    assert len(told) == 2
+    assert all(re.fullmatch(r"[\d,]+ of 148,296 contours, [\d,]+ a second, \d+ s left", line) for line in told)
+    assert run(*ON_BLOCK, *grid, "--quiet")[2] == ""
 
 
 def test_a_range_has_both_ends_and_no_rounding_adds_up():
@@ -458,7 +592,7 @@ def test_a_sweep_writes_every_row(tmp_path):
         assert run(*ON_BLOCK, *vary, "-o", file, "--workers", workers)[0] == 0
     assert files[0].read_bytes() == files[1].read_bytes()
     table = parquet.read_table(files[0])
-    assert all(np.array_equal(table[name], found[name].ravel(), equal_nan=True) for name in found.names)
+    check_table(table, found)
 
 
 def test_a_missing_package_is_named_with_the_extra_that_brings_it(monkeypatch, tmp_path):
@@ -473,6 +607,7 @@ def test_a_missing_package_is_named_with_the_extra_that_brings_it(monkeypatch, t
         ((*ON_BLOCK, "--vary", "R=1"), "the block has no word R"),
         ((*ON_BLOCK, "--vary", "A=1", "--vary", "a=2"), "twice"),
         ((*ON_BLOCK, "--vary", "A=1", "-o", "x.txt"), ".parquet or .csv"),
+        ((*ON_BLOCK, "--vary", "A=190:170:0.1"), "from 190 to 170; write 170:190:0.1, or a step of -0.1"),
         (("--block", BLOCK, "--vary", "A=1"), "start point"),
         (("--block", "A1", "--vary", "A=1"), "--control"),
         ((*ON_BLOCK, "--vary", "A=1", "--dask", "tcp://127.0.0.1:1", "--workers", "2"), "the cluster has its own"),
@@ -549,8 +684,8 @@ def test_a_wrong_call_says_what_is_wrong(options, error, message):
 @pytest.mark.parametrize(
     ("block", "message"),
     [
-        (BLOCK.replace("P5.", "P500."), "no-solution"),
-        (BLOCK.replace("K-30.", ""), "rejected"),
+        (BLOCK.replace("P5.", "P500."), "the block has no contour: corner 1 does not fit"),
+        (BLOCK.replace("K-30.", ""), "line 1 needs two of A, I and K"),
         ("G17 G41 G0 X50 Y0\nG3 I-50 J0\nG1 X-60 Y50 ,A180 Q-1", "no derivative exists"),
     ],
 )

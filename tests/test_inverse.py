@@ -151,8 +151,8 @@ def test_an_angle_that_is_asked_for_is_looked_for_in_its_range(within, turns):
 def test_a_block_that_leaves_something_open_has_no_answer():
     with pytest.raises(FamilyError, match="nothing determines corner 1"):
         find_word("G111 X100. A180. K-30. B120. P?", "A", "end Z-50.", start=START)
-    with pytest.raises(FamilyError, match="K does not move end in this direction"):
-        find_word(BLOCK.replace("P5.", "P?"), "K", "end X300.", start=START, facts=["straight part of line 2 = 20"])
+    asked = find_word(BLOCK.replace("P5.", "P?"), "K", "end X300.", start=START, facts=["straight part of line 2 = 20"])
+    assert (asked.hits, asked.remark.partition("; ")[0]) == ((), "K does not move end in this direction")
     with pytest.raises(FamilyError, match="no range"):
         find_word(BLOCK, "A", "end Z-50.", start=START, facts=["length of line 1 = 30"], within=(200, 100))
 
@@ -180,7 +180,6 @@ def test_a_value_at_an_end_is_rounded_to_the_side_with_a_contour():
         ("A", "end Z3. Z4.", "twice"),
         ("A", "end Z3..4", "no number"),
         ("A", "V9 Z3.", "no point V9; there are end, V1, V2"),
-        ("A", "end X100.", "A does not move end"),
         ("length of line 1", "end Z-50.", "no fact says what length of line 1 is"),
         ("A", "end Z-50", r"Z-50 has no decimal point.* reads it as -0.050 mm; write Z-50. for -50.000 mm, or Z-0.05"),
     ],
@@ -188,6 +187,18 @@ def test_a_value_at_an_end_is_rounded_to_the_side_with_a_contour():
 def test_a_goal_that_makes_no_sense_is_refused(word, goal, message):
     with pytest.raises(FamilyError, match=message):
         find_word(BLOCK, word, goal, start=START)
+
+
+def test_of_a_point_that_the_word_does_not_move_the_words_are_named_that_do():
+    found = find_word(BLOCK, "P", "end Z-50.", start=START)
+    assert (found.hits, found.remark) == ((), "P does not move end in this direction; X, A, K, B and Q do")
+    status, output, errors = run("--word", "P", "--bring", "end Z-50.")
+    assert (status, found.remark in output, errors) == (1, True, "")
+    data = json.loads(run("--word", "P", "--bring", "end Z-50.", "--format", "json")[1])
+    assert (data["values"], data["remark"]) == ([], found.remark)
+    there = find_word(BLOCK, "A", "end X100.", start=START)
+    assert ([hit.value for hit in there.hits], there.is_complete) == ([180.0], False)
+    assert there.remark == "A does not move end in this direction; X does"
 
 
 def run(*arguments):

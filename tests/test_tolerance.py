@@ -55,6 +55,9 @@ def test_tolerances_beyond_which_there_is_no_contour_are_told():
     """The largest rounding is K / tan(30): 51.79 for K-29.9, 52.13 for K-30.1."""
     found = tolerances("G111 X100. A180. K-30. B120. P51.9", {"P": 0.2, "K": 0.1}, start=START)
     assert (found.limits.count, found.limits.without) == (4, 1)
+    (missing,) = found.limits.missing
+    assert (missing.count, missing.values) == (1, {"P": pytest.approx(52.1), "K": pytest.approx(-29.9)})
+    assert "at most 51.788 mm fits" in missing.message
 
 
 def test_no_combination_of_the_limits_may_have_a_contour():
@@ -65,7 +68,11 @@ def test_no_combination_of_the_limits_may_have_a_contour():
 
 @pytest.mark.parametrize(
     ("allowed", "message"),
-    [({"A": 1, "a": 2}, "two tolerances"), ({"A": -1}, "not below 0"), ({"A": float("nan")}, "finite")],
+    [
+        ({"A": 1, "a": 2}, "two tolerances"),
+        ({"A": -0.1}, r"positive: 0\.1 means \+-0\.1"),
+        ({"A": float("nan")}, "finite"),
+    ],
 )
 def test_a_tolerance_that_makes_no_sense_is_refused(allowed, message):
     with pytest.raises(FamilyError, match=message):
@@ -148,6 +155,31 @@ def test_the_command_prints_the_words_in_order():
         status, output, errors = run(*wrong)
         assert (status, output) == (2, "")
         assert message in errors
+
+
+def test_limits_without_a_contour_are_told_before_what_the_tolerances_come_to():
+    done = CliRunner().invoke(
+        main, ["sensitivity", "--block", "G111 X100. A180. K-30. B120. P25.", "--start", START, "--tolerance", "P=40"]
+    )
+    lines = [line.strip() for line in done.output.splitlines() if "P" in line or "off by" in line][-3:]
+    assert lines[0].startswith("no contour at 1 of 2 combinations of the limits, at P -15: P-15.0 is negative")
+    assert lines[1].startswith("no contour at 1 of 2 combinations of the limits, at P 65: corner 1 does not fit")
+    assert lines[2].startswith("off by at worst")
+
+
+def test_in_an_inch_program_every_number_is_in_inches_and_says_so():
+    """The tolerance of P moves the centre of its rounding by tan(30) of itself along Z, and by itself along X."""
+    words = ["--block", "G111 X4. A180. K-1.2 B120. P.2 Q.2", "--start", "X1.6 Z0.", "--units", "inch"]
+    about = ["--point", "corner 1.center", "--tolerance", "P=0.01"]
+    title, _, row, *others = CliRunner().invoke(main, ["sensitivity", *words, *about]).output.splitlines()
+    assert " in; moved by each word" in title
+    cells = row.split("  ")
+    assert [each.strip() for each in cells if each] == [
+        *("P", "0.20000 in", "0.57735 in/in", "2.00000 in/in", "0.01 in"),
+        *("0.01155 in", "0.00006 in"),
+    ]
+    assert "off by at worst Z 0.00577 in, X dia 0.02000 in" in others[-2]
+    assert not any("mm" in line for line in (title, row, *others))
 
 
 def test_a_number_without_a_point_means_what_the_control_reads():

@@ -11,11 +11,13 @@ from contoursolve.api import solve
 from contoursolve.cli.control import control_option
 from contoursolve.cli.loading import settings_of
 from contoursolve.cli.options import CouldNotRunError, rules_option, settings_option, units_option
+from contoursolve.cli.printing import style_of_output
 from contoursolve.data import json_text
 from contoursolve.dialects import DIALECTS
 from contoursolve.extras import MissingExtraError
-from contoursolve.families import FamilyError
+from contoursolve.families import FamilyError, RefusedError
 from contoursolve.files import CannotWriteError
+from contoursolve.output.listing import lines_of_findings
 from contoursolve.pipeline import FactPlaceError
 from contoursolve.project import SettingError
 from contoursolve.reading import Trouble
@@ -67,9 +69,15 @@ def read_options(options: dict[str, Any]) -> dict[str, Any]:
 
 @contextmanager
 def usage() -> Iterator[None]:
-    """Errors of what was asked for as one line and exit status 2."""
+    """Errors of what was asked for as one line and exit status 2; before it, the findings about a block that is refused
+    whatever the values."""
     try:
         yield
+    except RefusedError as error:
+        result = error.result
+        for line in lines_of_findings(result, result.diagnostics, style_of_output()):
+            click.echo(line, err=True)
+        raise CouldNotRunError("the block is refused, whatever the values that vary; nothing was computed") from None
     except (FamilyError, SettingError, FactPlaceError, MissingExtraError, CannotWriteError) as error:
         raise CouldNotRunError(str(error)) from None
     except UnknownControlError as error:

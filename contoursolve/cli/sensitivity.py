@@ -1,5 +1,6 @@
 """The command that tells which word moves a point most."""
 
+from math import isfinite
 from typing import Any
 
 import click
@@ -54,7 +55,7 @@ def _read_tolerance(text: str) -> tuple[str, float]:
     try:
         number = float(value)
     except ValueError:
-        number = -1.0
-    if not equals or not 0 <= number < float("inf"):
+        number = float("nan")
+    if not equals or not isfinite(number):
         raise click.UsageError(f"--tolerance {text}: write WORD=VALUE, such as P=0.05")
     return name.strip(), number

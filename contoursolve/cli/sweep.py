@@ -1,31 +1,34 @@
 """The command that solves one block for many values of some of its words."""
 
-import sys
-import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor
 from pathlib import Path
 from typing import Any
 
 import click
-import numpy
 
 from contoursolve.cli.blocks import block_options, fact_option, format_option, print_json, read_options, usage
 from contoursolve.cli.cluster import open_cluster
+from contoursolve.cli.extent import check_extent
 from contoursolve.cli.pictured import bytes_of, check_picture, theme_option
+from contoursolve.cli.progress import STOPPED, leave_threads, progress, stoppable
 from contoursolve.cli.varied import read_range
 from contoursolve.extras import need
 from contoursolve.families import (
+    MOST_ROWS,
     REASONS,
     WHOLE,
     Code,
     Parts,
     Sweep,
+    Tally,
+    Telling,
     csv_lines,
     others,
     parts_of,
     pieces,
     sweep,
+    telling_of,
     write_parquet,
 )
 from contoursolve.files import CannotWriteError, check_target, write_whole
@@ -56,11 +59,21 @@ from contoursolve.pictures import Theme, draw_sweep
     help="Where to draw the contours of one word that varies, or the outcomes over two: FILE.svg or FILE.png.",
 )
 @theme_option
-@click.option("--force", "is_forced", is_flag=True, help="Replace FILE if it exists.")
+@click.option(
+    "--force",
+    "is_forced",
+    is_flag=True,
+    help=f"Replace FILE if it exists; begin with more than {MOST_ROWS:,} contours, or with "
+    "more than the disk has room for.",
+)
 @click.option("--workers", type=click.IntRange(1, 256), help="Threads (1 without it); not with --dask.")
 @click.option("--dask", metavar="ADDRESS", help="Solve on the cluster of the Dask scheduler at this address.")
+@click.option("--quiet", "is_quiet", is_flag=True, help="Do not tell how far it is.")
 @format_option
+@click.pass_context
 def sweep_(
+    context: click.Context,
+    /,
     varied: tuple[str, ...],
     facts: tuple[str, ...],
     is_paired: bool,
@@ -70,16 +83,21 @@ def sweep_(
     is_forced: bool,
     workers: int | None,
     dask: str | None,
+    is_quiet: bool,
     format_: str,
     **options: Any,
 ) -> None:
     """Solve one contour for many values of some of its words, and count what becomes of it.
 
-    The words in --vary stand in the block with any value. FILE gets a row for each set of values: the words, status,
-    reason, all points and corners (mm, X of a lathe as radius), the room left on each element, the largest residual.
-    The same command goes on where it was stopped.
+    The words in --vary stand in the block with any value. FILE gets a row for each set of values: the words (as
+    written: in the unit of the block, X of a lathe as diameter), status, reason, all points and corners, the room left
+    on each element, the largest residual (always mm, X of a lathe as radius). A block that is refused whatever the
+    values is not swept: its findings are printed, as solve does.
 
-    Exit status: 0 all are told, whatever became of them, 2 could not run.
+    Until FILE is whole, finished rows are kept beside it, in a folder .FILE.NUMBER.parts. After Ctrl-C, SIGTERM or a
+    crash the same command goes on where it was stopped; folders that other sweeps have left are named.
+
+    Exit status: 0 all are told, whatever became of them, 2 could not run, 130 stopped by Ctrl-C or SIGTERM.
 
     \b
     contoursolve sweep --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0." \\
@@ -90,25 +108,39 @@ def sweep_(
     target = _target(output, is_forced)
     if picture is not None:
         check_picture(picture, is_forced=is_forced)
-    with usage():
-        vary: dict[str, Any] = {}
-        for text in varied:
-            name, values = read_range(text)
-            if name in vary:
-                raise click.UsageError(f"--vary names {name} twice")
-            vary[name] = values
-        ready = sweep(vary=vary, facts=facts, paired=is_paired, **read_options(options))
-        drawn = bytes_of(draw_sweep(ready, theme=Theme(theme)), picture) if picture is not None else b""
-        with open_cluster(dask) as executor:
-            counts = _run(ready, workers, executor, target)
-        if picture is not None:
-            write_whole(picture, [drawn], keeps_backup=False)
+    parts, tally = None, None
+    try:
+        with usage(), stoppable():
+            ready = sweep(vary=_read_varied(varied), facts=facts, paired=is_paired, **read_options(options))
+            parts, tally = parts_of(target, ready) if target is not None else None, Tally(tuple(ready.ranges.values))
+            check_extent(ready, parts, target, is_forced=is_forced)
+            drawn = bytes_of(draw_sweep(ready, theme=Theme(theme)), picture) if picture is not None else b""
+            with open_cluster(dask) as executor, progress(ready.ranges.count, is_quiet=is_quiet) as advance:
+                _run(_tables(ready, parts, (workers, executor), tally, advance), parts, target)
+            if picture is not None:
+                write_whole(picture, [drawn], keeps_backup=False)
+            telling = telling_of(ready, tally)
+    except KeyboardInterrupt:
+        click.echo(_stopped(parts, tally), err=True)
+        leave_threads(STOPPED)
+        context.exit(STOPPED)
     if format_ == "json":
-        print_json(_summary_data(counts))
+        print_json(_summary_data(tally.counts, telling))
     else:
-        click.echo("\n".join(_summary(counts)))
+        click.echo("\n".join(_summary(tally.counts, telling)))
     for path in filter(None, (target, picture)):
         click.echo(f"{path} written", err=True)
+
+
+def _read_varied(varied: Sequence[str]) -> dict[str, Any]:
+    """The words that vary, with their values."""
+    vary: dict[str, Any] = {}
+    for text in varied:
+        name, values = read_range(text)
+        if name in vary:
+            raise click.UsageError(f"--vary names {name} twice")
+        vary[name] = values
+    return vary
 
 
 def _target(output: str | None, is_forced: bool) -> Path | None:
@@ -125,38 +157,41 @@ def _target(output: str | None, is_forced: bool) -> Path | None:
     return target
 
 
-def _run(ready: Sweep, workers: int | None, executor: Executor | None, target: Path | None) -> Any:
-    """Evaluate and write all rows; the number of rows by status and reason."""
-    counts = numpy.zeros((len(Code), len(REASONS)), numpy.int64)
-    parts = parts_of(target, ready) if target is not None else None
-    if parts is not None and target is not None:
+def _tables(
+    ready: Sweep,
+    parts: Parts | None,
+    workers: tuple[int | None, Executor | None],
+    tally: Tally,
+    advance: Callable[[int], None],
+) -> Iterator[dict[str, Any]]:
+    """The rows in order, counted."""
+    for table in parts.tables(*workers) if parts is not None else pieces(ready, *workers):
+        tally.add(table)
+        yield table
+        advance(table["status"].size)
+
+
+def _run(tables: Iterator[dict[str, Any]], parts: Parts | None, target: Path | None) -> None:
+    """Evaluate all rows, and write them."""
+    if parts is None or target is None:
+        for _ in tables:
+            pass
+    else:
         _tell(parts, target)
-    begin, done = time.monotonic(), 0
-    with click.progressbar(
-        length=ready.ranges.count,
-        label="solving",
-        file=sys.stderr,
-        hidden=not sys.stderr.isatty(),
-        show_pos=True,
-        show_eta=True,
-        item_show_func=lambda rate: rate,
-    ) as bar:
+        _write(target, parts, tables)
 
-        def tables() -> Iterator[dict[str, Any]]:
-            nonlocal done
-            for table in parts.tables(workers, executor) if parts is not None else pieces(ready, workers, executor):
-                numpy.add.at(counts, (table["status"], table["reason"]), 1)
-                yield table
-                done += table["status"].size
-                rate = done / max(time.monotonic() - begin, 1e-9)
-                bar.update(table["status"].size, f"{rate:,.0f} a second")
 
-        if parts is None or target is None:
-            for _ in tables():
-                pass
-        else:
-            _write(target, parts, tables())
-    return counts
+def _stopped(parts: Parts | None, tally: Tally | None) -> str:
+    """What is kept of a sweep that was told to stop."""
+    if parts is None:
+        done = int(tally.counts.sum()) if tally is not None else 0
+        return f"stopped after {done:,} contours; nothing is kept without -o FILE"
+    if not parts.rows_done:
+        parts.remove()
+        return "stopped; there are no finished contours to go on from"
+    (parts.folder / WHOLE).unlink(missing_ok=True)
+    kept = f"{parts.rows_done:,} of {parts.ready.ranges.count:,} contours, which are kept in {parts.folder}"
+    return f"stopped after {kept}: the same command goes on there; delete that folder to give up"
 
 
 def _tell(parts: Parts, target: Path) -> None:
@@ -176,26 +211,39 @@ def _write(target: Path, parts: Parts, tables: Iterator[dict[str, Any]]) -> None
             with whole.open("w", encoding="utf-8", newline="") as file:
                 file.writelines(csv_lines(tables))
         else:
-            write_parquet(whole, tables)
+            write_parquet(whole, tables, parts.ready.measures())
         whole.replace(target)
     except OSError as error:
         raise CannotWriteError(f"{target} cannot be written: {error.strerror or error}") from None
     parts.remove()
 
 
-def _summary(counts: Any) -> list[str]:
+def _summary(counts: Any, telling: Telling | None) -> list[str]:
     """How many contours have each status, and why."""
     rows = [(f"{counts.sum():,}", "contour" if counts.sum() == 1 else "contours")]
     for status, count, reasons in _counted(counts):
         rows.append((f"{count:,}", status))
         rows += [(f"{many:,}", f"  {reason}") for reason, many in reasons.items()]
-    return columns(rows, left=(1,), indent="")
+    lines = columns(rows, left=(1,), indent="")
+    if telling is not None:
+        values = ", ".join(f"{word}={value!r}" for word, value in telling.values.items())
+        lines.append(f"{telling.count:,} of them, such as {values}: {telling.message}")
+    return lines
 
 
-def _summary_data(counts: Any) -> dict[str, Any]:
+def _summary_data(counts: Any, telling: Telling | None) -> dict[str, Any]:
     """The same for JSON."""
     statuses = [{"status": each, "count": count, "reasons": reasons} for each, count, reasons in _counted(counts)]
-    return {"schema": "contoursolve/sweep/1", "contours": int(counts.sum()), "statuses": statuses}
+    example = None
+    if telling is not None:
+        about = {"count": telling.count, "values": dict(telling.values)}
+        example = {**about, "code": telling.code or None, "message": telling.message or None}
+    return {
+        "schema": "contoursolve/sweep/1",
+        "contours": int(counts.sum()),
+        "statuses": statuses,
+        "example": example,
+    }
 
 
 def _counted(counts: Any) -> Iterator[tuple[str, int, dict[str, int]]]:

@@ -44,7 +44,8 @@ def read_range(text: str) -> tuple[str, Numbers]:
         raise click.UsageError(f"--vary {text}: a range has three numbers, START:STOP:STEP")
     first, last, step = numbers
     if not step or (last - first) * step < 0:
-        raise click.UsageError(f"--vary {text}: steps of {step} do not lead from {first} to {last}")
+        told = f"; write {last}:{first}:{step}, or a step of {-step}" if step else "; write a step that is not 0"
+        raise click.UsageError(f"--vary {text}: steps of {step} do not lead from {first} to {last}{told}")
     count = int((last - first) / step) + 1
     if count > MOST:
         raise click.UsageError(f"--vary {text}: {count:,} values are more than {MOST:,}")

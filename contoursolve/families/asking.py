@@ -7,7 +7,7 @@ from contoursolve import syntax
 from contoursolve.diagnostic import Severity
 from contoursolve.examine import Answer, Depth, answer_question, list_alternatives
 from contoursolve.families.goals import Goal
-from contoursolve.families.ranges import FamilyError
+from contoursolve.families.ranges import FamilyError, NotMovedError
 from contoursolve.families.template import Template, is_same, write
 from contoursolve.model import Figure, Unit
 from contoursolve.pipeline import run
@@ -18,7 +18,7 @@ from contoursolve.syntax import FACT, Directive, Word
 
 def asked_values(template: Template, word: str, goal: Goal, answer: Answer) -> tuple[list[float], bool]:
     """Every value of a word or a fact, as written, with which a point has one coordinate, and whether these are proven
-    to be all. `answer` is that of the block as it is. Raises FamilyError."""
+    to be all. `answer` is that of the block as it is. Raises NotMovedError, FamilyError."""
     typed = template.words[word]
     lines = {block.line: block.text for block in template.program.blocks}
     if typed.span.line in lines:
@@ -37,7 +37,7 @@ def asked_values(template: Template, word: str, goal: Goal, answer: Answer) -> t
     status = result.answers[0].status
     if status is Status.UNDERDETERMINED and answer.contour is not None:
         # The goal says nothing of the word, which is open without its value.
-        raise FamilyError(f"{word} does not move {goal.point} in this direction")
+        raise NotMovedError(f"{word} does not move {goal.point} in this direction")
     if status in (Status.UNDERDETERMINED, Status.REJECTED):
         raise FamilyError(errors[0])
     return list(_values(result.answers[0], typed)), _is_complete(result.answers[0])

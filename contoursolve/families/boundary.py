@@ -8,6 +8,7 @@ from contoursolve.diagnostic import Severity
 from contoursolve.dialects import Dialect
 from contoursolve.families.ends import Reason, about_of, called, phrase, same
 from contoursolve.families.recipe import recipe_of
+from contoursolve.families.refusal import check_block
 from contoursolve.families.survey import LEAST_GAP, Crossing, Piece, Survey
 from contoursolve.shown import Shown
 from contoursolve.solving import RefusalKind, RemarkKind
@@ -126,6 +127,7 @@ def feasible(
     template = recipe_of(
         block, (word,), start=start, control=control, facts=facts, units=units, rules=rules, settings=settings
     ).template()
+    check_block(template)
     name = next(iter(template.words))
     survey = Survey(template, name)
     low, high = survey.range_of(within)

@@ -2,10 +2,32 @@
 
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import Executor, Future
+from concurrent.futures import Executor, Future, ThreadPoolExecutor
+from contextlib import contextmanager
 from typing import TypeVar
 
 Result = TypeVar("Result")
+
+THREADS = "contoursolve"
+"""What the names of the threads begin with."""
+
+
+@contextmanager
+def threads(count: int) -> Iterator[Executor | None]:
+    """Threads as an executor; none for one. Whoever presses Ctrl-C does not wait for what they have under way, which
+    may be minutes."""
+    if count <= 1:
+        yield None
+        return
+    executor = ThreadPoolExecutor(count, THREADS)
+    is_waiting = True
+    try:
+        yield executor
+    except KeyboardInterrupt:
+        is_waiting = False
+        raise
+    finally:
+        executor.shutdown(wait=is_waiting, cancel_futures=not is_waiting)
 
 
 def in_order(tasks: Iterable[Callable[[], Result]], executor: Executor | None, ahead: int) -> Iterator[Result]:

@@ -2,19 +2,19 @@
 
 import pickle
 from collections.abc import Collection, Iterable, Iterator, Mapping
-from concurrent.futures import Executor, ThreadPoolExecutor
-from contextlib import nullcontext
+from concurrent.futures import Executor
 from functools import lru_cache, partial
 
 from numpy.typing import ArrayLike
 
 from contoursolve.backends.columns import Array
 from contoursolve.dialects import Dialect
-from contoursolve.families.distribute import in_order
+from contoursolve.families.distribute import in_order, threads
 from contoursolve.families.examples import Examples, Kinds, examples_of, kinds_of
 from contoursolve.families.prepared import Sweep, Table
 from contoursolve.families.ranges import FamilyError, Ranges, Stretches, ranges_of
 from contoursolve.families.recipe import Recipe, recipe_of
+from contoursolve.families.refusal import check_block
 from contoursolve.families.result import Family
 
 STRETCH = 65_536
@@ -43,7 +43,10 @@ def sweep(
     )
     template = recipe.template()
     examples = examples_of(template, ranges)
-    return Sweep(recipe, examples, kinds_of(template, examples), ranges)
+    kinds = kinds_of(template, examples)
+    if all(kind.status is not None for kind in kinds.items):
+        check_block(template, dict(zip(template.words, examples.rows[0][1], strict=True)))
+    return Sweep(recipe, examples, kinds, ranges)
 
 
 def family(
@@ -83,7 +86,9 @@ def family(
     the same, byte for byte, for any number of workers and any executor.
 
     Raises:
-        FamilyError: a word is not there, the values are none, or the blocks are no single contour with a known start.
+        FamilyError: a word is not there, the values are none, the blocks are no single contour with a known start, or
+            they are refused whatever the values (they cannot be read, break a rule, or lack words): a RefusedError,
+            whose message has the first finding and its fix, and whose `result` has all.
         UnknownControlError: the control is unknown, or the block does not tell it.
         FactPlaceError: facts for a program of several contours.
         SettingError: there is no such setting, or it has no such value.
@@ -122,8 +127,8 @@ def family(
             for name, column in table.items():
                 column[first:last] = part[name]
         return Family(ready.ranges, table, ready.recipe)
-    with ThreadPoolExecutor(count) if min(count, len(parts)) > 1 else nullcontext() as threads:
-        for _ in in_order((partial(fill, *part) for part in parts), threads, count):
+    with threads(min(count, len(parts))) as pool:
+        for _ in in_order((partial(fill, *part) for part in parts), pool, count):
             pass
     return Family(ready.ranges, table, ready.recipe)
 
@@ -146,8 +151,8 @@ def solve_parts(
         tasks = (partial(solve_rows, packed, dict(ready.ranges.rows(*part).values)) for part in parts)
         yield from in_order(tasks, executor, AHEAD if workers is None else count)
         return
-    with ThreadPoolExecutor(count) if min(count, len(parts)) > 1 else nullcontext() as threads:
-        yield from in_order((partial(_solve, ready, *part) for part in parts), threads, count)
+    with threads(min(count, len(parts))) as pool:
+        yield from in_order((partial(_solve, ready, *part) for part in parts), pool, count)
 
 
 def _pack(ready: Sweep) -> bytes:

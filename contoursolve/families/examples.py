@@ -1,6 +1,6 @@
 """Which kinds of rows a family has, by one example of each."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import product
 from math import prod
@@ -12,7 +12,6 @@ from contoursolve.backends.columns import Array
 from contoursolve.families.kinds import Kind, alike, intervals_of, kind_of, limits_of
 from contoursolve.families.ranges import FamilyError, Places, Ranges
 from contoursolve.families.template import Template
-from contoursolve.reading import Trouble
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,8 +82,6 @@ def kinds_of(template: Template, examples: Examples) -> Kinds:
         numbers[key] = len(items) if same is None else same
         if same is None:
             items.append(kind)
-    if all(kind.status is not None for kind in items):
-        _check_facts(template, dict(zip(template.words, examples.rows[0][1], strict=True)))
     ordered = sorted(numbers.items())
     return Kinds(
         template,
@@ -94,8 +91,12 @@ def kinds_of(template: Template, examples: Examples) -> Kinds:
     )
 
 
-def _check_facts(template: Template, values: Mapping[str, float]) -> None:
-    """Raise FamilyError for a fact that cannot be used, whatever the values: no row would be solved."""
-    for finding in template.solve(values).diagnostics:
-        if finding.about in (Trouble.FACT_UNREADABLE, Trouble.FACT_IMPOSSIBLE):
-            raise FamilyError(finding.message)
+def weights_of(examples: Examples, ranges: Ranges) -> list[int]:
+    """How many rows of a family are like each of the examples."""
+    words = zip(ranges.values.values(), examples.scales, examples.bounds, strict=True)
+    columns = [intervals_of(values * scale, bounds) for values, scale, bounds in words]
+    if ranges.is_paired:
+        counts: list[int] = numpy.unique(numpy.stack(columns, axis=1), axis=0, return_counts=True)[1].tolist()
+        return counts
+    many = [numpy.bincount(column).tolist() for column in columns]
+    return [prod(each[part] for each, part in zip(many, parts, strict=True)) for parts, _ in examples.rows]

@@ -16,11 +16,13 @@ from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer
 from contoursolve.families.asking import asked_values
 from contoursolve.families.branches import Branch
-from contoursolve.families.goals import Curve, Goal, end_name, place_of, read_goal
-from contoursolve.families.ranges import FamilyError, NotClosedError
+from contoursolve.families.goals import CONSTANT, Curve, Goal, end_name, place_of, read_goal
+from contoursolve.families.ranges import FamilyError, NotClosedError, NotMovedError
 from contoursolve.families.recipe import recipe_of
+from contoursolve.families.refusal import check_block
 from contoursolve.families.results import results_of
 from contoursolve.families.roots import find_zeros
+from contoursolve.families.slopes import slopes_of
 from contoursolve.families.survey import Piece, Survey, short
 from contoursolve.families.template import Template
 from contoursolve.model import FIRST, SECOND, Length, Plane, Unit
@@ -28,6 +30,7 @@ from contoursolve.shown import Shown
 from contoursolve.solving import Point, Status
 from contoursolve.solving.certificate import Certificate
 from contoursolve.syntax import FACT
+from contoursolve.wording import join
 
 ARRIVED = 1e-9
 """mm. A point this close to the place where it is wanted is there."""
@@ -74,6 +77,9 @@ class Found(Shown):
     within: tuple[float, float]
     hits: tuple[Hit, ...]
     is_complete: bool
+    remark: str = ""
+    """Why there is no value, where the word does not move the point, with the words that do, or where the block as it
+    stands has no contour; else empty."""
 
 
 def find_word(
@@ -99,7 +105,8 @@ def find_word(
             `corner 1.center Z-30.`. With both coordinates, such as `end Z-50. X100.`, the values are found at which it
             is nearest to there.
         within: and all others as for `feasible`, with the same errors; also raises FamilyError for a point that the
-            contour does not have, or that does not depend on the word.
+            contour does not have. Of a point that does not depend on the word there is no value, and `remark` names the
+            words that move it; if it is there already, the value that the word has.
 
     Where the contour exists, interval arithmetic isolates every zero; each is solved and certified by itself. Where
     facts or `?` leave no closed form, the word is asked for and the goal stated as one coordinate more, as `solve` does
@@ -112,6 +119,7 @@ def find_word(
     template = recipe_of(
         block, (word,), start=start, control=control, facts=facts, units=units, rules=rules, settings=settings
     ).template()
+    check_block(template)
     name = next(iter(template.words))
     answer = template.solve({})
     wanted = read_goal(goal, answer.plane, answer.claim.lexicon, answer.unit)
@@ -119,19 +127,47 @@ def find_word(
     survey = Survey(template, name)
     low, high = survey.range_of(within)
     search = _Search(survey, wanted)
+    about = (name, survey.unit, survey.stated, wanted, answer.plane, answer.unit, (low, high))
+    remark = next((each.message for each in answer.diagnostics if each.severity is Severity.ERROR), "")
+    remark = f"as it stands, the block has no contour: {remark}" if remark else ""
     try:
         values = search.values(survey.pieces(low, high))
     except NotClosedError:
         if template.words[name].span.line not in _lines(template):
             raise
-        return _by_asking(template, survey, wanted, answer, (low, high))
+        try:
+            hits, is_complete = _by_asking(template, survey, wanted, answer, (low, high))
+        except NotMovedError as error:
+            hits, is_complete, remark = *_there(search), _moved_by(answer, wanted, error)
+        return Found(*about, tuple(hits), is_complete, "" if hits else remark)
+    except NotMovedError as error:
+        hits, is_complete = _there(search)
+        return Found(*about, tuple(hits), is_complete, _moved_by(answer, wanted, error))
     hits = [hit for value in values if (hit := search.hit(value)) is not None]
     if wanted.is_nearest:
         hits.sort(key=lambda each: each.away)
     is_complete = survey.is_complete and search.is_complete
-    return Found(
-        name, survey.unit, survey.stated, wanted, answer.plane, answer.unit, (low, high), tuple(hits), is_complete
-    )
+    return Found(*about, tuple(hits), is_complete, "" if hits else remark)
+
+
+def _there(search: "_Search") -> tuple[list[Hit], bool]:
+    """The value that the word has, if the point is where it is wanted, which no other value changes."""
+    survey = search.survey
+    hit = search.hit(survey.stated) if not search.goal.is_nearest else None
+    return ([hit], False) if hit is not None else ([], survey.is_complete)
+
+
+def _moved_by(answer: Answer, goal: Goal, error: NotMovedError) -> str:
+    """What an error says, and which words move the point, as far as derivatives tell."""
+    name, axes = end_name(answer.profile.figure) if goal.point == "end" else goal.point, answer.plane.axes
+    try:
+        slopes = slopes_of(answer).slopes
+    except FamilyError:
+        return str(error)
+    wanted = [f"{name}.{axes[axis]}" for axis in (FIRST, SECOND) if goal.place[axis] is not None]
+    words = {word for each in wanted for word, slope in slopes.get(each, {}).items() if not abs(slope) <= CONSTANT}
+    moving = [word for word in next(iter(slopes.values()), {}) if word in words]
+    return f"{error}; {join(moving)} {'does' if len(moving) == 1 else 'do'}" if moving else str(error)
 
 
 def _check_open(answer: Answer) -> None:
@@ -148,7 +184,9 @@ def _lines(template: Template) -> set[int]:
     return {block.line for block in template.program.blocks} | {fact.span.line for fact in template.facts}
 
 
-def _by_asking(template: Template, survey: Survey, goal: Goal, answer: Answer, within: tuple[float, float]) -> Found:
+def _by_asking(
+    template: Template, survey: Survey, goal: Goal, answer: Answer, within: tuple[float, float]
+) -> tuple[list[Hit], bool]:
     """The same where there is no closed form: every solution of the equations is looked for."""
     word, (low, high) = survey.word, within
     values, is_complete = asked_values(template, word, goal, answer)
@@ -167,8 +205,7 @@ def _by_asking(template: Template, survey: Survey, goal: Goal, answer: Answer, w
         texts = [*template.texts({word: rounded})]
         away = None if there is None else goal.away(there)
         hits.append(Hit(value, at, goal.away(at), solved.certificate, rounded, "\n".join(texts), away))
-    stated, unit = survey.stated, survey.unit
-    return Found(word, unit, stated, goal, answer.plane, answer.unit, within, tuple(hits), is_complete)
+    return hits, is_complete
 
 
 def _turned(angle: float, low: float, high: float) -> list[float]:
@@ -212,7 +249,7 @@ class _Search:
                 f"the contour has no point {self.goal.point}; there are {', '.join(self._points(pieces))}"
             )
         if is_there and not moves:
-            raise FamilyError(f"{self.survey.word} does not move {self.goal.point} in this direction")
+            raise NotMovedError(f"{self.survey.word} does not move {self.goal.point} in this direction")
         return self._once(found)
 
     def _ends(self, curve: Curve, piece: Piece) -> Iterator[float]:

@@ -16,6 +16,7 @@ from contoursolve.backends.numeric import where
 from contoursolve.constraints import System
 from contoursolve.families.examples import Examples, Kinds
 from contoursolve.families.kinds import ORIGIN, Input, Kind
+from contoursolve.families.measures import Measure, measures_of
 from contoursolve.families.ranges import Places, Ranges, Stretches
 from contoursolve.families.recipe import Recipe
 from contoursolve.families.results import Behind, Results, fill_row, names_of, results_of, shown_as, sides_of_choice
@@ -69,7 +70,7 @@ class Sweep:
                 found |= {f"branch.{point}": numpy.int8 for point in sides_of_choice(kind)}
         for kind in self.kinds:
             if kind.status is None:
-                found |= dict.fromkeys((*results_of(kind), *asked_of(kind)), numpy.float64)
+                found |= dict.fromkeys((*results_of(kind), *asked_of(kind.profile)), numpy.float64)
         return {**found, "residual": numpy.float64}
 
     def empty(self, rows: int) -> Table:
@@ -86,6 +87,11 @@ class Sweep:
     def words(self, first: int, last: int) -> dict[str, Array]:
         """The values of the free words in these rows."""
         return {word: values[self.ranges.places(word, first, last)] for word, values in self.ranges.values.items()}
+
+    def measures(self) -> dict[str, Measure]:
+        """What the words and the results are measured in."""
+        row = {word: float(values[0]) for word, values in self.ranges.values.items()}
+        return measures_of(self.found.template, row, (*self.ranges.values, *self.columns()))
 
     def evaluate(self, first: int, last: int, table: Results) -> None:
         """Fill in the results of the rows from `first` to before `last`."""
@@ -166,7 +172,7 @@ class Sweep:
             out, worst = several.path_of(settled, rows, ranges, places)
             origin = kind.origin(ranges, {word: place[rows] for word, place in places.items()})
             is_path = settled.is_path[rows]
-            results = {**results_of(kind), **{name: (name, None) for name in asked_of(kind)}}
+            results = {**results_of(kind), **{name: (name, None) for name in asked_of(kind.profile)}}
             for name, (output, axis) in results.items():
                 values = out[output] + (0.0 if axis is None else origin[axis])
                 is_measure = name.endswith(".room")

@@ -23,6 +23,10 @@ class NotClosedError(FamilyError):
     """What needs a closed form is asked about a block that has none."""
 
 
+class NotMovedError(FamilyError):
+    """A word that does not move a point in the direction that is asked about."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Ranges:
     """The values of each free word, by its name: as columns side by side (`is_paired`), or as the axes of a grid whose

@@ -5,11 +5,14 @@ from dataclasses import dataclass, replace
 
 from contoursolve import syntax
 from contoursolve.choices import choice_of
+from contoursolve.diagnostic import Severity
 from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.examine import Policy
 from contoursolve.families.ranges import name_of
-from contoursolve.families.template import Template, find_words
+from contoursolve.families.template import RefusedError, Template, find_words
 from contoursolve.model import Length
+from contoursolve.pipeline import run
+from contoursolve.reading import Trouble
 from contoursolve.recognise import UnknownControlError, choose
 
 
@@ -33,12 +36,16 @@ class Recipe:
             if not isinstance(text, str):
                 raise TypeError(f"the {name} is a text (str), not {type(text).__name__}")
         program = syntax.parse(self.block, "<block>")
-        dialect = choose(self.control, program, dict(self.settings))
-        if dialect is None:
-            choices = ", ".join(DIALECTS)
-            raise UnknownControlError(f"the block does not tell its control; name it; choose from {choices}")
         unit, policy = choice_of(Length, self.units, "units"), choice_of(Policy, self.rules, "rules")
         start = syntax.parse(self.start, "<start>", first_line=0) if self.start is not None else None
+        dialect = choose(self.control, program, dict(self.settings))
+        if dialect is None:
+            unread = run(program, None, unit, policy, start=start)
+            errors = [each for each in unread.diagnostics if each.severity is Severity.ERROR]
+            if any(each.about is not Trouble.NO_CONTOUR for each in errors):
+                raise RefusedError(unread)
+            choices = ", ".join(DIALECTS)
+            raise UnknownControlError(f"the block does not tell its control; name it; choose from {choices}")
         facts = tuple(syntax.read_directive(fact, -number) for number, fact in enumerate(self.facts, 1))
         template = Template(program, dialect, unit, policy, start, {}, facts)
         return replace(template, words=find_words(template, self.names))

@@ -14,9 +14,11 @@ from contoursolve.families.boundary import ASIDE, Way
 from contoursolve.families.branches import branches_of
 from contoursolve.families.ends import Reason, about_of, called, phrase, same
 from contoursolve.families.kinds import Kind, alike, kind_of, limits_of, unit_of, value_of
+from contoursolve.families.measures import measure_of_word
 from contoursolve.families.outline import BISECTIONS, NODES, Box, Field, Trace, edge_of, gaps_of
 from contoursolve.families.ranges import FamilyError, read_limits
 from contoursolve.families.recipe import recipe_of
+from contoursolve.families.refusal import check_block
 from contoursolve.families.result import Family
 from contoursolve.families.template import Template, find_words
 from contoursolve.model import Unit
@@ -100,7 +102,9 @@ def region(
     recipe = recipe_of(
         block, words, start=start, control=control, facts=facts, units=units, rules=rules, settings=settings
     )
-    return _region(recipe.template(), (recipe.names[0], recipe.names[1]), within)
+    template = recipe.template()
+    check_block(template)
+    return _region(template, (recipe.names[0], recipe.names[1]), within)
 
 
 def region_of(family: Family, words: tuple[str, str]) -> Region:
@@ -126,14 +130,7 @@ def units_of(family: Family, words: Sequence[str]) -> tuple[str, ...]:
         return ("",) * len(words)
     template = family.recipe.template()
     answer = template.solve({})
-    found = []
-    for word in words:
-        try:
-            kind = unit_of(template.words[word], answer)
-        except FamilyError:
-            kind = Unit.SIGN
-        found.append({Unit.MM: answer.unit.value, Unit.DEGREE: "deg", Unit.SIGN: ""}[kind])
-    return tuple(found)
+    return tuple(measure_of_word(template.words[word], answer).unit for word in words)
 
 
 def _region(template: Template, names: tuple[str, str], within: tuple[Point, Point]) -> Region:

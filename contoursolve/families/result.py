@@ -9,6 +9,7 @@ import numpy
 from numpy.typing import NDArray
 
 from contoursolve.families.export import to_arrow, to_parquet, to_xarray
+from contoursolve.families.measures import Measure, measures_of
 from contoursolve.families.ranges import Ranges
 from contoursolve.families.recipe import Recipe
 from contoursolve.shown import Shown
@@ -21,9 +22,9 @@ class Family(Shown):
     """Every contour of a family as named arrays.
 
     `family[name]` has the shape (rows,) for paired words, and one axis for each word, in their order, for a grid. The
-    names, in mm with X of a lathe as radius:
+    names, in mm with X of a lathe as radius, whatever the unit of the block:
 
-    * the free words, as written (float64);
+    * the free words, as written: in the unit of the block, X of a lathe as diameter (float64);
     * `status` (uint8, see `Code`) and `reason` (uint8, an index of `REASONS`; 0 for none);
     * `branch.P1` (int8): the side that the block chooses, +1 farther or left, -1 nearer or right, 0 where there is no
       contour or both are one;
@@ -71,18 +72,28 @@ class Family(Shown):
         """How many rows have each status, without those that none has."""
         return summary_of(numpy.bincount(self.columns["status"], minlength=len(Code)))
 
+    def measures(self) -> dict[str, Measure]:
+        """What each array is measured in, by name; empty where it is not known from what block they come."""
+        if self.recipe is None:
+            return {}
+        row = {word: float(values[0]) for word, values in self.ranges.values.items()}
+        return measures_of(self.recipe.template(), row, self.names)
+
     def to_arrow(self) -> Any:
-        """A pyarrow.Table with a column for each array. Raises MissingExtraError without pyarrow."""
-        return to_arrow({name: self[name].reshape(-1) for name in self.names})
+        """A pyarrow.Table with a column for each array: `status` and `reason` in words, as dictionaries (no reason is
+        null), and with each field its `unit` as metadata, for X of a lathe with the `measure` radius or diameter.
+        Raises MissingExtraError without pyarrow."""
+        return to_arrow({name: self[name].reshape(-1) for name in self.names}, self.measures())
 
     def to_parquet(self, path: str | Path) -> None:
         """Write that table to a Parquet file. Raises MissingExtraError without pyarrow."""
-        to_parquet({name: self[name].reshape(-1) for name in self.names}, path)
+        to_parquet({name: self[name].reshape(-1) for name in self.names}, self.measures(), path)
 
     def to_xarray(self) -> Any:
-        """An xarray.Dataset whose dimensions are the free words, or `row`. Raises MissingExtraError without xarray."""
+        """An xarray.Dataset whose dimensions are the free words, or `row`; every variable has its `units` as an
+        attribute, `status` and `reason` the meanings of their numbers. Raises MissingExtraError without xarray."""
         arrays = {name: self[name] for name in self.columns}
-        return to_xarray(dict(self.ranges.values), arrays, is_paired=self.ranges.is_paired)
+        return to_xarray(dict(self.ranges.values), arrays, self.measures(), is_paired=self.ranges.is_paired)
 
 
 def summary_of(counts: NDArray[Any]) -> dict[Status, int]:

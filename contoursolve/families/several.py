@@ -14,7 +14,7 @@ from contoursolve.constraints import Coordinate, Radius, System, Values
 from contoursolve.families.cells import cells_of
 from contoursolve.families.kinds import Kind
 from contoursolve.families.ranges import Places, Ranges
-from contoursolve.model import FIRST, SECOND, Fact, Question, Unit, scalar
+from contoursolve.model import FIRST, SECOND, Fact, Profile, Question, Unit, scalar
 from contoursolve.solving import RefusalKind, Solution
 from contoursolve.solving.checks import Source, add_checks, at_origin, check_facts, check_path, check_residuals
 from contoursolve.solving.compile import PathMachine, compile_path
@@ -293,7 +293,9 @@ class Several:
         known = {**given, **{name: each[rows] for name, each in settled.scalars.items()}}
         relative = self._relative(known)
         found = {**relative, **_run_apart(self.path, relative, rows.size)}
-        found |= {name: self._ask(question.fact, known, rows.size) for name, question in asked_of(self.kind).items()}
+        found |= {
+            name: self._ask(question.fact, known, rows.size) for name, question in asked_of(self.kind.profile).items()
+        }
         worst = numpy.maximum.reduce(
             [numpy.zeros(rows.size), *(numpy.abs(found[name]) for name in self.machine.corner_residuals)]
         )
@@ -324,10 +326,10 @@ class Several:
         return found
 
 
-def asked_of(kind: Kind) -> dict[str, Question]:
+def asked_of(profile: Profile) -> dict[str, Question]:
     """The values that are asked for, by the names of their columns."""
     found: dict[str, Question] = {}
-    for question in kind.profile.questions:
+    for question in profile.questions:
         name = f"asked.{question.word.text.partition('=')[0].rstrip('? ').strip()}"
         found[f"{name} in line {question.word.span.line}" if name in found else name] = question
     return found

@@ -13,6 +13,7 @@ from contoursolve.families.implicit import Implicit
 from contoursolve.families.kinds import Kind, kind_in
 from contoursolve.families.ranges import FamilyError
 from contoursolve.families.recipe import recipe_of
+from contoursolve.families.refusal import check_block
 from contoursolve.families.results import results_of
 from contoursolve.families.template import call
 from contoursolve.model import Given, Profile, Unit
@@ -68,7 +69,10 @@ def read_tolerances(allowed: Mapping[str, float], known: Iterable[str]) -> dict[
         except (TypeError, ValueError):
             raise FamilyError(f"the tolerance of {name} is a number, not {value!r}") from None
         if not 0 <= found[name] < inf:
-            raise FamilyError(f"the tolerance of {name} is {value}; it is a finite number, not below 0")
+            told = "it is a finite number, not below 0"
+            if -inf < found[name] < 0:
+                told = f"a tolerance is positive: {-found[name]:g} means +-{-found[name]:g}"
+            raise FamilyError(f"the tolerance of {name} is {value}; {told}")
     return found
 
 
@@ -103,7 +107,9 @@ def sensitivity(
     {'X': '-0.289', 'A': '-0.302', 'K': '1.000', 'B': '-0.698', 'P': '0.000', 'Q': '0.000'}
     """
     recipe = recipe_of(block, start=start, control=control, facts=facts, units=units, rules=rules, settings=settings)
-    return slopes_of(recipe.template().solve({}))
+    template = recipe.template()
+    check_block(template)
+    return slopes_of(template.solve({}))
 
 
 def slopes_of(answer: Answer) -> Sensitivity:
@@ -211,7 +217,19 @@ def _check(solution: Solution | None, answer: Answer) -> None:
     status = solution.status if solution is not None else answer.status
     if solution is None or status is not Status.SOLVED:
         error = next((each.message for each in answer.diagnostics if each.severity is Severity.ERROR), "")
-        why = f" ({error})" if error else ""
-        raise FamilyError(f"the block is {status.value}{why}; only a solved one has derivatives")
+        why = f": {error}" if error else ""
+        raise FamilyError(f"{_UNSOLVED[status]}{why}; only a contour that is solved has derivatives")
     if any(remark.kind in (RemarkKind.TOUCHES, RemarkKind.DOUBLE) for remark in solution.remarks):
         raise FamilyError("two solutions have become one, so that no derivative exists")
+
+
+_UNSOLVED = {
+    Status.REJECTED: "the control refuses the block",
+    Status.CONFLICTING: "the words of the block disagree",
+    Status.UNDERDETERMINED: "the block lacks words",
+    Status.OVERDETERMINED: "the block says something twice",
+    Status.AMBIGUOUS: "several contours satisfy the block",
+    Status.NO_SOLUTION: "the block has no contour",
+    Status.UNDECIDED: "no contour was found, and that there is none is not proven",
+}
+"""What the statuses say of a block."""

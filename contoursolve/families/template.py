@@ -6,12 +6,24 @@ from dataclasses import dataclass, replace
 from decimal import Decimal, InvalidOperation
 
 from contoursolve import syntax
+from contoursolve.diagnostic import Severity
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer, Depth, Policy
 from contoursolve.families.ranges import START, FamilyError
 from contoursolve.model import Length
-from contoursolve.pipeline import run
+from contoursolve.pipeline import Result, run
 from contoursolve.syntax import FACT, Directive, Program, Word
+
+
+class RefusedError(FamilyError):
+    """A block that is refused whatever the values of its free words. The message has the first error and what to do;
+    `result` is what `solve` says of the block as it stands."""
+
+    def __init__(self, result: Result) -> None:
+        self.result = result
+        error = next(each for each in result.diagnostics if each.severity is Severity.ERROR)
+        remedy = error.fixes[0].description if error.fixes else error.help
+        super().__init__(f"{error.message}; {remedy}" if remedy else error.message)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -33,13 +45,21 @@ class Template:
         start = self._fill(self.start, values, 0) if self.start is not None else None
         result = run(program, self.dialect, self.unit, self.policy, Depth.VERDICT, start, self._facts(values))
         if len(result.answers) != 1:
+            if not result.answers and result.has_errors:
+                raise RefusedError(self.examined())
             reasons = [each.message for each in result.diagnostics]
             told = f"the block has {len(result.answers)} contours; a family is about one"
             raise FamilyError(reasons[0] if reasons and not result.answers else told)
         answer = result.answers[0]
         if not answer.start.is_known:
+            if any(each.severity is Severity.ERROR and not each.span.line for each in result.diagnostics):
+                raise RefusedError(self.examined())
             raise FamilyError('the start point is not known; state it as the start, such as "X40. Z0."')
         return answer
+
+    def examined(self) -> Result:
+        """All that `solve` says of the block as it stands, with every repair."""
+        return run(self.program, self.dialect, self.unit, self.policy, Depth.FULL, self.start, self.facts)
 
     def texts(self, values: Mapping[str, float]) -> Iterator[str]:
         """The lines of the block with these values, and the facts that are stated apart from it."""
@@ -111,6 +131,9 @@ def _only(address: str, words: Sequence[Word], where: str, line: str) -> Word:
     same = [word for word in words if word.address == address and (not line or word.span.line == int(line))]
     if len(same) != 1:
         have = ", ".join(call(word, words) for word in words)
+        if len({word.span.line for word in same}) == len(same) > 1:
+            which = " or ".join(call(word, words) for word in same)
+            raise FamilyError(f"{where} has {len(same)} words {address}; write {which}")
         told = f"{len(same)} words {address}" if same else f"no word {address}"
         raise FamilyError(f"{where} has {told}{f' in line {line}' if line else ''}; its words are {have or 'none'}")
     if same[0].number is None:

@@ -1,6 +1,6 @@
 """Which word moves a point most: by its tolerance, and by the control's rounding, to first order and solved again."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from decimal import ROUND_HALF_EVEN, Decimal
 from math import hypot, isnan, nan
@@ -8,18 +8,22 @@ from math import hypot, isnan, nan
 import numpy
 
 from contoursolve.backends.intervals import Array
+from contoursolve.diagnostic import Severity
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer
 from contoursolve.families.evaluate import family
 from contoursolve.families.goals import end_name, place_of
-from contoursolve.families.kinds import value_of
+from contoursolve.families.kinds import unit_of, value_of
 from contoursolve.families.ranges import FamilyError
 from contoursolve.families.recipe import recipe_of
+from contoursolve.families.refusal import check_block
+from contoursolve.families.result import Family
 from contoursolve.families.slopes import Spread, read_tolerances, slopes_of, stated_words
 from contoursolve.families.template import Template, find_words
 from contoursolve.model import Length, Plane, Unit
 from contoursolve.shown import Shown
 from contoursolve.solving import Point
+from contoursolve.solving.verdict import Code
 
 MOST_WORDS = 10
 """Words with a tolerance of which all combinations of limits are solved; each doubles them."""
@@ -27,10 +31,10 @@ MOST_WORDS = 10
 
 @dataclass(frozen=True, slots=True)
 class Effect:
-    """What one word does to the point.
+    """What one word or fact does to the point.
 
     `slope` is by how much it moves on each axis, mm (X as radius) for each unit of the word as written, in `unit` (mm,
-    inch or deg; empty for a fact); NaN where two places have become one. `tolerance` is what the word may be off by,
+    inch or deg); NaN where two places have become one. `tolerance` is what the word may be off by,
     None where nothing was said, and `moves` how far that moves the point to first order, mm. `increment` is the
     control's least increment of the word (None for a fact), and `by_half` how far half of it moves the point at most,
     solved again, None where that has no contour. `rounded` is the value rounded to least increments, and `by_rounding`
@@ -52,14 +56,25 @@ class Effect:
 
 
 @dataclass(frozen=True, slots=True)
+class Missing:
+    """Combinations of the limits without a contour for one reason: how many, the values of one of them as written, and
+    what `solve` says of that one."""
+
+    count: int
+    values: Mapping[str, float]
+    message: str
+
+
+@dataclass(frozen=True, slots=True)
 class Limits:
     """Where the point lies on each axis at most and at least, mm, at all combinations of the limits of the tolerances,
-    each solved; `without` counts those that have no contour."""
+    each solved; `without` counts those that have no contour, `missing` says which and why."""
 
     low: Point
     high: Point
     count: int
     without: int
+    missing: tuple[Missing, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,6 +119,7 @@ def tolerances(
     """
     recipe = recipe_of(block, start=start, control=control, facts=facts, units=units, rules=rules, settings=settings)
     template = recipe.template()
+    check_block(template)
     answer = template.solve({})
     slopes, axes = slopes_of(answer).slopes, answer.plane.axes
     name = end_name(answer.profile.figure) if point == "end" else point
@@ -133,8 +149,22 @@ def tolerances(
         # A family without any contour has no points.
         none = numpy.full(len(found), nan)
         limits = _limits(*(found.columns.get(f"{name}.{axis}", none) for axis in axes))
+        limits = replace(limits, missing=tuple(_missing(template, found)))
     spread = Spread(sum(parts[0]), hypot(*parts[0])), Spread(sum(parts[1]), hypot(*parts[1]))
     return Tolerances(point, study.place, answer.plane, answer.unit, tuple(effects), spread, limits)
+
+
+def _missing(template: Template, found: Family) -> Iterator[Missing]:
+    """The rows without a contour, each reason once, the most frequent first."""
+    free = replace(template, words=find_words(template, list(found.ranges.values)))
+    kinds = numpy.stack([found.columns["status"], found.columns["reason"]], axis=1)
+    reasons, firsts, counts = numpy.unique(kinds, axis=0, return_index=True, return_counts=True)
+    for number in numpy.argsort(-counts, kind="stable").tolist():
+        if reasons[number, 0] > Code.OVERDETERMINED:
+            values = {word: float(found[word].reshape(-1)[firsts[number]]) for word in found.ranges.values}
+            findings = free.solve(values).diagnostics
+            message = next((each.message for each in findings if each.severity is Severity.ERROR), "")
+            yield Missing(int(counts[number]), values, message)
 
 
 def _limits(first: Array, second: Array) -> Limits:
@@ -172,7 +202,9 @@ class _Study:
         moves = hypot(*slope) * tolerance if tolerance else 0.0
         typed = self.words.get(word)
         if typed is None:
-            return Effect(word, "", self.value(word), slope, tolerance, moves, None, None, None, None, 0.0)
+            stated = unit_of(find_words(self.template, [word])[word], self.answer)
+            unit = "deg" if stated is Unit.DEGREE else self.answer.unit.value
+            return Effect(word, unit, self.value(word), slope, tolerance, moves, None, None, None, None, 0.0)
         lexicon, value = self.answer.claim.lexicon, Decimal(repr(self.value(word)))
         row = lexicon.addresses[typed.address]
         step = lexicon.numbers.step(row.unit, self.answer.unit)

@@ -49,6 +49,8 @@ def _region(found: Region) -> Iterator[h.Node]:
 
 def _found(found: Found) -> Iterator[h.Node]:
     yield h.p[short(found_title(found))]
+    if found.remark:
+        yield h.p[short(f"{found.remark}.")]
     if found.hits:
         header = (found.word, "the point is then at", "certificate", "the block", "what rounding does")
         rows = [hit_row(each, found) for each in found.hits]

@@ -3,14 +3,16 @@
 from collections.abc import Iterator
 from typing import Any
 
-from contoursolve.families import Found, Goal, Hit
-from contoursolve.output.layout import coordinates, count, written
+from contoursolve.families import Found, Hit
+from contoursolve.output.layout import count, length_in, measured, written
 from contoursolve.output.solutions import printed_certificate
 
 
 def found_lines(found: Found) -> Iterator[str]:
     """The values, each with where the point is then, and the block to write."""
     yield found_title(found)
+    if found.remark:
+        yield f"  {found.remark}"
     for place, hit in enumerate(found.hits, 1):
         value, point, certificate, block, rounding = hit_row(hit, found)
         yield f"  {place}. {found.word} {value}: {point}"
@@ -26,23 +28,23 @@ def found_title(found: Found) -> str:
     number = count(len(found.hits), "value") if found.hits else "no value"
     proof = "proven to be all" if found.is_complete else "at least; that these are all is not proven"
     aim = "nearest to" if found.goal.is_nearest else "at"
-    goal = coordinates(found.goal.place, found.plane, found.length)
+    goal = measured(found.goal.place, found.plane, found.length)
     return f"{found.goal.point} {aim} {goal}, by {found.word} from {low} to {high}: {number} ({proof})"
 
 
 def hit_row(hit: Hit, found: Found) -> tuple[str, str, str, str, str]:
     """A value, where the point is then, the certificate (may be empty), the block to write, and what rounding does."""
-    away = f", {hit.away:.4f} mm away" if found.goal.is_nearest else ""
+    away = f", {length_in(hit.away, found.length)} away" if found.goal.is_nearest else ""
     certificate = str(printed_certificate(hit.certificate) or "")
-    at = f"{coordinates(hit.point, found.plane, found.length)}{away}"
-    return written(hit.value, found.unit), at, certificate, hit.block, _rounding(hit, found.goal)
+    at = f"{measured(hit.point, found.plane, found.length)}{away}"
+    return written(hit.value, found.unit), at, certificate, hit.block, _rounding(hit, found)
 
 
-def _rounding(hit: Hit, goal: Goal) -> str:
+def _rounding(hit: Hit, found: Found) -> str:
     if hit.rounded_away is None:
         return "rounded like this, the block has no contour"
-    off = "away" if goal.is_nearest else "off"
-    return f"rounded like this, the point is {hit.rounded_away:.4f} mm {off}"
+    off = "away" if found.goal.is_nearest else "off"
+    return f"rounded like this, the point is {length_in(hit.rounded_away, found.length)} {off}"
 
 
 def found_data(found: Found) -> dict[str, Any]:
@@ -58,6 +60,7 @@ def found_data(found: Found) -> dict[str, Any]:
         "goal": list(found.goal.place),
         "aim": "nearest" if found.goal.is_nearest else "reach",
         "complete": found.is_complete,
+        "remark": found.remark or None,
         "values": [_hit(hit) for hit in found.hits],
     }
 

@@ -26,7 +26,7 @@ def length_of(mm: float, unit: Length) -> str:
 
 def written(value: float, unit: str) -> str:
     """A value as its word has it, with its unit (mm, inch or deg); decimals as for lengths."""
-    return f"{value:z.5f} in" if unit == "inch" else f"{value:z.4f} {unit}"
+    return f"{value:z.5f} {short_name(unit)}" if unit == "inch" else f"{value:z.4f} {unit}"
 
 
 def coordinates(place: Sequence[float | None], plane: Plane, unit: Length) -> str:
@@ -36,6 +36,21 @@ def coordinates(place: Sequence[float | None], plane: Plane, unit: Length) -> st
         for letter, value, is_diameter in zip(plane.axes, place, plane.diameters, strict=True)
         if value is not None
     )
+
+
+def measured(place: Sequence[float | None], plane: Plane, unit: Length) -> str:
+    """Coordinates as the control writes them, with their unit."""
+    return f"{coordinates(place, plane, unit)} {short_name(unit.value)}"
+
+
+def length_in(mm: float, unit: Length) -> str:
+    """A length in the unit of a program, with that unit."""
+    return f"{length_of(mm, unit)} {short_name(unit.value)}"
+
+
+def short_name(unit: str) -> str:
+    """A unit as it stands behind a number."""
+    return "in" if unit == "inch" else unit
 
 
 def count(number: int, noun: str) -> str:

@@ -5,7 +5,8 @@ from math import isnan
 from typing import Any
 
 from contoursolve.families import Effect, Tolerances
-from contoursolve.output.layout import columns, coordinates, written
+from contoursolve.model import Length
+from contoursolve.output.layout import columns, count, length_in, measured, short_name, written
 
 
 def tolerances_lines(found: Tolerances) -> Iterator[str]:
@@ -17,36 +18,41 @@ def tolerances_lines(found: Tolerances) -> Iterator[str]:
 
 def tolerances_title(found: Tolerances) -> str:
     """The point, and where it is."""
-    return f"{found.point}: {coordinates(found.place, found.plane, found.length)}; moved by each word, the most first"
+    return f"{found.point}: {measured(found.place, found.plane, found.length)}; moved by each word, the most first"
 
 
 def effect_rows(found: Tolerances) -> list[list[str]]:
-    """A header, and what each word does."""
+    """A header, and what each word does; all lengths in the unit of the program."""
     has_tolerances = _has_tolerances(found)
-    head = ["word", "value", *(f"{letter} [mm per unit]" for letter in _letters(found))]
-    head += ["tolerance", "moves it by [mm]"] if has_tolerances else []
+    head = ["word", "value", *(f"{letter} per unit" for letter in _letters(found))]
+    head += ["tolerance", "moves it by"] if has_tolerances else []
     rows = [_row(each, found, has_tolerances) for each in found.effects]
-    return [[*head, "half an increment [mm]"], *rows]
+    return [[*head, "half an increment"], *rows]
 
 
 def spread_lines(found: Tolerances) -> Iterator[str]:
-    """What the tolerances come to, and what rounding does."""
+    """What the tolerances come to, and what rounding does; first of all at which limits there is no contour."""
+    limits, unit = found.limits, found.length
+    for missing in limits.missing if limits is not None else ():
+        place = ", ".join(f"{word} {value:g}" for word, value in missing.values.items())
+        which = f"such as {place}" if missing.count > 1 else f"at {place}"
+        many = f"{missing.count} of {count(limits.count, 'combination')}" if limits is not None else ""
+        yield f"no contour at {many} of the limits, {which}: {missing.message}"
     if _has_tolerances(found):
         pairs = zip(_letters(found), found.spread, found.plane.diameters, strict=True)
         spreads = [(letter, each, 2 if is_diameter else 1) for letter, each, is_diameter in pairs]
-        worst = ", ".join(f"{letter} {each.worst * times:.4f} mm" for letter, each, times in spreads)
-        typical = ", ".join(f"{letter} {each.typical * times:.4f} mm" for letter, each, times in spreads)
+        worst = ", ".join(f"{letter} {length_in(each.worst * times, unit)}" for letter, each, times in spreads)
+        typical = ", ".join(f"{letter} {length_in(each.typical * times, unit)}" for letter, each, times in spreads)
         yield f"off by at worst {worst}; in the root of the sum of squares {typical}"
-    if found.limits is not None:
-        low, high, count = found.limits.low, found.limits.high, found.limits.count
-        without = f"; {found.limits.without} of them have no contour" if found.limits.without else ""
-        lowest, highest = (coordinates(at, found.plane, found.length) for at in (low, high))
-        span = "" if isnan(low[0]) else f": from {lowest} to {highest}"
-        yield f"solved at all {count} combinations of the limits{span}{without}"
+    if limits is not None and not isnan(limits.low[0]):
+        lowest, highest = (measured(at, found.plane, unit) for at in (limits.low, limits.high))
+        solved = f"{limits.count - limits.without} of {limits.count}" if limits.without else f"all {limits.count}"
+        yield f"solved at {solved} combinations of the limits: from {lowest} to {highest}"
     for each in found.effects:
         if each.rounded is not None and each.rounded != each.stated:
-            moved = "leaves no contour" if each.by_rounding is None else f"moves it by {each.by_rounding:.4f} mm"
-            linear = f"{each.by_rounding_linear:.4f} mm by the derivatives"
+            by = "" if each.by_rounding is None else length_in(each.by_rounding, unit)
+            moved = f"moves it by {by}" if by else "leaves no contour"
+            linear = f"{length_in(each.by_rounding_linear, unit)} by the derivatives"
             yield f"{each.word} rounded to {written(each.rounded, each.unit)} {moved} ({linear})"
 
 
@@ -62,19 +68,26 @@ def _letters(found: Tolerances) -> list[str]:
 
 
 def _row(each: Effect, found: Tolerances, has_tolerances: bool) -> list[str]:
-    value = written(each.stated, each.unit) if each.unit else f"{each.stated:.4f}"
     slopes = [
-        "none" if isnan(slope) else f"{slope * (2 if is_diameter else 1) + 0.0:.4f}"
+        _length(slope * (2 if is_diameter else 1), found.length)
         for slope, is_diameter in zip(each.slope, found.plane.diameters, strict=True)
     ]
-    row = [each.word, value, *slopes]
-    if has_tolerances:
-        row += ["" if each.tolerance is None else f"{each.tolerance:g}", _length(each.moves) if each.tolerance else ""]
-    return [*row, "" if each.increment is None else "no contour" if each.by_half is None else f"{each.by_half:.4f}"]
+    slopes = [slope if slope == _NONE else f"{slope}/{short_name(each.unit)}" for slope in slopes]
+    row = [each.word, written(each.stated, each.unit), *slopes]
+    if has_tolerances and each.tolerance is not None:
+        row += [f"{each.tolerance:g} {short_name(each.unit)}", _length(each.moves, found.length)]
+    elif has_tolerances:
+        row += ["", ""]
+    half = "no contour" if each.by_half is None else _length(each.by_half, found.length)
+    return [*row, "" if each.increment is None else half]
 
 
-def _length(value: float) -> str:
-    return "none" if isnan(value) else f"{value:.4f}"
+def _length(value: float, unit: Length) -> str:
+    return _NONE if isnan(value) else length_in(value, unit)
+
+
+_NONE = "none"
+"""What stands where no derivative exists."""
 
 
 def tolerances_data(found: Tolerances) -> dict[str, Any]:
@@ -111,6 +124,9 @@ def tolerances_data(found: Tolerances) -> dict[str, Any]:
             "high": list(limits.high) if is_placed else None,
             "combinations": limits.count,
             "without_contour": limits.without,
+            "missing": [
+                {"count": each.count, "values": dict(each.values), "message": each.message} for each in limits.missing
+            ],
         }
         if limits is not None
         else None,

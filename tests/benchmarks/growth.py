@@ -46,17 +46,15 @@ def measure(rows: int, kind: str) -> dict[str, float]:
     with tempfile.TemporaryDirectory() as folder:
         target = Path(folder) / "family.parquet"
         if kind == "file":
-            write_parquet(
-                target.with_name("first.parquet"),
-                parts_of(target, sweep(BLOCK, start=START, vary=ranges(1_000))).tables(),
-            )
+            first = parts_of(target, sweep(BLOCK, start=START, vary=ranges(1_000)))
+            write_parquet(target.with_name("first.parquet"), first.tables(), first.ready.measures())
         before, begin, result = peak(), process_time(), 0.0
         if kind == "memory":
             found = family(BLOCK, start=START, vary=ranges(rows))
             result = sum(each.nbytes for each in found.columns.values()) / 2**20
         else:
             parts = parts_of(target, sweep(BLOCK, start=START, vary=ranges(rows)))
-            write_parquet(target, parts.tables())
+            write_parquet(target, parts.tables(), parts.ready.measures())
             parts.remove()
         return {"seconds": process_time() - begin, "peak": peak(), "before": before, "result": result}
 
