@@ -2,7 +2,8 @@
 
 from collections import deque
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import chain
+from itertools import chain, count
+from math import hypot, sqrt
 
 from contoursolve.batch import Batch
 from contoursolve.carried import carried, frame_of
@@ -24,6 +25,7 @@ from contoursolve.reading import Effect, State, Trouble, apply_modes, codes_of, 
 from contoursolve.reliance import STANDING_ALONE, Reliance, reliance, restate, why_unmet
 from contoursolve.solving import Point
 from contoursolve.syntax import Block, Directive, Passage, Program, Word, parse_block
+from contoursolve.tolerance import ARC_START
 from contoursolve.unfamiliar import Watch
 
 OPENING = object()
@@ -159,14 +161,16 @@ class _Expander:
             texts.append(line.rstrip("\r\n") + self.lines.take_end(number))
         yield "".join(texts)
 
-    def _keep(self, block: Block, state: State) -> Iterator[str]:
+    def _keep(self, block: Block, state: State, there: int | None = None) -> Iterator[str]:
+        """A block as it is; `there` is the motion that is in force before it in the expanded program."""
         if block.words or block.macro or block.faults:
+            there = self._motion_before(block, state) if there is None else there
             if self.motion is not None:
                 before, block = self._restore(block, state)
                 yield from before
             if self.offsets:
-                self._update_offsets(block, state)
-            self.watch.look(block, block.words, state)
+                self._tell(block, self._update_offsets(block, state))
+            self.watch.look(block, block.words, state, there)
             self._tell(block, self.numberer.look(block))
             unread = left_unread(block)
             if unread:
@@ -197,16 +201,32 @@ class _Expander:
         self.motion = None
         return before, block
 
-    def _update_offsets(self, block: Block, state: State) -> None:
-        """An absolute word puts an axis where it belongs again."""
+    def _motion_before(self, block: Block, state: State) -> int | None:
+        """The motion that a block finds in the expanded program: that of a contour before it, unless what the block
+        relies on is said again."""
+        if self.motion is None or reliance(block, self.modes) is not Reliance.ENDS:
+            return state.motion
+        return self.motion
+
+    def _update_offsets(self, block: Block, state: State) -> str:
+        """An absolute word puts an axis where it belongs again. What is wrong with an arc that begins off its place, if
+        anything is."""
         here = apply_modes(state, block, self.modes)
         codes = codes_of(block, self.modes)
         if any(not isinstance(code, Word) and code.effect is Effect.NO_MOTION for code in codes):
-            return
+            return ""
+        off = hypot(*(self.offsets.get(axis, 0.0) for axis in here.plane.axes))
+        is_arc = here.motion in (2, 3) and any(word.address in (*here.plane.centers, "R") for word in block.words)
         for word in block.words:
             row = self.modes.lexicon.addresses.get(word.address)
             if row and row.axis and not (row.is_increment or here.is_incremental):
                 self.offsets.pop(row.axis, None)
+        if not is_arc or off <= ARC_START:
+            return ""
+        least = next(digits for digits in count(1) if 10.0**-digits * float(here.unit.in_mm) * sqrt(0.5) <= ARC_START)
+        return (
+            f"its arc begins where the contour before it ends, which is rounded by {off:.2g} mm: take {least} decimals"
+        )
 
     def _leave(self, step: Step, answer: Answer | Moulded, reason: str) -> Iterator[str]:
         """A contour as it was, below a comment that says why."""
@@ -217,6 +237,7 @@ class _Expander:
             step.blocks if isinstance(answer, Answer) else [parse_block(each.text, each.line) for each in step.blocks]
         )
         first, *others = blocks
+        there = self._motion_before(first, step.before)
         if self.motion is not None:
             before, first = self._restore(first, step.before)
             yield from before
@@ -224,7 +245,7 @@ class _Expander:
             yield remark(reason) + self.lines.end
         state = step.before
         for block in (first, *others):
-            yield from self._keep(block, state)
+            yield from self._keep(block, state, there if block is first else None)
             state = apply_modes(state, block, self.modes)
 
     def _obstacle(self, answer: Answer) -> str:
@@ -306,10 +327,15 @@ class _Expander:
         key = state.plane.code, state.unit is Length.INCH, state.is_incremental
         if key not in self.formats:
             numbers, post = self.modes.lexicon.numbers, self.options.post
-            decimals = self.options.decimals
-            digits = post.digits(state.unit, numbers) if decimals is None else decimals
+            own, decimals = post.digits(state.unit, numbers), self.options.decimals
             self.formats[key] = Format(
-                state.plane, state.unit, digits, post.writes_point(numbers), self.options.arcs, state.is_incremental
+                state.plane,
+                state.unit,
+                own if decimals is None else decimals,
+                post.writes_point(numbers),
+                self.options.arcs,
+                state.is_incremental,
+                own,
             )
         return self.formats[key]
 
@@ -323,7 +349,7 @@ class _Expander:
         frame, rest = frame_of(block.text), carried(block, self.modes)
         indent = frame.indent
         lines = [indent + text for text in comment_out(block.text.strip())] if self.options.has_comments else []
-        self.watch.look(block, rest.kept, state)
+        self.watch.look(block, rest.kept, state, None)
         comments = [] if self.options.has_comments else own_comments(block.text)
         texts = [[_NAMES[move.code], *move.words] for move in moves]
         texts = texts or ([[]] if rest.says_something or comments else [])
