@@ -52,7 +52,8 @@ def main() -> None:
     Reads the contour blocks of the YASNAC LX3 (G111, G112, G11, G12) and of the NCT 99M (chapter 16), with any
     further facts.
 
-    Exit status: 0 no error found, 1 at least one error found, 2 could not run.
+    Exit status: 0 no error found, 1 at least one error found, 2 could not run. It is the same if the output is not read
+    to its end, as by head.
     """
     for stream in (sys.stdout, sys.stderr):
         # A console may lack a character that a program's comment has.
