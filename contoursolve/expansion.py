@@ -2,8 +2,7 @@
 
 from collections import deque
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import chain, count
-from math import hypot, sqrt
+from itertools import chain
 
 from contoursolve.batch import Batch
 from contoursolve.carried import carried, frame_of
@@ -17,6 +16,7 @@ from contoursolve.lines import Lines
 from contoursolve.model import Length
 from contoursolve.moulds import Moulded
 from contoursolve.numbering import Numberer, Numbers
+from contoursolve.offsets import Offsets
 from contoursolve.outcome import Left, Options, Summary, left_unread
 from contoursolve.pending import Step
 from contoursolve.pipeline import attach, walk
@@ -25,7 +25,6 @@ from contoursolve.reading import Effect, State, Trouble, apply_modes, codes_of, 
 from contoursolve.reliance import STANDING_ALONE, Reliance, reliance, restate, why_unmet
 from contoursolve.solving import Point
 from contoursolve.syntax import Block, Directive, Passage, Program, Word, parse_block
-from contoursolve.tolerance import ARC_START
 from contoursolve.unfamiliar import Watch
 
 OPENING = object()
@@ -87,7 +86,7 @@ def _machine(dialect: Dialect) -> Machine:
 
 
 class _Expander:
-    """One pass over one program. Offsets are how far the tool is from where the original program has it."""
+    """One pass over one program."""
 
     def __init__(
         self, dialect: Dialect, options: Options, summary: Summary, lines: Lines, numbers: Numbers | None
@@ -101,7 +100,7 @@ class _Expander:
         summary.unfamiliar = self.watch.found
         self.numberer = Numberer(self.modes, numbers)
         self.formats: dict[tuple[str, bool, bool], Format] = {}
-        self.offsets: dict[str, float] = {}
+        self.offsets = Offsets(self.modes)
         self.motion: int | None = None
         """The motion that is in force in the expanded program, where it differs from the original."""
         self.is_opened = False
@@ -129,6 +128,7 @@ class _Expander:
                 yield from self._leave(step, step.answer, reason)
             else:
                 yield from self._replace(step, step.answer)
+        self.watch.finish()
 
     # What stays as it is
 
@@ -156,7 +156,7 @@ class _Expander:
                     texts.append(f"G{state.motion:02}" + self.lines.end)
                 self.motion = None
                 if self.offsets:
-                    self.offsets = {axis: offset for axis, offset in self.offsets.items() if axis not in words}
+                    self.offsets.keep([axis for axis in self.modes.axes if axis not in words])
             self.is_marked = line.startswith(LEFT_MARK)
             texts.append(line.rstrip("\r\n") + self.lines.take_end(number))
         yield "".join(texts)
@@ -169,7 +169,7 @@ class _Expander:
                 before, block = self._restore(block, state)
                 yield from before
             if self.offsets:
-                self._tell(block, self._update_offsets(block, state))
+                self._tell(block, self.offsets.update(block, state))
             self.watch.look(block, block.words, state, there)
             self._tell(block, self.numberer.look(block))
             unread = left_unread(block)
@@ -207,26 +207,6 @@ class _Expander:
         if self.motion is None or reliance(block, self.modes) is not Reliance.ENDS:
             return state.motion
         return self.motion
-
-    def _update_offsets(self, block: Block, state: State) -> str:
-        """An absolute word puts an axis where it belongs again. What is wrong with an arc that begins off its place, if
-        anything is."""
-        here = apply_modes(state, block, self.modes)
-        codes = codes_of(block, self.modes)
-        if any(not isinstance(code, Word) and code.effect is Effect.NO_MOTION for code in codes):
-            return ""
-        off = hypot(*(self.offsets.get(axis, 0.0) for axis in here.plane.axes))
-        is_arc = here.motion in (2, 3) and any(word.address in (*here.plane.centers, "R") for word in block.words)
-        for word in block.words:
-            row = self.modes.lexicon.addresses.get(word.address)
-            if row and row.axis and not (row.is_increment or here.is_incremental):
-                self.offsets.pop(row.axis, None)
-        if not is_arc or off <= ARC_START:
-            return ""
-        least = next(digits for digits in count(1) if 10.0**-digits * float(here.unit.in_mm) * sqrt(0.5) <= ARC_START)
-        return (
-            f"its arc begins where the contour before it ends, which is rounded by {off:.2g} mm: take {least} decimals"
-        )
 
     def _leave(self, step: Step, answer: Answer | Moulded, reason: str) -> Iterator[str]:
         """A contour as it was, below a comment that says why."""
@@ -314,14 +294,14 @@ class _Expander:
         self.motion = None if is_same else _NO_MOTION if motion is None else motion
         contour = answer.contour
         if contour is not None:
-            self.offsets |= {axis: here[n] - contour.end[n] for n, axis in enumerate(axes) if here[n] != contour.end[n]}
+            self.offsets.leave(axes, here, contour.end)
         self.summary.replaced += 1
         self.summary.warn(answer.diagnostics)
 
     def _place(self, answer: Answer | Moulded) -> Point:
         """Where the tool is at the start of a contour, in the expanded program."""
-        (first, second), (one, two) = answer.start.values, answer.plane.axes
-        return float(first or 0) + self.offsets.pop(one, 0.0), float(second or 0) + self.offsets.pop(two, 0.0)
+        (first, second), (one, two) = answer.start.values, self.offsets.take(answer.plane.axes)
+        return float(first or 0) + one, float(second or 0) + two
 
     def _format(self, state: State) -> Format:
         key = state.plane.code, state.unit is Length.INCH, state.is_incremental

@@ -83,6 +83,8 @@ class Watch:
         self._open = {*"FST"} & reading.otherwise.keys() if reading else set()
         """What may be said in a line that only moves, and is not noted yet."""
         self._verdicts: dict[tuple[str, str], Other | None] = {}
+        self._followers: dict[int, int] = {}
+        """How many blocks rely on a cycle, by its place in the list of what was found."""
         self._motion: int | None = None
         """The motion that is in force on the target."""
 
@@ -110,7 +112,6 @@ class Watch:
             self._note("IF, WHILE, GOTO", Unfamiliar(block.text.strip(), "is not known", block.line))
         self._follow(words, motion)
         self._count(words, state)
-        stops = self.counts is not None and self._stops(block, words, reading)
         for word in words:
             key = word.address, word.text
             if key in self._verdicts:
@@ -122,7 +123,7 @@ class Watch:
             if other is not None:
                 self._note_other(word, other, block)
             if self.counts is not None and self._counts_otherwise(word):
-                self._note_without_point(word, block, state, is_path=not stops)
+                self._note_without_point(word, block, state, is_path=not self._stops(block, words, reading))
         if self.minds(state):
             self._note("G19 compensation", Unfamiliar(f"G{state.compensation} in G19", "is not known", block.line))
 
@@ -175,20 +176,24 @@ class Watch:
             self._motion = codes[-1] if codes else motion
 
     def _count(self, words: Sequence[Word], state: State) -> None:
-        """Count a block that relies on a motion that the target reads in another way."""
+        """Count a block that relies on a cycle that the target reads in another way."""
         place = self._places.get(f"G{state.motion}")
-        if place is None or not self.found[place].meant:
-            return
         own = self.modes.codes.get(state.motion or 0)
-        if own and own.effect is Effect.CYCLE and any(map(self._is_coordinate, words)):
-            is_new = any(word.address == "G" and self._moves(word) for word in words)
-            if not is_new:
-                found = self.found[place]
-                self.found[place] = replace(found, risk=Risk.PATH, followers=found.followers + 1)
+        if place is None or own is None or own.effect is not Effect.CYCLE or not any(map(self._is_coordinate, words)):
+            return
+        if not any(word.address == "G" and self._moves(word) for word in words):
+            self._followers[place] = self._followers.get(place, 0) + 1
 
     def _moves(self, word: Word) -> bool:
         row = self.modes.codes.get(int(word.number)) if word.number is not None else None
         return row is not None and row.effect in (Effect.MOTION, Effect.CYCLE)
+
+    def finish(self) -> None:
+        """Say of what was found how many lines rely on it."""
+        for place, followers in self._followers.items():
+            found = self.found[place]
+            if found.meant:
+                self.found[place] = replace(found, risk=Risk.PATH, followers=followers)
 
     def _is_coordinate(self, word: Word) -> bool:
         row = self.lexicon.addresses.get(word.address)
