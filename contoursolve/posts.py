@@ -116,6 +116,12 @@ _NO_COUNTERPART = Other("is an axis of its own (an alarm where there is none)")
 _DATA = Other("sets tool data and coordinate systems, with L and P", Risk.PATH)
 """G10 L10 R is the length of a tool elsewhere, and its radius there."""
 _LEAD = Other("takes its lead as K (without K it is an alarm)")
+_FEEDS = {
+    "G61": Other("is the exact path", Risk.PATH, Effect.NONE),
+    "G64": Other("is blending", Risk.PATH, Effect.NONE),
+    "G93": Other("is inverse time feed", Risk.PATH, Effect.NONE),
+}
+_STACK = {f"M{code}": Other("saves or restores what is in force", Risk.PATH) for code in range(70, 74)}
 
 _LINUXCNC_LATHE = Reading(
     g=_span(range(5), 7, 18, 20, 21, 30, 40, 41, 42, 53, range(54, 60), 96, 97),
@@ -129,8 +135,10 @@ _LINUXCNC_LATHE = Reading(
         "G28": _STORED,
         "G30": _STORED,
         "G33": _LEAD,
-        "G43": Other("takes the offset of a tool"),
+        "G43": Other("takes the offset of a tool", Risk.PATH, Effect.NONE),
+        "G49": Other("ends the offset of a tool", Risk.PATH, Effect.NONE),
         "G52": _LOCAL,
+        **_FEEDS,
         "G70": Other("is the finishing pass of a subprogram", Risk.PATH),
         "G71": Other("is roughing by a subprogram", Risk.PATH),
         "G72": Other("is roughing by a subprogram", Risk.PATH),
@@ -143,13 +151,14 @@ _LINUXCNC_LATHE = Reading(
         "G91": Other("is incremental coordinates", Risk.PATH, Effect.INCREMENTAL),
         "G92": Other("sets coordinates", Risk.PATH, Effect.PRESET),
         "G94": Other("is feed a minute", Risk.PATH, Effect.NONE),
-        "G95": Other("is feed a revolution", effect=Effect.NONE),
+        "G95": Other("is feed a revolution", Risk.PATH, Effect.NONE),
         "G98": Other("is about the return of drilling cycles; feed a minute is G94"),
         "G99": Other("is about the return of drilling cycles; feed a revolution is G95"),
         "F": Other("is a feed a minute as long as no G95 is in force"),
         "T": Other("is the number of a tool alone; its offset is taken with G43"),
         "U": _NO_COUNTERPART,
         "W": _NO_COUNTERPART,
+        **_STACK,
     },
     has_macros=False,
 )
@@ -160,6 +169,8 @@ _LINUXCNC_MILL = Reading(
     m=_LINUXCNC_M,
     otherwise={
         "G4": _PAUSE,
+        "G7": Other("makes X a diameter", Risk.PATH),
+        "G8": Other("makes X a radius", Risk.PATH, Effect.NONE),
         "G10": _DATA,
         "G33": _LEAD,
         "G52": _LOCAL,
@@ -168,6 +179,8 @@ _LINUXCNC_MILL = Reading(
         "G84": Other("is a tapping cycle"),
         "G87": Other("is back boring with other words", Risk.PATH),
         "G88": Other("is a boring cycle with a stop"),
+        "G93": _FEEDS["G93"],
+        **_STACK,
     },
     has_macros=False,
     flat_compensation=True,

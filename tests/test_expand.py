@@ -14,7 +14,7 @@ import pytest
 from click.testing import CliRunner
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from interpreter import assert_path, interpret, needs_rs274
+from interpreter import RefusedError, assert_path, interpret, needs_rs274
 
 import contoursolve
 from contoursolve.api import only_findings
@@ -30,7 +30,7 @@ from contoursolve.lines import Lines
 from contoursolve.model import Length, Plane, Turn
 from contoursolve.pipeline import run as solved
 from contoursolve.pipeline import walk
-from contoursolve.posts import FANUC, POSTS, Arcs
+from contoursolve.posts import FANUC, LINUXCNC, POSTS, Arcs, Machine
 from contoursolve.reading import Effect
 from contoursolve.syntax import parse
 
@@ -473,10 +473,11 @@ def test_what_the_target_would_run_along_another_path_keeps_the_program_from_bei
     ],
 )
 def test_what_changes_no_path_or_stops_the_target_is_only_told(post, line):
-    expansion = contoursolve.expand(f"{START}{TAPER}\n{line}\nG00 X50.", post=post)
+    text = f"{START}{TAPER}\n{line}\nG00 X50."
+    expansion = contoursolve.expand(text, post=post)
     assert expansion.summary.misread == []
     assert f"\n{line}\n" in expansion.text
-    assert run("expand", "-", "--post", post, stdin=f"{START}{TAPER}\n{line}\nG00 X50.")[0] == 0
+    assert run("expand", "-", "--post", post, stdin=text)[0] == 0
 
 
 def test_a_code_that_a_control_of_ones_own_reads_as_the_target_does_is_not_read_otherwise():
@@ -486,6 +487,19 @@ def test_a_code_that_a_control_of_ones_own_reads_as_the_target_does_is_not_read_
     text = f"{START}{TAPER}\nG90 G01 X60. Z-60."
     assert contoursolve.expand(text, post="linuxcnc", control=control).summary.unfamiliar == []
     assert contoursolve.expand(text, post="linuxcnc").text is None
+
+
+@needs_rs274
+@pytest.mark.parametrize("machine", Machine)
+def test_linuxcnc_stops_at_every_code_of_which_no_row_says_what_it_does(machine, tmp_path):
+    reading = LINUXCNC.readings[machine]
+    opening = LINUXCNC.opening[machine].format(unit="G21")
+    codes = [code for code in range(120) if code not in reading.g and f"G{code}" not in reading.otherwise]
+    assert len(codes) > 50
+    for code in codes:
+        for words in ("", "X50. Z-60.", "Z-60. R1. Q1. P1"):
+            with pytest.raises(RefusedError):
+                interpret(f"{opening} F100\nG00 X40. Z0.\nG{code} {words}\nM2\n", tmp_path)
 
 
 @needs_rs274
