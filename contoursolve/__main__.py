@@ -1,9 +1,43 @@
 """Starts the command `contoursolve`, also as `python -m contoursolve`."""
 
 import atexit
+import errno
 import gc
+import io
 import os
 import sys
+from typing import TYPE_CHECKING, TextIO
+
+if TYPE_CHECKING:
+    from _typeshed import ReadableBuffer
+
+
+class _Pipe(io.FileIO):
+    """An output whose reader may leave before the end, as `head` does: what follows goes nowhere, so that the exit
+    status never depends on who reads how much."""
+
+    def write(self, data: "ReadableBuffer", /) -> int:
+        try:
+            return super().write(data)
+        except OSError as error:
+            # Windows says "invalid argument" of a pipe that is closed.
+            if error.errno != errno.EPIPE and not (sys.platform == "win32" and error.errno == errno.EINVAL):
+                raise
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, self.fileno())
+        os.close(nowhere)
+        return memoryview(data).nbytes
+
+
+def _open_pipe(stream: TextIO) -> TextIO:
+    """The stream as one whose reader may leave; a terminal stays as it is, and None if there is no stream."""
+    if not isinstance(stream, io.TextIOWrapper) or stream.isatty():
+        return stream
+    stream.flush()
+    pipe = io.BufferedWriter(_Pipe(stream.fileno(), "w", closefd=False))
+    return io.TextIOWrapper(
+        pipe, stream.encoding, stream.errors, line_buffering=stream.line_buffering, write_through=stream.write_through
+    )
 
 
 def main() -> None:
@@ -16,6 +50,7 @@ def main() -> None:
     atexit.register(gc.freeze)
     from contoursolve.cli import main as command  # noqa: PLC0415 - after the collector is off
 
+    sys.stdout, sys.stderr = _open_pipe(sys.stdout), _open_pipe(sys.stderr)
     try:
         command(prog_name="contoursolve")
     except OSError as error:

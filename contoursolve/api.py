@@ -224,6 +224,7 @@ def expand(
     decimals: int | None = None,
     comments: bool = True,
     keep_going: bool = False,
+    keep_untranslated: bool = False,
     block_numbers: str = "first",
     control: str | Dialect | None = None,
     start: str | None = None,
@@ -239,9 +240,11 @@ def expand(
         text: the program, with its line ends.
         post: the target: `same` (the control that the program is for), `linuxcnc` or `fanuc`, or one of your own.
         arcs: `center` (I J K) or `radius` (R).
-        decimals: decimals of a length; the target's own without.
+        decimals: decimals of an end point; the target's own without. Centres and radii have at least those.
         comments: whether the original blocks are kept as comments.
         keep_going: whether to expand the other contours where one cannot be expanded.
+        keep_untranslated: whether there is a text although the target would run some of it along another path
+            (`summary.misread`).
         block_numbers: `first` (the number of a block stands in the first line in its place), or `all` (the others
             have numbers that the program does not use).
         control: and all others as for `solve`, with the same errors.
@@ -285,7 +288,8 @@ def expand(
     )
     opening = opening_of(options, dialect, unit, summary)
     written = "".join(opening if piece is OPENING else str(piece) for piece in pieces)
-    return Expansion(written if keep_going or not summary.left else None, dialect.name, summary)
+    is_whole = (keep_going or not summary.left) and (keep_untranslated or not summary.misread)
+    return Expansion(written if is_whole else None, dialect.name, summary)
 
 
 def read_program(path: str | Path) -> Program:

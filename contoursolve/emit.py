@@ -20,7 +20,8 @@ LONGEST_BY_RADIUS = 120.0
 
 @dataclass(frozen=True, slots=True)
 class Format:
-    """How the words of one block are written: lengths in `unit` with so many decimals."""
+    """How the words of one block are written: lengths in `unit` with so many decimals; centres and radii with at least
+    `arc_decimals`, so that controls find an arc as far from its centre at one end as at the other."""
 
     plane: Plane
     unit: Length
@@ -28,27 +29,34 @@ class Format:
     has_point: bool
     arcs: Arcs
     is_incremental: bool = False
+    arc_decimals: int = 0
     mm: float = field(init=False)
     """Millimetres of one unit."""
     step: float = field(init=False)
     """One of the last decimal."""
+    arc_step: float = field(init=False)
+    """The same of a centre or a radius."""
     scales: tuple[int, int] = field(init=False)
     """What a radius on each axis is multiplied by."""
     spec: str = field(init=False)
+    arc_spec: str = field(init=False)
 
     def __post_init__(self) -> None:
+        arc_decimals = max(self.decimals, self.arc_decimals)
         scales = tuple(2 if is_diameter else 1 for is_diameter in self.plane.diameters)
         for name, value in (
             ("mm", float(self.unit.in_mm)),
             ("step", 10.0**-self.decimals),
             ("scales", scales),
             ("spec", f"%.{self.decimals}f"),
+            ("arc_step", 10.0**-arc_decimals),
+            ("arc_spec", f"%.{arc_decimals}f"),
         ):
             object.__setattr__(self, name, value)
 
-    def number(self, value: float) -> str:
+    def number(self, value: float, spec: str | None = None) -> str:
         """A number with its decimals, without zeros at its end."""
-        text = self.spec % value
+        text = (spec or self.spec) % value
         if "." in text:
             text = text.rstrip("0")
         elif self.has_point:
@@ -111,7 +119,7 @@ class _Writer:
         first, second = form.number((exact[0] / mm - base) * one), form.number((exact[1] / mm - other) * two)
         end = base + float(first) / one, other + float(second) / two
         off = hypot(exact[0] - end[0] * mm, exact[1] - end[1] * mm)
-        if hypot(end[0] - here, end[1] - there) < self.step / 4:
+        if hypot(end[0] - here, end[1] - there) < self.step / 4 or self._is_turned_back(end):
             return Move(1, (), self._in_mm(self.here), off)
         words = sorted((form.plane.axes[0] + first, form.plane.axes[1] + second))
         more: list[str] = []
@@ -124,15 +132,22 @@ class _Writer:
             off = max(off, _arc_deviation(self.segment, self._in_mm(center), radius * self.mm))
         return Move(code, (*words, *sorted(more)), (end[0] * mm, end[1] * mm), off)
 
+    def _is_turned_back(self, end: Point) -> bool:
+        """Whether an arc is so short that its rounded end lies behind its start: it would go around nearly once."""
+        if isinstance(self.segment, LineSegment):
+            return False
+        ways = zip(self.here, end, self.segment.start, self.segment.end, strict=True)
+        return sum((new - old) * (last - first) for old, new, first, last in ways) <= 0
+
     def _by_center(self, end: Point) -> tuple[list[str], Point, float]:
-        """I J K for a centre that is as far from one end as from the other, to one unit of the last decimal; of those,
+        """I J K for a centre that is as far from one end as from the other, to one unit of its last decimal; of those,
         the one nearest to the exact centre."""
         arc, start = self._arc(), self.here
         exact = arc.center[0] / self.mm - start[0], arc.center[1] / self.mm - start[1]
         chord = end[0] - start[0], end[1] - start[1]
         along = (chord[0] / 2 - exact[0]) * chord[0] + (chord[1] / 2 - exact[1]) * chord[1]
         along /= chord[0] ** 2 + chord[1] ** 2
-        step, (across, rise), (to_first, to_second) = self.step, chord, exact
+        step, (across, rise), (to_first, to_second) = self.form.arc_step, chord, exact
         best = (inf, inf, 0.0, 0.0)
         for share in (0.0, along):
             first, second = (to_first + share * across) / step, (to_second + share * rise) / step
@@ -146,7 +161,8 @@ class _Writer:
                         best = key
         if best[0] == inf:
             raise ValueError("an arc without a center")
-        texts = [self.form.number(best[2]), self.form.number(best[3])]
+        spec = self.form.arc_spec
+        texts = [self.form.number(best[2], spec), self.form.number(best[3], spec)]
         center = start[0] + float(texts[0]), start[1] + float(texts[1])
         words = [address + text for address, text in zip(self.form.plane.centers, texts, strict=True)]
         return words, center, hypot(float(texts[0]), float(texts[1]))
@@ -156,10 +172,11 @@ class _Writer:
         arc, start = self._arc(), self.here
         chord = end[0] - start[0], end[1] - start[1]
         half = hypot(*chord) / 2
-        radius = float(self.form.number(arc.radius / self.mm))
+        spec, step = self.form.arc_spec, self.form.arc_step
+        radius = float(self.form.number(arc.radius / self.mm, spec))
         if radius < half:
-            radius = ceil(half / self.step) * self.step
-        text = self.form.number(radius)
+            radius = ceil(half / step) * step
+        text = self.form.number(radius, spec)
         height = sqrt(max(radius**2 - half**2, 0.0)) * arc.turn.sign / (2 * half)
         center = (start[0] + end[0]) / 2 - chord[1] * height, (start[1] + end[1]) / 2 + chord[0] * height
         return ["R" + text], center, radius

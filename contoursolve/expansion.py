@@ -16,6 +16,7 @@ from contoursolve.lines import Lines
 from contoursolve.model import Length
 from contoursolve.moulds import Moulded
 from contoursolve.numbering import Numberer, Numbers
+from contoursolve.offsets import Offsets
 from contoursolve.outcome import Left, Options, Summary, left_unread
 from contoursolve.pending import Step
 from contoursolve.pipeline import attach, walk
@@ -85,7 +86,7 @@ def _machine(dialect: Dialect) -> Machine:
 
 
 class _Expander:
-    """One pass over one program. Offsets are how far the tool is from where the original program has it."""
+    """One pass over one program."""
 
     def __init__(
         self, dialect: Dialect, options: Options, summary: Summary, lines: Lines, numbers: Numbers | None
@@ -99,7 +100,7 @@ class _Expander:
         summary.unfamiliar = self.watch.found
         self.numberer = Numberer(self.modes, numbers)
         self.formats: dict[tuple[str, bool, bool], Format] = {}
-        self.offsets: dict[str, float] = {}
+        self.offsets = Offsets(self.modes)
         self.motion: int | None = None
         """The motion that is in force in the expanded program, where it differs from the original."""
         self.is_opened = False
@@ -127,6 +128,7 @@ class _Expander:
                 yield from self._leave(step, step.answer, reason)
             else:
                 yield from self._replace(step, step.answer)
+        self.watch.finish()
 
     # What stays as it is
 
@@ -154,19 +156,21 @@ class _Expander:
                     texts.append(f"G{state.motion:02}" + self.lines.end)
                 self.motion = None
                 if self.offsets:
-                    self.offsets = {axis: offset for axis, offset in self.offsets.items() if axis not in words}
+                    self.offsets.keep([axis for axis in self.modes.axes if axis not in words])
             self.is_marked = line.startswith(LEFT_MARK)
             texts.append(line.rstrip("\r\n") + self.lines.take_end(number))
         yield "".join(texts)
 
-    def _keep(self, block: Block, state: State) -> Iterator[str]:
+    def _keep(self, block: Block, state: State, there: int | None = None) -> Iterator[str]:
+        """A block as it is; `there` is the motion that is in force before it in the expanded program."""
         if block.words or block.macro or block.faults:
+            there = self._motion_before(block, state) if there is None else there
             if self.motion is not None:
                 before, block = self._restore(block, state)
                 yield from before
             if self.offsets:
-                self._update_offsets(block, state)
-            self.watch.look(block, block.words, state)
+                self._tell(block, self.offsets.update(block, state))
+            self.watch.look(block, block.words, state, there)
             self._tell(block, self.numberer.look(block))
             unread = left_unread(block)
             if unread:
@@ -197,16 +201,12 @@ class _Expander:
         self.motion = None
         return before, block
 
-    def _update_offsets(self, block: Block, state: State) -> None:
-        """An absolute word puts an axis where it belongs again."""
-        here = apply_modes(state, block, self.modes)
-        codes = codes_of(block, self.modes)
-        if any(not isinstance(code, Word) and code.effect is Effect.NO_MOTION for code in codes):
-            return
-        for word in block.words:
-            row = self.modes.lexicon.addresses.get(word.address)
-            if row and row.axis and not (row.is_increment or here.is_incremental):
-                self.offsets.pop(row.axis, None)
+    def _motion_before(self, block: Block, state: State) -> int | None:
+        """The motion that a block finds in the expanded program: that of a contour before it, unless what the block
+        relies on is said again."""
+        if self.motion is None or reliance(block, self.modes) is not Reliance.ENDS:
+            return state.motion
+        return self.motion
 
     def _leave(self, step: Step, answer: Answer | Moulded, reason: str) -> Iterator[str]:
         """A contour as it was, below a comment that says why."""
@@ -217,6 +217,7 @@ class _Expander:
             step.blocks if isinstance(answer, Answer) else [parse_block(each.text, each.line) for each in step.blocks]
         )
         first, *others = blocks
+        there = self._motion_before(first, step.before)
         if self.motion is not None:
             before, first = self._restore(first, step.before)
             yield from before
@@ -224,7 +225,7 @@ class _Expander:
             yield remark(reason) + self.lines.end
         state = step.before
         for block in (first, *others):
-            yield from self._keep(block, state)
+            yield from self._keep(block, state, there if block is first else None)
             state = apply_modes(state, block, self.modes)
 
     def _obstacle(self, answer: Answer) -> str:
@@ -293,23 +294,28 @@ class _Expander:
         self.motion = None if is_same else _NO_MOTION if motion is None else motion
         contour = answer.contour
         if contour is not None:
-            self.offsets |= {axis: here[n] - contour.end[n] for n, axis in enumerate(axes) if here[n] != contour.end[n]}
+            self.offsets.leave(axes, here, contour.end)
         self.summary.replaced += 1
         self.summary.warn(answer.diagnostics)
 
     def _place(self, answer: Answer | Moulded) -> Point:
         """Where the tool is at the start of a contour, in the expanded program."""
-        (first, second), (one, two) = answer.start.values, answer.plane.axes
-        return float(first or 0) + self.offsets.pop(one, 0.0), float(second or 0) + self.offsets.pop(two, 0.0)
+        (first, second), (one, two) = answer.start.values, self.offsets.take(answer.plane.axes)
+        return float(first or 0) + one, float(second or 0) + two
 
     def _format(self, state: State) -> Format:
         key = state.plane.code, state.unit is Length.INCH, state.is_incremental
         if key not in self.formats:
             numbers, post = self.modes.lexicon.numbers, self.options.post
-            decimals = self.options.decimals
-            digits = post.digits(state.unit, numbers) if decimals is None else decimals
+            own, decimals = post.digits(state.unit, numbers), self.options.decimals
             self.formats[key] = Format(
-                state.plane, state.unit, digits, post.writes_point(numbers), self.options.arcs, state.is_incremental
+                state.plane,
+                state.unit,
+                own if decimals is None else decimals,
+                post.writes_point(numbers),
+                self.options.arcs,
+                state.is_incremental,
+                own,
             )
         return self.formats[key]
 
@@ -323,7 +329,7 @@ class _Expander:
         frame, rest = frame_of(block.text), carried(block, self.modes)
         indent = frame.indent
         lines = [indent + text for text in comment_out(block.text.strip())] if self.options.has_comments else []
-        self.watch.look(block, rest.kept, state)
+        self.watch.look(block, rest.kept, state, None)
         comments = [] if self.options.has_comments else own_comments(block.text)
         texts = [[_NAMES[move.code], *move.words] for move in moves]
         texts = texts or ([[]] if rest.says_something or comments else [])

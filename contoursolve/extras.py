@@ -1,5 +1,6 @@
 """Packages of extras, such as `contoursolve[picture]`: imported where they are needed, or told to be missing."""
 
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib import import_module
@@ -19,8 +20,10 @@ def importing(extra: str, purpose: str) -> Iterator[None]:
         package = (error.name or "").partition(".")[0]
         if package in ("", "contoursolve"):
             raise
+        # The interpreter that runs this is named: any other `pip` may install for another one.
+        python = f'"{sys.executable}"' if " " in sys.executable else sys.executable or "python"
         raise MissingExtraError(
-            f"{purpose} needs {package}; install it with: pip install 'contoursolve[{extra}]'"
+            f'{purpose} needs {package}; install it with: {python} -m pip install "contoursolve[{extra}]"'
         ) from None
 
 

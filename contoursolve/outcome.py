@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from contoursolve.diagnostic import Diagnostic, Severity
-from contoursolve.posts import SAME, Arcs, Numbering, Post
+from contoursolve.posts import SAME, Arcs, Numbering, Post, Risk
 from contoursolve.syntax import Block, FaultKind
 from contoursolve.unfamiliar import Unfamiliar
 
@@ -50,6 +50,11 @@ class Summary:
     line_end: str = "\n"
     """How the first line that has an end ends."""
 
+    @property
+    def misread(self) -> list[Unfamiliar]:
+        """Of what the target reads in another way, that by which the tool may go another way without an alarm."""
+        return [each for each in self.unfamiliar if each.risk is Risk.PATH]
+
     def warn(self, findings: Sequence[Diagnostic]) -> None:
         """Note the warnings among the findings about a contour that was replaced, or about lines that stay."""
         warnings = [each for each in findings if each.severity is Severity.WARNING]
@@ -59,7 +64,8 @@ class Summary:
 
 @dataclass(frozen=True, slots=True)
 class Expansion:
-    """A program in plain G-code; `text` is None where a contour could not be expanded."""
+    """A program in plain G-code; `text` is None where a contour could not be expanded, or where the target would run
+    something else along another path."""
 
     text: str | None
     control: str | None

@@ -502,6 +502,48 @@ def test_program_without_a_contour_is_an_error_to_solve_and_a_warning_to_check(s
     assert (status, output.startswith("warning[no-contour]")) == (0, True)
 
 
+UNREAD = {
+    "solve": ("solve", SHAFT),
+    "solve, errors": ("solve", BROKEN),
+    "check, errors": ("check", BROKEN, "--format", "json"),
+    "expand": ("expand", SHAFT),
+    "expand, nothing written": ("expand", SHAFT, "--post", "linuxcnc"),
+    "filter": ("filter", PLATE),
+    "diff": ("diff", SHAFT, PLATE),
+    "range": ("range", *ONE, "--word", "P"),
+    "find": ("find", *ONE, "--word", "A", "--bring", "end Z-50."),
+    "sensitivity": ("sensitivity", *ONE),
+    "sweep": ("sweep", *ONE, "--vary", "A=170:190:1"),
+    "plot": ("plot", *ONE, "-o", "-"),
+    "rules": ("rules", "--table"),
+    "explain": ("explain", "g111-line-1"),
+    "facts": ("facts",),
+    "help": ("--help",),
+    "bad usage": ("solve", "--nonsense"),
+}
+
+
+@pytest.mark.parametrize("name", UNREAD)
+def test_the_exit_status_is_the_same_if_nobody_reads_the_output(name):
+    command = [sys.executable, "-m", "contoursolve", *UNREAD[name]]
+    status = run(*UNREAD[name])[0]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        process.stdout.close()
+        said = process.stderr.read()
+    assert (process.returncode, b"Traceback" in said) == (status, False)
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT) as process:
+        process.stdout.close()
+    assert process.returncode == status
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no disk that is always full")
+def test_a_full_disk_behind_the_output_is_told():
+    with Path("/dev/full").open("wb") as full:
+        command = [sys.executable, "-m", "contoursolve", "solve", SHAFT]
+        done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, check=False)
+    assert (done.returncode, done.stderr) == (2, b"Error: the output cannot be written: No space left on device\n")
+
+
 @pytest.mark.parametrize("command", ["solve", "check"])
 @pytest.mark.parametrize("output", ["text", "json"])
 def test_unreadable_file_is_one_line_on_standard_error(command, output, save, tmp_path):

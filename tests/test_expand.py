@@ -6,6 +6,7 @@ import subprocess
 import sys
 import time
 from configparser import ConfigParser
+from dataclasses import replace
 from math import cos, hypot, radians, sin
 from pathlib import Path
 
@@ -13,21 +14,24 @@ import pytest
 from click.testing import CliRunner
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from interpreter import assert_path, interpret, needs_rs274
+from interpreter import RefusedError, assert_path, interpret, needs_rs274
 
 import contoursolve
 from contoursolve.api import only_findings
 from contoursolve.cli import main
 from contoursolve.comparison import compare, follow
 from contoursolve.contour import ArcSegment, LineSegment
-from contoursolve.dialects import DIALECTS
+from contoursolve.diagnostic import Severity
+from contoursolve.dialects import DIALECTS, YASNAC_LX3
+from contoursolve.dialects import PLAIN as TARGET_CONTROLS
 from contoursolve.emit import Format, emit
 from contoursolve.examine import Depth, Policy
 from contoursolve.lines import Lines
 from contoursolve.model import Length, Plane, Turn
 from contoursolve.pipeline import run as solved
 from contoursolve.pipeline import walk
-from contoursolve.posts import Arcs
+from contoursolve.posts import FANUC, LINUXCNC, POSTS, Arcs, Machine
+from contoursolve.reading import Effect
 from contoursolve.syntax import parse
 
 PROGRAMS = Path(__file__).parent.parent / "notebooks" / "programs"
@@ -52,7 +56,7 @@ def expand(text, **options):
 @pytest.mark.parametrize("arcs", ["center", "radius"])
 def test_linuxcnc_runs_our_programs_without_the_lines_that_it_is_said_not_to_know(name, arcs, tmp_path):
     text = (PROGRAMS / f"{name}.nc").read_text()
-    expansion = contoursolve.expand(text, post="linuxcnc", arcs=arcs)
+    expansion = contoursolve.expand(text, post="linuxcnc", arcs=arcs, keep_untranslated=True)
     unknown = [each.text for each in expansion.summary.unfamiliar]
     codes = [code for code in unknown if code[0] in "GM" and " " not in code]
     names = [rf"\b{code}\b" for code in codes] + [rf"\b{text[0]}\d" for text in unknown if text[0] in "UW"]
@@ -110,18 +114,20 @@ LATHE = Plane("G18", ("Z", "X"), ("K", "I"), (False, True))
     st.sampled_from(list(Turn)),
     st.sampled_from(list(Arcs)),
     st.booleans(),
-    st.integers(2, 5),
+    st.integers(1, 5),
+    st.integers(0, 4),
 )
 @settings(max_examples=300, deadline=None)
 def test_a_rounded_arc_is_valid_and_as_near_as_reported(
-    z, x, radius, begin, sweep, turn, arcs, is_incremental, decimals
+    z, x, radius, begin, sweep, turn, arcs, is_incremental, decimals, arc_decimals
 ):
     def at(degrees):
         angle = radians(begin + turn.sign * degrees)
         return z + radius * cos(angle), x + radius * sin(angle)
 
     arc = ArcSegment("arc", at(0), at(sweep), (z, x), radius, turn)
-    form = Format(LATHE, Length.MM, decimals, True, arcs, is_incremental)
+    form = Format(LATHE, Length.MM, decimals, True, arcs, is_incremental, arc_decimals)
+    arc_step = 10.0 ** -max(decimals, arc_decimals)
     step = 10.0**-decimals
     here = arc.start if is_incremental else (round(arc.start[0], decimals), round(arc.start[1] * 2, decimals) / 2)
     place, told, written = here, 0.0, []
@@ -138,7 +144,7 @@ def test_a_rounded_arc_is_valid_and_as_near_as_reported(
         else:
             center = place[0] + words["K"], place[1] + words["I"]
             ends = [hypot(p[0] - center[0], p[1] - center[1]) for p in (place, end)]
-            assert abs(ends[0] - ends[1]) <= 1.5 * step
+            assert abs(ends[0] - ends[1]) <= 1.5 * arc_step
             written.append((center, ends))
         assert end != place
         place = end
@@ -150,6 +156,56 @@ def test_a_rounded_arc_is_valid_and_as_near_as_reported(
             abs(hypot(p[0] - center[0], p[1] - center[1]) - ends[0]) for p in (at(sweep * n / 50) for n in range(51))
         )
         assert worst <= told + 1e-9
+
+
+def test_an_arc_that_its_rounded_end_would_turn_back_is_left_out():
+    arc = ArcSegment("arc", (0.04, 10.0), (0.045, 10.01), (0.04, 11.0), 1.0, Turn.CCW)
+    for arcs in Arcs:
+        (move,) = emit(arc, arc.start, Format(LATHE, Length.MM, 1, True, arcs, arc_decimals=3))
+        assert (move.words, move.end) == ((), arc.start)
+        assert move.deviation == pytest.approx(hypot(0.005, 0.01), abs=0.04)
+
+
+TARGETS = {"same": ("yasnac-lx3", "nct-99m"), "fanuc": ("fanuc-lathe", "fanuc-mill"), "linuxcnc": ("linuxcnc",) * 2}
+
+
+@pytest.mark.parametrize("post", TARGETS)
+@pytest.mark.parametrize("arcs", ["center", "radius"])
+@pytest.mark.parametrize("decimals", [1, 2, 3, 4])
+@pytest.mark.parametrize("unit", ["mm", "inch"])
+def test_with_few_decimals_every_arc_is_still_one(post, arcs, decimals, unit):
+    programs = [PROGRAMS.joinpath(f"{name}.nc").read_text() for name in ("shaft", "roller", "plate", "cover")]
+    programs.append(f"{START}G111 X100. A180. K-30. B120. P5. Q5.\nG00 X40. Z0.\nG112 U0 I10. K-50. P5. Q5. R30.")
+    options = {"post": post, "arcs": arcs, "units": unit, "comments": False, "keep_untranslated": True}
+    for program in programs:
+        text = program.replace("G21", "") if unit == "inch" else program
+        written = contoursolve.expand(text, decimals=decimals, **options)
+        if written.text is None:  # an arc of the program's own begins where a contour ends
+            told = r"its arc begins .*, which is rounded by .* mm: take (\d) decimals"
+            (least,) = {int(re.fullmatch(told, left.reason)[1]) for left in written.summary.left}
+            assert decimals < least
+            written = contoursolve.expand(text, decimals=least, **options)
+        control = DIALECTS[written.control]
+        own = re.sub("^G[78] G1[78] .*\n", "", written.text, flags=re.MULTILINE)
+        found = contoursolve.check(own, control=control, units=unit)
+        assert [each for each in found if each.severity is Severity.ERROR] == []
+        if written.summary.misread:
+            continue
+        dialect = (DIALECTS | TARGET_CONTROLS)[TARGETS[post][written.control == "nct-99m"]]
+        result = only_findings(solved(parse(written.text), dialect, Length(unit), Policy.ENFORCE))
+        reasons = [each.reason for each in follow(result, dialect, Length(unit), dialect.modes.axes).unfollowed]
+        assert [each for each in reasons if "radius of the arc is" in each or "too small" in each] == []
+
+
+@needs_rs274
+@pytest.mark.parametrize("arcs", ["center", "radius"])
+@pytest.mark.parametrize("decimals", [1, 2, 3, 4])
+def test_linuxcnc_runs_arcs_with_few_decimals(arcs, decimals, tmp_path):
+    for text in (f"F100 {START}{TAPER} P5. Q5.\nM30\n", PROGRAMS.joinpath("cover.nc").read_text()):
+        written = contoursolve.expand(text, post="linuxcnc", arcs=arcs, decimals=decimals).text
+        motions = interpret(written, tmp_path)
+        exact = contoursolve.solve(text).answers[-1].contour
+        assert min(abs(motion.end - complex(*exact.end)) for motion in motions) <= 10.0**-decimals
 
 
 def test_an_element_that_rounds_to_nothing_is_left_out_and_its_deviation_counted():
@@ -314,6 +370,145 @@ def test_a_word_that_the_control_ignores_is_not_passed_over():
     assert "and 10 warnings more" in said
 
 
+TURNED = "G00 X97. Z2.\nG90 X91. Z-40. F0.35\nX85.\nG00 X40. Z0.\nG111 X80. A180. K-30. B120. P5. F0.2\n"
+CIRCLED = "G17 G41 G0 X50. Y0.\nG3 X-50. Y0. R50.\nG1 X-50. Y42.857 ,A171.87 Q-1\n"
+
+LX3, RUN = "yasnac-lx3", "on LinuxCNC 2.9, which would run"
+TURNING = f"(turning cycle on {LX3})"
+RAPID, LINE = "a rapid: G00 is in force", "a line: G01 is in force"
+BY_HAND = "nothing was written: write by hand what is meant there"
+
+
+@pytest.mark.parametrize(
+    ("post", "text", "sentence"),
+    [
+        (
+            "linuxcnc",
+            TURNED,
+            f"line 2: G90 {TURNING} is absolute coordinates {RUN} X91. Z-40. and 1 line behind it as {RAPID}",
+        ),
+        (
+            "linuxcnc",
+            f"{START}{TAPER}\nG94 X20. Z-50.\nG00 X50.",
+            f"line 3: G94 (facing cycle on {LX3}) is feed a minute {RUN} X20. Z-50. as {LINE}",
+        ),
+        (
+            "linuxcnc",
+            f"{START}{TAPER} P5. Q5.\n/X60.\nG94 X20. Z-50.",
+            f"line 4: G94 (facing cycle on {LX3}) is feed a minute {RUN} X20. Z-50. as {RAPID}",
+        ),
+        (
+            "linuxcnc",
+            f"{START}{TAPER}\nG01 X60.\nG92 X59. Z-70. F2.\nX58.\n(THIRD)\nX57.",
+            f"line 4: G92 (thread cycle on {LX3}) sets coordinates {RUN} 2 lines behind it as {LINE}",
+        ),
+        (
+            "linuxcnc",
+            f"{START}{TAPER}\nG90\nM08\nX59.\nX58.",
+            f"line 3: G90 {TURNING} is absolute coordinates {RUN} 2 lines behind it as {LINE}",
+        ),
+        (
+            "linuxcnc",
+            f"{START}{TAPER}\ng76 X26. Z-30. K1.8 D400 F3. A60",
+            f"line 3: g76 (threading cycle on {LX3}) is a threading cycle with other words on LinuxCNC 2.9",
+        ),
+        (
+            "linuxcnc",
+            f"{START}{TAPER}\nG91 X1.",
+            f"line 3: G91 (not known to contoursolve on {LX3}) is incremental coordinates {RUN} X1. as {RAPID}",
+        ),
+        (
+            "linuxcnc",
+            f"{START}{TAPER}\nG00 X-1500",
+            f"line 3: X-1500 (-1.5 mm on {LX3}) has no point, and is -1500 mm on LinuxCNC 2.9; write X-1.5",
+        ),
+        (
+            "fanuc",
+            f"{CIRCLED}G0 Z50",
+            f"line 4: Z50 (50 mm on nct-99m) has no point, and is 0.05 mm on {FANUC.title}; write Z50.",
+        ),
+        (
+            "linuxcnc",
+            f"{CIRCLED}G76 X1. Y1. Z-5. R1. Q1.",
+            "line 4: G76 (drilling cycle on nct-99m) is a threading cycle on LinuxCNC 2.9",
+        ),
+    ],
+)
+def test_what_the_target_would_run_along_another_path_keeps_the_program_from_being_written(post, text, sentence):
+    expansion = contoursolve.expand(text, post=post)
+    assert expansion.text is None
+    (found,) = expansion.summary.misread
+    assert f"line {found.line}: {found.sentence(POSTS[post].title)}" == sentence
+    status, written, said = run("expand", "-", "--post", post, stdin=text)
+    assert (status, written) == (1, b"")
+    assert f"error: {sentence}\n" in said
+    assert said.endswith(
+        "nothing was written: write by hand what is meant there (--keep-untranslated writes it as it is)\n"
+    )
+    status, written, said = run("expand", "-", "--post", post, "--keep-untranslated", stdin=text)
+    assert status == 0
+    assert written.decode() == contoursolve.expand(text, post=post, keep_untranslated=True).text
+    assert all(line in written.decode().split("\n") for line in text.split("\n") if line[:4] in ("G90 ", "X85."))
+    assert f"warning: {sentence}\n" in said
+    if post == "linuxcnc":
+        status, written, said = run("filter", "-", stdin=text)
+        assert (status, written) == (1, b"")
+        assert f"error: {sentence}\n" in said
+        assert said.endswith(f"{BY_HAND}\n")
+
+
+@pytest.mark.parametrize(
+    ("post", "line"),
+    [
+        ("same", "G90 X30. Z-60."),
+        ("fanuc", "G90 X30. Z-60."),
+        ("linuxcnc", "G90"),
+        ("linuxcnc", "G28 U0 W0"),  # LinuxCNC stops: a bad character
+        ("linuxcnc", "G50 X300000 Z200000"),  # LinuxCNC stops: it has no such code
+        ("linuxcnc", "G04 X1000"),  # LinuxCNC stops: no P
+        ("linuxcnc", "T0303"),  # LinuxCNC stops: not in its table
+        ("linuxcnc", "M98 P1000"),
+        ("linuxcnc", "X0 Z0"),
+        ("linuxcnc", "G98 F100"),
+    ],
+)
+def test_what_changes_no_path_or_stops_the_target_is_only_told(post, line):
+    text = f"{START}{TAPER}\n{line}\nG00 X50."
+    expansion = contoursolve.expand(text, post=post)
+    assert expansion.summary.misread == []
+    assert f"\n{line}\n" in expansion.text
+    assert run("expand", "-", "--post", post, stdin=text)[0] == 0
+
+
+def test_a_code_that_a_control_of_ones_own_reads_as_the_target_does_is_not_read_otherwise():
+    own = YASNAC_LX3.modes
+    absolute = replace(own.codes[90], effect=Effect.ABSOLUTE, meaning="absolute coordinates")
+    control = replace(YASNAC_LX3, name="mine", modes=replace(own, codes={**own.codes, 90: absolute}))
+    text = f"{START}{TAPER}\nG90 G01 X60. Z-60."
+    assert contoursolve.expand(text, post="linuxcnc", control=control).summary.unfamiliar == []
+    assert contoursolve.expand(text, post="linuxcnc").text is None
+
+
+@needs_rs274
+@pytest.mark.parametrize("machine", Machine)
+def test_linuxcnc_stops_at_every_code_of_which_no_row_says_what_it_does(machine, tmp_path):
+    reading = LINUXCNC.readings[machine]
+    opening = LINUXCNC.opening[machine].format(unit="G21")
+    codes = [code for code in range(120) if code not in reading.g and f"G{code}" not in reading.otherwise]
+    assert len(codes) > 50
+    for code in codes:
+        for words in ("", "X50. Z-60.", "Z-60. R1. Q1. P1"):
+            with pytest.raises(RefusedError):
+                interpret(f"{opening} F100\nG00 X40. Z0.\nG{code} {words}\nM2\n", tmp_path)
+
+
+@needs_rs274
+def test_linuxcnc_runs_a_turning_cycle_as_it_is_said_to(tmp_path):
+    written = contoursolve.expand(f"F100\n{TURNED}M30\n", post="linuxcnc", keep_untranslated=True).text
+    through = [motion for motion in interpret(written, tmp_path) if abs(motion.end - (-40 + 45.5j)) < 1e-9]
+    assert [motion.kind for motion in through] == ["traverse"]
+
+
 BEFORE = "G00 X40. Z0.\nG71 P100 Q0120 U.5 F.2\nN100 G00 X40. Z0.\n"
 ROUNDED = "N0120 G111 A180. K-30. B120. X100. P5."
 
@@ -381,11 +576,12 @@ def test_a_text_without_a_contour_comes_out_as_it_was(text, control):
 def test_only_contours_change_and_only_once(blocks, end, post):
     blocks = [each.replace("\n", end) for each in blocks]
     text = end.join(blocks)
-    once = contoursolve.expand(text, post=post, keep_going=True, control="yasnac-lx3")
+    options = {"post": post, "control": "yasnac-lx3", "keep_going": True, "keep_untranslated": True}
+    once = contoursolve.expand(text, **options)
     plain = [line for line in re.split(r"\r\n|\n|\r", text) if not line.startswith("G111")]
     rest = iter(re.split(r"\r\n|\n|\r", once.text))
     assert all(line in rest for line in plain)  # in this order, every one of them
-    assert contoursolve.expand(once.text, post=post, keep_going=True, control="yasnac-lx3").text == once.text
+    assert contoursolve.expand(once.text, **options).text == once.text
     if once.summary.replaced == 0 and not once.summary.left:
         assert once.text == text
 

@@ -312,5 +312,6 @@ def test_what_is_missing_is_named():
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == (
-        "exploring a contour needs anywidget; install it with: pip install 'contoursolve[notebook]'"
+        "exploring a contour needs anywidget; install it with: "
+        f'{sys.executable} -m pip install "contoursolve[notebook]"'
     )

@@ -598,7 +598,7 @@ def test_a_sweep_writes_every_row(tmp_path):
 def test_a_missing_package_is_named_with_the_extra_that_brings_it(monkeypatch, tmp_path):
     monkeypatch.setitem(sys.modules, "pyarrow", None)
     status, _, errors = run(*ON_BLOCK, "--vary", "A=170", "-o", tmp_path / "family.parquet")
-    assert (status, "pip install 'contoursolve[family]'" in errors) == (2, True)
+    assert (status, f'{sys.executable} -m pip install "contoursolve[family]"' in errors) == (2, True)
 
 
 @pytest.mark.parametrize(

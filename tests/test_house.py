@@ -24,7 +24,7 @@ FLOORS = (
     "analysis",
     "solving",
     "settling",
-    "contour posts reliance numbering wording",
+    "contour posts reliance numbering wording offsets",
     "beyond carried",
     "emit explain sketch",
     "spelling",

@@ -228,6 +228,20 @@ def test_verify_says_that_it_cannot_check_forms_that_are_not_built_in(run, block
     assert output.endswith("1 contour (1 not checked); checked nothing: see above what was not checked, and why\n")
 
 
+def test_diff_reads_new_as_the_control_named_for_old_unless_new_has_words_of_another(run):
+    mine = ("--control", "tables_without_signs:MINE")
+    Path("tables_without_signs.py").write_text(
+        "import dataclasses, test_own_control as own\nMINE = dataclasses.replace(own.MINE, signs=lambda _: ())\n"
+    )
+    status, output = run("diff", "p.nc", "p.nc", *mine)
+    assert (status, output.count("p.nc (mine)")) == (0, 2)
+    Path("taper.nc").write_text("G00 X40. Z0.\nG111 X100. A180. K-30. B120.")
+    for control in (mine, ("--control", "nct-99m")):
+        assert "taper.nc (yasnac-lx3)" in run("diff", "p.nc", "taper.nc", *control)[1]
+    assert "p.nc (nct-99m)" in run("diff", "taper.nc", "p.nc", "--control", "yasnac-lx3")[1]
+    assert "p.nc (nct-99m)" in run("diff", "taper.nc", "p.nc", "--control", "linuxcnc")[1]
+
+
 @pytest.mark.parametrize(
     ("control", "said"),
     [

@@ -366,7 +366,7 @@ def test_svg_needs_no_package_and_png_names_the_one_it_needs(monkeypatch):
     assert subprocess.run([sys.executable, "-c", program], check=True, capture_output=True).stdout.split() == []
     monkeypatch.delitem(sys.modules, "contoursolve.pictures.png")
     monkeypatch.setitem(sys.modules, "matplotlib", None)
-    with pytest.raises(ImportError, match=r"pip install 'contoursolve\[picture\]'"):
+    with pytest.raises(ImportError, match=r'-m pip install "contoursolve\[picture\]"'):
         draw_answer(answers_of("solved")[0]).png()
 
 
@@ -708,7 +708,7 @@ def test_plot_of_a_png_without_matplotlib_says_what_to_install(tmp_path, monkeyp
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     status, output = plot(SHAFT, "-o", tmp_path / "a.png")
     assert status == 2
-    assert "pip install 'contoursolve[picture]'" in output
+    assert f'{sys.executable} -m pip install "contoursolve[picture]"' in output
     assert not (tmp_path / "a.png").exists()
 
 

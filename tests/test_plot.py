@@ -161,7 +161,7 @@ def test_without_ezdxf_the_message_says_what_to_install(tmp_path, monkeypatch):
     monkeypatch.delitem(sys.modules, "contoursolve.output.drawing_dxf")
     status, output = plot(PROGRAMS / "shaft.nc", "-o", tmp_path / "part.dxf")
     assert status == 2
-    assert "pip install 'contoursolve[dxf]'" in output
+    assert f'{sys.executable} -m pip install "contoursolve[dxf]"' in output
 
 
 def test_where_nothing_is_solved_nothing_is_written(tmp_path):

@@ -39,7 +39,11 @@ _ANY_CONTROL = (*DIALECTS, *PLAIN)
     help="How far apart the paths may be, in mm.",
 )
 @control_option("The control of OLD. Without it, found from OLD where that is clear.", names=_ANY_CONTROL)
-@control_option("The control of NEW. Without it, found from NEW, or that of OLD.", "--new-control", _ANY_CONTROL)
+@control_option(
+    "The control of NEW. Without it, that named for OLD, unless NEW has words of another; or found from NEW.",
+    "--new-control",
+    _ANY_CONTROL,
+)
 @units_option
 @click.option(
     "--new-units", type=click.Choice([unit.value for unit in Length]), help="The same for NEW. Without it, as for OLD."
@@ -84,7 +88,9 @@ def diff(
     sides: list[tuple[Result, Dialect, Length]] = []
     for path, own, unit in ((old, control, units), (new, new_control, new_units or units)):
         program = read(path)
-        dialect = _dialect_of(program, own, sides[0][1] if sides else None, assignments)
+        before = sides[0][1] if sides else None
+        is_kept = control is not None and before is not None and _reads_what_shows_others(before, program)
+        dialect = _dialect_of(program, own or (before if is_kept else None), before, assignments)
         result = only_findings(run(program, dialect, Length(unit), Policy(rules)))
         sides.append((result, dialect, Length(unit)))
     results = [result for result, _, _ in sides]
@@ -104,6 +110,14 @@ def diff(
     else:
         print_lines(differences.comparison_lines(comparison))
     context.exit(0 if comparison.is_equal else FOUND_ERRORS)
+
+
+def _reads_what_shows_others(control: Dialect, program: Program) -> bool:
+    """Whether a control has every word by which a program shows another one, so that it need not be for that one."""
+    others = [other for other in DIALECTS.values() if other.name != control.name]
+    shown = [word for other in others for block in program.blocks for word in other.signs(block)]
+    addresses, codes = control.modes.lexicon.addresses, control.modes.codes
+    return all(word.number in codes if word.address == "G" else word.address in addresses for word in shown)
 
 
 def _dialect_of(

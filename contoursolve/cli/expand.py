@@ -32,11 +32,13 @@ from contoursolve.outcome import Options, Summary
 from contoursolve.output.findings import Style, finding_lines, plain
 from contoursolve.output.layout import count
 from contoursolve.pipeline import FactPlaceError
-from contoursolve.posts import POSTS, Arcs, Numbering, Post
+from contoursolve.posts import POSTS, Arcs, Numbering, Post, Risk
 from contoursolve.project import SettingError
 from contoursolve.recognise import UnknownControlError
 from contoursolve.rewrite import Rewritten, rewrite
 from contoursolve.syntax import UnreadableProgramError
+
+_BY_HAND = "write by hand what is meant there"
 
 STANDARD = "-"
 """Standard input, or standard output."""
@@ -57,7 +59,8 @@ def wording_options(command: Callable[..., None]) -> Callable[..., None]:
                 "--decimals",
                 type=click.IntRange(1, MOST_DECIMALS),
                 metavar="COUNT",
-                help="Decimals of a length. Without it, as many as the target has.",
+                help="Decimals of an end point. Without it, as many as the target has; I J K and R always have at "
+                "least those, so that arcs stay valid.",
             ),
             click.option(
                 "--block-numbers",
@@ -95,6 +98,12 @@ def wording_options(command: Callable[..., None]) -> Callable[..., None]:
     is_flag=True,
     help="Write the others where a contour cannot be expanded; it stays, below a comment why.",
 )
+@click.option(
+    "--keep-untranslated",
+    "keeps_untranslated",
+    is_flag=True,
+    help="Write with a warning what the target would run along another path, such as G90 of a lathe.",
+)
 @click.pass_context
 def expand(
     context: click.Context,
@@ -107,20 +116,22 @@ def expand(
     is_forced: bool,
     post: str,
     keeps_going: bool,
+    keeps_untranslated: bool,
     **options: Any,
 ) -> None:
     """Write OLD (a file, or - for standard input) with every contour as plain G00, G01, G02 and G03.
 
     Everything else stays as it is, byte for byte, and each original block is kept as a comment above what replaces
     it. End points are rounded first, and then the centre of each arc; the largest deviation is reported. The rest is
-    not translated: what OLD says that the target does not know is named. If a contour cannot be expanded, nothing is
+    not translated: what OLD says that the target does not know, and stops at, is named. If a contour cannot be
+    expanded, or the target would run something else along another path, such as a turning cycle as a rapid, nothing is
     written.
 
     Exit status: 0 all contours are expanded, 1 one is left or nothing was written, 2 could not run.
 
     \b
     contoursolve expand shaft.nc -o shaft_plain.nc
-    contoursolve expand shaft.nc --post linuxcnc --arcs radius > shaft.ngc
+    contoursolve expand cover.nc --post linuxcnc --arcs radius > cover.ngc
     contoursolve expand --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0."
     """
     if bool(blocks) == bool(program):
@@ -135,8 +146,13 @@ def expand(
             rewritten = _rewrite(source, body, wish, start, options, progress)
         summary = rewritten.summary
         _report_left(summary, program or "<block>", style_of_output())
+        _report_misread(summary, POSTS[post], style_of_output(), is_kept=keeps_untranslated)
         if summary.left and not keeps_going:
             click.echo("nothing was written (--keep-going expands the others)", err=True)
+            context.exit(FOUND_ERRORS)
+        if summary.misread and not keeps_untranslated:
+            _report_told(summary, POSTS[post])
+            click.echo(f"nothing was written: {_BY_HAND} (--keep-untranslated writes it as it is)", err=True)
             context.exit(FOUND_ERRORS)
         if target is None:
             _print(rewritten)
@@ -161,8 +177,9 @@ def expand(
 def filter_(context: click.Context, /, program: str, **options: Any) -> None:
     """Write FILE for LinuxCNC to standard output, as LinuxCNC asks a filter to.
 
-    Progress goes to standard error as FILTER_PROGRESS=n. If a contour cannot be expanded, nothing is written, the
-    findings go to standard error, and the exit status is 1 (2: could not run). In LinuxCNC's INI file:
+    Progress goes to standard error as FILTER_PROGRESS=n. If a contour cannot be expanded, or LinuxCNC would run
+    something else along another path, nothing is written, the findings go to standard error, and the exit status is 1
+    (2: could not run). In LinuxCNC's INI file:
 
     \b
     [FILTER]
@@ -177,7 +194,9 @@ def filter_(context: click.Context, /, program: str, **options: Any) -> None:
         wish = _wish("linuxcnc", options)
         rewritten = _rewrite(open_tape(program), body, wish, None, options, progress)
         _report_left(rewritten.summary, program, plain)
-        if rewritten.summary.left:
+        _report_misread(rewritten.summary, wish.post, plain, is_kept=False)
+        if rewritten.summary.left or rewritten.summary.misread:
+            click.echo("nothing was written" + f": {_BY_HAND}" * bool(rewritten.summary.misread), err=True)
             context.exit(FOUND_ERRORS)
         progress(1.0)
         _print(rewritten)
@@ -277,6 +296,20 @@ def _report_left(summary: Summary, name: str, style: Style) -> None:
             click.echo("\n".join(lines), err=True)
 
 
+def _report_misread(summary: Summary, post: Post, style: Style, *, is_kept: bool) -> None:
+    """What the target would run along another path, on standard error."""
+    severity = "warning" if is_kept else "error"
+    for each in summary.misread:
+        click.echo(f"{style(severity, severity)}: line {each.line}: {each.sentence(post.title)}", err=True)
+
+
+def _report_told(summary: Summary, post: Post) -> None:
+    """What the target stops at, or reads in another way on the same path, on standard error."""
+    for each in summary.unfamiliar:
+        if each.risk is Risk.TOLD:
+            click.echo(f"line {each.line}: {each.sentence(post.title)}", err=True)
+
+
 def _report_expansion(summary: Summary, post: Post, style: Style) -> None:
     """What was done, and what is left to do, on standard error."""
     for finding in summary.warned:
@@ -286,8 +319,7 @@ def _report_expansion(summary: Summary, post: Post, style: Style) -> None:
         click.echo(f"{place}: {style('warning', 'warning')}[{finding.code}]: {finding.message}", err=True)
     if summary.warnings > len(summary.warned):
         click.echo(f"and {count(summary.warnings - len(summary.warned), 'warning')} more", err=True)
-    for each in summary.unfamiliar:
-        click.echo(f"line {each.line}: {each.text} {each.problem} on {post.title}", err=True)
+    _report_told(summary, post)
     done = f"{count(summary.replaced, 'contour')} expanded"
     if summary.replaced:
         done += f", at most {summary.deviation:.1g} mm off"

@@ -56,7 +56,8 @@ def main() -> None:
     the YASNAC LX3 a number without a decimal point counts least increments, and X40 is 0.040 mm. Numbers alone (--vary,
     --within, --tolerance) and those in facts are read as they stand, in mm or inches and degrees.
 
-    Exit status: 0 no error found, 1 at least one error found, 2 could not run.
+    Exit status: 0 no error found, 1 at least one error found, 2 could not run. It is the same if the output is not read
+    to its end, as by head.
     """
     for stream in (sys.stdout, sys.stderr):
         # A console may lack a character that a program's comment has.
