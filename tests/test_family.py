@@ -485,7 +485,7 @@ def test_more_contours_than_anybody_means_are_not_begun(tmp_path, monkeypatch):
     assert re.search(r"129,600,720,001 contours are more than 100,000,000: about .* (h|days) on one thread", errors)
     assert re.search(r"family\.csv, with the rows .* may need [\d.]+ TB, where .* free; .* give --force", errors)
     assert not list(tmp_path.iterdir())
-    status, _, errors = run(*ON_BLOCK, *grid, *(f"--vary={word}=0:100:0.0001" for word in "PQKX"), "--force")
+    status, _, errors = run(*ON_BLOCK, *grid, *(f"--vary={word}=0:100:0.01" for word in "PQKX"), "--force")
     assert (status, "cannot be counted" in errors) == (2, True)
 
 
