@@ -1,7 +1,7 @@
 """Values, places and names as messages say them: in the program's unit, with the axes of its plane."""
 
 from collections.abc import Sequence
-from decimal import Decimal
+from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
 from math import isfinite
 
 from contoursolve.model import CornerShape, Length, Profile
@@ -19,12 +19,19 @@ def largest_text(value: float, unit: Length) -> str:
     """A length (mm) that is the largest one, so that what is shown is not larger, apart from rounding."""
     if not isfinite(value):
         return length_text(value, unit)
-    step = unit.in_mm / (10_000 if unit is Length.INCH else 1_000)
-    return length_text(float(Decimal(value + ROUNDING) // step * step), unit)
+    return limit_text(value / 25.4 if unit is Length.INCH else value, unit.value, 1)
+
+
+def limit_text(value: float, unit: str, way: int) -> str:
+    """A value that is the largest (`way` 1) or the least one (-1) in mm, inch or deg, so that what is shown does not go
+    beyond it, apart from rounding."""
+    step = Decimal("0.0001" if unit == "inch" else "0.001")
+    inward = ROUND_FLOOR if way > 0 else ROUND_CEILING
+    return value_text(float(Decimal(value + way * ROUNDING).quantize(step, inward)), unit)
 
 
 ROUNDING = 1e-10
-"""mm. A size that is so close below a decimal is that decimal; a tenth of what a corner may lack."""
+"""mm, inch or degrees. A size that is so close below a decimal is that decimal; a tenth of what a corner may lack."""
 
 
 def angle_text(value: float) -> str:

@@ -591,7 +591,7 @@ def test_a_bar_shows_the_ranges_of_a_word_with_what_ends_them():
     picture = draw_range(found)
     check(picture)
     told = " ".join(labels(picture))
-    assert "P too large for line 1: 51.962 mm at most" in told
+    assert "P too large for line 1: 51.961 mm at most" in told
     assert "the block has 5.0000 mm" in told
 
 

@@ -12,7 +12,7 @@ from contoursolve.families.refusal import check_block
 from contoursolve.families.survey import LEAST_GAP, Crossing, Piece, Survey
 from contoursolve.shown import Shown
 from contoursolve.solving import RefusalKind, RemarkKind
-from contoursolve.wording import value_text
+from contoursolve.wording import limit_text, value_text
 
 __all__ = ["LEAST_GAP", "End", "Feasible", "Interval", "Way", "feasible"]
 
@@ -122,7 +122,7 @@ def feasible(
     >>> [(round(each.low.value, 4), round(each.high.value, 4)) for each in found.intervals]
     [(0.0, 51.9615)]
     >>> found.intervals[0].high.reason.text
-    'P too large for line 1: 51.962 mm at most'
+    'P too large for line 1: 51.961 mm at most'
     """
     template = recipe_of(
         block, (word,), start=start, control=control, facts=facts, units=units, rules=rules, settings=settings
@@ -186,8 +186,8 @@ def _reason(
 ) -> tuple[Reason, bool]:
     """What fails beyond an end, and whether it is a rule or the reading of the words; `near` are the pieces on its two
     sides, the one beyond it first."""
-    at, limit = value_text(value, survey.unit), ""
-    limit = f"at {at}" if near[0].is_value else f"{at} at {'most' if way > 0 else 'least'}"
+    at, limit = value_text(value, survey.unit), limit_text(value, survey.unit, way)
+    limit = f"at {at}" if near[0].is_value else f"{limit} at {'most' if way > 0 else 'least'}"
     beyond = "at" if near[0].is_value else "above" if way > 0 else "below"
     there = outside if outside is not None else (near[0].low + near[0].high) / 2
     finding = next((each for each in survey.solve(there).diagnostics if each.severity is Severity.ERROR), None)
