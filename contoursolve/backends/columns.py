@@ -96,12 +96,6 @@ class Columns:
             for number, result in enumerate((self._single, *self._many)):
                 buffer.set_res(number, _memory(result))
 
-    @property
-    def numbers(self) -> Array:
-        """The fixed inputs, to read."""
-        found: Array = self._numbers[0]
-        return found
-
     def fix(self, places: int | slice | Sequence[int], numbers: float | Sequence[float]) -> None:
         """Set some fixed inputs."""
         self._numbers[:, places] = numbers
