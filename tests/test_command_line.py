@@ -247,6 +247,9 @@ def record(optional=(), **properties):
     }
 
 
+TEXT = {"type": "string"}
+GRADE = choice("printed", "derived", "assumed")
+SOURCE = record(manual=TEXT, place=TEXT, evidence=GRADE)
 ELEMENT = {
     "oneOf": [
         record(kind={"const": "line"}, start=POINT, end=POINT),
@@ -270,6 +273,8 @@ CONTOUR = record(
     points={"type": "object", "patternProperties": {"^[VP][1-9]$": POINT}, "additionalProperties": False},
     elements={"type": "array", "items": ELEMENT},
     branch={"type": ["string", "null"]},
+    conventions={"type": "array", "items": record(setting=TEXT, value=TEXT, meaning=TEXT, evidence=GRADE)},
+    assumptions={"type": "array", "items": record(name=TEXT, meaning=TEXT, source=SOURCE)},
     certificate=record(
         kind=choice("exact", "unique", "verified", "unknown"), radius={"type": ["number", "null"], "minimum": 0}
     ),
@@ -284,9 +289,7 @@ DIAGNOSTIC = record(
     message={"type": "string", "pattern": "^[^\\n]+$"},
     addresses={"type": "array", "items": {"type": "string", "pattern": "^,?[A-Z]$"}},
     basis=choice("rule", "structural", "symbolic", "numerical"),
-    source=record(
-        manual={"type": "string"}, place={"type": "string"}, evidence=choice("printed", "derived", "assumed")
-    ),
+    source=SOURCE,
     values=VALUES,
     fixes={
         "type": "array",

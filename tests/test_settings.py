@@ -9,6 +9,7 @@ from click.testing import CliRunner
 import contoursolve
 from contoursolve.cli import main
 from contoursolve.dialects import DIALECTS
+from contoursolve.source import Evidence
 
 CIRCLES = "G17 G90 G0 X90 Y0\nG42 G1 X50 D0\nG3 X-50 Y0 I-50 J0\nG3 X-40 Y60 I-40 J20 R40 Q-1\n"
 LEFT, RIGHT = (-46.0220, -19.5441), (-11.9780, 48.5441)
@@ -89,6 +90,56 @@ def test_a_setting_that_there_is_not_is_refused(text: str) -> None:
     outcome = CliRunner().invoke(main, ["solve", "--set", text, "--block", "G1 X1"])
     assert outcome.exit_code == 2
     assert "Traceback" not in outcome.output
+
+
+GOOD = "G111 X100. A180. K-30. B120."
+
+
+def assumptions(block: str, start: str = "X40. Z0.") -> tuple[list[str], str]:
+    """The names of the assumptions that the result of a block rests on, and the line of text that says so."""
+    arguments = ["solve", "--block", block, "--start", start]
+    document = json.loads(CliRunner().invoke(main, [*arguments, "--format", "json"]).stdout)
+    (contour,) = document["contours"]
+    text = CliRunner().invoke(main, arguments).stdout
+    lines = [line.strip() for line in text.splitlines() if "rests on" in line]
+    assert len(lines) <= 1
+    assert all(each["meaning"] in "".join(lines) for each in contour["assumptions"])
+    assert {each["source"]["evidence"] for each in contour["assumptions"]} <= {"assumed"}
+    return [each["name"] for each in contour["assumptions"]], "".join(lines)
+
+
+@pytest.mark.parametrize(
+    ("block", "names"),
+    [
+        (f"{GOOD} C5. D5.", []),
+        (f"{GOOD} P5.", ["no-corner-word"]),
+        (f"{GOOD} Q5.", ["no-corner-word"]),
+        ("G111 X100. A180. K-30. Z-47. P5.", []),
+        ("G111 X100. A180. B120. Z-47.", ["no-corner-word"]),
+        (f"{GOOD} P0 Q5.", ["corner-of-zero"]),
+        (f"{GOOD} C5. D5. F.2", ["feed-in-block"]),
+        (f"{GOOD} F0.2", ["no-corner-word", "feed-in-block"]),
+        ("G112 U0 I10. K-50. R30. P5. Q5. F.2", ["feed-in-block"]),
+        ("G112 U0 I10. K-50. R30. P0", ["no-corner-word", "corner-of-zero"]),
+        ("G11 Z-20. I8. F30.", []),
+    ],
+)
+def test_a_result_names_what_the_control_is_taken_to_accept(block: str, names: list[str]) -> None:
+    assert assumptions(block)[0] == names
+
+
+def test_what_a_contour_rests_on_is_one_short_line() -> None:
+    assert assumptions(GOOD)[1] == "rests on: no corner word means a sharp corner (assumed)"
+
+
+def test_the_catalogue_lists_every_assumption_with_its_source_and_grade() -> None:
+    printed = CliRunner().invoke(main, ["rules"]).output
+    for dialect in DIALECTS.values():
+        names = [each.name for each in dialect.assumptions]
+        assert sorted(names) == sorted(set(names))
+        for each in dialect.assumptions:
+            assert f"assumption {dialect.name}.{each.name}: {each.meaning} ({each.source})" in printed
+            assert each.source.evidence is Evidence.ASSUMED
 
 
 def test_the_catalogue_lists_every_setting_with_its_values() -> None:

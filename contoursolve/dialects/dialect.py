@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from contoursolve.model import Length, Plane
-from contoursolve.reading import Claim, Form, Modes, Position, Setting, State
+from contoursolve.reading import Assumption, Claim, Form, Modes, Position, Setting, State
 from contoursolve.rules import Rule
 from contoursolve.syntax import Block, Word
 
@@ -51,6 +51,11 @@ class Dialect:
     """Conventions on which the manual is silent."""
     has_runs: bool = True
     """Whether a contour may be several blocks in a row."""
+
+    @property
+    def assumptions(self) -> tuple[Assumption, ...]:
+        """What it is taken to accept, in any of its forms."""
+        return tuple(dict.fromkeys(each for form in self.forms for each in form.assumptions))
 
     def configure(self, values: Mapping[str, str]) -> "Dialect":
         """The control with other values of its settings.

@@ -7,6 +7,7 @@ import htpy as h
 from contoursolve.examine import Answer
 from contoursolve.markup.tables import short, table
 from contoursolve.output.contours import (
+    assumptions_text,
     check_rows,
     convention_text,
     count_text,
@@ -75,3 +76,4 @@ def remarks(answer: Answer, control: str) -> Iterator[h.Element]:
         return
     yield h.p[short(f"Certificate: {printed_certificate(answer.certificate)}.")]
     yield from (h.p[short(convention_text(each, control))] for each in answer.claim.conventions)
+    yield from (h.p[short(text)] for text in assumptions_text(answer))

@@ -33,6 +33,10 @@ def _setting_lines(dialect: Dialect) -> Iterator[str]:
         ]
         yield from columns(rows, left=(0, 1, 2))
         yield ""
+    for each in dialect.assumptions:
+        yield f"assumption {dialect.name}.{each.name}: {each.meaning} ({each.source})"
+    if dialect.assumptions:
+        yield ""
 
 
 def table_lines(dialects: Iterable[Dialect]) -> Iterator[str]:

@@ -42,6 +42,7 @@ def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False)
             for each in answer.claim.conventions
             for line in ("", f"  {convention_text(each, result.control or '')}")
         ]
+        lines += [line for text in assumptions_text(answer) for line in ("", f"  {text}")]
     if answer.filled:
         lines += ["", f"  filled in (the contour moves by {small(answer.filled.deviation)}):"]
         lines += [f"    {printable(text.strip())}" for text in answer.filled.blocks]
@@ -57,6 +58,15 @@ def convention_text(convention: Convention, control: str) -> str:
     evidence = setting.source.evidence.value
     name = f"{control}.{setting.name}" if control else setting.name
     return f"{evidence}: {convention.meaning} (--set {name}={convention.value})"
+
+
+def assumptions_text(answer: Answer) -> list[str]:
+    """What the control is taken to accept and a contour rests on, in one line, if there is anything."""
+    by_grade: dict[str, list[str]] = {}
+    for each in answer.claim.assumptions:
+        by_grade.setdefault(each.source.evidence.value, []).append(each.meaning)
+    told = [f"{'; '.join(meanings)} ({grade})" for grade, meanings in by_grade.items()]
+    return [f"rests on: {'; '.join(told)}"] if told else []
 
 
 def check_rows(diagnosis: Diagnosis) -> list[tuple[str, str, str]]:

@@ -11,7 +11,7 @@ from contoursolve.output.solutions import DECIMALS, decimals_of, list_solutions,
 from contoursolve.pipeline import Result
 from contoursolve.solving import Point
 from contoursolve.solving.certificate import Certificate, Proof
-from contoursolve.source import Span
+from contoursolve.source import Source, Span
 
 
 def to_json(result: Result) -> str:
@@ -70,11 +70,7 @@ def finding_data(finding: Diagnostic, result: Result) -> dict[str, Any]:
         "labels": [{**_place(label.span, result), "text": label.text} for label in finding.labels],
         "addresses": list(finding.addresses),
         "basis": finding.basis.value,
-        "source": {
-            "manual": finding.source.manual,
-            "place": finding.source.place,
-            "evidence": finding.source.evidence.value,
-        },
+        "source": _source(finding.source),
         "alarm": {"number": finding.alarm.number, "evidence": finding.alarm.evidence.value} if finding.alarm else None,
         "values": {name: _finite(value) for name, value in finding.values.items()},
         "fixes": [
@@ -86,6 +82,10 @@ def finding_data(finding: Diagnostic, result: Result) -> dict[str, Any]:
             for fix in finding.fixes
         ],
     }
+
+
+def _source(source: Source) -> dict[str, str]:
+    return {"manual": source.manual, "place": source.place, "evidence": source.evidence.value}
 
 
 def _place(span: Span, result: Result) -> dict[str, Any]:
@@ -118,6 +118,10 @@ def _contour(answer: Answer) -> dict[str, Any]:
                 "evidence": each.setting.source.evidence.value,
             }
             for each in answer.claim.conventions
+        ],
+        "assumptions": [
+            {"name": each.name, "meaning": each.meaning, "source": _source(each.source)}
+            for each in answer.claim.assumptions
         ],
         "facts": [directive.text for directive in answer.claim.directives],
         "asked": [_asked(each, answer) for each in answer.answers],

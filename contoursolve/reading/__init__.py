@@ -7,11 +7,12 @@ from contoursolve.reading.codes import Code, Effect
 from contoursolve.reading.form import CornerRow, FactRow, Form, Sample, lay_out, stated_sets
 from contoursolve.reading.lexicon import Address, Lexicon, NumberFormat, WithoutPoint
 from contoursolve.reading.plain import advance_plainly, is_plain, motion_of, plain_lines, words_of
-from contoursolve.reading.setting import Convention, Setting
+from contoursolve.reading.setting import Assumption, Convention, Setting
 from contoursolve.reading.state import Awaited, Position, State
 
 __all__ = [
     "Address",
+    "Assumption",
     "Awaited",
     "Claim",
     "Code",

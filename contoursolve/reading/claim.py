@@ -9,7 +9,7 @@ from contoursolve.constraints import Radius
 from contoursolve.model import Choice, Fact, Given, Layout, Profile, Question, Side
 from contoursolve.reading.form import Form, lay_out
 from contoursolve.reading.lexicon import Lexicon
-from contoursolve.reading.setting import Convention
+from contoursolve.reading.setting import Assumption, Convention
 from contoursolve.reading.state import State
 from contoursolve.syntax import Block, Directive, Word
 
@@ -92,6 +92,13 @@ class Claim:
         """What the rules on combinations look at."""
         values = {name: self.givens[name].value if name in self.givens else None for name in self.words}
         return {**values, **dict.fromkeys(self.circumstances)}
+
+    @property
+    def assumptions(self) -> tuple[Assumption, ...]:
+        """What the contour rests on, of all that the control is taken to accept."""
+        addresses = dict.fromkeys(word.address for block in self.blocks for word in block.words)
+        stated = {**addresses, **self.stated()}
+        return tuple(each for each in self.form.assumptions if each.carries(self.form.roles, stated))
 
 
 def read(claim: Claim, ignored: frozenset[str]) -> Profile:

@@ -6,6 +6,7 @@ from functools import lru_cache
 from itertools import product
 
 from contoursolve.model import Arc, Corner, CornerShape, Fact, Figure, Layout, Line, Role
+from contoursolve.reading.setting import Assumption
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,6 +73,8 @@ class Form:
     """Whether each word states one value, whatever the values are."""
     is_contour: bool = True
     """False for what a control calculates nothing for: it is checked, and not listed."""
+    assumptions: tuple[Assumption, ...] = ()
+    """What its blocks may rest on."""
 
     def __hash__(self) -> int:
         return hash(self.name)

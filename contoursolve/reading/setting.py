@@ -1,8 +1,10 @@
-"""Conventions of a control on which its manual is silent: settings with a name, which a user can change."""
+"""What is not on the pages that we have: settings, which a user can change, and what a control is taken to accept."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
+from contoursolve.model import Role
+from contoursolve.rules import Condition, Stated
 from contoursolve.source import Source
 
 
@@ -29,3 +31,27 @@ class Convention:
     def meaning(self) -> str:
         """What the value means."""
         return self.setting.values[self.value]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Assumption:
+    """What a control is taken to accept, or to mean, although no page that we have says so.
+
+    `meaning` is half a sentence without a full stop. A contour rests on it where `when` holds for what the blocks of
+    one of its `roles` state: values and circumstances by name, and in a form of one block every address.
+    """
+
+    name: str
+    meaning: str
+    source: Source
+    roles: tuple[str, ...]
+    when: Condition
+
+    def carries(self, roles: Iterable[Role], stated: Stated) -> bool:
+        """Whether a contour of these roles, which states this, rests on it."""
+        for role in roles:
+            if role.name in self.roles:
+                own = {call: stated[name] for call, name in role.names(stated).items()}
+                if self.when.holds(own):
+                    return True
+        return False

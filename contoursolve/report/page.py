@@ -193,16 +193,16 @@ def _program(result: Result, places: Places) -> h.Element:
 
 
 def _sources(result: Result) -> h.Element:
-    """Where every finding and every convention comes from, and how well it is known."""
+    """Where every finding, every convention and every assumption comes from, and how well it is known."""
     codes: dict[tuple[str, str, Evidence], set[str]] = {}
     for finding in result.diagnostics:
         source = finding.source
         codes.setdefault((source.manual, source.place, source.evidence), set()).add(finding.code)
     for answer in result.answers:
-        for each in answer.claim.conventions:
-            source = each.setting.source
-            name = f"{result.control}.{each.setting.name}"
-            codes.setdefault((source.manual, source.place, source.evidence), set()).add(name)
+        claim = answer.claim
+        resting = [(each.setting.name, each.setting.source) for each in claim.conventions]
+        for name, source in (*resting, *((each.name, each.source) for each in claim.assumptions)):
+            codes.setdefault((source.manual, source.place, source.evidence), set()).add(f"{result.control}.{name}")
     rows = [
         (manual, place, evidence.value, ", ".join(sorted(used)))
         for (manual, place, evidence), used in sorted(codes.items(), key=lambda item: (item[0][:2], item[0][2].value))

@@ -5,6 +5,7 @@ from functools import lru_cache
 
 from contoursolve.constraints import Coordinate, Heading, Offset
 from contoursolve.dialects.yasnac_lx3.claim import bevel_of, claim_of
+from contoursolve.dialects.yasnac_lx3.lexicon import ASSUMPTIONS
 from contoursolve.model import FIRST, SECOND, CornerShape, Line, Role
 from contoursolve.reading import Claim, CornerRow, FactRow, Form, Modes, Sample, State, apply_modes
 from contoursolve.syntax import Block
@@ -57,6 +58,7 @@ def g111(bevel: CornerShape) -> Form:
             "G00 X40. Z0.",
             ("G111 {A160.} {B120.} {C2.} {D2.} {I10.919} {K-30.} {P2.} {Q2.} {U60.} {W-41.016} {X100.} {Z-41.016}",),
         ),
+        assumptions=ASSUMPTIONS,
         is_literal=True,
     )
 

@@ -12,6 +12,7 @@ from functools import lru_cache
 from contoursolve.constraints import Coordinate, Heading, Level, Offset, OnCircle, Radius
 from contoursolve.dialects.yasnac_lx3.claim import bevel_of, claim_of
 from contoursolve.dialects.yasnac_lx3.g111 import PASSING, REFUSED, START, V1, V2
+from contoursolve.dialects.yasnac_lx3.lexicon import ASSUMPTIONS
 from contoursolve.model import FIRST, SECOND, Arc, Choice, CornerShape, Given, Line, Role, Side, Turn, Unit
 from contoursolve.reading import Claim, CornerRow, FactRow, Form, Modes, Sample, State, apply_modes
 from contoursolve.syntax import Block
@@ -68,6 +69,7 @@ def g112(along: int, turn: Turn, bevel: CornerShape) -> Form:
             ((), (_CENTERS[along],), (_CENTERS[along], WAY)),
         ),
         sample=_SAMPLES[along],
+        assumptions=ASSUMPTIONS,
         meanings={
             absolute: f"absolute {other} of the line along {axis} on which corner 2 lands",
             increment: f"{other} increment from the start point to the line along {axis} on which corner 2 lands",

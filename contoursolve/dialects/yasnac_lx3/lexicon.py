@@ -1,8 +1,21 @@
-"""YASNAC LX3: addresses, numbers, G codes (Instruction Manual, section 2.8.30, Table 2.33, unless noted)."""
+"""YASNAC LX3: addresses, numbers, G codes, assumptions (Instruction Manual, 2.8.30, Table 2.33, unless noted)."""
+
+from decimal import Decimal
 
 from contoursolve.dialects.yasnac_lx3.manual import manual
 from contoursolve.model import Length, Plane, Unit
-from contoursolve.reading import Address, Code, Effect, Lexicon, Modes, NumberFormat, Setting, WithoutPoint
+from contoursolve.reading import (
+    Address,
+    Assumption,
+    Code,
+    Effect,
+    Lexicon,
+    Modes,
+    NumberFormat,
+    Setting,
+    WithoutPoint,
+)
+from contoursolve.rules import Value, all_of, at_most, some
 from contoursolve.source import Evidence, Source
 
 TABLE = manual("2.8.30, Table 2.33")
@@ -86,6 +99,33 @@ BEVEL = Setting(
     },
     default=AXIS_45,
     source=manual("2.8.30, p. 137-138: the note on the 45 degree lines, and the quadrants", Evidence.DERIVED),
+)
+
+_CORNERING = ("G111", "G112")
+
+ASSUMPTIONS = (
+    Assumption(
+        "no-corner-word",
+        "no corner word means a sharp corner",
+        manual("2.8.30, Tables 2.34 and 2.40: C or P, D or Q; of neither of them nothing is said", Evidence.ASSUMED),
+        _CORNERING,
+        # Where X(U) and Z(W) give line 2, there is no corner 2 to write a word for.
+        when=~(some("C", "P") & ~(at_most(0, "D", "Q") & ~all_of(("X", "U"), ("Z", "W")))),
+    ),
+    Assumption(
+        "corner-of-zero",
+        "C, P, D or Q of value 0 means no corner",
+        manual("2.8.30, Table 2.33: amount or radius without sign; of 0 nothing is said", Evidence.ASSUMED),
+        _CORNERING,
+        when=Value(("C", "P", "D", "Q"), excluding=Decimal(0)),
+    ),
+    Assumption(
+        "feed-in-block",
+        "F may stand in the block",
+        manual("2.8.30: M, S and T are refused, of F nothing is said", Evidence.ASSUMED),
+        _CORNERING,
+        when=some("F"),
+    ),
 )
 
 MODES = Modes(
