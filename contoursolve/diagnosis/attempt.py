@@ -8,7 +8,6 @@ from math import hypot
 from contoursolve.analysis import judge, order
 from contoursolve.constraints import assemble
 from contoursolve.contour import Contour
-from contoursolve.diagnosis.affine import affine_facts
 from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, apply_edits, edit_facts
 from contoursolve.diagnostic import Applicability, Diagnostic, Severity
 from contoursolve.dialects import Dialect
@@ -16,6 +15,7 @@ from contoursolve.examine import Answer, Policy, examine
 from contoursolve.model import Profile
 from contoursolve.reading import Claim, Trouble, read
 from contoursolve.solving import Status
+from contoursolve.solving.affine import affine_facts
 from contoursolve.syntax import Block, parse_block, with_digits
 from contoursolve.tolerance import AGREEMENT
 

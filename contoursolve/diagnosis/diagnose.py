@@ -5,7 +5,6 @@ from dataclasses import replace
 
 from contoursolve.analysis import judge
 from contoursolve.constraints import OnCircle, assemble
-from contoursolve.diagnosis.affine import AffineFacts, Circuit, affine_facts
 from contoursolve.diagnosis.attempt import Repair
 from contoursolve.diagnosis.identities import identity
 from contoursolve.diagnosis.layers import list_layers
@@ -16,6 +15,7 @@ from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer, Policy
 from contoursolve.reading import Trouble
 from contoursolve.solving import RefusalKind, RemarkKind, scalars_of
+from contoursolve.solving.affine import AffineFacts, Circuit, affine_facts
 from contoursolve.source import Span
 from contoursolve.syntax import FACT, Block, Word
 from contoursolve.tolerance import AGREEMENT, RADIUS_DIFFERENCE

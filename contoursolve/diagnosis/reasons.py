@@ -4,11 +4,11 @@ from collections.abc import Iterator, Sequence
 
 from contoursolve.analysis import judge, order
 from contoursolve.constraints import Heading, assemble
-from contoursolve.diagnosis.affine import AffineFacts, Circuit
 from contoursolve.diagnosis.identities import identity
 from contoursolve.diagnostic import Diagnostic, Freedom
 from contoursolve.model import FIRST, SECOND, Arc, Fact, Line, Profile, scalar
 from contoursolve.solving import RefusalKind, lookup
+from contoursolve.solving.affine import AffineFacts, Circuit
 from contoursolve.syntax import FACT
 from contoursolve.tolerance import AGREEMENT, REGULAR
 from contoursolve.wording import angle_text, join, length_text, place_text

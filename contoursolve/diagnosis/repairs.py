@@ -8,7 +8,6 @@ from functools import lru_cache
 from itertools import combinations, product
 from math import copysign
 
-from contoursolve.diagnosis.affine import AffineFacts, Circuit, affine_facts
 from contoursolve.diagnosis.attempt import LARGEST_ROLE, Before, Repairs, choose_repairs
 from contoursolve.diagnosis.drafts import (
     change,
@@ -29,6 +28,7 @@ from contoursolve.model import Given, Profile, Role, Unit
 from contoursolve.reading import Claim, Form, read
 from contoursolve.rules import Rule, check
 from contoursolve.solving import BESIDE, RefusalKind, Status, lookup
+from contoursolve.solving.affine import AffineFacts, Circuit, affine_facts
 from contoursolve.spelling import torn_codes
 from contoursolve.syntax import Block, Word
 from contoursolve.tolerance import AGREEMENT

@@ -8,10 +8,10 @@ from math import hypot
 
 from contoursolve.analysis import judge
 from contoursolve.constraints import Coordinate, Offset, Radius, assemble
-from contoursolve.diagnosis.affine import affine_facts
 from contoursolve.model import FIRST, SECOND, Given, Layout, Profile, Unit, scalar
 from contoursolve.pictures.known import Known, in_part, known_of
 from contoursolve.solving import Point, Solution, Status, is_closed, points_with_two_solutions, solve
+from contoursolve.solving.affine import affine_facts
 
 MOST_FREE = 6
 """Free coordinates that are put somewhere; of a contour with more, only what is known is drawn."""

@@ -3,13 +3,13 @@
 from collections.abc import Iterator, Mapping
 
 from contoursolve.contour import Segment
-from contoursolve.diagnosis.affine import affine_facts
 from contoursolve.examine import Answer
 from contoursolve.model import Arc, Line, Profile
 from contoursolve.pictures.known import Known, place_of
 from contoursolve.pictures.scene import Ring, Slide, Thin
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import SAME, distance, foot, minus, unit
+from contoursolve.solving.affine import affine_facts
 
 
 def list_construction(profile: Profile, known: Known, elements: Mapping[str, Segment]) -> Iterator[Thin]:

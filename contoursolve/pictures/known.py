@@ -7,9 +7,9 @@ from math import hypot, isfinite
 from contoursolve.analysis import judge
 from contoursolve.analysis.identities import is_affine
 from contoursolve.constraints import Coordinate, Level, Offset, OnCircle, Radius, assemble
-from contoursolve.diagnosis.affine import affine_facts
 from contoursolve.model import FIRST, SECOND, Fact, Layout, Profile, scalar
 from contoursolve.solving import Point, Refusal, Solution
+from contoursolve.solving.affine import affine_facts
 from contoursolve.solving.solution import CornerSolution
 from contoursolve.tolerance import LARGEST
 

@@ -15,7 +15,7 @@ from contoursolve.analysis.identities import is_affine
 from contoursolve.constraints import assemble
 from contoursolve.diagnostic import Freedom
 from contoursolve.model import FIRST, SECOND, Fact, Profile, scalar
-from contoursolve.solving import lookup
+from contoursolve.solving.numbers import lookup
 from contoursolve.tolerance import REGULAR
 
 
