@@ -79,6 +79,39 @@ def test_no_alarm_number_is_invented():
         assert rule.alarm is None or rule.alarm.number.split()[0] in ALARMS[control]
 
 
+GRADES = {
+    "g111-parallel": "derived",
+    "g111-reversed": "derived",
+    "g111-corner-2-with-three": "assumed",
+    "g111-corner-2-without-b": "derived",
+}
+"""What the sheet of the control says of rows that once claimed more."""
+
+PRINTED_ALARMS = {"g11-both-axes", "g112-m-s-t", "g112-c-and-p", "g112-d-and-q"} | {
+    "g112-missed",
+    "g112-reversed",
+    "g112-bevel-band",
+}
+"""Of the LX3: what Table 2.44 lists (p. 146), and error 050 (p. 31-32)."""
+
+
+def test_grades_are_those_of_the_sheet():
+    rules = {code: rule for (control, code), rule in RULES.items() if control == "yasnac-lx3"}
+    assert {code: rules[code].source.evidence.value for code in GRADES} == GRADES
+    graded = {code: rule.alarm.evidence.value for code, rule in rules.items() if rule.alarm}
+    assert {code for code, grade in graded.items() if grade == "printed"} == PRINTED_ALARMS
+    assert set(graded.values()) == {"printed", "assumed"}
+
+
+def test_nothing_cites_a_page_that_has_not_been_seen():
+    for dialect in DIALECTS.values():
+        sources = [rule.source for rule in dialect.rules]
+        sources += [each.source for each in (*dialect.settings, *dialect.assumptions)]
+        sources += [each.source for each in dialect.modes.lexicon.addresses.values()]
+        sources += [each.source for each in dialect.modes.codes.values()]
+        assert not [each for each in sources if "138" in each.place and "LX3" in each.manual]
+
+
 def test_every_event_has_a_row_in_every_control_that_it_can_happen_in():
     """A finding without a row would be a crash; events that only one control knows are in one table."""
     common = {rule.about for rule in RULES.values() if id(rule) in SHARED and rule.about}

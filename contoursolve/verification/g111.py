@@ -53,7 +53,7 @@ def check(case: Case, ledger: Ledger) -> None:
 
 
 def ignored_words(case: Case) -> dict[str, str]:
-    """The words that the control ignores (supplementary notes v and vi), and why; none where the result was made
+    """The words that the control ignores (p. 140, v and vi), and why; none where the result was made
     without the rules of the manual."""
     if case.rules is Rules.OFF:
         return {}

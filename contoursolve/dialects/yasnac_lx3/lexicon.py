@@ -19,6 +19,7 @@ from contoursolve.rules import Value, all_of, at_most, some
 from contoursolve.source import Evidence, Source
 
 TABLE = manual("2.8.30, Table 2.33")
+SENSE = manual("2.8.30, Table 2.33; zero and sense p. 140 (vii)")
 DIAMETER = manual("2.8.30, Table 2.33; diameter from G11 and the G112 example", Evidence.DERIVED)
 LATHE_CODES = manual("list of G codes of the LX3 family", Evidence.ASSUMED)
 
@@ -29,8 +30,8 @@ ADDRESSES = (
     ),
     Address("Z", "absolute Z of the end point", Unit.MM, TABLE, axis="Z"),
     Address("W", "Z increment from the start point", Unit.MM, TABLE, axis="Z", is_increment=True),
-    Address("A", "travel direction of line 1, from +Z, counter-clockwise", Unit.DEGREE, TABLE),
-    Address("B", "travel direction of line 2, from +Z, counter-clockwise", Unit.DEGREE, TABLE),
+    Address("A", "travel direction of line 1, from +Z, counter-clockwise", Unit.DEGREE, SENSE),
+    Address("B", "travel direction of line 2, from +Z, counter-clockwise", Unit.DEGREE, SENSE),
     Address("I", "X distance from start to virtual intersection (radius value)", Unit.MM, TABLE),
     Address("K", "Z distance from start to virtual intersection", Unit.MM, TABLE),
     Address("P", "radius of the first rounding", Unit.MM, TABLE),
@@ -98,7 +99,7 @@ BEVEL = Setting(
         SETBACK: "a segment between two points that are both as far from the virtual intersection as the amount",
     },
     default=AXIS_45,
-    source=manual("2.8.30, p. 137-138: the note on the 45 degree lines, and the quadrants", Evidence.DERIVED),
+    source=manual("2.8.30, p. 140 Note 3, on the 45 degree lines; the quadrants, p. 137", Evidence.DERIVED),
 )
 
 _CORNERING = ("G111", "G112")

@@ -13,5 +13,5 @@ def manual(place: str, evidence: Evidence = Evidence.PRINTED) -> Source:
 
 def alarms(evidence: Evidence) -> tuple[Alarm, Alarm, Alarm]:
     """The alarms of multiple cornering: words that do not belong into the block, a wrong combination of words,
-    impossible geometry. They are printed for G112 (p. 146) and assumed for G111."""
+    impossible geometry. They are printed for what Table 2.44 lists of G112 (p. 146), and assumed for all else."""
     return Alarm("144", evidence), Alarm("145", evidence), Alarm("146", evidence)
