@@ -15,7 +15,7 @@ from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer, Policy
 from contoursolve.reading import Trouble
 from contoursolve.solving import RefusalKind, RemarkKind, scalars_of
-from contoursolve.solving.affine import AffineFacts, Circuit, affine_facts
+from contoursolve.solving.affine import NO_CIRCUITS, AffineFacts, Circuit, affine_facts
 from contoursolve.source import Span
 from contoursolve.syntax import FACT, Block, Word
 from contoursolve.tolerance import AGREEMENT, RADIUS_DIFFERENCE
@@ -28,14 +28,14 @@ def diagnose(answer: Answer, dialect: Dialect, policy: Policy, following: Iterab
     profile = answer.profile
     affine = affine_facts(profile, (*profile.facts, *profile.ignored))
     is_readable = not any(block.faults for block in answer.claim.blocks)
-    circuits = affine.circuits() if affine and is_readable else ()
+    circuits, is_every_tie = affine.circuits() if affine and is_readable else NO_CIRCUITS
     freedoms = affine.freedoms() if affine and is_readable else ()
     repairs = find_repairs(answer, dialect, tuple(following))
     diagnosis = Diagnosis(
         layers=list_layers(answer, policy),
         freedoms=freedoms,
         ties=tuple(_tie(answer, circuit) for circuit in circuits) or tuple(_other_ties(answer)),
-        ties_complete=is_readable and answer.start.is_known and not profile.is_extended,
+        ties_complete=is_readable and is_every_tie and answer.start.is_known and not profile.is_extended,
         repairs_complete=repairs.is_complete,
     )
     findings = []

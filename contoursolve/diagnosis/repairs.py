@@ -79,7 +79,7 @@ class _Geometry:
         names = frozenset(claim.givens)
         profile = read(claim, names - (names if kept is None else kept))
         affine = affine_facts(profile, profile.facts)
-        circuits = affine.circuits() if affine else ()
+        circuits = affine.circuits().found if affine else ()
         is_consistent = all(max(circuit.off) <= AGREEMENT for circuit in circuits)
         fixed = affine.fixed_by(profile.facts) if affine and profile.facts and is_consistent else {}
         return cls(profile, affine, circuits, fixed)

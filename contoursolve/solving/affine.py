@@ -5,9 +5,11 @@ constant. What the matrix maps to zero can still move; a combination of rows tha
 facts that say the same.
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from itertools import combinations
+from math import comb
+from typing import NamedTuple
 
 import numpy
 
@@ -30,6 +32,30 @@ class Circuit:
     off: tuple[float, ...]
 
 
+class Circuits(NamedTuple):
+    """Circuits, smallest first, and whether they are all there are."""
+
+    found: tuple[Circuit, ...]
+    is_complete: bool
+
+
+NO_CIRCUITS = Circuits((), is_complete=True)
+
+
+class Part(NamedTuple):
+    """Facts and the unknowns that they share with no other fact, decomposed once.
+
+    `tied` is a basis of the combinations of rows that vanish, shape (rows, ties); `loose` one of what can still move,
+    shape (freedoms, columns); `values` are those of the unknowns that satisfy the facts best, shape (columns,).
+    """
+
+    rows: tuple[int, ...]
+    columns: tuple[int, ...]
+    tied: numpy.ndarray
+    loose: numpy.ndarray
+    values: numpy.ndarray
+
+
 @dataclass(frozen=True, slots=True)
 class AffineFacts:
     """Facts as rows of `matrix`, shape (facts, unknowns), and `constants`, shape (facts,), mm."""
@@ -38,55 +64,73 @@ class AffineFacts:
     unknowns: tuple[str, ...]
     matrix: numpy.ndarray
     constants: numpy.ndarray
+    parts: tuple[Part, ...]
 
-    def circuits(self) -> tuple[Circuit, ...]:
-        """All minimal sets of facts that are tied at these values, smallest first; exhaustive."""
+    def circuits(self) -> Circuits:
+        """The minimal sets of facts that are tied at these values, smallest first.
+
+        They are the supports of the left null space's vectors that vanish on as many facts as possible. A fact on
+        which all vectors vanish is in none, and facts that share no circuit are looked at apart.
+        """
         found: list[tuple[int, ...]] = []
-        result = []
-        for size in range(1, min(len(self.unknowns) + 1, len(self.facts)) + 1):
-            for rows in combinations(range(len(self.facts)), size):
-                if any(set(other) <= set(rows) for other in found):
-                    continue
-                left, values, _ = numpy.linalg.svd(self.matrix[list(rows)])
-                if size <= len(self.unknowns) and values[-1] > REGULAR:
-                    continue
-                weights = left[:, -1]
-                found.append(rows)
-                gap = float(weights @ self.constants[list(rows)])
-                off = tuple(abs(gap / float(weight)) for weight in weights)
-                result.append(Circuit(tuple(self.facts[row] for row in rows), off))
-        return tuple(result)
+        is_complete = True
+        for part in self.parts:
+            for within in _connected(part.tied):
+                supports, is_whole = _supports(part.tied[list(within)])
+                found += [tuple(part.rows[within[index]] for index in support) for support in supports]
+                is_complete = is_complete and is_whole
+        circuits = [self._circuit(rows) for rows in sorted(set(found), key=lambda rows: (len(rows), rows))]
+        return Circuits(tuple(filter(None, circuits)), is_complete and None not in circuits)
+
+    def _circuit(self, rows: Sequence[int]) -> Circuit | None:
+        """What ties these rows; None where rounding alone made them look tied once."""
+        matrix = self.matrix[list(rows)]
+        tied = _decompose(matrix[:, matrix.any(axis=0)]).tied
+        if tied.shape[1] != 1:
+            return None
+        weights = dict(zip(rows, tied[:, 0].tolist(), strict=True))
+        present = [row for row in rows if abs(weights[row]) > REGULAR]
+        gap = sum(weights[row] * float(self.constants[row]) for row in present)
+        return Circuit(tuple(self.facts[row] for row in present), tuple(abs(gap / weights[row]) for row in present))
 
     def freedoms(self) -> tuple[Freedom, ...]:
         """What can still move, point by point, in the order of the unknowns."""
-        if not self.facts:
-            null = numpy.eye(len(self.unknowns))
-        else:
-            _, values, right = numpy.linalg.svd(self.matrix)
-            null = right[int((values > REGULAR).sum()) :]
+        null = self._loose()
         points = dict.fromkeys(name.partition(".")[0] for name in self.unknowns)
         result = []
         for point in points:
             columns = [self.unknowns.index(scalar(point, axis)) for axis in (FIRST, SECOND)]
-            _, values, right = numpy.linalg.svd(null[:, columns])
-            rank = int((values > REGULAR).sum())
-            along = right[0] if right[0][numpy.argmax(abs(right[0]))] > 0 else -right[0]
-            if rank:
-                direction = (float(along[0]), float(along[1])) if rank == 1 else None
+            moving = null[(abs(null[:, columns]) > REGULAR).any(axis=1)]
+            if len(moving):
+                _, values, right = numpy.linalg.svd(moving[:, columns], full_matrices=False)
+                along = right[0] if right[0][numpy.argmax(abs(right[0]))] > 0 else -right[0]
+                is_line = int((values > REGULAR).sum()) == 1
+                direction = (float(along[0]), float(along[1])) if is_line else None
                 result.append(Freedom(point, direction))
         return tuple(result)
+
+    def _loose(self) -> numpy.ndarray:
+        """A basis of what can still move, shape (freedoms, unknowns)."""
+        held = {column for part in self.parts for column in part.columns}
+        free = [column for column in range(len(self.unknowns)) if column not in held]
+        rows = [numpy.eye(len(self.unknowns))[free]]
+        for part in self.parts:
+            moved = numpy.zeros((len(part.loose), len(self.unknowns)))
+            moved[:, list(part.columns)] = part.loose
+            rows.append(moved)
+        return numpy.concatenate(rows)
 
     def fixed_by(self, facts: Sequence[Fact]) -> dict[str, float]:
         """The unknowns that some of the facts determine, with their values, mm."""
         rows = [self.facts.index(fact) for fact in facts]
-        _, values, right = numpy.linalg.svd(self.matrix[rows])
-        null = right[int((values > REGULAR).sum()) :]
-        solution = numpy.linalg.lstsq(self.matrix[rows], -self.constants[rows], rcond=None)[0]
-        return {
-            name: float(solution[column])
-            for column, name in enumerate(self.unknowns)
-            if not (abs(null[:, column]) > REGULAR).any()
+        parts = self.parts if rows == list(range(len(self.facts))) else _parts(self.matrix[rows], self.constants[rows])
+        fixed = {
+            column: value
+            for part in parts
+            for column, value, moves in zip(part.columns, part.values.tolist(), part.loose.T, strict=True)
+            if not (abs(moves) > REGULAR).any()
         }
+        return {self.unknowns[column]: fixed[column] for column in sorted(fixed)}
 
 
 def affine_facts(profile: Profile, facts: Sequence[Fact]) -> AffineFacts | None:
@@ -94,13 +138,113 @@ def affine_facts(profile: Profile, facts: Sequence[Fact]) -> AffineFacts | None:
     if not is_affine(facts) or not profile.start.is_known:
         return None
     unknowns = assemble(profile).unknowns
+    place = {name: column for column, name in enumerate(unknowns)}
+    nowhere = lookup(profile, dict.fromkeys(unknowns, 0.0))
+    at_one = {name: replace(nowhere, scalars={**nowhere.scalars, name: 1.0}) for name in unknowns}
+    constants = numpy.array([float(fact.residual(nowhere)) for fact in facts])
+    matrix = numpy.zeros((len(facts), len(unknowns)))
+    for row, fact in enumerate(facts):
+        for name in place.keys() & {*fact.reads()}:
+            matrix[row, place[name]] = float(fact.residual(at_one[name])) - constants[row]
+    return AffineFacts(tuple(facts), unknowns, matrix, constants, _parts(matrix, constants))
 
-    def residuals(values: dict[str, float]) -> numpy.ndarray:
-        at = lookup(profile, values)
-        return numpy.array([float(fact.residual(at)) for fact in facts])
 
-    nowhere = dict.fromkeys(unknowns, 0.0)
-    constants = residuals(nowhere)
-    columns = [residuals({**nowhere, name: 1.0}) - residuals({**nowhere, name: 0.0}) for name in unknowns]
-    matrix = numpy.array(columns).T.reshape(len(facts), len(unknowns))
-    return AffineFacts(tuple(facts), unknowns, matrix, constants)
+def _parts(matrix: numpy.ndarray, constants: numpy.ndarray) -> tuple[Part, ...]:
+    """The finest parts of a matrix whose facts share no unknown with those of another part."""
+    parts = []
+    for rows, columns in _blocks(matrix):
+        found = _decompose(matrix[numpy.ix_(rows, columns)], constants[rows])
+        parts.append(Part(tuple(rows), tuple(columns), found.tied, found.loose, found.values))
+    return tuple(parts)
+
+
+def _blocks(matrix: numpy.ndarray) -> Iterator[tuple[list[int], list[int]]]:
+    """The rows and columns of each part that is connected by what is not zero; of a row of zeros, the row alone."""
+    is_there, seen = matrix != 0, set[int]()
+    for first in range(len(matrix)):
+        if first in seen:
+            continue
+        rows, size = numpy.arange(len(matrix)) == first, 0
+        while rows.sum() > size:
+            size = rows.sum()
+            columns = is_there[rows].any(axis=0)
+            rows = rows | is_there[:, columns].any(axis=1)
+        found = numpy.flatnonzero(rows).tolist()
+        seen.update(found)
+        yield found, numpy.flatnonzero(columns).tolist()
+
+
+class _Decomposed(NamedTuple):
+    """See `Part`."""
+
+    tied: numpy.ndarray
+    loose: numpy.ndarray
+    values: numpy.ndarray
+
+
+def _decompose(matrix: numpy.ndarray, constants: numpy.ndarray | None = None) -> _Decomposed:
+    """The null spaces of a matrix, and the unknowns that satisfy its facts best."""
+    if not matrix.size:
+        return _Decomposed(numpy.eye(len(matrix)), numpy.eye(matrix.shape[1]), numpy.zeros(matrix.shape[1]))
+    left, sizes, right = numpy.linalg.svd(matrix)
+    rank = int((sizes > REGULAR).sum())
+    known = numpy.zeros(len(matrix)) if constants is None else constants
+    values = right[:rank].T @ (left[:, :rank].T @ -known / sizes[:rank])
+    return _Decomposed(left[:, rank:], right[rank:], values)
+
+
+MOST_SUBSETS = 5_000
+"""Sets of facts that are looked through for circuits; where there are more, only those circuits are found in which one
+fact says what earlier ones say."""
+
+_INDEPENDENT = 1e-6
+"""1 (sine of an angle). Facts that are independent by less than this are left to other sets of facts: a tenth of the
+sine of the least angle, 0.001 deg, and far above the rounding of a null space."""
+
+_ABSENT = 1e-9
+"""1 (share of the largest). Rounding of a weight that is zero."""
+
+
+def _leading(tied: numpy.ndarray) -> numpy.ndarray:
+    """The combinations that vanish, shape (rows, ties), one for each of the last facts that earlier ones determine."""
+    chosen: list[int] = []
+    rest = tied
+    for row in reversed(range(len(tied))):
+        size = float(numpy.linalg.norm(rest[row]))
+        if size > _INDEPENDENT:
+            chosen.append(row)
+            along = rest[row] / size
+            rest = rest - numpy.outer(rest @ along, along)
+    return tied @ numpy.linalg.pinv(tied[chosen])
+
+
+def _connected(tied: numpy.ndarray) -> list[tuple[int, ...]]:
+    """The rows that are tied, in the finest groups such that no circuit has rows of two."""
+    groups: list[set[int]] = []
+    for support in _present(_leading(tied).T) if tied.shape[1] else ():
+        group = set(support)
+        for other in [other for other in groups if other & group]:
+            groups.remove(other)
+            group |= other
+        groups.append(group)
+    return sorted(tuple(sorted(group)) for group in groups)
+
+
+def _supports(tied: numpy.ndarray) -> tuple[list[tuple[int, ...]], bool]:
+    """The smallest supports of the combinations that vanish, and whether they are all."""
+    leading = _leading(tied)
+    ties = leading.shape[1]
+    if ties == 1 or comb(len(tied), ties - 1) > MOST_SUBSETS:
+        return _present(leading.T), ties == 1
+    basis = numpy.linalg.svd(tied)[0][:, :ties]
+    absent = numpy.array(list(combinations(range(len(tied)), ties - 1)))
+    _, values, right = numpy.linalg.svd(basis[absent])
+    is_alone = values.min(axis=1) > _INDEPENDENT
+    return _present(right[is_alone, -1] @ basis.T), True
+
+
+def _present(vectors: numpy.ndarray) -> list[tuple[int, ...]]:
+    """Of each row, the places where it is not zero; each once."""
+    sizes = abs(vectors)
+    is_there = sizes > _ABSENT * sizes.max(axis=1, keepdims=True, initial=0.0)
+    return list(dict.fromkeys(tuple(numpy.flatnonzero(row).tolist()) for row in is_there))
