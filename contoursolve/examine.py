@@ -48,6 +48,7 @@ from contoursolve.spelling import (
     explain_spelling,
     explain_start,
     explain_unmarked,
+    meant_words,
 )
 from contoursolve.unpointed import start_without_point, tell_points, without_point
 
@@ -163,7 +164,7 @@ def examine(
     _examine_words(context, claim, notebook)
     is_readable = not notebook.statuses
     # Where characters could not be read, which words the block has is not known.
-    is_whole = not any(block.faults for block in claim.blocks)
+    is_whole = not any(block.faults for block in claim.blocks) and not (claim.unknown and meant_words(claim))
     offences = _offences(claim, rules) if is_whole and policy is not Policy.OFF else ()
     for offence in offences:
         if not offence.rule.ignores:

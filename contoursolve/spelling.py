@@ -9,7 +9,7 @@ from contoursolve.explain import Context, report
 from contoursolve.model import Length
 from contoursolve.reading import Claim, Lexicon, Position, Trouble
 from contoursolve.source import Span
-from contoursolve.syntax import Block, Fault, Lookalike, Word, find_lookalikes
+from contoursolve.syntax import Block, Fault, Lookalike, Word, find_lookalikes, mended
 from contoursolve.tolerance import LARGEST
 from contoursolve.wording import join, length_text
 
@@ -67,7 +67,7 @@ def _answerable(claim: Claim) -> set[str]:
 
 
 def faults_of(block: Block) -> Iterator[Fault]:
-    """The faults of a block; of those that letters for digits make in one word, the first."""
+    """The faults of a block; of those that slips make in one word, the first."""
     told: set[Span] = set()
     for fault in block.faults:
         meant = meant_at(block, fault.span)
@@ -85,12 +85,12 @@ def explain_fault(context: Context, fault: Fault, block: Block) -> Diagnostic:
     if meant is None:
         return finding
     advice = f"write {meant.new} for {meant.old} if that is meant; else {finding.help}"
-    return replace(finding, message=_ask_for_digits(meant), help=advice)
+    return replace(finding, message=_ask(meant), help=advice)
 
 
 def meant_at(block: Block, place: Span) -> Lookalike | None:
-    """The word at a place of a block, some letters of which look like digits; None unless all there is of such
-    words, and none where a word that may mean what it says begins in the middle, as in X I5."""
+    """The word that is meant at a place of a block; None unless all there is of such words, and none where a word that
+    may mean what it says begins in the middle, as in X I5."""
     begins = [word.span.column for word in block.words if word.number is not None and word.address not in _NEVER_MEANT]
     found = [
         each
@@ -109,13 +109,24 @@ _NEVER_MEANT = ("L", "O")
 
 
 def meant_words(claim: Claim) -> tuple[Lookalike, ...]:
-    """The words of a contour that letters for digits keep from being read."""
+    """The words of a contour that slips keep from being read."""
     found: dict[Span, Lookalike] = {}
     for block in claim.blocks:
         unread = [fault.span for fault in block.faults]
-        unread += [word.span for word in claim.unknown if word.span.line == block.line]
-        found |= {each.span: each for each in (meant_at(block, span) for span in unread) if each}
+        unknown = [word for word in claim.unknown if word.span.line == block.line]
+        meant = [meant_at(block, span) for span in (*unread, *(word.span for word in unknown))]
+        meant += [_comma_behind(block, word) for word in unknown if respelled(word, claim.form.allowed)]
+        found |= {each.span: each for each in meant if each}
     return tuple(found.values())
+
+
+def _comma_behind(block: Block, word: Word) -> Lookalike | None:
+    """The number that the comma of a word stands right behind, with what the comma means there, as in `A180, K-30.`"""
+    number = next((each for each in block.words if each.span.end_column == word.span.column), None)
+    if number is None or number.number is None:
+        return None
+    old = f"{number.text.strip()},"
+    return Lookalike(Span(block.line, word.span.column - len(old) + 1, word.span.column + 1), old, mended(old))
 
 
 def is_in(span: Span, words: Iterable[Lookalike]) -> bool:
@@ -123,8 +134,10 @@ def is_in(span: Span, words: Iterable[Lookalike]) -> bool:
     return any(each.span.line == span.line and each.covers(span) for each in words)
 
 
-def _ask_for_digits(meant: Lookalike) -> str:
-    """Whether digits are meant by letters."""
+def _ask(meant: Lookalike) -> str:
+    """Whether what is almost a word means one."""
+    if not meant.has_letters:
+        return f"{meant.old} is not a number that a control reads: did you mean {meant.new}?"
     pairs = dict(pair for pair in zip(meant.old, meant.new, strict=True) if pair[0] != pair[1])
     plural = "s" if len(pairs) > 1 else ""
     letters, digits = join(list(pairs)), join(list(pairs.values()))
@@ -132,7 +145,7 @@ def _ask_for_digits(meant: Lookalike) -> str:
 
 
 def torn_codes(claim: Claim) -> tuple[Lookalike, ...]:
-    """The G codes of a contour that letters for digits keep from being read: what the words are is not known then."""
+    """The G codes of a contour that slips keep from being read: what the words are is not known then."""
     return tuple(each for each in meant_words(claim) if each.is_code)
 
 
@@ -158,7 +171,7 @@ def explain_words(
 def _explain_unknown(context: Context, claim: Claim) -> Iterator[Diagnostic]:
     if not claim.unknown:
         return
-    form, torn = claim.form, torn_codes(claim)
+    form, torn, mendable = claim.form, torn_codes(claim), meant_words(claim)
     own = [address for address in claim.lexicon.addresses if address in form.allowed]
     others = sorted(form.allowed - {"N", "G", *own})
     allowed = " ".join(own) + (f", and besides {' '.join(others)}" if others else "")
@@ -166,12 +179,12 @@ def _explain_unknown(context: Context, claim: Claim) -> Iterator[Diagnostic]:
         if any(each.span.line == word.span.line and not each.covers(word.span) for each in torn):
             continue
         rule, other = context.row(Trouble.UNKNOWN_ADDRESS), respelled(word, form.allowed)
-        block = next(block for block in claim.blocks if block.line == word.span.line)
-        meant = None if other else meant_at(block, word.span)
+        meant = next((each for each in mendable if is_in(word.span, (each,))), None)
+        other = "" if meant else other
         do = f"write {other}" if other else f"write {meant.new} for {meant.old}" if meant else "delete it"
         name = form.name if form.name.startswith("G") else form.title
         finding = report(context, rule, Basis.RULE, [word], form=name, allowed=allowed, do=do)
-        yield replace(finding, message=_ask_for_digits(meant)) if meant else finding
+        yield replace(finding, message=_ask(meant)) if meant else finding
 
 
 def respelled(word: Word, allowed: Container[str]) -> str:

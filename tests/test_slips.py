@@ -117,3 +117,28 @@ def test_a_word_that_means_what_it_says_is_no_part_of_another_one():
 def test_a_word_that_a_letter_cuts_short_is_not_said_to_lack_its_point():
     found = solve("G111 A18O. B120 K-30. X100.", start="X40. Z0.").diagnostics
     assert {each.code: each.addresses for each in found} == {"number-malformed": ("O",), "point-missing": ("B",)}
+
+
+MENDED = {
+    "G111 X100. A180. K-20.. B120.": "G111 X100. A180. K-20. B120.",
+    "G111 X100. A180. K--20. B120.": "G111 X100. A180. K-20. B120.",
+    "G111 X100. A180. K- 20. B120.": "G111 X100. A180. K-20. B120.",
+    "G111 X100. A180. K20.- B120.": "G111 X100. A180. K-20. B120.",
+    "G111 X100. A180. K-30. P2, B135.": "G111 X100. A180. K-30. P2. B135.",
+    "G111 X100. A180, K-30. B135.": "G111 X100. A180. K-30. B135.",
+    "G111 X100. A180.,K-30. B135.": "G111 X100. A180.K-30. B135.",
+    "G111 X100. A180. K-30. B135. P5,": "G111 X100. A180. K-30. B135. P5.",
+    "G111 X100. A180. K-30. B135. P5, (finish)": "G111 X100. A180. K-30. B135. P5. (finish)",
+    "G111 X100. A180. K-30. B135. P5..": "G111 X100. A180. K-30. B135. P5.",
+    "G111 X100. A180. K-30,5 B135.": "G111 X100. A180. K-30.5 B135.",
+}
+
+
+@pytest.mark.parametrize("text", MENDED)
+def test_a_comma_a_point_or_a_sign_too_many_is_asked_about_and_the_first_fix_is_what_was_meant(text):
+    findings = solve(text, start="X40. Z0.", control="yasnac-lx3").diagnostics
+    errors = [each for each in findings if each.severity is Severity.ERROR]
+    assert [fix.replacement for fix in errors[0].fixes][:1] == [MENDED[text]]
+    assert all("is not a number that a control reads: did you mean" in each.message for each in errors)
+    # What the help says is what the first fix does.
+    assert errors[0].fixes[0].description.startswith(errors[0].help.partition(" if")[0].partition(";")[0])

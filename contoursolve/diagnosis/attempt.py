@@ -16,7 +16,7 @@ from contoursolve.model import Profile
 from contoursolve.reading import Claim, Trouble, read
 from contoursolve.solving import Status
 from contoursolve.solving.affine import affine_facts
-from contoursolve.syntax import Block, parse_block, with_digits
+from contoursolve.syntax import Block, mended, parse_block
 from contoursolve.tolerance import AGREEMENT
 
 MOST_TRIED = 60
@@ -98,9 +98,9 @@ def choose_repairs(
 
 def _order(repair: Repair) -> tuple[bool, bool, int, int, float]:
     is_placeholder = repair.applicability is Applicability.PLACEHOLDER
-    # A forgotten point or comma is the commonest slip, and one slip however many words lack it; so is a letter that
-    # looks like a digit.
-    is_slip = all(edit.text == f"{edit.old}." or _is_comma(edit) or _is_digit(edit) for edit in repair.edits)
+    # A forgotten point or comma is the commonest slip, and one slip however many words lack it; so is what looks
+    # almost like a number.
+    is_slip = all(edit.text == f"{edit.old}." or _is_comma(edit) or _is_mended(edit) for edit in repair.edits)
     return is_placeholder, not is_slip, len(repair.edits), repair.warnings, repair.deviation
 
 
@@ -201,9 +201,9 @@ def _is_comma(edit: Edit) -> bool:
     return edit.kind is EditKind.CHANGE and edit.text != edit.old and edit.text.strip(", ") == edit.old.strip(", ")
 
 
-def _is_digit(edit: Edit) -> bool:
-    """Whether letters become the digits that they look like."""
-    return edit.kind is EditKind.CHANGE and edit.text == with_digits(edit.old)
+def _is_mended(edit: Edit) -> bool:
+    """Whether what could not be read becomes the word that it looks like."""
+    return edit.kind is EditKind.CHANGE and edit.text == mended(edit.old)
 
 
 def _find(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], following: tuple[Block, ...] = ()) -> Claim | None:

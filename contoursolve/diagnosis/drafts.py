@@ -29,7 +29,8 @@ def commas(answer: Answer) -> Iterator[tuple[Edit, ...]]:
     claim = answer.claim
     errors = [each for each in answer.diagnostics if each.severity is Severity.ERROR]
     blamed = {label.span for finding in errors for label in finding.labels}
-    words = dict.fromkeys((*claim.unknown, *claim.words.values()))
+    meant = meant_words(claim)
+    words = dict.fromkeys((*(word for word in claim.unknown if not is_in(word.span, meant)), *claim.words.values()))
     found = [(word, respelled(word, claim.form.allowed)) for word in words if word.span in blamed]
     edits = [change(word, text) for word, text in found if text]
     if edits:
@@ -38,16 +39,17 @@ def commas(answer: Answer) -> Iterator[tuple[Edit, ...]]:
         yield from ((edit,) for edit in edits)
 
 
-def digits(answer: Answer) -> Iterator[tuple[Edit, ...]]:
-    """Letters that look like digits as these digits, in G codes and where something cannot be read: all and each
-    alone."""
-    claim, edits = answer.claim, list[Edit]()
+def mended_words(answer: Answer) -> Iterator[tuple[Edit, ...]]:
+    """What is almost a word as the word that it is meant to be, in G codes and where something cannot be read: all and
+    each alone."""
+    claim = answer.claim
+    meant = {each.span: each for each in meant_words(claim)}
     for block in claim.blocks:
         unread = [fault.span for fault in block.faults]
         unread += [word.span for word in claim.unknown if word.span.line == block.line]
-        for each in find_lookalikes(block):
-            if each.is_code or any(map(each.covers, unread)):
-                edits.append(Edit(EditKind.CHANGE, each.address, each.span, each.old, each.new))
+        found = (each for each in find_lookalikes(block) if each.is_code or any(map(each.covers, unread)))
+        meant |= {each.span: each for each in found}
+    edits = [Edit(EditKind.CHANGE, each.address, each.span, each.old, each.new) for each in meant.values()]
     if edits:
         yield tuple(edits)
     if len(edits) > 1:
@@ -88,9 +90,7 @@ def unreadable(claim: Claim) -> Iterator[tuple[Edit, ...]]:
         for fault in block.faults:
             if fault.kind is FaultKind.COMMENT_NOT_CLOSED or is_in(fault.span, meant):
                 continue
-            text = fault.text.replace(",", ".") if fault.address and fault.text.count(",") == 1 else ""
-            kind = EditKind.CHANGE if text else EditKind.DROP
-            edits.append(Edit(kind, fault.address, fault.span, fault.text, text))
+            edits.append(Edit(EditKind.DROP, fault.address, fault.span, fault.text))
     either = [
         [drop(word), *(drop(first) for first in claim.words.values() if _is_same(first, word))]
         for word in claim.repeated

@@ -7,7 +7,7 @@ from itertools import combinations, product
 
 from contoursolve.constraints import Coordinate, Offset, assemble
 from contoursolve.diagnosis.attempt import Before, examine_edited
-from contoursolve.diagnosis.drafts import change, digits, drop, marked, missing_points, unreadable, variants
+from contoursolve.diagnosis.drafts import change, drop, marked, mended_words, missing_points, unreadable, variants
 from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, write_word
 from contoursolve.diagnostic import Diagnostic, Severity
 from contoursolve.dialects import Dialect
@@ -41,7 +41,7 @@ def further_drafts(answer: Answer, dialect: Dialect, before: Before) -> Iterator
     findings = [each for each in answer.diagnostics if each.severity is not Severity.INFO and each.about is not None]
     if not findings:
         return
-    yield digits(answer)
+    yield mended_words(answer)
     yield missing_points(answer)
     yield marked(answer)
     yield _brackets(answer)

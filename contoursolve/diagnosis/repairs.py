@@ -12,10 +12,10 @@ from contoursolve.diagnosis.attempt import LARGEST_ROLE, Before, Repairs, choose
 from contoursolve.diagnosis.drafts import (
     change,
     commas,
-    digits,
     drop,
     has_faults,
     marked,
+    mended_words,
     missing_points,
     unreadable,
     variants,
@@ -48,7 +48,7 @@ def find_repairs(answer: Answer, dialect: Dialect, following: tuple[Block, ...] 
     codes = frozenset(each.code for each in answer.diagnostics)
     if torn_codes(claim):
         # Without its letters the code is another one, which nobody has written.
-        return choose_repairs(claim, dialect, [digits(answer)], Before(codes, None, following=following))
+        return choose_repairs(claim, dialect, [mended_words(answer)], Before(codes, None, following=following))
     if answer.profile.is_extended:
         # Few blocks state more than their words.
         from contoursolve.diagnosis.further import further_drafts, next_place_of  # noqa: PLC0415
@@ -61,7 +61,7 @@ def find_repairs(answer: Answer, dialect: Dialect, following: tuple[Block, ...] 
     if reference is None and count_choices(answer.profile) <= MOST_CHOICES:
         reference = examine(claim, dialect.rules, Policy.OFF).contour
     stages = (stage(answer, dialect, whole) for stage in (_sets, _values, _slips))
-    slips = (digits(answer), missing_points(answer), commas(answer), marked(answer))
+    slips = (mended_words(answer), missing_points(answer), commas(answer), marked(answer))
     return choose_repairs(claim, dialect, (*slips, *stages), Before(codes, reference, following=following))
 
 

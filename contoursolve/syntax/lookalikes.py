@@ -1,22 +1,29 @@
-"""Letters typed for the digits that they look like: l and I for 1, O for 0."""
+"""Stretches of a block that are almost a word: letters for digits (l and I for 1, O for 0), a comma for the point,
+a point or a sign too many."""
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from contoursolve.source import Span
 from contoursolve.syntax.word import Block, FaultKind
 
 _DIGITS = str.maketrans("lI|Oo", "11100")
-_SEARCH = re.compile(r"\([^)]*\)?|;.*|,?[A-Za-z][ \t]*+[+-]?[0-9.lI|Oo]++(?![A-Za-z](?![ \t]*[+-]?[.\dlI|Oo]))")
+_NUMBER = r"(?:[-+0-9.lI|Oo]|,(?=[\d.,]|[ \t]*(?:[;(]|$)))++"
+_SEARCH = re.compile(
+    rf"\([^)]*\)?|;.*|,?[A-Za-z][ \t]*+(?:[-+]++[ \t]++)?{_NUMBER}(?![A-Za-z](?![ \t]*[+-]?[.\dlI|Oo]))"
+)
 """A comment; or an address and what may be its number, unless it goes on as a text does."""
 _WORD = re.compile(r",?[A-Za-z][ \t]*[+-]?(?:\d+\.?\d*|\.\d+)", re.ASCII)
 _CODE = re.compile(r"[Gg][ \t]*\d{1,3}", re.ASCII)
 _HINT = re.compile(r"[Gg][ \t]*\d*[lI|Oo]")
+_WHOLE = "GMNOST"
+"""Addresses whose numbers have no point."""
 
 
 @dataclass(frozen=True, slots=True)
 class Lookalike:
-    """A stretch of a block that is one word if its letters are digits: as typed, and that word."""
+    """A stretch of a block that is one word if its slips are mended: as typed, and that word."""
 
     span: Span
     old: str
@@ -32,13 +39,18 @@ class Lookalike:
         """Whether it would be a G code."""
         return _CODE.fullmatch(self.new) is not None
 
+    @property
+    def has_letters(self) -> bool:
+        """Whether letters stand for digits, and nothing else is wrong."""
+        return self.new == with_digits(self.old)
+
     def covers(self, span: Span) -> bool:
         """Whether a place of its block lies in it."""
         return self.span.column <= span.column < self.span.end_column
 
 
 def find_lookalikes(block: Block) -> tuple[Lookalike, ...]:
-    """The stretches of a block outside comments that would be words with digits for some letters.
+    """The stretches of a block outside comments that would be words with their slips mended.
 
     `X10I5.` is one, too, and means what it says: what is meant shows only where it is tried.
     """
@@ -47,10 +59,12 @@ def find_lookalikes(block: Block) -> tuple[Lookalike, ...]:
         return ()
     while match := _SEARCH.search(text, place):
         old, place = match[0], match.end()
-        new = with_digits(old)
-        if _WORD.fullmatch(new) and new != old:
+        if old[0] in "(;":
+            continue
+        new = mended(old)
+        if new and new != old:
             found.append(Lookalike(Span(block.line, match.start() + 1, match.end() + 1), old, new))
-        elif new != old and old[0] not in "(;":
+        elif new != old:
             place = match.start() + 1
     return tuple(found)
 
@@ -64,3 +78,42 @@ def with_digits(word: str) -> str:
     """A word whose letters behind the address are the digits that they look like."""
     begin = 2 if word.startswith(",") else 1
     return word[:begin] + word[begin:].translate(_DIGITS)
+
+
+def mended(word: str) -> str:
+    """A word without what keeps its number from being read; empty if it is none then, either."""
+    word = with_digits(word)
+    begin = 2 if word.startswith(",") else 1
+    address, number = word[:begin], word[begin:]
+    for mend in _MENDING:
+        number = mend(number, address)
+    return address + number if _WORD.fullmatch(address + number) else ""
+
+
+def _sign(number: str, _: str) -> str:
+    """One sign, before the digits: of several, a minus."""
+    match = _SIGNS.fullmatch(number)
+    if match is None or not (match["before"] or match["behind"]):
+        return number
+    signs = match["before"] + match["behind"]
+    return ("-" if "-" in signs else "+") + match["digits"]
+
+
+def _comma(number: str, address: str) -> str:
+    """A point for a comma; none where there is a point already, or where a number has none."""
+    text = number.rstrip(",")
+    if text == number:
+        return number.replace(",", ".")
+    return text if "." in text or "," in text or address.upper() in _WHOLE else f"{text}."
+
+
+def _points(number: str, _: str) -> str:
+    """One point for several in a row, and none behind a number that has one."""
+    text = _IN_A_ROW.sub(".", number)
+    return text[:-1] if text.endswith(".") and text.count(".") > 1 else text
+
+
+_SIGNS = re.compile(r"(?P<blank>[ \t]*)(?P<before>[-+]*)[ \t]*(?P<digits>[0-9.,]+)(?P<behind>[-+]*)")
+_IN_A_ROW = re.compile(r"\.{2,}")
+_MENDING: tuple[Callable[[str, str], str], ...] = (_sign, _comma, _points)
+"""What is mended in the text behind an address, one after the other."""
