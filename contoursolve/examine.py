@@ -168,7 +168,7 @@ def examine(
     offences = _offences(claim, rules) if is_whole and policy is not Policy.OFF else ()
     for offence in offences:
         if not offence.rule.ignores:
-            finding = explain_offence(context, offence, claim.givens)
+            finding = explain_offence(context, offence, claim)
             weaker = replace(finding, severity=Severity.WARNING)
             # What states or asks more than the control reads is not a block for the control yet.
             is_strict = policy is Policy.ENFORCE and not _is_extended(claim)

@@ -13,7 +13,7 @@ from contoursolve.analysis import Verdict
 from contoursolve.constraints import Radius, assemble
 from contoursolve.contour import Contour, LineSegment
 from contoursolve.diagnostic import Basis, Diagnostic, Label
-from contoursolve.model import Given, Length, Profile, Role, Unit
+from contoursolve.model import Length, Profile, Role, Unit
 from contoursolve.reading import Claim, Trouble
 from contoursolve.rules import Offence, Rule
 from contoursolve.solving import BESIDE, Refusal, RefusalKind, Remark, RemarkKind, Solution, compare, lookup, scalars_of
@@ -140,8 +140,9 @@ def _named(words: Sequence[Word], names: Mapping[str, Word]) -> Iterable[tuple[s
     return ((known.get(id(word), word.address), word.text) for word in words)
 
 
-def explain_offence(context: Context, offence: Offence, givens: Mapping[str, Given]) -> Diagnostic:
-    """A rule on combinations that holds. `givens` are the values of the words."""
+def explain_offence(context: Context, offence: Offence, claim: Claim) -> Diagnostic:
+    """A rule on combinations that holds."""
+    givens = claim.givens
     words = [context.words[name] for name in offence.names if name in context.words]
     block = [word.span for name, word in context.words.items() if name.startswith(offence.role.prefixes[-1])]
     if not words and block and min(block).line != context.place.line:
@@ -149,7 +150,16 @@ def explain_offence(context: Context, offence: Offence, givens: Mapping[str, Giv
         context = replace(context, place=min(block))
     turned = (givens[name] for name in offence.names if name in givens and givens[name].unit is Unit.DEGREE)
     within = [f"{each.word.address}{_pointed(each.value % _FULL_TURN)}" for each in turned if each.word]
-    return report(context, offence.rule, Basis.RULE, words, comparison="", within=join(within))
+    lacking = join(_lacking(claim, offence.role.prefixes[-1]))
+    return report(context, offence.rule, Basis.RULE, words, comparison="", within=join(within), lacking=lacking)
+
+
+def _lacking(claim: Claim, prefix: str) -> list[str]:
+    """The fewest addresses whose words make a block, by the prefix of its names, one that states an element."""
+    options = [option for slot in claim.form.combinations for option in slot]
+    own = [[name for name in option if name.startswith(prefix) and name in claim.vocabulary] for option in options]
+    missing = [[claim.vocabulary[name][0] for name in names if name not in claim.words] for names in own if names]
+    return min(missing, key=len, default=[])
 
 
 _FULL_TURN = 360

@@ -32,6 +32,8 @@ class Block(NamedTuple):
     words: Words
     is_incremental: bool = False
     is_compensated: bool = True
+    was_compensated: bool = True
+    """Before it."""
 
 
 @dataclass
@@ -84,7 +86,9 @@ def _is_legal(plane: int, blocks: Sequence[Block]) -> bool:
             return False
         if is_over_defined(plane, block):
             is_line_line = not is_circle and before is not None and before.motion == "G1"
-            if before is None or before.motion == "G0" or not block.is_compensated:
+            if before is None or before.motion == "G0":
+                return False
+            if not (before.was_compensated and before.is_compensated and block.is_compensated):
                 return False
             if not is_line_line and not words.get("Q"):
                 return False
@@ -207,6 +211,7 @@ WORD = re.compile(r"(,?[A-Z])\s*([-+]?(?:\d+\.?\d*|\.\d+))")
 def runs(program: Sequence[str]) -> list[Run]:
     """Reads a program's text, and follows every maximal run of blocks that are worked out together."""
     plane, distance, motion, compensation = 17, 90, "G0", 40
+    was = compensation
     blocks: list[Block] = []
     for line in program:
         words = {}
@@ -223,7 +228,8 @@ def runs(program: Sequence[str]) -> list[Run]:
             else:
                 motion = f"G{number}"
         if words.keys() & {"X", "Y", "Z", "I", "J", "K", "R", ",A"}:
-            blocks.append(Block(motion, words, distance == 91, compensation != 40))
+            blocks.append(Block(motion, words, distance == 91, compensation != 40, was != 40))
+        was = compensation
     found = []
     at, k = 0j, 0
     while k < len(blocks):

@@ -196,7 +196,7 @@ def subsets() -> Iterator[tuple[str, list[str]]]:
 def test_every_set_of_words_of_a_form_gets_a_status(rules):
     for name, program in subsets():
         result = solve_mill(program, rules)
-        assert result.answers, program
+        assert result.answers or result.has_errors, program
         for answer in result.answers:
             assert (answer.contour is None) == result.has_errors, (name, program)
 

@@ -83,6 +83,7 @@ def _equations(answer: Answer, profile: Profile, system: System) -> list[Layer]:
 _AT_VALUES = (
     RefusalKind.LINES_PARALLEL,
     RefusalKind.NOT_FIXED,
+    RefusalKind.POINT_IS_START,
     Trouble.FACTS_SINGULAR,
     RefusalKind.WORDS_DISAGREE,
     RefusalKind.FACT_DISAGREES,

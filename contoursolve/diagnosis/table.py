@@ -22,7 +22,10 @@ _OPTIONAL = re.compile(r"\{([^}]*)\}")
 @dataclass(frozen=True, slots=True)
 class Row:
     """One set of words: the rules that refuse it, those that warn, the words that the control ignores, what the words
-    that remain leave free or say twice, and the condition under which they determine the contour."""
+    that remain leave free or say twice, and the condition under which they determine the contour.
+
+    `other` is the form as which they are read, where that is another one, or `nothing`.
+    """
 
     addresses: tuple[str, ...]
     refusals: tuple[str, ...]
@@ -30,8 +33,12 @@ class Row:
     ignored: tuple[str, ...]
     faults: tuple[str, ...]
     condition: str
+    other: str = ""
 
     def __str__(self) -> str:
+        words = " ".join(self.addresses) or "-"
+        if self.other:
+            return f"{words} | read as {self.other} | -"
         legality = f"refused: {', '.join(self.refusals)}" if self.refusals else "legal"
         if self.warnings:
             legality += f" (warns {', '.join(self.warnings)})"
@@ -40,7 +47,7 @@ class Row:
         determinacy = "; ".join(self.faults) or "determined"
         if not self.faults and self.condition not in ("", "1"):
             determinacy += f" unless {self.condition} = 0"
-        return f"{' '.join(self.addresses) or '-'} | {legality} | {determinacy}"
+        return f"{words} | {legality} | {determinacy}"
 
 
 def tabulate(form: Form, dialect: Dialect) -> Iterator[Row]:
@@ -58,17 +65,18 @@ def _row(form: Form, dialect: Dialect, chosen: frozenset[str]) -> Row:
     state = advance(dialect.initial_state(Length.MM), parse(sample.before).blocks[0], dialect.modes)
     blocks = parse("\n".join(lines)).blocks
     claim = dialect.find(blocks, 0, state, dialect.modes)
+    words = [(number, word) for number, block in enumerate(blocks, 1) for word in block.words if word.address != "G"]
+    addresses = tuple(f"{number}:" * (len(blocks) > 1) + word.address for number, word in words)
     if not isinstance(claim, Claim) or claim.form is not form:
-        raise ValueError(f"{lines} is no block of the form {form.name}")
+        other = claim.form.name if isinstance(claim, Claim) else "nothing"
+        return Row(addresses, (), (), (), (), "", other)
     offences = check(dialect.rules, form.roles, claim.stated())
     ignored = tuple(offence.rule.ignores for offence in offences if offence.rule.ignores)
     profile = read(claim, frozenset(ignored))
     verdict = judge(assemble(profile))
-    optional = [(number, word) for number, block in enumerate(blocks, 1) for word in block.words if word.text in chosen]
-    has_choice = [bool(_OPTIONAL.search(block)) for block in sample.blocks]
     refusing = [offence.rule for offence in offences if not offence.rule.ignores]
     return Row(
-        addresses=tuple(f"{number}:" * (sum(has_choice) > 1) + word.address for number, word in optional),
+        addresses=addresses,
         refusals=tuple(rule.code for rule in refusing if rule.severity is Severity.ERROR),
         warnings=tuple(rule.code for rule in refusing if rule.severity is not Severity.ERROR),
         ignored=ignored,

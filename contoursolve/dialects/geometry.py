@@ -45,6 +45,13 @@ GEOMETRY_RULES = (
         _MILL + "G1 X0 ,A90",
     ),
     _row(
+        RefusalKind.POINT_IS_START,
+        "{words}: this point of the line is the one where the line begins, so it gives no direction",
+        "give another point of the line, or its angle",
+        _LINES.replace(",A150", "X50 Y33.094"),
+        _LINES.replace(",A150", "X90 Y10"),
+    ),
+    _row(
         RefusalKind.CIRCLE_MISSED,
         "the line misses the circle: it passes the centre at {actual}, the radius is {limit}, {off} too far",
         "change the line, or make the circle larger",

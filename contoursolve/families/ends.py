@@ -117,6 +117,7 @@ def _always(text: str) -> Callable[[Check, About], str]:
 _PHRASES: Mapping[RefusalKind, Callable[[Check, About], str]] = {
     RefusalKind.LINES_PARALLEL: _parallel,
     RefusalKind.NOT_FIXED: _parallel,
+    RefusalKind.POINT_IS_START: _always("the point of the line is its start point"),
     RefusalKind.CIRCLE_MISSED: _always("the line misses the circle"),
     RefusalKind.RADIUS_TOO_SMALL: _always("the radius is smaller than half the way between its two points"),
     RefusalKind.CIRCLES_APART: _always("the circles do not meet"),

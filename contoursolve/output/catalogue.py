@@ -46,7 +46,8 @@ def table_lines(dialects: Iterable[Dialect]) -> Iterator[str]:
         if not sampled:
             yield f"{dialect.name}: this control has no table of word sets, because none of its forms has a sample"
         for form in sampled:
-            yield f"{dialect.name} {form.name}, {form.title}: words | the manual's rules | the equations"
+            blocks = " / ".join(form.sample.blocks if form.sample else ())
+            yield f"{dialect.name} {form.name}, {form.title}: words of {blocks} | the manual's rules | the equations"
             yield from (str(row) for row in tabulate(form, dialect))
             yield ""
 

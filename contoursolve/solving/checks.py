@@ -28,7 +28,7 @@ from contoursolve.constraints import Coordinate, Distance, Heading, Offset, OnCi
 from contoursolve.model import FIRST, SECOND, Arc, Corner, CornerShape, Fact, Figure, Line, scalar
 from contoursolve.solving.compile import compile_system
 from contoursolve.solving.corners import Pair
-from contoursolve.solving.plan import AffineStep, DistanceStep, Step, TwoCirclesStep
+from contoursolve.solving.plan import AffineStep, DistanceStep, Step, TwoCirclesStep, lines_through
 from contoursolve.solving.solution import RefusalKind
 from contoursolve.tolerance import AGREEMENT, LENGTH, RADIUS_DIFFERENCE, REGULAR, RESIDUAL, TOUCHING
 
@@ -80,6 +80,7 @@ class Check:
 
 
 NO_PLACE = (
+    RefusalKind.POINT_IS_START,
     RefusalKind.CIRCLE_MISSED,
     RefusalKind.RADIUS_TOO_SMALL,
     RefusalKind.CIRCLES_APART,
@@ -189,6 +190,9 @@ def check_steps(source: Source, steps: Sequence[Step]) -> Checks:
 
 def _check_step(source: Source, number: int, step: Step) -> Checks:
     out = source.out
+    for tail, through in lines_through(step):
+        first, second = source.way(tail, through)
+        yield Check(RefusalKind.POINT_IS_START, through, "", Test.ABOVE, LENGTH), sqrt(first**2 + second**2)
     if isinstance(step, AffineStep):
         givens = tuple(fact.given for fact in step.facts if fact.given)
         kind, subject = RefusalKind.LINES_PARALLEL, ",".join(step.unknowns)

@@ -1,5 +1,6 @@
 """The construction of a contour: a list of small steps in closed form, found from structure alone."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -57,6 +58,15 @@ class TwoCirclesStep:
 
 
 Step = AffineStep | DistanceStep | LineCircleStep | TwoCirclesStep
+
+
+def lines_through(step: Step) -> Iterator[tuple[str, str]]:
+    """The two known points of each line through two points of which a step finds a third."""
+    facts = step.facts if isinstance(step, AffineStep) else (step.line,) if isinstance(step, LineCircleStep) else ()
+    for fact in facts:
+        if isinstance(fact, Collinear):
+            is_found = isinstance(step, AffineStep) and not _both(fact.through).isdisjoint(step.unknowns)
+            yield fact.tail, fact.point if is_found else fact.through
 
 
 class NoClosedFormError(Exception):

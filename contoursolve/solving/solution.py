@@ -32,6 +32,8 @@ class RefusalKind(Enum):
 
     LINES_PARALLEL = "lines-parallel"
     NOT_FIXED = "not-fixed"
+    POINT_IS_START = "point-is-start"
+    """A line through two points, which are one."""
     CIRCLE_MISSED = "circle-missed"
     RADIUS_TOO_SMALL = "radius-too-small"
     CIRCLES_APART = "circles-apart"

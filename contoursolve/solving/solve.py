@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from decimal import Decimal
 from itertools import combinations
-from math import asin, atan2, degrees, hypot, inf, isfinite
+from math import asin, atan2, degrees, dist, hypot, inf, isfinite
 
 from contoursolve.analysis import judge
 from contoursolve.backends.angle import direction
@@ -26,7 +26,15 @@ from contoursolve.solving.certify import certify
 from contoursolve.solving.compile import compile_system
 from contoursolve.solving.numbers import inputs_of, lookup, scalars_of, sizes_of, solution_at
 from contoursolve.solving.path import check_path
-from contoursolve.solving.plan import AffineStep, DistanceStep, LineCircleStep, Step, TwoCirclesStep, is_closed
+from contoursolve.solving.plan import (
+    AffineStep,
+    DistanceStep,
+    LineCircleStep,
+    Step,
+    TwoCirclesStep,
+    is_closed,
+    lines_through,
+)
 from contoursolve.solving.solution import (
     Point,
     Refusal,
@@ -178,6 +186,13 @@ class _Attempt:
         return self.origin[FIRST] + point[FIRST], self.origin[SECOND] + point[SECOND]
 
     def _examine_step(self, number: int, step: Step) -> Refusal | None:
+        for tail, through in lines_through(step):
+            ends = (self._point(name) for name in (tail, through))
+            if not dist(*ends) > LENGTH:  # true for NaN
+                at = {scalar(through, axis) for axis in (FIRST, SECOND)}
+                facts = (fact for fact in self.system.facts if at & {*self.system.unknowns_of(fact)})
+                givens = tuple(fact.given for fact in facts if fact.given)
+                return Refusal(RefusalKind.POINT_IS_START, through, givens)
         if isinstance(step, AffineStep):
             return self._examine_determinant(number, step)
         if isinstance(step, DistanceStep):

@@ -243,23 +243,22 @@ _TO_LINE, _TO_ARC = replace(_LINE, is_followed=True), replace(_ARC, is_followed=
 _OVER_LINE, _OVER_CIRCLE = replace(_LINE, is_over=True), replace(_ARC, is_over=True)
 _FROM = "G17 G90 G41 G0 X50 Y0"
 
+_N1_ARC = "G3 {X-50.0} {Y0} {I-50} {J0} {R50} {,C2} {,R2}"
+
 _SAMPLES: dict[tuple[Element, ...], Sample] = {
     (_LINE,): Sample(_FROM, ("G1 {X90} {Y40.0} ,A45",)),
-    (_LINE, _ARC): Sample(_FROM, ("G1 X80 {Y0} {,A0} {,C2} ,R8", "G3 X50 {Y30} {I-30} {J0} {R30}")),
+    (_LINE, _ARC): Sample(_FROM, ("G1 {X80} {Y0} {,A0} {,C2} ,R8", "G3 X50 {Y30} {I-30} {J0} {R30}")),
     (_TO_LINE, _OVER_LINE): Sample(
-        "G17 G90 G41 G0 X90 Y10", ("G1 X50 {Y33.094} {,A150} {,C2} {,R2}", "G1 X10 Y20 ,A225 {Q1}")
+        "G17 G90 G41 G0 X90 Y10", ("G1 {X50} {Y33.094} {,A150} {,C2} {,R2}", "G1 X10 Y20 ,A225 {Q1}")
     ),
     (_TO_LINE, _OVER_CIRCLE): Sample(
-        "G17 G90 G42 G0 X100 Y20", ("G1 X-30 {Y-20} {,A197.103} {,C2} {,R2}", "G3 X20 Y40 I20 J-10 R50 Q-1")
+        "G17 G90 G42 G0 X100 Y20", ("G1 {X-30} {Y-20} {,A197.103} {,C2} {,R2}", "G3 X20 Y40 I20 J-10 R50 {Q-1}")
     ),
-    (_TO_ARC, _OVER_LINE): Sample(
-        _FROM, ("G3 {X-50.0} {Y0} {I-50} {J0} {R50} {,R2}", "G1 X-50 Y42.857 ,A171.87 {Q-1}")
-    ),
-    (_TO_ARC, _OVER_CIRCLE): Sample(
-        _FROM, ("G3 {X-50} {Y0} {I-50} {J0} {R50} {,R2}", "G3 X-40 Y60 I-40.0 J20 R40 Q-1")
-    ),
+    (_TO_ARC, _OVER_LINE): Sample(_FROM, (_N1_ARC, "G1 X-50 Y42.857 ,A171.87 {Q-1}")),
+    (_TO_ARC, _OVER_CIRCLE): Sample(_FROM, (_N1_ARC, "G3 X-40 Y60 I-40 J20 R40 {Q-1}")),
     (_TO_LINE, replace(_OVER_LINE, is_followed=True), _OVER_CIRCLE): Sample(
-        "G17 G90 G41 G0 X90 Y10", ("G1 ,A150 {,R2}", "G1 X10 Y20 ,A225 {Q1.0} {,C2}", "G3 X-40 Y-20 I-20 J-20 R20 Q1")
+        "G17 G90 G41 G0 X90 Y10",
+        ("G1 {X50} {Y33.094} {,A150} {,R2}", "G1 X10 Y20 ,A225 {Q1.0} {,C2}", "G3 X-40 Y-20 I-20 J-20 R20 {Q1}"),
     ),
 }
 """Programs for the tables of words, one for each kind of form."""

@@ -74,7 +74,9 @@ def claim_of(members: Sequence[Member], before: State, modes: Modes) -> Claim:
         own_givens = _givens(own, member, modes.lexicon)
         words |= {prefix + name: word for name, word in own.items()}
         givens |= {prefix + name: replace(given, name=prefix + name) for name, given in own_givens.items()}
-        circumstances |= {prefix + name for name in _circumstances(member, first, is_only=len(members) == 1)}
+        since = (before, *(each.here for each in members))[max(index - 1, 0) : index + 2]
+        holds = {*_circumstances(member, first, is_only=len(members) == 1), *_compensated(since)}
+        circumstances |= {prefix + name for name in holds}
     known = {name: word for name, word in words.items() if word.address in modes.lexicon.addresses}
     return Claim(
         form=form,
@@ -151,7 +153,6 @@ def _supplied(
 
 def _circumstances(member: Member, first: State, *, is_only: bool) -> Iterator[str]:
     holds = {
-        COMPENSATED: member.here.compensation != 40,  # noqa: PLR2004 - G40
         ALONE: member.is_alone,
         OTHER_PLANE: member.here.plane != first.plane,
         RAPID: member.here.motion == 0,
@@ -160,6 +161,11 @@ def _circumstances(member: Member, first: State, *, is_only: bool) -> Iterator[s
         ORDINARY: is_only and member.element.turn is not None,
     }
     return (name for name, is_true in holds.items() if is_true)
+
+
+def _compensated(states: Sequence[State]) -> tuple[str, ...]:
+    """Whether G41 or G42 is in force in all these states: before N1, in N1 and in N2."""
+    return () if any(state.compensation == 40 for state in states) else (COMPENSATED,)  # noqa: PLR2004 - G40
 
 
 def _choices(

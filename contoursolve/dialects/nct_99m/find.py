@@ -33,7 +33,7 @@ def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> Cla
         if following is None or not _is_motion(blocks[following], last.here, modes):
             break
         here = apply_modes(last.here, blocks[following], modes)
-        is_over = _is_over_defined(blocks[following], here) or _is_stated(last, blocks[following], here)
+        is_over = _is_meant_over_defined(blocks[following], here) or _is_stated(last, blocks[following], here)
         is_cut = here.motion in (1, 2, 3) and _moves(blocks[following], here)
         if not is_over and not (_has_corner(last.block) and is_cut):
             break
@@ -87,18 +87,32 @@ def _stated(block: Block) -> set[str]:
 
 
 def _moves(block: Block, here: State) -> bool:
-    """Whether a block is a motion: it has a coordinate, an angle, a corner; an arc a centre, R, or just its G code."""
+    """Whether a block is a motion: it has a coordinate, an angle, a corner; an arc a centre, R, or just its G code.
+    A Q that belongs to nothing is looked at, too."""
     moving = {"X", "Y", "Z", ",A", CHAMFER, ROUNDING}
     if here.motion in _TURNS:
         moving |= {"I", "J", "K", "R"}
+    if not block.find("M"):
+        moving |= {"Q"}
     return bool(_stated(block) & moving) or any(word.address == "G" and word.number in _TURNS for word in block.words)
 
 
-def _is_over_defined(block: Block, here: State) -> bool:
-    """A line with both coordinates of the plane and ,A; a circle with its end, its centre, R and Q (16.3)."""
+def _over_defining(here: State) -> set[str]:
+    """What over-defines a block: both coordinates of the plane and ,A of a line; end, centre and R of a circle (16.3).
+    Q does not: it only chooses."""
     if here.motion in _TURNS:
-        return _stated(block) >= {*here.plane.axes, *here.plane.centers, "R", "Q"}
-    return _stated(block) >= {*here.plane.axes, ",A"}
+        return {*here.plane.axes, *here.plane.centers, "R"}
+    return {*here.plane.axes, ",A"}
+
+
+def _is_over_defined(block: Block, here: State) -> bool:
+    return _stated(block) >= _over_defining(here)
+
+
+def _is_meant_over_defined(block: Block, here: State) -> bool:
+    """Whether it is, or has a Q and lacks one word only."""
+    missing = _over_defining(here) - _stated(block)
+    return len(missing) <= ("Q" in _stated(block))
 
 
 def _has_corner(block: Block) -> bool:
@@ -110,7 +124,7 @@ def _is_tied_alone(block: Block, here: State, modes: Modes) -> bool:
     a corner, and an arc with an end, which is checked if its values are known; about its centre, it is a full circle
     if that is where it begins (assumed)."""
     stated = _stated(block)
-    if _has_corner(block) or ",A" in stated:
+    if _has_corner(block) or stated & {",A", "Q"}:
         return True
     is_variable = any(word.number is None and not word.is_asked for word in block.words)
     if here.motion not in _TURNS or not stated & {*here.plane.axes, "R"} or is_variable:

@@ -60,24 +60,32 @@ _TOO_HIGH = Alarm("3084 ,C ,R TOO HIGH", Evidence.PRINTED)
 COMBINATION_RULES = (
     Rule(
         code="nct-compensation-off",
-        message="{words}: intersections are computed only with G41 or G42 active",
-        help="switch G41 or G42 on before the first element; D00 keeps the path where it is",
+        message="{words}: intersections are computed only if G41 or G42 is active before the first of the two blocks",
+        help="switch G41 or G42 on before that block; D00 keeps the path where it is",
         source=_manual("16.3: every format and example has it", Evidence.ASSUMED),
         roles=_OVER,
         when=some(",A", "R") & ~some(COMPENSATED),
         accepted=(_GOOD, _TO_CIRCLE),
-        rejected=(_GOOD.replace("G42 ", ""), _TO_CIRCLE.replace("G42 ", "")),
+        rejected=(
+            _GOOD.replace("G42 ", ""),
+            _TO_CIRCLE.replace("G42 ", ""),
+            _GOOD.replace("G42 ", "").replace(_LINE, "G42 " + _LINE),
+        ),
     ),
     Rule(
         code="nct-nothing-before",
         message="{words}: this block is over-defined, so it begins in an intersection; but right before it there is "
         "no G1, G2 or G3 block",
-        help="put the element that it shall meet right before it; or drop ,A of a line, or Q and the centre of an arc",
+        help="put the element that it shall meet right before it; or drop ,A of a line, or the centre or R of an arc",
         source=_manual("16.3: consecutive blocks"),
         roles=(*_OVER, LINE, ARC),
-        when=some(",A", "Q") & some(ALONE),
+        when=some(",A", "R") & some(ALONE),
         accepted=(_GOOD, _LINES),
-        rejected=(_START + "M8\n" + _LINE, "G17 G90 G41 G0 X50 Y0\n" + _LINE),
+        rejected=(
+            _START + "M8\n" + _LINE,
+            "G17 G90 G41 G0 X50 Y0\n" + _LINE,
+            "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 I0 J0 R50",
+        ),
     ),
     Rule(
         code="nct-line-rapid",
@@ -97,7 +105,29 @@ COMBINATION_RULES = (
         roles=_CHOOSING,
         when=~some("2:Q"),
         accepted=(_GOOD, _TO_CIRCLE),
-        rejected=(_START + _ARC + "G1 X-50 Y42.857 ,A171.87",),
+        rejected=(_START + _ARC + "G1 X-50 Y42.857 ,A171.87", _TO_CIRCLE.replace(" Q-1", "")),
+    ),
+    Rule(
+        code="nct-line-incomplete",
+        message="{words} chooses an intersection, but the line is not over-defined: {lacking} is missing",
+        help="add {lacking}: an over-defined line has both coordinates of its end and ,A; or delete {words}, and the "
+        "line begins where the block before it ends",
+        source=_manual("16.3: the formats", Evidence.DERIVED),
+        roles=(OVER_LINE,),
+        when=some("Q") & ~all_of("first", "second", ",A"),
+        accepted=(_GOOD,),
+        rejected=(_GOOD.replace(",A171.87 ", ""), _GOOD.replace("Y42.857 ", "")),
+    ),
+    Rule(
+        code="nct-circle-incomplete",
+        message="{words} chooses an intersection, but the circle is not over-defined: {lacking} is missing",
+        help="add {lacking}: an over-defined circle has its end, its centre and R; or delete {words}, and the arc "
+        "begins where the block before it ends",
+        source=_manual("p. 128, 16.3.2", Evidence.DERIVED),
+        roles=(OVER_CIRCLE,),
+        when=some("Q") & ~all_of("first", "second", *_CENTERS, "R"),
+        accepted=(_TO_CIRCLE,),
+        rejected=tuple(_TO_CIRCLE.replace(word, "") for word in (" R50", " J-10", " X20")),
     ),
     Rule(
         code="nct-q-zero",
@@ -137,9 +167,9 @@ COMBINATION_RULES = (
         help="keep one of them; to begin it in an intersection (16.3), give its end, its centre (absolute), R and Q",
         source=_manual("16.3.3, p. 129"),
         roles=(ARC,),
-        when=all_of(_CENTERS, "R"),
+        when=all_of(_CENTERS, "R") & ~some(ALONE),
         accepted=(_GOOD, _CENTERED, _TO_CIRCLE),
-        rejected=(_START + "G3 X-50 Y0 I-50 J0 R50\n" + _LINE,),
+        rejected=(_START + "G3 X-50 I-50 J0 R50\n" + _LINE,),
     ),
     Rule(
         code="nct-radius-without-point",
@@ -187,7 +217,7 @@ COMBINATION_RULES = (
         code="nct-q-without-intersection",
         message="{words}: this block does not begin in a computed intersection, so Q chooses nothing",
         help="delete it; a block begins in an intersection if it is over-defined: a line by both coordinates and ,A, "
-        "an arc by its end, its centre, R and Q",
+        "an arc by its end, its centre and R",
         source=_manual("16.3: the formats", Evidence.DERIVED),
         roles=(LINE, ARC),
         when=some("Q") & ~some(ALONE),
@@ -227,10 +257,20 @@ COMBINATION_RULES = (
         rejected=(_LINES.replace("G1 ,A150", "G1 X50 ,A150"),),
     ),
     Rule(
+        code="nct-line-undefined",
+        message="the line has neither ,A nor a point, and it ends in an intersection: nothing tells where it runs",
+        help="add ,A or a point of the line",
+        source=_manual("16.3.1: the formats of N1", Evidence.DERIVED),
+        roles=(LINE,),
+        when=at_most(0, ",A", _POINT) & some(FOLLOWED),
+        accepted=(_LINES,),
+        rejected=(_LINES.replace("G1 ,A150", "G1 ,C5"),),
+    ),
+    Rule(
         code="nct-coordinate-missing",
         message="{words} alone does not say where the line ends",
         help="add one coordinate of its end; or, if it shall end in an intersection, over-define the next block: a "
-        "line by both coordinates and ,A, an arc by its end, its centre, R and Q",
+        "line by both coordinates and ,A, an arc by its end, its centre and R",
         source=_manual("16.2"),
         roles=(LINE,),
         when=some(",A") & ~some(*_POINT) & ~some(FOLLOWED),
@@ -301,6 +341,15 @@ GEOMETRY_RULES = (
         severity=Severity.WARNING,
         accepted=(_CUT,),
         rejected=(_CUT.replace(",C", "C") + " ,R5\nX80",),
+    ),
+    Rule(
+        code="nct-point-is-start",
+        message="{words}: this point of the line is its start point, so it gives the line no direction",
+        help="give another point of the line, or ,A alone",
+        source=_manual("16.3.1, p. 123"),
+        about=RefusalKind.POINT_IS_START,
+        accepted=(_LINES.replace("G1 ,A150", "G1 X50 Y33.094"),),
+        rejected=(_LINES.replace("G1 ,A150", "G1 X90 Y10"), _TO_CIRCLE.replace("X-30 Y-20", "X100 Y20")),
     ),
     Rule(
         code="nct-circle-missed",

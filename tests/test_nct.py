@@ -1,0 +1,134 @@
+"""NCT chapter 16, fact by fact of the control's sheet: what over-defines a block, what is missing, what is refused."""
+
+from math import isfinite
+from random import Random
+
+import pytest
+from generate_nct import FORMS, random_chain, random_cornered, random_pair
+
+from contoursolve import Result, check, solve
+from contoursolve.diagnostic import Diagnostic
+
+FROM_CIRCLE = "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 R50\n"
+TO_CIRCLE = "N10 G17 G42 G0 X100 Y20 D0 S200 M3\nN20 G1 X-30 Y-20\nN30 G3 X20 Y40 I20 J-10 R50"
+LINES = "G17 G90 G41 G0 X90 Y10\nG1 ,A150\nG1 X10 Y20 ,A225"
+
+
+def errors(result: Result) -> list[Diagnostic]:
+    return [each for each in result.diagnostics if each.severity.value == "error"]
+
+
+def codes(text: str, **options: str) -> set[str]:
+    return {each.code for each in check(text, control="nct-99m", **options) if each.severity.value == "error"}
+
+
+# What over-defines a block (4, 8) ---------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("control", [None, "nct-99m"])
+def test_an_over_defined_circle_without_its_q_gets_both_with_their_contours(control):
+    """P. 128: Q is not part of what triggers it."""
+    result = solve(TO_CIRCLE + "\nN40 G40 G0 Y60", control=control)
+    (finding,) = errors(result)
+    assert (result.control, finding.code, finding.alarm) == ("nct-99m", "nct-q-missing", None)
+    for fix, q, at in zip(finding.fixes, ("Q-1", "Q1"), ((66.0216, 9.5451), (-29.0486, -19.7073)), strict=True):
+        assert fix.description.startswith(f"add {q} -> P1 is at")
+        (answer,) = solve(f"N10 G17 G42 G0 X100 Y20 D0\n{fix.replacement}").answers
+        assert answer.contour.points["P1"] == pytest.approx(at, abs=5e-5)
+
+
+@pytest.mark.parametrize(
+    ("text", "code", "missing"),
+    [
+        (FROM_CIRCLE + "G1 X-50 Y42.857 Q-1", "nct-line-incomplete", ",A is missing"),
+        (FROM_CIRCLE + "G1 X-50 ,A171.87 Q-1", "nct-line-incomplete", "Y is missing"),
+        (FROM_CIRCLE + "X-50 Y42.857 I0 J0 Q-1", "nct-circle-incomplete", "R is missing"),
+        (TO_CIRCLE.replace(" J-10", " Q1"), "nct-circle-incomplete", "J is missing"),
+        (TO_CIRCLE.replace(" X20", " Q1"), "nct-circle-incomplete", "X is missing"),
+        (FROM_CIRCLE + "G1 X-50 Q-1", "nct-q-without-intersection", "chooses nothing"),
+        (FROM_CIRCLE + "M8\nG1 X-50 Y42.857 Q-1", "nct-q-without-intersection", "chooses nothing"),
+        ("G17 G90 G0 X50 Y0\nG1 X40 Y0 Q1", "nct-q-without-intersection", "chooses nothing"),
+        ("G17 G90 G41 G1 X50 Y0\nQ1", "nct-q-without-intersection", "chooses nothing"),
+    ],
+)
+def test_a_q_that_belongs_to_nothing_is_told_with_the_word_that_is_missing(text, code, missing):
+    found = [each for each in check(text, control="nct-99m") if each.code == code]
+    assert missing in found[0].message
+    assert found[0].message.startswith("Q")
+
+
+@pytest.mark.parametrize("text", ["G81 X10 Y10 R2 Q5\nX20", "G83 X10 Y10 Z-5 R2 Q5", "G65 P1 Q5", "M98 P1 Q5"])
+def test_a_q_with_another_meaning_is_left_alone(text):
+    assert codes("G17 G90 G0 X0 Y0 Z5\nG1 X5\n" + text) <= {"no-contour"}
+
+
+CHAIN = "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 R50\n{}X-40 Y60 I-40 J20 R40 Q-1"
+
+
+def test_a_circle_whose_g3_is_not_repeated_shows_the_control_and_is_solved():
+    """P. 134: modal inside a chain."""
+    modal, told = solve(CHAIN.format("")), solve(CHAIN.format("G3 "))
+    assert modal.control == told.control == "nct-99m"
+    assert modal.answers[0].contour == told.answers[0].contour is not None
+    assert solve(CHAIN.format("").replace(" Q-1", "")).control == "nct-99m"
+    assert errors(solve(CHAIN.format("").replace(" Q-1", "")))[0].code == "nct-q-missing"
+
+
+@pytest.mark.parametrize("arc", ["G3 X60. Z-10. I10. K0. R10.", "X60. Z-10. I10. K0. R10. Q5."])
+def test_an_arc_of_a_lathe_with_centre_and_radius_does_not_show_a_mill(arc):
+    assert solve(f"G00 X40. Z0.\nG111 A180. K-30. B120. X100.\nG1 X30. Z0.\n{arc}").control == "yasnac-lx3"
+
+
+# Where compensation is on (3) -------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("text", "is_refused"),
+    [
+        (LINES, False),
+        (LINES.replace("G41 ", ""), True),
+        (LINES.replace("G41 ", "").replace("G1 X10", "G41 G1 X10"), True),
+        (LINES.replace("G41 ", "").replace("G1 ,A150", "G41 G1 ,A150"), True),
+        (LINES.replace("G1 X10", "G40 G1 X10"), True),
+        (LINES + "\nG40 G1 X0", False),
+    ],
+)
+def test_compensation_is_on_before_the_first_of_two_blocks(text, is_refused):
+    assert ("nct-compensation-off" in codes(text)) is is_refused
+
+
+# N1's point (5, 5a) -----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("point", ["X90 Y10", "X90", "Y10", "G91 X0 Y0", "X90.0 Y10.000"])
+@pytest.mark.parametrize("after", ["G1 X10 Y20 ,A225", "G3 X20 Y40 I20 J-10 R50 Q-1", "G1 X10 Y20 ,A190"])
+def test_a_point_of_the_line_that_is_its_start_point_is_told_as_that(point, after):
+    """P. 123: never parallel, and never a circle that is missed."""
+    (finding,) = errors(solve(f"G17 G90 G41 G0 X90 Y10\nG1 {point}\n{after}"))
+    assert finding.code == "nct-point-is-start"
+    assert (finding.source.place, finding.source.evidence.value, finding.alarm) == ("16.3.1, p. 123", "printed", None)
+    assert finding.span.line == 2
+
+
+@pytest.mark.parametrize(("seed", "count"), [(1501, 50), pytest.param(1502, 800, marks=pytest.mark.slow)])
+def test_no_message_over_random_broken_programs_holds_what_is_no_number(seed, count):
+    rng = Random(seed)
+    draws = (random_pair, random_chain, random_cornered)
+    for _ in range(count):
+        draw = rng.choice(draws)
+        arguments = {random_pair: (rng.choice(FORMS),), random_chain: (rng.randint(1, 3),), random_cornered: ()}[draw]
+        drawn = draw(rng, *arguments, rng.choice((17, 18, 19)))
+        lines = [line.split() for line in drawn.program]
+        for _ in range(rng.randint(1, 3)):
+            line = rng.choice(lines)
+            index = rng.randrange(len(line))
+            address = line[index].rstrip("-.0123456789")
+            others = [word for each in lines for word in each if word.startswith(address)]
+            changes = ("", address + "0", address + "90", rng.choice(others), line[index].replace("-", ""))
+            line[index] = rng.choice(changes)
+        text = "\n".join(" ".join(line) for line in lines)
+        for rules in ("enforce", "off"):
+            for finding in solve(text, control="nct-99m", rules=rules, depth="verdict").diagnostics:
+                said = f"{finding.message} {finding.help}".lower().replace("=", " ").split()
+                assert not {"nan", "inf", "-inf"} & {word.strip(",;:()") for word in said}, (text, finding.message)
+                assert all(isfinite(value) for value in finding.values.values()), (text, finding)
