@@ -8,6 +8,8 @@ from generate_nct import FORMS, random_chain, random_cornered, random_pair
 
 from contoursolve import Result, check, solve
 from contoursolve.diagnostic import Diagnostic
+from contoursolve.output.document import to_json
+from contoursolve.verification import Document, Verdict, verify
 
 FROM_CIRCLE = "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 R50\n"
 TO_CIRCLE = "N10 G17 G42 G0 X100 Y20 D0 S200 M3\nN20 G1 X-30 Y-20\nN30 G3 X20 Y40 I20 J-10 R50"
@@ -77,6 +79,26 @@ def test_a_circle_whose_g3_is_not_repeated_shows_the_control_and_is_solved():
 @pytest.mark.parametrize("arc", ["G3 X60. Z-10. I10. K0. R10.", "X60. Z-10. I10. K0. R10. Q5."])
 def test_an_arc_of_a_lathe_with_centre_and_radius_does_not_show_a_mill(arc):
     assert solve(f"G00 X40. Z0.\nG111 A180. K-30. B120. X100.\nG1 X30. Z0.\n{arc}").control == "yasnac-lx3"
+
+
+@pytest.mark.parametrize("rules", ["enforce", "off"])
+@pytest.mark.parametrize(
+    "text",
+    [
+        TO_CIRCLE,
+        FROM_CIRCLE + "G1 X-50 Y42.857 Q-1",
+        FROM_CIRCLE + "G1 X-50 ,A171.87 Q-1",
+        FROM_CIRCLE + "X-50 Y42.857 I0 J0 Q-1",
+        LINES.replace(",A150", "X90 Y10"),
+        LINES.replace(",A150", ",C5"),
+        LINES.replace("G41 ", "").replace("G1 X10", "G41 G1 X10"),
+        "G17 G90 G41 G0 X90 Y10\nG91 G3 X-50 Y0 I0 J0 R50",
+    ],
+)
+def test_what_is_refused_here_is_verified(text, rules):
+    result = solve(text, control="nct-99m", rules=rules)
+    documents = Document("program", text.encode()), Document("result", to_json(result).encode())
+    assert verify(*documents).verdict is not Verdict.FAILED
 
 
 # Where compensation is on (3) -------------------------------------------------------------------------------

@@ -134,6 +134,8 @@ def lacks_words(case: Case) -> bool:
                 return True
         elif each.turn is None and not each.is_over and has_angle + sum(coordinates) < (1 if each.is_followed else 2):
             return True
+        elif each.turn is None and each.is_over and has_angle + sum(coordinates) < len((",A", *ENDS)):
+            return True
     return False
 
 

@@ -143,14 +143,20 @@ def _of_place(each: Element, names: set[str], around: set[str]) -> Iterator[str]
     """What cannot stand where the block is."""
     if each.is_over and names & {",A", "R"} and "@compensated" not in around:
         yield "without G41 or G42"
-    if names & {",A", "Q"} and "@alone" in around:
+    if names & {",A", "R"} and "@alone" in around:
         yield "over-defined without an element before it"
     if each.is_over and each.turn is None and ",A" in names and "@rapid" in around:
         yield "with G0"
     if not each.is_over and "Q" in names and "@alone" not in around:
         yield "Q without an intersection"
-    if each.turn is None and not each.is_over and ",A" in names and names & _POINT and each.is_followed:
-        yield "its direction is given twice"
+    if each.turn is None and not each.is_over and each.is_followed:
+        if ",A" in names and names & _POINT:
+            yield "its direction is given twice"
+        if not names & {",A", *_POINT}:
+            yield "its direction is not given"
+    whole = {"first", "second", ",A"} if each.turn is None else {"first", "second", *_CENTERS, "R"}
+    if each.is_over and "Q" in names and not whole <= names:
+        yield "Q, and a word that over-defines it is missing"
     if names & _BENDS and "@last" in around:
         yield "a corner and nothing after it"
     if "off-plane" in names and "@ordinary" not in around:
@@ -169,7 +175,8 @@ def _of_shape(each: Element, names: set[str], given: Mapping[str, Decimal]) -> I
     else:
         if not each.is_over and not names & {*_CENTERS, "R"}:
             yield "the circle has neither a centre nor a radius"
-        if not each.is_over and names & _CENTERS and "R" in names:
+        is_whole = names >= _CENTERS and len({name.removesuffix("-step") for name in names & _POINT}) == len(_CENTERS)
+        if not each.is_over and names & _CENTERS and "R" in names and not is_whole:
             yield "the circle has a centre and a radius"
         if not each.is_over and "R" in names and not names & _POINT:
             yield "R has no point"
