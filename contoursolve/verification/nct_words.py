@@ -132,9 +132,7 @@ def lacks_words(case: Case) -> bool:
         if each.turn is not None and not each.is_over:
             if not (case.states(*map(each.given, CENTERS)) or (has_radius and all(coordinates))):
                 return True
-        elif each.turn is None and not each.is_over and has_angle + sum(coordinates) < (1 if each.is_followed else 2):
-            return True
-        elif each.turn is None and each.is_over and has_angle + sum(coordinates) < len((",A", *ENDS)):
+        elif each.turn is None and has_angle + sum(coordinates) < (3 if each.is_over else 1 if each.is_followed else 2):
             return True
     return False
 
