@@ -208,7 +208,8 @@ class Batch:
                 answers.append(None)
                 continue
             corners = {name: float(values[name]) for name in sizes if name in values}
-            answers.append((start, trace(like, solution_at(kind.system, start, corners, row[0]))))
+            contour = trace(like, solution_at(kind.system, start, corners, row[0]))
+            answers.append(None if contour.crossing is not None else (start, contour))
         return answers
 
     def _inputs(
@@ -245,6 +246,9 @@ class Batch:
         certificate = certify(profile, kind.system, out, bound) if self.is_proven else None
         if certificate is not None and certificate.proof not in (Proof.EXACT, Proof.UNIQUE):
             return None
+        contour = trace(profile, solution_at(kind.system, profile.start, sizes_of(profile), out))
+        if contour.crossing is not None:
+            return None
         return Answer(
             form=like.form,
             lines=tuple([block.line for block in claim.blocks]),
@@ -254,7 +258,7 @@ class Batch:
             unit=like.unit,
             start=profile.start,
             profile=profile,
-            contour=trace(profile, solution_at(kind.system, profile.start, sizes_of(profile), out)),
+            contour=contour,
             sides=like.sides,
             error_bound=bound,
             diagnostics=(),

@@ -2,12 +2,13 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from math import atan2, degrees, hypot, tau
+from math import atan2, cos, degrees, hypot, pi, radians, sin, tau
+from typing import NamedTuple
 
 from contoursolve.model import Line, Plane, Profile, Turn
 from contoursolve.shown import Shown
 from contoursolve.solving import Point, Solution
-from contoursolve.tolerance import LENGTH
+from contoursolve.tolerance import AGREEMENT, LENGTH
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,6 +57,13 @@ class ArcSegment:
 Segment = LineSegment | ArcSegment
 
 
+class Crossing(NamedTuple):
+    """An element that lies on the other side of the spindle axis than the path begins, and its farthest place there."""
+
+    element: Segment
+    at: Point
+
+
 @dataclass(frozen=True, slots=True)
 class Contour(Shown):
     """The path of one contour from `start` to `end` without gaps, and its named points. Contours with the same numbers
@@ -75,6 +83,37 @@ class Contour(Shown):
         that an arc travels).
         """
         return [_row(element, self.plane) for element in self.elements]
+
+    @property
+    def crossing(self) -> Crossing | None:
+        """Where the path lies farthest across the spindle axis from where it begins, by more than the least increment;
+        None where it does not, or the machine is no lathe. A path may begin on either side."""
+        axis = next((number for number, is_diameter in enumerate(self.plane.diameters) if is_diameter), None)
+        if axis is None:
+            return None
+        side, across = 0.0, None
+        for element in self.elements:
+            for at in _extremes(element, axis):
+                if abs(at[axis]) > AGREEMENT:
+                    side = side or at[axis]
+                    if at[axis] * side < 0 and (across is None or abs(at[axis]) > abs(across.at[axis])):
+                        across = Crossing(element, at)
+        return across
+
+
+def _extremes(segment: Segment, axis: int) -> list[Point]:
+    """The ends of an element, and where an arc turns back along an axis, in the order of travel."""
+    if isinstance(segment, LineSegment):
+        return [segment.start, segment.end]
+    quarter = radians(90 * axis)
+    begin = atan2(segment.start[1] - segment.center[1], segment.start[0] - segment.center[0])
+    ways = {((angle - begin) * segment.turn.sign) % tau: angle for angle in (quarter, quarter + pi)}
+    turning = [
+        (segment.center[0] + segment.radius * cos(ways[way]), segment.center[1] + segment.radius * sin(ways[way]))
+        for way in sorted(ways)
+        if way < radians(segment.sweep)
+    ]
+    return [segment.start, *turning, segment.end]
 
 
 def _row(element: Segment, plane: Plane) -> dict[str, str | float | None]:

@@ -17,6 +17,7 @@ from contoursolve.explain import (
     Context,
     context_of,
     explain_beyond,
+    explain_crossing,
     explain_ignored,
     explain_missing,
     explain_offence,
@@ -199,9 +200,9 @@ def examine(
 
     is_path = bool(solution.points) and notebook.status in (Status.SOLVED, Status.OVERDETERMINED)
     contour = trace(profile, solution) if is_path else None
-    if contour is not None and claim.directives:
-        for finding in explain_beyond(context, profile, solution, contour):
-            notebook.add(finding)
+    if contour is not None:
+        notebook.findings += explain_crossing(context, profile, contour)
+        notebook.findings += explain_beyond(context, profile, solution, contour) if claim.directives else ()
     touching = {remark.subject for remark in solution.remarks if remark.kind is RemarkKind.TOUCHES}
     shown = {*profile.intersections} - touching
     sides = {choice.point: choice.side for choice in profile.choices if choice.given and choice.point in shown}

@@ -362,6 +362,17 @@ def explain_singular(context: Context, names: Sequence[str], loose: Sequence[str
     return report(context, rule, Basis.NUMERICAL, words, free=free, do="do" if len(words) > 1 else "does")
 
 
+def explain_crossing(context: Context, profile: Profile, contour: Contour) -> Iterator[Diagnostic]:
+    """A path that goes on across the spindle axis."""
+    crossing = contour.crossing
+    if crossing is not None:
+        (radius,) = (at for at, is_diameter in zip(crossing.at, contour.plane.diameters, strict=True) if is_diameter)
+        start, place = (place_text(profile, scalars_of({"": at})) for at in (contour.start, crossing.at))
+        fields: dict[str, Any] = {"subject": crossing.element.name, "start": start, "place": place}
+        values = {"limit": 0.0, "actual": radius, "off_by_mm": abs(radius)}
+        yield report(context, context.row(Trouble.AXIS_CROSSED), Basis.NUMERICAL, [], values, **fields)
+
+
 def explain_beyond(context: Context, profile: Profile, solution: Solution, contour: Contour) -> Iterator[Diagnostic]:
     """Facts about a whole line or circle that hold where the path does not reach."""
     from contoursolve.beyond import facts_beyond  # noqa: PLC0415 - few blocks state more than their words

@@ -283,12 +283,76 @@ def test_bevel_by_setback_is_as_long_on_both_sides_of_the_virtual_intersection()
     assert abs(place(end) - (-50 + 30j)) == pytest.approx(30)
 
 
+def test_bevel_by_length_is_a_45_degree_segment_of_that_length():
+    """The oracle: as the default reading with the amount divided by the square root of two."""
+    for words, sizes in (("G111 X100. A180. K-30. B120.", (5, 4)), ("G112 U0 I10. K-50. R30.", (5, 3))):
+        block, shorter = (f"{words} C{c:.15f} D{d:.15f}" for c, d in (sizes, [each / 2**0.5 for each in sizes]))
+        answer, like = configured({"bevel": "length"}, block), configured({}, shorter)
+        assert answer.status is like.status is contoursolve.Status.SOLVED
+        for one, two in zip(answer.contour.elements, like.contour.elements, strict=True):
+            assert abs(place(one.end) - place(two.end)) < CLOSE
+        bevels = [each for each in answer.contour.elements if each.name.startswith("corner")]
+        assert [each.length for each in bevels] == pytest.approx(sizes)
+        (convention,) = answer.claim.conventions
+        assert (convention.value, convention.evidence.value) == ("length", "assumed")
+    too_large = configured({"bevel": "length"}, "G111 X100. A180. K-30. B120. C60.")
+    (finding,) = too_large.diagnostics
+    assert finding.values["limit"] / 2**0.5 == pytest.approx(
+        configured({}, "G111 X100. A180. K-30. B120. C60.").diagnostics[0].values["limit"]
+    )
+    asked = configured({"bevel": "length"}, "G111 X100. A180. K-30. B120. C? (contoursolve: length of corner 1 = 5)")
+    assert asked.answers[0].value == pytest.approx(5)
+
+
+def test_a_path_that_crosses_the_spindle_axis_is_said_with_the_place():
+    for text, reached in (
+        ("G00 X26.193 Z-11.645\nG111 I1.766 Z-4.662 A90. B-66.607", (-4.662, -2.559)),
+        ("G00 X20. Z-50.\nG112 U0 I10. K-50. R30.", (-100.0, -20.0)),
+        ("G00 X30. Z0.\nG11 X-80. K-7.", (-7.0, -80.0)),
+        ("G00 X30. Z0.\nG12 Z-20. I-16.", (-20.0, -2.0)),
+        ("G00 X30. Z0.\nG01 X-20. K-7.", (-7.0, -20.0)),
+        ("G00 X0 Z0.\nG111 A60. I10. B-45. Z30.", None),
+        ("G00 X-40. Z0.\nG111 A180. K-30. B120. X100.", (-70.415, 100.0)),
+    ):
+        result = solve(text)
+        assert codes(result) == ["axis-crossed"], text
+        (finding,) = (each for each in result.diagnostics if each.code == "axis-crossed")
+        assert finding.severity.value == "warning"
+        crossing = result.answers[0].contour.crossing
+        assert finding.values["actual"] == crossing.at[1]
+        if reached:
+            assert crossing.at == (pytest.approx(reached[0], abs=1e-3), pytest.approx(reached[1] / 2, abs=1e-3))
+            assert f"X{2 * crossing.at[1]:.3f}" in finding.message
+
+
+def test_a_path_on_one_side_of_the_spindle_axis_is_no_crossing():
+    for text in (
+        "G00 X-40. Z0.\nG111 A180. K-30. B-120. X-100. Q5.",
+        "G00 X40. Z0.\nG111 A270. I-20. X0 Z-5.",
+        "G00 X0 Z0.\nG111 A90. I10. X60. B120.",
+        "G00 X0 Z0.\nG111 A-90. I-10. X-60. B-120.",
+        "G00 X40. Z-50.\nG112 U0 I10. K-50. R30.",
+    ):
+        assert "axis-crossed" not in codes(solve(text)), text
+
+
+def test_contours_that_are_solved_together_cross_the_axis_as_each_by_itself():
+    """The columns of `solve` and the patterns of `expand` tell the same as one contour by itself."""
+    blocks = [f"G111 I1.766 Z-4.662 A90. B-{60 + number / 4:.2f}" for number in range(40)]
+    text = "\n".join(f"G00 X26.193 Z-11.645\n{block}" for block in blocks)
+    alone = [solve(f"G00 X26.193 Z-11.645\n{block}").diagnostics for block in blocks]
+    assert 0 < sum(map(bool, alone)) < len(blocks)
+    messages = [(2 * number, each.message) for number, found in enumerate(alone, 1) for each in found]
+    assert [(each.span.line, each.message) for each in solve(text).diagnostics] == messages
+    assert contoursolve.expand(text).summary.warnings == len(messages)
+
+
 def test_settings_have_names_and_a_contour_tells_on_which_it_rests():
     assert configured({}, "G111 X100. A180. K-30. B120. C5.").claim.conventions[0].setting.name == "bevel"
     assert configured({}, "G112 U0 I10. K-50. R30. D5.").claim.conventions[0].setting.name == "bevel"
     assert configured({}, "G111 X100. A180. K-30. B120. P5.").claim.conventions == ()
     assert configured({}, "G11 Z-20. I5.").claim.conventions == ()
-    with pytest.raises(ValueError, match="values are: axis-45, setback"):
+    with pytest.raises(ValueError, match="values are: axis-45, length, setback"):
         YASNAC_LX3.configure({"bevel": "45"})
 
 

@@ -437,6 +437,8 @@ def test_random_programs_of_every_form_are_right(desk):
     [
         ("two circles", "nct-99m.circle-circle-q", "right-is-negative"),
         ("G112, bevels", "yasnac-lx3.bevel", "setback"),
+        ("G112, bevels", "yasnac-lx3.bevel", "length"),
+        ("two bevels", "yasnac-lx3.bevel", "length"),
         ("two bevels", "yasnac-lx3.bevel", "setback"),
         ("bevel and rounding", "yasnac-lx3.bevel", "setback"),
     ],

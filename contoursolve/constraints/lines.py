@@ -160,7 +160,7 @@ class Extent(Equation):
 
 @dataclass(frozen=True, slots=True)
 class ChamferLeg(Equation):
-    """A 45 degree chamfer from `begin` to `end` extends as far as its size along `axis`, to one side.
+    """A 45 degree chamfer from `begin` to `end` extends as far as a share of its size along `axis`, to one side.
 
     The side is the way in which a path advances, see `Parallel`; or the way between the directions of the two lines
     `between`, where these are given.
@@ -174,6 +174,7 @@ class ChamferLeg(Equation):
     advance: tuple[tuple[str, ...], ...]
     between: tuple[str, ...] = ()
     given: str = ""
+    share: float = 1
 
     def reads(self) -> tuple[str, ...]:
         return scalar(self.begin, self.axis), scalar(self.end, self.axis), self.size
@@ -183,7 +184,7 @@ class ChamferLeg(Equation):
 
     def residual(self, at: Lookup) -> Any:
         extent = at.coordinate(self.end, self.axis) - at.coordinate(self.begin, self.axis)
-        return extent - at.side(self.side) * at.radius(self.size)
+        return extent - self.share * at.side(self.side) * at.radius(self.size)
 
     def senses(self, at: Lookup) -> tuple[Any, ...]:
         if self.between:

@@ -118,7 +118,7 @@ def _try(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], before: Before
         return None
     # No change of the block moves its start.
     findings = [each for each in answer.diagnostics if each.severity is not Severity.INFO and not _is_before(each)]
-    rules = [each for each in findings if answer.profile.is_extended and _is_rule(each)]
+    rules = [each for each in findings if (answer.profile.is_extended and _is_rule(each)) or _is_crossing(each)]
     if not all(each in rules or _now_agrees(each, before) for each in findings):
         return None
     reference = before.contour
@@ -146,6 +146,11 @@ def _is_settled(answer: Answer, edits: tuple[Edit, ...]) -> bool:
 def _is_before(finding: Diagnostic) -> bool:
     """Whether it is about what stands before the contour."""
     return finding.about is Trouble.START_IN_INCREMENTS
+
+
+def _is_crossing(finding: Diagnostic) -> bool:
+    """Whether the path crosses the spindle axis, which may be meant."""
+    return finding.about is Trouble.AXIS_CROSSED
 
 
 def _is_rule(finding: Diagnostic) -> bool:

@@ -410,6 +410,20 @@ SYSTEM_RULES = (
         rejected=("G17 G41 G0 X5000 Y0\nG3 I-5000 J0\nG1 X-6000 Y4999.9999999999 ,A180 Q-1",),
     ),
     Rule(
+        code="axis-crossed",
+        message="{subject} crosses the spindle axis: the contour begins at {start} and reaches {place}",
+        help="look for a lost sign or a wrong angle; nothing to do if the tool is meant to pass the centre",
+        source=_GEOMETRY,
+        about=Trouble.AXIS_CROSSED,
+        severity=Severity.WARNING,
+        accepted=(_GOOD, "G00 X-40. Z0.\nG111 A180. K-30. B-120. X-100.", "G00 X40. Z0.\nG111 A270. I-20. X0 Z-5."),
+        rejected=(
+            "G00 X26.193 Z-11.645\nG111 I1.766 Z-4.662 A90. B-66.607",
+            "G00 X-40. Z0.\nG111 A180. K-30. B120. X100.",
+            "G00 X0 Z0.\nG111 A60. I10. B-45. Z30.",
+        ),
+    ),
+    Rule(
         code="line-vanishes",
         message="{subject} has no length and is left out",
         help="check the words that place its ends",

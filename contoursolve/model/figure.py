@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from enum import Enum
+from math import sqrt
 
 FIRST, SECOND = 0, 1
 """Indices of a plane's first and second axis."""
@@ -50,8 +51,18 @@ class CornerShape(Enum):
     """An arc tangent to both elements; its size is the radius."""
     CHAMFER_AXIS_45 = "chamfer axis-45"
     """A segment at 45 degrees to the axes; its size is the extent along each axis."""
+    CHAMFER_LENGTH_45 = "chamfer length-45"
+    """A segment at 45 degrees to the axes; its size is its own length."""
     CHAMFER_SETBACK = "chamfer setback"
     """A segment whose two ends are as far from the virtual intersection as its size; on an arc, along the chord."""
+
+    @property
+    def share(self) -> float:
+        """The extent along each axis of a segment at 45 degrees of size 1; 0 for what does not run at 45 degrees."""
+        return _SHARES.get(self, 0)
+
+
+_SHARES = {CornerShape.CHAMFER_AXIS_45: 1, CornerShape.CHAMFER_LENGTH_45: sqrt(0.5)}
 
 
 @dataclass(frozen=True, slots=True)

@@ -55,9 +55,8 @@ def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False)
 def convention_text(convention: Convention, control: str) -> str:
     """What the manual does not say and a contour rests on."""
     setting = convention.setting
-    evidence = setting.source.evidence.value
     name = f"{control}.{setting.name}" if control else setting.name
-    return f"{evidence}: {convention.meaning} (--set {name}={convention.value})"
+    return f"{convention.evidence.value}: {convention.meaning} (--set {name}={convention.value})"
 
 
 def assumptions_text(answer: Answer) -> list[str]:

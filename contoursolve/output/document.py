@@ -115,7 +115,7 @@ def _contour(answer: Answer) -> dict[str, Any]:
                 "setting": each.setting.name,
                 "value": each.value,
                 "meaning": each.meaning,
-                "evidence": each.setting.source.evidence.value,
+                "evidence": each.evidence.value,
             }
             for each in answer.claim.conventions
         ],

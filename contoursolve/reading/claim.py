@@ -43,6 +43,7 @@ class Trouble(Enum):
     START_UNITS = "start-units"
     ASKED_NOTHING = "asked-nothing"
     WORD_UNUSED = "word-unused"
+    AXIS_CROSSED = "axis-crossed"
 
 
 @dataclass(frozen=True, slots=True)

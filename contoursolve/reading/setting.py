@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from contoursolve.model import Role
 from contoursolve.rules import Condition, Stated
-from contoursolve.source import Source
+from contoursolve.source import Evidence, Source
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,6 +31,11 @@ class Convention:
     def meaning(self) -> str:
         """What the value means."""
         return self.setting.values[self.value]
+
+    @property
+    def evidence(self) -> Evidence:
+        """How well it is known that the control means this: of another value than the default one, not at all."""
+        return self.setting.source.evidence if self.value == self.setting.default else Evidence.ASSUMED
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -25,7 +25,7 @@ from contoursolve.backends.numeric import (
     true,
 )
 from contoursolve.constraints import Coordinate, Distance, Heading, Offset, OnCircle, Radius, System, Values
-from contoursolve.model import FIRST, SECOND, Arc, Corner, CornerShape, Fact, Figure, Line, scalar
+from contoursolve.model import FIRST, SECOND, Arc, Corner, Fact, Figure, Line, scalar
 from contoursolve.solving.compile import compile_system
 from contoursolve.solving.corners import Pair
 from contoursolve.solving.plan import AffineStep, DistanceStep, Step, TwoCirclesStep, lines_through
@@ -297,7 +297,7 @@ def _check_corner(source: Source, corner: Corner) -> Checks:
         yield Check(RefusalKind.LANDING_UNKNOWN, name, "", Test.APART, 0.5), out(f"landing:{name}")
     reverses = RefusalKind.CORNER_REVERSES
     yield Check(RefusalKind.CORNER_STRAIGHT, name, "", Test.APART, REGULAR, opposite=reverses), out(f"turn:{name}")
-    if corner.shape is CornerShape.CHAMFER_AXIS_45:
+    if corner.shape.share:
         for margin in _inside(source, corner):
             yield Check(RefusalKind.BEVEL_OUTSIDE, name, "", Test.NOT_BELOW, -LENGTH), margin
         for way in ("in", "out"):

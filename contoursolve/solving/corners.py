@@ -57,8 +57,8 @@ def build_corner(shape: CornerShape, at: Pair, before: Edge, after: Edge, size: 
     if shape is CornerShape.FILLET:
         from_center, begin, end = _fillet(before, after, size, sign(turn))
         center = _plus(at, from_center)
-    elif shape is CornerShape.CHAMFER_AXIS_45:
-        begin, end = _chamfer_axis_45(before, after, size, quadrant, turn)
+    elif shape.share:
+        begin, end = _chamfer_45(before, after, _times(shape.share * size, quadrant), turn)
     else:
         begin, end = _along(before, size, -1), _along(after, size, 1)
     residuals = (_off(before, begin), _off(after, end), *_misfit(shape, before, after, size, begin, end, center, at))
@@ -130,9 +130,8 @@ def _contact(edge: Edge, center: Pair, size: Any, side: Any) -> Pair:
     return _minus(_times(edge.radius / (edge.radius - edge.turn * side * size), from_center), edge.spoke)
 
 
-def _chamfer_axis_45(before: Edge, after: Edge, size: Any, quadrant: Pair, turn: Any) -> tuple[Pair, Pair]:
-    """Both ends of the segment, from the intersection: end - begin = size * quadrant."""
-    extent = _times(size, quadrant)
+def _chamfer_45(before: Edge, after: Edge, extent: Pair, turn: Any) -> tuple[Pair, Pair]:
+    """Both ends of the segment, from the intersection: end - begin = extent."""
     if before.spoke is None and after.spoke is None:
         # s * before + t * after = extent, by Cramer's rule.
         setback_in = _cross(extent, after.direction) / turn
@@ -193,7 +192,7 @@ def _misfit(
         return _norm(begin) - size, _norm(end) - size
     if center is None:
         extent = _minus(end, begin)
-        return magnitude(extent[0]) - size, magnitude(extent[1]) - size
+        return magnitude(extent[0]) - shape.share * size, magnitude(extent[1]) - shape.share * size
     spokes = [_minus(point, _minus(center, at)) for point in (begin, end)]
     travels = [_travel(edge, point) for edge, point in ((before, begin), (after, end))]
     return (

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from math import hypot, inf, isfinite
 
-from contoursolve.model import FIRST, SECOND, Arc, Corner, CornerShape, Figure, Line, Profile
+from contoursolve.model import FIRST, SECOND, Arc, Corner, Figure, Line, Profile
 from contoursolve.solving.solution import BESIDE, Point, Refusal, RefusalKind, Remark, RemarkKind
 from contoursolve.tolerance import LENGTH, REGULAR, RESIDUAL
 
@@ -74,7 +74,7 @@ def _check_corner(
     if abs(out[f"turn:{corner.name}"]) <= REGULAR:
         straight = out[f"cosine:{corner.name}"] > 0
         return refuse(RefusalKind.CORNER_STRAIGHT if straight else RefusalKind.CORNER_REVERSES)
-    if corner.shape is CornerShape.CHAMFER_AXIS_45:
+    if corner.shape.share:
         outside = _outside_rectangle(corner, figure, points)
         if outside > LENGTH:
             return refuse(RefusalKind.BEVEL_OUTSIDE, off_by_mm=outside)

@@ -196,13 +196,17 @@ class Draft:
                 self._touch(element, corner, point, way)
             elif corner.shape is CornerShape.CHAMFER_SETBACK:
                 self._set_back(element, corner, point, way)
-        if corner.shape is CornerShape.CHAMFER_AXIS_45:
+        share = corner.shape.share
+        if share:
             if any(isinstance(element, Arc) for element, *_ in meeting):
                 raise StatementError(f"{name} is a bevel beside an arc: its size must be a number")
             advance = () if corner.lands_on else self._advance(corner)
             between = tuple(element.name for element, *_ in meeting) if corner.lands_on else ()
             self.add(
-                *(ChamferLeg(begin, end, size, f"{name}.{axis}", axis, advance, between) for axis in (FIRST, SECOND))
+                *(
+                    ChamferLeg(begin, end, size, f"{name}.{axis}", axis, advance, between, share=share)
+                    for axis in (FIRST, SECOND)
+                )
             )
         self.figure = replace(self.figure, points=(*self.figure.points, *points), radii=(*self.figure.radii, size))
 

@@ -6,6 +6,7 @@ Points count from the start point: real is Z, imaginary is X as radius.
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial
+from math import sqrt
 
 from contoursolve.model import FIRST, SECOND
 from contoursolve.statements import MeetsLine
@@ -144,6 +145,7 @@ def _lines(case: Case, used: tuple[str, ...], points: tuple[complex, complex]) -
     """The lines between these points, in the directions of the words; corner 2 lands parallel to Z at a programmed
     X, and parallel to X at a programmed Z, unless a fact says which line it meets."""
     v1, v2 = points
+    bevel = next((each.value for each in case.claim.conventions if each.setting.name == "bevel"), "")
     by_x, by_z = (bool(set(used) & set(ends)) for ends in (END_X, END_Z))
     return Lines(
         v1=v1,
@@ -153,7 +155,8 @@ def _lines(case: Case, used: tuple[str, ...], points: tuple[complex, complex]) -
         landing=None if by_x == by_z else complex(1, 0) if by_x else complex(0, 1),
         zero=0.0 if "A" in used or not v1 else case.limit / abs(v1),
         meeting=_meeting(case, v2),
-        is_setback=any(each.value == "setback" for each in case.claim.conventions),
+        is_setback=bevel == "setback",
+        share=sqrt(0.5) if bevel == "length" else 1.0,
     )
 
 

@@ -43,7 +43,7 @@ def check_elements(case: Case, ledger: Ledger, lines: Lines) -> tuple[Slots, Siz
     """
     found = []
     for slots in _readings(case):
-        attempt, sizes = Ledger(), _sizes(case, slots, is_setback=lines.is_setback)
+        attempt, sizes = Ledger(), _sizes(case, slots, lines)
         corners = {corner.name: corner for corner in _corners(case, attempt, lines, sizes)}
         if attempt.failures:
             attempt.omit("the elements", "the corners between them are not defined")
@@ -55,7 +55,7 @@ def check_elements(case: Case, ledger: Ledger, lines: Lines) -> tuple[Slots, Siz
         ledger.require("the elements are those that the words make", case.texts(*_WORDS), True)
         ledger.add(best[0])
         return best[1:]
-    list(_corners(case, ledger, lines, _sizes(case, {}, is_setback=False)))
+    list(_corners(case, ledger, lines, _sizes(case, {}, lines)))
     shown = ", ".join("arc" if move.circle else "line" for move in case.moves) or "nothing"
     wanted = ", ".join("arc" if shape else "line" for _, shape in _order(case))
     remark = f"the result has {shown}, and the words make {wanted}"
@@ -95,14 +95,14 @@ def _readings(case: Case) -> Iterator[Slots]:
             yield dict(zip((name for name, _ in chosen), case.moves, strict=True))
 
 
-def _size(move: Move, at: complex | None) -> float:
-    """The size of a claimed corner: its radius, how far it is set back from `at`, or its extent along the axes."""
+def _size(move: Move, at: complex, lines: Lines) -> float:
+    """The size of a claimed corner: its radius, how far it is set back from `at`, or by its extent along the axes."""
     run = move.end - move.start
-    extent = max(abs(run.real), abs(run.imag)) if at is None else abs(move.start - at)
+    extent = abs(move.start - at) if lines.is_setback else max(abs(run.real), abs(run.imag)) / lines.share
     return move.circle.radius if move.circle else extent
 
 
-def _sizes(case: Case, slots: Slots, *, is_setback: bool) -> Sizes:
+def _sizes(case: Case, slots: Slots, lines: Lines) -> Sizes:
     """Sizes as stated; one that is asked for is that of its element."""
     sizes: Sizes = {}
     for name, *_ in CORNERS:
@@ -111,7 +111,7 @@ def _sizes(case: Case, slots: Slots, *, is_setback: bool) -> Sizes:
             if word not in case.asked:
                 sizes[word] = case.amount(word)
             elif name in slots:
-                sizes[word] = _size(slots[name], at if is_setback else None)
+                sizes[word] = _size(slots[name], at, lines)
             else:
                 sizes[word] = 0.0
     return sizes
@@ -225,7 +225,7 @@ def _check_corner(
             far = abs(end - corner.at) - corner.size
             ledger.measure(f"{name} is set back by its size on the line {side}", word, far, case.limit + lines.slack)
     elif corner.word in BEVELS:
-        extent = corner.size * corner.quadrant
+        extent = lines.share * corner.size * corner.quadrant
         ledger.measure(f"{name} is a 45 degree bevel", word, abs(move.end - move.start - extent), case.limit)
     elif move.circle:
         circle = move.circle

@@ -51,6 +51,8 @@ class Lines:
     meeting: Meeting | None = None
     is_setback: bool = False
     """Whether a bevel is set back equally along both lines, by the setting, and not at 45 degrees."""
+    share: float = 1.0
+    """How far a bevel at 45 degrees of size 1 extends along each axis, by the setting."""
 
     @property
     def onward(self) -> complex:
@@ -96,7 +98,7 @@ def draw(lines: Lines, sizes: Sizes) -> Drawing:
             turn = cross(before, after) if after is not None else 0.0
             if after is None or not turn:
                 raise UnmeasurableError(f"{name} joins no two lines")
-            shape = _draw_corner(at, before, after, sizes[word], quadrant if word in BEVELS else None)
+            shape = _draw_corner(at, before, after, sizes[word], lines.share * quadrant if word in BEVELS else None)
             if word in BEVELS and lines.is_setback:
                 shape = Bevel(at - sizes[word] * before, at + sizes[word] * after, sizes[word])
             ends[name], shapes[name] = (shape.begin, shape.end), shape
@@ -112,7 +114,7 @@ def _signs(way: complex) -> complex:
 
 
 def _draw_corner(at: complex, before: complex, after: complex, size: float, quadrant: complex | None) -> Round | Bevel:
-    """A rounding, or a bevel whose extents have the signs of `quadrant`."""
+    """A rounding, or a bevel whose extents have the signs of `quadrant`, which a bevel of size 1 extends."""
     turn = cross(before, after)
     if quadrant is not None:
         extent = size * quadrant

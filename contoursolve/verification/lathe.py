@@ -3,6 +3,8 @@
 Points count from the start point: real is Z, imaginary is X as radius.
 """
 
+from math import sqrt
+
 from contoursolve.model import FIRST, SECOND, Turn
 from contoursolve.reading import Claim
 from contoursolve.verification.case import Case
@@ -106,7 +108,7 @@ def _arc_course(case: Case) -> Course:
     ring = Ring(center, radius, Turn.CCW if side > 0 else Turn.CW, case.start_error)
     first, last = meet(line, ring, unsure), meet(ring, landing, unsure)
     bends = {
-        number: Bend(f"corner {number + 1}", _shape(case, name), case.amount(name), case.texts(name))
+        number: Bend(f"corner {number + 1}", *_shape(case, name), case.texts(name))
         for number, names in enumerate(CORNERS)
         for name in names
         if case.states(name) and case.value(name)
@@ -145,12 +147,15 @@ def why_not(case: Case) -> str:
     return ""
 
 
-def _shape(case: Case, name: str) -> Shape:
-    """A rounding, or a bevel as the setting has it."""
+def _shape(case: Case, name: str) -> tuple[Shape, float]:
+    """A rounding, or a bevel as the setting has it, and its size, mm."""
+    amount = case.amount(name)
     if name in ("P", "Q"):
-        return Shape.ROUNDING
+        return Shape.ROUNDING, amount
     values = {each.setting.name: each.value for each in case.claim.conventions}
-    return Shape.SETBACK if values.get("bevel") == "setback" else Shape.BEVEL
+    if values.get("bevel") == "setback":
+        return Shape.SETBACK, amount
+    return Shape.BEVEL, amount * sqrt(0.5) if values.get("bevel") == "length" else amount
 
 
 def redo(case: Case) -> Drawing | None:

@@ -11,7 +11,7 @@ from contoursolve.dialects.yasnac_lx3.g112 import G112_FORMS
 from contoursolve.dialects.yasnac_lx3.g112_rules import G112_RULES
 from contoursolve.dialects.yasnac_lx3.leaving import LEAVING_FORMS
 from contoursolve.dialects.yasnac_lx3.leaving_rules import LEAVING_RULES
-from contoursolve.dialects.yasnac_lx3.lexicon import BEVEL, LATHE, MODES
+from contoursolve.dialects.yasnac_lx3.lexicon import BEVEL, LATHE, MODES, MOTION_AFTER
 from contoursolve.syntax import Block, Word
 
 
@@ -31,6 +31,6 @@ YASNAC_LX3 = Dialect(
     find=find,
     signs=_signs,
     contours="G111, G112, G11, G12, and G01 with I or K",
-    settings=(BEVEL,),
+    settings=(BEVEL, MOTION_AFTER),
     has_runs=False,
 )

@@ -4,9 +4,17 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from functools import lru_cache
 
-from contoursolve.dialects.yasnac_lx3.lexicon import ADDRESSES, AXIS_45, BEVEL, SETBACK
+from contoursolve.dialects.yasnac_lx3.lexicon import (
+    ADDRESSES,
+    AXIS_45,
+    BEVEL,
+    LENGTH_45,
+    MOTION_AFTER,
+    SETBACK,
+    UNCHANGED,
+)
 from contoursolve.model import Choice, CornerShape, Given
-from contoursolve.reading import Claim, Code, Effect, Form, Modes, State, codes_of
+from contoursolve.reading import Claim, Code, Effect, Form, Modes, State, apply_modes, codes_of
 from contoursolve.syntax import Block, Word
 
 OTHER_G = "other G"
@@ -15,12 +23,25 @@ OTHER_G = "other G"
 AXIS_EFFECTS = (Effect.MOTION, Effect.CYCLE, Effect.SINGLE, Effect.NO_MOTION, Effect.PRESET, Effect.CONTOUR)
 """G codes that use axis words themselves."""
 
-_SHAPES = {AXIS_45: CornerShape.CHAMFER_AXIS_45, SETBACK: CornerShape.CHAMFER_SETBACK}
+_SHAPES = {
+    AXIS_45: CornerShape.CHAMFER_AXIS_45,
+    LENGTH_45: CornerShape.CHAMFER_LENGTH_45,
+    SETBACK: CornerShape.CHAMFER_SETBACK,
+}
 
 
 def bevel_of(modes: Modes) -> CornerShape:
     """What a bevel is, by the setting."""
     return _SHAPES[modes.convention(BEVEL).value]
+
+
+def after_cornering(block: Block, state: State, modes: Modes) -> State:
+    """The state after a block of multiple cornering, which is not modal: what it stands with applies, and the motion
+    is the one that was in force before it, or by the setting G01."""
+    after, motion = apply_modes(state, block, modes), state.motion
+    if modes.convention(MOTION_AFTER).value != UNCHANGED:
+        motion = 1
+    return after if after.motion == motion else replace(after, motion=motion)
 
 
 def claim_of(
@@ -89,12 +110,9 @@ def claim_of(
 @lru_cache(maxsize=32)
 def _bevels(form: Form) -> frozenset[str]:
     """The words whose meaning is a convention."""
-    return frozenset(word for row in form.corners for word, shape in row.shapes.items() if shape in _CONVENTIONAL)
+    return frozenset(word for row in form.corners for word, shape in row.shapes.items() if shape in _SHAPES.values())
 
 
 @lru_cache(maxsize=32)
 def _vocabulary(form: Form) -> Mapping[str, tuple[str, int]]:
     return {row.address: (row.address, 0) for row in ADDRESSES if row.address in form.allowed}
-
-
-_CONVENTIONAL = (CornerShape.CHAMFER_AXIS_45, CornerShape.CHAMFER_SETBACK)

@@ -1,13 +1,12 @@
 """YASNAC LX3 G111, taper multiple cornering: its facts and its path."""
 
-from dataclasses import replace
 from functools import lru_cache
 
 from contoursolve.constraints import Coordinate, Heading, Offset
-from contoursolve.dialects.yasnac_lx3.claim import bevel_of, claim_of
+from contoursolve.dialects.yasnac_lx3.claim import after_cornering, bevel_of, claim_of
 from contoursolve.dialects.yasnac_lx3.lexicon import ASSUMPTIONS
 from contoursolve.model import FIRST, SECOND, CornerShape, Line, Role
-from contoursolve.reading import Claim, CornerRow, FactRow, Form, Modes, Sample, State, apply_modes
+from contoursolve.reading import Claim, CornerRow, FactRow, Form, Modes, Sample, State
 from contoursolve.syntax import Block
 
 START, V1, V2 = "S", "V1", "V2"
@@ -68,8 +67,5 @@ G111 = g111(CornerShape.CHAMFER_AXIS_45)
 
 def claim_g111(block: Block, state: State, modes: Modes) -> Claim:
     """The contour of a block with G111."""
-    # G111 is not modal: what it stands with applies, and the motion before it stays in force.
-    after = apply_modes(state, block, modes)
-    if after.motion != state.motion:
-        after = replace(after, motion=state.motion)
+    after = after_cornering(block, state, modes)
     return claim_of(block, g111(bevel_of(modes)), 111, state, after, modes, REFUSED)

@@ -10,11 +10,11 @@ from decimal import Decimal
 from functools import lru_cache
 
 from contoursolve.constraints import Coordinate, Heading, Level, Offset, OnCircle, Radius
-from contoursolve.dialects.yasnac_lx3.claim import bevel_of, claim_of
+from contoursolve.dialects.yasnac_lx3.claim import after_cornering, bevel_of, claim_of
 from contoursolve.dialects.yasnac_lx3.g111 import PASSING, REFUSED, START, V1, V2
 from contoursolve.dialects.yasnac_lx3.lexicon import ASSUMPTIONS
 from contoursolve.model import FIRST, SECOND, Arc, Choice, CornerShape, Given, Line, Role, Side, Turn, Unit
-from contoursolve.reading import Claim, CornerRow, FactRow, Form, Modes, Sample, State, apply_modes
+from contoursolve.reading import Claim, CornerRow, FactRow, Form, Modes, Sample, State
 from contoursolve.syntax import Block
 
 CENTER, LANDING, RADIUS, WAY = "C", "landing line", "r", "way"
@@ -89,7 +89,7 @@ G112_FORMS = tuple(g112(along, Turn.CW, CornerShape.CHAMFER_AXIS_45) for along i
 
 def claim_g112(block: Block, state: State, modes: Modes) -> Claim:
     """The contour of a block with G112, which is not modal (assumed, as G111)."""
-    after = replace(apply_modes(state, block, modes), motion=state.motion)
+    after = after_cornering(block, state, modes)
     addresses = {word.address for word in block.words}
     along = SECOND if addresses & {"Z", "W"} and not addresses & {"X", "U"} else FIRST
     draft = claim_of(block, g112(along, Turn.CW, CornerShape.FILLET), 112, state, after, modes)

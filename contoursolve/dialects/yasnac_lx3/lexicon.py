@@ -89,17 +89,31 @@ CODES = (
     *_codes(Effect.CYCLE, {11: "bevelling", 12: "rounding"}, manual("p. 31-32")),
 )
 
-AXIS_45, SETBACK = "axis-45", "setback"
+AXIS_45, LENGTH_45, SETBACK = "axis-45", "length", "setback"
 
 BEVEL = Setting(
     name="bevel",
     meaning="what the amount of a bevel C or D measures",
     values={
         AXIS_45: "a segment at 45 degrees to the axes; the amount is its extent along Z and along X as radius",
+        LENGTH_45: "a segment at 45 degrees to the axes; the amount is the length of the segment itself",
         SETBACK: "a segment between two points that are both as far from the virtual intersection as the amount",
     },
     default=AXIS_45,
     source=manual("2.8.30, p. 140 Note 3, on the 45 degree lines; the quadrants, p. 137", Evidence.DERIVED),
+)
+
+UNCHANGED, G01 = "unchanged", "g01"
+
+MOTION_AFTER = Setting(
+    name="motion-after",
+    meaning="which motion is in force after G111 and G112, which are not modal",
+    values={
+        UNCHANGED: "the one that was in force before the block",
+        G01: "G01, whatever was in force before the block",
+    },
+    default=UNCHANGED,
+    source=manual("2.8.30: G111 is not modal; what is in force behind it is not said", Evidence.ASSUMED),
 )
 
 _CORNERING = ("G111", "G112")
