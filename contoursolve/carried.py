@@ -7,9 +7,9 @@ from contoursolve.reading import Effect, Modes, codes_of
 from contoursolve.reliance import MOTIONS
 from contoursolve.syntax import Block, Word
 
-_BLANK = r"[ \t\f\v\x02\x03\x11-\x14\x1a\ufeff%]*"
+_BLANKS = " \t\f\v\x02\x03\x11\x12\x13\x14\x1a\ufeff%"
 
-_FRAME = re.compile(rf"(?P<head>{_BLANK})(?P<skip>/[1-9]?(?!\d)[ \t]*)?.*?(?P<tail>{_BLANK})", re.DOTALL)
+_FRAME = re.compile(rf"(?P<head>[{_BLANKS}]*+)(?P<skip>/[1-9]?+(?!\d)[ \t]*+)?+")
 
 _DROPPED = (*MOTIONS, Effect.CONTOUR)
 """G codes in whose place those of the plain motions stand."""
@@ -48,13 +48,13 @@ def frame_of(text: str) -> Frame:
     """What stands around the words of a block."""
     if text[:1].isalpha() and (text[-1].isalnum() or text[-1] == "."):
         return Frame()
-    frame = _FRAME.fullmatch(text)
+    frame = _FRAME.match(text)
     if frame is None:
         return Frame()
-    head = frame["head"]
+    head, rest = frame["head"], text[frame.end() :]
     indent = "".join(c for c in head if c in " \t")
     before = "".join(c for c in head if c not in " \t")
-    return Frame(before, indent, frame["skip"] or "", frame["tail"].strip(" \t"))
+    return Frame(before, indent, frame["skip"] or "", rest[len(rest.rstrip(_BLANKS)) :].strip(" \t"))
 
 
 def carried(block: Block, modes: Modes) -> Carried:

@@ -28,11 +28,10 @@ from contoursolve.shown import Shown
 from contoursolve.source import Span
 from contoursolve.spelling import (
     explain_asked_outside,
-    explain_fault,
+    explain_faults,
     explain_start_units,
     explain_unmarked,
     explain_words,
-    faults_of,
 )
 from contoursolve.syntax import (
     Block,
@@ -378,11 +377,9 @@ class _Examiner:
 
     def _check_block(self, block: Block) -> None:
         context = Context(self.rules, self.unit, place=block.span)
-        for fault in faults_of(block):
-            finding = explain_fault(context, fault, block)
-            if fault.kind in _FAULTS_OF_NO_CONSEQUENCE:
-                finding = replace(finding, severity=Severity.WARNING)
-            self.diagnostics.append(finding)
+        for finding in explain_faults(context, block):
+            is_slight = finding.about in _FAULTS_OF_NO_CONSEQUENCE
+            self.diagnostics.append(replace(finding, severity=Severity.WARNING) if is_slight else finding)
         self.diagnostics += explain_unmarked(context, block)
         for directive in block.directives:
             place = Context(self.rules, self.unit, place=directive.span)

@@ -11,7 +11,7 @@ from contoursolve.examine import Depth, Policy, examine
 from contoursolve.explain import Context, report
 from contoursolve.reading import Claim, Effect, State, Trouble, codes_of
 from contoursolve.spelling import respelled
-from contoursolve.syntax import Block, Word, find_lookalikes, parse_block
+from contoursolve.syntax import Block, Word, find_lookalikes, lookalike_at, parse_block
 from contoursolve.wording import join
 
 _LINE = 1
@@ -54,14 +54,16 @@ def explain_letters(
     they look like: with these digits as the fix, if it is solved then. `before` is the state before it."""
     block = blocks[0]
     unread = [fault.span for fault in block.faults]
-    meant = [each for each in find_lookalikes(block) if each.is_code or any(map(each.covers, unread))]
+    alike = find_lookalikes(block)
+    torn = {each.span for each in (lookalike_at(alike, span) for span in unread) if each}
+    meant = [each for each in alike if each.is_code or each.span in torn]
     edits = [Edit(EditKind.CHANGE, each.address, each.span, each.old, each.new) for each in meant]
     found, replacement = _read(dialect, blocks, edits, before)
     if found is None or not any(each.is_code for each in meant):
         yield from findings
         return
     fixes = tuple(_tried(dialect, found, edits, replacement))
-    blamed = [each for each in findings if any(other.covers(each.span) for other in meant)]
+    blamed = [each for each in findings if lookalike_at(meant, each.span)]
     if not blamed:
         words = [Word(each.address, None, False, each.old, each.span) for each in meant]
         text = join([each.new for each in meant])

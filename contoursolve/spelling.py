@@ -1,6 +1,7 @@
 """Findings about characters, words and positions, before the equations are looked at."""
 
-from collections.abc import Container, Iterable, Iterator, Sequence
+from bisect import bisect_right
+from collections.abc import Container, Iterator, Sequence
 from dataclasses import replace
 from decimal import Decimal
 
@@ -9,7 +10,7 @@ from contoursolve.explain import Context, report
 from contoursolve.model import Length
 from contoursolve.reading import Claim, Lexicon, Position, Trouble
 from contoursolve.source import Span
-from contoursolve.syntax import Block, Fault, Lookalike, Word, find_lookalikes, mended
+from contoursolve.syntax import Block, Fault, Lookalike, Word, find_lookalikes, lookalike_at, mended
 from contoursolve.tolerance import LARGEST
 from contoursolve.wording import join, length_text
 
@@ -17,7 +18,8 @@ from contoursolve.wording import join, length_text
 def explain_spelling(context: Context, claim: Claim) -> Iterator[Diagnostic]:
     """What keeps the words of a contour from being read: nothing can be said of what they mean then."""
     words = [word for block in claim.blocks for word in block.words]
-    yield from (explain_fault(context, fault, block) for block in claim.blocks for fault in faults_of(block))
+    for block in claim.blocks:
+        yield from explain_faults(context, block)
     yield from explain_words(context, claim.lexicon, claim.repeated, words)
     yield from _explain_unknown(context, claim)
     yield from _explain_asked(context, claim)
@@ -66,42 +68,54 @@ def _answerable(claim: Claim) -> set[str]:
     return {row.fact.given for row in claim.form.facts} | sizes | set(claim.form.choices)
 
 
-def faults_of(block: Block) -> Iterator[Fault]:
+def explain_faults(context: Context, block: Block) -> Iterator[Diagnostic]:
     """The faults of a block; of those that slips make in one word, the first."""
     told: set[Span] = set()
+    meanings = Meanings(block) if block.faults else None
     for fault in block.faults:
-        meant = meant_at(block, fault.span)
+        meant = meanings.at(fault.span) if meanings else None
         if meant is None or meant.span not in told:
-            yield fault
+            yield _explain_fault(context, fault, meant)
         told |= {meant.span} if meant else set()
 
 
-def explain_fault(context: Context, fault: Fault, block: Block) -> Diagnostic:
+def _explain_fault(context: Context, fault: Fault, meant: Lookalike | None) -> Diagnostic:
     """Characters of a block that are not a word."""
     shown = Word(fault.text[:1], None, False, fault.text.strip(), fault.span)
     finding = report(context, context.row(fault.kind), Basis.RULE, [shown])
     finding = replace(finding, addresses=(fault.address,) if fault.address else ())
-    meant = meant_at(block, fault.span)
     if meant is None:
         return finding
     advice = f"write {meant.new} for {meant.old} if that is meant; else {finding.help}"
     return replace(finding, message=_ask(meant), help=advice)
 
 
-def meant_at(block: Block, place: Span) -> Lookalike | None:
-    """The word that is meant at a place of a block; None unless all there is of such words, and none where a word that
-    may mean what it says begins in the middle, as in X I5."""
-    begins = [word.span.column for word in block.words if word.number is not None and word.address not in _NEVER_MEANT]
-    found = [
-        each
-        for each in find_lookalikes(block)
-        if each.is_code or not any(each.span.column < begin < each.span.end_column for begin in begins)
-    ]
-    stretch = block.text[place.column - 1 : place.end_column - 1]
-    columns = (place.column + index for index, char in enumerate(stretch) if not char.isspace())
-    if not all(any(each.span.column <= column < each.span.end_column for each in found) for column in columns):
-        return None
-    return next((each for each in found if each.covers(place)), None)
+class Meanings:
+    """The words that are meant in a block, and none where a word that may mean what it says begins in the middle, as
+    in X I5."""
+
+    def __init__(self, block: Block) -> None:
+        self._text = block.text
+        readable = (word for word in block.words if word.number is not None and word.address not in _NEVER_MEANT)
+        begins = sorted(word.span.column for word in readable)
+        self._found = [
+            each
+            for each in find_lookalikes(block)
+            if each.is_code or not _is_between(begins, each.span.column, each.span.end_column)
+        ]
+
+    def at(self, place: Span) -> Lookalike | None:
+        """The word that is meant at a place; None unless all there is of such words."""
+        stretch = self._text[place.column - 1 : place.end_column - 1]
+        columns = (place.column + index for index, char in enumerate(stretch) if not char.isspace())
+        chars = (Span(place.line, column, column + 1) for column in columns)
+        return lookalike_at(self._found, place) if all(lookalike_at(self._found, each) for each in chars) else None
+
+
+def _is_between(places: Sequence[int], low: int, high: int) -> bool:
+    """Whether one of some places, in order, is between two others."""
+    index = bisect_right(places, low)
+    return index < len(places) and places[index] < high
 
 
 _NEVER_MEANT = ("L", "O")
@@ -109,29 +123,28 @@ _NEVER_MEANT = ("L", "O")
 
 
 def meant_words(claim: Claim) -> tuple[Lookalike, ...]:
-    """The words of a contour that slips keep from being read."""
+    """The words of a contour that slips keep from being read, in order."""
     found: dict[Span, Lookalike] = {}
     for block in claim.blocks:
         unread = [fault.span for fault in block.faults]
         unknown = [word for word in claim.unknown if word.span.line == block.line]
-        meant = [meant_at(block, span) for span in (*unread, *(word.span for word in unknown))]
-        meant += [_comma_behind(block, word) for word in unknown if respelled(word, claim.form.allowed)]
+        if not unread and not unknown:
+            continue
+        meanings, ends = Meanings(block), {each.span.end_column: each for each in block.words}
+        meant = [meanings.at(span) for span in (*unread, *(word.span for word in unknown))]
+        behind = [word for word in unknown if respelled(word, claim.form.allowed)]
+        meant += [_comma_behind(ends.get(word.span.column), word) for word in behind]
         found |= {each.span: each for each in meant if each}
-    return tuple(found.values())
+    return tuple(found[span] for span in sorted(found))
 
 
-def _comma_behind(block: Block, word: Word) -> Lookalike | None:
+def _comma_behind(number: Word | None, word: Word) -> Lookalike | None:
     """The number that the comma of a word stands right behind, with what the comma means there, as in `A180, K-30.`"""
-    number = next((each for each in block.words if each.span.end_column == word.span.column), None)
     if number is None or number.number is None:
         return None
     old = f"{number.text.strip()},"
-    return Lookalike(Span(block.line, word.span.column - len(old) + 1, word.span.column + 1), old, mended(old))
-
-
-def is_in(span: Span, words: Iterable[Lookalike]) -> bool:
-    """Whether a place lies in one of some words."""
-    return any(each.span.line == span.line and each.covers(span) for each in words)
+    span = Span(word.span.line, word.span.column - len(old) + 1, word.span.column + 1)
+    return Lookalike(span, old, mended(old))
 
 
 def _ask(meant: Lookalike) -> str:
@@ -156,10 +169,11 @@ def explain_words(
     context: Context, lexicon: Lexicon, repeated: Sequence[Word], words: Sequence[Word]
 ) -> Iterator[Diagnostic]:
     """Addresses given twice, and values beyond all travel."""
+    numbers = {each.number for each in repeated}
     for address, line in dict.fromkeys((word.address, word.span.line) for word in repeated):
         same = [word for word in words if word.address == address and word.span.line == line]
         if address == "G":
-            same = [word for word in same if word.number in {each.number for each in repeated}]
+            same = [word for word in same if word.number in numbers]
         yield report(context, context.row(Trouble.REPEATED_ADDRESS), Basis.RULE, same)
     for word in words:
         value = lexicon.value(word, context.unit) if word.address in lexicon.addresses else None
@@ -176,10 +190,11 @@ def _explain_unknown(context: Context, claim: Claim) -> Iterator[Diagnostic]:
     others = sorted(form.allowed - {"N", "G", *own})
     allowed = " ".join(own) + (f", and besides {' '.join(others)}" if others else "")
     for word in claim.unknown:
-        if any(each.span.line == word.span.line and not each.covers(word.span) for each in torn):
+        here = lookalike_at(torn, word.span)
+        if any(each.span.line == word.span.line and each is not here for each in torn):
             continue
         rule, other = context.row(Trouble.UNKNOWN_ADDRESS), respelled(word, form.allowed)
-        meant = next((each for each in mendable if is_in(word.span, (each,))), None)
+        meant = lookalike_at(mendable, word.span)
         other = "" if meant else other
         do = f"write {other}" if other else f"write {meant.new} for {meant.old}" if meant else "delete it"
         name = form.name if form.name.startswith("G") else form.title

@@ -9,8 +9,8 @@ from contoursolve.explain import Context, report
 from contoursolve.model import Given, Length, Unit
 from contoursolve.reading import Claim, Lexicon, Position, Trouble, WithoutPoint
 from contoursolve.source import Span
-from contoursolve.spelling import is_in, meant_words
-from contoursolve.syntax import Word
+from contoursolve.spelling import meant_words
+from contoursolve.syntax import Word, lookalike_at
 from contoursolve.wording import angle_text, join, length_text
 
 _FULL_TURN, _MANY_INCREMENTS = 360, 1_000
@@ -117,7 +117,7 @@ def _counted(context: Context, claim: Claim) -> Mapping[Word, str]:
     torn = meant_words(claim) if pointless else ()
     for given in sorted(pointless, key=_place):
         word = given.word
-        if word is None or not word.number or given.unit is Unit.SIGN or is_in(word.span, torn):
+        if word is None or not word.number or given.unit is Unit.SIGN or lookalike_at(torn, word.span):
             continue
         typed = given.value * 2 if given.is_diameter else given.value
         if abs(typed) < abs(word.number):

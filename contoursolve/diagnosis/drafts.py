@@ -8,8 +8,11 @@ from contoursolve.diagnostic import Severity
 from contoursolve.examine import Answer
 from contoursolve.model import Given, Length, Unit
 from contoursolve.reading import Claim, Lexicon, Trouble
-from contoursolve.spelling import is_in, meant_words, respelled, unanswerable
-from contoursolve.syntax import FACT, FaultKind, Word, find_lookalikes
+from contoursolve.spelling import meant_words, respelled, unanswerable
+from contoursolve.syntax import FACT, FaultKind, Word, find_lookalikes, lookalike_at
+
+_FEW = 8
+"""Slips of which each is tried alone; each of many would take time by the square of a line's length."""
 
 
 def missing_points(answer: Answer) -> Iterator[tuple[Edit, ...]]:
@@ -30,7 +33,9 @@ def commas(answer: Answer) -> Iterator[tuple[Edit, ...]]:
     errors = [each for each in answer.diagnostics if each.severity is Severity.ERROR]
     blamed = {label.span for finding in errors for label in finding.labels}
     meant = meant_words(claim)
-    words = dict.fromkeys((*(word for word in claim.unknown if not is_in(word.span, meant)), *claim.words.values()))
+    words = dict.fromkeys(
+        (*(word for word in claim.unknown if not lookalike_at(meant, word.span)), *claim.words.values())
+    )
     found = [(word, respelled(word, claim.form.allowed)) for word in words if word.span in blamed]
     edits = [change(word, text) for word, text in found if text]
     if edits:
@@ -40,19 +45,20 @@ def commas(answer: Answer) -> Iterator[tuple[Edit, ...]]:
 
 
 def mended_words(answer: Answer) -> Iterator[tuple[Edit, ...]]:
-    """What is almost a word as the word that it is meant to be, in G codes and where something cannot be read: all and
-    each alone."""
+    """What is almost a word as the word that it is meant to be, in G codes and where something cannot be read: all,
+    and each of a few alone."""
     claim = answer.claim
     meant = {each.span: each for each in meant_words(claim)}
     for block in claim.blocks:
         unread = [fault.span for fault in block.faults]
         unread += [word.span for word in claim.unknown if word.span.line == block.line]
-        found = (each for each in find_lookalikes(block) if each.is_code or any(map(each.covers, unread)))
-        meant |= {each.span: each for each in found}
+        alike = find_lookalikes(block)
+        torn = {each.span for each in (lookalike_at(alike, span) for span in unread) if each}
+        meant |= {each.span: each for each in alike if each.is_code or each.span in torn}
     edits = [Edit(EditKind.CHANGE, each.address, each.span, each.old, each.new) for each in meant.values()]
     if edits:
         yield tuple(edits)
-    if len(edits) > 1:
+    if 1 < len(edits) <= _FEW:
         yield from ((edit,) for edit in edits)
 
 
@@ -84,11 +90,11 @@ def unreadable(claim: Claim) -> Iterator[tuple[Edit, ...]]:
     address that is given twice, either word may be the one that is meant. Letters for digits become these."""
     meant = meant_words(claim)
     edits = [Edit(EditKind.CHANGE, each.address, each.span, each.old, each.new) for each in meant]
-    unknown = [word for word in claim.unknown if not is_in(word.span, meant)]
+    unknown = [word for word in claim.unknown if not lookalike_at(meant, word.span)]
     edits += [drop(word) for word in (*unknown, *unanswerable(claim))]
     for block in claim.blocks:
         for fault in block.faults:
-            if fault.kind is FaultKind.COMMENT_NOT_CLOSED or is_in(fault.span, meant):
+            if fault.kind is FaultKind.COMMENT_NOT_CLOSED or lookalike_at(meant, fault.span):
                 continue
             edits.append(Edit(EditKind.DROP, fault.address, fault.span, fault.text))
     either = [

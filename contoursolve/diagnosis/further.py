@@ -33,7 +33,7 @@ _NOT_TOGETHER = (
 )
 _USELESS = (Trouble.FACT_UNREADABLE, Trouble.FACT_IMPOSSIBLE)
 _DECIMAL_COMMA = re.compile(r"(?<=\d),(?=\d)")
-_VALUE = re.compile(r"=\s*(?P<number>[+-]?(?:\d+\.?\d*|\.\d+))\s*$")
+_VALUE = re.compile(r"=\s*+(?P<number>[+-]?+(?>\d++\.?+\d*+|\.\d++))\s*+$")
 
 
 def further_drafts(answer: Answer, dialect: Dialect, before: Before) -> Iterator[Iterable[tuple[Edit, ...]]]:

@@ -18,7 +18,7 @@ def list_layers(answer: Answer, policy: Policy) -> tuple[Layer, ...]:
     whole = answer.profile if whole.is_extended else whole
     grammar = [each for each in answer.diagnostics if each.about in _GRAMMAR]
     refused = [each for each in answer.diagnostics if each.basis is Basis.RULE and _counts(each.severity)]
-    refused = [each for each in refused if each not in grammar and each.about is not Trouble.START_IN_INCREMENTS]
+    refused = [each for each in refused if each.about not in _GRAMMAR and each.about is not Trouble.START_IN_INCREMENTS]
     layers = [_layer("grammar", bool(grammar), f"{_count(claim.blocks, 'block')}, every character")]
     if any(block.faults for block in claim.blocks):
         layers.append(Layer("rules", Verdict.NOT_RUN, "not every word could be read"))

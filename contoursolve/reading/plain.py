@@ -9,10 +9,11 @@ from contoursolve.reading.advance import Modes, absolute_positions
 from contoursolve.reading.state import Awaited, Position, State
 from contoursolve.syntax import Passage, find_words
 
-_NUMBER = r"[ \t]*[+-]?(?:[0-9]{1,12}\.?[0-9]{0,12}|\.[0-9]{1,12})"
-_COMMENTS = re.compile(r"\([^()]*\)")
+# Possessive throughout: an integer that may be divided at any digit would be tried in all ways.
+_NUMBER = r"[ \t]*+[+-]?+(?:[0-9]{1,12}+(?:\.[0-9]{0,12}+)?+|\.[0-9]{1,12}+)"
+_COMMENTS = re.compile(r"\([^()]*+\)")
 _MOTIONS = re.compile(r"G0?([01])")
-_COMMENT = r"\((?![ \t]*contoursolve)[^()]*\)"
+_COMMENT = r"\((?![ \t]*+contoursolve)[^()]*+\)"
 
 
 def plain_lines(modes: Modes) -> re.Pattern[str]:
@@ -22,9 +23,9 @@ def plain_lines(modes: Modes) -> re.Pattern[str]:
     Such a line is no contour, and belongs to one only beside a line that is not plain, as long as `is_plain`.
     """
     axes = "".join(sorted(modes.axes))
-    words = rf"N[0-9]{{1,8}}|G0?[01]|M0?[34589]|T[0-9]{{1,8}}|[FS{axes}]{_NUMBER}"
-    moving = rf"(?=[^(]*[{axes}])[ \t]*(?:(?:(?:{words})(?![0-9.])|{_COMMENT})[ \t]*)+"
-    return re.compile(rf"(?:{moving}|[ \t]*(?:{_COMMENT}[ \t]*)*)(?:\r\n|\n|\r)?", re.IGNORECASE | re.ASCII)
+    words = rf"N[0-9]{{1,8}}+|G0?[01]|M0?[34589]|T[0-9]{{1,8}}+|[FS{axes}]{_NUMBER}"
+    moving = rf"(?=[^(]*[{axes}])[ \t]*+(?:(?:(?:{words})(?![0-9.])|{_COMMENT})[ \t]*+)++"
+    return re.compile(rf"(?:{moving}|[ \t]*+(?:{_COMMENT}[ \t]*+)*+)(?:\r\n|\n|\r)?", re.IGNORECASE | re.ASCII)
 
 
 def is_plain(state: State) -> bool:

@@ -10,7 +10,14 @@ from contoursolve.syntax.lexer import (
     split_lines,
     split_simply,
 )
-from contoursolve.syntax.lookalikes import Lookalike, find_lookalikes, has_lookalike_code, mended, with_digits
+from contoursolve.syntax.lookalikes import (
+    Lookalike,
+    find_lookalikes,
+    has_lookalike_code,
+    lookalike_at,
+    mended,
+    with_digits,
+)
 from contoursolve.syntax.text import BINARY, STANDARD_INPUT, UnreadableProgramError, decode, is_folder, read_bytes
 from contoursolve.syntax.word import FACT, Block, Directive, Fault, FaultKind, Macro, Passage, Program, Word
 
@@ -34,6 +41,7 @@ __all__ = [
     "find_words",
     "has_lookalike_code",
     "is_folder",
+    "lookalike_at",
     "mended",
     "parse",
     "parse_block",

@@ -15,33 +15,34 @@ LONGEST_NUMBER = 32
 
 _LINE_END = re.compile(r"\r\n|\n|\r")
 _LINE = re.compile(r"[^\r\n]*(?:\r\n|\n|\r)|[^\r\n]+")
-_BRACKETS = r"\[(?:[^\[\]]|\[(?:[^\[\]]|\[[^\[\]]*\])*\])*\]"
+# Runs are possessive (`++`, `*+`): what they take is never tried again, so that a line takes time by its length.
+_BRACKETS = r"\[(?:[^\[\]]++|\[(?:[^\[\]]++|\[[^\[\]]*+\])*+\])*+\]"
 _TOKEN = re.compile(
     rf"""
-    (?P<blank>[ \t\f\v\x02\x03\x11-\x14\x1a\ufeff%]+)
-  | (?P<comment>\([^)]*\)|;.*)
-  | (?P<open>\([^)]*)
-  | (?P<word>(?P<comma>,?)[ \t]*(?P<letter>[A-Za-z])[ \t]*
-      (?:(?P<number>[+-]?(?:\d+\.?\d*|\.\d+))(?![\d.]|,\d|[eE][+-]?\d+(?![\d.]))
-        |(?P<expression>[+-]?(?:\#\d+|\#?{_BRACKETS}))|(?P<asked>\?)))
-  | (?P<malformed>,?[ \t]*[A-Za-z][ \t]*(?:[\d.+-]|,(?=\d))+(?:[eE][+-]?\d+)?)
-  | (?P<bare>,?[ \t]*[A-Za-z](?:(?![A-Za-z][ \t]*[+-]?\.?\d)[A-Za-z])*)
-  | (?P<comma_only>,[^ \tA-Za-z(;]*)
-  | (?P<stray>[^ \tA-Za-z(;,%]+|.)
+    (?P<blank>[ \t\f\v\x02\x03\x11-\x14\x1a\ufeff%]++)
+  | (?P<comment>\([^)]*+\)|;.*+)
+  | (?P<open>\([^)]*+)
+  | (?P<word>(?P<comma>,?+)[ \t]*+(?P<letter>[A-Za-z])[ \t]*+
+      (?:(?P<number>[+-]?+(?>\d++\.?+\d*+|\.\d++))(?![\d.]|,\d|[eE][+-]?+\d++(?![\d.]))
+        |(?P<expression>[+-]?+(?:\#\d++|\#?+{_BRACKETS}))|(?P<asked>\?)))
+  | (?P<malformed>,?+[ \t]*+[A-Za-z][ \t]*+(?:[\d.+-]|,(?=\d))++(?:[eE][+-]?+\d++)?+)
+  | (?P<bare>,?+[ \t]*+[A-Za-z](?:(?![A-Za-z][ \t]*+[+-]?+\.?+\d)[A-Za-z])*+)
+  | (?P<comma_only>,[^ \tA-Za-z(;]*+)
+  | (?P<stray>[^ \tA-Za-z(;,%]++|.)
     """,
     re.VERBOSE | re.ASCII,
 )
-_SIMPLE_WORD = r"[ \t]*([A-DF-Za-df-z])([+-]?(?:[0-9]{1,16}\.?[0-9]{0,15}|\.[0-9]{1,16}))(?=[ \tA-Za-z]|$)"
-_SIMPLE = re.compile(rf"(?:{_SIMPLE_WORD})+[ \t]*")
+_SIMPLE_WORD = r"[ \t]*+([A-DF-Za-df-z])([+-]?+(?:[0-9]{1,16}+(?:\.[0-9]{0,15}+)?+|\.[0-9]{1,16}+))(?=[ \tA-Za-z]|$)"
+_SIMPLE = re.compile(rf"(?:{_SIMPLE_WORD})++[ \t]*+")
 """Nothing but words without blanks inside them; E may be an exponent."""
 _SIMPLE_WORDS = re.compile(_SIMPLE_WORD)
-_SKIP = re.compile(r"[ \t]*/[1-9]?(?!\d)")
+_SKIP = re.compile(r"[ \t]*+/[1-9]?+(?!\d)")
 _MACRO = re.compile(
-    r"[ \t/]*(?:[Nn]\d+)?[ \t]*(?:(?P<assignment>\#)|(?P<flow>(?:IF|WHILE|GOTO|DO|END|THEN|ELSE)\b"
+    r"[ \t/]*+(?:[Nn]\d++)?+[ \t]*+(?:(?P<assignment>\#)|(?P<flow>(?:IF|WHILE|GOTO|DO|END|THEN|ELSE)\b"
     r"|(?:GOTO|DO|END)\d|(?:IF|WHILE)\[))",
     re.IGNORECASE,
 )
-_COMMENTS = re.compile(r"\([^)]*\)?|;.*")
+_COMMENTS = re.compile(r"\([^)]*+\)?+|;.*+")
 
 
 def parse(text: str, name: str = "<program>", first_line: int = 1) -> Program:
@@ -160,11 +161,9 @@ def _directives(comment: str, line: int, offset: int) -> list[Directive]:
     return found
 
 
-_DIRECTIVE = re.compile(r"\(\s*contoursolve\s*:", re.IGNORECASE)
-_UNMARKED = re.compile(
-    r"[(;]\s*c\w*tour[\s_-]*sol\w*\b[\s:;.,=-]*(?P<fact>[^)]*(?:=|passes\s+through|tangent\s+to|meets)[^)]*)",
-    re.IGNORECASE,
-)
+_DIRECTIVE = re.compile(r"\(\s*+contoursolve\s*+:", re.IGNORECASE)
+_UNMARKED = re.compile(r"[(;]\s*+c\w*tour[\s_-]*+sol\w*+(?P<gap>[\s:;.,=-]*+)(?P<fact>[^)]*+)", re.IGNORECASE)
+_STATES = re.compile(r"=|passes\s++through|tangent\s++to|meets", re.IGNORECASE)
 
 
 def _unmarked(comment: str, line: int, offset: int) -> list[Directive]:
@@ -172,7 +171,14 @@ def _unmarked(comment: str, line: int, offset: int) -> list[Directive]:
     match = _UNMARKED.match(comment)
     if match is None or _DIRECTIVE.match(comment):
         return []
-    text = f"(contoursolve: {match['fact'].strip()})"
+    fact = match["fact"]
+    if not _STATES.search(fact):
+        # In `(contoursolve = 5)` the sign is between the mark and what it states.
+        _, sign, behind = match["gap"].rpartition("=")
+        if not sign:
+            return []
+        fact = sign + behind + fact
+    text = f"(contoursolve: {fact.strip()})"
     return [Directive(text, Span(line, offset + 1, offset + 1 + len(comment)))]
 
 

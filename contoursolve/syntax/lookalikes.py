@@ -2,21 +2,25 @@
 a point or a sign too many."""
 
 import re
-from collections.abc import Callable
+from bisect import bisect_right
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from contoursolve.source import Span
 from contoursolve.syntax.word import Block, FaultKind
 
 _DIGITS = str.maketrans("lI|Oo", "11100")
-_NUMBER = r"(?:[-+0-9.lI|Oo]|,(?=[\d.,]|[ \t]*(?:[;(]|$)))++"
+_NUMBER = r"(?:[-+0-9.lI|Oo]|,(?=[\d.,]|[ \t]*+(?:[;(]|$)))++"
 _SEARCH = re.compile(
-    rf"\([^)]*\)?|;.*|,?[A-Za-z][ \t]*+(?:[-+]++[ \t]++)?{_NUMBER}(?![A-Za-z](?![ \t]*[+-]?[.\dlI|Oo]))"
+    rf"\([^)]*+\)?+|;.*+|,?+[A-Za-z][ \t]*+(?:[-+]++[ \t]++)?(?P<number>{_NUMBER})"
+    r"(?P<text>(?=[A-Za-z](?![ \t]*+[+-]?+[.\dlI|Oo])))?+"
 )
-"""A comment; or an address and what may be its number, unless it goes on as a text does."""
-_WORD = re.compile(r",?[A-Za-z][ \t]*[+-]?(?:\d+\.?\d*|\.\d+)", re.ASCII)
-_CODE = re.compile(r"[Gg][ \t]*\d{1,3}", re.ASCII)
-_HINT = re.compile(r"[Gg][ \t]*\d*[lI|Oo]")
+"""A comment; or an address and what may be its number, and whether it goes on as a text does."""
+_WORD = re.compile(r",?+[A-Za-z][ \t]*+[+-]?+(?>\d++\.?+\d*+|\.\d++)", re.ASCII)
+_CODE = re.compile(r"[Gg][ \t]*+\d{1,3}+", re.ASCII)
+_HINT = re.compile(r"[Gg][ \t]*+\d*+[lI|Oo]")
+_LONGEST = 40
+"""Characters of what may be a number; a control reads 8 digits."""
 _WHOLE = "GMNOST"
 """Addresses whose numbers have no point."""
 
@@ -44,10 +48,6 @@ class Lookalike:
         """Whether letters stand for digits, and nothing else is wrong."""
         return self.new == with_digits(self.old)
 
-    def covers(self, span: Span) -> bool:
-        """Whether a place of its block lies in it."""
-        return self.span.column <= span.column < self.span.end_column
-
 
 def find_lookalikes(block: Block) -> tuple[Lookalike, ...]:
     """The stretches of a block outside comments that would be words with their slips mended.
@@ -59,14 +59,23 @@ def find_lookalikes(block: Block) -> tuple[Lookalike, ...]:
         return ()
     while match := _SEARCH.search(text, place):
         old, place = match[0], match.end()
-        if old[0] in "(;":
+        if match["number"] is None or match["text"] is not None:
             continue
-        new = mended(old)
+        new = mended(old) if len(match["number"]) <= _LONGEST else ""
         if new and new != old:
             found.append(Lookalike(Span(block.line, match.start() + 1, match.end() + 1), old, new))
-        elif new != old:
-            place = match.start() + 1
+        elif not new:
+            # A letter among the digits may be the address.
+            place = max(match.start() + 1, match.end() - _LONGEST)
     return tuple(found)
+
+
+def lookalike_at(words: Sequence[Lookalike], place: Span) -> Lookalike | None:
+    """The one of some such words, in their order, in which a place lies."""
+    index = bisect_right(words, (place.line, place.column), key=lambda each: (each.span.line, each.span.column)) - 1
+    found = words[index] if index >= 0 else None
+    is_in = found is not None and place.line == found.span.line and place.column < found.span.end_column
+    return found if is_in else None
 
 
 def has_lookalike_code(block: Block) -> bool:
@@ -113,7 +122,7 @@ def _points(number: str, _: str) -> str:
     return text[:-1] if text.endswith(".") and text.count(".") > 1 else text
 
 
-_SIGNS = re.compile(r"(?P<blank>[ \t]*)(?P<before>[-+]*)[ \t]*(?P<digits>[0-9.,]+)(?P<behind>[-+]*)")
+_SIGNS = re.compile(r"(?P<blank>[ \t]*+)(?P<before>[-+]*+)[ \t]*+(?P<digits>[0-9.,]++)(?P<behind>[-+]*+)")
 _IN_A_ROW = re.compile(r"\.{2,}")
 _MENDING: tuple[Callable[[str, str], str], ...] = (_sign, _comma, _points)
 """What is mended in the text behind an address, one after the other."""

@@ -1,0 +1,162 @@
+"""Reading and judging a line takes time by its length: eight times as long, and it takes eight times as long, or less.
+
+What Python does is counted in calls; what a regular expression does within one call shows in processor time alone, of
+which the shortest of several runs counts.
+"""
+
+import random
+import sys
+import time
+from collections.abc import Callable
+
+import pytest
+
+from contoursolve import check, expand, parse
+from contoursolve.dialects import DIALECTS
+from contoursolve.reading import plain_lines
+
+TIMES = 8
+"""How much longer the long line is than the short one."""
+
+SHORT = 200
+"""Characters of the short line; of the longest block, which has 2,000, the long one has 1,600."""
+
+SHAPES = {
+    "integers before a comment": ("N0010 G111 ", "X100000 A180000 K-30000 ", "(TAPER)"),
+    "integers": ("", "X100000", "Q"),
+    "points without a digit": ("", "X.", ""),
+    "leading blanks": ("", " ", "G1 X1."),
+    "blanks behind a comma": (",", " ", ","),
+    "blanks and tabs between letters": ("X", " \t", "X"),
+    "blanks before a sign": ("G111 X", " ", "-"),
+    "digits with a comma": ("X", "1", ",1"),
+    "digits before an exponent": ("X1e", "1", "."),
+    "letters for digits": ("X", "lO", "A"),
+    "letters for digits with points": ("G1", "lO.", ""),
+    "codes with letters for digits": ("", "G1l", ""),
+    "strange characters in a contour": ("\u00e9G111", "_ ", ""),
+    "faults of all kinds in a contour": ("G111", "K--3. , A.. B1e5 X[", ""),
+    "brackets that are not closed": ("", "X[", ""),
+    "brackets": ("X", "[[1]", ""),
+    "closed brackets in an open one": ("X[", "[1]", ""),
+    "questions": ("", "X? ", ""),
+    "a word given many times": ("G111", "X1. ", ""),
+    "words given many times": ("G111 ", "X1. X2. Z3. Z4. K-3. K-4. ", ""),
+    "letters for digits in a contour": ("G111 ", "X1O. Z-lO. ", ""),
+    "codes with letters for digits and faults": ("", ",/lO1", "X.#1G1l"),
+    "slashes": ("", "/", ""),
+    "percents": ("", "% ", "X"),
+}
+COMMENTS = {
+    "facts": ("G111 X1. (contoursolve:", ";", ")"),
+    "a comment almost as for facts": ("(contoursol", "; ", ")"),
+    "a comment with its words": ("(contour solve ", "passes ", ")"),
+    "a comment with underscores": ("(contour", "_", ")"),
+    "a comment with the name again and again": ("(", "ctour", "sol)"),
+    "blanks in a comment": ("G111 X1. ( ", " ", "a)"),
+    "comments that are not closed": ("", "(", ""),
+    "comments behind a semicolon": (";", " (", ""),
+    "digits of a fact": ("G111 X1. (contoursolve: length of line 1 = ", "1", "x)"),
+    "blanks of a fact": ("G111 X1. (contoursolve: length", " ", "of)"),
+}
+"""They do not count for the longest block; the long one has 16,000 characters."""
+
+ATOMS = (
+    *("X.", "X1", "X100000", " ", "\t", "(", ")", "(a)", "[", "]", "#1", ";", "?", "(contoursolve:", ",", "..", "--"),
+    *(
+        "N1",
+        "G0",
+        "G111",
+        "G1l",
+        "lO1",
+        "%",
+        "/",
+        "e5",
+        "\u00e9",
+        "=",
+        "K--3.",
+        "(contoursolve: a=",
+        "_ ",
+        "A..",
+        "IF ",
+    ),
+)
+
+
+def line(shape: tuple[str, str, str], length: int) -> str:
+    head, unit, tail = shape
+    return head + unit * (length // len(unit)) + tail
+
+
+def calls(act: Callable[[], object]) -> int:
+    """How many functions are called."""
+    count = 0
+
+    def see(*_: object) -> None:
+        nonlocal count
+        count += 1
+
+    sys.setprofile(see)
+    try:
+        act()
+    finally:
+        sys.setprofile(None)
+    return count
+
+
+def seconds(act: Callable[[], object]) -> float:
+    """Of processor time, the least of some runs."""
+    shortest = float("inf")
+    for _ in range(5):
+        begin = time.process_time()
+        act()
+        shortest = min(shortest, time.process_time() - begin)
+    return shortest
+
+
+def judge(text: str, control: str) -> None:
+    check(text, control=control)
+    expand(f"G0 X1. Z0.\n{text}\n", control=control, keep_going=True)
+
+
+def read(text: str) -> None:
+    parse(text)
+    for dialect in DIALECTS.values():
+        plain_lines(dialect.modes).fullmatch(text)
+
+
+EVERY = [
+    *(pytest.param(shape, SHORT, id=name) for name, shape in SHAPES.items()),
+    *(pytest.param(shape, 10 * SHORT, id=name) for name, shape in COMMENTS.items()),
+]
+
+
+def hold_against_length(shape: tuple[str, str, str], short: int, control: str) -> None:
+    texts = line(shape, short), line(shape, TIMES * short)
+    judge(texts[0], control)
+    few, many = (calls(lambda text=text: judge(text, control)) for text in texts)
+    assert many <= 1.5 * TIMES * few, texts[0]
+    little, much = (seconds(lambda text=text: read(text)) for text in texts)
+    assert much <= 3 * TIMES * little + 0.005, texts[0]
+
+
+@pytest.mark.parametrize(("shape", "short"), EVERY)
+def test_time_goes_by_the_length_of_a_line(shape, short):
+    hold_against_length(shape, short, "yasnac-lx3")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("shape", "short"), EVERY)
+def test_time_goes_by_the_length_of_a_line_of_chains(shape, short):
+    hold_against_length(shape, short, "nct-99m")
+    texts = line(shape, short), line(shape, TIMES * short)
+    little, much = (seconds(lambda text=text: judge(text, "nct-99m")) for text in texts)
+    assert much <= 3 * TIMES * little + 0.005
+
+
+@pytest.mark.slow
+def test_time_goes_by_the_length_of_a_line_of_any_atoms():
+    draw = random.Random(15)
+    for _ in range(200):
+        head, unit, tail = ("".join(draw.choices(ATOMS, k=draw.choice((0, 1, 1, 2, 3)))) for _ in range(3))
+        hold_against_length((head, unit or " ", tail), SHORT, draw.choice(("yasnac-lx3", "nct-99m")))
