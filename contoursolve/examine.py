@@ -320,26 +320,27 @@ def _examine_geometry(
 ) -> tuple[Solution, Alternatives | None]:
     """The system for all values, then its solution at the values of the block.
 
-    A block that is refused is not solved; but if it says too much, whether its words agree is told.
+    A block that is refused is not solved; but whether its words agree is told. Where something is missing, so is what
+    is said of the rest.
     """
     is_refused = bool(notebook.statuses & {Status.REJECTED, Status.NO_SOLUTION})
     structure = list(_examine_system(context, claim, profile))
     for status, finding in structure:
         notebook.add(_secondary(finding, is_refused), status)
-    system = assemble(profile)
-    says_too_much = len(system.facts) > len(system.unknowns)
     is_solvable = not structure and profile.start.is_known
     is_open = is_solvable and is_refused and not profile.is_extended and _has_choice(profile)
     is_long = is_open and count_choices(profile) > MOST_CHOICES
     if is_open and not is_long:
         # Which contours the missing word could choose is worth knowing.
         return Solution(Status.UNDERDETERMINED), _solve(profile, context, notebook, depth)[1]
-    if structure and not is_refused and profile.is_extended and profile.start.is_known:
-        from contoursolve.settling import said_twice  # noqa: PLC0415 - few blocks state more than their words
+    if structure and profile.start.is_known and not (is_refused and profile.is_extended):
+        from contoursolve.settling import said_twice  # noqa: PLC0415 - few blocks lack something
 
         for event in said_twice(profile):
-            notebook.add(explain_result(context, event, profile), Status.CONFLICTING)
-    if not is_solvable or is_long or (is_refused and not says_too_much):
+            status = event.kind.status if isinstance(event, Refusal) else Status.OVERDETERMINED
+            notebook.add(explain_result(context, event, profile))
+            notebook.statuses.add(status)
+    if not is_solvable or is_long:
         return Solution(Status.UNDERDETERMINED), None
     solution, alternatives = _solve(profile, context, notebook, depth)
     events: list[Refusal | Remark] = [*solution.refusals, *solution.remarks]
@@ -375,7 +376,13 @@ def _has_choice(profile: Profile) -> bool:
     return not is_closed(system) or any(point not in chosen for point in points_with_two_solutions(system))
 
 
-_ABOUT_WORDS = (RefusalKind.WORDS_DISAGREE, RefusalKind.FACT_DISAGREES, RemarkKind.WORDS_AGREE)
+_ABOUT_WORDS = (
+    RefusalKind.WORDS_DISAGREE,
+    RefusalKind.FACT_DISAGREES,
+    RefusalKind.RADIUS_DIFFERENCE,
+    RefusalKind.LINES_PARALLEL,
+    RemarkKind.WORDS_AGREE,
+)
 
 
 def _secondary(finding: Diagnostic, is_refused: bool) -> Diagnostic:

@@ -519,12 +519,12 @@ def test_no_two_fixes_write_the_same_numbers_and_none_writes_the_old_one():
 
     for case, answer in broken_blocks():
         for each in (answer, case.solve(rules="off")):
-            meanings = [meaning(fix.replacement) for fix in fixes_of(each)]
-            doubles = [
-                fix.description for fix, own in zip(fixes_of(each), meanings, strict=True) if meanings.count(own) > 1
-            ]
-            assert not doubles, (case.text, doubles)
-            assert meaning(case.text) not in meanings, (case.text, [fix.description for fix in fixes_of(each)])
+            # What mends both of two findings stands with both.
+            for fixes in {finding.fixes for finding in each.diagnostics}:
+                meanings = [meaning(fix.replacement) for fix in fixes]
+                doubles = [fix.description for fix, own in zip(fixes, meanings, strict=True) if meanings.count(own) > 1]
+                assert not doubles, (case.text, doubles)
+                assert meaning(case.text) not in meanings, (case.text, [fix.description for fix in fixes])
 
 
 def _number(name: str, text: str) -> str:

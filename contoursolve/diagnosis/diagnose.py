@@ -13,9 +13,11 @@ from contoursolve.diagnosis.repairs import find_repairs
 from contoursolve.diagnostic import Diagnosis, Diagnostic, Fix, Label, Severity, Tie
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer, Policy
+from contoursolve.model import Profile
 from contoursolve.reading import Trouble
 from contoursolve.solving import RefusalKind, RemarkKind, scalars_of
 from contoursolve.solving.affine import NO_CIRCUITS, AffineFacts, Circuit, affine_facts
+from contoursolve.solving.compare import compare_affine
 from contoursolve.source import Span
 from contoursolve.syntax import FACT, Block, Word
 from contoursolve.tolerance import AGREEMENT, RADIUS_DIFFERENCE
@@ -46,8 +48,27 @@ def diagnose(answer: Answer, dialect: Dialect, policy: Policy, following: Iterab
     main = _main(findings, is_extended=profile.is_extended)
     if main is not None:
         fixes = tuple(_fix(answer, repair) for repair in repairs.repairs)
-        findings[main] = replace(findings[main], fixes=fixes)
+        for number in (main, *_both(findings)):
+            findings[number] = replace(findings[number], fixes=fixes)
     return replace(answer, diagnostics=tuple(findings), diagnosis=diagnosis)
+
+
+def _both(findings: list[Diagnostic]) -> list[int]:
+    """The indices of the findings about what is missing and about what contradicts itself, where a contour has both: a
+    repair mends either."""
+    errors = {number: each for number, each in enumerate(findings) if each.severity is Severity.ERROR}
+    missing = [number for number, each in errors.items() if each.about in _MISSING]
+    against = [number for number, each in errors.items() if each.about in _AGAINST]
+    return [*missing, *against] if missing and against else []
+
+
+_MISSING = (Trouble.UNDERDETERMINED, Trouble.CORNER_NOWHERE, RefusalKind.NOT_FIXED)
+_AGAINST = (
+    RefusalKind.WORDS_DISAGREE,
+    RefusalKind.FACT_DISAGREES,
+    RefusalKind.RADIUS_DIFFERENCE,
+    RefusalKind.LINES_PARALLEL,
+)
 
 
 def _main(findings: list[Diagnostic], *, is_extended: bool) -> int | None:
@@ -150,14 +171,23 @@ def _reasons(
     profile = answer.profile
     if affine is not None and finding.about in _ABOUT_TIES:
         for circuit in circuits:
-            if any(word.address in finding.addresses for word in profile.words_of(circuit.facts)):
+            addresses = {word.address for word in profile.words_of(circuit.facts)}
+            about = addresses if finding.about in _AT_VALUES else addresses.intersection(finding.addresses)
+            if about and about <= {*finding.addresses}:
                 yield from conflict_reasons(profile, affine, circuit)
     if finding.about in _ABOUT_FREEDOM:
-        yield from freedom_reasons(profile, diagnosis.freedoms)
+        lost = _points_lost(profile, affine) if affine is not None else set()
+        yield from freedom_reasons(profile, [each for each in diagnosis.freedoms if each.point not in lost])
     if finding.about in _ABOUT_RADII:
         identities = (tie.identity for tie in diagnosis.ties)
         yield from (f"these words are tied: {each}" for each in identities if 0 < len(each) <= SHOWN)
     yield from path_reasons(profile, affine, finding)
+
+
+def _points_lost(profile: Profile, affine: AffineFacts) -> set[str]:
+    """The points for which lines that are parallel leave no place: nothing of them can move."""
+    parallel = (each for each in compare_affine(profile, affine) if each.kind is RefusalKind.LINES_PARALLEL)
+    return {name.rpartition(".")[0] for each in parallel for name in each.subject.split(",")}
 
 
 _ABOUT_TIES = (
@@ -167,6 +197,8 @@ _ABOUT_TIES = (
     RefusalKind.NOT_FIXED,
     RemarkKind.WORDS_AGREE,
 )
+_AT_VALUES = (RefusalKind.LINES_PARALLEL, RefusalKind.NOT_FIXED)
+"""They name all the words that they are about."""
 _ABOUT_FREEDOM = (Trouble.UNDERDETERMINED, RefusalKind.NOT_FIXED)
 
 

@@ -67,11 +67,13 @@ def _equations(answer: Answer, profile: Profile, system: System) -> list[Layer]:
         blocked = "words are missing"
     elif any(each.basis is Basis.STRUCTURAL for each in answer.diagnostics):
         blocked = "a corner or a choice is not determined"
-    if blocked:
-        return [*layers, *(Layer(name, Verdict.NOT_RUN, blocked) for name in ("values", "geometry"))]
     numerical = [each for each in answer.diagnostics if each.basis is Basis.NUMERICAL]
     about_values = [each for each in numerical if each.about in _AT_VALUES]
-    layers.append(_layer("values", bool(about_values), "regular at these values, and words agree"))
+    found_any = _layer("values", bool(about_values), "regular at these values, and words agree")
+    if blocked:
+        values = found_any if about_values else Layer("values", Verdict.NOT_RUN, blocked)
+        return [*layers, values, Layer("geometry", Verdict.NOT_RUN, blocked)]
+    layers.append(found_any)
     if any(each.basis is Basis.RULE and each.severity is Severity.ERROR for each in answer.diagnostics):
         return [*layers, Layer("geometry", Verdict.NOT_RUN, "a rule refuses the block")]
     found = any(each.severity is Severity.ERROR and each not in about_values for each in numerical)

@@ -2,8 +2,9 @@
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 
-from contoursolve.diagnostic import Diagnostic, Severity
+from contoursolve.diagnostic import Diagnostic, Fix, Severity
 from contoursolve.dialects import DIALECTS
 from contoursolve.examine import Answer
 from contoursolve.output.contours import contour_lines
@@ -34,8 +35,13 @@ def listing_lines(result: Result, style: Style, *, is_explained: bool = False) -
 
 def lines_of_findings(result: Result, findings: Iterable[Diagnostic], style: Style) -> Iterator[str]:
     """The lines of findings, each with the program's lines that it marks."""
+    told: tuple[Fix, ...] = ()
     for finding in findings:
-        yield from finding_lines(finding, result.program.name, sources_of(result, finding), style)
+        shown = finding
+        if told and finding.fixes == told:
+            shown = replace(finding, fixes=(), notes=(*finding.notes, "fixes: those above mend this, too"))
+        told = finding.fixes or told
+        yield from finding_lines(shown, result.program.name, sources_of(result, finding), style)
 
 
 def sources_of(result: Result, finding: Diagnostic) -> dict[int, str]:

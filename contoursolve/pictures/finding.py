@@ -4,15 +4,17 @@ A contour that is solved has all its points. One that is refused is worked out a
 corner that does not fit has a place as well. What words leave free is put somewhere, and is said to be so.
 """
 
+from dataclasses import replace
 from math import inf, isfinite
 
 from contoursolve.analysis import judge
 from contoursolve.constraints import assemble
 from contoursolve.examine import MOST_CHOICES, Answer, count_choices
-from contoursolve.model import FIRST, SECOND, Profile, scalar
+from contoursolve.model import FIRST, SECOND, Layout, Profile, scalar
 from contoursolve.pictures.completing import complete, is_chosen
 from contoursolve.pictures.known import Known, in_part, is_usable, known_of
-from contoursolve.solving import Point, RefusalKind, Solution, is_closed, points_with_two_solutions, solve
+from contoursolve.settling import said_twice
+from contoursolve.solving import Point, Refusal, RefusalKind, Solution, is_closed, points_with_two_solutions, solve
 from contoursolve.solving.compile import compile_system
 from contoursolve.solving.numbers import corner_of, inputs_of
 
@@ -37,7 +39,16 @@ def find_known(answer: Answer) -> Known:
         return _worked_out(profile)
     if verdict.is_determined:
         return in_part(profile)
-    return complete(profile)
+    return _completed(profile)
+
+
+def _completed(profile: Profile) -> Known:
+    """A contour of which words leave something free, without those of them that contradict the others."""
+    refusals = tuple(each for each in said_twice(profile) if isinstance(each, Refusal))
+    against = {each.subject for each in refusals if each.kind is RefusalKind.WORDS_DISAGREE}
+    facts = tuple(fact for fact in profile.facts if fact.given not in against)
+    part = replace(profile, layout=Layout(profile.figure, facts)) if against else profile
+    return replace(complete(part), refusals=refusals)
 
 
 def _solution_of(answer: Answer) -> Solution | None:

@@ -5,16 +5,27 @@ from contoursolve.constraints import assemble
 from contoursolve.model import Profile
 from contoursolve.settling.restrict import restrict
 from contoursolve.solving import Refusal, RefusalKind, Remark, RemarkKind
+from contoursolve.solving.affine import affine_facts
 from contoursolve.solving.alternatives import Alternative, find_alternatives
+from contoursolve.solving.compare import compare_affine
 
-_COMPARED = (RefusalKind.WORDS_DISAGREE, RefusalKind.FACT_DISAGREES, RemarkKind.WORDS_AGREE)
+_COMPARED = (
+    RefusalKind.WORDS_DISAGREE,
+    RefusalKind.FACT_DISAGREES,
+    RefusalKind.RADIUS_DIFFERENCE,
+    RemarkKind.WORDS_AGREE,
+)
 
 
 def said_twice(profile: Profile) -> tuple[Refusal | Remark, ...]:
     """How the facts that are not needed compare with the others, as far as these determine what they speak about.
 
-    Where the others leave several places, the one with which most of them agree counts.
+    Facts about lines are compared whatever the others leave free. Of the others, where they leave several places, the
+    one with which most of them agree counts.
     """
+    affine = affine_facts(profile, profile.facts)
+    if affine is not None:
+        return tuple(compare_affine(profile, affine))
     system = assemble(profile)
     free = judge(system).free
     part = restrict(profile, (name for name in system.unknowns if name not in free))

@@ -1,5 +1,6 @@
 """From a system to values: plan, function, solution."""
 
+from contoursolve.solving.compare import compare
 from contoursolve.solving.numbers import lookup, scalars_of
 from contoursolve.solving.plan import NoClosedFormError, Plan, is_closed, make_plan, points_with_two_solutions
 from contoursolve.solving.solution import (
@@ -13,7 +14,7 @@ from contoursolve.solving.solution import (
     Solution,
     Status,
 )
-from contoursolve.solving.solve import compare, solve
+from contoursolve.solving.solve import solve
 
 __all__ = [
     "BESIDE",

@@ -93,6 +93,22 @@ class AffineFacts:
         gap = sum(weights[row] * float(self.constants[row]) for row in present)
         return Circuit(tuple(self.facts[row] for row in present), tuple(abs(gap / weights[row]) for row in present))
 
+    def circuit_with(self, fact: Fact, basis: Sequence[Fact]) -> Circuit | None:
+        """The facts of an independent set from which a further one follows, and that one, which comes last; None if it
+        does not follow from them."""
+        if not basis:
+            return None
+        row = self.matrix[self.facts.index(fact)]
+        rows = [self.facts.index(each) for each in basis]
+        weights = numpy.linalg.lstsq(self.matrix[rows].T, row, rcond=None)[0]
+        if (abs(row - weights @ self.matrix[rows]) > REGULAR).any():
+            return None
+        gap = abs(float(self.constants[self.facts.index(fact)] - weights @ self.constants[rows]))
+        used = [
+            (each, abs(float(weight))) for each, weight in zip(basis, weights, strict=True) if abs(weight) > REGULAR
+        ]
+        return Circuit((*(each for each, _ in used), fact), (*(gap / weight for _, weight in used), gap))
+
     def freedoms(self) -> tuple[Freedom, ...]:
         """What can still move, point by point, in the order of the unknowns."""
         null = self._loose()

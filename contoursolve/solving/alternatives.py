@@ -14,6 +14,7 @@ from contoursolve.backends.inputs import COSINE, SINE
 from contoursolve.constraints import Coordinate, Offset, OnCircle, System, TangentCircles, Values, assemble
 from contoursolve.model import FIRST, SECOND, Arc, Choice, Line, Profile, Side, Unit, scalar
 from contoursolve.solving.certificate import Certificate, Proof
+from contoursolve.solving.compare import compare_fact
 from contoursolve.solving.compile import compile_path
 from contoursolve.solving.elimination import Obstacle
 from contoursolve.solving.enumerate import Doubt, Enumeration, Found, enumerate_solutions
@@ -31,7 +32,6 @@ from contoursolve.solving.solution import (
     Solution,
     Status,
 )
-from contoursolve.solving.solve import compare_fact
 from contoursolve.tolerance import LENGTH, RESIDUAL
 
 

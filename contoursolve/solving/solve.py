@@ -1,6 +1,6 @@
 """Solves a determined profile and believes nothing: every answer is held against the original equations."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from decimal import Decimal
 from itertools import combinations
@@ -14,15 +14,15 @@ from contoursolve.constraints import (
     Coordinate,
     Heading,
     Offset,
-    OnCircle,
     Radius,
     System,
-    Values,
     assemble,
 )
-from contoursolve.model import FIRST, SECOND, Fact, Profile, Unit, scalar
+from contoursolve.model import FIRST, SECOND, Fact, Profile, scalar
+from contoursolve.solving.affine import affine_facts
 from contoursolve.solving.certificate import Certificate, up_to_one_digit
 from contoursolve.solving.certify import certify
+from contoursolve.solving.compare import compare_affine, compare_fact, givens_of
 from contoursolve.solving.compile import compile_system
 from contoursolve.solving.numbers import inputs_of, lookup, scalars_of, sizes_of, solution_at
 from contoursolve.solving.path import check_path
@@ -45,10 +45,8 @@ from contoursolve.solving.solution import (
     Status,
 )
 from contoursolve.tolerance import (
-    AGREEMENT,
     ERROR_BOUND_WARNING,
     LENGTH,
-    RADIUS_DIFFERENCE,
     REGULAR,
     RESIDUAL,
     TOUCHING,
@@ -72,15 +70,29 @@ def solve(profile: Profile, *, is_proven: bool = True) -> Solution:
     attempt = _Attempt(profile, system)
     answer = attempt.answer(is_proven=is_proven)
     tied = frozenset(system.facts[index] for index in verdict.tied) if attempt.stuck else frozenset()
-    if not attempt.stuck & tied:
-        # Where it is singular nothing is said twice, and so nothing can stand in for it.
-        return answer
-    for candidate in _orders(system, tied):
+    # Where it is singular and nothing is said twice, nothing can stand in for it.
+    for candidate in _orders(system, tied) if attempt.stuck & tied else ():
         attempt = _Attempt(profile, candidate)
         answer = attempt.answer(is_proven=is_proven)
         if not attempt.stuck:
             break
-    return answer
+    return _all_refusals(profile, answer) if attempt.stuck else answer
+
+
+def _all_refusals(profile: Profile, answer: Solution) -> Solution:
+    """A refusal where a step is singular, with whatever else facts about lines say against each other."""
+    affine = affine_facts(profile, profile.facts)
+    events = tuple(compare_affine(profile, affine)) if affine is not None else ()
+    return refused(events) if any(isinstance(event, Refusal) for event in events) else answer
+
+
+def refused(events: Iterable[Refusal | Remark]) -> Solution:
+    """The solution that refusals leave, with the words that agree; its status is the first in order."""
+    refusals = tuple(event for event in events if isinstance(event, Refusal))
+    agreeing = tuple(event for event in events if isinstance(event, Remark) and event.kind is RemarkKind.WORDS_AGREE)
+    found = {refusal.kind.status for refusal in refusals} | ({Status.OVERDETERMINED} if agreeing else set())
+    status = next(status for status in Status if status in found)
+    return Solution(status, refusals=refusals, remarks=agreeing)
 
 
 def _orders(system: System, tied: frozenset[Fact]) -> Iterator[System]:
@@ -92,21 +104,6 @@ def _orders(system: System, tied: frozenset[Fact]) -> Iterator[System]:
         basis = system.keep(first)
         if judge(basis).is_determined and is_closed(basis):
             yield system.keep(first + tuple(fact for fact in system.facts if fact not in first))
-
-
-def compare(fact: Fact, profile: Profile, at: Values) -> dict[str, float]:
-    """What a fact states beside what it would need to state at these points, and the gap in mm.
-
-    An expected angle is given by the turn number of the stated one, so that the two can be compared.
-    """
-    given = profile.givens[fact.given]
-    values = {"actual": float(given.value), "off_by_mm": abs(float(fact.residual(at)))}
-    expected = fact.implied(at)
-    if expected is not None:
-        if given.unit is Unit.DEGREE:
-            expected += 360 * round((float(given.value) - expected) / 360)
-        values["expected"] = expected
-    return values
 
 
 class _Attempt:
@@ -171,10 +168,7 @@ class _Attempt:
         return replace(certificate, gap=0.0) if touches else certificate
 
     def _refused(self) -> Solution:
-        agreeing = tuple(remark for remark in self.remarks if remark.kind is RemarkKind.WORDS_AGREE)
-        found = {refusal.kind.status for refusal in self.refusals} | ({Status.OVERDETERMINED} if agreeing else set())
-        status = next(status for status in Status if status in found)
-        return Solution(status, refusals=tuple(self.refusals), remarks=agreeing)
+        return refused([*self.refusals, *self.remarks])
 
     def _point(self, name: str) -> Point:
         """A point, counted from the start point."""
@@ -356,35 +350,6 @@ class _Attempt:
         worst = max([abs(self.out[name]) for name in self.machine.residuals])
         bound = inverse_norm(entries, size) * (worst + ROUNDING * largest) + self.split
         return up_to_one_digit(bound) if isfinite(bound) else inf
-
-
-def givens_of(fact: Fact, system: System) -> tuple[str, ...]:
-    """The given of a fact, or those that determine what it mentions directly."""
-    if fact.given:
-        return (fact.given,)
-    mentioned = set(system.unknowns_of(fact))
-    return tuple(each.given for each in system.facts if each.given and set(system.unknowns_of(each)) <= mentioned)
-
-
-def compare_fact(fact: Fact, off: float, profile: Profile, system: System, at: Values) -> Refusal | Remark | None:
-    """What to say of a fact that was not needed and is off by so much (mm) at the points that the others give."""
-    if isinstance(fact, OnCircle) and not fact.given:
-        # The residual is the difference of the radii to first order only.
-        away = (float(at.coordinate(fact.point, axis) - at.coordinate(fact.center, axis)) for axis in (FIRST, SECOND))
-        distance, radius = hypot(*away), float(at.radius(fact.radius))
-        off = abs(distance - radius)
-        values = {"limit": RADIUS_DIFFERENCE, "actual": off, "off_by_mm": off, "radius": radius, "distance": distance}
-        if not off <= RADIUS_DIFFERENCE:
-            return Refusal(RefusalKind.RADIUS_DIFFERENCE, fact.point, givens_of(fact, system), values)
-        if off > AGREEMENT:
-            return Remark(RemarkKind.RADIUS_DIFFERS, fact.point, givens_of(fact, system), values)
-        return None
-    givens = givens_of(fact, system)
-    values = compare(fact, profile, at) if fact.given else {"off_by_mm": off}
-    if off <= AGREEMENT or abs(values.get("expected", inf) - values.get("actual", inf)) <= AGREEMENT:
-        return Remark(RemarkKind.WORDS_AGREE, fact.given, givens, values) if fact.given else None
-    kind = RefusalKind.WORDS_DISAGREE if "expected" in values else RefusalKind.FACT_DISAGREES
-    return Refusal(kind, fact.given, givens, values)
 
 
 def _refuse(kind: RefusalKind, subject: str, givens: tuple[str, ...], **values: float) -> Refusal:

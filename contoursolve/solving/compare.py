@@ -1,0 +1,83 @@
+"""Do facts that say the same agree? What each of them would have to state, and by how much it is off."""
+
+from collections.abc import Iterator
+from math import hypot, inf
+
+from contoursolve.analysis import judge
+from contoursolve.constraints import OnCircle, System, Values, assemble
+from contoursolve.model import FIRST, SECOND, Fact, Profile, Unit
+from contoursolve.solving.affine import AffineFacts
+from contoursolve.solving.numbers import lookup
+from contoursolve.solving.solution import Refusal, RefusalKind, Remark, RemarkKind
+from contoursolve.tolerance import AGREEMENT, RADIUS_DIFFERENCE, RESIDUAL
+
+
+def compare(fact: Fact, profile: Profile, at: Values) -> dict[str, float]:
+    """What a fact states beside what it would need to state at these points, and the gap in mm.
+
+    An expected angle is given by the turn number of the stated one, so that the two can be compared.
+    """
+    given = profile.givens[fact.given]
+    values = {"actual": float(given.value), "off_by_mm": abs(float(fact.residual(at)))}
+    expected = fact.implied(at)
+    if expected is not None:
+        if given.unit is Unit.DEGREE:
+            expected += 360 * round((float(given.value) - expected) / 360)
+        values["expected"] = expected
+    return values
+
+
+def givens_of(fact: Fact, system: System) -> tuple[str, ...]:
+    """The given of a fact, or those that determine what it mentions directly."""
+    if fact.given:
+        return (fact.given,)
+    mentioned = set(system.unknowns_of(fact))
+    return tuple(each.given for each in system.facts if each.given and set(system.unknowns_of(each)) <= mentioned)
+
+
+def compare_fact(fact: Fact, off: float, profile: Profile, system: System, at: Values) -> Refusal | Remark | None:
+    """What to say of a fact that was not needed and is off by so much (mm) at the points that the others give."""
+    if isinstance(fact, OnCircle) and not fact.given:
+        # The residual is the difference of the radii to first order only.
+        away = (float(at.coordinate(fact.point, axis) - at.coordinate(fact.center, axis)) for axis in (FIRST, SECOND))
+        distance, radius = hypot(*away), float(at.radius(fact.radius))
+        off = abs(distance - radius)
+        values = {"limit": RADIUS_DIFFERENCE, "actual": off, "off_by_mm": off, "radius": radius, "distance": distance}
+        if not off <= RADIUS_DIFFERENCE:
+            return Refusal(RefusalKind.RADIUS_DIFFERENCE, fact.point, givens_of(fact, system), values)
+        if off > AGREEMENT:
+            return Remark(RemarkKind.RADIUS_DIFFERS, fact.point, givens_of(fact, system), values)
+        return None
+    givens = givens_of(fact, system)
+    values = compare(fact, profile, at) if fact.given else {"off_by_mm": off}
+    if off <= AGREEMENT or abs(values.get("expected", inf) - values.get("actual", inf)) <= AGREEMENT:
+        return Remark(RemarkKind.WORDS_AGREE, fact.given, givens, values) if fact.given else None
+    kind = RefusalKind.WORDS_DISAGREE if "expected" in values else RefusalKind.FACT_DISAGREES
+    return Refusal(kind, fact.given, givens, values)
+
+
+def compare_affine(profile: Profile, affine: AffineFacts) -> Iterator[Refusal | Remark]:
+    """How each fact that the facts before it make unnecessary compares with them, whether they determine everything or
+    not: words that say the same, whatever their values, and lines that are parallel, or the same, at these values."""
+    system = assemble(profile)
+    basis: list[Fact] = []
+    for fact in profile.facts:
+        circuit = affine.circuit_with(fact, basis)
+        if circuit is None:
+            basis.append(fact)
+            continue
+        fixed = affine.fixed_by(basis)
+        off = circuit.off[-1]
+        is_tied = judge(system.keep((*basis, fact))).rank == len(basis)
+        if is_tied and fixed.keys() >= {*system.unknowns_of(fact)}:
+            event = compare_fact(fact, off, profile, system, lookup(profile, fixed))
+            if event is not None:
+                yield event
+            continue
+        unknowns = {name for each in circuit.facts for name in system.unknowns_of(each)}
+        subject = ",".join(name for name in system.unknowns if name in unknowns and name not in fixed)
+        givens = tuple(each.given for each in circuit.facts if each.given)
+        if off <= RESIDUAL:
+            yield Refusal(RefusalKind.NOT_FIXED, subject, givens)
+        else:
+            yield Refusal(RefusalKind.LINES_PARALLEL, subject, givens, {"off_by_mm": off})

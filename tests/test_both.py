@@ -1,0 +1,210 @@
+"""Blocks that lack something in one part and contradict themselves in another: both are told.
+
+The oracle is the rank of G111's equations, written here by hand: with letters drawn at random, what is free and what
+contradicts itself is a matter of linear algebra.
+"""
+
+from itertools import combinations
+from math import cos, radians, sin
+from random import Random
+
+import numpy
+import pytest
+
+import contoursolve
+from contoursolve.pictures import draw_result
+
+GEOMETRY, CORNERS = "IKAXUZWB", "CPDQ"
+LETTERS = GEOMETRY + CORNERS
+ANGLES = "AB"
+ROUND = 1e-9
+TOLD = 0.01
+"""mm. What is shaken is shaken by more."""
+
+MISSING = {"words-missing", "corner-nowhere", "g111-not-fixed"}
+AGAINST = {"words-conflict", "g111-parallel"}
+
+
+def row_of(letter, value, start):
+    """A word as a row over Z and X (radius) of V1 and V2, and its constant: the row times the unknowns is that."""
+    z, x = start
+    if letter in ANGLES:
+        c, s = cos(radians(value)), sin(radians(value))
+        return ((s, -c, 0, 0), z * s - x * c) if letter == "A" else ((-s, c, s, -c), 0.0)
+    return {
+        "I": ((0, 1, 0, 0), x + value),
+        "K": ((1, 0, 0, 0), z + value),
+        "X": ((0, 0, 0, 1), value / 2),
+        "U": ((0, 0, 0, 1), x + value / 2),
+        "Z": ((0, 0, 1, 0), value),
+        "W": ((0, 0, 1, 0), z + value),
+    }[letter]
+
+
+class Expected:
+    """What the equations of some words are: their rank, and by how much each word that the words before it make
+    unnecessary misses what they say."""
+
+    def __init__(self, values, start):
+        rows, ends, self.off = [], [], {}
+        for letter in GEOMETRY:
+            if letter not in values:
+                continue
+            row, end = row_of(letter, values[letter], start)
+            if rows:
+                weights = numpy.linalg.lstsq(numpy.array(rows).T, numpy.array(row), rcond=None)[0]
+                if abs(numpy.array(row) - weights @ numpy.array(rows)).max() < ROUND:
+                    self.off[letter] = abs(end - weights @ numpy.array(ends))
+                    continue
+            rows.append(row)
+            ends.append(end)
+        self.rank = len(rows)
+        self.conflicts = {letter: off for letter, off in self.off.items() if off > TOLD}
+        self.is_near = any(ROUND < off <= TOLD for off in self.off.values())
+
+    def status(self, letters):
+        """The first in the contract's order; None for what this oracle does not tell."""
+        if self.conflicts or {*"CP"} <= letters or {*"DQ"} <= letters:
+            return "conflicting"
+        if self.rank < 4 or is_nowhere(letters):
+            return "underdetermined"
+        return "overdetermined" if self.off else None
+
+
+def is_nowhere(letters):
+    """Whether nothing tells on which line corner 2 lands."""
+    return bool(letters & {*"DQ"}) and bool(letters & {*"XU"}) == bool(letters & {*"ZW"})
+
+
+def draw_values(draw, letters, *, is_shaken):
+    """Values of the words of one contour; shaken, those of some are moved."""
+    start = draw.uniform(-50, 50), draw.uniform(5, 60)
+    v1, v2 = ((draw.uniform(-90, 90), draw.uniform(5, 90)) for _ in range(2))
+    values = {
+        "I": v1[1] - start[1],
+        "K": v1[0] - start[0],
+        "X": 2 * v2[1],
+        "U": 2 * (v2[1] - start[1]),
+        "Z": v2[0],
+        "W": v2[0] - start[0],
+        "A": numpy.degrees(numpy.arctan2(v1[1] - start[1], v1[0] - start[0])),
+        "B": numpy.degrees(numpy.arctan2(v2[1] - v1[1], v2[0] - v1[0])),
+    }
+    for letter in draw.sample(GEOMETRY, 3) if is_shaken else ():
+        values[letter] += draw.choice((1, -1)) * draw.uniform(1, 9)
+    values |= {letter: draw.uniform(0.1, 0.5) for letter in CORNERS}
+    return {letter: round(float(values[letter]), 12) for letter in letters}, tuple(round(each, 12) for each in start)
+
+
+def check(values, start):
+    """One block against the equations."""
+    block = "G111 " + " ".join(f"{letter}{value:.12f}" for letter, value in values.items())
+    place = f"X{2 * start[1]:.12f} Z{start[0]:.12f}"
+    answer = contoursolve.solve(block, start=place, rules="off", depth="verdict").answers[0]
+    expected, letters = Expected(values, start), {*values}
+    if expected.is_near:
+        return
+    codes = [each.code for each in answer.diagnostics]
+    told = {each.addresses[0]: each.values["off_by_mm"] for each in answer.diagnostics if each.code == "words-conflict"}
+    assert told.keys() == expected.conflicts.keys(), (block, place, codes)
+    assert all(abs(told[letter] - off) < 1e-6 for letter, off in expected.conflicts.items()), (block, place, told)
+    assert ("words-missing" in codes) == (expected.rank < 4), (block, place, codes)
+    assert ("corner-nowhere" in codes) == is_nowhere(letters), (block, place, codes)
+    status = expected.status(letters)
+    assert answer.status.value in ([status] if status else ["solved", "no-solution"]), (block, place, codes)
+
+
+def subsets():
+    return ["".join(each) for each in combinations(LETTERS, 6)]
+
+
+@pytest.mark.parametrize("is_shaken", [False, True])
+def test_both_parts_of_a_block_are_told_by_the_rank_of_its_equations(is_shaken):
+    draw = Random(3)
+    for letters in draw.sample(subsets(), 40):
+        check(*draw_values(draw, letters, is_shaken=is_shaken))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("is_shaken", [False, True])
+def test_both_parts_of_every_block_of_six_words_are_told(is_shaken):
+    draw = Random(4)
+    for letters in subsets():
+        check(*draw_values(draw, letters, is_shaken=is_shaken))
+
+
+@pytest.mark.slow
+def test_both_parts_of_blocks_of_any_words_are_told():
+    draw = Random(5)
+    for _ in range(5_000):
+        letters = draw.sample(LETTERS, draw.randint(1, len(LETTERS)))
+        check(*draw_values(draw, letters, is_shaken=draw.random() < 0.5))
+
+
+def test_lines_that_are_parallel_only_at_their_values_contradict_themselves_by_rank():
+    draw, seen = Random(6), 0
+    for _ in range(150):
+        letters = draw.sample(GEOMETRY, draw.randint(2, 6))
+        values = {
+            letter: draw.choice((0, 45, 90, 135, 180)) if letter in ANGLES else draw.choice((-20, 0, 10, 20))
+            for letter in letters
+        }
+        rows, ends = (
+            numpy.array(each) for each in zip(*(row_of(*each, (0, 20)) for each in values.items()), strict=True)
+        )
+        rank = numpy.linalg.matrix_rank(rows, tol=ROUND)
+        is_against = numpy.linalg.matrix_rank(numpy.column_stack([rows, ends]), tol=ROUND) > rank
+        block = "G111 " + " ".join(f"{letter}{value}." for letter, value in values.items())
+        answer = contoursolve.solve(block, start="X40. Z0.", rules="off", depth="verdict").answers[0]
+        codes = {each.code for each in answer.diagnostics}
+        assert bool(codes & AGAINST) == is_against, (block, codes)
+        assert codes & MISSING or rank == 4 or is_against, (block, codes)
+        assert not codes & MISSING or rank < 4, (block, codes)
+        seen += is_against
+    assert 30 < seen < 120
+
+
+START = "X40. Z0."
+
+
+@pytest.mark.parametrize(
+    ("block", "missing", "against", "off", "status"),
+    [
+        ("Z-27.727 W-4.211 A180. B-152.", "words-missing", "words-conflict", 23.516, "conflicting"),
+        ("A137. I10. K-10.", "words-missing", "words-conflict", 0.494, "conflicting"),
+        ("X100. Z-50. A180. K-30. B120. P5. Q5.", "corner-nowhere", "words-conflict", 2.321, "conflicting"),
+        ("A180. I5.", "words-missing", "g111-parallel", 5.0, "underdetermined"),
+    ],
+)
+def test_what_is_missing_and_what_contradicts_itself_have_a_finding_each(block, missing, against, off, status):
+    answer = contoursolve.solve(f"G111 {block}", start=START, rules="off").answers[0]
+    assert answer.status.value == status
+    found = {each.code: each for each in answer.diagnostics}
+    assert found.keys() == {missing, against}
+    assert found[against].values["off_by_mm"] == pytest.approx(off, abs=5e-4)
+    assert found[against].notes
+    assert found[missing].fixes == found[against].fixes
+    layers = {layer.name: layer.verdict.value for layer in answer.diagnosis.layers}
+    assert layers["values"] == "found"
+    assert any(tie.is_conflict for tie in answer.diagnosis.ties)
+
+
+def test_the_amount_of_a_tie_is_in_the_reasons_too():
+    block = "G111 X100. Z-50. A180. K-30. B120. P5. Q5."
+    finding = contoursolve.solve(block, start=START, rules="off").answers[0].diagnostics[0]
+    assert "2.679 mm apart" in finding.notes[0]
+
+
+def test_a_refusal_does_not_hide_that_the_geometry_contradicts_itself():
+    answer = contoursolve.solve("G111 A180. I5.", start=START).answers[0]
+    assert answer.status.value == "rejected"
+    assert [each.code for each in answer.diagnostics] == ["g111-line-2", "g111-parallel", "words-missing"]
+    # There is no V1 that could slide.
+    assert [note for each in answer.diagnostics for note in each.notes if "V1 can" in note] == []
+    answer = contoursolve.solve("G111 Z-27.727 W-4.211 A180. B-152.", start=START).answers[0]
+    assert {"g111-z-and-w", "words-conflict", "words-missing"} <= {each.code for each in answer.diagnostics}
+
+
+def test_the_picture_shows_what_the_text_says():
+    result = contoursolve.solve("G111 Z-27.727 W-4.211 A180. B-152.", start=START, rules="off")
+    assert "23.516 off" in str(draw_result(result).svg)
