@@ -34,6 +34,26 @@ class View(Sequence[Block]):
         self.blocks += islice(self.rest, max(0, last - len(self.blocks)))
         return self.blocks[index]
 
+    def holds(self, count: int) -> bool:
+        """Whether there are at least so many lines."""
+        for place in range(self.first, len(self.held)):
+            each = self.held[place]
+            count -= len(each.lines) if isinstance(each, Passage) else 1
+            if count <= 0:
+                return True
+        return False
+
+    def lines(self, first: int) -> Iterator[tuple[int, str]]:
+        """The lines from an index on as text, with their numbers."""
+        for place in range(self.first, len(self.held)):
+            each = self.held[place]
+            count = len(each.lines) if isinstance(each, Passage) else 1
+            if first < count and isinstance(each, Passage):
+                yield from enumerate(each.lines[max(0, first) :], each.line + max(0, first))
+            elif first < count and not isinstance(each, Passage):
+                yield each.line, each.text
+            first -= count
+
     def says_something(self, first: int) -> bool:
         """Whether any block from an index on has more than its number."""
         place, number = self.first, 0

@@ -6,6 +6,7 @@ from decimal import Decimal
 from typing import NamedTuple
 
 from contoursolve.contour import Contour
+from contoursolve.diagnostic import Diagnostic
 from contoursolve.dialects import Dialect
 from contoursolve.model import Plane, Start, Unit
 from contoursolve.reading import Claim, Code, Effect, State, codes_of
@@ -21,10 +22,12 @@ _CODES = "GMTgmt"
 @dataclass(frozen=True, slots=True, eq=False)
 class Mould:
     """A contour of one block that leaves the modal state as it is, without its numbers: `kind` tells what else is
-    solved like it. `givens` are the values that its words state: name, unit, the word's index, and what its number is
-    multiplied by; `kept` are the indices of the other words. `state` is one in which the block means this."""
+    solved like it, `form` what it is called. `givens` are the values that its words state: name, unit, the word's
+    index, and what its number is multiplied by; `kept` are the indices of the other words. `state` is one in which the
+    block means this."""
 
     kind: Hashable
+    form: str
     state: State
     givens: tuple[tuple[str, Unit, int, Decimal], ...]
     kept: frozenset[int]
@@ -61,7 +64,7 @@ class Cast(NamedTuple):
 
 
 class Moulded(NamedTuple):
-    """A contour of a mould, solved without a finding: as much of an answer as its path needs."""
+    """A contour of a mould, solved without a finding about itself: as much of an answer as its path needs."""
 
     blocks: tuple[Block, ...]
     before: State
@@ -69,7 +72,8 @@ class Moulded(NamedTuple):
     plane: Plane
     start: Start
     contour: Contour
-    diagnostics: tuple[()] = ()
+    diagnostics: tuple[Diagnostic, ...] = ()
+    """What there is to say of the block behind it."""
 
     @property
     def claim(self) -> "Moulded":
@@ -109,4 +113,4 @@ def mould_of(claim: Claim, kind: Hashable, dialect: Dialect) -> Mould | None:
     kept = frozenset(index for index, word in enumerate(block.words) if word.address != "G") - stated
     if any(block.words[index].address in modes.lexicon.addresses for index in kept):
         return None
-    return Mould(kind, claim.after, tuple(givens), kept)
+    return Mould(kind, claim.form.name, claim.after, tuple(givens), kept)

@@ -1,7 +1,7 @@
 """Contours that are found and not solved yet: together, as soon as it is known where they begin."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Protocol, cast
 
@@ -10,6 +10,7 @@ from contoursolve.contour import Contour
 from contoursolve.diagnostic import Diagnostic, Severity
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer
+from contoursolve.explain import Context
 from contoursolve.model import Start
 from contoursolve.moulds import Cast, Mould, Moulded
 from contoursolve.reading import Awaited, Claim, Modes, Position, State, Trouble, end_of_contour, leave
@@ -94,8 +95,20 @@ class Queue:
             )
             for (each, claim), answer in zip(claimed, answers, strict=True):
                 step = each.step
-                each.step = Step(step.blocks, step.before, answer, step.findings)
                 each.left = partial(_after, claim, self.dialect.modes, answer)
+                behind = self._behind(each, claim.form.name, answer.contour, each.left)
+                told = replace(answer, diagnostics=(*answer.diagnostics, *behind)) if behind else answer
+                each.step = Step(step.blocks, step.before, told, step.findings)
+
+    def _behind(
+        self, each: Pending, form: str, contour: Contour | None, left: Callable[[], State]
+    ) -> tuple[Diagnostic, ...]:
+        """The findings about the block behind a contour."""
+        dialect = self.dialect
+        if dialect.follow is None:
+            return ()
+        context = Context(dialect.rules, each.step.before.unit)
+        return tuple(dialect.follow(form, contour, left, each.view.lines(each.after), context, dialect.modes))
 
     def _settle_casts(self, casts: Sequence[tuple[Pending, Cast]]) -> None:
         """Solve blocks of one mould; those that are not plainly solved are read."""
@@ -113,8 +126,9 @@ class Queue:
                 continue
             own = block.block()
             answer = Moulded((own,), before, before, before.plane, *path)
-            each.step = Step((own,), before, answer, each.step.findings)
             each.left = partial(_behind_cast, answer)
+            answer = answer._replace(diagnostics=self._behind(each, block.mould.form, answer.contour, each.left))
+            each.step = Step((own,), before, answer, each.step.findings)
 
     def leave(self, pending: Pending) -> State:
         """The state after a contour; where it ends follows when it is solved."""

@@ -258,6 +258,10 @@ class _Examiner:
                     held, index = go_on(held, index, len(passed.lines))
                     continue
             view, item = View(held, index), held[index]
+            if not is_whole and not view.holds(1 + _NEAR):
+                more = list(islice(rest, _BATCH))
+                held, index, is_whole = [*held[index:], *more], 0, not more
+                continue
             if isinstance(item, Cast) and start is None and item.mould.fits(state):
                 self.diagnostics += self.marks.look(item)
                 pending = self.queue.add(item, Step((), state, findings=self._findings()), view, 1)
@@ -270,7 +274,7 @@ class _Examiner:
             after = 1
             if isinstance(found, Claim):
                 after += found.blocks[-1].line - block.line
-            if not is_whole and not view.says_something(after):
+            if not is_whole and not (view.says_something(after) and view.holds(after + _NEAR)):
                 # Whether a contour goes on is known at the next block that says something.
                 more = list(islice(rest, _BATCH))
                 held, index, is_whole = [*held[index:], *more], 0, not more

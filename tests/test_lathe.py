@@ -347,6 +347,89 @@ def test_contours_that_are_solved_together_cross_the_axis_as_each_by_itself():
     assert contoursolve.expand(text).summary.warnings == len(messages)
 
 
+BEHIND = """
+G00 X40. Z0.|G111 X100. A180. K-30. B120.|Z-90.|g111-rapid-behind
+G00 X40. Z0.|G111 X100. A180. K-30. B120. P5. Q5.|W-30. F.2|g111-rapid-behind
+G00 X40. Z0.|G111 X100. A180. K-30. B120.|M08|N7|(IN A ROW)|X120.|g111-rapid-behind
+G00 X100. Z-50.|G112 U0 I10. K-50. R30.|Z-150.|g111-rapid-behind
+G00 X40. Z0.|G111 X100. A180. B120.|Z-90.|g111-line-1 g111-rapid-behind
+G00 X40. Z0.|G111 X100. A180. K-30. B120.|G01 Z-90.|
+G00 X40. Z0.|G111 X100. A180. K-30. B120.|G00 Z-90.|
+G00 X40. Z0.|G111 X100. A180. K-30. B120.|G01 F.2|Z-90.|
+G00 X40. Z0.|G111 X100. A180. K-30. B120.|G28 U0 W0|
+G00 X40. Z0.|G111 X100. A180. K-30. B120.|T0202|X90.|
+G01 X40. Z0. F.2|G111 X100. A180. K-30. B120.|Z-90.|
+G00 X40. Z0.|G111 X100. A180. K-30. B120.|X160. A180. K-30. B120.|g111-forgotten
+G00 X40. Z0.|G111 X100. A180. K-30. B120.|Z-90. K-10.|g111-forgotten
+G00 X40. Z0.|G111 X100. A180. K-30. B120.|X160. B135.|g111-forgotten
+G00 X40. Z0.|G111 X100. A180. K-30. B120.|X160. P2.|g111-forgotten
+G01 X40. Z0. F.2|G111 X100. A180. K-30. B120.|X160. Q2.|g111-forgotten
+G01 X40. Z0. F.2|G111 X100. A180. K-30. B120.|Z-90. I3.|
+G01 X40. Z0. F.2|G111 X100. A180. K-30. B120. Q5.|Z-90.|
+G01 X40. Z0. F.2|G111 X100. A180. K-30. B120. Q5.|X120.|g111-landing-left
+G01 X40. Z0. F.2|G111 X100. A180. K-30. B120. Q5.|Z-40.|g111-landing-left
+G01 X40. Z0. F.2|G111 X100. A180. K-30. B120. D5.|X100. Z-90.|
+G01 X40. Z0. F.2|G111 X100. A180. K-30. B120. D5.|X100.01 Z-90.|g111-landing-left
+G01 X40. Z0. F.2|G111 X100. A180. K-30. B120. Q0|X120.|
+G01 X40. Z0. F.2|G111 Z-60. A180. K-30. B120. Q5.|X160.|
+G01 X40. Z0. F.2|G111 Z-60. A180. K-30. B120. Q5.|Z-90.|g111-landing-left
+G01 X40. Z0. F.2|G111 X100. A180. K-30. B120. Q5.|G111 K-20. I0 B120. X160.|
+G01 X40. Z0. F.2|G111 X100. A180. K-30. B120. Q5.|G111 A135. K-20. B120. X160.|g111-landing-left
+G01 X40. Z0. F.2|G111 X100. A180. K-30. B120. Q5.|G112 U0 I10. K-50. R30.|
+G01 X40. Z0. F.2|G111 X100. A180. K-30. B120. Q5.|G02 X110. W-5. R5.|
+G01 X40. Z0. F.2|G111 X100. A180. K-30. B120. Q5.|G02 U10. W-5. I5. K0|
+G01 X40. Z0. F.2|G111 X100. A180. K-30. B120. Q5.|G03 U10. W-5. R5.|g111-landing-left
+G01 X100. Z-50. F.2|G112 U0 I10. K-50. P5. Q5. R30.|Z-150.|
+G01 X100. Z-50. F.2|G112 U0 I10. K-50. P5. Q5. R30.|X120. Z-150.|g111-landing-left
+"""
+
+
+@pytest.mark.parametrize("row", BEHIND.split("\n")[1:-1])
+def test_the_block_behind_multiple_cornering_is_looked_at(row):
+    *lines, expected = row.split("|")
+    text = "\n".join(lines)
+    result = solve(text)
+    found = codes(result)
+    assert found == expected.split()
+    for each in result.diagnostics:
+        if each.code in ("g111-rapid-behind", "g111-forgotten", "g111-landing-left"):
+            assert (each.severity.value, each.span.line) == ("warning", len(lines))
+            assert "corner 2" in each.message or lines[1][:4] in each.message
+    # With G01 in force behind them, there is no rapid.
+    other = contoursolve.solve(text, control="yasnac-lx3", settings={"yasnac-lx3.motion-after": "g01"})
+    assert "g111-rapid-behind" not in codes(other)
+    # In a long program that is solved together, and as it is expanded, the same is told.
+    many = solve("\n".join([text] * 12))
+    assert [each.message for each in many.diagnostics] == 12 * [each.message for each in result.diagnostics]
+    if not result.has_errors:
+        assert contoursolve.expand("\n".join([text] * 30), control="yasnac-lx3").summary.warnings == 30 * len(found)
+
+
+def test_the_fix_for_a_forgotten_code_is_the_block_with_it_and_only_if_that_is_a_contour():
+    start = "G00 X40. Z0.\nG111 X100. A180. K-30. B120.\n"
+    (finding,) = solve(start + "N5 X160. A180. K-30. B120.").diagnostics
+    (fix,) = finding.fixes
+    assert fix.replacement == "N5 G111 X160. A180. K-30. B120."
+    assert codes(solve(start + fix.replacement)) == []
+    (finding,) = solve(start + "X160. B120.").diagnostics
+    assert (finding.code, finding.fixes) == ("g111-forgotten", ())
+
+
+def test_behind_g111_the_motion_before_it_is_written_out():
+    """G111 is not modal. By default what was in force before it is again, and `expand` says it."""
+    for motion, setting, written in (
+        ("G00", "unchanged", ["G00", "Z-90."]),
+        ("G01", "unchanged", ["Z-90."]),
+        ("G00", "g01", ["Z-90."]),
+    ):
+        text = f"{motion} X40. Z0. F.2\nG111 X100. A180. K-30. B120.\nZ-90.\n"
+        settings = {"yasnac-lx3.motion-after": setting}
+        expansion = contoursolve.expand(text, control="yasnac-lx3", settings=settings)
+        lines = expansion.text.split("\n")
+        assert lines[lines.index("G01 X100. Z-47.321") + 1 : -1] == written
+        assert expansion.summary.warnings == (written[0] == "G00")
+
+
 def test_settings_have_names_and_a_contour_tells_on_which_it_rests():
     assert configured({}, "G111 X100. A180. K-30. B120. C5.").claim.conventions[0].setting.name == "bevel"
     assert configured({}, "G112 U0 I10. K-50. R30. D5.").claim.conventions[0].setting.name == "bevel"

@@ -1,8 +1,11 @@
 """What a control is: a record of tables, and how its contours are found among the blocks."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
+from contoursolve.contour import Contour
+from contoursolve.diagnostic import Diagnostic
+from contoursolve.explain import Context
 from contoursolve.model import Length, Plane
 from contoursolve.reading import Assumption, Claim, Form, Modes, Position, Setting, State
 from contoursolve.rules import Rule
@@ -10,6 +13,13 @@ from contoursolve.syntax import Block, Word
 
 Finder = Callable[[Sequence[Block], int, State, Modes], Claim | None]
 """(blocks, index, state before the block, modes) to the contour that begins at this block, if any."""
+
+
+Follower = Callable[
+    [str, Contour | None, Callable[[], State], Iterable[tuple[int, str]], Context, Modes], Iterator[Diagnostic]
+]
+"""(name of the form, path, what gives the state behind it, lines behind it with their numbers, context, modes) to the
+findings about the block behind a contour."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,6 +61,8 @@ class Dialect:
     """Conventions on which the manual is silent."""
     has_runs: bool = True
     """Whether a contour may be several blocks in a row."""
+    follow: Follower | None = None
+    """What is wrong with the block behind a contour, though it is no part of it."""
 
     @property
     def assumptions(self) -> tuple[Assumption, ...]:

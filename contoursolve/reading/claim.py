@@ -44,6 +44,9 @@ class Trouble(Enum):
     ASKED_NOTHING = "asked-nothing"
     WORD_UNUSED = "word-unused"
     AXIS_CROSSED = "axis-crossed"
+    CODE_FORGOTTEN = "code-forgotten"
+    RAPID_BEHIND = "rapid-behind"
+    LANDING_LEFT = "landing-left"
 
 
 @dataclass(frozen=True, slots=True)

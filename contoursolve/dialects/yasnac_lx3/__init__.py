@@ -5,6 +5,7 @@ from contoursolve.dialects.dialect import Dialect
 from contoursolve.dialects.yasnac_lx3.arc import ARC_FORMS
 from contoursolve.dialects.yasnac_lx3.arc_rules import ARC_RULES
 from contoursolve.dialects.yasnac_lx3.find import find
+from contoursolve.dialects.yasnac_lx3.following import follow
 from contoursolve.dialects.yasnac_lx3.g111 import G111
 from contoursolve.dialects.yasnac_lx3.g111_rules import G111_RULES
 from contoursolve.dialects.yasnac_lx3.g112 import G112_FORMS
@@ -33,4 +34,5 @@ YASNAC_LX3 = Dialect(
     contours="G111, G112, G11, G12, and G01 with I or K",
     settings=(BEVEL, MOTION_AFTER),
     has_runs=False,
+    follow=follow,
 )

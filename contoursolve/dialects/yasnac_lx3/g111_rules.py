@@ -4,6 +4,7 @@ from decimal import Decimal
 
 from contoursolve.diagnostic import Severity
 from contoursolve.dialects.yasnac_lx3.claim import OTHER_G
+from contoursolve.dialects.yasnac_lx3.lexicon import MOTION_AFTER
 from contoursolve.dialects.yasnac_lx3.manual import alarms, manual
 from contoursolve.reading import Trouble
 from contoursolve.rules import Rule, Value, all_of, at_least, at_most, some
@@ -319,4 +320,64 @@ _GEOMETRY_RULES = (
     ),
 )
 
-G111_RULES = _COMBINATION_RULES + _GEOMETRY_RULES
+_FOLLOWING_RULES = (
+    Rule(
+        code="g111-forgotten",
+        message="{words} {stand} here without {code}, which is not modal: each contour needs its own",
+        help="write {code} into this block, or delete {words}",
+        source=manual("2.8.30: G111 is not modal", Evidence.DERIVED),
+        roles=(_ROLE, "G112"),
+        about=Trouble.CODE_FORGOTTEN,
+        severity=Severity.WARNING,
+        accepted=(
+            _GOOD + "\nG111 X160. A180. K-30. B120.",
+            _GOOD + "\nG01 X120. K-5.",
+            _GOOD + "\nG02 U10. W-5. I5. K0",
+        ),
+        rejected=(
+            _GOOD + "\nX160. A180. K-30. B120.",
+            "G01 X40. Z0. F0.2\nG111 X100. A180. K-30. B120.\nX160. A180. K-30. B120.",
+            _GOOD + "\nZ-90. K-10.",
+        ),
+    ),
+    Rule(
+        code="g111-rapid-behind",
+        message="{words} {have} no G code: behind {code}, G00 is in force again, so this is a rapid along the part",
+        help="write G01 or G00; if {code} leaves G01 in force on your control: --set yasnac-lx3.motion-after=g01",
+        source=MOTION_AFTER.source,
+        roles=(_ROLE, "G112"),
+        about=Trouble.RAPID_BEHIND,
+        severity=Severity.WARNING,
+        accepted=(
+            _GOOD + "\nG01 Z-90.",
+            _GOOD + "\nG00 X200.",
+            "G01 X40. Z0. F0.2\nG111 X100. A180. K-30. B120.\nZ-90.",
+        ),
+        rejected=(_GOOD + "\nZ-90.", _GOOD + " Q5.\nM08\nW-30.", "G00 X100. Z-50.\nG112 U0 I10. K-50. R30.\nZ-150."),
+    ),
+    Rule(
+        code="g111-landing-left",
+        message="{words} {leave} the line on which corner 2 lands by {angle}: corner 2 is made for {line}",
+        help="go on along {line}, or give line 2 a sharp end",
+        source=manual("2.8.30, p. 137 and 140: corner 2 does not look at the next block", Evidence.DERIVED),
+        roles=(_ROLE, "G112"),
+        about=Trouble.LANDING_LEFT,
+        severity=Severity.WARNING,
+        accepted=(
+            _GOOD + " Q5.\nG01 Z-90.",
+            _GOOD + " Q5.\nG00 X200. Z10.",
+            _GOOD + " D5.\nG111 A180. K-30. B120. X160.",
+            _GOOD + " Q5.\nG02 X110. Z-55.207 I5. K0",
+            _GOOD + "\nG01 X120.",
+        ),
+        rejected=(
+            _GOOD + " Q5.\nG01 X120.",
+            _GOOD + " D5.\nG01 X110. Z-90.",
+            _GOOD + " Q5.\nG01 Z-40.",
+            _GOOD + " Q5.\nG111 A150. K-30. B120. X160.",
+            "G00 X100. Z-50.\nG112 U0 I10. K-50. P5. Q5. R30.\nG01 X120. Z-150.",
+        ),
+    ),
+)
+
+G111_RULES = _COMBINATION_RULES + _GEOMETRY_RULES + _FOLLOWING_RULES
