@@ -20,7 +20,16 @@ from contoursolve.solving import BESIDE, Refusal, RefusalKind, Remark, RemarkKin
 from contoursolve.source import Span
 from contoursolve.syntax import FACT, Word
 from contoursolve.tolerance import AGREEMENT
-from contoursolve.wording import angle_text, join, largest_text, length_text, place_text, shorten, unknowns_text
+from contoursolve.wording import (
+    angle_text,
+    join,
+    length_limit,
+    length_text,
+    place_text,
+    shorten,
+    unknowns_text,
+    value_text,
+)
 
 if TYPE_CHECKING:
     from contoursolve.solving.alternatives import Alternatives
@@ -272,15 +281,24 @@ def explain_result(
         fields["advice"] = _ADVICE[alternatives.doubts[0].obstacle.name]
         notes = tuple(_search_notes(profile, alternatives))
     labels = [f"expected {fields['expected']}"] if "expected" in fields else []
-    if event.kind is RefusalKind.CORNER_TOO_LARGE and "limit" in values:
-        fields["limit"] = largest_text(values["limit"], context.unit)
-        labels = [f"at most {fields['limit']}"]
+    if event.kind is RefusalKind.RADIUS_TOO_SMALL:
+        fields["limit"] = value_text(float(length_limit(values["limit"], context.unit, -1)), context.unit.value)
+    if event.kind is RefusalKind.CORNER_TOO_LARGE and isinstance(event, Refusal):
+        more, labels = _room(event, values, profile)
+        fields |= more
     if event.kind is RefusalKind.CORNERS_OVERLAP:
-        rooms = _beside(event, values, words, profile)
-        labels = [f"at most {limit} beside {other}" for _, limit, other in rooms]
-        told = [f"write at most {limit} for {own} if {other} stays" for own, limit, other in rooms]
+        rooms = _rooms(event, values, words, profile)
+        labels = [label for _, label in rooms]
+        told = [advice for advice, _ in rooms]
+        if rooms and not any(advice.startswith("write") for advice in told):
+            told += _for_both(values, profile.unit)
         fields["smaller"] = ", or ".join(told) or f"make the corners smaller by {fields['off']} of it in all"
     finding = report(context, context.row(event.kind), Basis.NUMERICAL, words, values, labels, **fields)
+    if isinstance(event, Refusal) and event.beside and "together" in values:
+        takers = [given.word for name in event.beside if (given := profile.givens.get(name)) and given.word]
+        finding = replace(
+            finding, labels=(*finding.labels, *(Label(word.span, "takes all the room") for word in takers))
+        )
     if asked and isinstance(event, Refusal):
         causes = list(dict.fromkeys(text for word in asked for text in _causes(word, profile)))
         advice = f"change what that follows from: {join(causes)}" if causes else "change what that follows from"
@@ -288,20 +306,57 @@ def explain_result(
     return replace(finding, notes=notes)
 
 
-def _beside(
+def _room(event: Refusal, values: Mapping[str, float], profile: Profile) -> tuple[dict[str, str], list[str]]:
+    """How much room there is for a corner, as fields of its row, and its label."""
+    largest, shown = _largest(values["limit"], profile.unit)
+    others = (profile.givens[name].word for name in event.beside if name in profile.givens)
+    beside = join([_named_in(word, profile) for word in others if word])
+    beside = f" beside {beside}" if beside else ""
+    if not largest:
+        fits = f"no room is left{beside}" if beside else "nothing fits"
+        smaller = ", or ".join(["delete it", *_for_both(values, profile.unit)])
+        return {"limit": shown, "fits": fits, "smaller": smaller}, [f"no room left{beside}"]
+    fields = {"limit": shown, "fits": f"at most {shown} fits", "smaller": f"write at most {shown}"}
+    return fields, [f"at most {shown}{beside}"]
+
+
+def _for_both(values: Mapping[str, float], unit: Length) -> list[str]:
+    """What corners that leave each other no room may be if all of them come down."""
+    largest, shown = _largest(values.get("together", 0.0), unit)
+    return [f"write at most {shown} for both"] if largest else []
+
+
+def _largest(limit: float, unit: Length) -> tuple[Decimal, str]:
+    """The largest size (mm) as it is shown, in the program's unit."""
+    largest = length_limit(limit, unit)
+    return largest, value_text(float(largest), unit.value)
+
+
+def _named_in(word: Word, profile: Profile) -> str:
+    """A word, with its line where there are several."""
+    return f"{word.text} (line {word.span.line})" if len(profile.blocks) > 1 else word.text
+
+
+def _rooms(
     event: Refusal | Remark, values: dict[str, float], words: Sequence[Word], profile: Profile
-) -> list[tuple[str, str, str]]:
-    """For either of two words for corners that overlap, in the order of the words, which the values then have, too: its
-    text, the largest size beside the other one, and the other one."""
+) -> list[tuple[str, str]]:
+    """For either of two words for corners that overlap, in the order of the words, which the values then have, too:
+    what to write if the other one stays, and its label."""
     known = {name: values.pop(key) for name, key in zip(event.givens, BESIDE, strict=False) if key in values}
     sizes = {given.word: known[name] for name in known if (given := profile.givens.get(name)) and given.word}
     own = sorted(words, key=lambda word: word.span)
     if len(own) != len(BESIDE) or sizes.keys() != {*own}:
         return []
     values |= {key: sizes[word] for key, word in zip(BESIDE, own, strict=True)}
-    names = [f"{word.text} (line {word.span.line})" if len(profile.blocks) > 1 else word.text for word in own]
-    limits = [largest_text(sizes[word], profile.unit) for word in own]
-    return list(zip(names, limits, reversed(names), strict=True))
+    names = [_named_in(word, profile) for word in own]
+    rooms = []
+    for word, name, other in zip(own, names, reversed(names), strict=True):
+        largest, shown = _largest(sizes[word], profile.unit)
+        if largest:
+            rooms.append((f"write at most {shown} for {name} if {other} stays", f"at most {shown} beside {other}"))
+        else:
+            rooms.append((f"delete {name}", f"no room left beside {other}"))
+    return rooms
 
 
 def _causes(asked: Word, profile: Profile) -> Iterator[str]:

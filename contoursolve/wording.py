@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
-from math import isfinite
 
 from contoursolve.model import CornerShape, Length, Profile
 
@@ -15,23 +14,29 @@ def length_text(value: float, unit: Length) -> str:
     return value_text(value / 25.4 if unit is Length.INCH else value, unit.value)
 
 
-def largest_text(value: float, unit: Length) -> str:
-    """A length (mm) that is the largest one, so that what is shown is not larger, apart from rounding."""
-    if not isfinite(value):
-        return length_text(value, unit)
-    return limit_text(value / 25.4 if unit is Length.INCH else value, unit.value, 1)
+def length_limit(value: float, unit: Length, way: int = 1) -> Decimal:
+    """A length (mm) that is the largest (`way` 1) or the least one (-1) in the program's unit, as the shown decimals
+    have it: not beyond the limit."""
+    return inward(Decimal(repr(value)) / unit.in_mm, unit.value, way)
 
 
-def limit_text(value: float, unit: str, way: int) -> str:
+def limit_text(value: float, unit: str, way: int, *, is_included: bool = True) -> str:
     """A value that is the largest (`way` 1) or the least one (-1) in mm, inch or deg, so that what is shown does not go
-    beyond it, apart from rounding."""
-    step = Decimal("0.0001" if unit == "inch" else "0.001")
-    inward = ROUND_FLOOR if way > 0 else ROUND_CEILING
-    return value_text(float(Decimal(value + way * ROUNDING).quantize(step, inward)), unit)
+    beyond it; nor is it the limit itself, if that is not one of the values (`is_included`)."""
+    exact = Decimal(repr(value))
+    shown = inward(exact, unit, way)
+    if shown == exact and not is_included:
+        shown -= way * _STEPS.get(unit, _STEP)
+    return value_text(float(shown), unit)
 
 
-ROUNDING = 1e-10
-"""mm, inch or degrees. A size that is so close below a decimal is that decimal; a tenth of what a corner may lack."""
+def inward(value: Decimal, unit: str, way: int) -> Decimal:
+    """An upper (`way` 1) or a lower limit (-1) rounded into its range, to the decimals that are shown."""
+    return value.quantize(_STEPS.get(unit, _STEP), ROUND_FLOOR if way > 0 else ROUND_CEILING)
+
+
+_STEP = Decimal("0.001")
+_STEPS = {Length.INCH.value: Decimal("0.0001")}
 
 
 def angle_text(value: float) -> str:

@@ -123,7 +123,7 @@ def test_ranges_of_a_few_thousandths_are_found_in_a_wide_range():
 
 def test_parallel_lines_end_a_range():
     found = feasible("G111 A180. B120. X100. Z-60.", "A", start=START, within=(160, 350))
-    assert "line 1 and line 2 are parallel: 300.000 deg at most" in only(found).high.reason.text
+    assert "line 1 and line 2 are parallel: 299.999 deg at most" in only(found).high.reason.text
     assert (only(found).high.value, only(found).high.is_included) == (300, False)
 
 

@@ -1,13 +1,17 @@
 """Edits that repairs of every kind are made of: words dropped and changed, characters corrected, points added."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
+from decimal import Decimal
 from itertools import product
+from math import copysign
 
-from contoursolve.diagnosis.edits import Edit, EditKind, write_word
-from contoursolve.diagnostic import Severity
+from contoursolve.diagnosis.edits import AT_MOST, Edit, EditKind, write_word
+from contoursolve.diagnostic import Diagnostic, Severity
 from contoursolve.examine import Answer
 from contoursolve.model import Given, Length, Unit
 from contoursolve.reading import Claim, Lexicon, Trouble
+from contoursolve.solving import BESIDE, RefusalKind
+from contoursolve.source import Span
 from contoursolve.spelling import meant_words, respelled, unanswerable
 from contoursolve.syntax import FACT, FaultKind, Word, find_lookalikes, lookalike_at
 
@@ -68,6 +72,45 @@ def marked(answer: Answer) -> Iterator[tuple[Edit, ...]]:
         for each in block.unmarked:
             old = block.text[each.span.column - 1 : each.span.end_column - 1]
             yield (change(Word(FACT, None, False, old, each.span), each.text),)
+
+
+OF_CORNERS = (RefusalKind.CORNER_TOO_LARGE, RefusalKind.CORNERS_OVERLAP)
+
+
+def fitting(answer: Answer) -> Iterator[tuple[Edit, ...]]:
+    """Corners that do not fit with the largest size that does: each alone if the others stay, all of these, and those
+    that leave each other no room with what is left for all."""
+    claim = answer.claim
+    findings = [each for each in answer.diagnostics if each.about in OF_CORNERS]
+    if not findings or has_faults(claim):
+        return
+    limits = [dict(zip((label.span for label in each.labels), _limits(each), strict=False)) for each in findings]
+    full = [each for each in findings if "together" in each.values]
+    together = [{label.span: each.values["together"] for label in each.labels} for each in full]
+    alone, shared = (list(_written(answer, sizes)) for sizes in (limits, together))
+    yield from ((edit,) for edit in alone)
+    for edits in (alone, shared):
+        if len(edits) > 1:
+            yield tuple(edits)
+
+
+def _limits(finding: Diagnostic) -> list[float]:
+    """The largest sizes of the corners that a finding is about, in the order of its labels, mm."""
+    keys = BESIDE if finding.about is RefusalKind.CORNERS_OVERLAP else ("limit",)
+    return [finding.values[key] for key in keys if key in finding.values]
+
+
+def _written(answer: Answer, sizes: Iterable[Mapping[Span, float]]) -> Iterator[Edit]:
+    """The words with the smaller of the sizes (mm) that go with their places, where anything is left of them."""
+    claim, unit = answer.claim, answer.claim.after.unit
+    for name, word in claim.words.items():
+        given = claim.givens.get(name)
+        size = min((each[word.span] for each in sizes if word.span in each), default=None)
+        if given is None or size is None or size >= abs(given.value):
+            continue
+        text = write_word(word.address, copysign(size, given.value), claim.lexicon, unit, AT_MOST)
+        if Decimal(text.removeprefix(word.address)):
+            yield change(word, text)
 
 
 def drop(word: Word) -> Edit:

@@ -3,15 +3,14 @@
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
-from decimal import ROUND_DOWN, ROUND_HALF_EVEN, Decimal
+from decimal import ROUND_DOWN, ROUND_HALF_EVEN, ROUND_UP, Decimal
 from enum import Enum
-from math import copysign
 
 from contoursolve.model import Length, Unit
 from contoursolve.reading import Lexicon, WithoutPoint
 from contoursolve.source import Span
 from contoursolve.syntax import FACT, Block, Directive, read_directive
-from contoursolve.wording import ROUNDING, shorten
+from contoursolve.wording import shorten
 
 PLACEHOLDER = "?"
 """Stands for a number that the block does not give."""
@@ -106,17 +105,18 @@ def _insert(text: str, word: str) -> str:
     return f"{head} {word}" + (f" {tail}" if tail else "")
 
 
-def write_word(address: str, value: float, lexicon: Lexicon, unit: Length, is_limit: bool = False) -> str:
-    """A word for a value in mm (radius) or degrees, rounded to the control's least increment.
+AT_MOST, AT_LEAST = ROUND_DOWN, ROUND_UP
+"""How the size of a limit is rounded, whatever its sign."""
 
-    A limit is rounded towards zero, so that the value still fits.
-    """
+
+def write_word(address: str, value: float, lexicon: Lexicon, unit: Length, rounding: str = ROUND_HALF_EVEN) -> str:
+    """A word for a value in mm (radius) or degrees, rounded to the control's least increment: a limit (`AT_MOST`,
+    `AT_LEAST`) to what is within it."""
     row, numbers = lexicon.addresses[address], lexicon.numbers
-    exact = value + copysign(ROUNDING, value) if is_limit else value
-    number, step = Decimal(repr(exact)), numbers.step(row.unit, unit)
+    number, step = Decimal(repr(value)), numbers.step(row.unit, unit)
     if row.unit is not Unit.DEGREE:
         number = number / unit.in_mm * (2 if row.is_diameter else 1)
-    number = number.quantize(step, ROUND_DOWN if is_limit else ROUND_HALF_EVEN)
+    number = number.quantize(step, rounding)
     if number == 0:
         number = abs(number)
     text = f"{number:f}".rstrip("0")

@@ -3,16 +3,18 @@ contour. Each one is applied to the text, read, checked and solved again before 
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from decimal import Decimal
+from decimal import ROUND_HALF_EVEN, Decimal
 from functools import lru_cache
 from itertools import combinations, product
 from math import copysign
 
 from contoursolve.diagnosis.attempt import LARGEST_ROLE, Before, Repairs, choose_repairs
 from contoursolve.diagnosis.drafts import (
+    OF_CORNERS,
     change,
     commas,
     drop,
+    fitting,
     has_faults,
     marked,
     mended_words,
@@ -20,14 +22,14 @@ from contoursolve.diagnosis.drafts import (
     unreadable,
     variants,
 )
-from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, write_word
+from contoursolve.diagnosis.edits import AT_LEAST, PLACEHOLDER, Edit, EditKind, write_word
 from contoursolve.diagnostic import Diagnostic, Severity
 from contoursolve.dialects import Dialect
 from contoursolve.examine import MOST_CHOICES, Answer, Policy, count_choices, examine
 from contoursolve.model import Given, Profile, Role, Unit
 from contoursolve.reading import Claim, Form, read
 from contoursolve.rules import Rule, check
-from contoursolve.solving import BESIDE, RefusalKind, Status, lookup
+from contoursolve.solving import Status, lookup
 from contoursolve.solving.affine import AffineFacts, Circuit, affine_facts
 from contoursolve.spelling import torn_codes
 from contoursolve.syntax import Block, Word
@@ -61,7 +63,7 @@ def find_repairs(answer: Answer, dialect: Dialect, following: tuple[Block, ...] 
     if reference is None and count_choices(answer.profile) <= MOST_CHOICES:
         reference = examine(claim, dialect.rules, Policy.OFF).contour
     stages = (stage(answer, dialect, whole) for stage in (_sets, _values, _slips))
-    slips = (mended_words(answer), missing_points(answer), commas(answer), marked(answer))
+    slips = (mended_words(answer), missing_points(answer), commas(answer), marked(answer), fitting(answer))
     return choose_repairs(claim, dialect, (*slips, *stages), Before(codes, reference, following=following))
 
 
@@ -293,8 +295,7 @@ def _values(answer: Answer, dialect: Dialect, whole: _Geometry) -> Iterator[tupl
         if given is None or word.number is None or given.unit is Unit.SIGN:
             continue
         texts = [
-            write_word(word.address, value, lexicon, unit, is_limit="limit" in key)
-            for key, value in _asked(answer, word, given)
+            write_word(word.address, value, lexicon, unit, rounding) for rounding, value in _asked(answer, word, given)
         ]
         asked_together += [change(word, texts[0])] if texts and texts[0] != word.text else []
         if name in tied and answer.status is not Status.OVERDETERMINED:
@@ -326,23 +327,19 @@ def _sizes(claim: Claim) -> set[str]:
 
 
 def _asked(answer: Answer, word: Word, given: Given) -> Iterator[tuple[str, float]]:
-    """The values that errors about a word ask for, in mm (radius) or degrees."""
+    """The values that errors about a word ask for, in mm (radius) or degrees, and how they are rounded."""
     for finding in answer.diagnostics:
         if finding.severity is not Severity.ERROR:
             continue
-        if finding.about is RefusalKind.CORNERS_OVERLAP:
-            limits = zip(finding.labels, BESIDE, strict=False)
-            yield from (
-                (key, finding.values[key]) for label, key in limits if label.span == word.span and key in finding.values
-            )
-        elif finding.labels and finding.labels[0].span == word.span:
+        if finding.about not in OF_CORNERS and finding.labels and finding.labels[0].span == word.span:
             for key in ("expected", "limit"):
                 if given.unit is Unit.DEGREE and key == "limit":
-                    yield from (("expected", angle) for angle in _meeting(finding, given))
+                    yield from ((ROUND_HALF_EVEN, angle) for angle in _meeting(finding, given))
                 elif key in finding.values and abs(finding.values[key]) < float("inf"):
                     value = finding.values[key] * (0.5 if given.is_diameter else 1.0)
+                    rounding = AT_LEAST if key == "limit" else ROUND_HALF_EVEN
                     # A limit is a size; what the sign of the word says is not in question.
-                    yield key, copysign(value, given.value) if key == "limit" else value
+                    yield rounding, copysign(value, given.value) if key == "limit" else value
 
 
 def _meeting(finding: Diagnostic, given: Given) -> Iterator[float]:

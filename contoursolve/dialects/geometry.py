@@ -102,8 +102,8 @@ GEOMETRY_RULES = (
     ),
     _row(
         RefusalKind.CORNER_TOO_LARGE,
-        "{subject} does not fit: {words} is {actual}, at most {limit} fits on its elements",
-        "write at most {limit}, or make the elements longer",
+        "{subject} does not fit: {words} is {actual}, {fits} on its elements",
+        "{smaller}, or make the elements longer",
         _CUT,
         _CUT.replace(",C10", ",C31"),
     ),

@@ -186,7 +186,7 @@ def _reason(
 ) -> tuple[Reason, bool]:
     """What fails beyond an end, and whether it is a rule or the reading of the words; `near` are the pieces on its two
     sides, the one beyond it first."""
-    at, limit = value_text(value, survey.unit), limit_text(value, survey.unit, way)
+    at, limit = value_text(value, survey.unit), limit_text(value, survey.unit, way, is_included=survey.is_solved(value))
     limit = f"at {at}" if near[0].is_value else f"{limit} at {'most' if way > 0 else 'least'}"
     beyond = "at" if near[0].is_value else "above" if way > 0 else "below"
     there = outside if outside is not None else (near[0].low + near[0].high) / 2

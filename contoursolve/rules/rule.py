@@ -61,9 +61,10 @@ def _gap(field: re.Match[str]) -> str:
     name, spec = field.groups()
     if spec:
         return f"<{spec if spec == 'other G' else ' or '.join(spec.replace('|', ' ').split())}>"
-    return "" if name == "comparison" else f"<{_GAPS.get(name, name)}>"
+    return _PHRASES[name] if name in _PHRASES else f"<{_GAPS.get(name, name)}>"
 
 
+_PHRASES = {"comparison": "", "fits": "at most <limit> fits", "smaller": "write at most <limit>"}
 _GAPS = {"words": "word", "off": "difference", "subject": "element", "free": "point"}
 
 

@@ -1,7 +1,7 @@
 """Can the control make the path? Direction of travel, and the room for each corner."""
 
 from collections.abc import Callable, Mapping, Sequence
-from math import hypot, inf, isfinite
+from math import hypot
 
 from contoursolve.model import FIRST, SECOND, Arc, Corner, Figure, Line, Profile
 from contoursolve.solving.solution import BESIDE, Point, Refusal, RefusalKind, Remark, RemarkKind
@@ -104,68 +104,111 @@ def _check_room(
     figure: Figure, out: Outputs, sizes: Mapping[str, float], resize: Callable[[Mapping[str, float]], Outputs]
 ) -> list[Refusal]:
     """Each element must be as long as the setbacks of the corners at its two ends."""
-    refusals: list[Refusal] = []
-    refused: set[str] = set()
+    found: list[tuple[RefusalKind, str, list[Corner], dict[str, float]]] = []
+    alone = {corner.name: _short_of(corner, out) for corner in figure.corners}
     for corner in figure.corners:
-        short = _short_of(corner, out)
-        if short is not None:
-            refused.add(corner.name)
-            size = sizes[corner.size]
-            values = {"limit": _largest(corner, figure, out, size, resize), "actual": size}
-            values |= {"needed": _setbacks(corner, out)[short], "available": out[f"length:{short}"]}
-            known = {name: value for name, value in values.items() if value == value}
-            refusals.append(Refusal(RefusalKind.CORNER_TOO_LARGE, corner.name, (corner.size,), known))
+        for short in alone[corner.name][:1]:
+            values = {"actual": sizes[corner.size], "needed": _setbacks(corner, out)[short]}
+            values |= {"available": out[f"length:{short}"]}
+            found.append((RefusalKind.CORNER_TOO_LARGE, corner.name, [corner], values))
+    refused = {name for names in alone.values() for name in names}
     for element in figure.path:
-        corners = [corner for corner in figure.corners if element.name in _setbacks(corner, out)]
-        room = out[f"room:{element.name}"]
-        if room < -LENGTH and not refused & {corner.name for corner in corners}:
-            length = out[f"length:{element.name}"]
+        room, length = out[f"room:{element.name}"], out[f"length:{element.name}"]
+        if room < -LENGTH and element.name not in refused:
+            corners = [corner for corner in figure.corners if element.name in _setbacks(corner, out)]
             values = {"limit": length, "actual": length - room, "off_by_mm": -room}
-            largest = [_largest(corner, figure, out, sizes[corner.size], resize) for corner in corners]
-            values |= {key: limit for key, limit in zip(BESIDE, largest, strict=False) if isfinite(limit)}
-            givens = tuple(corner.size for corner in corners)
-            refusals.append(Refusal(RefusalKind.CORNERS_OVERLAP, element.name, givens, values))
+            found.append((RefusalKind.CORNERS_OVERLAP, element.name, corners, values))
+    blamed = {corner.name: corner for _, _, corners, _ in found for corner in corners}
+    limits = {name: _largest(corner, figure, out, sizes[corner.size], resize) for name, corner in blamed.items()}
+    together: dict[str, float] = {}
+    full = {size for limit, beside in limits.values() if limit < LEAST for size in beside}
+    if full:
+        crowd = [corner for corner in figure.corners if corner.name in blamed or corner.size in full]
+        together = {"together": _largest_together(crowd, figure, sizes, resize)}
+    refusals = []
+    for kind, subject, corners, values in found:
+        largest, givens = [limits[corner.name] for corner in corners], tuple(corner.size for corner in corners)
+        beside = largest[0][1] if kind is RefusalKind.CORNER_TOO_LARGE else ()
+        keys = ("limit",) if kind is RefusalKind.CORNER_TOO_LARGE else BESIDE
+        every = {**values, **dict(zip(keys, (limit for limit, _ in largest), strict=False)), **together}
+        known = {name: value for name, value in every.items() if value == value}
+        refusals.append(Refusal(kind, subject, givens, known, beside))
     return refusals
 
 
-def _short_of(corner: Corner, out: Outputs, reserved: Mapping[str, float] | None = None) -> str | None:
-    """The element on which a corner has no room; `reserved` is what others take of the elements, mm.
+def _short_of(corner: Corner, out: Outputs) -> list[str]:
+    """The elements on which a corner alone has no room.
 
     A setback on an arc that is not a number belongs to a corner that cannot touch the arc at all; a negative one
     would leave the arc beyond its end.
     """
-    for name, setback in _setbacks(corner, out).items():
-        room = out[f"length:{name}"] - (reserved or {}).get(name, 0.0)
-        if not -LENGTH <= setback <= room + LENGTH:
-            return name
-    return None
+    setbacks = _setbacks(corner, out).items()
+    return [name for name, setback in setbacks if not -LENGTH <= setback <= out[f"length:{name}"] + LENGTH]
+
+
+def _crowded(corner: Corner, out: Outputs) -> str | None:
+    """The element on which a corner has no room beside its neighbours, or is not what its definition says."""
+    if not out[f"setback-out:{corner.name}"] >= -LENGTH:
+        return corner.before
+    full = [name for name in _setbacks(corner, out) if not out.get(f"room:{name}", 0.0) >= -LENGTH]
+    return next(iter((*_short_of(corner, out), *full)), None)
 
 
 def _largest(
     corner: Corner, figure: Figure, out: Outputs, size: float, resize: Callable[[Mapping[str, float]], Outputs]
-) -> float:
-    """The largest size of a corner that fits beside its neighbours."""
-    taken: dict[str, float] = {}
-    for name in _setbacks(corner, out):
-        others = sum(_setbacks(other, out).get(name, 0.0) for other in figure.corners if other is not corner)
-        taken[name] = others if others < out[f"length:{name}"] else 0.0
-    arcs = {element.name for element in figure.path if isinstance(element, Arc)}
-    if not arcs & taken.keys():
+) -> tuple[float, tuple[str, ...]]:
+    """The largest size of a corner that passes the checks while its neighbours stay as they are (mm; 0 if none does),
+    and the sizes of the neighbours that limit it."""
+
+    def crowded(each: float) -> str | None:
+        return _crowded(corner, resize({corner.size: each}))
+
+    high = size
+    if not any(isinstance(each, Arc) and each.name in _elements(corner, out) for each in figure.path):
         # Setbacks on lines are proportional to the size.
-        setbacks = _setbacks(corner, out).items()
-        rooms = ((out[f"length:{name}"] - taken[name], setback) for name, setback in setbacks if setback > 0)
-        return min((size * room / setback for room, setback in rooms), default=inf)
-    low, high = 0.0, size
-    for _ in range(BISECTIONS):
+        for name, setback in _setbacks(corner, out).items():
+            room = out.get(f"room:{name}", out[f"length:{name}"] - setback) + setback
+            high = min(high, size * room / setback) if setback > 0 else high
+    limit = _bisect(lambda each: crowded(each) is None, size, near=high)
+    element = crowded(limit + max(NEAR, NEAR * limit))
+    others = (other for other in figure.corners if other is not corner and element in _elements(other, out))
+    return limit, tuple(other.size for other in others)
+
+
+def _largest_together(
+    corners: Sequence[Corner],
+    figure: Figure,
+    sizes: Mapping[str, float],
+    resize: Callable[[Mapping[str, float]], Outputs],
+) -> float:
+    """The size (mm) to which the larger ones of some corners must come down for all to fit; 0 if none is so small."""
+
+    def fits(each: float) -> bool:
+        out = resize({corner.size: min(sizes[corner.size], each) for corner in corners})
+        return all(_crowded(corner, out) is None for corner in figure.corners)
+
+    return _bisect(fits, max(sizes[corner.size] for corner in corners))
+
+
+def _bisect(fits: Callable[[float], bool], high: float, near: float | None = None) -> float:
+    """The largest size (mm) that fits, below one that does not; `near` is where it is expected."""
+    low = 0.0
+    if near is not None:
+        low, high = max(low, near - NEAR), max(min(high, near + NEAR), TINY)
+        low = low if fits(low) else 0.0
+    while high - low > TINY * max(1.0, high):
         middle = (low + high) / 2
-        changed = resize({corner.size: middle})
-        fits = _short_of(corner, changed, taken) is None and changed[f"setback-out:{corner.name}"] >= -LENGTH
-        low, high = (middle, high) if fits else (low, middle)
-    return low
+        low, high = (middle, high) if fits(middle) else (low, middle)
+    # What is a decimal but for rounding is that decimal, if it fits.
+    decimal = round(low, DECIMALS)
+    return decimal if abs(decimal - low) <= NEAR and fits(decimal) else low
 
 
-BISECTIONS = 50
-"""From any size to below the rounding of a coordinate."""
+TINY, NEAR, DECIMALS = 1e-14, 1e-8, 6
+"""mm. To which a size is found, within which it is expected, and the decimals that a size in mm or inch has."""
+
+LEAST = 0.00254
+"""mm. The least increment of an inch program, the larger one: where no more is left, there is no room."""
 
 
 def _setbacks(corner: Corner, out: Outputs) -> dict[str, float]:

@@ -103,6 +103,8 @@ class Refusal:
     subject: str
     givens: tuple[str, ...] = ()
     values: Mapping[str, float] = field(default_factory=dict)
+    beside: tuple[str, ...] = ()
+    """Givens that are not to blame, but leave no more room than the limit."""
 
 
 @dataclass(frozen=True, slots=True)

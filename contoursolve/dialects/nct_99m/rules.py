@@ -482,8 +482,8 @@ GEOMETRY_RULES = (
     ),
     Rule(
         code="nct-corner-too-large",
-        message="{subject} does not fit: {words} is {actual}, at most {limit} fits on its elements",
-        help="write at most {limit}, or make the elements longer",
+        message="{subject} does not fit: {words} is {actual}, {fits} on its elements",
+        help="{smaller}, or make the elements longer",
         source=_manual("16.1; alarm 3084"),
         alarm=_TOO_HIGH,
         about=RefusalKind.CORNER_TOO_LARGE,

@@ -243,8 +243,8 @@ _GEOMETRY_RULES = (
     ),
     Rule(
         code="g111-corner-too-large",
-        message="{subject} does not fit: {words} is {actual}, at most {limit} fits on its lines",
-        help="write at most {limit}, or make the lines longer",
+        message="{subject} does not fit: {words} is {actual}, {fits} on its lines",
+        help="{smaller}, or make the lines longer",
         source=_FITS,
         alarm=_GEOMETRY,
         roles=(_ROLE,),

@@ -238,8 +238,8 @@ _GEOMETRY_RULES = (
     ),
     Rule(
         code="g112-corner-too-large",
-        message="{subject} does not fit: {words} is {actual}, at most {limit} fits on line 1 and on the arc",
-        help="write at most {limit}, or make line 1 and the arc longer",
+        message="{subject} does not fit: {words} is {actual}, {fits} on line 1 and on the arc",
+        help="{smaller}, or make line 1 and the arc longer",
         source=_FITS,
         alarm=_GEOMETRY,
         roles=(_ROLE,),

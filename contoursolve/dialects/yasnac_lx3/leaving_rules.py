@@ -125,8 +125,8 @@ LEAVING_RULES = (
     ),
     Rule(
         code="g11-corner-too-large",
-        message="{words} is larger than the move: {actual}, at most {limit}",
-        help="write at most {limit}, or move farther",
+        message="{words} is larger than the move: {actual}, {fits}",
+        help="{smaller}, or move farther",
         source=_PAGE,
         roles=(_ROLE,),
         about=RefusalKind.CORNER_TOO_LARGE,
