@@ -43,14 +43,15 @@ class Offsets:
         rows = [self.modes.lexicon.addresses.get(word.address) for word in block.words]
         moved = [row.axis for row in rows if row and row.axis and not (row.is_increment or here.is_incremental)]
         self.keep([axis for axis in self._off if axis not in moved])
-        if not is_arc or off <= ARC_START:
+        if not is_arc or off <= self.modes.radius_difference * ARC_START:
             return ""
-        least = least_decimals(here.unit)
+        least = least_decimals(here.unit, self.modes.radius_difference)
         return (
             f"its arc begins where the contour before it ends, which is rounded by {off:.2g} mm: take {least} decimals"
         )
 
 
-def least_decimals(unit: Length) -> int:
-    """Of the end of a contour, so that an arc behind it begins near enough to its place."""
-    return next(digits for digits in count(1) if 10.0**-digits * float(unit.in_mm) * sqrt(0.5) <= ARC_START)
+def least_decimals(unit: Length, allowed: float) -> int:
+    """Of the end of a contour, so that an arc behind it begins near enough to its place, where the radii at its ends
+    may differ by so much, mm."""
+    return next(digits for digits in count(1) if 10.0**-digits * float(unit.in_mm) * sqrt(0.5) <= allowed * ARC_START)

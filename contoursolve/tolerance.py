@@ -23,11 +23,11 @@ controls' least increment."""
 
 RADIUS_DIFFERENCE = 0.01
 """mm. Allowed difference of the radii at two points of one circle. NCT alarm 3011 compares it with
-a machine parameter whose factory value we have not seen; 0.01 mm is our assumption."""
+a machine parameter whose factory value we have not seen; 0.01 mm is our assumption, and a setting of NCT."""
 
-ARC_START = RADIUS_DIFFERENCE / 2
-"""mm. How far off an arc that stays as it is may begin behind an expanded contour: the other half is for its own
-words."""
+ARC_START = 0.5
+"""1 (share of the allowed difference of the radii). How far off an arc that stays as it is may begin behind an expanded
+contour: the other half is for its own words."""
 
 AGREEMENT = 0.001
 """mm or degrees. Words that say the same thing agree within the least increment of either."""

@@ -16,7 +16,7 @@ from contoursolve.pipeline import Result
 from contoursolve.reading import Code, Effect, Lexicon, State, WithoutPoint, advance, apply_modes, codes_of, leave
 from contoursolve.reliance import MOTIONS, Reliance, reliance
 from contoursolve.syntax import Block, Macro, Program, Word
-from contoursolve.tolerance import LENGTH, RADIUS_DIFFERENCE
+from contoursolve.tolerance import LENGTH
 
 _TURNS = {2: Turn.CW, 3: Turn.CCW}
 _LINES = {0: Motion.RAPID, 1: Motion.FEED}
@@ -208,7 +208,7 @@ class _Follower:
         if "R" in values and len(values) > 1:
             return self._unfollowed(block, "the arc has a centre and a radius")
         if "R" in values:
-            center = _center_of(start, end, values["R"], turn)
+            center = _center_of(start, end, values["R"], turn, self.modes.radius_difference)
             if center is None:
                 return self._unfollowed(block, "R is too small for the arc, or the arc ends where it starts")
         else:
@@ -216,7 +216,7 @@ class _Follower:
             first, second = (values.get(address, 0.0) for address in here.plane.centers)
             center = base[0] + first, base[1] + second
         bend, unit = _bend(indices, center, start, end, turn), here.unit.value
-        if abs(bend.radii[0] - bend.radii[1]) > RADIUS_DIFFERENCE or not min(bend.radii):
+        if abs(bend.radii[0] - bend.radii[1]) > self.modes.radius_difference or not min(bend.radii):
             one, other = (value / float(here.unit.in_mm) for value in bend.radii)
             return self._unfollowed(
                 block, f"the radius of the arc is {one:.4f} {unit} at its start and {other:.4f} {unit} at its end"
@@ -306,12 +306,13 @@ def _bend(
 
 
 def _center_of(
-    start: tuple[float, float], end: tuple[float, float], radius: float, turn: Turn
+    start: tuple[float, float], end: tuple[float, float], radius: float, turn: Turn, slack: float
 ) -> tuple[float, float] | None:
-    """The centre of an arc by its radius, negative for more than half a turn; None if there is none."""
+    """The centre of an arc by its radius, negative for more than half a turn, which may be too small by so much (mm);
+    None if there is none."""
     chord = end[0] - start[0], end[1] - start[1]
     half = hypot(*chord) / 2
-    if half <= LENGTH or half > abs(radius) + RADIUS_DIFFERENCE:
+    if half <= LENGTH or half > abs(radius) + slack:
         return None
     height = sqrt(max(radius**2 - half**2, 0.0)) * turn.sign * (1 if radius > 0 else -1) / (2 * half)
     return (start[0] + end[0]) / 2 - chord[1] * height, (start[1] + end[1]) / 2 + chord[0] * height

@@ -1,20 +1,25 @@
 """Facts about circles: points on them, and their radii."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from contoursolve.constraints.equation import Equation, both, dot, step
 from contoursolve.model import Lookup
+from contoursolve.tolerance import RADIUS_DIFFERENCE
 
 
 @dataclass(frozen=True, slots=True)
 class OnCircle(Equation):
-    """`point` lies on the circle about `center`; to first order the residual is the distance from it."""
+    """`point` lies on the circle about `center`; to first order the residual is the distance from it.
+
+    By up to `slack` (mm) it may be off where the circle is known without it.
+    """
 
     point: str
     center: str
     radius: str
     given: str = ""
+    slack: float = field(default=RADIUS_DIFFERENCE, repr=False)
 
     def reads(self) -> tuple[str, ...]:
         return *both(self.point, self.center), self.radius

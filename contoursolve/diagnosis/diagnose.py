@@ -20,7 +20,7 @@ from contoursolve.solving.affine import NO_CIRCUITS, AffineFacts, Circuit, affin
 from contoursolve.solving.compare import compare_affine
 from contoursolve.source import Span
 from contoursolve.syntax import FACT, Block, Word
-from contoursolve.tolerance import AGREEMENT, RADIUS_DIFFERENCE
+from contoursolve.tolerance import AGREEMENT
 from contoursolve.wording import SHOWN, length_text, place_text
 
 
@@ -148,13 +148,14 @@ def _circle_ties(answer: Answer) -> Iterator[Tie]:
     tied = [system.facts[index] for index in verdict.tied]
     if len(verdict.basis) + 1 != len(system.facts) or not any(isinstance(fact, OnCircle) for fact in tied):
         return
+    slack = min(fact.slack for fact in tied if isinstance(fact, OnCircle))
     compared = [each for each in answer.diagnostics if each.about in _ABOUT_RADII]
     off = compared[0].values["off_by_mm"] if compared else 0.0
     yield Tie(
         addresses=tuple(word.address for word in profile.words_of(tied)),
         identity=identity(profile, tied),
         off_by_mm=off,
-        is_conflict=off > RADIUS_DIFFERENCE,
+        is_conflict=off > slack,
     )
 
 

@@ -79,9 +79,9 @@ class Dialect:
             if name not in known:
                 names = ", ".join(known) or "none"
                 raise ValueError(f"{self.name} has no setting {name!r}; settings are: {names}")
-            if value not in known[name].values:
-                choices = ", ".join(known[name].values)
-                raise ValueError(f"{self.name}.{name} cannot be {value!r}; values are: {choices}")
+            choices = known[name].choices(value)
+            if choices:
+                raise ValueError(f"{self.name}.{name} cannot be {value!r}; {choices}")
         return replace(self, modes=replace(self.modes, settings={**self.modes.settings, **values}))
 
     def initial_state(self, unit: Length) -> State:

@@ -32,6 +32,8 @@ def _setting_lines(dialect: Dialect) -> Iterator[str]:
             for value, meaning in setting.values.items()
         ]
         yield from columns(rows, left=(0, 1, 2))
+        if setting.bounds:
+            yield setting.choices("").capitalize()
         yield ""
     for each in dialect.assumptions:
         yield f"assumption {dialect.name}.{each.name}: {each.meaning} ({each.source})"

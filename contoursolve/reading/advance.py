@@ -12,6 +12,7 @@ from contoursolve.reading.setting import Convention, Setting
 from contoursolve.reading.state import Awaited, Position, State
 from contoursolve.source import Span
 from contoursolve.syntax import Block, FaultKind, Macro, Word
+from contoursolve.tolerance import RADIUS_DIFFERENCE
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,6 +30,11 @@ class Modes:
     def convention(self, setting: Setting) -> Convention:
         """A setting with its value."""
         return Convention(setting, self.settings.get(setting.name, setting.default))
+
+    @property
+    def radius_difference(self) -> float:
+        """How much the radii at two points of an arc may differ, mm: a setting where a machine parameter tells."""
+        return float(self.settings.get("radius-difference", RADIUS_DIFFERENCE))
 
 
 def codes_of(block: Block, modes: Modes) -> list[Code | Word]:

@@ -63,7 +63,7 @@ class Claim:
     """A contour before any check.
 
     `words` are the words by the name of the given that they state; `givens` their values in mm or
-    degrees, without those that are variables; `circumstances` are names such as `@compensated`. `before` is the
+    degrees, without those that are variables; `circumstances` are names such as `@alone`. `before` is the
     state at the start point, `after` the state with the modes of all its blocks.
     """
 

@@ -1,7 +1,9 @@
 """What is not on the pages that we have: settings, which a user can change, and what a control is taken to accept."""
 
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from decimal import Decimal
 
 from contoursolve.model import Role
 from contoursolve.rules import Condition, Stated
@@ -11,13 +13,32 @@ from contoursolve.source import Evidence, Source
 @dataclass(frozen=True, slots=True)
 class Setting:
     """One convention: what it decides, its values with what each means, the one in force unless told otherwise,
-    and why."""
+    and why.
+
+    The value of one with `bounds` is a number between them, both in mm, and its values are the default one alone.
+    """
 
     name: str
     meaning: str
     values: Mapping[str, str]
     default: str
     source: Source
+    bounds: tuple[Decimal, Decimal] | None = None
+
+    def choices(self, value: str) -> str:
+        """What it can be, if it cannot have this value; else empty."""
+        if self.bounds is None:
+            return "" if value in self.values else f"values are: {', '.join(self.values)}"
+        least, most = self.bounds
+        is_number = _NUMBER.fullmatch(value) is not None
+        return "" if is_number and least <= Decimal(value) <= most else f"it is a number from {least} to {most} mm"
+
+    def meaning_of(self, value: str) -> str:
+        """What a value means."""
+        return self.values[value] if self.bounds is None else f"{self.meaning}: {value} mm"
+
+
+_NUMBER = re.compile(r"\d{1,9}(\.\d{0,9})?|\.\d{1,9}", re.ASCII)
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,7 +51,7 @@ class Convention:
     @property
     def meaning(self) -> str:
         """What the value means."""
-        return self.setting.values[self.value]
+        return self.setting.meaning_of(self.value)
 
     @property
     def evidence(self) -> Evidence:

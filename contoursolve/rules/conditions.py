@@ -6,7 +6,7 @@ from decimal import Decimal
 
 Stated = Mapping[str, Decimal | None]
 """What a block states: the value of each given by name (None for a variable), and circumstances such
-as `@compensated`, which have no value."""
+as `@alone`, which have no value."""
 
 Slot = tuple[str, ...]
 """Names that say the same thing in different ways, such as X and U."""

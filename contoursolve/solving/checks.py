@@ -30,7 +30,7 @@ from contoursolve.solving.compile import compile_system
 from contoursolve.solving.corners import Pair
 from contoursolve.solving.plan import AffineStep, DistanceStep, Step, TwoCirclesStep, lines_through
 from contoursolve.solving.solution import RefusalKind
-from contoursolve.tolerance import AGREEMENT, LENGTH, RADIUS_DIFFERENCE, REGULAR, RESIDUAL, TOUCHING
+from contoursolve.tolerance import AGREEMENT, LENGTH, REGULAR, RESIDUAL, TOUCHING
 
 
 class Test(Enum):
@@ -242,7 +242,7 @@ def _compare(source: Source, fact: Fact, off: Any) -> Iterator[tuple[RefusalKind
         # The residual is the difference of the radii to first order only.
         first, second = source.way(fact.center, fact.point)
         off = sqrt(first**2 + second**2) - source.at.radius(fact.radius)
-        kind, subject, limit = RefusalKind.RADIUS_DIFFERENCE, fact.point, RADIUS_DIFFERENCE
+        kind, subject, limit = RefusalKind.RADIUS_DIFFERENCE, fact.point, fact.slack
     elif isinstance(fact, Heading):
         first, second = source.way(fact.tail, fact.head)
         cosine, sine = source.at.direction(fact.given)

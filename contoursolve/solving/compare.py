@@ -9,7 +9,7 @@ from contoursolve.model import FIRST, SECOND, Fact, Profile, Unit
 from contoursolve.solving.affine import AffineFacts
 from contoursolve.solving.numbers import lookup
 from contoursolve.solving.solution import Refusal, RefusalKind, Remark, RemarkKind
-from contoursolve.tolerance import AGREEMENT, RADIUS_DIFFERENCE, RESIDUAL
+from contoursolve.tolerance import AGREEMENT, RESIDUAL
 
 
 def compare(fact: Fact, profile: Profile, at: Values) -> dict[str, float]:
@@ -42,8 +42,8 @@ def compare_fact(fact: Fact, off: float, profile: Profile, system: System, at: V
         away = (float(at.coordinate(fact.point, axis) - at.coordinate(fact.center, axis)) for axis in (FIRST, SECOND))
         distance, radius = hypot(*away), float(at.radius(fact.radius))
         off = abs(distance - radius)
-        values = {"limit": RADIUS_DIFFERENCE, "actual": off, "off_by_mm": off, "radius": radius, "distance": distance}
-        if not off <= RADIUS_DIFFERENCE:
+        values = {"limit": fact.slack, "actual": off, "off_by_mm": off, "radius": radius, "distance": distance}
+        if not off <= fact.slack:
             return Refusal(RefusalKind.RADIUS_DIFFERENCE, fact.point, givens_of(fact, system), values)
         if off > AGREEMENT:
             return Remark(RemarkKind.RADIUS_DIFFERS, fact.point, givens_of(fact, system), values)

@@ -36,6 +36,7 @@ from contoursolve.model import (
     scalar,
 )
 from contoursolve.syntax import Word
+from contoursolve.tolerance import RADIUS_DIFFERENCE
 
 
 class StatementError(ValueError):
@@ -213,7 +214,8 @@ class Draft:
     def _pass_through(self, element: Line | Arc | Corner | Circle, point: str) -> None:
         """A point of an element of the path."""
         if isinstance(element, Arc):
-            self.add(OnCircle(point, element.center, element.radius))
+            slack = min([fact.slack for fact in self.facts if isinstance(fact, OnCircle)], default=RADIUS_DIFFERENCE)
+            self.add(OnCircle(point, element.center, element.radius, slack=slack))
         else:
             self.line(element.name)
             self.add(Through(element.name, point))

@@ -7,7 +7,7 @@ from math import floor, log10
 
 from contoursolve.model import FIRST, SECOND, Turn
 from contoursolve.reading import Claim
-from contoursolve.tolerance import ERROR_BOUND_WARNING, RESIDUAL
+from contoursolve.tolerance import ERROR_BOUND_WARNING, RADIUS_DIFFERENCE, RESIDUAL
 from contoursolve.verification.claimed import ClaimedContour, ClaimedElement, Rules
 from contoursolve.verification.facts import StatedFact
 from contoursolve.verification.ledger import Ledger
@@ -74,6 +74,12 @@ class Case:
     def limit(self) -> float:
         """What a residual may be, mm."""
         return RESIDUAL + ROUNDING * self.size + 2 * self.grain
+
+    @property
+    def slack(self) -> float:
+        """By how much the radii at two points of an arc may differ, mm."""
+        set_here = [each.value for each in self.claim.conventions if each.setting.name == "radius-difference"]
+        return float(set_here[0]) if set_here else RADIUS_DIFFERENCE
 
     @property
     def is_extended(self) -> bool:

@@ -6,7 +6,7 @@ Points count from the start point, in mm; real is the plane's first axis, imagin
 from collections.abc import Mapping, Sequence
 from itertools import combinations
 
-from contoursolve.tolerance import LENGTH, RADIUS_DIFFERENCE
+from contoursolve.tolerance import LENGTH
 from contoursolve.verification.case import Case, Move
 from contoursolve.verification.course import Bend, Course, Piece, Shape, Trace, length, trace
 from contoursolve.verification.drawing import Bevel, Drawing, Round, Straight
@@ -80,7 +80,7 @@ def _check_rail(
     thing = "line" if isinstance(rail, Ray) else "circle"
     ledger.measure(f"{name} begins on its {thing}", words, off(rail, ends[0]), case.limit + blur)
     # Alarm 3011: what differs less than a machine parameter is accepted.
-    ledger.measure("the point lies on its circle", words, gap, RADIUS_DIFFERENCE) if gap else None
+    ledger.measure("the point lies on its circle", words, gap, case.slack + case.limit) if gap else None
     end = off(rail, ends[1]) - (gap if abs(off(rail, ends[1]) - gap) <= case.limit + blur else 0.0)
     ledger.measure(f"{name} ends on its {thing}", words, end, case.limit + blur)
     if isinstance(rail, Ray):

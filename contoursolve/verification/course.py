@@ -10,7 +10,7 @@ from enum import Enum
 from math import asin
 
 from contoursolve.model import Turn
-from contoursolve.tolerance import LENGTH, RADIUS_DIFFERENCE, REGULAR
+from contoursolve.tolerance import LENGTH, REGULAR
 from contoursolve.verification.measure import cross, dot, sign, unit
 from contoursolve.verification.rails import (
     Rail,
@@ -141,7 +141,7 @@ def trace(course: Course) -> Trace:
 
 def _through(rail: Rail, at: complex) -> Rail:
     """An arc's circle through the end that its words give it, which may be off it by what the control allows."""
-    if isinstance(rail, Ray) or not LENGTH < abs(abs(at - rail.center) - rail.radius) <= RADIUS_DIFFERENCE:
+    if isinstance(rail, Ray) or abs(abs(at - rail.center) - rail.radius) <= LENGTH:
         return rail
     return Ring(rail.center, abs(at - rail.center), rail.turn)
 

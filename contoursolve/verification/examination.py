@@ -39,7 +39,7 @@ def examine(found: Found, claimed: ClaimedContour, ledger: Ledger, selected: Map
         next_end=case.place(found.next_end) if found.next_end else None,
         rules=found.rules,
     )
-    check_path(case, ledger, checker.slack)
+    check_path(case, ledger, case.slack if checker.has_slack else 0.0)
     check_certificate(claimed.certificate, case.limit, ledger)
     why_not = checker.why_not(case)
     if why_not:

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 
 from contoursolve.model import Arc
 from contoursolve.reading import Claim
-from contoursolve.tolerance import RADIUS_DIFFERENCE
 from contoursolve.verification import g111, g111_standing, lathe, nct, nct_standing, nct_words, ties
 from contoursolve.verification.case import Case
 from contoursolve.verification.claimed import ClaimedDiagnosis
@@ -25,7 +24,7 @@ class FormChecker:
     `reads` are the names of the givens that this looks at, `choosing` those whose sign chooses between solutions.
     `elements` and `points` may be mentioned by facts. `redo` makes the contour of the words alone near the claimed
     one, None if they fix none there. `stand` tells how a contour of words alone stands, None where it cannot.
-    `diagnose` checks what a diagnosis says of such a contour. `slack` (mm) is how far an arc may end off its circle.
+    `diagnose` checks what a diagnosis says of such a contour. `has_slack` tells whether an arc may end off its circle.
     """
 
     check: Callable[[Case, Ledger], None]
@@ -34,7 +33,7 @@ class FormChecker:
     choosing: Callable[[Claim], tuple[str, ...]]
     stand: Callable[[Case], Standing | None]
     diagnose: Callable[[Case, ClaimedDiagnosis, Ledger], None]
-    slack: float = 0.0
+    has_slack: bool = False
     why_not: Callable[[Case], str] = _never
     """Why a contour is not checked; empty if it is."""
 
@@ -77,7 +76,7 @@ _NCT = FormChecker(
     choosing=nct_words.choosing,
     stand=nct_standing.stand,
     diagnose=nct_standing.check_ties,
-    slack=RADIUS_DIFFERENCE,
+    has_slack=True,
 )
 
 _LATHE = FormChecker(

@@ -2,7 +2,7 @@
 
 from itertools import product
 
-from contoursolve.tolerance import AGREEMENT, RADIUS_DIFFERENCE
+from contoursolve.tolerance import AGREEMENT
 from contoursolve.verification.case import Case
 from contoursolve.verification.claimed import ClaimedDiagnosis
 from contoursolve.verification.course import Course, Trace, trace
@@ -62,11 +62,11 @@ def stand(case: Case) -> Standing | None:
     if not found:
         return _nowhere(case)
     gaps = [max(map(abs, course.gaps.values()), default=0.0) for course in found.values()]
-    if any(abs(gap - RADIUS_DIFFERENCE) <= _NEAR * RADIUS_DIFFERENCE for gap in gaps):
+    if any(abs(gap - case.slack) <= _NEAR * case.slack for gap in gaps):
         return None
-    if gaps and min(gaps) > RADIUS_DIFFERENCE:
+    if gaps and min(gaps) > case.slack:
         return Standing(disagrees="a point is not on its circle", candidates=None)
-    if any(gap > RADIUS_DIFFERENCE for gap in gaps):
+    if any(gap > case.slack for gap in gaps):
         return None
     if any(gap > case.limit for gap in gaps) and set(names) - case.choices.keys():
         return None  # whether words are compared where nothing chooses is open
@@ -90,7 +90,7 @@ def _nowhere(case: Case) -> Standing | None:
         if each.is_over:
             at = complex(*(case.coordinate(each.given(name), axis) for axis, name in enumerate(CENTERS)))
         radius = case.amount(each.given("R")) if each.is_over else abs(at)
-        if point is not None and abs(abs(point - at) - radius) > RADIUS_DIFFERENCE:
+        if point is not None and abs(abs(point - at) - radius) > case.slack:
             return Standing(disagrees="a point is not on its circle", candidates=None)
     return Standing() if is_known else None
 
@@ -128,5 +128,5 @@ def check_ties(case: Case, diagnosis: ClaimedDiagnosis, ledger: Ledger) -> None:
         known = [gap for gap in gaps if gap > AGREEMENT] + [0.0]
         off = min((tie.off_by_mm - gap for gap in known), key=abs)
         ledger.measure("they disagree by as much as an element does", tie.addresses, off, case.limit)
-        is_right = tie.is_conflict == (tie.off_by_mm > RADIUS_DIFFERENCE)
+        is_right = tie.is_conflict == (tie.off_by_mm > case.slack)
         ledger.require("they conflict if that is more than the control allows", tie.addresses, is_right)

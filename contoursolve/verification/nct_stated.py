@@ -9,7 +9,6 @@ from functools import partial
 from itertools import pairwise
 
 from contoursolve.model import FIRST, SECOND
-from contoursolve.tolerance import RADIUS_DIFFERENCE
 from contoursolve.verification.asked import check_asked
 from contoursolve.verification.case import Case
 from contoursolve.verification.chain import Words, check_pieces
@@ -163,7 +162,7 @@ def _needed(
         others = [each for each in needed if each is not given]
         holding = [each for each in others if abs(each.residual) <= case.limit]
         if displacement(holding, unknowns).rank == unknowns:
-            ledger.measure(ON_CIRCLE, (), given.residual, RADIUS_DIFFERENCE)
+            ledger.measure(ON_CIRCLE, (), given.residual, case.slack + case.limit)
             needed = others
     return needed
 

@@ -141,7 +141,7 @@ _BENDS = {",C", ",R"}
 
 def _of_place(each: Element, names: set[str], around: set[str]) -> Iterator[str]:
     """What cannot stand where the block is."""
-    if each.is_over and names & {",A", "R"} and "@compensated" not in around:
+    if each.is_over and names & {",A", "R"} and "@uncompensated" in around:
         yield "without G41 or G42"
     if names & {",A", "R"} and "@alone" in around:
         yield "over-defined without an element before it"

@@ -3,7 +3,7 @@
 from contoursolve.dialects.common import COMMON_RULES
 from contoursolve.dialects.dialect import Dialect
 from contoursolve.dialects.nct_99m.chain import FORMS
-from contoursolve.dialects.nct_99m.claim import CIRCLE_CIRCLE_Q
+from contoursolve.dialects.nct_99m.claim import SETTINGS
 from contoursolve.dialects.nct_99m.find import find
 from contoursolve.dialects.nct_99m.lexicon import CODES, MODES, XY, YZ, ZX
 from contoursolve.dialects.nct_99m.rules import COMBINATION_RULES, GEOMETRY_RULES
@@ -45,5 +45,5 @@ NCT_99M = Dialect(
     find=find,
     signs=_signs,
     contours="blocks with ,A ,C or ,R, arcs with R, and blocks over-defined by ,A or by end, centre and R",
-    settings=(CIRCLE_CIRCLE_Q,),
+    settings=SETTINGS,
 )

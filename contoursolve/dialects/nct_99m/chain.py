@@ -20,6 +20,7 @@ from contoursolve.dialects.nct_99m.element import (
 )
 from contoursolve.model import FIRST, SECOND, Arc, CornerShape, Line, Role, Turn
 from contoursolve.reading import CornerRow, FactRow, Form, Sample
+from contoursolve.tolerance import RADIUS_DIFFERENCE
 
 START = "S"
 
@@ -93,13 +94,13 @@ def names_of(elements: Sequence[Element]) -> tuple[Names, ...]:
 
 
 @lru_cache(maxsize=4096)
-def compose(elements: tuple[Element, ...]) -> Form:
-    """The form of blocks in a row."""
+def compose(elements: tuple[Element, ...], slack: float) -> Form:
+    """The form of blocks in a row, where the radii at two points of an arc may differ by so much, mm."""
     names = names_of(elements)
     name = _form_name(elements)
     pairs = list(zip(pairwise(elements), pairwise(names), strict=True))
     meeting = [(pair_role(*blocks), each) for blocks, each in pairs if blocks[1].is_over]
-    facts = (*_stated(elements, names), *_checked(elements, names))
+    facts = (*_stated(elements, names, slack), *_checked(elements, names, slack))
     arcs = [each for element, each in zip(elements, names, strict=True) if element.turn is not None]
     return Form(
         name=name,
@@ -151,23 +152,22 @@ def _path(element: Element, names: Names) -> Line | Arc:
     return Arc(names.element, names.tail, names.head, names.center, names.radius, element.turn)
 
 
-def _stated(elements: Sequence[Element], names: Sequence[Names]) -> Iterator[FactRow]:
+def _stated(elements: Sequence[Element], names: Sequence[Names], slack: float) -> Iterator[FactRow]:
     """What the blocks state, in the order in which it is believed."""
     for element, each in zip(elements, names, strict=True):
         yield from _own_facts(element, each)
     for element, each in zip(elements, names, strict=True):
         if element.turn is not None:
-            yield FactRow(OnCircle(each.tail, each.center, each.radius), ())
-            if element.is_followed:
-                yield FactRow(OnCircle(each.head, each.center, each.radius), ())
+            for point in (each.tail, each.head)[: 1 + element.is_followed]:
+                yield FactRow(OnCircle(point, each.center, each.radius, slack=slack), ())
 
 
-def _checked(elements: Sequence[Element], names: Sequence[Names]) -> Iterator[FactRow]:
+def _checked(elements: Sequence[Element], names: Sequence[Names], slack: float) -> Iterator[FactRow]:
     """A point of a circle whose centre and radius may be known without it."""
     for element, each in zip(elements, names, strict=True):
         if element.turn is not None:
             needs = (each.prefix + POINT,) if element.is_followed and not element.is_over else ()
-            yield FactRow(OnCircle(each.own, each.center, each.radius), needs)
+            yield FactRow(OnCircle(each.own, each.center, each.radius, slack=slack), needs)
 
 
 def _own_facts(element: Element, names: Names) -> Iterator[FactRow]:
@@ -263,4 +263,4 @@ _SAMPLES: dict[tuple[Element, ...], Sample] = {
 }
 """Programs for the tables of words, one for each kind of form."""
 
-FORMS = tuple(compose(elements) for elements in _SAMPLES)
+FORMS = tuple(compose(elements, RADIUS_DIFFERENCE) for elements in _SAMPLES)

@@ -1,15 +1,15 @@
 """NCT chapter 16: what the blocks of a contour state, with what the control supplies, and what their signs choose."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from decimal import Decimal
 
+from contoursolve.constraints import OnCircle
 from contoursolve.dialects.nct_99m.chain import Names, compose, names_of
 from contoursolve.dialects.nct_99m.element import (
     AIMED,
     ALONE,
     CIRCLE_CIRCLE,
-    COMPENSATED,
     FOLLOWED,
     LAST,
     LINE_LINE,
@@ -17,13 +17,17 @@ from contoursolve.dialects.nct_99m.element import (
     OTHER_PLANE,
     POINT,
     RAPID,
+    UNCOMPENSATED,
+    UNCOMPENSATED_FREE,
     Element,
     pair_role,
 )
+from contoursolve.dialects.nct_99m.lexicon import MANUAL
 from contoursolve.model import Choice, Given, Side, Turn, Unit
-from contoursolve.reading import Claim, Lexicon, Modes, Selector, Setting, State
+from contoursolve.reading import Claim, Convention, Form, Lexicon, Modes, Selector, Setting, State
 from contoursolve.source import Evidence, Source
 from contoursolve.syntax import Block, Word
+from contoursolve.tolerance import RADIUS_DIFFERENCE
 
 CIRCLE_CIRCLE_Q = Setting(
     name="circle-circle-q",
@@ -33,8 +37,30 @@ CIRCLE_CIRCLE_Q = Setting(
         "right-is-negative": "Q<0 the point right of the way from the first centre to the second, Q>0 the one left",
     },
     default="left-is-negative",
-    source=Source("NCT 99M/2000M Programmer's Manual", "16.3.4: the page has not been seen", Evidence.ASSUMED),
+    source=Source(MANUAL, "16.3.4: the page has not been seen", Evidence.ASSUMED),
 )
+
+COMPENSATION = Setting(
+    name="compensation",
+    meaning="whether intersections are computed without G41 or G42",
+    values={
+        "required": "G41 or G42 must be active before the first of two blocks that meet in an intersection",
+        "free": "intersections are computed without G41 and G42, too",
+    },
+    default="required",
+    source=Source(MANUAL, "16.3: every format and example has it; the sentence is on no page seen", Evidence.ASSUMED),
+)
+
+RADIUS_DIFFERENCES = Setting(
+    name="radius-difference",
+    meaning="how much the radii at two points of an arc may differ (machine parameter RADDIFF)",
+    values={str(RADIUS_DIFFERENCE): "mm"},
+    default=str(RADIUS_DIFFERENCE),
+    source=Source(MANUAL, "p. 26 (4.3): alarm 3011; the value is one of each machine", Evidence.ASSUMED),
+    bounds=(Decimal("0.001"), Decimal(10)),
+)
+
+SETTINGS = (CIRCLE_CIRCLE_Q, COMPENSATION, RADIUS_DIFFERENCES)
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +79,7 @@ class Member:
 def claim_of(members: Sequence[Member], before: State, modes: Modes) -> Claim:
     """The contour of blocks in a row."""
     elements = tuple(member.element for member in members)
-    form, names = compose(elements), names_of(elements)
+    form, names = compose(elements, modes.radius_difference), names_of(elements)
     first = members[0].here
     words: dict[str, Word] = {}
     repeated: list[Word] = []
@@ -75,7 +101,7 @@ def claim_of(members: Sequence[Member], before: State, modes: Modes) -> Claim:
         words |= {prefix + name: word for name, word in own.items()}
         givens |= {prefix + name: replace(given, name=prefix + name) for name, given in own_givens.items()}
         since = (before, *(each.here for each in members))[max(index - 1, 0) : index + 2]
-        holds = {*_circumstances(member, first, is_only=len(members) == 1), *_compensated(since)}
+        holds = {*_circumstances(member, first, is_only=len(members) == 1), *_uncompensated(member, since, modes)}
         circumstances |= {prefix + name for name in holds}
     known = {name: word for name, word in words.items() if word.address in modes.lexicon.addresses}
     return Claim(
@@ -92,7 +118,7 @@ def claim_of(members: Sequence[Member], before: State, modes: Modes) -> Claim:
         circumstances=frozenset(circumstances),
         choices=tuple(_choices(elements, names, known, modes)),
         selectors=tuple(_selectors(elements, names, known, modes)),
-        conventions=(modes.convention(CIRCLE_CIRCLE_Q),) if CIRCLE_CIRCLE in {role.name for role in form.roles} else (),
+        conventions=tuple(_conventions(form, circumstances, modes)),
     )
 
 
@@ -163,9 +189,20 @@ def _circumstances(member: Member, first: State, *, is_only: bool) -> Iterator[s
     return (name for name, is_true in holds.items() if is_true)
 
 
-def _compensated(states: Sequence[State]) -> tuple[str, ...]:
-    """Whether G41 or G42 is in force in all these states: before N1, in N1 and in N2."""
-    return () if any(state.compensation == 40 for state in states) else (COMPENSATED,)  # noqa: PLR2004 - G40
+def _uncompensated(member: Member, states: Sequence[State], modes: Modes) -> Iterator[str]:
+    """Whether G41 or G42 is missing in one of the states before N1, in N1 and in N2."""
+    if member.element.is_over and any(state.compensation == 40 for state in states):  # noqa: PLR2004 - G40
+        yield UNCOMPENSATED_FREE if modes.convention(COMPENSATION).value == "free" else UNCOMPENSATED
+
+
+def _conventions(form: Form, circumstances: Set[str], modes: Modes) -> Iterator[Convention]:
+    """What decides here: a difference of radii has a finding of its own, so that only one that was set is named."""
+    if any(name.endswith((UNCOMPENSATED, UNCOMPENSATED_FREE)) for name in circumstances):
+        yield modes.convention(COMPENSATION)
+    if RADIUS_DIFFERENCES.name in modes.settings and any(isinstance(row.fact, OnCircle) for row in form.facts):
+        yield modes.convention(RADIUS_DIFFERENCES)
+    if CIRCLE_CIRCLE in {role.name for role in form.roles}:
+        yield modes.convention(CIRCLE_CIRCLE_Q)
 
 
 def _choices(

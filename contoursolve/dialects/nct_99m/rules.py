@@ -8,7 +8,6 @@ from contoursolve.dialects.nct_99m.element import (
     ARC,
     CIRCLE_CIRCLE,
     CIRCLE_LINE,
-    COMPENSATED,
     FOLLOWED,
     LAST,
     LINE,
@@ -19,6 +18,7 @@ from contoursolve.dialects.nct_99m.element import (
     OVER_CIRCLE,
     OVER_LINE,
     RAPID,
+    UNCOMPENSATED,
 )
 from contoursolve.dialects.nct_99m.lexicon import MANUAL
 from contoursolve.reading import Trouble
@@ -64,7 +64,7 @@ COMBINATION_RULES = (
         help="switch G41 or G42 on before that block; D00 keeps the path where it is",
         source=_manual("16.3: every format and example has it", Evidence.ASSUMED),
         roles=_OVER,
-        when=some(",A", "R") & ~some(COMPENSATED),
+        when=some(",A", "R") & some(UNCOMPENSATED),
         accepted=(_GOOD, _TO_CIRCLE),
         rejected=(
             _GOOD.replace("G42 ", ""),
