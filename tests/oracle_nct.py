@@ -14,11 +14,11 @@ be incremental; 0.01 mm for alarm 3011; an amount of 0 is no corner.
 """
 
 import re
-from cmath import rect
+from cmath import phase, rect
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from decimal import Decimal
-from math import acos, copysign, sqrt
+from math import acos, copysign, sqrt, tau
 from typing import NamedTuple
 
 from oracle import PLANES, Element, Outcome, Words, cross, dot, heading, meet, sign
@@ -36,23 +36,35 @@ class Block(NamedTuple):
     """Before it."""
 
 
+class Settings(NamedTuple):
+    """What no page says, by the names of the settings."""
+
+    circle_circle_q: str = "left-is-negative"
+    radius_difference: str = "0.01"
+    compensation: str = "required"
+
+
+DEFAULT = Settings()
+
+
 @dataclass
 class Run(Outcome):
     """Blocks that are worked out together; `points` are the computed intersections P1, P2, ..."""
 
     vertices: list[complex] = field(default_factory=list)
     """The start and the ends of all blocks as if they had no corners."""
+    settings: Settings = DEFAULT
 
 
-def follow(plane: int, start: complex, blocks: Sequence[Block]) -> Run:
+def follow(plane: int, start: complex, blocks: Sequence[Block], settings: Settings = DEFAULT) -> Run:
     """The path of a run.
 
     >>> blocks = Block("G1", {",A": 150}), Block("G1", {"X": 10, "Y": 20, ",A": 225})
     >>> f"{follow(17, 90 + 10j, blocks).points['P1']:.4f}"
     '32.9423+42.9423j'
     """
-    run = Run(end=start, vertices=[start])
-    if not _is_legal(plane, blocks):
+    run = Run(end=start, vertices=[start], settings=settings)
+    if not _is_legal(plane, blocks, settings):
         run.status = "rejected"
         return run
     try:
@@ -75,7 +87,7 @@ def is_over_defined(plane: int, block: Block) -> bool:
     return more is not None and block.words.keys() >= {first, second} | more
 
 
-def _is_legal(plane: int, blocks: Sequence[Block]) -> bool:
+def _is_legal(plane: int, blocks: Sequence[Block], settings: Settings) -> bool:
     first, second, i, j = PLANES[plane]
     for k, block in enumerate(blocks):
         words, is_circle = block.words, block.motion in ("G2", "G3")
@@ -88,7 +100,8 @@ def _is_legal(plane: int, blocks: Sequence[Block]) -> bool:
             is_line_line = not is_circle and before is not None and before.motion == "G1"
             if before is None or before.motion == "G0":
                 return False
-            if not (before.was_compensated and before.is_compensated and block.is_compensated):
+            is_compensated = before.was_compensated and before.is_compensated and block.is_compensated
+            if not is_compensated and settings.compensation == "required":
                 return False
             if not is_line_line and not words.get("Q"):
                 return False
@@ -115,7 +128,8 @@ def _sharp(plane: int, start: complex, blocks: Sequence[Block], run: Run) -> lis
     for k, (curve, point) in enumerate(given):
         end = point
         if over[k + 1]:
-            end = crossing(curve, given[k + 1][0], sign(float(blocks[k + 1].words.get("Q", 0))), run)
+            q = sign(float(blocks[k + 1].words.get("Q", 0)))
+            end = crossing(curve._replace(start=at if curve.center else curve.start), given[k + 1][0], q, run)
             run.points[f"P{len(run.points) + 1}"] = end
         if curve.center is None:
             along = curve.end - curve.start
@@ -172,8 +186,9 @@ def _ordinary(plane: int, at: complex, block: Block, gives_point: bool, run: Run
 
 
 def _agree(one: float, other: float, run: Run) -> None:
-    run.is_near |= abs(abs(one - other) - 0.01) < 1e-6
-    if abs(one - other) > 0.01:
+    allowed = float(run.settings.radius_difference)
+    run.is_near |= abs(abs(one - other) - allowed) < 1e-6
+    if abs(one - other) > allowed:
         raise Refused("conflicting")
 
 
@@ -181,7 +196,7 @@ def _turn(block: Block) -> str:
     return "ccw" if block.motion == "G3" else "cw"
 
 
-def crossing(one: Element, other: Element, q: int, run: Outcome) -> complex:
+def crossing(one: Element, other: Element, q: int, run: Run) -> complex:
     """Where two consecutive curves meet; of two places the one that the sign of Q names."""
     if one.center is None and other.center is None:
         return meet((one.start, one.end - one.start), (other.start, other.end - other.start), run)
@@ -195,7 +210,16 @@ def crossing(one: Element, other: Element, q: int, run: Outcome) -> complex:
             run.need(slack)
         area = sqrt(max(0.0, slacks[0] * slacks[1] * (a + b + d) * (d + abs(a - b)))) / 4
         foot = ((a - b) * (a + b) + d * d) / (2 * d)
-        return one.center + apart / d * complex(foot, -q * 2 * area / d)
+        left, right = (one.center + apart / d * complex(foot, side * 2 * area / d) for side in (1, -1))
+        if run.settings.circle_circle_q == "first-met-clockwise":
+            # How far to turn clockwise from where the first arc begins.
+            turns = {at: -phase((at - one.center) / (one.start - one.center)) % tau for at in (left, right)}
+            for turn in turns.values():
+                run.is_near |= min(turn, tau - turn) < 1e-6
+            left, right = sorted(turns, key=lambda at: turns[at])
+        elif run.settings.circle_circle_q == "right-is-negative":
+            left, right = right, left
+        return left if q < 0 else right
     line, circle = (one, other) if one.center is None else (other, one)
     assert circle.center is not None
     along = (line.end - line.start) / abs(line.end - line.start)
@@ -208,7 +232,7 @@ def crossing(one: Element, other: Element, q: int, run: Outcome) -> complex:
 WORD = re.compile(r"(,?[A-Z])\s*([-+]?(?:\d+\.?\d*|\.\d+))")
 
 
-def runs(program: Sequence[str]) -> list[Run]:
+def runs(program: Sequence[str], settings: Settings = DEFAULT) -> list[Run]:
     """Reads a program's text, and follows every maximal run of blocks that are worked out together."""
     plane, distance, motion, compensation = 17, 90, "G0", 40
     was = compensation
@@ -238,7 +262,7 @@ def runs(program: Sequence[str]) -> list[Run]:
             is_over_defined(plane, blocks[last + 1]) or blocks[last].words.keys() & {",C", ",R"}
         ):
             last += 1
-        run = follow(plane, at, blocks[k : last + 1])
+        run = follow(plane, at, blocks[k : last + 1], settings)
         if last > k or ",A" in blocks[k].words:
             found.append(run)
         at, k = run.end, last + 1

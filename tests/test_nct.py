@@ -1,14 +1,21 @@
 """NCT chapter 16, fact by fact of the control's sheet: what over-defines a block, what is missing, what is refused."""
 
-from math import isfinite
+import json
+import re
+from collections import Counter
+from math import cos, isfinite, radians, sin
 from random import Random
 
 import pytest
-from generate_nct import FORMS, random_chain, random_cornered, random_pair
+from generate_nct import FORMS, Drawn, random_chain, random_cornered, random_pair
+from oracle_corners import miss
+from oracle_nct import Settings, runs
 
 from contoursolve import Result, check, solve
 from contoursolve.diagnostic import Diagnostic
+from contoursolve.families import Code, family
 from contoursolve.output.document import to_json
+from contoursolve.project import SettingError
 from contoursolve.verification import Document, Verdict, verify
 
 FROM_CIRCLE = "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 R50\n"
@@ -154,3 +161,102 @@ def test_no_message_over_random_broken_programs_holds_what_is_no_number(seed, co
                 said = f"{finding.message} {finding.help}".lower().replace("=", " ").split()
                 assert not {"nan", "inf", "-inf"} & {word.strip(",;:()") for word in said}, (text, finding.message)
                 assert all(isfinite(value) for value in finding.values.values()), (text, finding)
+
+
+# Settings: what no page says (3, and Q of two circles) --------------------------------------------------------
+
+SETTINGS = [
+    Settings(circle_circle_q="right-is-negative"),
+    Settings(circle_circle_q="first-met-clockwise"),
+    Settings(radius_difference="0.5", compensation="free"),
+    Settings(circle_circle_q="first-met-clockwise", radius_difference="0.002"),
+]
+
+
+def named(settings: Settings) -> dict[str, str]:
+    """The settings as the command line takes them."""
+    return {f"nct-99m.{name.replace('_', '-')}": value for name, value in settings._asdict().items()}
+
+
+def draw(rng: Random) -> Drawn:
+    """A pair or a chain, most of them of circles, some of them without compensation or with a point off its circle."""
+    plane = rng.choice((17, 18, 19))
+    drawn = random_pair(rng, "circle-circle", plane, rng.choice(("", "C", "R")))
+    if rng.random() < 0.5:
+        drawn = random_chain(rng, rng.randint(1, 4), plane, corners=0.2)
+    lines = list(drawn.program)
+    if rng.random() < 0.3:
+        lines[0] = lines[0].replace("G41 ", "").replace("G42 ", "")
+    if rng.random() < 0.5:
+        first = {17: "X", 18: "Z", 19: "Y"}[plane]
+        line = rng.randrange(1, len(lines))
+        off = rng.choice((0.0015, -0.0015, 0.008, -0.1, 0.3))
+        lines[line] = re.sub(rf"(?<!\S){first}(\S+)", lambda word: f"{first}{float(word[1]) + off:.12f}", lines[line])
+    return drawn._replace(program=tuple(lines))
+
+
+@pytest.mark.parametrize("settings", SETTINGS)
+@pytest.mark.parametrize("count", [8, pytest.param(300, marks=pytest.mark.slow)])
+def test_programs_are_read_as_the_settings_say_and_the_check_of_results_agrees(settings, count):
+    rng = Random(f"{settings}{count}")
+    statuses: Counter[str] = Counter()
+    for _ in range(count):
+        program = draw(rng).program
+        (expected,) = runs(program, settings)
+        if expected.is_near:
+            continue
+        text = "\n".join(program)
+        result = solve(text, control="nct-99m", settings=named(settings), depth="verdict")
+        (contour,) = json.loads(to_json(result))["contours"]
+        if (contour["status"], expected.status) != ("conflicting", "no-solution"):
+            assert contour["status"] == expected.status, text
+        statuses[expected.status] += 1
+        if expected.status == "solved":
+            is_off = any(each.code == "nct-radius-differs" for each in result.diagnostics)
+            assert miss(expected.elements, expected.points, contour) < (0.5 if is_off else 1e-8), text
+            documents = Document("program", text.encode()), Document("result", to_json(result).encode())
+            assert verify(*documents).verdict is not Verdict.FAILED, text
+    assert statuses["solved"] >= count / 5
+
+
+def test_the_point_met_first_is_counted_from_where_the_arc_starts_in_a_chain_too():
+    """The sheet's third reading: from the start of the first circle's arc, which may be an intersection itself."""
+    chain = "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 I-50 J0\nX-40 Y60 I-40 J20 R40 Q-1\nG2 X20 Y60 I-10 J60 R30 Q-1"
+    settings = Settings(circle_circle_q="first-met-clockwise")
+    (expected,) = runs(chain.split("\n"), settings)
+    (answer,) = solve(chain, settings=named(settings)).answers
+    assert expected.status == answer.status.value == "solved"
+    assert [side.value for side in answer.sides.values()] == ["first", "first"]
+    for name, at in expected.points.items():
+        assert answer.contour.points[name] == pytest.approx((at.real, at.imag), abs=1e-9)
+    assert {each.setting.name: each.value for each in answer.claim.conventions} == {
+        "circle-circle-q": "first-met-clockwise"
+    }
+
+
+def test_a_family_counts_with_the_settings_too():
+    text = "G17 G90 G41 G0 X50 Y0\nG3 X-49.98 Y0 I-50 J0\nG3 X-40 Y60 I-40 J20 R40 Q-1"
+    settings = named(Settings(circle_circle_q="first-met-clockwise", radius_difference="0.03"))
+    turns = [radians(15 * step) for step in range(24)]
+    centers = [(round(-40 + 40 * cos(turn), 3), round(60 + 40 * sin(turn), 3)) for turn in turns]
+    rows = [(i, j, x) for i, j in centers for x in (-49.96, -49.98, -50.0)]
+    names = ("3:I", "3:J", "2:X")
+    table = family(text, vary=dict(zip(names, zip(*rows, strict=True), strict=True)), paired=True, settings=settings)
+    solved = 0
+    for index, (i, j, x) in enumerate(rows):
+        lines = text.replace("I-40 J20", f"I{i} J{j}").replace("X-49.98", f"X{x}")
+        (answer,) = solve(lines, settings=settings, depth="verdict").answers
+        assert (answer.contour is not None) == (table["status"][index] == Code.SOLVED), lines
+        if answer.contour:
+            solved += 1
+            at = table["P1.X"][index], table["P1.Y"][index]
+            assert answer.contour.points["P1"] == pytest.approx(at, abs=1e-9)
+    assert solved > 10
+
+
+@pytest.mark.parametrize(
+    "value", ["0", "-1", "0.0009", "10.1", "1e-2", "nan", "inf", "", "x", "\u0660.\u0661", "1" * 400]
+)
+def test_a_difference_of_radii_that_is_no_sensible_number_is_refused(value):
+    with pytest.raises(SettingError, match="it is a number from"):
+        solve(LINES, settings={"nct-99m.radius-difference": value})

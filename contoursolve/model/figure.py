@@ -34,7 +34,11 @@ class Line:
 
 @dataclass(frozen=True, slots=True)
 class Arc:
-    """A circular move about an unknown centre; `radius` names the unknown radius."""
+    """A circular move about an unknown centre; `radius` names the unknown radius.
+
+    Of its two intersections with the arc before it, one is left of the way between the centres; or else, where it
+    `counts_clockwise`, one is met first if that arc is travelled clockwise from its start.
+    """
 
     name: str
     tail: str
@@ -42,6 +46,7 @@ class Arc:
     center: str
     radius: str
     turn: Turn
+    counts_clockwise: bool = False
 
 
 class CornerShape(Enum):

@@ -88,11 +88,14 @@ class Side(Enum):
     LEFT = "left"
     """Left of the chord from the first point to the second."""
     RIGHT = "right"
+    FIRST = "first"
+    """Met first where an arc is travelled clockwise from its start."""
+    SECOND = "second"
 
     @property
     def sign(self) -> int:
-        """-1 for nearer and right, +1 for farther and left: the sign of the root."""
-        return -1 if self in (Side.NEARER, Side.RIGHT) else 1
+        """-1 for nearer, right and second, +1 for farther, left and first: the sign of the root."""
+        return -1 if self in (Side.NEARER, Side.RIGHT, Side.SECOND) else 1
 
 
 @dataclass(frozen=True, slots=True)

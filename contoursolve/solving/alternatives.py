@@ -302,7 +302,13 @@ def side_values(system: System, at: Values, chosen: Set[str]) -> dict[str, tuple
         if first.head == second.tail in unknown:
             centers, spoke = step(first.center, second.center), step(first.center, first.head)
             left = centers[FIRST] * spoke[SECOND] - centers[SECOND] * spoke[FIRST]
-            sides[first.head] = left, Side.LEFT.value, Side.RIGHT.value
+            names = Side.LEFT, Side.RIGHT
+            if second.counts_clockwise:
+                # From outside the second circle, the left one is met first.
+                reach = step(first.tail, second.center)
+                left = left * (reach[FIRST] ** 2 + reach[SECOND] ** 2 - at.radius(second.radius) ** 2)
+                names = Side.FIRST, Side.SECOND
+            sides[first.head] = left, *(name.value for name in names)
     ends = {element.head for element in system.figure.path}
     for arc in arcs:
         on_it = [circle.point for circle in circles if circle.center == arc.center]

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import pairwise
 from math import tau
 from typing import Any
 
@@ -13,6 +14,7 @@ from contoursolve.backends.numeric import (
     Tape,
     affine_parts,
     angle,
+    at_most,
     is_zero,
     jacobian_parts,
     magnitude,
@@ -132,12 +134,20 @@ class _Builder:
         offset = length / 2 if step.is_equal else (length + (one - other) * (one + other) / length) / 2
         scale = one + other + sum(magnitude(value) for value in (*first, *second))
         root = self._root((one - offset) * (one + offset), offset, one, scale, number)
-        along, rise = offset / length, self.tape.input(f"side:{step.point}") * root / length
+        along, rise = offset / length, self.tape.input(f"side:{step.point}") * self._sense(step) * root / length
         self.set_point(
             step.point,
             (first[0] + along * chord[0] - rise * chord[1], first[1] + along * chord[1] + rise * chord[0]),
         )
         self.tape.output(f"distance:{number}", length)
+
+    def _sense(self, step: TwoCirclesStep) -> Any:
+        """+1 where the positive side of an intersection is the left one, -1 where it is the right one."""
+        for before, after in pairwise(self.system.figure.path):
+            if isinstance(after, Arc) and after.counts_clockwise and after.tail == step.point:
+                (a, b), (c, d) = self.point(before.tail), self.point(after.center)
+                return 2 * at_most(self.scalars[after.radius] ** 2, (c - a) ** 2 + (d - b) ** 2) - 1
+        return 1
 
     def _root(self, discriminant: Any, offset: Any, radius: Any, scale: Any, number: int) -> Any:
         """The root of a discriminant; 0 where floats cannot tell that a circle is more than touched."""

@@ -1,14 +1,15 @@
 """The construction of a contour: a list of small steps in closed form, found from structure alone."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import pairwise
 
 from contoursolve.analysis import Group, judge, order
 from contoursolve.backends.inputs import lookup
 from contoursolve.backends.numeric import Tape, is_affine
 from contoursolve.constraints import Collinear, Coordinate, Heading, Level, Offset, OnCircle, System
-from contoursolve.model import FIRST, SECOND, Fact, scalar
+from contoursolve.model import FIRST, SECOND, Arc, Fact, scalar
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,7 +98,33 @@ def make_plan(system: System) -> Plan:
         raise NoClosedFormError(f"nothing states {', '.join(dict.fromkeys(sides))}")
     basis = tuple(system.facts[index] for index in verdict.basis)
     checks = tuple(fact for index, fact in enumerate(system.facts) if index not in verdict.basis)
-    return Plan(tuple(_step(group, system) for group in order(system, basis)), basis, checks)
+    groups = _starts_first(order(system, basis), system)
+    return Plan(tuple(_step(group, system) for group in groups), basis, checks)
+
+
+def _starts_first(groups: Sequence[Group], system: System) -> Sequence[Group]:
+    """The groups in such an order that the start of an arc is known where an intersection is counted from it.
+
+    Raises NoClosedFormError if there is none.
+    """
+    arcs = [element for element in system.figure.path if isinstance(element, Arc)]
+    starts = {second.tail: first.tail for first, second in pairwise(arcs) if second.counts_clockwise}
+    if not starts:
+        return groups
+    rest, found, known = list(groups), [], {*system.unknowns} - {name for each in groups for name in each.unknowns}
+    while rest:
+        for group in rest:
+            needed = {name for fact in group.facts for name in system.unknowns_of(fact)}
+            counted = [start for point, start in starts.items() if _both(point) == {*group.unknowns}]
+            needed |= {name for start in counted for name in _both(start) if name in system.unknowns}
+            if needed - {*group.unknowns} <= known:
+                break
+        else:
+            raise NoClosedFormError("an intersection is counted from the start of an arc that depends on it")
+        rest.remove(group)
+        found.append(group)
+        known |= {*group.unknowns}
+    return found
 
 
 def _step(group: Group, system: System) -> Step:

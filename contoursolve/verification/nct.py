@@ -12,16 +12,16 @@ from contoursolve.verification.drawing import Drawing, UnmeasurableError
 from contoursolve.verification.ledger import Ledger
 from contoursolve.verification.nct_words import (
     choosing_pairs,
+    circle_side,
     course_of,
     elements_of,
     is_plain,
     own_point,
-    positive_side,
 )
-from contoursolve.verification.rails import UnmakeableError
+from contoursolve.verification.rails import Ring, UnmakeableError
 
-LINES, CIRCLES = {-1: "nearer", 1: "farther"}, {-1: "left", 1: "right"}
-"""What the sides of an intersection are called, with a line and of two circles."""
+LINES = {-1: "nearer", 1: "farther"}
+"""What the sides of an intersection with a line are called."""
 
 
 def check(case: Case, ledger: Ledger) -> None:
@@ -92,10 +92,12 @@ def check_branches(case: Case, ledger: Ledger, course: Course) -> None:
     for before, each in choosing_pairs(case.claim):
         sign = case.choices.get(each.given("Q"), 0)
         touches = course.touching.get(each.number - 1, False)
-        is_circles = before.turn is not None and each.turn is not None
         side: str | None = None
         if sign and touches is not True:
-            side = CIRCLES[sign * positive_side(case)] if is_circles else LINES[sign]
+            side = LINES[sign]
+            first, second = course.joints[before.number - 1], course.rails[each.number - 1]
+            if before.turn is not None and isinstance(second, Ring):
+                _, side = circle_side(case, sign, first, second.center, second.radius)
         wanted[each.tail] = {side, None} if touches is None else {side}
     check_sides(case, ledger, wanted)
 

@@ -18,7 +18,7 @@ from contoursolve.verification.facts import STEP, Sight, slopes, statements
 from contoursolve.verification.ledger import Ledger, fewest
 from contoursolve.verification.measure import ROUNDING, angle_between, cross, direction, dot, unit
 from contoursolve.verification.nct_figure import Figure, Slots, course_at, drawing_at, figure_of, makers, slots_of
-from contoursolve.verification.nct_words import CENTERS, ENDS, Element, elements_of, positive_side
+from contoursolve.verification.nct_words import CENTERS, ENDS, Element, circle_side, elements_of
 from contoursolve.verification.quantity import Quantity
 from contoursolve.verification.rails import UnmakeableError
 from contoursolve.verification.statement import Statement, displacement
@@ -195,9 +195,10 @@ def _check_side(case: Case, ledger: Ledger, figure: Figure, before: Element, eac
     is_double = bool(case.claimed.certificate.double)
     if before.turn is not None and each.turn is not None:
         first, second = figure.at(before.center), figure.at(each.center)
-        ahead, names = -cross(unit(second - first), place - first), ("left", "right")
-        sign *= positive_side(case)
-        is_stated = True
+        ahead, is_stated = -cross(unit(second - first), place - first), True
+        if sign:
+            start, radius = figure.at(before.tail), figure.numbers[each.radius]
+            sign, name = circle_side(case, sign, start, second, radius)
     else:
         line, arc = (before, each) if before.turn is None else (each, before)
         run = figure.at(line.head) - figure.at(line.tail)
@@ -206,14 +207,13 @@ def _check_side(case: Case, ledger: Ledger, figure: Figure, before: Element, eac
             ledger.omit(" ".join(words), "the line has no direction along which it would choose")
             return {None}
         along = direction(case.value(line.given(",A"))) if is_stated else unit(run)
-        ahead, names = dot(along, place - figure.at(arc.center)), ("nearer", "farther")
+        ahead, name = dot(along, place - figure.at(arc.center)), "farther" if sign > 0 else "nearer"
     if not sign:
         return {None}
     ledger.measure(f"{each.tail} is the intersection that Q chooses", words, max(0.0, -sign * ahead), case.limit)
     # What just touches leaves Q nothing to choose.
     touches = is_double or (not is_stated and abs(ahead) <= case.limit)
-    meant = names[sign > 0]
-    return {meant, None} if touches else {meant}
+    return {name, None} if touches else {name}
 
 
 def _values(case: Case, figure: Figure) -> Mapping[str, Quantity]:

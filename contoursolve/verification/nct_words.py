@@ -156,7 +156,7 @@ def course_of(case: Case, signs: Signs, near: Mapping[str, complex] | None = Non
         if each.is_over:
             rail = _absolute(case, each, base)
             if index:
-                place, blur, touches = _joint(case, elements[index - 1], each, rails[-1], rail, base, signs, near)
+                place, blur, touches = _joint(case, each, rails[-1], rail, base, joints[-1], signs, near)
                 joints.append(place)
                 unsure.append(blur)
                 if elements[index - 1].turn is not None or each.turn is not None:
@@ -179,15 +179,15 @@ def course_of(case: Case, signs: Signs, near: Mapping[str, complex] | None = Non
 
 def _joint(
     case: Case,
-    before: Element,
     each: Element,
     first: Rail,
     second: Rail,
     base: float,
+    start: complex,
     signs: Signs,
     near: Mapping[str, complex] | None,
 ) -> tuple[complex, float, bool | None]:
-    """The intersection in which an element begins."""
+    """The intersection in which an element begins; the one before it starts at `start`."""
     meeting = meet(first, second, base)
     if 0 in meeting.places:
         return meeting.places[0], meeting.unsure, False
@@ -195,19 +195,25 @@ def _joint(
     if meeting.touches:
         return next(iter(meeting.places.values())), meeting.unsure, True
     if sign:
-        side = sign * positive_side(case) if before.turn is not None and each.turn is not None else sign
-        return meeting.places[side], meeting.unsure, meeting.touches
+        if isinstance(first, Ring) and isinstance(second, Ring):
+            sign, _ = circle_side(case, sign, start, second.center, second.radius)
+        return meeting.places[sign], meeting.unsure, meeting.touches
     if near is None or each.tail not in near:
         raise UnmakeableError("Q is zero or missing")
     place = min(meeting.places.values(), key=lambda at: abs(at - near[each.tail]))
     return place, meeting.unsure, meeting.touches
 
 
-def positive_side(case: Case) -> int:
-    """What a positive Q of two circles stands for: by the setting, the place right of the way between the centres, or
-    left of it."""
+def circle_side(case: Case, sign: int, start: complex, center: complex, radius: float) -> tuple[int, str]:
+    """Which intersection of two circles a sign of Q stands for by the setting, left or right of the way between the
+    centres, and its name; `start` is where the first arc starts, the rest is the second circle's."""
     values = {each.setting.name: each.value for each in case.claim.conventions}
-    return LEFT if values.get("circle-circle-q") == "right-is-negative" else RIGHT
+    if values.get("circle-circle-q") == "first-met-clockwise":
+        # Clockwise from outside the second circle, one enters it on the left.
+        is_left = (sign < 0) == (abs(start - center) >= radius)
+        return (LEFT if is_left else RIGHT), ("first" if sign < 0 else "second")
+    side = sign * (LEFT if values.get("circle-circle-q") == "right-is-negative" else RIGHT)
+    return side, "left" if side == LEFT else "right"
 
 
 def _absolute(case: Case, each: Element, base: float) -> Rail:

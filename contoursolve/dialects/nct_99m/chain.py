@@ -94,8 +94,9 @@ def names_of(elements: Sequence[Element]) -> tuple[Names, ...]:
 
 
 @lru_cache(maxsize=4096)
-def compose(elements: tuple[Element, ...], slack: float) -> Form:
-    """The form of blocks in a row, where the radii at two points of an arc may differ by so much, mm."""
+def compose(elements: tuple[Element, ...], slack: float, *, counts_clockwise: bool) -> Form:
+    """The form of blocks in a row, where the radii at two points of an arc may differ by so much (mm), and where Q of
+    two circles may count clockwise."""
     names = names_of(elements)
     name = _form_name(elements)
     pairs = list(zip(pairwise(elements), pairwise(names), strict=True))
@@ -113,7 +114,10 @@ def compose(elements: tuple[Element, ...], slack: float) -> Form:
         points=tuple(dict.fromkeys(point for each in names for point in (each.center, each.own, each.head))),
         radii=tuple(each.radius for each in arcs),
         facts=facts,
-        path=tuple(_path(element, each) for element, each in zip(elements, names, strict=True)),
+        path=tuple(
+            _path(element, each, counts_clockwise=counts_clockwise)
+            for element, each in zip(elements, names, strict=True)
+        ),
         corners=tuple(
             CornerRow(
                 f"corner {number}",
@@ -145,11 +149,12 @@ def _form_name(elements: Sequence[Element]) -> str:
     return pair_role(*elements) if len(elements) == 2 else "chain"  # noqa: PLR2004 - a pair
 
 
-def _path(element: Element, names: Names) -> Line | Arc:
+def _path(element: Element, names: Names, *, counts_clockwise: bool) -> Line | Arc:
     if element.turn is None:
         toward = names.own if element.is_followed and not element.is_over else None
         return Line(names.element, names.tail, names.head, f"{names.prefix},A", toward)
-    return Arc(names.element, names.tail, names.head, names.center, names.radius, element.turn)
+    counts = counts_clockwise and element.is_over
+    return Arc(names.element, names.tail, names.head, names.center, names.radius, element.turn, counts)
 
 
 def _stated(elements: Sequence[Element], names: Sequence[Names], slack: float) -> Iterator[FactRow]:
@@ -263,4 +268,4 @@ _SAMPLES: dict[tuple[Element, ...], Sample] = {
 }
 """Programs for the tables of words, one for each kind of form."""
 
-FORMS = tuple(compose(elements, RADIUS_DIFFERENCE) for elements in _SAMPLES)
+FORMS = tuple(compose(elements, RADIUS_DIFFERENCE, counts_clockwise=False) for elements in _SAMPLES)

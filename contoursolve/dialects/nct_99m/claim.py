@@ -29,12 +29,16 @@ from contoursolve.source import Evidence, Source
 from contoursolve.syntax import Block, Word
 from contoursolve.tolerance import RADIUS_DIFFERENCE
 
+CLOCKWISE = "first-met-clockwise"
+
 CIRCLE_CIRCLE_Q = Setting(
     name="circle-circle-q",
     meaning="which intersection of two circles Q chooses",
     values={
         "left-is-negative": "Q<0 the point left of the way from the first centre to the second, Q>0 the one right",
         "right-is-negative": "Q<0 the point right of the way from the first centre to the second, Q>0 the one left",
+        CLOCKWISE: "Q<0 the point met first if the first circle is travelled clockwise from where its arc starts, Q>0 "
+        "the one met second",
     },
     default="left-is-negative",
     source=Source(MANUAL, "16.3.4: the page has not been seen", Evidence.ASSUMED),
@@ -79,7 +83,9 @@ class Member:
 def claim_of(members: Sequence[Member], before: State, modes: Modes) -> Claim:
     """The contour of blocks in a row."""
     elements = tuple(member.element for member in members)
-    form, names = compose(elements, modes.radius_difference), names_of(elements)
+    counts_clockwise = modes.convention(CIRCLE_CIRCLE_Q).value == CLOCKWISE
+    form = compose(elements, modes.radius_difference, counts_clockwise=counts_clockwise)
+    names = names_of(elements)
     first = members[0].here
     words: dict[str, Word] = {}
     repeated: list[Word] = []
@@ -199,8 +205,9 @@ def _conventions(form: Form, circumstances: Set[str], modes: Modes) -> Iterator[
     """What decides here: a difference of radii has a finding of its own, so that only one that was set is named."""
     if any(name.endswith((UNCOMPENSATED, UNCOMPENSATED_FREE)) for name in circumstances):
         yield modes.convention(COMPENSATION)
-    if RADIUS_DIFFERENCES.name in modes.settings and any(isinstance(row.fact, OnCircle) for row in form.facts):
-        yield modes.convention(RADIUS_DIFFERENCES)
+    difference = modes.convention(RADIUS_DIFFERENCES)
+    if difference.value != RADIUS_DIFFERENCES.default and any(isinstance(row.fact, OnCircle) for row in form.facts):
+        yield difference
     if CIRCLE_CIRCLE in {role.name for role in form.roles}:
         yield modes.convention(CIRCLE_CIRCLE_Q)
 
@@ -232,8 +239,16 @@ def _side(role: str, *, is_negative: bool, modes: Modes) -> Side:
     """The intersection that a sign of Q chooses."""
     if role != CIRCLE_CIRCLE:
         return Side.NEARER if is_negative else Side.FARTHER
-    is_left_negative = modes.convention(CIRCLE_CIRCLE_Q).value == "left-is-negative"
-    return Side.LEFT if is_negative == is_left_negative else Side.RIGHT
+    negative, positive = _CIRCLE_SIDES[modes.convention(CIRCLE_CIRCLE_Q).value]
+    return negative if is_negative else positive
+
+
+_CIRCLE_SIDES = {
+    "left-is-negative": (Side.LEFT, Side.RIGHT),
+    "right-is-negative": (Side.RIGHT, Side.LEFT),
+    CLOCKWISE: (Side.FIRST, Side.SECOND),
+}
+"""What a negative and a positive Q of two circles choose."""
 
 
 def _selectors(
