@@ -6,6 +6,7 @@ import gc
 import io
 import os
 import sys
+from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
 if TYPE_CHECKING:
@@ -29,8 +30,10 @@ class _Pipe(io.FileIO):
         return memoryview(data).nbytes
 
 
-def _open_pipe(stream: TextIO) -> TextIO:
-    """The stream as one whose reader may leave; a terminal stays as it is, and None if there is no stream."""
+def _open_pipe(stream: TextIO | None) -> TextIO:
+    """The stream as one whose reader may leave; a terminal stays as it is, and what is closed leads nowhere."""
+    if stream is None:
+        return Path(os.devnull).open("w", encoding="utf-8")
     if not isinstance(stream, io.TextIOWrapper) or stream.isatty():
         return stream
     stream.flush()
@@ -48,11 +51,14 @@ def main() -> None:
     """
     gc.disable()
     atexit.register(gc.freeze)
-    from contoursolve.cli import main as command  # noqa: PLC0415 - after the collector is off
-
-    sys.stdout, sys.stderr = _open_pipe(sys.stdout), _open_pipe(sys.stderr)
     try:
+        from contoursolve.cli import main as command  # noqa: PLC0415 - after the collector is off
+
+        sys.stdout, sys.stderr = _open_pipe(sys.stdout), _open_pipe(sys.stderr)
         command(prog_name="contoursolve")
+    except KeyboardInterrupt:
+        # Before the command has begun, or after its end.
+        sys.exit(130)
     except OSError as error:
         # A full disk behind the output; what is left in its buffer goes nowhere, or Python complains at the end.
         sys.stderr.write(f"Error: the output cannot be written: {error.strerror}\n")

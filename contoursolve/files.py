@@ -3,7 +3,6 @@
 import codecs
 import io
 import os
-import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -11,7 +10,7 @@ from itertools import count
 from pathlib import Path
 from typing import BinaryIO
 
-from contoursolve.syntax import BINARY, STANDARD_INPUT, UnreadableProgramError, is_folder
+from contoursolve.syntax import BINARY, STANDARD_INPUT, UnreadableProgramError, is_folder, reason_of, standard_input
 
 _NOT_TEXT = bytes(sorted(BINARY))
 _CHUNK = 1 << 20
@@ -70,8 +69,7 @@ def open_tape(path: str | Path) -> Iterator[Tape]:
     except (OSError, ValueError) as error:
         if is_folder(name):  # Windows answers "permission denied" for a directory
             raise UnreadableProgramError(f"{name} is a directory, not a program file") from None
-        reason = error.strerror if isinstance(error, OSError) else str(error)
-        raise UnreadableProgramError(f"{name} cannot be read: {reason}") from None
+        raise UnreadableProgramError(f"{name} cannot be read: {reason_of(error)}") from None
     with data:
         encoding, mark = _recognise_encoding(data, name)
         size = data.seek(0, os.SEEK_END)
@@ -81,8 +79,13 @@ def open_tape(path: str | Path) -> Iterator[Tape]:
 @contextmanager
 def tape_of(text: str, name: str) -> Iterator[Tape]:
     """A text as if it were in a file."""
-    data = text.encode("utf-8", "surrogateescape")
-    yield Tape(name, io.BytesIO(data), len(data), "utf-8", b"")
+    try:
+        data = text.encode("utf-8", "surrogateescape")
+    except UnicodeEncodeError:
+        raise UnreadableProgramError(f"{name} is not text") from None
+    # A terminal's bytes need not be UTF-8.
+    encoding, _ = _recognise_encoding(io.BytesIO(data), name)
+    yield Tape(name, io.BytesIO(data), len(data), encoding, b"")
 
 
 def _spool() -> BinaryIO:
@@ -90,7 +93,8 @@ def _spool() -> BinaryIO:
     from tempfile import SpooledTemporaryFile  # noqa: PLC0415 - most programs are files
 
     copy = SpooledTemporaryFile(_IN_MEMORY)  # noqa: SIM115 - the caller closes it
-    while chunk := sys.stdin.buffer.read(_CHUNK):
+    data = standard_input()
+    while chunk := data.read(_CHUNK):
         copy.write(chunk)
     copy.seek(0)
     return copy  # type: ignore[return-value]
@@ -120,6 +124,7 @@ def _recognise_encoding(data: BinaryIO, name: str) -> tuple[str, bytes]:
 
 def check_target(target: Path, source: Path | None, *, is_forced: bool) -> None:
     """Raise CannotWriteError if a file exists and may not be replaced, or cannot be written at all."""
+    _resolve(target)
     if target.is_dir():
         raise CannotWriteError(f"{target} is a directory; name a file")
     if not target.parent.is_dir():
@@ -133,12 +138,25 @@ def check_target(target: Path, source: Path | None, *, is_forced: bool) -> None:
             raise CannotWriteError(f"{target} exists; give --force to replace it")
 
 
+def _resolve(target: Path) -> Path:
+    """The file that a name leads to, which need not exist. Raises CannotWriteError for a link to itself."""
+    try:
+        target.stat()
+    except FileNotFoundError:
+        pass
+    except OSError as error:
+        raise CannotWriteError(f"{target} cannot be written: {error.strerror}") from None
+    except ValueError as error:  # a name with a NUL
+        raise CannotWriteError(f"{target} cannot be written: {error}") from None
+    return target.resolve()
+
+
 def write_whole(target: Path, pieces: Iterable[bytes], *, keeps_backup: bool) -> Path | None:
     """Write a file so that at any moment it is either the old one or the whole new one; returns where the old one is
     kept. Raises CannotWriteError."""
     import shutil  # noqa: PLC0415 - most commands write nothing
 
-    target = target.resolve()
+    target = _resolve(target)
     temporary = target.with_name(f".{target.name}.{os.urandom(4).hex()}.tmp")
     backup = None
     try:

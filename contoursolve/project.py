@@ -24,7 +24,11 @@ def find_settings(folder: Path) -> dict[str, str]:
 
     Raises SettingError, naming the file.
     """
-    for place in (folder, *folder.resolve().parents):
+    try:
+        above = folder.resolve().parents
+    except OSError:  # the folder is gone
+        return {}
+    for place in (folder, *above):
         for name in (OWN, SHARED):
             file = place / name
             table = _table(file) if file.exists() else None
@@ -87,34 +91,53 @@ def _table(file: Path) -> dict[str, Any] | None:
         if file.name == SHARED:
             return None
         raise SettingError(f"{file} is a directory, not a file of settings")
-    text = ""
+    is_shared, text = file.name == SHARED, ""
     try:
-        text = file.read_text(encoding="utf-8")
+        text = _text(file)
+        if is_shared and "contoursolve" not in text:
+            return None  # another tool's business
         data = tomllib.loads(text)
     except UnicodeDecodeError:
-        if file.name == SHARED:
-            return None  # another tool's business
+        if is_shared:
+            return None
         raise SettingError(f"{file} cannot be read: it is not UTF-8 text") from None
-    except (OSError, tomllib.TOMLDecodeError) as error:
-        if file.name == SHARED and "tool.contoursolve" not in text:
-            return None  # another tool's business
-        raise SettingError(f"{file} cannot be read: {error}") from None
-    if file.name == OWN:
-        return data
-    tool = data.get("tool", {}).get("contoursolve")
-    return tool if isinstance(tool, dict) else None
+    except RecursionError:
+        if is_shared and "tool.contoursolve" not in text:
+            return None
+        raise SettingError(f"{file} cannot be read: its brackets are nested too deeply") from None
+    except (OSError, ValueError) as error:
+        # A number of thousands of digits is a ValueError, too.
+        if is_shared and "tool.contoursolve" not in text:
+            return None
+        reason = error.strerror if isinstance(error, OSError) else str(error).partition(";")[0]
+        raise SettingError(f"{file} cannot be read: {reason}") from None
+    tool = data if not is_shared else data.get("tool")
+    table = tool.get("contoursolve") if is_shared and isinstance(tool, dict) else tool
+    return table if isinstance(table, dict) else None
+
+
+_MOST = 50_000
+"""Bytes of a file of settings; all settings of all controls take 1,000."""
+
+
+def _text(file: Path) -> str:
+    """The text of a regular file: of a pipe or a device nobody knows whether it ends."""
+    if not file.is_file():
+        raise OSError(0, "it is not a regular file")
+    if file.name == OWN and file.stat().st_size > _MOST:
+        raise OSError(0, f"it has more than {_MOST:,} bytes, which no settings take")
+    return file.read_text(encoding="utf-8")
 
 
 def _settings(table: Mapping[str, Any], file: Path) -> dict[str, str]:
-    settings = {
-        f"{control}.{name}": str(value)
-        for control, own in table.items()
-        if isinstance(own, dict)
-        for name, value in own.items()
-    }
-    for name, own in table.items():
+    settings: dict[str, str] = {}
+    for control, own in table.items():
         if not isinstance(own, dict):
-            raise SettingError(f"{file}: {name!r} stands in no table; write [CONTROL] above it, such as [nct-99m]")
+            raise SettingError(f"{file}: {control!r} stands in no table; write [CONTROL] above it, such as [nct-99m]")
+        for name, value in own.items():
+            if isinstance(value, (dict, list)):
+                raise SettingError(f"{file}: {control}.{name} is a table or a list; write {name} = VALUE")
+            settings[f"{control}.{name}"] = str(value)
     try:
         check_settings(settings)
     except SettingError as error:

@@ -57,7 +57,8 @@ def _load(module: str, name: str) -> Dialect:
         raise ImportError(f"{told}{_where(module, error)}") from None
     found = getattr(imported, name, None)
     if not isinstance(found, Dialect):
-        file = f" ({imported.__file__})" if imported.__file__ else ""
+        path = getattr(imported, "__file__", None)
+        file = f" ({path})" if path else ""
         raise TypeError(f"{module}{file} has no contoursolve.Dialect of the name {name!r}")
     return found
 

@@ -35,6 +35,17 @@ class _Commands(click.Group):
         """All names, in order."""
         return list(_COMMANDS)
 
+    def invoke(self, ctx: click.Context) -> object:
+        """Run the command. An interrupt ends it with a status of its own: 1 means that an error was found."""
+        try:
+            return super().invoke(ctx)
+        except KeyboardInterrupt:
+            from contoursolve.cli.progress import STOPPED, leave_threads  # noqa: PLC0415 - most runs end by themselves
+
+            click.echo("stopped", err=True)
+            leave_threads(STOPPED)
+            ctx.exit(STOPPED)
+
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002 - as click calls it
         """The command of this name."""
         module, _, name = _COMMANDS.get(cmd_name, "").partition(":")
@@ -56,8 +67,8 @@ def main() -> None:
     the YASNAC LX3 a number without a decimal point counts least increments, and X40 is 0.040 mm. Numbers alone (--vary,
     --within, --tolerance) and those in facts are read as they stand, in mm or inches and degrees.
 
-    Exit status: 0 no error found, 1 at least one error found, 2 could not run. It is the same if the output is not read
-    to its end, as by head.
+    Exit status: 0 no error found, 1 at least one error found, 2 could not run, 130 stopped by Ctrl-C. It is the same if
+    the output is not read to its end, as by head.
     """
     for stream in (sys.stdout, sys.stderr):
         # A console may lack a character that a program's comment has.

@@ -12,9 +12,13 @@ from numpy.typing import NDArray
 
 from contoursolve.extras import need
 from contoursolve.families import FamilyError, name_of
+from contoursolve.tolerance import LARGEST
 
 MOST = 10_000_000
 """Values of one word."""
+
+_SMALLEST = -30
+"""Decimals of the smallest step; doubles near 1 have 16."""
 
 _FILE = re.compile(r"@(?P<file>.+?\.(?P<kind>csv|parquet))(?::(?P<column>.+))?", re.IGNORECASE)
 
@@ -38,6 +42,11 @@ def read_range(text: str) -> tuple[str, Numbers]:
         raise click.UsageError(f"--vary {text}: {values} is {told}") from None
     if not all(number.is_finite() for number in numbers):
         raise click.UsageError(f"--vary {text}: values must be finite numbers")
+    beyond = next((number for number in numbers if number.copy_abs() > LARGEST), None)
+    if beyond is not None:
+        raise click.UsageError(f"--vary {text}: {beyond} is beyond all travel; values go up to {LARGEST:,.0f}")
+    if any(number and number.adjusted() < _SMALLEST for number in numbers):
+        raise click.UsageError(f"--vary {text}: values and steps have at most {-_SMALLEST} decimals")
     if ":" not in values:
         return word, numpy.array([float(number) for number in numbers])
     if values.count(":") != 2 or "," in values:  # noqa: PLR2004 - between three numbers
@@ -61,8 +70,9 @@ def _read_column(word: str, text: str) -> Numbers:
         found = (_from_csv if match["kind"].lower() == "csv" else _from_parquet)(file, column)
     except FileNotFoundError:
         raise FamilyError(f"{file}: no such file") from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise FamilyError(f"{file} cannot be read: {error}") from None
+    except (OSError, ValueError, csv.Error) as error:
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        raise FamilyError(f"{file} cannot be read: {reason}") from None
     if not found.size:
         raise FamilyError(f"{file}, column {column}: there are no numbers")
     return found

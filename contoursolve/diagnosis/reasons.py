@@ -101,10 +101,11 @@ def path_reasons(profile: Profile, affine: AffineFacts | None, finding: Diagnost
             word = profile.givens[line.heading].word if line.heading else None
             if word and word.span == finding.span:
                 tail, head = (_known(profile, fixed, point) for point in (line.tail, line.head))
-                yield (
-                    f"because {line.name} goes from {place_text(profile, tail)} to {place_text(profile, head)}, "
-                    f"and {word.text} points the other way"
-                )
+                if tail and head:
+                    yield (
+                        f"because {line.name} goes from {place_text(profile, tail)} to {place_text(profile, head)}, "
+                        f"and {word.text} points the other way"
+                    )
 
 
 def _placed_before(profile: Profile, finding: Diagnostic) -> Iterator[str]:
@@ -129,8 +130,12 @@ def _placed_before(profile: Profile, finding: Diagnostic) -> Iterator[str]:
 
 
 def _known(profile: Profile, fixed: dict[str, float], point: str) -> dict[str, float]:
+    """The coordinates of a point; none where not both are known, as far beyond all travel."""
     at = lookup(profile, fixed)
-    return {scalar(point, axis): at.coordinate(point, axis) for axis in (FIRST, SECOND)}
+    try:
+        return {scalar(point, axis): at.coordinate(point, axis) for axis in (FIRST, SECOND)}
+    except KeyError:
+        return {}
 
 
 def _words(profile: Profile, facts: Sequence[Fact]) -> str:

@@ -8,6 +8,7 @@ import numpy
 from numpy.typing import ArrayLike, NDArray
 
 from contoursolve.backends.columns import Array
+from contoursolve.tolerance import LARGEST
 
 Places = NDArray[numpy.int64]
 
@@ -108,6 +109,9 @@ def ranges_of(vary: Mapping[str, ArrayLike], *, is_paired: bool) -> Ranges:
             raise FamilyError(f"{name} needs a list of one or more numbers, not an array of shape {array.shape}")
         if not numpy.isfinite(array).all():
             raise FamilyError(f"the values of {name} must be finite numbers")
+        if numpy.abs(array).max() > LARGEST:
+            value = array[numpy.abs(array).argmax()]
+            raise FamilyError(f"{name} goes to {value:g}, beyond {LARGEST:,.0f}, the largest value that is read")
         if word in values:
             raise FamilyError(f"{name} is named twice")
         values[word] = array

@@ -52,7 +52,7 @@ def _results(result: Result, index: dict[str, int]) -> Iterable[dict[str, Any]]:
     for finding in result.diagnostics:
         subject = f"{finding.code}\n{lines.get(result.place(finding.span).line, '').strip()}"
         seen[subject] = seen.get(subject, 0) + 1
-        fingerprint = hashlib.sha256(f"{subject}\n{seen[subject]}".encode()).hexdigest()
+        fingerprint = hashlib.sha256(f"{subject}\n{seen[subject]}".encode(errors="backslashreplace")).hexdigest()
         data: dict[str, Any] = {
             "ruleId": finding.code,
             "ruleIndex": index[finding.code],
@@ -79,7 +79,7 @@ def _finite(finding: Diagnostic) -> dict[str, float]:
 def _uri(result: Result) -> dict[str, str]:
     """The file as a relative or absolute URI (RFC 3986)."""
     path = PurePath(result.program.name)
-    return {"uri": path.as_uri() if path.is_absolute() else quote(path.as_posix())}
+    return {"uri": path.as_uri() if path.is_absolute() else quote(path.as_posix(), errors="surrogateescape")}
 
 
 def _location(result: Result, finding: Diagnostic) -> dict[str, Any]:

@@ -18,7 +18,16 @@ from contoursolve.syntax.lookalikes import (
     mended,
     with_digits,
 )
-from contoursolve.syntax.text import BINARY, STANDARD_INPUT, UnreadableProgramError, decode, is_folder, read_bytes
+from contoursolve.syntax.text import (
+    BINARY,
+    STANDARD_INPUT,
+    UnreadableProgramError,
+    decode,
+    is_folder,
+    read_bytes,
+    reason_of,
+    standard_input,
+)
 from contoursolve.syntax.word import FACT, Block, Directive, Fault, FaultKind, Macro, Passage, Program, Word
 
 __all__ = [
@@ -48,7 +57,9 @@ __all__ = [
     "read_bytes",
     "read_directive",
     "read_simply",
+    "reason_of",
     "split_lines",
     "split_simply",
+    "standard_input",
     "with_digits",
 ]

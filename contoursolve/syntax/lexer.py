@@ -10,8 +10,8 @@ from contoursolve.syntax.word import Block, Directive, Fault, FaultKind, Macro, 
 LONGEST_BLOCK = 2_000
 """Characters of a block outside comments; no control reads more, and a listing shows no more."""
 
-LONGEST_NUMBER = 32
-"""Characters of a number; controls read 8 digits."""
+LONGEST_NUMBER = 24
+"""Characters of a number. Controls read 8 digits, and Python's decimals divide numbers of 28."""
 
 _LINE_END = re.compile(r"\r\n|\n|\r")
 _LINE = re.compile(r"[^\r\n]*(?:\r\n|\n|\r)|[^\r\n]+")

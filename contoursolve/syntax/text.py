@@ -1,7 +1,9 @@
 """The text of programs: files and bytes as they come from controls, tapes and DOS."""
 
+import errno
 import sys
 from pathlib import Path
+from typing import BinaryIO
 
 STANDARD_INPUT = "-"
 
@@ -19,14 +21,25 @@ class UnreadableProgramError(ValueError):
 def read_bytes(path: str, wanted: str = "a file") -> bytes:
     """The bytes of a file; `-` is standard input. Raises UnreadableProgramError; `wanted` is what should be there."""
     try:
-        return sys.stdin.buffer.read() if path == STANDARD_INPUT else Path(path).read_bytes()
+        return standard_input().read() if path == STANDARD_INPUT else Path(path).read_bytes()
     except FileNotFoundError:
         raise UnreadableProgramError(f"{path}: no such file") from None
     except (OSError, ValueError) as error:
         if is_folder(path):  # Windows answers "permission denied" for a directory
             raise UnreadableProgramError(f"{path} is a directory, not {wanted}") from None
-        reason = error.strerror if isinstance(error, OSError) else str(error)
-        raise UnreadableProgramError(f"{path} cannot be read: {reason}") from None
+        raise UnreadableProgramError(f"{path} cannot be read: {reason_of(error)}") from None
+
+
+def standard_input() -> BinaryIO:
+    """The bytes of standard input. Raises OSError if it is closed."""
+    if sys.stdin is None or sys.stdin.closed:
+        raise OSError(errno.EBADF, "standard input is closed")
+    return sys.stdin.buffer
+
+
+def reason_of(error: OSError | ValueError) -> str:
+    """Why a file cannot be read, in the words of the system."""
+    return (error.strerror if isinstance(error, OSError) else None) or str(error)
 
 
 def is_folder(path: str) -> bool:

@@ -1,9 +1,10 @@
 """YASNAC LX3 arcs, G02 and G03: what cannot run as stated. No alarm numbers are known for them."""
 
+from contoursolve.diagnostic import Severity
 from contoursolve.dialects.yasnac_lx3.arc import CENTERS, WRONG_CENTER
 from contoursolve.dialects.yasnac_lx3.manual import manual
 from contoursolve.rules import Rule, at_most, some
-from contoursolve.solving import RefusalKind
+from contoursolve.solving import RefusalKind, RemarkKind
 from contoursolve.source import Evidence
 
 _ROLE = "arc"
@@ -63,5 +64,17 @@ ARC_RULES = (
         about=RefusalKind.RADIUS_DIFFERENCE,
         accepted=(_CENTERED + _BEFORE, _START + "G02 X70. Z-10.005 I10. K0" + _BEFORE),
         rejected=(_START + "G02 X70. Z-10.5 I10. K0",),
+    ),
+    Rule(
+        code="arc-radius-differs",
+        message="{words}: start and end of the arc differ in their distance from the centre by {off}, within the "
+        "allowed {limit}",
+        help="correct the end or the centre",
+        source=manual("circular interpolation; the allowed difference is our choice", Evidence.ASSUMED),
+        roles=(_ROLE,),
+        severity=Severity.INFO,
+        about=RemarkKind.RADIUS_DIFFERS,
+        accepted=(_CENTERED + _BEFORE,),
+        rejected=(),
     ),
 )

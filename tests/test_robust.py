@@ -1,0 +1,194 @@
+"""What a user can type, name or close never ends in a traceback: there is a message, and a status that says which."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+import contoursolve
+from contoursolve.cli import main
+
+BLOCK = ("--block", "G111 X100. A180. K-30. B120.", "--start", "X40. Z0.")
+PROGRAM = "G00 X40. Z0.\nG111 X100. A180. B120.\n"
+ODD = os.fsdecode(b"\xff")
+"""A byte that is not UTF-8, as the command line has it."""
+
+
+def run(*arguments: str, status: int | None = None, says: str = "") -> Result:
+    result = CliRunner().invoke(main, arguments)
+    assert result.exception is None or isinstance(result.exception, SystemExit), result.exc_info
+    assert result.exit_code in (0, 1, 2) if status is None else result.exit_code == status, result.output
+    assert says in result.output
+    return result
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.mark.parametrize("start", ["X60. Z-10.002", "X60. Z-10.005", "X60. Z-10.009"])
+@pytest.mark.parametrize("block", ["G111 X100. A180. K-30. B120.", "G111 X100.", "G111 A180. K-30. Z-50. B120."])
+def test_radii_of_an_arc_on_a_lathe_that_differ_a_little_lose_no_program(start, block):
+    text = f"G0 X40. Z0.\nG02 {start} I10. J0.\n{block}"
+    for rules in ("enforce", "warn", "off"):
+        result = contoursolve.solve(text, control="yasnac-lx3", rules=rules)
+        found = {each.code: each for each in result.diagnostics}
+        assert "arc-center-outside-plane" in found or rules == "off"
+        assert rules == "enforce" or f"{start[-5:]} mm" in found["arc-radius-differs"].message.replace("-10.00", "0.00")
+        assert result.answers
+
+
+@pytest.mark.parametrize(("values", "says"), [
+    ("A=0:1e5000:1", "beyond all travel"),
+    ("A=0:1:1e-9999999999", "at most 30 decimals"),
+    ("A=1e9999999999:1:1", "beyond all travel"),
+    ("A=0:1e99999999:1e99999998", "beyond all travel"),
+    ("A=1,1e308", "beyond all travel"),
+    ("K=-1e308", "beyond all travel"),
+    ("A=nan", "finite"),
+    ("A=@big.csv", "field larger than"),
+    ("A=@quoted.csv", "field larger than"),
+    ("A=@far.csv", "beyond 1,000,000"),
+    ("A=@nul.csv", "no number"),
+])  # fmt: skip
+def test_values_of_any_size_are_answered(folder, values, says):
+    (folder / "big.csv").write_text("A\n" + "1" * 131_073)
+    (folder / "quoted.csv").write_text('A\n"' + "1" * 131_073)
+    (folder / "far.csv").write_text("A\n1\n1e308\n")
+    (folder / "nul.csv").write_bytes(b"A\n1\x002\n")
+    run("sweep", *BLOCK, "--vary", values, status=2, says=says)
+
+
+def test_a_family_does_not_go_beyond_what_is_read():
+    with pytest.raises(contoursolve.FamilyError, match="beyond 1,000,000"):
+        contoursolve.family("G111 X100. A180. K-30. B120.", start="X40. Z0.", vary={"K": [-30, 1e308]})
+
+
+@pytest.mark.parametrize(("text", "own", "shared"), [
+    ("tool = 3", 2, 0),
+    ("tool.contoursolve = 3", 2, 0),
+    ("[tool]\ncontoursolve = []", 2, 0),
+    ("x = " + "[" * 100_000, 2, 0),
+    ("[nct-99m]\nx = " + "[" * 5_000 + "]" * 5_000, 2, 0),
+    ("[tool.contoursolve.nct-99m]\nx = " + "[" * 5_000, 2, 2),
+    ("[tool.contoursolve.nct-99m]\nx = " + "1" * 100_000, 2, 2),
+    ("x = " + "1" * 40_000, 2, 0),
+    ("a" + ".a" * 20_000 + " = 1", 2, 0),
+    ("[nct-99m]\ncircle-circle-q = {a = 1}", 2, 0),
+    ("[yasnac-lx3]\nbevel = 1979-05-27", 2, 0),
+])  # fmt: skip
+def test_settings_of_any_text_are_answered(folder, text, own, shared):
+    for name, status in (("contoursolve.toml", own), ("pyproject.toml", shared)):
+        place = folder / name.partition(".")[0] / "below"
+        place.mkdir(parents=True)
+        (place.parent / name).write_text(text)
+        (place / "part.nc").write_text("G00 X40. Z0.\nG111 X100. A180. K-30. B120.\n")
+        run("check", str(place / "part.nc"), status=status, says=name if status else "")
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs named pipes")
+def test_a_pipe_holds_no_settings(folder):
+    for name, status in (("contoursolve.toml", 2), ("pyproject.toml", 0)):
+        os.mkfifo(folder / name)
+        run("check", *BLOCK, status=status, says="not a regular file" if status else "")
+        (folder / name).unlink()
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="needs file names that are no UTF-8")
+@pytest.mark.parametrize("form", ["text", "json", "sarif", "github"])
+def test_names_and_blocks_need_not_be_utf8(folder, form):
+    Path(f"a{ODD}.nc").write_text(PROGRAM)
+    run("check", f"a{ODD}.nc", "--format", form, status=1)
+    run("check", "--block", f"G111 X100. A180. B120. ({ODD})", "--start", "X40. Z0.", "--format", form, status=1)
+    if form in ("text", "json"):
+        run("solve", f"a{ODD}.nc", "--format", form, status=1)
+        run("solve", "--block", f"G111 X100. A180. B120. K-30. ({ODD})", *BLOCK[2:], "--format", form, status=0)
+    run("expand", f"a{ODD}.nc", status=1)
+    done = CliRunner().invoke(main, ["expand", "--block", f"G111 X100. A180. B120. K-30. ({ODD})", *BLOCK[2:]])
+    assert done.exit_code == 0
+    assert b"\xff])" in done.stdout_bytes
+
+
+def test_a_link_to_itself_is_no_target(folder):
+    for name, command in (
+        ("a.nc", ("expand",)),
+        ("a.svg", ("plot",)),
+        ("a.html", ("report",)),
+        ("a.csv", ("sweep", "--vary", "A=170,180")),
+    ):
+        Path(name).symlink_to(name)
+        for forced in ((), ("--force",)):
+            run(*command, *BLOCK, "-o", name, *forced, status=2, says=name)
+        assert [path.name for path in folder.iterdir()] == [name]
+        Path(name).unlink()
+
+
+@pytest.mark.parametrize("control", ["sys:x", "sys:", "builtins:x", ":x", "..:x", "os.path:join", ":", "a:b:c", ODD])
+def test_whatever_is_named_as_a_control_is_answered(control):
+    run("check", "--control", control, *BLOCK, status=2)
+
+
+@pytest.mark.parametrize("digits", range(15, 34))
+def test_words_of_any_length_are_answered(digits):
+    for number in ("1" * digits, "-" + "9" * digits, "1" * (digits - 1) + ".", "0." + "3" * (digits - 2)):
+        for block, start, control in (
+            (f"G111 X100. A180. K-30. B{number}", f"X{number} Z0.", "yasnac-lx3"),
+            (f"N{number} G111 X{number} A{number} K-30. B120. P{number} F{number}", "X40. Z0.", "yasnac-lx3"),
+            (f"G1 X50 ,A{number}\nG1 X{number} Y80 ,R{number}", f"G17 G41 X0 Y{number}", "nct-99m"),
+            (f"N{number} G{number} X{number} M{number} T{number}\nG{number}", "X40. Z0.", "nct-99m"),
+        ):
+            contoursolve.solve(block, start=start, control=control)
+        text = f"N{number} G0 X{number} Z0.\nN{number} G111 X{number} A180. K-30. B120.\nG111 X100. A180. B120. K-30.\n"
+        contoursolve.expand(text, keep_going=True, block_numbers="all")
+
+
+COMMAND = [sys.executable, "-m", "contoursolve"]
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="needs a shell that closes streams")
+@pytest.mark.parametrize(("redirected", "status"), [
+    ("check - <&-", 2), ("expand - <&-", 2), ("check part.nc <&-", 1), ("check part.nc >&-", 1),
+    ("check part.nc - >&- 2>&- <&-", 2), ("solve part.nc --format json >&-", 1), ("expand part.nc >&-", 1),
+    ("expand good.nc >&-", 0), ("expand good.nc 2>&-", 0), ("check part.nc good.nc 2>&-", 1),
+])  # fmt: skip
+def test_streams_that_are_closed_change_no_status(folder, redirected, status):
+    Path("part.nc").write_text(PROGRAM)
+    Path("good.nc").write_text(PROGRAM.replace("B120.", "B120. K-30."))
+    shell = f'exec "$PYTHON" -m contoursolve {redirected}'
+    environment = {**os.environ, "PYTHON": sys.executable, "PYTHONPATH": str(Path(contoursolve.__file__).parents[1])}
+    done = subprocess.run(["sh", "-c", shell], env=environment, capture_output=True, text=True, check=False)
+    assert done.returncode == status
+    assert "Traceback" not in done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("command", ["check", "solve", "expand", "plot", "report", "rules", "verify", "diff", "range"])
+def test_an_interrupt_has_a_status_of_its_own(folder, monkeypatch, command):
+    def interrupt(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("click.Context.invoke", interrupt)
+    Path("part.nc").write_text(PROGRAM)
+    needs = {"verify": 2, "diff": 2, "rules": 0}.get(command, 1)
+    word = ("--word", "K") if command == "range" else ()
+    done = run(command, *["part.nc"] * needs, *word, status=130)
+    assert "stopped" in done.output
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="sends a signal")
+def test_an_interrupt_ends_the_process_with_130():
+    waiting = subprocess.Popen([*COMMAND, "check", "-"], stdin=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    for _ in range(200):
+        time.sleep(0.05)
+        if Path(f"/proc/{waiting.pid}/wchan").exists() and "pipe" in Path(f"/proc/{waiting.pid}/wchan").read_text():
+            break
+    waiting.send_signal(signal.SIGINT)
+    _, told = waiting.communicate(timeout=60)
+    assert waiting.returncode == 130
+    assert "Traceback" not in told
