@@ -84,6 +84,26 @@ class Contour(Shown):
         """
         return [_row(element, self.plane) for element in self.elements]
 
+    def is_alike(self, other: "Contour") -> bool:
+        """Whether the elements of two paths are of the same kinds and turn the same way, one by one."""
+        return [_kind(each) for each in self.elements] == [_kind(each) for each in other.elements]
+
+    def deviation(self, other: "Contour") -> float:
+        """The largest distance (mm) of the end and the named points of two paths, and of the ends, centres and radii of
+        their elements, where these are alike."""
+        pairs = [
+            (self.end, other.end),
+            *((self.points[name], other.points[name]) for name in self.points.keys() & other.points.keys()),
+        ]
+        off = 0.0
+        if self.is_alike(other):
+            for one, two in zip(self.elements, other.elements, strict=True):
+                pairs += [(one.start, two.start), (one.end, two.end)]
+                if isinstance(one, ArcSegment) and isinstance(two, ArcSegment):
+                    pairs.append((one.center, two.center))
+                    off = max(off, abs(one.radius - two.radius))
+        return max(off, *(hypot(a[0] - b[0], a[1] - b[1]) for a, b in pairs))
+
     @property
     def crossing(self) -> Crossing | None:
         """Where the path lies farthest across the spindle axis from where it begins, by more than the least increment;
@@ -99,6 +119,11 @@ class Contour(Shown):
                     if at[axis] * side < 0 and (across is None or abs(at[axis]) > abs(across.at[axis])):
                         across = Crossing(element, at)
         return across
+
+
+def _kind(segment: Segment) -> Turn | None:
+    """The sense in which an arc turns; None for a line."""
+    return segment.turn if isinstance(segment, ArcSegment) else None
 
 
 def _extremes(segment: Segment, axis: int) -> list[Point]:

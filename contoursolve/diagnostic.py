@@ -1,6 +1,6 @@
 """One finding about a program, complete enough for a terminal, JSON and an editor."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 from math import atan2, degrees
@@ -40,11 +40,19 @@ class Applicability(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Fix:
-    """A whole new block to write instead."""
+    """A whole new block to write instead, or a line for each block of a contour of several; a single block may become
+    several lines."""
 
     description: str
     replacement: str
     applicability: Applicability
+    effect: str = ""
+    """What applying it does, in words, where `applicability` alone does not say it."""
+
+    def by_line(self, lines: Sequence[int]) -> dict[int, str]:
+        """What to write for each of the lines that it replaces."""
+        texts = [self.replacement] if len(lines) == 1 else self.replacement.split("\n")
+        return dict(zip(lines, texts, strict=False))
 
 
 @dataclass(frozen=True, slots=True)

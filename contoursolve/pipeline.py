@@ -70,6 +70,11 @@ class Result(Shown):
         """Whether any finding is an error."""
         return any(each.severity is Severity.ERROR for each in self.diagnostics)
 
+    def lines_of(self, finding: Diagnostic) -> tuple[int, ...]:
+        """The lines that a fix of a finding replaces: those of its contour, or its own."""
+        own = next((each for each in self.answers if finding in each.diagnostics), None)
+        return own.lines if own else (self.place(finding.span).line,)
+
     def place(self, span: Span) -> Span:
         """The place itself, or for what was stated apart from the program the block that it is about."""
         if span.line > 0:

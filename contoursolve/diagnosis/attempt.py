@@ -3,17 +3,16 @@
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from decimal import Decimal
-from math import hypot
 
 from contoursolve.analysis import judge, order
 from contoursolve.constraints import assemble
 from contoursolve.contour import Contour
-from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, apply_edits, edit_facts
+from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, Side, apply_edits, edit_facts
 from contoursolve.diagnostic import Applicability, Diagnostic, Severity
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer, Policy, examine
 from contoursolve.model import Profile
-from contoursolve.reading import Claim, Trouble, read
+from contoursolve.reading import Claim, Trouble, advance, read
 from contoursolve.solving import Status
 from contoursolve.solving.affine import affine_facts
 from contoursolve.syntax import Block, mended, parse_block
@@ -51,7 +50,7 @@ class Repair:
     """A change of a block that the control accepts, with the block that it makes.
 
     `contour` is the path then (None for a placeholder, whose number is missing), `deviation` the largest
-    distance (mm) of its named points and its end from those of the refused block, where that has any.
+    distance (mm) of its points and elements from those of the refused block, where that has any.
     """
 
     edits: tuple[Edit, ...]
@@ -122,18 +121,20 @@ def _try(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], before: Before
     if not all(each in rules or _now_agrees(each, before) for each in findings):
         return None
     reference = before.contour
-    deviation = _deviation(answer.contour, reference) if reference else float("inf")
-    is_same = deviation <= AGREEMENT and len(answer.contour.elements) == len(reference.elements if reference else ())
-    is_safe = is_same and not any(_moves_beside(edit, claim) for edit in edits)
+    deviation = answer.contour.deviation(reference) if reference else float("inf")
+    is_same = reference is not None and answer.contour.is_alike(reference) and deviation <= AGREEMENT
+    is_safe = is_same and not any(_drops_more(edit, claim) for edit in edits)
     applicability = Applicability.SAFE if is_safe else Applicability.CHANGES_CONTOUR
     warnings = sum(each.code not in before.codes for each in rules)
     return Repair(edits, replacement, applicability, answer.contour, deviation, warnings)
 
 
-def _moves_beside(edit: Edit, claim: Claim) -> bool:
-    """Whether a word is dropped that moves an axis outside the plane: the contour is the same, the motion is not."""
+def _drops_more(edit: Edit, claim: Claim) -> bool:
+    """Whether a word is dropped that does something besides the contour, or moves an axis outside the plane: the
+    contour is the same, what the machine does is not."""
     row = claim.lexicon.addresses.get(edit.address)
-    return edit.kind is EditKind.DROP and bool(row and row.axis and row.axis not in claim.before.plane.axes)
+    is_beside = row is not None and bool(row.axis) and row.axis not in claim.before.plane.axes
+    return edit.kind is EditKind.DROP and (is_beside or edit.errand is not None)
 
 
 def _is_settled(answer: Answer, edits: tuple[Edit, ...]) -> bool:
@@ -213,14 +214,26 @@ def _is_mended(edit: Edit) -> bool:
 
 def _find(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], following: tuple[Block, ...] = ()) -> Claim | None:
     texts = apply_edits(claim.blocks, edits)
-    blocks = [parse_block(text, block.line) for text, block in zip(texts, claim.blocks, strict=True)]
+    lines = [(part, block.line) for text, block in zip(texts, claim.blocks, strict=True) for part in text.split("\n")]
+    before, blocks, behind = _parted([parse_block(*line) for line in lines], edits)
+    state = claim.before
+    for block in before:
+        state = advance(state, block, dialect.modes)
     apart = edit_facts([each for each in claim.directives if each.span.line < 0], edits)
     blocks[-1] = replace(blocks[-1], directives=(*blocks[-1].directives, *apart))
     more = following if all(map(_is_comma, edits)) else ()
-    found = dialect.find([*blocks, *more], 0, claim.before, dialect.modes)
-    if not isinstance(found, Claim):
+    found = dialect.find([*blocks, *more], 0, state, dialect.modes)
+    others = (dialect.find([*before, *behind], index, state, dialect.modes) for index in range(len(before + behind)))
+    if not isinstance(found, Claim) or any(isinstance(each, Claim) for each in others):
         return None
     return found if len(found.blocks) == len(blocks) or (more and len(found.blocks) > len(blocks)) else None
+
+
+def _parted(blocks: list[Block], edits: tuple[Edit, ...]) -> tuple[list[Block], list[Block], list[Block]]:
+    """Blocks as those of words that were moved before the contour, its own, and those of words moved behind it."""
+    sides = [edit.errand.side for edit in edits if edit.kind is EditKind.MOVE and edit.errand]
+    first, last = sides.count(Side.BEFORE), len(blocks) - sides.count(Side.BEHIND)
+    return blocks[:first], blocks[first:last], blocks[last:]
 
 
 _SAMPLE = "37.123"
@@ -243,9 +256,3 @@ def _is_fixed_by_a_number(
         return is_stated and judge(assemble(profile)).is_determined
     affine = affine_facts(profile, profile.facts)
     return affine is None or not affine.freedoms()
-
-
-def _deviation(contour: Contour, reference: Contour) -> float:
-    pairs = [(contour.end, reference.end)]
-    pairs += [(contour.points[name], at) for name, at in reference.points.items() if name in contour.points]
-    return max(hypot(a[0] - b[0], a[1] - b[1]) for a, b in pairs)

@@ -6,6 +6,7 @@ from dataclasses import replace
 from contoursolve.analysis import judge
 from contoursolve.constraints import OnCircle, assemble
 from contoursolve.diagnosis.attempt import Repair
+from contoursolve.diagnosis.edits import EditKind
 from contoursolve.diagnosis.identities import identity
 from contoursolve.diagnosis.layers import list_layers
 from contoursolve.diagnosis.reasons import conflict_reasons, freedom_reasons, path_reasons
@@ -21,7 +22,7 @@ from contoursolve.solving.compare import compare_affine
 from contoursolve.source import Span
 from contoursolve.syntax import FACT, Block, Word
 from contoursolve.tolerance import AGREEMENT
-from contoursolve.wording import SHOWN, length_text, place_text
+from contoursolve.wording import SHOWN, join, length_text, place_text
 
 
 def diagnose(answer: Answer, dialect: Dialect, policy: Policy, following: Iterable[Block] = ()) -> Answer:
@@ -215,4 +216,7 @@ def _fix(answer: Answer, repair: Repair) -> Fix:
             name, at = f"{point} is", contour.points[point]
         place = place_text(profile, scalars_of({"": at}))
         description += f" -> {name} at {place}"
-    return Fix(description, repair.replacement, repair.applicability)
+    dropped = [edit.old for edit in repair.edits if edit.kind is EditKind.DROP and edit.errand]
+    is_beside = len(dropped) == len(repair.edits)
+    effect = f"drops {join(dropped)}" if is_beside else ""
+    return Fix(description, repair.replacement, repair.applicability, effect)

@@ -1,6 +1,7 @@
 """Edits that repairs of every kind are made of: words dropped and changed, characters corrected, points added."""
 
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 from decimal import Decimal
 from itertools import product
 from math import copysign
@@ -111,6 +112,20 @@ def _written(answer: Answer, sizes: Iterable[Mapping[Span, float]]) -> Iterator[
         text = write_word(word.address, copysign(size, given.value), claim.lexicon, unit, AT_MOST)
         if Decimal(text.removeprefix(word.address)):
             yield change(word, text)
+
+
+def moving(claim: Claim, drafts: Iterable[tuple[Edit, ...]]) -> Iterator[tuple[Edit, ...]]:
+    """Drafts, each that drops words which have nothing to do with the contour after the same one that moves them into
+    blocks of their own. Between the blocks of a chain there is no place for them."""
+    for edits in drafts:
+        if len(claim.blocks) == 1:
+            moved = tuple(replace(edit, kind=EditKind.MOVE) if _is_moved(edit) else edit for edit in edits)
+            yield from () if moved == edits else (moved,)
+        yield edits
+
+
+def _is_moved(edit: Edit) -> bool:
+    return edit.kind is EditKind.DROP and edit.errand is not None and edit.errand.side is not None
 
 
 def drop(word: Word) -> Edit:

@@ -1,4 +1,4 @@
-"""Edits of a block's text: words dropped, added, or written with another value."""
+"""Edits of a block's text: words dropped, added, moved into a block of their own, or written with another value."""
 
 import re
 from collections.abc import Iterable
@@ -8,7 +8,7 @@ from enum import Enum
 
 from contoursolve.model import Length, Unit
 from contoursolve.reading import Lexicon, WithoutPoint
-from contoursolve.source import Span
+from contoursolve.source import Evidence, Source, Span
 from contoursolve.syntax import FACT, Block, Directive, read_directive
 from contoursolve.wording import shorten
 
@@ -22,6 +22,56 @@ class EditKind(Enum):
     DROP = "delete"
     ADD = "add"
     CHANGE = "change"
+    MOVE = "move"
+
+
+class Side(Enum):
+    """Where a word goes that gets a block of its own."""
+
+    BEFORE = "before"
+    BEHIND = "behind"
+
+
+@dataclass(frozen=True, slots=True)
+class Errand:
+    """What a word does besides the contour, and when: before the motion of its block or behind it. None where a block
+    of its own is no place for it."""
+
+    address: str
+    numbers: tuple[int, ...]
+    """The numbers that it is about; none for any number."""
+    meaning: str
+    side: Side | None
+    source: Source
+
+
+_ASSUMED = Source("contoursolve", "when a control runs what stands beside a motion", Evidence.ASSUMED)
+
+ERRANDS = (
+    Errand("F", (), "feed", None, _ASSUMED),
+    Errand("T", (), "tool", Side.BEFORE, _ASSUMED),
+    Errand("S", (), "spindle speed", Side.BEFORE, _ASSUMED),
+    Errand("M", (3, 4), "spindle on", Side.BEFORE, _ASSUMED),
+    Errand("M", (7, 8), "coolant on", Side.BEFORE, _ASSUMED),
+    Errand("M", (9,), "coolant off", Side.BEHIND, _ASSUMED),
+    Errand("M", (5,), "spindle off", Side.BEHIND, _ASSUMED),
+    Errand("M", (0, 1), "stop", Side.BEHIND, _ASSUMED),
+    Errand("M", (98, 99), "subprogram", Side.BEHIND, _ASSUMED),
+    Errand("M", (2, 30), "end of program", Side.BEHIND, _ASSUMED),
+    Errand("M", (), "machine function", Side.BEFORE, _ASSUMED),
+)
+"""The first row that fits counts; words that move to one side of a block stand there in the order of the rows."""
+
+
+def errand_of(address: str, text: str) -> Errand | None:
+    """What a word, as it is written, does besides the contour; None for the words of a contour."""
+    number = re.fullmatch(r"0*(\d+)\.?0*", text.strip()[len(address) :].strip())
+    fitting = (
+        row
+        for row in ERRANDS
+        if row.address == address and (not row.numbers or (number is not None and int(number[1]) in row.numbers))
+    )
+    return next(fitting, None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,9 +88,18 @@ class Edit:
 
     def __str__(self) -> str:
         old, text = (self._shown(each) for each in (self.old, self.text))
+        errand = self.errand
         if self.kind is EditKind.CHANGE:
             return f"write {text} for {old}"
-        return f"{self.kind.value} {text if self.text else old}"
+        if self.kind is EditKind.MOVE and errand is not None and errand.side is not None:
+            return f"move {old} ({errand.meaning}) into a block of its own {errand.side.value} it"
+        meaning = f" ({errand.meaning})" if errand is not None and self.kind is EditKind.DROP else ""
+        return f"{self.kind.value} {text if self.text else old}{meaning}"
+
+    @property
+    def errand(self) -> Errand | None:
+        """What the old word does besides the contour."""
+        return errand_of(self.address, self.old)
 
     def _shown(self, text: str) -> str:
         return shorten(text) if self.is_in_block else f'--fact "{shorten(text)}"'
@@ -57,7 +116,8 @@ class Edit:
 
 
 def apply_edits(blocks: Iterable[Block], edits: Iterable[Edit]) -> tuple[str, ...]:
-    """The texts of the blocks with the edits made; blanks that a dropped word leaves double are merged."""
+    """The texts of the blocks with the edits made; blanks that a dropped word leaves double are merged. A block from
+    which words are moved has several lines."""
     edits = tuple(edits)
     texts = []
     for block in blocks:
@@ -74,8 +134,19 @@ def apply_edits(blocks: Iterable[Block], edits: Iterable[Edit]) -> tuple[str, ..
             if edit.kind is EditKind.ADD and edit.line == block.line:
                 text = _insert(text, edit.text)
         is_fact_dropped = any(edit.address == FACT and not edit.text for edit in own)
-        texts.append(_tidy(text) if is_fact_dropped else text)
+        texts.append(_with_moved(_tidy(text) if is_fact_dropped else text, own))
     return tuple(texts)
+
+
+def _with_moved(text: str, edits: Iterable[Edit]) -> str:
+    """A block with the words that are moved out of it before and behind, each in a line of its own; they are skipped
+    where the block is."""
+    moved = [(ERRANDS.index(edit.errand), edit) for edit in edits if edit.kind is EditKind.MOVE and edit.errand]
+    moved.sort(key=lambda each: (each[0], each[1].span))
+    skipped = re.match(r"\s*(/\d*)", text)
+    skip = skipped[1] if skipped else ""
+    sides = {side: [skip + edit.old for row, edit in moved if ERRANDS[row].side is side] for side in Side}
+    return "\n".join([*sides[Side.BEFORE], text, *sides[Side.BEHIND]])
 
 
 def edit_facts(facts: Iterable[Directive], edits: Iterable[Edit]) -> tuple[Directive, ...]:

@@ -19,6 +19,7 @@ from contoursolve.diagnosis.drafts import (
     marked,
     mended_words,
     missing_points,
+    moving,
     unreadable,
     variants,
 )
@@ -62,7 +63,7 @@ def find_repairs(answer: Answer, dialect: Dialect, following: tuple[Block, ...] 
     reference = answer.contour
     if reference is None and count_choices(answer.profile) <= MOST_CHOICES:
         reference = examine(claim, dialect.rules, Policy.OFF).contour
-    stages = (stage(answer, dialect, whole) for stage in (_sets, _values, _slips))
+    stages = (moving(claim, stage(answer, dialect, whole)) for stage in (_sets, _values, _slips))
     slips = (mended_words(answer), missing_points(answer), commas(answer), marked(answer), fitting(answer))
     return choose_repairs(claim, dialect, (*slips, *stages), Before(codes, reference, following=following))
 

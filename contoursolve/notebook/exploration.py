@@ -119,9 +119,7 @@ def apply_fix(exploration: Exploration, finding: int, number: int) -> Exploratio
 
 def fixed_text(exploration: Exploration, finding: Diagnostic, fix: Fix) -> str:
     """The whole text with a fix."""
-    own = next((each for each in exploration.result.answers if finding in each.diagnostics), None)
-    lines = own.lines if own else (finding.span.line,)
-    new = dict(zip(lines, fix.replacement.split("\n"), strict=False))
+    new = fix.by_line(exploration.result.lines_of(finding))
     return "\n".join(new.get(block.line, block.text) for block in exploration.result.program.blocks)
 
 

@@ -62,14 +62,12 @@ def _results(result: Result, index: dict[str, int]) -> Iterable[dict[str, Any]]:
             "partialFingerprints": {"contoursolve/v1": fingerprint},
             "properties": {"basis": finding.basis.value, "values": _finite(finding)},
         }
-        fixes = [_fix(result, finding, fix) for fix in finding.fixes if _is_one_line(fix)]
+        fixes = [
+            _fix(result, finding, fix) for fix in finding.fixes if fix.applicability is not Applicability.PLACEHOLDER
+        ]
         if fixes:
             data["fixes"] = fixes
         yield data
-
-
-def _is_one_line(fix: Fix) -> bool:
-    return fix.applicability is not Applicability.PLACEHOLDER and "\n" not in fix.replacement
 
 
 def _finite(finding: Diagnostic) -> dict[str, float]:
@@ -89,12 +87,15 @@ def _location(result: Result, finding: Diagnostic) -> dict[str, Any]:
 
 
 def _fix(result: Result, finding: Diagnostic, fix: Fix) -> dict[str, Any]:
-    block = next(block for block in result.program.blocks if block.line == result.place(finding.span).line)
-    region = {"startLine": block.line, "startColumn": 1, "endColumn": len(block.text) + 1}
-    change = {"deletedRegion": region, "insertedContent": {"text": fix.replacement}}
+    texts = {block.line: block.text for block in result.program.blocks}
+    changes = []
+    for line, text in fix.by_line(result.lines_of(finding)).items():
+        if text != texts[line]:
+            region = {"startLine": line, "startColumn": 1, "endColumn": len(texts[line]) + 1}
+            changes.append({"deletedRegion": region, "insertedContent": {"text": text}})
     return {
         "description": {"text": fix.description},
-        "artifactChanges": [{"artifactLocation": _uri(result), "replacements": [change]}],
+        "artifactChanges": [{"artifactLocation": _uri(result), "replacements": changes}],
     }
 
 

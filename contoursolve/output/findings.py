@@ -23,6 +23,8 @@ APPLICABILITY = {
 
 def effect_of(fix: Fix, finding: Diagnostic) -> str:
     """What applying a fix does, in words; what could not be read was no contour that it could change."""
+    if fix.effect:
+        return fix.effect
     is_unread = isinstance(finding.about, FaultKind) or finding.about is Trouble.UNKNOWN_ADDRESS
     if is_unread and fix.applicability is Applicability.CHANGES_CONTOUR:
         return "makes it readable"
