@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from decimal import Decimal
 from enum import Enum
 from functools import lru_cache
+from math import dist
 from typing import TYPE_CHECKING
 
 from contoursolve.analysis import judge
@@ -26,7 +27,7 @@ from contoursolve.explain import (
     report,
 )
 from contoursolve.model import Length, Plane, Profile, Question, Side, Start
-from contoursolve.reading import Claim, Trouble, read, unused_words
+from contoursolve.reading import AT_ITS_LIMIT, Assumption, Claim, Trouble, read, unused_words
 from contoursolve.rules import Offence, Rule, check
 from contoursolve.shown import Shown
 from contoursolve.solving import (
@@ -51,6 +52,7 @@ from contoursolve.spelling import (
     explain_unmarked,
     meant_words,
 )
+from contoursolve.tolerance import LENGTH
 from contoursolve.unpointed import start_without_point, tell_points, without_point
 
 if TYPE_CHECKING:
@@ -125,6 +127,21 @@ class Answer(Shown):
     """Every solution, where more than the control's own was looked for; see `list_alternatives`."""
     filled: Filled | None = None
     """The block with them filled in, where it then stands alone."""
+
+    @property
+    def assumptions(self) -> tuple[Assumption, ...]:
+        """What the contour rests on, of all that the control is taken to accept."""
+        return self.claim.rests_on([AT_ITS_LIMIT] if self._has_bevel_at_its_limit() else [])
+
+    def _has_bevel_at_its_limit(self) -> bool:
+        """Whether a 45 degree bevel begins or ends at its virtual intersection, so that it runs along a line."""
+        cut = {each.name: each for each in self.contour.elements} if self.contour else {}
+        return any(
+            dist(self.contour.points[corner.at], at) <= LENGTH
+            for corner in self.profile.figure.corners
+            if self.contour and corner.shape.share and corner.name in cut and corner.at in self.contour.points
+            for at in (cut[corner.name].start, cut[corner.name].end)
+        )
 
 
 class _Notebook:

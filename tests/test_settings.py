@@ -122,6 +122,8 @@ def assumptions(block: str, start: str = "X40. Z0.") -> tuple[list[str], str]:
         ("G112 U0 I10. K-50. R30. P5. Q5. F.2", ["feed-in-block"]),
         ("G112 U0 I10. K-50. R30. P0", ["no-corner-word", "corner-of-zero"]),
         ("G11 Z-20. I8. F30.", []),
+        ("G111 X100. A180. K-30. B135. C5. D5.", ["bevel-at-its-limit"]),
+        ("G111 X100. A180. K-30. B135. P5. Q5.", []),
     ],
 )
 def test_a_result_names_what_the_control_is_taken_to_accept(block: str, names: list[str]) -> None:

@@ -62,7 +62,7 @@ def convention_text(convention: Convention, control: str) -> str:
 def assumptions_text(answer: Answer) -> list[str]:
     """What the control is taken to accept and a contour rests on, in one line, if there is anything."""
     by_grade: dict[str, list[str]] = {}
-    for each in answer.claim.assumptions:
+    for each in answer.assumptions:
         by_grade.setdefault(each.source.evidence.value, []).append(each.meaning)
     told = [f"{'; '.join(meanings)} ({grade})" for grade, meanings in by_grade.items()]
     return [f"rests on: {'; '.join(told)}"] if told else []

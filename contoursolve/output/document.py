@@ -120,8 +120,7 @@ def _contour(answer: Answer) -> dict[str, Any]:
             for each in answer.claim.conventions
         ],
         "assumptions": [
-            {"name": each.name, "meaning": each.meaning, "source": _source(each.source)}
-            for each in answer.claim.assumptions
+            {"name": each.name, "meaning": each.meaning, "source": _source(each.source)} for each in answer.assumptions
         ],
         "facts": [directive.text for directive in answer.claim.directives],
         "asked": [_asked(each, answer) for each in answer.answers],

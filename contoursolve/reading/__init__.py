@@ -7,10 +7,11 @@ from contoursolve.reading.codes import Code, Effect
 from contoursolve.reading.form import CornerRow, FactRow, Form, Sample, lay_out, stated_sets
 from contoursolve.reading.lexicon import Address, Lexicon, NumberFormat, WithoutPoint
 from contoursolve.reading.plain import advance_plainly, is_plain, motion_of, plain_lines, words_of
-from contoursolve.reading.setting import Assumption, Convention, Setting
+from contoursolve.reading.setting import AT_ITS_LIMIT, Assumption, Convention, Setting
 from contoursolve.reading.state import Awaited, Position, State
 
 __all__ = [
+    "AT_ITS_LIMIT",
     "Address",
     "Assumption",
     "Awaited",

@@ -1,6 +1,6 @@
 """A contour found in a program: its form, its blocks, and every word with the given that it states."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from decimal import Decimal
 from enum import Enum
@@ -97,11 +97,11 @@ class Claim:
         values = {name: self.givens[name].value if name in self.givens else None for name in self.words}
         return {**values, **dict.fromkeys(self.circumstances)}
 
-    @property
-    def assumptions(self) -> tuple[Assumption, ...]:
-        """What the contour rests on, of all that the control is taken to accept."""
+    def rests_on(self, more: Iterable[str] = ()) -> tuple[Assumption, ...]:
+        """What the contour rests on, of all that the control is taken to accept; `more` are circumstances that the
+        words alone do not show."""
         addresses = dict.fromkeys(word.address for block in self.blocks for word in block.words)
-        stated = {**addresses, **self.stated()}
+        stated = {**addresses, **self.stated(), **dict.fromkeys(more)}
         return tuple(each for each in self.form.assumptions if each.carries(self.form.roles, stated))
 
 

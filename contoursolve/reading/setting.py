@@ -59,6 +59,10 @@ class Convention:
         return self.setting.source.evidence if self.value == self.setting.default else Evidence.ASSUMED
 
 
+AT_ITS_LIMIT = "@at its limit"
+"""The circumstance that a 45 degree bevel begins or ends at its virtual intersection."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Assumption:
     """What a control is taken to accept, or to mean, although no page that we have says so.

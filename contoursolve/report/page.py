@@ -201,7 +201,7 @@ def _sources(result: Result) -> h.Element:
     for answer in result.answers:
         claim = answer.claim
         resting = [(each.setting.name, each.setting.source) for each in claim.conventions]
-        for name, source in (*resting, *((each.name, each.source) for each in claim.assumptions)):
+        for name, source in (*resting, *((each.name, each.source) for each in answer.assumptions)):
             codes.setdefault((source.manual, source.place, source.evidence), set()).add(f"{result.control}.{name}")
     rows = [
         (manual, place, evidence.value, ", ".join(sorted(used)))

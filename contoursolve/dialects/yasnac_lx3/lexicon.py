@@ -5,6 +5,7 @@ from decimal import Decimal
 from contoursolve.dialects.yasnac_lx3.manual import manual
 from contoursolve.model import Length, Plane, Unit
 from contoursolve.reading import (
+    AT_ITS_LIMIT,
     Address,
     Assumption,
     Code,
@@ -140,6 +141,15 @@ ASSUMPTIONS = (
         manual("2.8.30: M, S and T are refused, of F nothing is said", Evidence.ASSUMED),
         _CORNERING,
         when=some("F"),
+    ),
+    Assumption(
+        "bevel-at-its-limit",
+        "a bevel may begin or end at the virtual intersection",
+        manual(
+            "2.8.30, p. 140 Note 3: of a virtual intersection on a 45 degree line nothing is said", Evidence.ASSUMED
+        ),
+        _CORNERING,
+        when=some(AT_ITS_LIMIT),
     ),
 )
 
