@@ -1,4 +1,4 @@
-"""Repairs that only drop words, against a search through all sets of words to drop."""
+"""Repairs: those that drop words against a search through all sets of words, and how much is tried for them."""
 
 import random
 from itertools import combinations
@@ -6,65 +6,93 @@ from typing import Any
 
 import numpy
 import pytest
+from generate_slips import FORMS, Spoilt
 
 from contoursolve import Status, solve
-
-START = "X40. Z0."
-WORDS = {
-    "A": "A160.",
-    "I": "I10.919",
-    "K": "K-30.",
-    "B": "B120.",
-    "X": "X100.",
-    "U": "U60.",
-    "Z": "Z-41.016",
-    "W": "W-41.016",
-    "C": "C2.",
-    "P": "P3.",
-    "D": "D2.",
-    "Q": "Q3.",
-    "M": "M08",
-}
+from contoursolve.diagnosis import attempt
 
 
-def is_clean(words: list[str]) -> bool:
-    """Solved without an error or a warning."""
-    answers = solve(f"G111 {' '.join(words)}", start=START, depth="verdict")
-    return answers.answers[0].status is Status.SOLVED and not answers.diagnostics
+def places(lines: tuple[str, ...]) -> list[tuple[int, int]]:
+    """Line and place of each word of a contour but its G codes."""
+    words = [(line, place, text) for line, row in enumerate(lines) for place, text in enumerate(row.split())]
+    return [(line, place) for line, place, text in words if line and text[0] != "G"]
 
 
-def drops_by_search(words: list[str]) -> set[frozenset[str]]:
-    """All smallest sets of up to four words whose dropping leaves a clean block."""
-    found: list[frozenset[str]] = []
-    for size in range(1, 5):
+def without(lines: tuple[str, ...], dropped: frozenset[tuple[int, int]]) -> list[str]:
+    return [
+        " ".join(text for place, text in enumerate(row.split()) if (line, place) not in dropped)
+        for line, row in enumerate(lines)
+    ]
+
+
+def is_clean(lines: list[str], control: str) -> bool:
+    """Whether all blocks make one contour that is solved without an error or a warning."""
+    result = solve("\n".join(lines), control=control, depth="verdict")
+    is_whole = len(result.answers) == 1 and len(result.answers[0].lines) == len(lines) - 1
+    findings = [each for each in result.diagnostics if each.severity.value != "info"]
+    return is_whole and result.answers[0].status is Status.SOLVED and not findings
+
+
+def drops_by_search(spoilt: Spoilt, largest: int = 5) -> list[frozenset[tuple[int, int]]]:
+    """All smallest sets of words whose dropping leaves a clean contour."""
+    found: list[frozenset[tuple[int, int]]] = []
+    words = places(spoilt.lines)
+    for size in range(1, min(largest, len(words)) + 1):
         for dropped in map(frozenset, combinations(words, size)):
-            if not any(other < dropped for other in found) and is_clean(
-                [word for word in words if word not in dropped]
-            ):
+            if not any(other < dropped for other in found) and is_clean(without(spoilt.lines, dropped), spoilt.control):
                 found.append(dropped)
-    return set(found)
+    return found
 
 
-def drops_offered(words: list[str]) -> set[frozenset[str]]:
-    """The sets of words that the fixes drop, of those that only drop."""
-    result = solve(f"G111 {' '.join(words)}", start=START)
-    fixes = [fix.replacement.split()[1:] for finding in result.diagnostics for fix in finding.fixes]
-    return {frozenset(words) - frozenset(kept) for kept in fixes if set(kept) < set(words)}
+def check_drops(spoilt: Spoilt) -> bool:
+    """That each smallest set of words to drop is offered where all repairs are said to be. Whether they are."""
+    result = solve(spoilt.text, control=spoilt.control)
+    findings = [each for each in result.diagnostics if each.severity.value != "info"]
+    if not findings or len(result.answers) != 1 or len(result.answers[0].lines) != len(spoilt.lines) - 1:
+        return False
+    diagnosis = result.answers[0].diagnosis
+    offered = {tuple(fix.replacement.split()) for finding in findings for fix in finding.fixes}
+    if diagnosis is None or not diagnosis.repairs_complete:
+        return False
+    for dropped in drops_by_search(spoilt):
+        assert tuple(" ".join(without(spoilt.lines, dropped)[1:]).split()) in offered, (spoilt, dropped)
+    return True
 
 
-def test_fixes_that_drop_words_are_exactly_the_smallest_that_work() -> None:
-    draw = random.Random(20)
-    compared = 0
-    while compared < 60:
-        words = draw.sample(list(WORDS.values()), draw.randint(5, 8))
-        answer = solve(f"G111 {' '.join(words)}", start=START, depth="verdict").answers[0]
-        is_about_words = answer.status is Status.REJECTED or any(
-            each.code.endswith("ignored") for each in answer.diagnostics
-        )
-        wanted = drops_by_search(words) if is_about_words else set()
-        if wanted:
-            compared += 1
-            assert drops_offered(words) == wanted, words
+@pytest.mark.parametrize("form", FORMS)
+def test_every_smallest_set_of_words_to_drop_is_offered(form):
+    draw = random.Random(7)
+    compared = [check_drops(FORMS[form](draw)) for _ in range(4)]
+    assert any(compared) or form == "chain"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("form", "blocks"), [("g111", 200), ("g112", 60), ("pair", 25), ("cornered", 25)])
+def test_every_smallest_set_of_words_to_drop_is_offered_for_many(form, blocks):
+    draw = random.Random(71)
+    compared = sum(check_drops(FORMS[form](draw)) for _ in range(blocks))
+    assert compared > blocks / 5
+
+
+@pytest.mark.parametrize(
+    ("block", "start", "left"),
+    [
+        (
+            "G111 A265.141 K-3.645 U-85.747 I-42.864 W-49.354 C-1.881",
+            "X119.046 Z53.326",
+            "G111 A265.141 K-3.645 U-85.747 W-49.354",
+        ),
+        ("G111 X100. A180. K-30. B120. C-5.", "X40. Z0.", "G111 X100. A180. K-30. B120."),
+        ("G111 X100. A180. K-30. I0. B120. Q-5. M08", "X40. Z0.", "G111 X100. A180. K-30. B120."),
+        ("G112 X233.08 P6.541 R51.128 K-88.154 I17.263 Q-28.507 Z-5.276", "X150. Z60.", None),
+    ],
+)
+def test_negative_corner_words_are_dropped_like_others(block, start, left):
+    spoilt = Spoilt((f"G00 {start}", block), "yasnac-lx3")
+    assert check_drops(spoilt)
+    if left:
+        fixes = [fix.replacement for finding in solve(block, start=start).diagnostics for fix in finding.fixes]
+        assert left in fixes
 
 
 OUTLINE = """G17 G90 G0 X0 Y0
@@ -82,12 +110,12 @@ X0 Y0"""
 
 
 def zigzag(length: int, **changed: str) -> str:
-    """A chain of lines with a rounding between each two, some of them written otherwise: `line_3="X60 ,R2"`."""
-    lines = [f"X{20 * number} Y{10 * (number % 2)} ,R2" for number in range(1, length)]
-    lines.append(f"X{20 * length} Y{10 * (length % 2)}")
+    """A chain of lines with a rounding between each two, some of them written otherwise: `line_3="G1 X60 ,R2"`."""
+    lines = [f"G1 X{20 * number} Y{10 * (number % 2)} ,R2" for number in range(1, length)]
+    lines.append(f"G1 X{20 * length} Y{10 * (length % 2)}")
     for name, text in changed.items():
         lines[int(name.removeprefix("line_")) - 1] = text
-    return "\n".join(["G17 G90 G0 X0 Y0", f"G1 {lines[0]}", *lines[1:]])
+    return "\n".join(["G17 G90 G0 X0 Y0", *lines])
 
 
 @pytest.fixture
@@ -108,7 +136,56 @@ def test_decompositions_grow_with_the_number_of_lines_and_not_with_that_of_their
     counts = []
     for length in (8, 16, 32):
         decompositions.clear()
-        solve(zigzag(length, line_4="X80 ,R2"), control="nct-99m")
+        solve(zigzag(length, line_4="G1 X80 ,R2"), control="nct-99m")
         counts.append(len(decompositions))
         assert max(decompositions) <= 4
     assert counts[2] <= 4 * counts[0] + 8, counts
+
+
+@pytest.fixture
+def trials(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """The number of blocks of each changed contour that is solved."""
+    found: list[int] = []
+    original = attempt.examine
+
+    def counted(claim: Any, *args: Any, **kwargs: Any) -> Any:
+        found.append(len(claim.blocks))
+        return original(claim, *args, **kwargs)
+
+    monkeypatch.setattr(attempt, "examine", counted)
+    return found
+
+
+@pytest.mark.parametrize(
+    ("text", "fix"),
+    [
+        (OUTLINE, "write ,R29.313 for ,R30"),
+        (zigzag(30, line_15="G1 X300 Y10 ,R100"), "write ,R42.721 for ,R100"),
+        (zigzag(30, line_15="G1 X300 Y10 ,R-2"), "write ,R2 for ,R-2"),
+        (zigzag(30, line_15="G1 X300 Y10 ,R2 ,C3"), "delete ,C3"),
+        (zigzag(30, line_15="G1 X300 Y10 ,A30. ,R2"), "delete ,A30."),
+        (zigzag(30, line_15="G1 ,A30. ,R2"), "add X?"),
+        (zigzag(30, line_15="G2 X300 Y10 ,R2"), "add R?"),
+    ],
+    ids=["outline", "too large", "sign", "two corners", "direction twice", "place missing", "circle undefined"],
+)
+def test_one_mistake_in_a_long_chain_is_repaired_near_it(text, fix, trials, decompositions):
+    result = solve(text, control="nct-99m")
+    fixes = [each.description for finding in result.diagnostics for each in finding.fixes]
+    assert any(each.startswith(fix) for each in fixes), fixes
+    assert len(trials) <= 14
+    assert len(decompositions) <= 600
+
+
+def test_a_corner_far_from_the_mistake_is_not_touched():
+    result = solve(OUTLINE, control="nct-99m")
+    line = result.diagnostics[0].span.line
+    for fix in (fix for finding in result.diagnostics for fix in finding.fixes):
+        changed = [
+            number
+            for number, (old, new) in enumerate(
+                zip(OUTLINE.split("\n")[1:], fix.replacement.split("\n"), strict=True), 2
+            )
+            if old != new
+        ]
+        assert all(abs(number - line) <= 1 for number in changed)

@@ -3,11 +3,13 @@
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from decimal import Decimal
+from itertools import chain
 
 from contoursolve.analysis import judge, order
 from contoursolve.constraints import assemble
 from contoursolve.contour import Contour
 from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, Side, apply_edits, edit_facts
+from contoursolve.diagnosis.subsets import LARGEST_ROLE
 from contoursolve.diagnostic import Applicability, Diagnostic, Severity
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer, Policy, examine
@@ -19,12 +21,11 @@ from contoursolve.syntax import Block, mended, parse_block
 from contoursolve.tolerance import AGREEMENT
 
 MOST_TRIED = 60
-"""Changed blocks that are considered for one contour, fewer for a chain, whose every trial takes longer; beyond it the
-list is not called complete."""
+"""Changed blocks that are tried for one contour, fewer for a chain, whose every trial takes longer; beyond it the list
+is not called complete."""
 
-LARGEST_ROLE = 2
-"""Blocks that a rule sees at once."""
-
+MOST_CONSIDERED = 2_000
+"""Changed blocks that are looked at for one contour; most of them contain a repair that was found before."""
 
 EASY_STEP, LARGEST_STEP = 4, 12
 """Unknowns of one step: up to the first it takes milliseconds; beyond the second a search can take a minute, and a
@@ -81,18 +82,19 @@ def choose_repairs(
     tried: set[tuple[Edit, ...]] = set()
     spent = 0
     most = MOST_TRIED if len(claim.blocks) <= LARGEST_ROLE else max(8, 2 * MOST_TRIED // len(claim.blocks))
-    for drafts in stages:
-        for edits in drafts:
-            if len(tried) > most:
-                break
-            if len(tried) + spent < most and not any(set(other.edits) <= set(edits) for other in found):
-                repair = _try(claim, dialect, edits, before) if edits not in tried else None
-                found += [repair] if repair else []
-                spent += _extra(claim, dialect, edits, before)
+    considered = 0
+    for edits in chain.from_iterable(stages):
+        considered += 1
+        if len(tried) + spent > most or considered > MOST_CONSIDERED:
+            break
+        if edits not in tried and not any(set(other.edits) <= set(edits) for other in found):
             tried.add(edits)
+            repair = _try(claim, dialect, edits, before)
+            found += [repair] if repair else []
+            spent += _extra(claim, dialect, edits, before)
     found = [repair for repair in found if not any(set(other.edits) < set(repair.edits) for other in found)]
     found.sort(key=_order)
-    return Repairs(tuple(found), is_complete=len(tried) + spent <= most)
+    return Repairs(tuple(found), is_complete=len(tried) + spent <= most and considered <= MOST_CONSIDERED)
 
 
 def _order(repair: Repair) -> tuple[bool, bool, int, int, float]:

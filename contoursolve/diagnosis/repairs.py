@@ -2,13 +2,13 @@
 contour. Each one is applied to the text, read, checked and solved again before it is offered."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import ROUND_HALF_EVEN, Decimal
 from functools import lru_cache
 from itertools import combinations, product
 from math import copysign
 
-from contoursolve.diagnosis.attempt import LARGEST_ROLE, Before, Repairs, choose_repairs
+from contoursolve.diagnosis.attempt import Before, Repairs, choose_repairs
 from contoursolve.diagnosis.drafts import (
     OF_CORNERS,
     change,
@@ -24,6 +24,15 @@ from contoursolve.diagnosis.drafts import (
     variants,
 )
 from contoursolve.diagnosis.edits import AT_LEAST, PLACEHOLDER, Edit, EditKind, write_word
+from contoursolve.diagnosis.subsets import (
+    LARGEST_ROLE,
+    block_of,
+    blocks_at_fault,
+    corners_at_fault,
+    find_drop_sets,
+    is_blamed,
+    words_of,
+)
 from contoursolve.diagnostic import Diagnostic, Severity
 from contoursolve.dialects import Dialect
 from contoursolve.examine import MOST_CHOICES, Answer, Policy, count_choices, examine
@@ -51,21 +60,34 @@ def find_repairs(answer: Answer, dialect: Dialect, following: tuple[Block, ...] 
     codes = frozenset(each.code for each in answer.diagnostics)
     if torn_codes(claim):
         # Without its letters the code is another one, which nobody has written.
-        return choose_repairs(claim, dialect, [mended_words(answer)], Before(codes, None, following=following))
+        repairs = choose_repairs(claim, dialect, [mended_words(answer)], Before(codes, None, following=following))
+        return replace(repairs, is_complete=False)
     if answer.profile.is_extended:
         # Few blocks state more than their words.
         from contoursolve.diagnosis.further import further_drafts, next_place_of  # noqa: PLC0415
 
         before = Before(codes, answer.contour, next_place_of(answer.profile))
         repairs = choose_repairs(claim, dialect, further_drafts(answer, dialect, before), before)
-        return Repairs(repairs.repairs, is_complete=False)
+        return replace(repairs, is_complete=False)
     whole = _Geometry.of(claim)
     reference = answer.contour
     if reference is None and count_choices(answer.profile) <= MOST_CHOICES:
         reference = examine(claim, dialect.rules, Policy.OFF).contour
-    stages = (moving(claim, stage(answer, dialect, whole)) for stage in (_sets, _values, _slips))
+    drop_sets = find_drop_sets(answer, dialect)
+    alone = tuple(names for names in drop_sets.found if len(names) == 1 and is_blamed(answer, *names))
+    # What makes a refused combination legal is searched for; of a legal one, any word at fault may be too much.
+    first, then = _sets(answer, dialect, whole), _dropping(answer, alone)
+    stages = (
+        _values(answer, dialect, whole),
+        *((first, then) if answer.status is Status.REJECTED else (then, first)),
+        _slips(answer, dialect, whole),
+        _dropping(answer, drop_sets.found),
+    )
     slips = (mended_words(answer), missing_points(answer), commas(answer), marked(answer), fitting(answer))
-    return choose_repairs(claim, dialect, (*slips, *stages), Before(codes, reference, following=following))
+    moved = (moving(claim, stage) for stage in stages)
+    repairs = choose_repairs(claim, dialect, (*slips, *moved), Before(codes, reference, following=following))
+    is_complete = repairs.is_complete and drop_sets.is_complete and not has_faults(claim)
+    return replace(repairs, is_complete=is_complete)
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,23 +127,35 @@ class _Geometry:
 def _sets(answer: Answer, dialect: Dialect, whole: _Geometry) -> Iterator[tuple[Edit, ...]]:
     """Words to drop and to add: every smallest set that makes the combination legal, and for a legal one
     what may be dropped or exchanged."""
+    for forced in unreadable(answer.claim):
+        yield from _legal_sets(answer, dialect, whole, forced)
+
+
+def _dropping(answer: Answer, sets: Iterable[frozenset[str]]) -> Iterator[tuple[Edit, ...]]:
+    """The words of each set dropped, besides what must be dropped or corrected in any case."""
     claim = answer.claim
+    if has_faults(claim):
+        return
     for forced in unreadable(claim):
-        yield from _legal_sets(claim, dialect, whole, forced)
+        done = {edit.span for edit in forced}
+        for names in sets:
+            words = [word for name in sorted(names) for word in words_of(claim, name) if word.span not in done]
+            yield (*forced, *map(drop, words))
 
 
 def _legal_sets(
-    claim: Claim, dialect: Dialect, whole: _Geometry, forced: tuple[Edit, ...]
+    answer: Answer, dialect: Dialect, whole: _Geometry, forced: tuple[Edit, ...]
 ) -> Iterator[tuple[Edit, ...]]:
+    claim, blocks = answer.claim, blocks_at_fault(answer)
     if forced:
         yield forced
     if has_faults(claim):
         return
     present, names = frozenset(claim.words), frozenset(claim.vocabulary)
-    extra = {row.fact.given for row in claim.form.facts} | set(claim.form.choices)
+    extra = frozenset({row.fact.given for row in claim.form.facts} | set(claim.form.choices))
     if not whole.is_singular:
         extra -= present ^ extra if _is_clean_set(claim, dialect.rules) else set()
-    changes = smallest_changes(claim.form, dialect.rules, present, names & frozenset(extra), claim.circumstances)
+    changes = smallest_changes(claim.form, dialect.rules, present, names & extra, claim.circumstances, blocks)
     corrections = tuple(_corrections(claim, dialect))
     bases: list[tuple[Edit, ...]] = []
     for swap in changes:
@@ -132,16 +166,17 @@ def _legal_sets(
         bases += [(*forced, *drops, *edits) for edits in product(*added, *corrected)]
     yield from bases
     # A legal block may still have corners that cannot be made.
-    sizes = _sizes(claim) & present
+    at_fault = corners_at_fault(answer)
     for base in bases:
         touched = {edit.span for edit in base}
-        corners = [drop(claim.words[name]) for name in sorted(sizes) if claim.words[name].span not in touched]
-        if not any(edit.text.endswith(PLACEHOLDER) for edit in base):
+        corners = [drop(claim.words[name]) for name in sorted(at_fault) if claim.words[name].span not in touched]
+        is_only_dropping = all(edit.kind is EditKind.DROP for edit in base)
+        if not is_only_dropping and not any(edit.is_placeholder for edit in base):
             yield from (
                 (*base, *dropped) for size in range(1, len(corners) + 1) for dropped in combinations(corners, size)
             )
     if frozenset() in changes:
-        yield from ((*forced, *edits) for edits in _other_corners(claim))
+        yield from ((*forced, *edits) for edits in _other_corners(claim, at_fault))
 
 
 def _corrections(claim: Claim, dialect: Dialect) -> Iterator[tuple[str, list[Edit]]]:
@@ -175,11 +210,11 @@ def _additions(claim: Claim, dialect: Dialect, name: str, geometries: Iterable[_
     return [Edit(EditKind.ADD, address, text=text, line=claim.blocks[index].line) for text in texts]
 
 
-def _other_corners(claim: Claim) -> Iterator[tuple[Edit, ...]]:
-    """Each corner as it is, without its word, or with the word for its other shape."""
+def _other_corners(claim: Claim, at_fault: list[str]) -> Iterator[tuple[Edit, ...]]:
+    """Each corner at fault as it is, without its word, or with the word for its other shape."""
     options: list[list[tuple[Edit, ...]]] = []
     for row in claim.form.corners:
-        for name in (name for name in row.shapes if name in claim.words):
+        for name in (name for name in at_fault if name in row.shapes):
             word = claim.words[name]
             texts = (word.text.upper().replace(word.address, other, 1) for other in row.shapes if other != name)
             others = [change(word, text) for text in texts]
@@ -202,20 +237,24 @@ def smallest_changes(
     present: frozenset[str],
     extra: frozenset[str],
     circumstances: frozenset[str],
+    blocks: frozenset[str],
 ) -> tuple[frozenset[str], ...]:
     """All smallest sets of names whose dropping or adding makes a combination that no rule
     refuses, and in which none ignores a word.
 
-    Where the combination is that already, a word may be dropped or exchanged for another one.
+    Where the combination is that already, a word of the `blocks` may be dropped or exchanged for another one.
     """
 
     if is_clean(form, rules, present, circumstances):
-        one = (frozenset({name}) for name in sorted(present))
+        old_names, new_names = (
+            sorted(name for name in names if block_of(name) in blocks) for names in (present, extra - present)
+        )
+        one = (frozenset({name}) for name in old_names)
         exchanged = (
             frozenset({old, new})
-            for old in sorted(present & extra)
-            for new in sorted(extra - present)
-            if not _is_chain(form) or _block(old) == _block(new)
+            for old in old_names
+            for new in new_names
+            if old in extra and (not _is_chain(form) or block_of(old) == block_of(new))
         )
         changes = (frozenset(), *one, *exchanged)
         return tuple(change for change in changes if is_clean(form, rules, present ^ change, circumstances))
@@ -227,8 +266,8 @@ def smallest_changes(
         roles = tuple(role for role in form.roles if prefixes & set(role.prefixes))
         near = {prefix for role in roles for prefix in role.prefixes}
         own, around = (
-            frozenset(name for name in present | extra | circumstances if _block(name) in blocks)
-            for blocks in (prefixes, near)
+            frozenset(name for name in present | extra | circumstances if block_of(name) in within)
+            for within in (prefixes, near)
         )
         parts.append(_smallest(roles, rules, present & around, own & (present | extra), circumstances & around))
     unions = (frozenset().union(*choice) for choice in product(*parts))
@@ -240,11 +279,6 @@ def _is_chain(form: Form) -> bool:
     return (
         len(form.combinations) > LARGEST_ROLE and len({prefix for role in form.roles for prefix in role.prefixes}) > 1
     )
-
-
-def _block(name: str) -> str:
-    """The beginning that the names of one block share."""
-    return name.partition(":")[0] + ":"
 
 
 def _offending(roles: tuple[Role, ...], rules: tuple[Rule, ...], stated: frozenset[str]) -> list[set[str]]:

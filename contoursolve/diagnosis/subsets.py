@@ -1,0 +1,165 @@
+"""Which words may be left out so that the control accepts the rest, as far as no equation has to be solved for it."""
+
+from collections.abc import Hashable, Iterable, Iterator
+from dataclasses import dataclass, field, replace
+from functools import lru_cache
+from itertools import chain, combinations
+from typing import NamedTuple
+
+from contoursolve.diagnostic import Severity
+from contoursolve.dialects import Dialect
+from contoursolve.examine import Answer
+from contoursolve.reading import Claim
+from contoursolve.rules import check, is_refused_by_values
+from contoursolve.source import Span
+from contoursolve.syntax import Word
+
+MOST_CHECKED = 2_000
+"""Sets of words of one contour that the rules are asked about."""
+
+MOST_READ = 240
+"""Sets of words without which a block is read again, because it may then be of another form; of two blocks, for which
+that takes as long as for fifty of the other sets, a quarter of it."""
+
+LARGEST_ROLE = 2
+"""Blocks that a rule sees at once. A contour of more blocks is repaired near what is wrong with it."""
+
+
+def block_of(name: str) -> str:
+    """The beginning that the names of one block share; empty in a contour of one block."""
+    return name[: name.find(":") + 1]
+
+
+def blocks_at_fault(answer: Answer) -> frozenset[str]:
+    """What begins the names of the blocks that a finding is about and of those beside them; of all blocks, where a
+    rule can see them at once."""
+    lines = [block.line for block in answer.claim.blocks]
+    blamed = {span.line for span in _blamed(answer)}
+    near = {other for index, line in enumerate(lines) if line in blamed for other in (index - 1, index, index + 1)}
+    is_short = len(lines) <= LARGEST_ROLE or not near
+    places = answer.claim.vocabulary.items()
+    return frozenset(block_of(name) for name, (_, index) in places if is_short or index in near)
+
+
+def corners_at_fault(answer: Answer) -> list[str]:
+    """The words of the corners that a finding is about; of all near it, if it is about none. In few blocks, of all."""
+    claim, blocks, blamed = answer.claim, blocks_at_fault(answer), _blamed(answer)
+    stated = [name for row in claim.form.corners for name in row.shapes if name in claim.words]
+    near = [name for name in stated if block_of(name) in blocks]
+    at_fault = [name for name in near if claim.words[name].span in blamed]
+    return near if len(claim.blocks) <= LARGEST_ROLE or not at_fault else at_fault
+
+
+def is_blamed(answer: Answer, name: str) -> bool:
+    """Whether an error or a warning is about the word of a name."""
+    return answer.claim.words[name].span in _blamed(answer)
+
+
+def words_of(claim: Claim, name: str) -> list[Word]:
+    """The word that states a given, and those that state it again."""
+    word = claim.words[name]
+    again = [each for each in claim.repeated if each.address == word.address and each.span.line == word.span.line]
+    return [word, *(each for each in again if each.address != "G")]
+
+
+def _blamed(answer: Answer) -> set[Span]:
+    findings = (finding for finding in answer.diagnostics if finding.severity is not Severity.INFO)
+    return {label.span for finding in findings for label in finding.labels}
+
+
+class DropSets(NamedTuple):
+    """Sets of names without which no rule refuses or ignores anything, smallest first, and whether they are all."""
+
+    found: tuple[frozenset[str], ...]
+    is_complete: bool
+
+
+def find_drop_sets(answer: Answer, dialect: Dialect) -> DropSets:
+    """The sets of words near what is wrong that may be left out, whatever the path is then.
+
+    Of a contour of many blocks, each word alone, those that a finding is about first.
+    """
+    claim, rules, blamed = answer.claim, dialect.rules, _blamed(answer)
+    stating = {row.fact.given for row in claim.form.facts} | {*claim.form.choices}
+    stating |= {name for row in claim.form.corners for name in row.shapes}
+    names = [name for name, word in claim.words.items() if name in stating or word.span in blamed]
+    near = blocks_at_fault(answer)
+    droppable = frozenset(name for name in names if block_of(name) in near)
+    if len(claim.blocks) > LARGEST_ROLE:
+        alone = sorted(droppable, key=lambda name: (claim.words[name].span not in blamed, name))
+        return DropSets(tuple(frozenset({name}) for name in alone), is_complete=False)
+    # An arc that stands alone is told from a full circle by its values.
+    texts = () if claim.form.is_contour else tuple(block.text for block in claim.blocks)
+    key = (dialect.find, rules, claim.form, frozenset(claim.words), claim.circumstances, texts)
+    sets = _drop_sets(_Combination(key, claim, dialect), droppable)
+    stated, roles = claim.stated(), claim.form.roles
+    plain = (
+        names
+        for names in sets.of_same_form
+        if not is_refused_by_values(rules, roles, {name: stated[name] for name in stated if name not in names})
+    )
+    found = sorted((*plain, *sets.of_other_form), key=lambda names: (len(names), sorted(names)))
+    return DropSets(tuple(found), sets.is_complete)
+
+
+@dataclass(frozen=True, slots=True)
+class _Combination:
+    """A contour, equal to others with the same words: what may be left out does not depend on their values."""
+
+    key: Hashable
+    claim: Claim = field(compare=False)
+    dialect: Dialect = field(compare=False)
+
+
+class _Sets(NamedTuple):
+    """Sets of names by whether the rules see the same form in the blocks without them; whether they are all."""
+
+    of_same_form: tuple[frozenset[str], ...]
+    of_other_form: tuple[frozenset[str], ...]
+    is_complete: bool
+
+
+@lru_cache(maxsize=1024)
+def _drop_sets(words: _Combination, droppable: frozenset[str]) -> _Sets:
+    claim, rules, form = words.claim, words.dialect.rules, words.claim.form
+    shaping = {name for name in droppable if not _is_alike(_read_without(words, frozenset({name})), claim)}
+    same, other = [], []
+    most_read = MOST_READ // len(claim.blocks) ** 2
+    checked = read = 0
+    for names in _subsets(sorted(droppable - shaping)):
+        checked += 1
+        if checked > MOST_CHECKED:
+            break
+        if not check(rules, form.roles, dict.fromkeys((claim.words.keys() | claim.circumstances) - names)):
+            same.append(names)
+    for names in _subsets(sorted(droppable)) if shaping else ():
+        if names & shaping:
+            read += 1
+            if read > most_read:
+                break
+            found = _read_without(words, names)
+            if found and not check(rules, found.form.roles, dict.fromkeys((*found.words, *found.circumstances))):
+                other.append(names)
+    return _Sets(tuple(same), tuple(other), checked <= MOST_CHECKED and read <= most_read)
+
+
+def _subsets(names: Iterable[str]) -> Iterator[frozenset[str]]:
+    """The sets of some of the names, smallest first, without the empty one."""
+    names = list(names)
+    return map(frozenset, chain.from_iterable(combinations(names, size) for size in range(1, len(names) + 1)))
+
+
+def _is_alike(found: Claim | None, claim: Claim) -> bool:
+    """Whether the rules see the same form in the same circumstances."""
+    return found is not None and found.form is claim.form and found.circumstances == claim.circumstances
+
+
+def _read_without(words: _Combination, names: frozenset[str]) -> Claim | None:
+    """The same blocks without some words; None if they are not one contour any more."""
+    claim, dialect = words.claim, words.dialect
+    dropped = {word.span for name in names for word in words_of(claim, name)}
+    blocks = [
+        replace(block, words=tuple(word for word in block.words if word.span not in dropped)) for block in claim.blocks
+    ]
+    found = dialect.find(blocks, 0, claim.before, dialect.modes)
+    return found if isinstance(found, Claim) and len(found.blocks) == len(blocks) else None
