@@ -98,14 +98,18 @@ class AffineFacts:
         does not follow from them."""
         if not basis:
             return None
-        row = self.matrix[self.facts.index(fact)]
-        rows = [self.facts.index(each) for each in basis]
-        weights = numpy.linalg.lstsq(self.matrix[rows].T, row, rcond=None)[0]
-        if (abs(row - weights @ self.matrix[rows]) > REGULAR).any():
+        index, kept = self.facts.index(fact), {*basis}
+        part = next(part for part in self.parts if index in part.rows)
+        rows = [row for row in part.rows if self.facts[row] in kept]
+        row, others = self.matrix[index, list(part.columns)], self.matrix[numpy.ix_(rows, part.columns)]
+        weights = numpy.linalg.lstsq(others.T, row, rcond=None)[0] if others.size else numpy.zeros(len(rows))
+        if (abs(row - weights @ others) > REGULAR).any():
             return None
-        gap = abs(float(self.constants[self.facts.index(fact)] - weights @ self.constants[rows]))
+        gap = abs(float(self.constants[index] - weights @ self.constants[rows]))
         used = [
-            (each, abs(float(weight))) for each, weight in zip(basis, weights, strict=True) if abs(weight) > REGULAR
+            (self.facts[each], abs(float(weight)))
+            for each, weight in zip(rows, weights, strict=True)
+            if abs(weight) > REGULAR
         ]
         return Circuit((*(each for each, _ in used), fact), (*(gap / weight for _, weight in used), gap))
 
