@@ -192,3 +192,89 @@ def test_an_interrupt_ends_the_process_with_130():
     _, told = waiting.communicate(timeout=60)
     assert waiting.returncode == 130
     assert "Traceback" not in told
+
+
+DRAWS = """
+import sys
+import contoursolve
+from contoursolve.output.document import to_json
+for asked in ("P? Q? D? C?", "C? D? K?", "X? Z? B? Q?", "U? W? I? K?"):
+    for rules in ("enforce", "off"):
+        for text in (f"G111 X100. A180. K-30. B120. {asked}", f"G111 A180. {asked}", f"G111 {asked} P5. X100. Y1."):
+            sys.stdout.write(to_json(contoursolve.solve(text, start="X40. Z0.", rules=rules)))
+for text in ("G1 X? Y80 ,A? ,R? ,C?", "G3 I? J? R? Q?\\nG1 X0 Y0 ,A?"):
+    sys.stdout.write(to_json(contoursolve.solve(text, start="G17 G41 X0 Y0", control="nct-99m")))
+"""
+
+
+def test_json_is_the_same_whatever_the_hash_seed():
+    def draw(seed: int) -> bytes:
+        environment = {**os.environ, "PYTHONHASHSEED": str(seed), "PYTHONPATH": os.pathsep.join(sys.path)}
+        return subprocess.run([sys.executable, "-c", DRAWS], env=environment, capture_output=True, check=True).stdout
+
+    first, *others = map(draw, (0, 1, 5))
+    assert first
+    assert others == [first, first]
+
+
+FORKS = """
+import os, sys, threading
+from contoursolve.backends import ball
+import contoursolve
+inside, leave = threading.Event(), threading.Event()
+
+def stay():
+    with ball.precision(ball.HIGHEST):
+        inside.set()
+        leave.wait()
+
+thread = threading.Thread(target=stay)
+thread.start()
+inside.wait()
+child = os.fork()
+if not child:
+    answer = contoursolve.solve("G111 X100. A180. K-30. B120.", start="X40. Z0.").answers[0]
+    os._exit(0 if answer.status.value == "solved" else 3)
+_, status = os.waitpid(child, 0)
+leave.set()
+thread.join()
+sys.exit(os.waitstatus_to_exitcode(status))
+"""
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="needs fork")
+def test_a_fork_while_a_thread_solves_leaves_no_child_waiting():
+    subprocess.run([sys.executable, "-W", "ignore", "-c", FORKS], check=True, timeout=120)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="needs file names with a colon")
+def test_no_line_is_a_command_to_who_reads_it(folder):
+    names = ["::error::x.nc", "a\n::warning::y.nc"]
+    text = f"{PROGRAM}::error::z G111 X100. A18O. B120. K-30.\n( ::notice::w) G111 X100.\n"
+    for name in names:
+        Path(name).write_text(text)
+    Path("good.nc").write_text(PROGRAM.replace("B120.", "B120. K-30."))
+    Path("::debug::r.json").write_text(run("solve", "good.nc", "--format", "json").output)
+    for name in names:
+        for arguments in (
+            ("check", name, "good.nc"), ("solve", name), ("expand", name),
+            ("expand", name, "--keep-going", "-o", "::a.nc"),
+            ("plot", "good.nc", "-o", "::b.svg"), ("plot", name, "-o", "::c.svg"),
+            ("report", "good.nc", "-o", "::d.html"), ("report", name), ("diff", name, "good.nc"), ("diff", name, name), ("verify", name, "::debug::r.json"),
+            ("verify", "good.nc", "::debug::r.json"), ("check", f"{name}::"), ("check", "--control", name, "good.nc"),
+            ("sweep", *BLOCK, "--vary", "A=170,180", "-o", "::e.csv"), ("range", *BLOCK, "--word", name),
+            ("solve", "--block", f"{name} G111", *BLOCK[2:]), ("solve", *BLOCK, "--fact", name), (name,),
+            ("explain", name),
+        ):  # fmt: skip
+            for line in run(*arguments).output.splitlines():
+                assert not line.lstrip().startswith("::"), arguments
+
+
+@pytest.mark.parametrize(("comment", "column"), [
+    ("(aaaaaa)", 9), ("(\u7c97\u52a0\u5de5)", 9), ("(e\u0301e\u0301)", 5), ("(\u00e9)", 4), ("(\uff21\uff22)", 7)
+])  # fmt: skip
+def test_marks_stand_below_what_they_mark(comment, column):
+    lines = run("check", "--block", f"{comment}G111 X100. A180. Y5. B120. K-30.", *BLOCK[2:]).output.splitlines()
+    marks = next(line for line in lines if "^" in line)
+    assert marks.partition("| ")[2].index("^") == column - 1 + len("G111 X100. A180. ")
+    assert marks.count("^") == len("Y5.")

@@ -4,6 +4,7 @@ A number here is either exact (`fmpq`) or a ball (`arb`); arithmetic mixes them,
 stays exact. Balls have the precision of the innermost `precision` block.
 """
 
+import os
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from decimal import Decimal
@@ -23,6 +24,18 @@ WORKING, HIGHEST = 212, 848
 
 
 _TURN = RLock()
+
+
+def _renew() -> None:
+    """A thread that was inside when the process forked is not in the child, and would never leave."""
+    global _TURN  # noqa: PLW0603 - one lock for the process
+    _TURN = RLock()
+    flint.ctx.prec = _USUAL
+
+
+_USUAL = flint.ctx.prec
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_renew)
 
 
 @contextmanager

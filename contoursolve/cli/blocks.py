@@ -11,7 +11,7 @@ from contoursolve.api import solve
 from contoursolve.cli.control import control_option
 from contoursolve.cli.loading import settings_of
 from contoursolve.cli.options import CouldNotRunError, rules_option, settings_option, units_option
-from contoursolve.cli.printing import style_of_output
+from contoursolve.cli.printing import say, style_of_output
 from contoursolve.data import json_text
 from contoursolve.dialects import DIALECTS
 from contoursolve.extras import MissingExtraError
@@ -63,7 +63,7 @@ def read_options(options: dict[str, Any]) -> dict[str, Any]:
     block = "\n".join(options["blocks"])
     for finding in solve(block, **rest, depth="verdict").diagnostics:
         if finding.about is Trouble.START_IN_INCREMENTS:
-            click.echo(f"{finding.severity.value}: {finding.message}; {finding.help}", err=True)
+            say(f"{finding.severity.value}: {finding.message}; {finding.help}", err=True)
     return {"block": block, **rest}
 
 
@@ -76,7 +76,7 @@ def usage() -> Iterator[None]:
     except RefusedError as error:
         result = error.result
         for line in lines_of_findings(result, result.diagnostics, style_of_output()):
-            click.echo(line, err=True)
+            say(line, err=True)
         raise CouldNotRunError("the block is refused, whatever the values that vary; nothing was computed") from None
     except (FamilyError, SettingError, FactPlaceError, MissingExtraError, CannotWriteError) as error:
         raise CouldNotRunError(str(error)) from None

@@ -6,7 +6,7 @@ import click
 
 from contoursolve.cli.control import control_option
 from contoursolve.cli.options import CouldNotRunError
-from contoursolve.cli.printing import print_lines
+from contoursolve.cli.printing import print_lines, say
 from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.rules import Rule
 
@@ -67,4 +67,4 @@ def explain(code: str, control: str | Dialect | None) -> None:
         hint = f"did you mean {' or '.join(near)}? " if near else ""
         raise CouldNotRunError(f"no rule has the code or the alarm {code!r}; {hint}'contoursolve rules' lists them")
     for rule, controls in found.values():
-        click.echo("\n".join((*rule_lines(rule, controls), "")))
+        say("\n".join((*rule_lines(rule, controls), "")))

@@ -6,9 +6,8 @@ from concurrent.futures import CancelledError, Executor, Future, wait
 from contextlib import contextmanager
 from typing import Any
 
-import click
-
 from contoursolve.cli.options import CouldNotRunError
+from contoursolve.cli.printing import say
 from contoursolve.extras import need
 
 PATIENCE = 1.0
@@ -58,7 +57,7 @@ class _Cluster(Executor):
             raise self.lost()
         if not self.is_told and self.client.status == "running" and not self._has_workers():
             told = "has no workers; waiting for one (it needs contoursolve in this version)"
-            click.echo(f"the Dask scheduler at {self.address} {told}", err=True)
+            say(f"the Dask scheduler at {self.address} {told}", err=True)
             self.is_told = True
 
     def _has_workers(self) -> bool:

@@ -14,7 +14,7 @@ from contoursolve.cli.options import (
     settings_option,
     units_option,
 )
-from contoursolve.cli.printing import print_lines, style_of_output
+from contoursolve.cli.printing import print_lines, say, style_of_output
 from contoursolve.dialects import DIALECTS, PLAIN, Dialect
 from contoursolve.examine import Policy
 from contoursolve.model import Length
@@ -100,7 +100,7 @@ def diff(
         else:
             for result in results:
                 print_lines(lines_of_findings(result, result.diagnostics, style_of_output()))
-            click.echo("not compared: a program that has errors has no path")
+            say("not compared: a program that has errors has no path")
         context.exit(FOUND_ERRORS)
     axes = tuple(sorted({axis for _, dialect, _ in sides for axis in dialect.modes.axes}))
     one, other = (follow(result, dialect, unit, axes) for result, dialect, unit in sides)

@@ -22,7 +22,7 @@ from contoursolve.cli.options import (
     settings_option,
     units_option,
 )
-from contoursolve.cli.printing import style_of_output
+from contoursolve.cli.printing import say, style_of_output
 from contoursolve.diagnostic import Severity
 from contoursolve.dialects import DIALECTS
 from contoursolve.examine import Policy
@@ -148,11 +148,11 @@ def expand(
         _report_left(summary, program or "<block>", style_of_output())
         _report_misread(summary, POSTS[post], style_of_output(), is_kept=keeps_untranslated)
         if summary.left and not keeps_going:
-            click.echo("nothing was written (--keep-going expands the others)", err=True)
+            say("nothing was written (--keep-going expands the others)", err=True)
             context.exit(FOUND_ERRORS)
         if summary.misread and not keeps_untranslated:
             _report_told(summary, POSTS[post])
-            click.echo(f"nothing was written: {_BY_HAND} (--keep-untranslated writes it as it is)", err=True)
+            say(f"nothing was written: {_BY_HAND} (--keep-untranslated writes it as it is)", err=True)
             context.exit(FOUND_ERRORS)
         if target is None:
             _print(rewritten)
@@ -161,7 +161,7 @@ def expand(
                 backup = write_whole(target, rewritten.pieces(), keeps_backup=is_in_place)
             except CannotWriteError as error:
                 raise CouldNotRunError(str(error)) from None
-            click.echo(f"{target} written" + (f"; the old one is {backup}" if backup else ""), err=True)
+            say(f"{target} written" + (f"; the old one is {backup}" if backup else ""), err=True)
     _report_expansion(summary, POSTS[post], style_of_output())
     context.exit(FOUND_ERRORS if summary.left else 0)
 
@@ -188,7 +188,7 @@ def filter_(context: click.Context, /, program: str, **options: Any) -> None:
     """
 
     def progress(share: float) -> None:
-        click.echo(f"FILTER_PROGRESS={int(share * 100)}", err=True)
+        say(f"FILTER_PROGRESS={int(share * 100)}", err=True)
 
     with TemporaryFile() as body:
         wish = _wish("linuxcnc", options)
@@ -196,7 +196,7 @@ def filter_(context: click.Context, /, program: str, **options: Any) -> None:
         _report_left(rewritten.summary, program, plain)
         _report_misread(rewritten.summary, wish.post, plain, is_kept=False)
         if rewritten.summary.left or rewritten.summary.misread:
-            click.echo("nothing was written" + f": {_BY_HAND}" * bool(rewritten.summary.misread), err=True)
+            say("nothing was written" + f": {_BY_HAND}" * bool(rewritten.summary.misread), err=True)
             context.exit(FOUND_ERRORS)
         progress(1.0)
         _print(rewritten)
@@ -289,25 +289,25 @@ def _report_left(summary: Summary, name: str, style: Style) -> None:
     """Why contours were not expanded, on standard error."""
     for left in summary.left:
         if all(finding.severity is not Severity.ERROR for finding in left.diagnostics):
-            click.echo(f"{style('error', 'error')}: line {left.lines[0]}: {left.reason}", err=True)
+            say(f"{style('error', 'error')}: line {left.lines[0]}: {left.reason}", err=True)
         for finding in left.diagnostics:
             here = tuple(label for label in finding.labels if label.span.line in left.sources)
             lines = finding_lines(replace(finding, labels=here), name, left.sources, style)
-            click.echo("\n".join(lines), err=True)
+            say("\n".join(lines), err=True)
 
 
 def _report_misread(summary: Summary, post: Post, style: Style, *, is_kept: bool) -> None:
     """What the target would run along another path, on standard error."""
     severity = "warning" if is_kept else "error"
     for each in summary.misread:
-        click.echo(f"{style(severity, severity)}: line {each.line}: {each.sentence(post.title)}", err=True)
+        say(f"{style(severity, severity)}: line {each.line}: {each.sentence(post.title)}", err=True)
 
 
 def _report_told(summary: Summary, post: Post) -> None:
     """What the target stops at, or reads in another way on the same path, on standard error."""
     for each in summary.unfamiliar:
         if each.risk is Risk.TOLD:
-            click.echo(f"line {each.line}: {each.sentence(post.title)}", err=True)
+            say(f"line {each.line}: {each.sentence(post.title)}", err=True)
 
 
 def _report_expansion(summary: Summary, post: Post, style: Style) -> None:
@@ -316,9 +316,9 @@ def _report_expansion(summary: Summary, post: Post, style: Style) -> None:
         place = (
             f"line {finding.span.line}" if finding.span.line > 0 else "--start" if not finding.span.line else "--fact"
         )
-        click.echo(f"{place}: {style('warning', 'warning')}[{finding.code}]: {finding.message}", err=True)
+        say(f"{place}: {style('warning', 'warning')}[{finding.code}]: {finding.message}", err=True)
     if summary.warnings > len(summary.warned):
-        click.echo(f"and {count(summary.warnings - len(summary.warned), 'warning')} more", err=True)
+        say(f"and {count(summary.warnings - len(summary.warned), 'warning')} more", err=True)
     _report_told(summary, post)
     done = f"{count(summary.replaced, 'contour')} expanded"
     if summary.replaced:
@@ -328,4 +328,4 @@ def _report_expansion(summary: Summary, post: Post, style: Style) -> None:
     if summary.warnings:
         them = "it" if summary.warnings == 1 else "them"
         done += f"; {count(summary.warnings, 'warning')}: contoursolve check says more about {them}"
-    click.echo(done if summary.replaced or summary.left else "no contour block: nothing to expand", err=True)
+    say(done if summary.replaced or summary.left else "no contour block: nothing to expand", err=True)

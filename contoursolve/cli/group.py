@@ -39,10 +39,16 @@ class _Commands(click.Group):
         """Run the command. An interrupt ends it with a status of its own: 1 means that an error was found."""
         try:
             return super().invoke(ctx)
+        except click.ClickException as error:
+            from contoursolve.output.layout import harmless  # noqa: PLC0415 - only here
+
+            error.message = harmless(error.message)
+            raise
         except KeyboardInterrupt:
+            from contoursolve.cli.printing import say  # noqa: PLC0415 - the same
             from contoursolve.cli.progress import STOPPED, leave_threads  # noqa: PLC0415 - most runs end by themselves
 
-            click.echo("stopped", err=True)
+            say("stopped", err=True)
             leave_threads(STOPPED)
             ctx.exit(STOPPED)
 

@@ -7,6 +7,7 @@ import click
 from contoursolve.cli.control import control_option
 from contoursolve.examine import Policy
 from contoursolve.model import Length
+from contoursolve.output.layout import harmless
 
 FOUND_ERRORS, COULD_NOT_RUN = 1, 2
 
@@ -15,6 +16,10 @@ class CouldNotRunError(click.ClickException):
     """Bad usage or an unreadable program: one line on standard error and exit status 2."""
 
     exit_code = COULD_NOT_RUN
+
+    def format_message(self) -> str:
+        """The message, which may begin a line with the name of a file."""
+        return harmless(super().format_message())
 
 
 units_option = click.option(

@@ -13,7 +13,7 @@ from contoursolve.cli.options import (
     common_options,
 )
 from contoursolve.cli.pictured import PNG, SVG, bytes_of, theme_option
-from contoursolve.cli.printing import print_lines, style_of_output
+from contoursolve.cli.printing import print_lines, say, style_of_output
 from contoursolve.examine import Answer
 from contoursolve.extras import MissingExtraError, importing
 from contoursolve.files import CannotWriteError, check_target, write_whole
@@ -98,11 +98,11 @@ def plot(
             write_whole(path, [data], keeps_backup=False)
     except (CannotWriteError, MissingExtraError) as error:
         raise CouldNotRunError(str(error)) from None
-    click.echo(summary_line([result]))
+    say(summary_line([result]))
     for path, _, content in files:
-        click.echo(f"{path}: {content}")
+        say(f"{path}: {content}")
     if not files:
-        click.echo(f"{target}: not written")
+        say(f"{target}: not written")
     context.exit(FOUND_ERRORS if result.has_errors or not files else 0)
 
 

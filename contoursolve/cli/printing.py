@@ -8,6 +8,7 @@ from typing import Any
 import click
 
 from contoursolve.output.findings import Style, plain
+from contoursolve.output.layout import harmless
 
 _COLORS: dict[str, dict[str, Any]] = {
     "error": {"fg": "red", "bold": True},
@@ -26,10 +27,15 @@ def style_of_output() -> Style:
     return lambda text, role: click.style(text, **_COLORS[role]) if text else text
 
 
+def say(text: str, *, err: bool = False) -> None:
+    """Print a text, on standard output or standard error."""
+    click.echo(harmless(text), err=err)
+
+
 def print_lines(lines: Iterable[str]) -> None:
     """Print lines in batches: a call of click for each would take longer than solving."""
     for batch in _batched(lines, 1_000):
-        click.echo("\n".join(batch))
+        say("\n".join(batch))
 
 
 def _batched(lines: Iterable[str], size: int) -> Iterator[list[str]]:

@@ -11,6 +11,7 @@ from types import FrameType
 
 import click
 
+from contoursolve.cli.printing import say
 from contoursolve.families import THREADS
 
 BETWEEN = 30.0
@@ -43,7 +44,7 @@ def progress(total: int, *, is_quiet: bool) -> Iterator[Callable[[int], None]]:
             bar.update(rows, f"{rate:,.0f} a second")
             if not (is_quiet or sys.stderr.isatty()) and now - told >= BETWEEN and done < total:
                 left = duration((total - done) / rate)
-                click.echo(f"{done:,} of {total:,} contours, {rate:,.0f} a second, {left} left", err=True)
+                say(f"{done:,} of {total:,} contours, {rate:,.0f} a second, {left} left", err=True)
                 told = now
 
         yield advance

@@ -9,7 +9,7 @@ import click
 from contoursolve import __version__
 from contoursolve.cli.loading import examine, load, named_after
 from contoursolve.cli.options import FOUND_ERRORS, CouldNotRunError, common_options
-from contoursolve.cli.printing import print_lines, style_of_output
+from contoursolve.cli.printing import print_lines, say, style_of_output
 from contoursolve.extras import MissingExtraError, importing
 from contoursolve.files import CannotWriteError, check_target, write_whole
 from contoursolve.output.listing import lines_of_findings, summary_line
@@ -59,7 +59,7 @@ def report(
         result = examine(loader(), start, assignments, options)
         if not result.answers:
             print_lines(lines_of_findings(result, result.diagnostics, style_of_output()))
-            click.echo(f"{summary_line([result])}\n{target}: not written")
+            say(f"{summary_line([result])}\n{target}: not written")
             context.exit(FOUND_ERRORS)
         with click.progressbar(
             length=len(result.answers), label="drawing", file=sys.stderr, hidden=not sys.stderr.isatty()
@@ -68,6 +68,6 @@ def report(
             write_whole(target, (piece.encode("utf-8", "replace") for piece in pieces), keeps_backup=False)
     except (CannotWriteError, MissingExtraError) as error:
         raise CouldNotRunError(str(error)) from None
-    click.echo(summary_line([result]))
-    click.echo(f"{target} written")
+    say(summary_line([result]))
+    say(f"{target} written")
     context.exit(FOUND_ERRORS if result.has_errors else 0)

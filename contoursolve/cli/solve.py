@@ -14,7 +14,7 @@ from contoursolve.cli.options import (
     CouldNotRunError,
     common_options,
 )
-from contoursolve.cli.printing import print_lines, style_of_output
+from contoursolve.cli.printing import print_lines, say, style_of_output
 from contoursolve.diagnostic import Severity
 from contoursolve.dialects import Dialect
 from contoursolve.output.document import findings_to_json, to_json
@@ -126,11 +126,11 @@ def check(
         case "github":
             from contoursolve.output.exchange import to_github  # noqa: PLC0415 - only here
 
-            print_lines([to_github(results)])
+            click.echo(to_github(results))
         case _:
             for result in results:
                 print_lines(lines_of_findings(result, result.diagnostics, style_of_output()))
-            click.echo(summary_line(results))
+            say(summary_line(results))
     failing = {"error": (Severity.ERROR,), "warning": (Severity.ERROR, Severity.WARNING), "never": ()}[fail_on]
     found = {finding.severity for result in results for finding in result.diagnostics}
     context.exit(COULD_NOT_RUN if failures else FOUND_ERRORS if found & set(failing) else 0)

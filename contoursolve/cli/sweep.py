@@ -11,6 +11,7 @@ from contoursolve.cli.blocks import block_options, fact_option, format_option, p
 from contoursolve.cli.cluster import open_cluster
 from contoursolve.cli.extent import check_extent
 from contoursolve.cli.pictured import bytes_of, check_picture, theme_option
+from contoursolve.cli.printing import say
 from contoursolve.cli.progress import STOPPED, leave_threads, progress, stoppable
 from contoursolve.cli.varied import read_range
 from contoursolve.extras import need
@@ -121,15 +122,15 @@ def sweep_(
                 write_whole(picture, [drawn], keeps_backup=False)
             telling = telling_of(ready, tally)
     except KeyboardInterrupt:
-        click.echo(_stopped(parts, tally), err=True)
+        say(_stopped(parts, tally), err=True)
         leave_threads(STOPPED)
         context.exit(STOPPED)
     if format_ == "json":
         print_json(_summary_data(tally.counts, telling))
     else:
-        click.echo("\n".join(_summary(tally.counts, telling)))
+        say("\n".join(_summary(tally.counts, telling)))
     for path in filter(None, (target, picture)):
-        click.echo(f"{path} written", err=True)
+        say(f"{path} written", err=True)
 
 
 def _read_varied(varied: Sequence[str]) -> dict[str, Any]:
@@ -197,9 +198,9 @@ def _stopped(parts: Parts | None, tally: Tally | None) -> str:
 def _tell(parts: Parts, target: Path) -> None:
     """What is left of sweeps that were not finished."""
     if parts.rows_done:
-        click.echo(f"going on after {parts.rows_done:,} of {parts.ready.ranges.count:,} contours", err=True)
+        say(f"going on after {parts.rows_done:,} of {parts.ready.ranges.count:,} contours", err=True)
     for folder in others(parts, target):
-        click.echo(f"{folder} is left of another sweep that was not finished; it may be deleted", err=True)
+        say(f"{folder} is left of another sweep that was not finished; it may be deleted", err=True)
 
 
 def _write(target: Path, parts: Parts, tables: Iterator[dict[str, Any]]) -> None:

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 
 from contoursolve.diagnostic import Applicability, Diagnostic, Fix, Label
-from contoursolve.output.layout import printable
+from contoursolve.output.layout import cells, printable
 from contoursolve.reading import Trouble
 from contoursolve.syntax import FaultKind
 
@@ -73,7 +73,7 @@ def finding_pieces(finding: Diagnostic, name: str, sources: Mapping[int, str]) -
         text, labels, shift = _window(sources[number], by_line[number])
         lines.append([(f"{_margin(number):>{gutter}} |", "frame"), (f" {text}", "")])
         primary = finding.labels[0]
-        lines += [[*bar, (" ", ""), *marks] for marks in _marks(labels, shift, primary, len(text), role)]
+        lines += [[*bar, (" ", ""), *marks] for marks in _marks(labels, shift, primary, text, role)]
     foot: list[Piece] = [(" " * (gutter + 1), ""), ("=", "frame")]
     lines += [[*foot, (f" {note}", "")] for note in finding.notes]
     if finding.help and not any(fix.applicability is Applicability.SAFE for fix in finding.fixes):
@@ -112,21 +112,21 @@ def _window(text: str, labels: list[Label]) -> tuple[str, list[Label], int]:
     return head + part + ("..." if start + WIDTH < len(shown) else ""), visible, start - len(head)
 
 
-def _marks(labels: list[Label], shift: int, primary: Label, width: int, role: str) -> list[list[Piece]]:
+def _marks(labels: list[Label], shift: int, primary: Label, text: str, role: str) -> list[list[Piece]]:
     """Underlines of all labels on one line, then their texts from the last to the first."""
     ordered = sorted(labels, key=lambda label: label.span)
     marks: list[Piece] = []
     column = 0
     for label in ordered:
         begin = max(label.span.column - 1 - shift, column)
-        length = max(1, min(label.span.end_column - 1 - shift, width) - begin)
+        end = begin + max(1, min(label.span.end_column - 1 - shift, len(text)) - begin)
         is_primary = label == primary
         marks += [
-            (" " * (begin - column), ""),
-            (("^" if is_primary else "-") * length, role if is_primary else "frame"),
+            (" " * cells(text, column, begin), ""),
+            (("^" if is_primary else "-") * max(1, cells(text, begin, end)), role if is_primary else "frame"),
         ]
-        column = begin + length
+        column = end
     texts = [label for label in reversed(ordered) if label.text]
     if texts and texts[0] is ordered[-1]:
         marks.append((f" {texts.pop(0).text}", ""))
-    return [marks, *([(" " * max(label.span.column - 1 - shift, 0) + label.text, "")] for label in texts)]
+    return [marks, *([(" " * cells(text, 0, label.span.column - 1 - shift) + label.text, "")] for label in texts)]

@@ -1,5 +1,7 @@
 """Plain text in columns, safe for any terminal."""
 
+import re
+import unicodedata
 from collections.abc import Sequence
 
 from contoursolve.model import Length, Plane
@@ -15,8 +17,31 @@ def columns(rows: Sequence[Sequence[str]], left: Sequence[int] = (0,), indent: s
 
 
 def printable(text: str) -> str:
-    """The text with tabs as blanks and other control characters as dots: one column a character."""
+    """The text with tabs as blanks and other control characters as dots: as many characters as before."""
     return text if text.isprintable() else "".join(c if c.isprintable() else (" " if c == "\t" else ".") for c in text)
+
+
+def cells(text: str, begin: int, end: int) -> int:
+    """The columns of a terminal that characters of a printable text take, from a place on to before another one, which
+    may be behind its end: two for those of East Asia, none for accents that stand above another character."""
+    stretch = text[max(begin, 0) : max(end, 0)]
+    return max(end, 0) - max(begin, 0) + (0 if stretch.isascii() else sum(map(_surplus, stretch)))
+
+
+def _surplus(char: str) -> int:
+    """How many columns a character takes beyond one."""
+    if unicodedata.east_asian_width(char) in "WF":
+        return 1
+    return -1 if unicodedata.category(char) in ("Mn", "Me") else 0
+
+
+def harmless(text: str) -> str:
+    """The text without lines that GitHub's runner would take for commands to it: names of files and blocks may begin
+    with `::`."""
+    return _COMMAND.sub(r"\g<blank>\\::", text) if "::" in text else text
+
+
+_COMMAND = re.compile(r"^(?P<blank>[^\S\n]*+)::", re.MULTILINE)
 
 
 def length_of(mm: float, unit: Length) -> str:

@@ -149,7 +149,7 @@ def _questions(claim: Claim, asked: frozenset[str], layout: Layout) -> Iterator[
             facts.setdefault(row.fact.given, row.fact)
     yield from (_question(claim, name, fact) for name, fact in facts.items())
     for corner in claim.form.corners:
-        for name in asked & corner.shapes.keys():
+        for name in (name for name in corner.shapes if name in asked):
             yield _question(claim, name, Radius(name, f"{corner.name}.radius"))
 
 
