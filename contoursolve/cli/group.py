@@ -42,7 +42,7 @@ class _Commands(click.Group):
         except click.ClickException as error:
             from contoursolve.output.layout import harmless  # noqa: PLC0415 - only here
 
-            error.message = harmless(error.message)
+            vars(error)["message"] = harmless(error.message)
             raise
         except KeyboardInterrupt:
             from contoursolve.cli.printing import say  # noqa: PLC0415 - the same
