@@ -39,7 +39,7 @@ class Bounds:
     is_defined: NDArray[numpy.bool_]
     is_undefined: NDArray[numpy.bool_]
     is_smooth: NDArray[numpy.bool_]
-    """Whether nothing jumps in the box."""
+    """Whether no output jumps in the box."""
 
     def __getitem__(self, boxes: NDArray[numpy.bool_]) -> "Bounds":
         rest = (self.is_defined[boxes], self.is_undefined[boxes], self.is_smooth[boxes])
@@ -77,7 +77,14 @@ class _Enclosure(Replay):
         kinds = {target: function.instruction_id(target) for *_, target in self._steps}
         self._roots = [first for _, first, _, target in self._steps if kinds[target] == casadi.OP_SQRT]
         self._jumps = [target for target, kind in kinds.items() if kind in _JUMPING]
-        self._angles = [(first, second) for _, first, second, target in self._steps if kinds[target] == casadi.OP_ATAN2]
+        self._angles = [each[1:] for each in self._steps if kinds[each[3]] == casadi.OP_ATAN2]
+        self._torn: list[tuple[int, int, int]] = []
+        """What follows from results that may jump, these themselves included: operands and result."""
+        torn = {*self._jumps, *(target for *_, target in self._angles)}
+        for _, first, second, target in self._steps:
+            if not torn.isdisjoint((first, second, target)):
+                torn.add(target)
+                self._torn.append((first, second, target))
         self._words = words
         moving = {target for source, target in self._inputs if source < words}
         for _, first, second, target in self._steps:
@@ -103,12 +110,23 @@ class _Enclosure(Replay):
         for place in self._roots:
             is_defined &= work[place].low >= NO_ROOT
             is_undefined |= work[place].high < NO_ROOT
-        is_smooth = is_defined.copy()
-        for place in self._jumps:
-            is_smooth &= work[place].low == work[place].high
-        for first, second in self._angles:
-            is_smooth &= (work[first].low > 0) | (work[first].high < 0) | (work[second].low > 0)
-        return Bounds(low, high, is_defined, is_undefined, is_smooth)
+        return Bounds(low, high, is_defined, is_undefined, is_defined & ~self._is_torn(work, count))
+
+    def _is_torn(self, work: Sequence[Any], count: int) -> NDArray[numpy.bool_]:
+        """In which boxes an output may jump: what is one number all the same, as a choice that is not taken, does not
+        hand on the jump of what it follows from."""
+        torn: dict[int, Any] = {place: work[place].low != work[place].high for place in self._jumps}
+        for first, second, target in self._angles:
+            torn[target] = ~((work[first].low > 0) | (work[first].high < 0) | (work[second].low > 0))
+        found = numpy.zeros(count, bool)
+        if not any(numpy.any(each) for each in torn.values()):
+            return found
+        for first, second, target in self._torn:
+            own = torn.get(target, False) | torn.get(first, False) | torn.get(second, False)
+            torn[target] = own & (work[target].low != work[target].high)
+        for source, _ in self._outputs:
+            found |= torn.get(source, False)
+        return found
 
     def _prepared(self, fixed: tuple[float, ...]) -> list[Any]:
         """The places of all values, with those that follow from the inputs that stay."""

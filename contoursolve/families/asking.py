@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 from contoursolve import syntax
 from contoursolve.diagnostic import Severity
-from contoursolve.examine import Answer, Depth, answer_question, list_alternatives
+from contoursolve.examine import Answer, Depth, answer_question, count_choices, list_alternatives
 from contoursolve.families.goals import Goal
 from contoursolve.families.ranges import FamilyError, NotMovedError
 from contoursolve.families.template import Template, is_same, write
@@ -14,11 +14,12 @@ from contoursolve.pipeline import run
 from contoursolve.reading import Trouble
 from contoursolve.solving import Status
 from contoursolve.syntax import FACT, Directive, Word
+from contoursolve.wording import unknowns_text
 
 
-def asked_values(template: Template, word: str, goal: Goal, answer: Answer) -> tuple[list[float], bool]:
-    """Every value of a word or a fact, as written, with which a point has one coordinate, and whether these are proven
-    to be all. `answer` is that of the block as it is. Raises NotMovedError, FamilyError."""
+def asked_values(template: Template, word: str, goal: Goal, answer: Answer) -> tuple[list[float], list[str]]:
+    """Every value of a word or a fact, as written, with which a point has one coordinate, and why these are not proven
+    to be all; nothing if they are. `answer` is that of the block as it is. Raises NotMovedError, FamilyError."""
     typed = template.words[word]
     lines = {block.line: block.text for block in template.program.blocks}
     if typed.span.line in lines:
@@ -40,7 +41,7 @@ def asked_values(template: Template, word: str, goal: Goal, answer: Answer) -> t
         raise NotMovedError(f"{word} does not move {goal.point} in this direction")
     if status in (Status.UNDERDETERMINED, Status.REJECTED):
         raise FamilyError(errors[0])
-    return list(_values(result.answers[0], typed)), _is_complete(result.answers[0])
+    return list(_values(result.answers[0], typed)), list(_doubts(result.answers[0]))
 
 
 _UNREAD = (Trouble.FACT_UNREADABLE, Trouble.FACT_IMPOSSIBLE)
@@ -62,9 +63,18 @@ def _values(found: Answer, typed: Word) -> Iterator[float]:
     yield from (value * scale for value in values if value is not None)
 
 
-def _is_complete(found: Answer) -> bool:
+def _doubts(found: Answer) -> Iterator[str]:
+    """Why the solutions are not proven to be all."""
     alternatives = list_alternatives(found)
-    return alternatives is None or alternatives.is_complete
+    if alternatives is not None:
+        for doubt in alternatives.doubts:
+            yield f"{unknowns_text(doubt.unknowns, found.profile) or 'the equations'}: {doubt.obstacle.value}"
+        if alternatives.reach is not None:
+            yield f"there is no closed form; it was searched within {alternatives.reach:.0f} mm of the start point"
+    elif found.contour is not None and (choices := count_choices(found.profile)):
+        yield f"the other sides of {choices} points: too many to go through"
+    elif found.contour is None and found.status is Status.UNDECIDED:
+        yield "no value was found, and that there is none is not proven"
 
 
 def _asking(typed: Word) -> str:

@@ -73,8 +73,8 @@ class Interval:
 class Feasible(Shown):
     """All values of a word, within a range, with which its block has a contour.
 
-    `unit` is what the word is written in (mm, inch or deg), `stated` the value that the block has. `is_complete` tells
-    whether it is proven that nothing wider than `LEAST_GAP` is missing; if not, these are some of the ranges.
+    `unit` is what the word is written in (mm, inch or deg), `stated` the value that the block has. Without `doubts`, it
+    is proven that nothing wider than `LEAST_GAP` is missing; else these are some of the ranges, and they say why.
     """
 
     word: str
@@ -82,9 +82,14 @@ class Feasible(Shown):
     stated: float
     within: tuple[float, float]
     intervals: tuple[Interval, ...]
-    is_complete: bool
+    doubts: tuple[str, ...]
     refusal: str
     """Why the block as it stands has no contour; empty if it has."""
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether these are proven to be all."""
+        return not self.doubts
 
     def __contains__(self, value: float) -> bool:
         return any(value in each for each in self.intervals)
@@ -136,7 +141,7 @@ def feasible(
         Interval(_end(survey, pieces, first, last, -1), _end(survey, pieces, last, first, +1))
         for first, last in _runs(pieces)
     )
-    return Feasible(name, survey.unit, survey.stated, (low, high), intervals, survey.is_complete, _refusal(survey))
+    return Feasible(name, survey.unit, survey.stated, (low, high), intervals, tuple(survey.doubts), _refusal(survey))
 
 
 def _refusal(survey: Survey) -> str:

@@ -9,9 +9,10 @@ from math import hypot
 import numpy
 from numpy.typing import NDArray
 
-from contoursolve.backends.chart import Chart
 from contoursolve.backends.intervals import Array, Intervals, constant
 from contoursolve.contour import Contour
+from contoursolve.families.branches import Branch
+from contoursolve.families.isolate import find_level
 from contoursolve.families.ranges import FamilyError
 from contoursolve.model import Figure, Length, Plane, Unit
 from contoursolve.reading import Lexicon, WithoutPoint
@@ -91,25 +92,33 @@ def end_name(figure: Figure) -> str:
 
 
 class Curve:
-    """A function of the word whose zeros are sought: a coordinate less its goal, or half the rate at which the square
-    of the distance to the goal grows. `drift` is by how many mm the start point, from which coordinates count inside,
-    moves for each unit of the word, coordinate by coordinate."""
+    """A function of the word whose zeros are sought, for one solution: a coordinate less its goal, or half the rate at
+    which the square of the distance to the goal grows. `names` are the coordinates; `drift` is by how many mm the start
+    point, from which coordinates count inside, moves for each unit of the word, coordinate by coordinate. `within` are
+    the values of the word between which the solution is the contour."""
 
     def __init__(
         self,
-        chart: Chart,
-        rate: Chart,
-        fixed: tuple[list[float], list[float]],
+        branch: Branch,
+        names: Sequence[str],
         place: Sequence[float],
         drift: Sequence[float],
+        within: tuple[float, float],
     ) -> None:
-        self.chart, self.rate, self.fixed, self.place, self.drift = chart, rate, fixed, place, drift
+        self.branch, self.place, self.drift, self.within = branch, place, drift, within
+        (self.chart, fixed), (self.rate, others) = (branch.results(names, is_rate=each) for each in (False, True))
+        self.fixed = fixed, others
         self.is_nearest = len(place) > 1
 
-    def is_constant(self, low: float, high: float) -> bool:
+    def is_constant(self) -> bool:
         """Whether the word does not move the point."""
-        places = numpy.random.default_rng(PLACES).uniform(low, high, PLACES)
+        places = numpy.random.default_rng(PLACES).uniform(*self.within, PLACES)
         return bool((numpy.abs(self._slopes_at(places)) <= CONSTANT).all())
+
+    def is_void(self, cells: Intervals) -> NDArray[numpy.bool_]:
+        margins, fixed = self.branch.margins, self.branch.fixed
+        is_level = find_level(margins, fixed, *self.within)
+        return margins.verdicts(margins.chart.between([cells], fixed), is_level)[1]
 
     def at(self, places: Array) -> Array:
         drifted = numpy.array(self.drift)[:, None] * places

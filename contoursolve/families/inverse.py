@@ -3,11 +3,12 @@
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import ROUND_HALF_EVEN, Decimal
-from math import ceil, floor
+from math import ceil, floor, isfinite
 
 import numpy
 
 from contoursolve.analysis import judge
+from contoursolve.backends.intervals import Intervals
 from contoursolve.constraints import assemble
 from contoursolve.contour import Contour
 from contoursolve.diagnosis.edits import write_word
@@ -15,28 +16,30 @@ from contoursolve.diagnostic import Severity
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer
 from contoursolve.families.asking import asked_values
-from contoursolve.families.branches import Branch
 from contoursolve.families.goals import CONSTANT, Curve, Goal, end_name, place_of, read_goal
 from contoursolve.families.ranges import FamilyError, NotClosedError, NotMovedError
 from contoursolve.families.recipe import recipe_of
 from contoursolve.families.refusal import check_block
 from contoursolve.families.results import results_of
-from contoursolve.families.roots import find_zeros
+from contoursolve.families.roots import Zero, find_zeros
 from contoursolve.families.slopes import slopes_of
-from contoursolve.families.survey import Piece, Survey, short
+from contoursolve.families.survey import LEAST_GAP, Piece, Survey, short
 from contoursolve.families.template import Template
 from contoursolve.model import FIRST, SECOND, Length, Plane, Unit
 from contoursolve.shown import Shown
 from contoursolve.solving import Point, Status
 from contoursolve.solving.certificate import Certificate
 from contoursolve.syntax import FACT
-from contoursolve.wording import join
+from contoursolve.wording import join, value_text
 
 ARRIVED = 1e-9
 """mm. A point this close to the place where it is wanted is there."""
 
 TURN = 360.0
 """Degrees."""
+
+UNDECIDED = 1e-12
+"""Share of a value (at least of 1). In a part that is no wider all numbers are alike: a single solve decides."""
 
 BESIDE = 1e-5
 """Share of a value (at least of 1). How far beside it others are looked at, whether they are nearer to the goal."""
@@ -64,7 +67,8 @@ class Hit:
 @dataclass(frozen=True, slots=True)
 class Found(Shown):
     """All values of a word, within a range, that meet a goal, in order; for a goal of two coordinates, all that are
-    nearer to it than their neighbours, the nearest first. `is_complete` tells whether these are proven to be all.
+    nearer to it than their neighbours, the nearest first. `doubts` say why these are not proven to be all; values are
+    told apart to nine digits.
 
     `unit` is what the word is written in (mm, inch or deg), `length` what the program is."""
 
@@ -76,10 +80,15 @@ class Found(Shown):
     length: Length
     within: tuple[float, float]
     hits: tuple[Hit, ...]
-    is_complete: bool
+    doubts: tuple[str, ...]
     remark: str = ""
     """Why there is no value, where the word does not move the point, with the words that do, or where the block as it
     stands has no contour; else empty."""
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether these are proven to be all."""
+        return not self.doubts
 
 
 def find_word(
@@ -108,9 +117,9 @@ def find_word(
             contour does not have. Of a point that does not depend on the word there is no value, and `remark` names the
             words that move it; if it is there already, the value that the word has.
 
-    Where the contour exists, interval arithmetic isolates every zero; each is solved and certified by itself. Where
-    facts or `?` leave no closed form, the word is asked for and the goal stated as one coordinate more, as `solve` does
-    it.
+    Where the contour exists, interval arithmetic isolates every zero; each is solved and certified by itself. What
+    cannot be decided is told as a doubt. Where facts or `?` leave no closed form, the word is asked for and the goal
+    stated as one coordinate more, as `solve` does it.
 
     >>> found = find_word("G111 X100. A180. K-30. B120. P5. Q5.", "B", "end Z-50.", start="X40. Z0.")
     >>> [(round(each.value, 4), each.block) for each in found.hits]
@@ -131,30 +140,20 @@ def find_word(
     remark = next((each.message for each in answer.diagnostics if each.severity is Severity.ERROR), "")
     remark = f"as it stands, the block has no contour: {remark}" if remark else ""
     try:
-        values = search.values(survey.pieces(low, high))
+        hits = search.hits(survey.pieces(low, high))
     except NotClosedError:
         if template.words[name].span.line not in _lines(template):
             raise
         try:
-            hits, is_complete = _by_asking(template, survey, wanted, answer, (low, high))
+            hits = search.hits_by_asking(answer, (low, high))
         except NotMovedError as error:
-            hits, is_complete, remark = *_there(search), _moved_by(answer, wanted, error)
-        return Found(*about, tuple(hits), is_complete, "" if hits else remark)
+            hits, remark = search.there(), _moved_by(answer, wanted, error)
+        return Found(*about, tuple(hits), tuple(search.doubts), "" if hits else remark)
     except NotMovedError as error:
-        hits, is_complete = _there(search)
-        return Found(*about, tuple(hits), is_complete, _moved_by(answer, wanted, error))
-    hits = [hit for value in values if (hit := search.hit(value)) is not None]
+        return Found(*about, tuple(search.there()), search.all_doubts, _moved_by(answer, wanted, error))
     if wanted.is_nearest:
         hits.sort(key=lambda each: each.away)
-    is_complete = survey.is_complete and search.is_complete
-    return Found(*about, tuple(hits), is_complete, "" if hits else remark)
-
-
-def _there(search: "_Search") -> tuple[list[Hit], bool]:
-    """The value that the word has, if the point is where it is wanted, which no other value changes."""
-    survey = search.survey
-    hit = search.hit(survey.stated) if not search.goal.is_nearest else None
-    return ([hit], False) if hit is not None else ([], survey.is_complete)
+    return Found(*about, tuple(hits), search.all_doubts, "" if hits else remark)
 
 
 def _moved_by(answer: Answer, goal: Goal, error: NotMovedError) -> str:
@@ -184,28 +183,9 @@ def _lines(template: Template) -> set[int]:
     return {block.line for block in template.program.blocks} | {fact.span.line for fact in template.facts}
 
 
-def _by_asking(
-    template: Template, survey: Survey, goal: Goal, answer: Answer, within: tuple[float, float]
-) -> tuple[list[Hit], bool]:
-    """The same where there is no closed form: every solution of the equations is looked for."""
-    word, (low, high) = survey.word, within
-    values, is_complete = asked_values(template, word, goal, answer)
-    if survey.is_angle:
-        values = [each for value in values for each in _turned(value, low, high)]
-    step = answer.claim.lexicon.numbers.step(Unit.DEGREE if survey.is_angle else Unit.MM, answer.unit)
-    hits = []
-    for value in sorted(short(each) for each in values):
-        solved = template.solve({word: value})
-        at = place_of(goal.point, solved.contour) if solved.contour is not None else None
-        if at is None or not low <= value <= high:
-            continue
-        rounded = float(Decimal(repr(value)).quantize(step, ROUND_HALF_EVEN))
-        again = template.solve({word: rounded})
-        there = place_of(goal.point, again.contour) if again.contour is not None else None
-        texts = [*template.texts({word: rounded})]
-        away = None if there is None else goal.away(there)
-        hits.append(Hit(value, at, goal.away(at), solved.certificate, rounded, "\n".join(texts), away))
-    return hits, is_complete
+def _is_one(value: float, other: float) -> bool:
+    """Whether two values count as one."""
+    return abs(value - other) <= ARRIVED * max(1.0, abs(value))
 
 
 def _turned(angle: float, low: float, high: float) -> list[float]:
@@ -214,43 +194,123 @@ def _turned(angle: float, low: float, high: float) -> list[float]:
     return [angle + number * TURN for number in range(first, last + 1)]
 
 
+@dataclass(frozen=True, slots=True)
+class _Candidate:
+    """A value that may meet the goal, how far from it the point may be all the same (mm), and why the list is not
+    complete if it does not; empty where the value alone is in question, which a single solve decides."""
+
+    value: float
+    give: float = ARRIVED
+    doubt: str = ""
+
+
 class _Search:
     """One goal for one word."""
 
     def __init__(self, survey: Survey, goal: Goal) -> None:
         self.survey, self.goal = survey, goal
-        self.is_complete = True
+        self.doubts: list[str] = []
 
-    def values(self, pieces: Sequence[Piece]) -> list[float]:
-        """The values that may meet the goal, in order."""
-        found: list[float] = []
+    def hits(self, pieces: Sequence[Piece]) -> list[Hit]:
+        """The values that meet the goal, in order. What may be one and is not found to be is a doubt."""
+        tried = [(each, self.hit(each.value, each.give)) for each in self._candidates(pieces)]
+        found: list[Hit] = []
+        for hit in sorted((hit for _, hit in tried if hit is not None), key=lambda each: each.value):
+            if not found or not _is_one(found[-1].value, hit.value):
+                found.append(hit)
+            elif hit.away < found[-1].away:
+                found[-1] = hit
+        for each in (each for each, hit in tried if hit is None):
+            if each.doubt and not any(_is_one(each.value, other.value) for other in found):
+                self.doubt(each.value, each.doubt)
+        return found
+
+    def there(self) -> list[Hit]:
+        """The value that the word has, if the point is where it is wanted, which no other value changes."""
+        hit = self.hit(self.survey.stated) if not self.goal.is_nearest else None
+        if hit is not None and not self.doubts:
+            self.doubt(hit.value, f"all values near it leave {self.goal.point} where it is")
+        return [hit] if hit is not None else []
+
+    def hits_by_asking(self, answer: Answer, within: tuple[float, float]) -> list[Hit]:
+        """The same where there is no closed form: every solution of the equations is looked for."""
+        low, high = within
+        values, doubts = asked_values(self.survey.template, self.survey.word, self.goal, answer)
+        self.doubts += doubts
+        values = [short(value) for value in values]
+        if self.survey.is_angle:
+            values = [each for value in values for each in _turned(value, low, high)]
+        found = []
+        for value in sorted(value for value in values if low <= value <= high):
+            hit = self.hit(value)
+            if hit is not None:
+                found.append(hit)
+            else:
+                self.doubt(value, "there is a value, and single solves do not confirm it")
+        return found
+
+    @property
+    def all_doubts(self) -> tuple[str, ...]:
+        """Why the values that were found are not proven to be all."""
+        return tuple(dict.fromkeys((*self.survey.doubts, *self.doubts)))
+
+    def doubt(self, value: float, why: str) -> None:
+        """Remember that it is not proven what is at a value."""
+        self.doubts.append(f"{self.survey.word} {value_text(value, self.survey.unit)}: {why}")
+
+    def _candidates(self, pieces: Sequence[Piece]) -> list[_Candidate]:
+        """The values that may meet the goal."""
+        found: list[_Candidate] = []
+        ends = pieces[0].low, pieces[-1].high
         moves = is_there = False
         for piece in pieces:
             if piece.branch is None:
-                found += [piece.low] if piece.is_value and piece.is_solved else []
+                found += [_Candidate(piece.low)] if piece.is_value and piece.is_solved else []
                 continue
-            curve = self._curve(piece.branch)
+            curve = self._curve(piece)
             if curve is None:
                 continue
             is_there = True
-            if curve.is_constant(piece.low, piece.high):
+            if curve.is_constant():
+                found += self._level(curve, piece)
                 continue
             moves = True
-            zeros, is_complete = find_zeros(curve, piece.low, piece.high)
-            self.is_complete = self.is_complete and is_complete
-            found += [
-                short(zero.value, zero.width) if zero.width else zero.value
-                for zero in zeros
-                if not self.goal.is_nearest or zero.way >= 0
-            ]
-            found += self._ends(curve, piece)
+            # A piece may end a little before the contour does; what is beyond it is decided by single solves.
+            low, high = max(ends[0], piece.low - LEAST_GAP), min(ends[1], piece.high + LEAST_GAP)
+            found += [each for zero in find_zeros(curve, low, high) for each in self._of_zero(zero, curve, piece)]
+            found += [_Candidate(value) for value in self._ends(curve, piece)]
         if not is_there and any(piece.is_solved and not piece.is_value for piece in pieces):
             raise FamilyError(
                 f"the contour has no point {self.goal.point}; there are {', '.join(self._points(pieces))}"
             )
         if is_there and not moves:
             raise NotMovedError(f"{self.survey.word} does not move {self.goal.point} in this direction")
-        return self._once(found)
+        return found
+
+    def _of_zero(self, zero: Zero, curve: Curve, piece: Piece) -> Iterator[_Candidate]:
+        """What a zero of the curve may be."""
+        if self.goal.is_nearest and zero.way < 0:
+            return  # farther than its neighbours
+        is_inside, doubt = piece.low < zero.value < piece.high, ""
+        if zero.way and is_inside:
+            doubt = "there is a value, and single solves do not confirm it"
+        elif is_inside and zero.width > UNDECIDED * max(1.0, abs(zero.value)):
+            doubt = f"{self.goal.point} may be there, or comes as near as rounding can tell"
+        give = ARRIVED
+        if zero.way and not self.goal.is_nearest:
+            # Where the point moves fast, no number of 16 digits brings it nearer.
+            slope = curve.slopes(Intervals(numpy.array([zero.value]), numpy.array([zero.value])))
+            steepest = float(max(-slope.low[0], slope.high[0]))
+            give = max(ARRIVED, 2 * steepest * float(numpy.spacing(abs(zero.value)))) if isfinite(steepest) else ARRIVED
+        yield _Candidate(zero.value, give, doubt)
+
+    def _level(self, curve: Curve, piece: Piece) -> Iterator[_Candidate]:
+        """A value of a piece in which the word does not move the point, if that is where it is wanted."""
+        stated = self.survey.stated
+        value = stated if piece.low < stated < piece.high else (piece.low + piece.high) / 2
+        if not self.goal.is_nearest and abs(float(curve.at(numpy.array([value]))[0])) <= ARRIVED:
+            self.doubt(value, f"all values near it leave {self.goal.point} where it is")
+            yield _Candidate(value)
 
     def _ends(self, curve: Curve, piece: Piece) -> Iterator[float]:
         """Ends of a piece that may meet the goal."""
@@ -258,7 +318,7 @@ class _Search:
         inner = numpy.array([piece.low + step, piece.high - step])
         low, high = curve.at(inner)
         for value, rises in ((piece.low, low), (piece.high, -high)):
-            if not self.goal.is_nearest or rises >= 0:
+            if not self.goal.is_nearest or not rises < 0:  # true for NaN
                 yield value
 
     def _points(self, pieces: Sequence[Piece]) -> list[str]:
@@ -267,16 +327,11 @@ class _Search:
         letter = "." + kind.profile.plane.axes[0]
         return ["end", *(name.removesuffix(letter) for name in results_of(kind) if name.endswith(letter))]
 
-    def _once(self, values: Sequence[float]) -> list[float]:
-        """Values in order, those that rounding alone parts taken as one."""
-        found: list[float] = []
-        for value in sorted(map(short, values)):
-            if not found or value - found[-1] > ARRIVED * max(1.0, abs(value)):
-                found.append(value)
-        return found
-
-    def _curve(self, branch: Branch) -> Curve | None:
-        """The curve of a solution; None where it has no such point."""
+    def _curve(self, piece: Piece) -> Curve | None:
+        """The curve of the solution of a piece; None where it has no such point."""
+        branch = piece.branch
+        if branch is None:
+            return None
         kind = branch.kind
         results, axes = results_of(kind), kind.profile.plane.axes
         point = end_name(kind.system.figure) if self.goal.point == "end" else self.goal.point
@@ -289,17 +344,22 @@ class _Search:
             (self.goal.place[axis] or 0.0) - float(base) for axis, (_, _, base) in zip(wanted, starts, strict=True)
         ]
         names = tuple(results[f"{point}.{axes[axis]}"][0] for axis in wanted)
-        (chart, fixed), (rate, others) = (branch.results(names, is_rate=each) for each in (False, True))
-        return Curve(chart, rate, (fixed, others), place, [float(each) for _, each, _ in starts])
+        return Curve(branch, names, place, [float(each) for _, each, _ in starts], (piece.low, piece.high))
 
-    def hit(self, value: float) -> Hit | None:
-        """What becomes of a value by its single solve; None if it does not meet the goal."""
+    def hit(self, value: float, give: float = ARRIVED) -> Hit | None:
+        """What becomes of a value by its single solve, as a shorter number where rounding alone parts the two; None if
+        it does not meet the goal."""
+        return next(
+            (hit for each in dict.fromkeys((short(value), value)) if (hit := self._hit(each, give)) is not None), None
+        )
+
+    def _hit(self, value: float, give: float) -> Hit | None:
         contour, certificate = self._solved(value)
         at = place_of(self.goal.point, contour) if contour is not None else None
         if at is None:
             return None
         away = self.goal.away(at)
-        if not (self._is_least(value, away) if self.goal.is_nearest else away <= ARRIVED):
+        if not (self._is_least(value, away) if self.goal.is_nearest else away <= give):
             return None
         rounded, block, there = self._rounded(value)
         reached = place_of(self.goal.point, there) if there is not None else None

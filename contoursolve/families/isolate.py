@@ -48,8 +48,7 @@ def divide(
     unless the search was given up. `near` are values at which to divide first."""
     cells = _first(low, high, near)
     lows, highs = cells[:-1], cells[1:]
-    places = numpy.random.default_rng(PLACES).uniform(low, high, PLACES)
-    is_level = numpy.max(numpy.abs(margins.chart.at([places], fixed)), axis=1) <= LEVEL
+    is_level = find_level(margins, fixed, low, high)
     done: list[tuple[Array, Array, NDArray[numpy.int8]]] = []
     for number in range(ROUNDS + 1):
         kinds = _judged(margins, fixed, Intervals(lows, highs), is_level)
@@ -78,6 +77,13 @@ def divide(
             else [each]
         )
     ]
+
+
+def find_level(margins: Margins, fixed: Sequence[float], low: float, high: float) -> NDArray[numpy.bool_]:
+    """Which margins are zero for all values of a range."""
+    places = numpy.random.default_rng(PLACES).uniform(low, high, PLACES)
+    found: NDArray[numpy.bool_] = numpy.max(numpy.abs(margins.chart.at([places], fixed)), axis=1) <= LEVEL
+    return found
 
 
 def _judged(

@@ -114,8 +114,8 @@ class Survey:
         self._answers: dict[float, Answer] = {self.stated: answer}
         self.crossings: dict[float, Crossing] = {}
         """What fails beyond the ends of the pieces, by their values."""
-        self.is_complete = True
-        """Whether every stretch that is wider than `LEAST_GAP` is decided by proof."""
+        self.doubts: list[str] = []
+        """Where a stretch that is wider than `LEAST_GAP` is not decided by proof, and why; empty if there is none."""
 
     def solve(self, value: float) -> Answer:
         """The single solve at a value."""
@@ -126,6 +126,12 @@ class Survey:
     def is_solved(self, value: float) -> bool:
         """Whether the single solve at a value has a contour."""
         return self.solve(value).contour is not None
+
+    def doubt(self, low: float, high: float, why: str) -> None:
+        """Remember that between two values something is not proven."""
+        ends = [value_text(value, self.unit) for value in (low, high)]
+        where = f"at {ends[0]}" if ends[0] == ends[1] else f"from {ends[0]} to {ends[1]}"
+        self.doubts.append(f"{self.word} {where}: {why}")
 
     def range_of(self, within: tuple[float, float] | None) -> tuple[float, float]:
         """The range to look at. Raises FamilyError for one that is none."""
@@ -191,7 +197,7 @@ class Survey:
             if piece.high - piece.low > SMALL * max(1.0, abs(at)):
                 raise NotClosedError(f"at {self.word} {value_text(at, self.unit)} the closed form fails; {INSTEAD}")
             # So close to a singular value rounding alone keeps the closed form from telling.
-            self.is_complete = False
+            self.doubt(piece.low, piece.high, "rounding is too large for the closed form")
             yield Piece(piece.low, piece.high, not piece.is_solved, kind)
 
     def _parts(self, branch: Branch, low: float, high: float) -> tuple[list[Part], list[float]]:
@@ -275,7 +281,7 @@ class Survey:
                 beside = [len(each) == 1 for _, each in (found[number - 1], found[number + 1])]
                 value = self._least_increment((begin + end) / 2, is_solved=not is_solved)
                 if is_solved not in beside and value == round(value, 3):
-                    self.is_complete = False
+                    self.doubt(begin, end, "rounding keeps two solutions from being told apart")
                     left[-1] = value, left[-1][1]
                     continue
             left.append((end, passing))
@@ -302,7 +308,7 @@ class _Undecided:
     def decide(self, stretch: Stretch, before: Stretch | None, after: Stretch | None) -> tuple[list[Part], list[float]]:
         """Its parts, as far as samples tell, and single values that may differ from them."""
         if stretch.high - stretch.low > LEAST_GAP:
-            self.survey.is_complete = False
+            self.survey.doubt(stretch.low, stretch.high, "the search for a proof was given up")
         places = numpy.linspace(stretch.low, stretch.high, SAMPLES)
         values = self._values(places)
         states = (self.margins.first_failing(values) < 0).tolist()

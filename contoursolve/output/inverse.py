@@ -13,6 +13,7 @@ def found_lines(found: Found) -> Iterator[str]:
     yield found_title(found)
     if found.remark:
         yield f"  {found.remark}"
+    yield from (f"  not proven: {each}" for each in found.doubts)
     for place, hit in enumerate(found.hits, 1):
         value, point, certificate, block, rounding = hit_row(hit, found)
         yield f"  {place}. {found.word} {value}: {point}"
@@ -60,6 +61,7 @@ def found_data(found: Found) -> dict[str, Any]:
         "goal": list(found.goal.place),
         "aim": "nearest" if found.goal.is_nearest else "reach",
         "complete": found.is_complete,
+        "doubts": list(found.doubts),
         "remark": found.remark or None,
         "values": [_hit(hit) for hit in found.hits],
     }

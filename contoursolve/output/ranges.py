@@ -16,7 +16,8 @@ def range_lines(found: Feasible) -> Iterator[str]:
 
 
 def range_notes(found: Feasible) -> Iterator[str]:
-    """Why the block has no contour as it stands, if it has none."""
+    """What is not proven, and why the block has no contour as it stands, if it has none."""
+    yield from (f"  not proven: {each}" for each in found.doubts)
     if found.refusal:
         yield f"  as it stands, the block has none: {found.refusal}"
 
@@ -57,6 +58,7 @@ def range_data(found: Feasible) -> dict[str, Any]:
         "stated": found.stated,
         "within": list(found.within),
         "complete": found.is_complete,
+        "doubts": list(found.doubts),
         "refusal": found.refusal or None,
         "ranges": [{"low": _end(each.low), "high": _end(each.high)} for each in found.intervals],
     }
