@@ -32,14 +32,19 @@ class Tape:
     encoding: str
     mark: bytes
     """The byte order mark that it begins with, if any."""
+    stamp: object = None
+    """What tells whether the file was changed since it was opened; None for what is no file."""
 
     def lines(self) -> Iterator[str]:
-        """Its lines from the first, each with its end, one at a time."""
+        """Its lines from the first, each with its end, one at a time. Raises UnreadableProgramError at the last one if
+        the file was changed since it was opened."""
         self.data.seek(len(self.mark))
         text = io.TextIOWrapper(self.data, self.encoding, newline="")
         try:
             for line in text:  # noqa: UP028 - `yield from` would close the file when it is not read to its end
                 yield line
+            if self.stamp is not None and _stamp_of(self.data) != self.stamp:
+                raise UnreadableProgramError(f"{self.name} was changed while it was read; start again")
         finally:
             if not self.data.closed:
                 text.detach()
@@ -71,9 +76,19 @@ def open_tape(path: str | Path) -> Iterator[Tape]:
             raise UnreadableProgramError(f"{name} is a directory, not a program file") from None
         raise UnreadableProgramError(f"{name} cannot be read: {reason_of(error)}") from None
     with data:
+        stamp = _stamp_of(data) if name != STANDARD_INPUT else None
         encoding, mark = _recognise_encoding(data, name)
         size = data.seek(0, os.SEEK_END)
-        yield Tape("<standard input>" if name == STANDARD_INPUT else name, data, size, encoding, mark)
+        yield Tape("<standard input>" if name == STANDARD_INPUT else name, data, size, encoding, mark, stamp)
+
+
+def _stamp_of(data: BinaryIO) -> object:
+    """The size of an open file and when it was written last; None for what is in memory."""
+    try:
+        status = os.fstat(data.fileno())
+    except OSError:  # as in memory
+        return None
+    return status.st_size, status.st_mtime_ns
 
 
 @contextmanager
@@ -154,27 +169,48 @@ def _resolve(target: Path) -> Path:
 def write_whole(target: Path, pieces: Iterable[bytes], *, keeps_backup: bool) -> Path | None:
     """Write a file so that at any moment it is either the old one or the whole new one; returns where the old one is
     kept. Raises CannotWriteError."""
+    with open_whole(target, keeps_backup=keeps_backup) as whole:
+        for piece in pieces:
+            whole.file.write(piece)
+    return whole.backup
+
+
+@dataclass(slots=True)
+class Whole:
+    """A file on its way to a target: what to write to, and afterwards where the old one is kept, if it is."""
+
+    file: BinaryIO
+    backup: Path | None = None
+
+
+@contextmanager
+def open_whole(target: Path, *, temporary: Path | None = None, keeps_backup: bool = False) -> Iterator[Whole]:
+    """Open a file that takes the place of a target once all of it is written, with the target's permissions; where
+    that is a link, what it leads to is replaced. Raises CannotWriteError.
+
+    `temporary` is where it is until then, on the same disk; without it, beside the target under a name of its own.
+    """
     import shutil  # noqa: PLC0415 - most commands write nothing
 
-    target = _resolve(target)
-    temporary = target.with_name(f".{target.name}.{os.urandom(4).hex()}.tmp")
-    backup = None
+    real = _resolve(target)
+    temporary = temporary or real.with_name(f".{real.name}.{os.urandom(4).hex()}.tmp")
+    whole = None
     try:
         try:
             with temporary.open("xb") as file:
-                for piece in pieces:
-                    file.write(piece)
+                whole = Whole(file)
+                yield whole
                 file.flush()
                 os.fsync(file.fileno())
-            if target.exists():
-                shutil.copymode(target, temporary)
-                backup = _back_up(target) if keeps_backup else None
-            temporary.replace(target)
+            if real.exists():
+                shutil.copymode(real, temporary)
+                whole.backup = _back_up(real) if keeps_backup else None
+            temporary.replace(real)
         finally:
             temporary.unlink(missing_ok=True)
     except OSError as error:
-        raise CannotWriteError(f"{target} cannot be written: {error.strerror}") from None
-    return backup
+        left = f"; {whole.backup} is a copy of it" if whole and whole.backup else ""
+        raise CannotWriteError(f"{target} cannot be written: {error.strerror or error}{left}") from error
 
 
 def _back_up(file: Path) -> Path:

@@ -868,6 +868,24 @@ def test_killed_before_any_step_on_a_file_nothing_is_lost(tmp_path):
 # --- Progress ------------------------------------------------------------------------------------------
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="an open file cannot be cut there")
+@pytest.mark.parametrize(
+    "change", [lambda file: os.truncate(file, file.stat().st_size - 7), lambda file: file.write_text("")]
+)
+def test_a_program_that_is_cut_while_it_is_expanded_is_noticed(change, tmp_path):
+    old = tmp_path / "old.nc"
+    # A comment is read by itself, so that not all of the program is held when the first share of it is done.
+    old.write_text(START + f"M8 ({'X' * 100})\n" * 12_000 + START + TAPER + "\n")
+    with subprocess.Popen(
+        [sys.executable, "-m", "contoursolve", "filter", str(old)], stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    ) as process:
+        assert process.stderr.readline().startswith(b"FILTER_PROGRESS=")
+        change(old)
+        output, errors = process.communicate()
+    assert (process.returncode, output) == (2, b"")
+    assert b"old.nc was changed while it was read; start again" in errors
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="there are no pseudo-terminals")
 def test_progress_is_shown_on_a_terminal_and_nowhere_else(tmp_path):
     import pty  # noqa: PLC0415 - only where there are terminals

@@ -1,17 +1,22 @@
 """The inverse question: which values of a word bring a point where it is wanted."""
 
 import json
+from itertools import pairwise
+from random import Random
 
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from generate_lx3 import random_g11, random_g112
+from generate_nct import FORMS, random_chain, random_cornered, random_pair
 from test_boundary import FACTS
 from test_family import CASES, filled, text_of
 
 import contoursolve
 from contoursolve.cli import main
-from contoursolve.families import FamilyError, family, find_word
+from contoursolve.families import FamilyError, family, find_word, inverse
 from contoursolve.families.goals import place_of
+from contoursolve.families.recipe import recipe_of
 from contoursolve.output.solutions import list_solutions
 
 BLOCK, START = "G111 X100. A180. K-30. B120. P5. Q5.", "X40. Z0."
@@ -279,3 +284,143 @@ def test_what_is_written_for_a_fact_and_for_the_start_point():
     text, fact = hit.block.split("\n")
     again = contoursolve.solve(text, start=START, facts=[fact]).answers[0].contour
     assert abs(place_of("corner 1.begin", again)[0] + 20) == pytest.approx(hit.rounded_away, abs=1e-12)
+
+
+# --- What was lost: values that exist, and a list that was called complete without them ---
+
+WIDE = "G111 I0 K-30. B120. X100. D8."
+STEEP = "G111 A-90. I-42.153 K0. B177.522 X-1.129 P8.721 Q1000."
+LOST = [
+    (WIDE, "X40. Z0.", "K", "end Z-54.", -33.298294),
+    (WIDE, "X40. Z0.", "K", "end Z-50.1", -29.398294),
+    (WIDE, "X40. Z0.", "K", "end Z-60.", -39.298294),
+    ("G111 I50. K0. B30. Z45. D8.", "X45.249 Z18.107", "I", None, 50.0),
+    (STEEP, "X79.129 Z29.941", "I", None, -42.153),
+    (STEEP, "X79.129 Z29.941", "B", None, 177.522),
+    (STEEP, "X79.129 Z29.941", "X", None, -1.129),
+]
+
+
+@pytest.mark.parametrize(("block", "start", "word", "goal", "value"), LOST)
+def test_a_value_that_exists_is_found_to_the_last_digit(block, start, word, goal, value):
+    if goal is None:
+        answer = contoursolve.solve(block, start=start).answers[0]
+        goal = goal_of("end", answer, (1,) if word == "I" and "Z45." in block else (0,))
+    found = find_word(block, word, goal, start=start)
+    assert ([hit.value for hit in found.hits], found.doubts) == ([pytest.approx(value, abs=1e-6)], ())
+    assert found.hits[0].away <= 1e-9
+    done = CliRunner().invoke(main, ["find", "--block", block, "--start", start, "--word", word, "--bring", goal])
+    assert (done.exit_code, "1 value (proven to be all)" in done.stdout) == (0, True)
+
+
+@pytest.mark.parametrize("give", [1e-5, -1.0])
+def test_a_value_that_single_solves_do_not_confirm_leaves_the_list_open(give, monkeypatch):
+    """Whatever is dropped, the list says so."""
+    find = inverse.find_zeros
+
+    def worse(curve, low, high):
+        return [inverse.Zero(zero.value + give, zero.way, zero.width) for zero in find(curve, low, high)]
+
+    monkeypatch.setattr(inverse, "find_zeros", worse)
+    found = find_word(BLOCK, "A", "end Z-50.", start=START)
+    assert (found.hits, found.is_complete) == ((), False)
+    assert found.doubts[0].endswith("deg: there is a value, and single solves do not confirm it")
+    _, output, _ = run("--word", "A", "--bring", "end Z-50.")
+    assert "no value (at least; that these are all is not proven)" in output
+    assert f"  not proven: {found.doubts[0]}" in output
+    assert json.loads(run("--word", "A", "--bring", "end Z-50.", "--format", "json")[1])["doubts"] == [*found.doubts]
+
+
+def g111_of(rng):
+    """A sound block with any words and corners, round numbers among them."""
+    while True:
+        line2 = rng.choice(("BX", "BZ", "BU", "BW", "XZ", "UW", "XW", "UZ"))
+        words = rng.choice(("AI", "AK", "IK", "AIK")) + line2 + rng.choice(("", "C", "P"))
+        words += rng.choice(("", "D", "Q")) if "B" in line2 else ""
+        texts = []
+        for word in words:
+            if word in "AB":
+                value = rng.choice((rng.choice((0, 90, 180, -90, 270)), rng.uniform(-360, 360)))
+            elif word in "CPDQ":
+                value = rng.choice((5, 1000)) if rng.random() < 0.1 else rng.uniform(0.1, 15)
+            else:
+                value = 0 if word in "IK" and rng.random() < 0.3 else rng.uniform(-90, 90)
+            texts.append(f"{word}{round(float(value), 3)}")
+        start = f"X{round(rng.uniform(20, 150), 3)} Z{round(rng.uniform(-50, 50), 3)}"
+        block = f"G111 {' '.join(texts)}"
+        answer = contoursolve.solve(block, start=start, depth="verdict").answers[0]
+        if answer.contour is not None:
+            return block, {"start": start}, answer
+
+
+def drawn_of(rng):
+    """A program of any other form, and chains."""
+    corners = [rng.choice(("", "P", "C")), rng.choice(("", "Q", "D"))]
+    drawn, control = rng.choice(
+        (
+            lambda: (random_g112(rng, rng.choice(("turning", "facing")), *corners), "yasnac-lx3"),
+            lambda: (random_g11(rng), "yasnac-lx3"),
+            lambda: (random_pair(rng, rng.choice(FORMS), rng.randrange(17, 20), rng.choice(("", "C", "R"))), "nct-99m"),
+            lambda: (random_chain(rng, 2, rng.randrange(17, 20)), "nct-99m"),
+            lambda: (random_cornered(rng, 17), "nct-99m"),
+        )
+    )()
+    return drawn.text, {"control": control}, contoursolve.solve(drawn.text, control=control, depth="verdict").answers[0]
+
+
+def crossings_of(block, options, name, goal, found):
+    """The values that bisection of single solves finds between neighbours of a scan that the goal parts."""
+    names = {"start": None, "control": None, "facts": (), "units": "mm", "rules": "enforce", "settings": None}
+    template = recipe_of(block, (name,), **(names | options)).template()
+
+    def off(value):
+        contour = template.solve({name: value}).contour
+        return None if contour is None else contour.end[goal] - found.goal.place[goal]
+
+    about = [found.stated + way * step for step in np.logspace(-4, 2, 13) for way in (-1, 1)]
+    values = sorted({*np.linspace(*found.within, 61).tolist(), *map(float, about)})
+    values = [value for value in values if found.within[0] <= value <= found.within[1]]
+    known = [(value, away) for value in values if (away := off(value)) is not None]
+    for first, last in pairwise(known):
+        below, above = first, last
+        while below[1] * above[1] < 0 and above[0] - below[0] > 1e-9 * max(1.0, abs(below[0])):
+            middle = (below[0] + above[0]) / 2
+            away = off(middle)
+            if away is None:
+                break
+            below, above = ((middle, away), above) if away * below[1] > 0 else (below, (middle, away))
+        else:
+            if below[1] * above[1] < 0 and max(abs(below[1]), abs(above[1])) < 1e-3:
+                yield below[0]
+
+
+def ask_back(rng, scans):
+    """A random sound block, asked by up to six of its words for the end that it has; how many questions that were."""
+    block, options, answer = (g111_of if rng.random() < 0.6 else drawn_of)(rng)
+    words, count = [*answer.claim.words.values()], 0
+    words = rng.sample(words, min(6, len(words)))
+    for axis in (0, 1):
+        for word in words:
+            name = f"{word.span.line}:{word.address}" if "\n" in block else word.address
+            if name.endswith(":Q") and options.get("control") == "nct-99m":
+                continue  # it only chooses between two places
+            found = find_word(block, name, goal_of("end", answer, (axis,)), **options)
+            if "does not move" in found.remark:
+                continue
+            count += 1
+            own = found.stated
+            has_own = any(abs(hit.value - own) <= 1e-6 * max(1, abs(own)) for hit in found.hits)
+            assert has_own or found.doubts, (block, options, name, axis, found.hits)
+            if found.is_complete and rng.random() < scans:
+                for value in crossings_of(block, options, name, axis, found):
+                    near = [hit for hit in found.hits if abs(hit.value - value) <= 1e-6 * max(1, abs(value))]
+                    assert near, (block, options, name, axis, value, found.hits)
+    return count
+
+
+@pytest.mark.parametrize(("seed", "questions"), [(1, 12), pytest.param(2, 1_000, marks=pytest.mark.slow)])
+def test_asked_for_the_end_that_it_has_each_word_finds_its_own_value(seed, questions):
+    """Or the list is not called complete; one that is has every value that a scan of single solves brackets."""
+    rng, asked = Random(seed), 0
+    while asked < questions:
+        asked += ask_back(rng, 0.03)

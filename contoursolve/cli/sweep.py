@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor
+from io import TextIOWrapper
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +19,6 @@ from contoursolve.extras import need
 from contoursolve.families import (
     MOST_ROWS,
     REASONS,
-    WHOLE,
     Code,
     Parts,
     Sweep,
@@ -32,7 +32,7 @@ from contoursolve.families import (
     telling_of,
     write_parquet,
 )
-from contoursolve.files import CannotWriteError, check_target, write_whole
+from contoursolve.files import CannotWriteError, check_target, open_whole, write_whole
 from contoursolve.output.layout import columns
 from contoursolve.pictures import Theme, draw_sweep
 
@@ -117,7 +117,7 @@ def sweep_(
             check_extent(ready, parts, target, is_forced=is_forced)
             drawn = bytes_of(draw_sweep(ready, theme=Theme(theme)), picture) if picture is not None else b""
             with open_cluster(dask) as executor, progress(ready.ranges.count, is_quiet=is_quiet) as advance:
-                _run(_tables(ready, parts, (workers, executor), tally, advance), parts, target)
+                _run(_tables(ready, parts, (workers, executor), tally, advance), parts, target, is_forced=is_forced)
             if picture is not None:
                 write_whole(picture, [drawn], keeps_backup=False)
             telling = telling_of(ready, tally)
@@ -172,14 +172,14 @@ def _tables(
         advance(table["status"].size)
 
 
-def _run(tables: Iterator[dict[str, Any]], parts: Parts | None, target: Path | None) -> None:
+def _run(tables: Iterator[dict[str, Any]], parts: Parts | None, target: Path | None, *, is_forced: bool) -> None:
     """Evaluate all rows, and write them."""
     if parts is None or target is None:
         for _ in tables:
             pass
     else:
         _tell(parts, target)
-        _write(target, parts, tables)
+        _write(target, parts, tables, is_forced=is_forced)
 
 
 def _stopped(parts: Parts | None, tally: Tally | None) -> str:
@@ -190,7 +190,6 @@ def _stopped(parts: Parts | None, tally: Tally | None) -> str:
     if not parts.rows_done:
         parts.remove()
         return "stopped; there are no finished contours to go on from"
-    (parts.folder / WHOLE).unlink(missing_ok=True)
     kept = f"{parts.rows_done:,} of {parts.ready.ranges.count:,} contours, which are kept in {parts.folder}"
     return f"stopped after {kept}: the same command goes on there; delete that folder to give up"
 
@@ -203,20 +202,35 @@ def _tell(parts: Parts, target: Path) -> None:
         say(f"{folder} is left of another sweep that was not finished; it may be deleted", err=True)
 
 
-def _write(target: Path, parts: Parts, tables: Iterator[dict[str, Any]]) -> None:
+def _write(target: Path, parts: Parts, tables: Iterator[dict[str, Any]], *, is_forced: bool) -> None:
     """The whole file, or none; what is finished stays beside it until then."""
-    whole = parts.folder / WHOLE
     try:
-        parts.folder.mkdir(exist_ok=True)
-        if target.suffix.lower() == ".csv":
-            with whole.open("w", encoding="utf-8", newline="") as file:
-                file.writelines(csv_lines(tables))
-        else:
-            write_parquet(whole, tables, parts.ready.measures())
-        whole.replace(target)
+        temporary = parts.temporary("whole")
+        with open_whole(target, temporary=temporary) as whole:
+            if target.suffix.lower() == ".csv":
+                text = TextIOWrapper(whole.file, encoding="utf-8", newline="")
+                text.writelines(csv_lines(tables))
+                text.detach()
+            else:
+                write_parquet(whole.file, tables, parts.ready.measures())
+            if temporary.exists():
+                check_target(target, None, is_forced=is_forced)
+    except CannotWriteError as error:
+        if not (isinstance(error.__cause__, FileNotFoundError) and target.exists()):
+            raise CannotWriteError(f"{error}{_kept(parts)}") from error
+        # The same sweep has ended elsewhere in the meantime, with the same file.
     except OSError as error:
-        raise CannotWriteError(f"{target} cannot be written: {error.strerror or error}") from None
+        raise CannotWriteError(f"{target} cannot be written: {error.strerror or error}{_kept(parts)}") from error
     parts.remove()
+
+
+def _kept(parts: Parts) -> str:
+    """What is left of a sweep whose file cannot be written."""
+    if not parts.rows_done:
+        parts.remove()
+        return ""
+    rows = f"{parts.rows_done:,} of {parts.ready.ranges.count:,} contours"
+    return f"; {rows} are kept in {parts.folder}: the same command goes on there, or delete it"
 
 
 def _summary(counts: Any, telling: Telling | None) -> list[str]:

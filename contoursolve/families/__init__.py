@@ -9,7 +9,7 @@ from contoursolve.families.export import csv_lines, write_parquet
 from contoursolve.families.goals import Goal
 from contoursolve.families.inverse import Found, Hit, find_word
 from contoursolve.families.measures import Measure
-from contoursolve.families.parts import WHOLE, Parts, others, parts_of
+from contoursolve.families.parts import Parts, others, parts_of
 from contoursolve.families.prepared import Sweep
 from contoursolve.families.ranges import FamilyError, name_of
 from contoursolve.families.regions import Boundary, Region, region, region_of, units_of
@@ -24,7 +24,6 @@ __all__ = [
     "MOST_ROWS",
     "REASONS",
     "THREADS",
-    "WHOLE",
     "Boundary",
     "Code",
     "Effect",

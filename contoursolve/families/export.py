@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 import numpy
 from numpy.typing import NDArray
@@ -65,7 +65,9 @@ def to_xarray(
     return need("xarray", "family", "a family as labelled arrays").Dataset(variables, coordinates)
 
 
-def write_parquet(path: str | Path, tables: Iterable[Mapping[str, NDArray[Any]]], measures: Measures) -> None:
+def write_parquet(
+    path: str | Path | BinaryIO, tables: Iterable[Mapping[str, NDArray[Any]]], measures: Measures
+) -> None:
     """A Parquet file with a row group for each table."""
     parquet, writer = need("pyarrow.parquet", "family", "a Parquet file"), None
     try:

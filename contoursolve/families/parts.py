@@ -1,6 +1,7 @@
 """The finished parts of a long sweep, kept beside its file until it is whole: a sweep that was killed goes on there."""
 
 import hashlib
+import os
 import zipfile
 from collections.abc import Collection, Iterator
 from concurrent.futures import Executor
@@ -16,15 +17,14 @@ from contoursolve.families.evaluate import STRETCH, solve_parts
 from contoursolve.families.prepared import Sweep, Table
 from contoursolve.families.ranges import Stretches
 
-WHOLE = "whole.tmp"
-"""The file that is being written, until it is moved into place."""
-
 
 @dataclass(frozen=True, slots=True)
 class Parts:
     """A folder with a file for each finished stretch of rows of one sweep.
 
-    The name of the folder tells the sweep: another block, other values, another version have another folder.
+    The name of the folder tells the sweep: another block, other values, another version have another folder. The same
+    sweep may run several times at once: each has names of its own for what it writes, and whichever is whole first
+    removes the folder.
     """
 
     folder: Path
@@ -47,7 +47,6 @@ class Parts:
 
     def tables(self, workers: int | None = None, executor: Executor | None = None) -> Iterator[Table]:
         """The words and results of all rows in order; parts that were finished are read, others solved and kept."""
-        self.folder.mkdir(exist_ok=True)
         every = list(self)
         missing = {number for number in range(len(every)) if not self.is_done(number)}
         solved = solve_parts(self.ready, [every[number] for number in sorted(missing)], workers, executor)
@@ -59,6 +58,11 @@ class Parts:
             if number in missing:
                 self._save(number, table)
             yield {**self.ready.words(*part), **table}
+
+    def temporary(self, name: str) -> Path:
+        """A file in the folder that no other process writes to."""
+        self.folder.mkdir(exist_ok=True)
+        return self.folder / f"{name}.{os.urandom(4).hex()}.tmp"
 
     def remove(self) -> None:
         """Throw the parts away."""
@@ -82,21 +86,33 @@ class Parts:
 
     def _save(self, number: int, table: Table) -> None:
         """Keep a part; whoever is killed here leaves no half of one."""
-        temporary = self.folder / f"{number:06}.tmp"
-        with zipfile.ZipFile(temporary, "w") as archive:
-            for name, values in table.items():
-                with archive.open(f"{name}.npy", "w", force_zip64=True) as file:
-                    numpy.lib.format.write_array(file, values, allow_pickle=False)
-        temporary.replace(self._file(number))
+        temporary = self.temporary(f"{number:06}")
+        try:
+            with zipfile.ZipFile(temporary, "w") as archive:
+                for name, values in table.items():
+                    with archive.open(f"{name}.npy", "w", force_zip64=True) as file:
+                        numpy.lib.format.write_array(file, values, allow_pickle=False)
+            temporary.replace(self._file(number))
+        except FileNotFoundError:
+            pass  # the same sweep is whole elsewhere, which has removed the folder
+        finally:
+            temporary.unlink(missing_ok=True)
 
 
 def parts_of(target: Path, ready: Sweep) -> Parts:
-    """The parts of a sweep that is to be written to a file."""
+    """The parts of a sweep that is to be written to a file, on the disk on which that is."""
+    target = _real(target)
     return Parts(target.with_name(f".{target.name}.{digest(ready)}.parts"), ready)
+
+
+def _real(target: Path) -> Path:
+    """What is written in the place of a target: where a link leads to, else itself."""
+    return target.resolve() if target.is_symlink() else target
 
 
 def others(parts: Parts, target: Path) -> Collection[Path]:
     """The folders of other sweeps to the same file that were not finished."""
+    target = _real(target)
     found = target.parent.glob(f".{escape(target.name)}.*.parts")
     return sorted(folder for folder in found if folder != parts.folder)
 
