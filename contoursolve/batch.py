@@ -237,7 +237,8 @@ class Batch:
                 return None
         if self.policy is not Policy.OFF and is_refused_by_values(self.rules, kind.answer.claim.form.roles, values):
             return None
-        return inputs_at(kind.system, start, [(name, unit, values[name]) for name, unit in units])
+        inputs = inputs_at(kind.system, start, [(name, unit, values[name]) for name, unit in units])
+        return inputs | kind.answer.profile.increments
 
     def _answer(
         self, kind: Kind, claim: Claim, profile: Profile, out: Mapping[str, float], bound: float

@@ -261,12 +261,19 @@ def _chosen_points(system: System) -> frozenset[str]:
     return frozenset(points_with_two_solutions(system) if is_ordered else ())
 
 
+def is_rounded(answer: Answer) -> bool:
+    """Whether it has a half circle that is one within the least increments: no circle of exactly the stated radius has
+    its ends."""
+    return any(finding.about is RemarkKind.HALF_CIRCLE for finding in answer.diagnostics)
+
+
 def list_alternatives(answer: Answer) -> Alternatives | None:
     """Every solution of a contour, the control's choice among them; None where nothing was solved, where the
     equations are solved one after the other without a choice, so that there is one, or where there are too many."""
     if (
         answer.alternatives is not None
         or answer.contour is None
+        or is_rounded(answer)
         or not 0 < count_choices(answer.profile) <= MOST_CHOICES
     ):
         return answer.alternatives

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from decimal import Decimal
 from enum import Enum
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Any
 
 from contoursolve.analysis import Verdict
@@ -17,9 +17,9 @@ from contoursolve.model import Length, Profile, Role, Unit
 from contoursolve.reading import Claim, Trouble
 from contoursolve.rules import Offence, Rule
 from contoursolve.solving import BESIDE, Refusal, RefusalKind, Remark, RemarkKind, Solution, compare, lookup, scalars_of
+from contoursolve.solving.compare import allowance, increments_of
 from contoursolve.source import Span
 from contoursolve.syntax import FACT, Word
-from contoursolve.tolerance import AGREEMENT
 from contoursolve.wording import (
     angle_text,
     join,
@@ -27,6 +27,7 @@ from contoursolve.wording import (
     length_text,
     place_text,
     shorten,
+    tell_apart,
     unknowns_text,
     value_text,
 )
@@ -186,15 +187,17 @@ def explain_ignored(context: Context, offence: Offence, profile: Profile, soluti
     word = context.words[offence.rule.ignores]
     if fact is None or not solution.points:  # a variable states no fact
         return report(context, offence.rule, Basis.RULE, [word], comparison="")
-    values = compare(fact, profile, lookup(profile, scalars_of(solution.points)))
+    at = lookup(profile, scalars_of(solution.points))
+    values = compare(fact, profile, at)
     expected = values.get("expected")
     comparison = "; they leave it no value to have"
     label = ""
     if expected is not None:
         gap = abs(values["actual"] - expected)
-        agrees = "; it agrees with them" if gap <= AGREEMENT else ""
+        is_within = values["off_by_mm"] <= allowance(fact, at, increments_of(profile))
+        agrees = "; it agrees with them" if is_within else ""
         comparison = agrees or (
-            f"; they make it {angle_text(expected)}, it is off by {angle_text(gap)} "
+            f"; they make it {tell_apart((expected, values['actual']), angle_text)[0]}, it is off by {angle_text(gap)} "
             f"({length_text(values['off_by_mm'], context.unit)})"
         )
         label = f"ignored; the line runs at {angle_text(expected)}"
@@ -260,13 +263,12 @@ def explain_result(
         "together": " together" if len(words) > 1 else "",
     }
     is_word = event.kind in _OF_A_WORD
-    for name in ("limit", "expected", "actual"):
-        if name in values:
-            if is_word and givens[0].is_diameter:
-                values[name] *= 2
-            in_degrees = event.kind in _IN_DEGREES or (is_word and givens[0].unit is Unit.DEGREE)
-            text = angle_text(values[name]) if in_degrees else length_text(values[name], context.unit)
-            fields[name] = text
+    compared = [name for name in ("limit", "expected", "actual") if name in values]
+    if is_word and givens[0].is_diameter:
+        values |= {name: 2 * values[name] for name in compared}
+    in_degrees = event.kind in _IN_DEGREES or (is_word and givens[0].unit is Unit.DEGREE)
+    write = angle_text if in_degrees else partial(_length, context.unit)
+    fields |= zip(compared, tell_apart([values[name] for name in compared], write), strict=True)
     fields |= {name: length_text(values[name], context.unit) for name in ("radius", "distance") if name in values}
     if "off_by_mm" in values:
         fields["off"] = length_text(values["off_by_mm"], context.unit)
@@ -304,6 +306,10 @@ def explain_result(
         advice = f"change what that follows from: {join(causes)}" if causes else "change what that follows from"
         finding = replace(finding, help=advice, labels=tuple(replace(each, text="") for each in finding.labels))
     return replace(finding, notes=notes)
+
+
+def _length(unit: Length, value: float, more: int) -> str:
+    return length_text(value, unit, more)
 
 
 def _room(event: Refusal, values: Mapping[str, float], profile: Profile) -> tuple[dict[str, str], list[str]]:

@@ -29,8 +29,12 @@ ARC_START = 0.5
 """1 (share of the allowed difference of the radii). How far off an arc that stays as it is may begin behind an expanded
 contour: the other half is for its own words."""
 
+INCREMENT, INCREMENT_INCH, INCREMENT_ANGLE = 0.001, 0.0001 * 25.4, 0.001
+"""mm, mm of a program in inches, degrees. The least increments of the controls. What a word gives is exact to half of
+its own; that of a diameter counts half as a radius (see `solving.compare.allowance`)."""
+
 AGREEMENT = 0.001
-"""mm or degrees. Words that say the same thing agree within the least increment of either."""
+"""mm or degrees. Facts of other kinds than words agree within this."""
 
 LARGEST = 1_000_000.0
 """mm or degrees. The largest value read: one kilometre. Beyond it, doubles no longer hold 1e-9 mm."""

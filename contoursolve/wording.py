@@ -1,6 +1,6 @@
 """Values, places and names as messages say them: in the program's unit, with the axes of its plane."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
 
 from contoursolve.model import CornerShape, Length, Profile
@@ -9,9 +9,9 @@ SHOWN = 60
 """Characters of a word or a list of words in a message; the listing shows the rest."""
 
 
-def length_text(value: float, unit: Length) -> str:
-    """A length of so many mm in the program's unit."""
-    return value_text(value / 25.4 if unit is Length.INCH else value, unit.value)
+def length_text(value: float, unit: Length, more: int = 0) -> str:
+    """A length of so many mm in the program's unit, with so many decimals more than usual."""
+    return value_text(value / 25.4 if unit is Length.INCH else value, unit.value, more)
 
 
 def length_limit(value: float, unit: Length, way: int = 1) -> Decimal:
@@ -39,14 +39,27 @@ _STEP = Decimal("0.001")
 _STEPS = {Length.INCH.value: Decimal("0.0001")}
 
 
-def angle_text(value: float) -> str:
-    """An angle in degrees."""
-    return value_text(value, "deg")
+def angle_text(value: float, more: int = 0) -> str:
+    """An angle in degrees, with so many decimals more than usual."""
+    return value_text(value, "deg", more)
 
 
-def value_text(value: float, unit: str) -> str:
-    """A value as its word has it, in mm, inch or deg."""
-    return f"{_number(value, 4)} in" if unit == "inch" else f"{_number(value, 3)} {unit}"
+def value_text(value: float, unit: str, more: int = 0) -> str:
+    """A value as its word has it, in mm, inch or deg, with so many decimals more than usual."""
+    return f"{_number(value, 4 + more)} in" if unit == "inch" else f"{_number(value, 3 + more)} {unit}"
+
+
+MOST_DECIMALS = 6
+"""Decimals more than usual; beyond them, values differ by rounding alone."""
+
+
+def tell_apart(values: Sequence[float], write: Callable[[float, int], str]) -> list[str]:
+    """Values with as many decimals more than usual as it takes that no two different ones look the same."""
+    for more in range(MOST_DECIMALS + 1):
+        texts = [write(value, more) for value in values]
+        if len({*texts}) == len({*values}):
+            return texts
+    return [write(value, 0) for value in values]
 
 
 _PARTS = {"cos": "direction", "sin": "direction", "off": "place", "radius": "radius"}

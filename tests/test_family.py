@@ -647,6 +647,8 @@ def test_derivatives_are_central_differences(block, options):
         found = family(block, vary={word: [value - step, value + step]}, **options)
         if set(found.summary()) != {contoursolve.Status.SOLVED}:
             continue  # a circle that is said to pass through a point allows it little
+        if any(np.isnan(by_word[word]) for by_word in slopes.values()):
+            continue  # a half circle by R is one for longer chords, too, but not for shorter ones
         compared += 1
         for name, by_word in slopes.items():
             difference = np.diff(found[name])[0] / (2 * step)

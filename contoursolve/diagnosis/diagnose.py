@@ -18,10 +18,9 @@ from contoursolve.model import Profile
 from contoursolve.reading import Trouble
 from contoursolve.solving import RefusalKind, RemarkKind, scalars_of
 from contoursolve.solving.affine import NO_CIRCUITS, AffineFacts, Circuit, affine_facts
-from contoursolve.solving.compare import compare_affine
+from contoursolve.solving.compare import compare_affine, is_conflict
 from contoursolve.source import Span
 from contoursolve.syntax import FACT, Block, Word
-from contoursolve.tolerance import AGREEMENT
 from contoursolve.wording import SHOWN, join, length_text, place_text
 
 
@@ -37,7 +36,7 @@ def diagnose(answer: Answer, dialect: Dialect, policy: Policy, following: Iterab
     diagnosis = Diagnosis(
         layers=list_layers(answer, policy),
         freedoms=freedoms,
-        ties=tuple(_tie(answer, circuit) for circuit in circuits) or tuple(_other_ties(answer)),
+        ties=tuple(_tie(answer, affine, each) for each in circuits if affine) or tuple(_other_ties(answer)),
         ties_complete=is_readable and is_every_tie and answer.start.is_known and not profile.is_extended,
         repairs_complete=repairs.is_complete,
     )
@@ -101,12 +100,12 @@ def _start_labels(answer: Answer) -> tuple[Label, ...]:
     return tuple(Label(span, text) for span, text in labels.items())
 
 
-def _tie(answer: Answer, circuit: Circuit) -> Tie:
+def _tie(answer: Answer, affine: AffineFacts, circuit: Circuit) -> Tie:
     return Tie(
         addresses=tuple(_address(word) for word in answer.profile.words_of(circuit.facts)),
         identity=identity(answer.profile, circuit.facts),
         off_by_mm=max(circuit.off),
-        is_conflict=max(circuit.off) > AGREEMENT,
+        is_conflict=is_conflict(circuit, answer.profile, affine),
     )
 
 

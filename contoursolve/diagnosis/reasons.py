@@ -9,8 +9,9 @@ from contoursolve.diagnostic import Diagnostic, Freedom
 from contoursolve.model import FIRST, SECOND, Arc, Fact, Line, Profile, scalar
 from contoursolve.solving import RefusalKind, lookup
 from contoursolve.solving.affine import AffineFacts, Circuit
+from contoursolve.solving.compare import is_conflict
 from contoursolve.syntax import FACT
-from contoursolve.tolerance import AGREEMENT, REGULAR
+from contoursolve.tolerance import REGULAR
 from contoursolve.wording import angle_text, join, length_text, place_text
 
 
@@ -25,14 +26,14 @@ def conflict_reasons(profile: Profile, affine: AffineFacts, circuit: Circuit) ->
     fixed = affine.fixed_by(others)
     point = getattr(single, "point", "")
     known = {name: value for name, value in fixed.items() if name.partition(".")[0] == point}
-    off = max(circuit.off)
+    disagrees = is_conflict(circuit, profile, affine)
     if known and single.given:
         given = profile.givens[single.given]
         row = affine.facts.index(single)
         axis = next(axis for axis in (FIRST, SECOND) if scalar(point, axis) in single.reads())
         own = -float(affine.constants[row]) / float(affine.matrix[row, affine.unknowns.index(scalar(point, axis))])
         apart = f"{length_text(circuit.off[circuit.facts.index(single)], profile.unit)} apart"
-        ending = "the same place" if off <= AGREEMENT else apart
+        ending = apart if disagrees else "the same place"
         verb = "put" if len(others) > 1 else "puts"
         yield (
             f"because {_words(profile, others)} {verb} {point} at {place_text(profile, known)}, "
@@ -44,7 +45,7 @@ def conflict_reasons(profile: Profile, affine: AffineFacts, circuit: Circuit) ->
         radius = " (X and U as radius)" if "tan" in formula and ("X" in formula or "U" in formula) else ""
         yield f"these words are tied: {formula}{radius}"
     agreeing = [_agreeing(profile, affine, circuit, fact) for fact in circuit.facts]
-    if off > AGREEMENT and any(agreeing):
+    if disagrees and any(agreeing):
         yield f"any one of these would agree with the others: {', '.join(filter(None, agreeing))}"
 
 

@@ -41,9 +41,9 @@ from contoursolve.reading import Claim, Form, read
 from contoursolve.rules import Rule, check
 from contoursolve.solving import Status, lookup
 from contoursolve.solving.affine import AffineFacts, Circuit, affine_facts
+from contoursolve.solving.compare import is_conflict
 from contoursolve.spelling import torn_codes
 from contoursolve.syntax import Block, Word
-from contoursolve.tolerance import AGREEMENT
 
 MOST_EDITS = 4
 """Words that a repair may touch; more is a new block."""
@@ -96,7 +96,8 @@ class _Geometry:
 
     profile: Profile
     affine: AffineFacts | None
-    circuits: tuple[Circuit, ...]
+    conflicts: tuple[Circuit, ...]
+    """Of facts that are tied and disagree."""
     fixed: Mapping[str, float]
 
     @classmethod
@@ -105,9 +106,9 @@ class _Geometry:
         profile = read(claim, names - (names if kept is None else kept))
         affine = affine_facts(profile, profile.facts)
         circuits = affine.circuits().found if affine else ()
-        is_consistent = all(max(circuit.off) <= AGREEMENT for circuit in circuits)
-        fixed = affine.fixed_by(profile.facts) if affine and profile.facts and is_consistent else {}
-        return cls(profile, affine, circuits, fixed)
+        conflicts = tuple(each for each in circuits if affine and is_conflict(each, profile, affine))
+        fixed = affine.fixed_by(profile.facts) if affine and profile.facts and not conflicts else {}
+        return cls(profile, affine, conflicts, fixed)
 
     @property
     def is_singular(self) -> bool:
@@ -323,7 +324,7 @@ def _values(answer: Answer, dialect: Dialect, whole: _Geometry) -> Iterator[tupl
     if has_faults(claim):
         return
     forced = next(unreadable(claim))
-    tied = {fact.given for circuit in whole.circuits if max(circuit.off) > AGREEMENT for fact in circuit.facts}
+    tied = {fact.given for circuit in whole.conflicts for fact in circuit.facts}
     asked_together: list[Edit] = []
     for name, word in claim.words.items():
         given = claim.givens.get(name)

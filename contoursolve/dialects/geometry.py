@@ -181,6 +181,14 @@ GEOMETRY_RULES = (
         Severity.INFO,
     ),
     _row(
+        RemarkKind.HALF_CIRCLE,
+        "{words}: the ends are {limit} from their middle, {off} more than the radius, so it is a half circle",
+        "within the least increments nothing is wrong; the arc ends where its words say",
+        _ARC + _LINE,
+        _ARC.replace("R50", "R49.9995") + _LINE,
+        Severity.INFO,
+    ),
+    _row(
         Trouble.COMMA_MISSING,
         "{words} is no corner and no angle without its comma, and this line is taken as if it were not there",
         "write {meant} if that is meant",

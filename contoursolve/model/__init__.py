@@ -2,11 +2,25 @@
 
 from contoursolve.model.fact import Fact, Lookup, line_scalars, scalar
 from contoursolve.model.figure import FIRST, SECOND, Arc, Circle, Corner, CornerShape, Figure, Line, Turn
-from contoursolve.model.profile import Choice, Given, Layout, Length, Plane, Profile, Question, Side, Start, Unit
+from contoursolve.model.profile import (
+    INCREMENT_OF,
+    Choice,
+    Given,
+    Layout,
+    Length,
+    Plane,
+    Profile,
+    Question,
+    Side,
+    Start,
+    Unit,
+    least_increments,
+)
 from contoursolve.model.role import Role
 
 __all__ = [
     "FIRST",
+    "INCREMENT_OF",
     "SECOND",
     "Arc",
     "Choice",
@@ -28,6 +42,7 @@ __all__ = [
     "Start",
     "Turn",
     "Unit",
+    "least_increments",
     "line_scalars",
     "scalar",
 ]

@@ -8,6 +8,10 @@ from enum import Enum
 from contoursolve.model.fact import Fact
 from contoursolve.model.figure import Figure
 from contoursolve.syntax import Block, Word
+from contoursolve.tolerance import INCREMENT, INCREMENT_ANGLE, INCREMENT_INCH
+
+INCREMENT_OF = "increment:"
+"""What the name of a least increment begins with."""
 
 _MM, _INCH = Decimal(1), Decimal("25.4")
 
@@ -147,6 +151,12 @@ class Profile:
         """The drawing without its values."""
         return self.layout.figure
 
+    @property
+    def increments(self) -> dict[str, float]:
+        """The least increments of the control, mm (radius) or degrees: those of coordinates by `increment:0` and
+        `increment:1`, those of values by `increment:` and their names; 0 for a value that no word states."""
+        return least_increments(self.unit, self.plane, self.givens)
+
     def words_of(self, facts: Iterable[Fact]) -> list[Word]:
         """The words that state these facts; what the form or the control states by itself has none."""
         words = (self.givens[fact.given].word for fact in facts if fact.given)
@@ -156,3 +166,13 @@ class Profile:
     def facts(self) -> tuple[Fact, ...]:
         """What the words state, as far as the control uses it."""
         return self.layout.facts
+
+
+def least_increments(unit: Length, plane: Plane, givens: Mapping[str, Given]) -> dict[str, float]:
+    """The least increments of a program's coordinates and values, see `Profile.increments`."""
+    length = INCREMENT_INCH if unit is Length.INCH else INCREMENT
+    found = {f"{INCREMENT_OF}{axis}": length / (1 + is_half) for axis, is_half in enumerate(plane.diameters)}
+    for name, given in givens.items():
+        step = INCREMENT_ANGLE if given.unit is Unit.DEGREE else length / (1 + given.is_diameter)
+        found[INCREMENT_OF + name] = step if given.word is not None else 0.0
+    return found

@@ -8,7 +8,7 @@ from math import floor, inf, log10
 from typing import TYPE_CHECKING
 
 from contoursolve.contour import Contour, trace
-from contoursolve.examine import Answer, AskedValue, answer_question, count_choices, list_alternatives
+from contoursolve.examine import Answer, AskedValue, answer_question, count_choices, is_rounded, list_alternatives
 from contoursolve.model import Length
 from contoursolve.solving.certificate import Certificate, Proof, up_to_one_digit
 from contoursolve.syntax import FACT
@@ -54,7 +54,8 @@ def list_solutions(answer: Answer) -> Listing | None:
             return None
         only = Listed("", answer.contour, answer.answers, (), (), is_chosen=True, certificate=answer.certificate)
         choices = count_choices(answer.profile)
-        doubts = (f"the other sides of {choices} points: too many to list",) if choices else ()
+        why = "a half circle is one within the least increments" if is_rounded(answer) else "too many to list"
+        doubts = (f"the other sides of {choices} points: {why}",) if choices else ()
         return Listing((only,), is_complete=not doubts, method="closed form", doubts=doubts, chosen_by="")
     from contoursolve.solving.alternatives import choose  # noqa: PLC0415 - most contours need no choice
 

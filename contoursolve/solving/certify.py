@@ -90,6 +90,7 @@ def _inputs(profile: Profile, system: System, start: Sequence[Number]) -> dict[s
         else:
             value = ball.exact(given.value)
             inputs[name] = value - start[absolute[name]] if name in absolute else value
+    inputs |= {name: ball.exact(value) for name, value in profile.increments.items()}
     for choice in profile.choices:
         inputs[f"side:{choice.point}"] = ball.exact(choice.side.sign)
     return inputs

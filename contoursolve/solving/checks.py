@@ -8,13 +8,11 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from functools import lru_cache
-from math import pi
 from typing import Any
 
 from contoursolve.backends.inputs import lookup
 from contoursolve.backends.numeric import (
     Tape,
-    angle,
     at_most,
     below,
     larger,
@@ -25,12 +23,13 @@ from contoursolve.backends.numeric import (
     true,
 )
 from contoursolve.constraints import Coordinate, Distance, Heading, Offset, OnCircle, Radius, System, Values
-from contoursolve.model import FIRST, SECOND, Arc, Corner, Fact, Figure, Line, scalar
+from contoursolve.model import FIRST, INCREMENT_OF, SECOND, Arc, Corner, Fact, Figure, Line, scalar
+from contoursolve.solving.compare import allowance
 from contoursolve.solving.compile import compile_system
 from contoursolve.solving.corners import Pair
 from contoursolve.solving.plan import AffineStep, DistanceStep, Step, TwoCirclesStep, lines_through
 from contoursolve.solving.solution import RefusalKind
-from contoursolve.tolerance import AGREEMENT, LENGTH, REGULAR, RESIDUAL, TOUCHING
+from contoursolve.tolerance import LENGTH, REGULAR, RESIDUAL, TOUCHING
 
 
 class Test(Enum):
@@ -109,6 +108,10 @@ class Source:
     def point(self, name: str) -> Pair:
         """The coordinates of a point, mm."""
         return self.at.coordinate(name, FIRST), self.at.coordinate(name, SECOND)
+
+    def increment(self, name: str) -> Any:
+        """The least increment of a coordinate by its axis, or of a value by its name, mm or degrees."""
+        return self.tape.input(INCREMENT_OF + name)
 
     def way(self, tail: str, head: str) -> Pair:
         """From one point to another, mm."""
@@ -237,18 +240,13 @@ def check_facts(source: Source, facts: Sequence[Fact], first: int) -> Checks:
 
 def _compare(source: Source, fact: Fact, off: Any) -> Iterator[tuple[RefusalKind, str, Any]]:
     """What is refused, about what, and the margins."""
-    kind, subject, limit = RefusalKind.WORDS_DISAGREE, fact.given, AGREEMENT
+    kind, subject = RefusalKind.WORDS_DISAGREE, fact.given
+    limit = allowance(fact, source.at, source.increment)
     if isinstance(fact, OnCircle) and not fact.given:
         # The residual is the difference of the radii to first order only.
         first, second = source.way(fact.center, fact.point)
         off = sqrt(first**2 + second**2) - source.at.radius(fact.radius)
         kind, subject, limit = RefusalKind.RADIUS_DIFFERENCE, fact.point, fact.slack
-    elif isinstance(fact, Heading):
-        first, second = source.way(fact.tail, fact.head)
-        cosine, sine = source.at.direction(fact.given)
-        turned = angle(cosine * second - sine * first, cosine * first + sine * second) * (180 / pi)
-        yield kind, subject, larger(limit - magnitude(off), limit - magnitude(turned))
-        return
     elif isinstance(fact, Distance):
         # To first order the residual is the excess; where either is small, the lengths agree.
         first, second = source.way(fact.tail, fact.head)
@@ -314,8 +312,10 @@ def _inside(source: Source, corner: Corner) -> Iterator[Any]:
         return
     tail, head, at = source.point(before.tail), source.point(after.head), source.point(corner.at)
     for axis in (FIRST, SECOND):
-        yield larger(at[axis] - tail[axis], at[axis] - head[axis])
-        yield larger(tail[axis] - at[axis], head[axis] - at[axis])
+        # Either coordinate is exact to half its increment.
+        give = source.increment(str(axis))
+        yield larger(at[axis] - tail[axis], at[axis] - head[axis]) + give
+        yield larger(tail[axis] - at[axis], head[axis] - at[axis]) + give
 
 
 def _elements(source: Source, corner: Corner) -> list[str]:

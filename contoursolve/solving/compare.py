@@ -1,15 +1,69 @@
 """Do facts that say the same agree? What each of them would have to state, and by how much it is off."""
 
-from collections.abc import Iterator
-from math import hypot, inf
+from collections.abc import Callable, Iterator
+from math import hypot, inf, pi
+from typing import Any
 
 from contoursolve.analysis import judge
-from contoursolve.constraints import OnCircle, System, Values, assemble
-from contoursolve.model import FIRST, SECOND, Fact, Profile, Unit
-from contoursolve.solving.affine import AffineFacts
+from contoursolve.constraints import Coordinate, Heading, Offset, OnCircle, Radius, System, Values, assemble
+from contoursolve.constraints.equation import step
+from contoursolve.model import FIRST, INCREMENT_OF, SECOND, Fact, Profile, Unit
+from contoursolve.solving.affine import AffineFacts, Circuit
 from contoursolve.solving.numbers import lookup
 from contoursolve.solving.solution import Refusal, RefusalKind, Remark, RemarkKind
 from contoursolve.tolerance import AGREEMENT, RESIDUAL
+
+Increments = Callable[[str], Any]
+"""The least increment of a coordinate by its axis, or of a value by its name."""
+
+
+def allowance(fact: Fact, at: Values, increment: Increments) -> Any:
+    """How far a fact may miss what the others say, mm: every coordinate and every word is exact to half its
+    increment."""
+    if isinstance(fact, Coordinate):
+        reach = increment(str(fact.axis)) + increment(fact.given)
+    elif isinstance(fact, Offset):
+        reach = 2 * increment(str(fact.axis)) + increment(fact.given)
+    elif isinstance(fact, Heading):
+        cosine, sine = at.direction(fact.given)
+        first, second = step(at, fact.tail, fact.head)
+        swing = at.root(first * first + second * second) * (pi / 180) * increment(fact.given)
+        reach = 2 * (size(sine, at) * increment(str(FIRST)) + size(cosine, at) * increment(str(SECOND))) + swing
+    elif isinstance(fact, Radius):
+        reach = 2 * increment(fact.given)
+    else:
+        return AGREEMENT
+    return reach / 2 + RESIDUAL
+
+
+def size(value: Any, at: Values) -> Any:
+    """The absolute value of a number of any kind."""
+    return at.root(value * value)
+
+
+def half_circle_allowance(
+    chord: tuple[Any, Any], length: Any, radius: str, increment: Increments, magnitude: Callable[[Any], Any]
+) -> Any:
+    """How much more than a given radius half of a chord may be, mm: both ends and the radius are exact to half their
+    increments."""
+    across = magnitude(chord[FIRST]) * increment(str(FIRST)) + magnitude(chord[SECOND]) * increment(str(SECOND))
+    return (across / length + increment(radius)) / 2 + RESIDUAL
+
+
+def increments_of(profile: Profile) -> Increments:
+    """The least increments of a profile's values."""
+    found = profile.increments
+    return lambda name: found[INCREMENT_OF + name]
+
+
+def is_conflict(circuit: Circuit, profile: Profile, affine: AffineFacts) -> bool:
+    """Whether facts about lines that say the same disagree: the last of them is held against the others, as it is
+    where a contour is solved."""
+    last = circuit.facts[-1]
+    fixed = affine.fixed_by(circuit.facts[:-1])
+    if not fixed.keys() >= {*assemble(profile).unknowns_of(last)}:
+        return circuit.off[-1] > AGREEMENT
+    return circuit.off[-1] > float(allowance(last, lookup(profile, fixed), increments_of(profile)))
 
 
 def compare(fact: Fact, profile: Profile, at: Values) -> dict[str, float]:
@@ -50,7 +104,9 @@ def compare_fact(fact: Fact, off: float, profile: Profile, system: System, at: V
         return None
     givens = givens_of(fact, system)
     values = compare(fact, profile, at) if fact.given else {"off_by_mm": off}
-    if off <= AGREEMENT or abs(values.get("expected", inf) - values.get("actual", inf)) <= AGREEMENT:
+    is_word = isinstance(fact, Coordinate | Offset | Heading | Radius)
+    gap = inf if is_word else abs(values.get("expected", inf) - values.get("actual", inf))
+    if off <= allowance(fact, at, increments_of(profile)) or gap <= AGREEMENT:
         return Remark(RemarkKind.WORDS_AGREE, fact.given, givens, values) if fact.given else None
     kind = RefusalKind.WORDS_DISAGREE if "expected" in values else RefusalKind.FACT_DISAGREES
     return Refusal(kind, fact.given, givens, values)

@@ -30,8 +30,9 @@ from contoursolve.backends.numeric import (
     sine as sine_of,
 )
 from contoursolve.backends.replay import Replay
-from contoursolve.constraints import Collinear, Functions, Heading, OnCircle, System, Values
-from contoursolve.model import FIRST, SECOND, Arc, Corner, Fact, Line, scalar
+from contoursolve.constraints import Collinear, Functions, Heading, OnCircle, Radius, System, Values
+from contoursolve.model import FIRST, INCREMENT_OF, SECOND, Arc, Corner, Fact, Line, scalar
+from contoursolve.solving.compare import half_circle_allowance
 from contoursolve.solving.corners import Edge, Pair, build_corner, unit
 from contoursolve.solving.plan import AffineStep, DistanceStep, LineCircleStep, Plan, Step, TwoCirclesStep, make_plan
 from contoursolve.tolerance import REGULAR, TOUCHING
@@ -54,6 +55,8 @@ class _Builder:
             if isinstance(fact, OnCircle) and index not in basis
         }
         """Points that are compared with a circle that others determine, with its centre."""
+        self.short: dict[str, Any] = {}
+        """By how much stated radii of half circles are less than their points say."""
         self.rooms: dict[str, Any] = {}
         """What the corners leave of each element."""
         self.amounts = Inputs(self.tape, {})
@@ -133,6 +136,8 @@ class _Builder:
         # With one radius, exactly the middle.
         offset = length / 2 if step.is_equal else (length + (one - other) * (one + other) / length) / 2
         scale = one + other + sum(magnitude(value) for value in (*first, *second))
+        if step.is_equal:
+            one = other = self._half_circle(step.first.radius, offset, chord, scale, number)
         root = self._root((one - offset) * (one + offset), offset, one, scale, number)
         along, rise = offset / length, self.tape.input(f"side:{step.point}") * self._sense(step) * root / length
         self.set_point(
@@ -149,6 +154,22 @@ class _Builder:
                 return 2 * at_most(self.scalars[after.radius] ** 2, (c - a) ** 2 + (d - b) ** 2) - 1
         return 1
 
+    def _half_circle(self, name: str, half: Any, chord: Pair, scale: Any, number: int) -> Any:
+        """The radius of a circle through two points, half of whose distance may be more than the radius by as little as
+        the words are exact to: then it is a half circle, and as large as the points say. By how much is `short`."""
+        radius = self.scalars[name]
+        given = next((fact.given for fact in self.system.facts if isinstance(fact, Radius) and fact.radius == name), "")
+        if not given:
+            return radius
+        give = half_circle_allowance(chord, 2 * half, given, lambda key: self.tape.input(INCREMENT_OF + key), magnitude)
+        rounding = TOUCHING * scale
+        short = half - radius
+        is_short = magnitude(short - (give + rounding) / 2) <= (give - rounding) / 2
+        self.short[name] = where(is_short, short, 0)
+        self.tape.output(f"short:{number}", self.short[name])
+        self.scalars[name] = where(is_short, half, radius)
+        return self.scalars[name]
+
     def _root(self, discriminant: Any, offset: Any, radius: Any, scale: Any, number: int) -> Any:
         """The root of a discriminant; 0 where floats cannot tell that a circle is more than touched."""
         self.tape.output(f"discriminant:{number}", discriminant)
@@ -164,6 +185,8 @@ class _Builder:
         lookup = self.at(self.scalars)
         for number, fact in enumerate((*plan.basis, *plan.checks)):
             self.tape.output(f"residual:{number}", fact.residual(lookup))
+            if isinstance(fact, Radius) and fact.radius in self.short:
+                self.tape.output(f"excess:{number}", fact.residual(lookup) - self.short[fact.radius])
         symbols = {name: symbol(name) for name in self.system.unknowns}
         entries = jacobian_parts(
             [fact.residual(self.at({**self.scalars, **symbols})) for fact in plan.basis],
@@ -313,7 +336,7 @@ class Machine:
     plan: Plan
     function: Compiled
     residuals: tuple[str, ...]
-    """Of the basis."""
+    """Of the basis, but for what the words of a half circle are exact to."""
     slopes: tuple[tuple[int, int, str], ...]
     """(row, column, output) of the Jacobian of the basis by the unknowns."""
     corner_residuals: tuple[str, ...]
@@ -329,7 +352,9 @@ def compile_system(system: System) -> Machine:
     for number, step in enumerate(plan.steps):
         builder.run(step, number)
     slopes = builder.outputs(plan)
-    residuals = tuple(f"residual:{number}" for number in range(len(plan.basis)))
+    outputs = builder.tape.outputs
+    excesses = [f"excess:{number}" for number in range(len(plan.basis))]
+    residuals = tuple(f"residual:{n}" if name not in outputs else name for n, name in enumerate(excesses))
     corner_residuals = builder.path()
     return Machine(plan, builder.tape.finish(), residuals, slopes, corner_residuals, builder.tape)
 

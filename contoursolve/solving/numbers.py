@@ -14,7 +14,7 @@ from contoursolve.solving.solution import CornerSolution, Point, Solution, Statu
 def inputs_of(profile: Profile, system: System) -> dict[str, float]:
     """All inputs of the function of a system. Raises ValueError without a start."""
     givens = [(given.name, given.unit, given.value) for given in profile.givens.values()]
-    inputs = inputs_at(system, profile.start, givens)
+    inputs = inputs_at(system, profile.start, givens) | profile.increments
     for choice in profile.choices:
         inputs[f"side:{choice.point}"] = float(choice.side.sign)
     return inputs

@@ -1,9 +1,10 @@
 """Can the control make the path? Direction of travel, and the room for each corner."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from math import hypot
 
 from contoursolve.model import FIRST, SECOND, Arc, Corner, Figure, Line, Profile
+from contoursolve.solving.compare import increments_of
 from contoursolve.solving.solution import BESIDE, Point, Refusal, RefusalKind, Remark, RemarkKind
 from contoursolve.tolerance import LENGTH, REGULAR, RESIDUAL
 
@@ -36,7 +37,7 @@ def check_path(
                 remarks.append(Remark(RemarkKind.LINE_VANISHES, element.name))
     if not refusals:
         for corner in figure.corners:
-            refusals += _check_corner(corner, figure, points, out, sizes[corner.size])
+            refusals += _check_corner(corner, profile, points, out, sizes[corner.size])
     if not refusals:
         refusals += _check_room(figure, out, sizes, resize)
     if not refusals:
@@ -61,7 +62,7 @@ def _check_direction(line: Line, out: Outputs, profile: Profile) -> list[Refusal
 
 
 def _check_corner(
-    corner: Corner, figure: Figure, points: Mapping[str, Point], out: Outputs, size: float
+    corner: Corner, profile: Profile, points: Mapping[str, Point], out: Outputs, size: float
 ) -> list[Refusal]:
     def refuse(kind: RefusalKind, **values: float) -> list[Refusal]:
         return [Refusal(kind, corner.name, (corner.size,), values)]
@@ -75,9 +76,9 @@ def _check_corner(
         straight = out[f"cosine:{corner.name}"] > 0
         return refuse(RefusalKind.CORNER_STRAIGHT if straight else RefusalKind.CORNER_REVERSES)
     if corner.shape.share:
-        outside = _outside_rectangle(corner, figure, points)
-        if outside > LENGTH:
-            return refuse(RefusalKind.BEVEL_OUTSIDE, off_by_mm=outside)
+        outside = [excess for excess, give in _outside_rectangle(corner, profile, points) if excess > give + LENGTH]
+        if outside:
+            return refuse(RefusalKind.BEVEL_OUTSIDE, off_by_mm=max(outside))
         # Not a number is a bevel that is too large for its arc.
         negative = [each for way in ("in", "out") if (each := out[f"setback-{way}:{corner.name}"]) < -LENGTH]
         if negative:
@@ -85,19 +86,18 @@ def _check_corner(
     return []
 
 
-def _outside_rectangle(corner: Corner, figure: Figure, points: Mapping[str, Point]) -> float:
-    """How far the corner lies outside the rectangle spanned by the ends of its two lines, mm."""
-    path = {element.name: element for element in figure.path}
+def _outside_rectangle(corner: Corner, profile: Profile, points: Mapping[str, Point]) -> Iterator[tuple[float, float]]:
+    """How far the corner lies outside the rectangle spanned by the ends of its two lines, mm, on each side, and how far
+    it may: both coordinates that are compared are exact to half their increment."""
+    path = {element.name: element for element in profile.figure.path}
     before, after = path[corner.before], path.get(corner.after or "")
     if not isinstance(before, Line) or not isinstance(after, Line):
-        return 0.0
-    ends = points[before.tail], points[after.head]
-    return max(
-        excess
-        for axis in (FIRST, SECOND)
-        for low, high in (sorted((ends[0][axis], ends[1][axis])),)
-        for excess in (low - points[corner.at][axis], points[corner.at][axis] - high)
-    )
+        return
+    increment, ends = increments_of(profile), (points[before.tail], points[after.head])
+    for axis in (FIRST, SECOND):
+        low, high = sorted((ends[0][axis], ends[1][axis]))
+        yield low - points[corner.at][axis], increment(str(axis))
+        yield points[corner.at][axis] - high, increment(str(axis))
 
 
 def _check_room(

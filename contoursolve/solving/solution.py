@@ -75,6 +75,8 @@ class RemarkKind(Enum):
     """The line touches the circle: both solutions are one."""
     DOUBLE = "double"
     """Two solutions have become one, and not because a line of the path touches a circle."""
+    HALF_CIRCLE = "half-circle"
+    """Half the distance of its ends is more than a radius, by as little as words are exact to."""
     SEVERAL = "several"
     """More than one contour satisfies the block."""
     COUNT_OPEN = "count-open"

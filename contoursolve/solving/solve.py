@@ -235,9 +235,11 @@ class _Attempt:
                 return Refusal(RefusalKind.CIRCLE_UNDEFINED, subject, givens)
             return Refusal(kind, subject, givens, values)
         if abs(offset - radius) <= TOUCHING * self.out[f"scale:{number}"]:
-            self._note_double(step, radius, self.out[f"scale:{number}"])
+            self._note_double(number, step)
             # A circle about the middle of two points is an ordinary half circle.
-            if not is_center:
+            if is_center:
+                self._note_half_circle(offset, self.out.get(f"short:{number}", 0.0), subject, givens)
+            else:
                 self.remarks.append(Remark(RemarkKind.TOUCHES, subject, givens, values))
         elif not offset < radius:  # true for NaN
             return Refusal(kind, subject, givens, {"off_by_mm": abs(offset - radius), **values})
@@ -249,7 +251,7 @@ class _Attempt:
         limit = one + other if distance >= max(one, other) else abs(one - other)
         return {"limit": limit, "actual": distance, "off_by_mm": abs(distance - limit)}
 
-    def _note_double(self, step: LineCircleStep | TwoCirclesStep, radius: float, scale: float) -> None:
+    def _note_double(self, number: int, step: LineCircleStep | TwoCirclesStep) -> None:
         """A double solution, as far as floats can tell: in the error bound, a row that holds the point where it
         is along the direction in which the two solutions part takes the place of its circle's, and how far
         apart they could be is added."""
@@ -263,7 +265,8 @@ class _Attempt:
             first, second = (begin[1] - end[1]) / length, (end[0] - begin[0]) / length
         row = self.plan.basis.index(circle)
         self.doubles[row] = {scalar(point, FIRST): first, scalar(point, SECOND): second}
-        if not (isinstance(step, TwoCirclesStep) and self._is_half_circle(step)):
+        if not (isinstance(step, TwoCirclesStep) and self._is_half_circle(step, number)):
+            radius, scale = self.out[f"radius:{number}"], self.out[f"scale:{number}"]
             self.split = max(self.split, (2 * radius * TOUCHING * scale) ** 0.5)
 
     def _line_direction(self, step: LineCircleStep) -> Point:
@@ -273,8 +276,16 @@ class _Attempt:
         length = hypot(through[0] - tail[0], through[1] - tail[1])
         return (through[0] - tail[0]) / length, (through[1] - tail[1]) / length
 
-    def _is_half_circle(self, step: TwoCirclesStep) -> bool:
-        """Whether the radius is exactly half the chord from the start point, in decimals."""
+    def _note_half_circle(self, half: float, short: float, subject: str, givens: tuple[str, ...]) -> None:
+        """A half circle whose stated radius is less than half of its chord, within what the words are exact to."""
+        if short:
+            values = {"limit": half, "actual": half - short, "off_by_mm": short}
+            self.remarks.append(Remark(RemarkKind.HALF_CIRCLE, subject, givens, values))
+
+    def _is_half_circle(self, step: TwoCirclesStep, number: int) -> bool:
+        """Whether the radius is exactly half the chord from the start point, in decimals, or is taken to be."""
+        if self.out.get(f"short:{number}", 0.0):
+            return True
         values: dict[tuple[str, int], Decimal] = {}
         radius = Decimal(0)
         for fact in self.system.facts:

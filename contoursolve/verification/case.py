@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from decimal import Decimal
 from math import floor, log10
 
-from contoursolve.model import FIRST, SECOND, Turn
+from contoursolve.model import FIRST, INCREMENT_OF, SECOND, Turn, least_increments
 from contoursolve.reading import Claim
 from contoursolve.tolerance import ERROR_BOUND_WARNING, RADIUS_DIFFERENCE, RESIDUAL
 from contoursolve.verification.claimed import ClaimedContour, ClaimedElement, Rules
@@ -110,6 +110,11 @@ class Case:
     def coordinate(self, name: str, axis: int) -> float:
         """A given absolute coordinate, counted from the start point, mm."""
         return float(self.value(name) - self.origin[axis])
+
+    def increment(self, name: str) -> float:
+        """The least increment of a given by its name, or of a coordinate by its axis, mm or degrees."""
+        after = self.claim.after
+        return least_increments(after.unit, after.plane, self.claim.givens)[INCREMENT_OF + name]
 
     def place(self, at: tuple[Decimal, Decimal]) -> complex:
         """An absolute place, mm, counted from the start point."""

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from math import inf
 
-from contoursolve.tolerance import AGREEMENT, RESIDUAL
+from contoursolve.tolerance import RESIDUAL
 from contoursolve.verification.case import Case
 from contoursolve.verification.claimed import ClaimedStatus
 from contoursolve.verification.drawing import UnmeasurableError
@@ -27,8 +27,7 @@ def check_statements(case: Case, ledger: Ledger, statements: Sequence[Statement]
     for each in statements:
         stated = [each.word] if each.word else []
         if is_over and abs(each.residual) > case.limit:
-            unit, off = ("mm", each.residual) if abs(each.residual) <= AGREEMENT else ("deg", each.degrees)
-            ledger.measure(f"{each.name} (agrees)", stated, off or each.residual, AGREEMENT, unit)
+            ledger.measure(f"{each.name} (agrees)", stated, each.residual, each.allowed)
         else:
             ledger.measure(each.name, stated, each.residual, case.limit)
         if each.against:

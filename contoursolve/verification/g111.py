@@ -6,10 +6,11 @@ Points count from the start point: real is Z, imaginary is X as radius.
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial
-from math import sqrt
+from math import radians, sqrt
 
 from contoursolve.model import FIRST, SECOND
 from contoursolve.statements import MeetsLine
+from contoursolve.tolerance import RESIDUAL
 from contoursolve.verification.asked import check_asked
 from contoursolve.verification.case import Case
 from contoursolve.verification.claimed import ClaimedStatus, Rules
@@ -184,27 +185,43 @@ def statements_at(case: Case, used: tuple[str, ...], v1: complex, v2: complex) -
     """What each word says about Z and X of V1 and V2 there."""
     for name in used:
         (word,) = case.texts(name)
-        match name:
-            case "A":
-                u = direction(case.value(name))
-                off = cross(u, v1)
-                yield Statement("V1 lies on line 1", word, (-u.imag, u.real, 0, 0), off, angle_between(u, v1))
-            case "I":
-                yield Statement("X of V1 from the start", word, (0, 1, 0, 0), v1.imag - case.amount(name))
-            case "K":
-                yield Statement("Z of V1 from the start", word, (1, 0, 0, 0), v1.real - case.amount(name))
-            case "B":
-                u, run = direction(case.value(name)), v2 - v1
-                slope = (u.imag, -u.real, -u.imag, u.real)
-                yield Statement("V2 lies on line 2", word, slope, cross(u, run), angle_between(u, run))
-            case "X":
-                yield Statement("X of V2", word, (0, 0, 0, 1), v2.imag - case.coordinate(name, SECOND))
-            case "U":
-                yield Statement("X of V2 from the start", word, (0, 0, 0, 1), v2.imag - case.amount(name))
-            case "Z":
-                yield Statement("Z of V2", word, (0, 0, 1, 0), v2.real - case.coordinate(name, FIRST))
-            case _:
-                yield Statement("Z of V2 from the start", word, (0, 0, 1, 0), v2.real - case.amount(name))
+        yield replace(_stated(case, name, word, v1, v2), allowed=_allowed(case, name, v1 if name == "A" else v2 - v1))
+
+
+def _allowed(case: Case, name: str, run: complex) -> float:
+    """How far the word may miss what others say, mm: it is exact to half its increment, and so is every coordinate."""
+    own, z, x = case.increment(name), case.increment("0"), case.increment("1")
+    if name in "AB":
+        u = direction(case.value(name))
+        reach = 2 * (abs(u.imag) * z + abs(u.real) * x) + abs(run) * radians(own)
+    else:
+        reach = own + (1 if name in "XZ" else 2) * (z if name in "KZW" else x)
+    return reach / 2 + RESIDUAL
+
+
+def _stated(case: Case, name: str, word: str, v1: complex, v2: complex) -> Statement:
+    """What one word says."""
+    match name:
+        case "A":
+            u = direction(case.value(name))
+            off = cross(u, v1)
+            return Statement("V1 lies on line 1", word, (-u.imag, u.real, 0, 0), off, angle_between(u, v1))
+        case "I":
+            return Statement("X of V1 from the start", word, (0, 1, 0, 0), v1.imag - case.amount(name))
+        case "K":
+            return Statement("Z of V1 from the start", word, (1, 0, 0, 0), v1.real - case.amount(name))
+        case "B":
+            u, run = direction(case.value(name)), v2 - v1
+            slope = (u.imag, -u.real, -u.imag, u.real)
+            return Statement("V2 lies on line 2", word, slope, cross(u, run), angle_between(u, run))
+        case "X":
+            return Statement("X of V2", word, (0, 0, 0, 1), v2.imag - case.coordinate(name, SECOND))
+        case "U":
+            return Statement("X of V2 from the start", word, (0, 0, 0, 1), v2.imag - case.amount(name))
+        case "Z":
+            return Statement("Z of V2", word, (0, 0, 1, 0), v2.real - case.coordinate(name, FIRST))
+        case _:
+            return Statement("Z of V2 from the start", word, (0, 0, 1, 0), v2.real - case.amount(name))
 
 
 def _check_senses(case: Case, ledger: Ledger, used: tuple[str, ...], lines: Lines) -> None:

@@ -164,8 +164,11 @@ def _check_slots(case: Case, ledger: Ledger, lines: Lines, corners: dict[str, _C
         _check_between(limit, ledger, "corner 1 joins line 2", word, (lines.v1, lines.v2), lines.second, joined)
         if corners["corner 1"].word in BEVELS and not lines.is_setback:
             # p. 140 Note 3: refused where V1 lies outside the rectangle of start and end of line 2.
-            out = max(0.0, *(max(min(0.0, to) - at, at - max(0.0, to)) for at, to in _sides(lines)))
-            ledger.measure("V1 lies between the start and V2", word, out, case.limit)
+            # Either of two coordinates is exact to half its increment.
+            for axis, (at, to) in enumerate(_sides(lines)):
+                out = max(0.0, min(0.0, to) - at, at - max(0.0, to))
+                limit = case.limit + case.increment(str(axis))
+                ledger.measure("V1 lies between the start and V2", word, out, limit)
     if "corner 2" in corners:
         word = case.texts(corners["corner 2"].word)
         if lines.meeting is not None:

@@ -3,9 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import combinations
-from math import inf
 
-from contoursolve.tolerance import AGREEMENT
 from contoursolve.verification.case import Case
 from contoursolve.verification.drawing import Drawing, Round, UnmeasurableError
 from contoursolve.verification.g111 import LINE_1, LINE_2, UNKNOWNS, drawn_at, ignored_words, statements_at
@@ -83,10 +81,10 @@ def _over(case: Case, used: tuple[str, ...], stated: list[Statement], generic: l
             return None
         v1, v2 = complex(*moved.moves[:2]), complex(*moved.moves[2:])
         here = list(statements_at(case, used, -v1, -v2))
-        worst.append(max(min(abs(each.residual), inf if each.degrees is None else abs(each.degrees)) for each in here))
-    if all(each > _CLEARLY * AGREEMENT for each in worst):
+        worst.append(max(abs(each.residual) / each.allowed for each in here))
+    if all(each > _CLEARLY for each in worst):
         return Standing(disagrees=" ".join(case.texts(*used)))
-    if all(each < AGREEMENT / _CLEARLY for each in worst):
+    if all(each < 1 / _CLEARLY for each in worst):
         moves = displacement(stated, UNKNOWNS).moves
         return Standing(is_over=True, candidates=(_candidate(case, used, moves),))
     return None

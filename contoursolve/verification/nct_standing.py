@@ -11,6 +11,7 @@ from contoursolve.verification.nct_words import (
     CENTERS,
     CORNERS,
     ENDS,
+    ROUNDED,
     choosing,
     course_of,
     elements_of,
@@ -61,6 +62,7 @@ def stand(case: Case) -> Standing | None:
         found.setdefault(key, course)
     if not found:
         return _nowhere(case)
+    is_all = is_all and not any(ROUNDED in course.moot for course in found.values())
     gaps = [max(map(abs, course.gaps.values()), default=0.0) for course in found.values()]
     if any(abs(gap - case.slack) <= _NEAR * case.slack for gap in gaps):
         return None

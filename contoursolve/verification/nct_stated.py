@@ -18,7 +18,7 @@ from contoursolve.verification.facts import STEP, Sight, slopes, statements
 from contoursolve.verification.ledger import Ledger, fewest
 from contoursolve.verification.measure import ROUNDING, angle_between, cross, direction, dot, unit
 from contoursolve.verification.nct_figure import Figure, Slots, course_at, drawing_at, figure_of, makers, slots_of
-from contoursolve.verification.nct_words import CENTERS, ENDS, Element, circle_side, elements_of
+from contoursolve.verification.nct_words import CENTERS, ENDS, Element, circle_side, elements_of, half_circle
 from contoursolve.verification.quantity import Quantity
 from contoursolve.verification.rails import UnmakeableError
 from contoursolve.verification.statement import Statement, displacement
@@ -89,9 +89,8 @@ def _statements(case: Case, figure: Figure) -> Iterator[Statement]:
         if each.own in figure.points:
             yield state(ON_CIRCLE, "", _ring_off(each, each.own))
         if case.states(each.given("R")):
-            yield state(
-                "the radius is the one given", each.given("R"), _size_off(each, abs(case.amount(each.given("R"))))
-            )
+            size = _stated_radius(case, each, figure)
+            yield state("the radius is the one given", each.given("R"), _size_off(each, size))
 
 
 Residual = Callable[[Figure], float]
@@ -100,6 +99,15 @@ State = Callable[..., Statement]
 
 def _ring_off(each: Element, name: str) -> Residual:
     return lambda at: abs(at.at(name) - at.at(each.center)) - at.numbers[each.radius]
+
+
+def _stated_radius(case: Case, each: Element, figure: Figure) -> float:
+    """The radius that R gives; of a half circle half of its chord, which may be more by as little as words are exact
+    to."""
+    size, head = abs(case.amount(each.given("R"))), each.own if each.own in figure.points else each.head
+    chord = figure.at(head) - figure.at(each.tail)
+    is_half = not each.is_over and 0 < abs(chord) / 2 - size <= half_circle(case, each.given("R"), chord)
+    return abs(chord) / 2 if is_half else size
 
 
 def _size_off(each: Element, size: float) -> Residual:

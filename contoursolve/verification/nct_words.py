@@ -10,7 +10,7 @@ from itertools import pairwise
 
 from contoursolve.model import FIRST, SECOND, Arc, Turn
 from contoursolve.reading import Claim
-from contoursolve.tolerance import LENGTH, REGULAR
+from contoursolve.tolerance import LENGTH, REGULAR, RESIDUAL
 from contoursolve.verification.case import Case
 from contoursolve.verification.course import Bend, Course, Shape
 from contoursolve.verification.measure import ROUNDING, direction, unit
@@ -270,6 +270,9 @@ def _ring_by_radius(
     if rest == 0 and turn is not None:
         moot.add(each.given("R"))
         return Ring(tail + way / 2, radius, turn, unsure)
+    if turn is not None and 2 * radius < chord <= 2 * (radius + half_circle(case, each.given("R"), way)):
+        moot |= {each.given("R"), ROUNDED}
+        return Ring(tail + way / 2, chord / 2, turn, unsure)
     if turn is None or not LENGTH < chord <= 2 * radius + case.limit + unsure:
         raise UnmakeableError(f"no circle of this radius passes through two points {chord:g} mm apart")
     rise, blur = leg(radius, chord / 2, ROUNDING * (radius + chord) + unsure)
@@ -281,6 +284,17 @@ def _ring_by_radius(
     if not sign:
         raise UnmakeableError("R has no sign")
     return Ring(places[sign], radius, turn, blur)
+
+
+ROUNDED = "a half circle within the least increments"
+"""No circle of exactly the stated radius has its ends, so that a result does not list the other solutions."""
+
+
+def half_circle(case: Case, radius: str, chord: complex) -> float:
+    """How much more than the radius half of a chord may be, mm: the ends and the radius are exact to half their
+    increments."""
+    across = abs(chord.real) * case.increment("0") + abs(chord.imag) * case.increment("1")
+    return (across / abs(chord) + case.increment(radius)) / 2 + RESIDUAL if chord else 0.0
 
 
 def _rest(case: Case, each: Element) -> Decimal | None:

@@ -17,7 +17,9 @@ NUMERICAL = 1e-6
 class Statement:
     """What one word or fact says: `gradient` is how its residual (mm) changes with each unknown (mm).
 
-    `degrees` is by how much an angle is off; None for words that are no angles. `at_unknowns` is the residual (mm)
+    `degrees` is by how much an angle is off; None for words that are no angles. `allowed` (mm) is how far a word that
+    is not needed may miss what the others say, each coordinate and the word being exact to half its increment.
+    `at_unknowns` is the residual (mm)
     at the unknowns themselves, where `residual` is that of the claimed elements. `against` (mm) is how far
     something runs the opposite way. `value` is the residual (mm) at any unknowns where it is no linear function; the
     gradient was then made by differences.
@@ -31,11 +33,12 @@ class Statement:
     at_unknowns: float | None = None
     against: float = 0.0
     value: Callable[[Sequence[float]], float] | None = None
+    allowed: float = AGREEMENT
 
     @property
     def agrees(self) -> bool:
         """Whether the word holds within the least increment."""
-        return abs(self.residual) <= AGREEMENT or (self.degrees is not None and abs(self.degrees) <= AGREEMENT)
+        return abs(self.residual) <= self.allowed
 
 
 @dataclass(frozen=True, slots=True)

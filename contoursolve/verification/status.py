@@ -48,7 +48,7 @@ def check_status(found: Found, claimed: ClaimedContour, ledger: Ledger) -> bool:
     remark = f"the result says {claimed.status.value}, and by the words it is {expected.value}"
     ledger.require("the status is the one that the words give", words, claimed.status is expected, remark)
     if not standing.is_all:
-        ledger.omit("whether these are all solutions", "there are too many to go through")
+        ledger.omit("whether these are all solutions", "there are too many to go through, or a half circle is rounded")
     elif claimed.count is not None and standing.candidates is not None:
         count, there = claimed.count, (len(standing.candidates), len(feasible))
         remark = (

@@ -8,7 +8,7 @@ from contoursolve.model import FIRST, SECOND
 from contoursolve.tolerance import AGREEMENT, REGULAR, RESIDUAL
 from contoursolve.verification.case import Case
 from contoursolve.verification.claimed import ClaimedDiagnosis, ClaimedFreedom
-from contoursolve.verification.g111 import LINE_1, LINE_2, UNKNOWNS, statements_at
+from contoursolve.verification.g111 import LINE_1, LINE_2, UNKNOWNS, ignored_words, statements_at
 from contoursolve.verification.ledger import Ledger
 from contoursolve.verification.statement import Statement, displacement
 
@@ -33,11 +33,30 @@ def check_linear(case: Case, diagnosis: ClaimedDiagnosis, ledger: Ledger) -> Non
             ledger.measure(
                 "they disagree by as much", tie.addresses, tie.off_by_mm - off, case.limit / min(1.0, weight)
             )
-            is_right = tie.is_conflict == (tie.off_by_mm > AGREEMENT)
-            ledger.require("they conflict if that is more than the least increment", tie.addresses, is_right)
+            share = _share(case, name)
+            is_right = tie.is_conflict == (share > 1) or 1 / CLEARLY < share < CLEARLY
+            ledger.require("they conflict if that is more than the least increments", tie.addresses, is_right)
     ledger.require(
         "all words that are tied are named", [" ".join(each) for each in found], not found, "the result lacks these"
     )
+
+
+def _share(case: Case, names: tuple[str, ...]) -> float:
+    """By how much the last of words that are tied misses what the others say, as a share of what is allowed."""
+    ignored = ignored_words(case)
+    *others, last = sorted(names, key=lambda name: (name in ignored, _ORDER.index(name)))
+    moved = displacement(list(statements_at(case, tuple(others), 0j, 0j)), UNKNOWNS)
+    v1, v2 = -complex(*moved.moves[:2]), -complex(*moved.moves[2:])
+    (stated,) = statements_at(case, (last,), v1, v2)
+    touched = {index for index, slope in enumerate(stated.gradient) if slope}
+    return abs(stated.residual) / (AGREEMENT if touched & {*moved.free} else stated.allowed)
+
+
+_ORDER = "IKAXUZWB"
+"""Words that come later are held against those before."""
+
+CLEARLY = 2.0
+"""1. Within so many times the allowed amount or one part of so many it is left open whether words agree."""
 
 
 def _list(names: Iterable[str]) -> str:

@@ -425,6 +425,16 @@ GEOMETRY_RULES = (
         rejected=(_START + "G3 X-49.995 Y0 I-50 J0\n" + _LINE,),
     ),
     Rule(
+        code="nct-half-circle",
+        message="{words}: the ends are {limit} from their middle, {off} more than the radius, so it is a half circle",
+        help="within the least increments nothing is wrong; the arc ends where its words say",
+        source=_manual("16.3.3, p. 130: an example of this shape; that the increments count", Evidence.ASSUMED),
+        severity=Severity.INFO,
+        about=RemarkKind.HALF_CIRCLE,
+        accepted=(_GOOD,),
+        rejected=(_START + "G3 X-50 Y0 R49.9995\n" + _LINE,),
+    ),
+    Rule(
         code="nct-reversed",
         message="the line would run against {words}: it would end {off} behind where it begins; the control "
         "gives no alarm and makes the wrong motion",
