@@ -2,6 +2,7 @@
 
 from collections import deque
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from decimal import Decimal
 from itertools import chain
 
 from contoursolve.batch import Batch
@@ -21,7 +22,7 @@ from contoursolve.outcome import Left, Options, Summary, left_unread
 from contoursolve.pending import Step
 from contoursolve.pipeline import attach, walk
 from contoursolve.posts import Machine
-from contoursolve.reading import Effect, State, Trouble, apply_modes, codes_of, motion_of, words_of
+from contoursolve.reading import Claim, Effect, State, Trouble, apply_modes, codes_of, motion_of, words_of
 from contoursolve.reliance import STANDING_ALONE, Reliance, reliance, restate, why_unmet
 from contoursolve.solving import Point
 from contoursolve.syntax import Block, Directive, Passage, Program, Word, parse_block
@@ -238,14 +239,10 @@ class _Expander:
         is_open = any(answer.claim.before.axes[axis].is_skippable for axis in answer.plane.axes)
         if is_open and not answer.claim.blocks[0].is_skippable:
             return "it begins where a block with / leads: with that block skipped, it is another contour"
-        addresses = self.modes.lexicon.addresses
-        beside = [
-            word.text
-            for block in answer.claim.blocks
-            for word in block.words
-            if word.address in addresses and addresses[word.address].axis not in ("", *answer.plane.axes)
-        ]
-        return f"{beside[0]} moves an axis outside the plane: move it in a block of its own" if beside else ""
+        beside = [word.text for block in answer.claim.blocks for word in answer.claim.beside_plane(block)]
+        if not beside or (len(answer.claim.blocks) == 1 and len(answer.contour.elements) <= 1):
+            return ""
+        return f"{beside[0]} moves an axis outside the plane: move it in a block of its own"
 
     def _relying(self, answer: Answer | Moulded, steps: Iterator[Step], coming: deque[Step]) -> str:
         """Why a contour has to stay because of a block behind it, for which the motion that is in force before it
@@ -283,6 +280,11 @@ class _Expander:
                         self.summary.deviation = move.deviation
                     if move.words:
                         moves.append(move)
+            words = claim.beside_plane(block) if isinstance(claim, Claim) else []
+            beside = [self._as_written(word, form, state.unit) for word in words]
+            if beside:
+                move = moves.pop() if moves else Move(0 if is_rapid else 1, (), here, 0.0)
+                moves.append(move._replace(words=(*move.words, *beside)))
             end = self.lines.take_end(block.line)
             text = self._write(block, moves, end, state)
             if text:
@@ -318,6 +320,13 @@ class _Expander:
                 own,
             )
         return self.formats[key]
+
+    def _as_written(self, word: Word, form: Format, unit: Length) -> str:
+        """A word that moves an axis beside a contour, as the target writes numbers."""
+        value = (self.modes.lexicon.value(word, unit) or Decimal(0)) / unit.in_mm
+        exponent = value.normalize().as_tuple().exponent
+        places = max(form.decimals, -exponent if isinstance(exponent, int) else 0)
+        return word.address + form.number(float(value), f"%.{places}f")
 
     def _is_own_motion(self, block: Block) -> bool:
         """Whether a code of the block itself makes it a contour, so that the motion in force has no part in it."""

@@ -137,10 +137,9 @@ class Queue:
         contour, addresses = pending.contour, self.dialect.modes.lexicon.addresses
         state = contour.after if isinstance(contour, Claim) else pending.step.before
         axes = [*state.plane.axes]
-        for word in contour.blocks[-1].words if isinstance(contour, Claim) else ():
-            row = addresses.get(word.address)
-            if row and row.axis and row.axis not in axes:
-                axes.append(row.axis)
+        beside = [*map(contour.beside_plane, contour.blocks)] if isinstance(contour, Claim) else []
+        for words in beside:
+            axes += [axis for axis in (addresses[word.address].axis for word in words) if axis not in axes]
 
         def find(axis: str) -> Position:
             if pending.left is None:

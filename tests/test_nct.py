@@ -7,11 +7,13 @@ from math import cos, isfinite, radians, sin
 from random import Random
 
 import pytest
+from click.testing import CliRunner
 from generate_nct import FORMS, Drawn, random_chain, random_cornered, random_pair
 from oracle_corners import miss
 from oracle_nct import Settings, runs
 
-from contoursolve import Result, check, solve
+from contoursolve import Result, check, expand, solve
+from contoursolve.cli import main
 from contoursolve.diagnostic import Diagnostic
 from contoursolve.families import Code, family
 from contoursolve.output.document import to_json
@@ -260,3 +262,65 @@ def test_a_family_counts_with_the_settings_too():
 def test_a_difference_of_radii_that_is_no_sensible_number_is_refused(value):
     with pytest.raises(SettingError, match="it is a number from"):
         solve(LINES, settings={"nct-99m.radius-difference": value})
+
+
+# A word outside the plane, and parallel axes (p. 120) ----------------------------------------------------------
+
+BESIDE = (
+    "G17 G90 G0 X0 Y0 Z0 W1\nG1 X30 ,A45 Z-5 F100\nG1 ,A10 X90 W-3\nG1 X90 ,A45 Z-10\nG91 ,A0 X1 Z-1\nG90 G18 X100 ,A90"
+)
+
+
+def test_a_line_by_one_coordinate_and_its_angle_takes_one_word_of_another_axis():
+    result = solve(BESIDE)
+    assert errors(result) == []
+    assert {each.code for each in result.diagnostics} == {"line-vanishes"}
+    assert [answer.contour.end for answer in result.answers[:2]] == [
+        (30.0, 30.0),
+        (90.0, pytest.approx(40.5796, abs=1e-4)),
+    ]
+    last = result.answers[-1]
+    assert last.start.values == (-11, 91), "Z and X go on from there"
+    expanded = expand(BESIDE).text
+    assert [line for line in expanded.splitlines() if "(" not in line][1:5] == [
+        "G01 X30 Y30 Z-5 F100",
+        "G01 X90 Y40.58 W-3",
+        "G01 Z-10",
+        "G91 G01 X1 Y0 Z-1",
+    ]
+    documents = Document("program", BESIDE.encode()), Document("result", to_json(result).encode())
+    assert verify(*documents).verdict is not Verdict.FAILED
+
+
+@pytest.mark.parametrize("axis", ["Z", "U", "V", "W"])
+def test_an_expanded_program_with_an_axis_beside_the_plane_is_the_same_path(axis, tmp_path):
+    old, new, moved = (tmp_path / name for name in ("old.nc", "new.nc", "moved.nc"))
+    old.write_text(f"G17 G90 G0 X0 Y0 Z0 U0 V0 W0\nG1 X30 ,A45 {axis}-5 F100\nG1 X50 ,A0")
+    new.write_text(expand(old.read_text(), decimals=6).text)
+    moved.write_text(new.read_text().replace(f"{axis}-5", f"{axis}-6"))
+    compared = [
+        CliRunner().invoke(main, ["diff", str(old), str(each), "--control", "nct-99m"]) for each in (new, moved)
+    ]
+    assert [each.exit_code for each in compared] == [0, 1], [each.output for each in compared]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "G17 G90 G0 X0 Y0\nG1 X30 ,A45 Z-5 W-3",
+        "G17 G90 G0 X0 Y0\nG1 X30 Z-5 ,C10\nX40 Y40",
+        "G17 G90 G0 X0 Y0\nG1 X30 ,A45 Z-5 ,R2\nX40 Y-40",
+        LINES + " Z-5",
+        LINES.replace("G1 ,A150", "G1 ,A150 U5"),
+    ],
+)
+def test_more_of_it_or_elsewhere_is_refused(text):
+    assert codes(text) == {"nct-axis-outside-plane"}
+
+
+def test_increments_of_a_contour_without_a_path_lead_nowhere():
+    """They were taken as coordinates."""
+    text = "G17 G90 G0 X10 Y10 Z3\nG91 G1 X10 ,A90 Z2\nG90 G18 X50 ,A30"
+    first, second = solve(text).answers
+    assert first.contour is None
+    assert second.start.values == (5, None)

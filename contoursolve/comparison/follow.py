@@ -81,26 +81,37 @@ class _Follower:
         if len(claim.blocks) > 1:
             owner = {each.name: block.line for each, block in zip(claim.form.path, claim.blocks, strict=True)}
             owner |= {row.name: owner[row.before] for row in claim.form.corners}
-        for element in answer.contour.elements if answer.contour else ():
+        reason = "the contour is not solved"
+        left = leave(claim, answer.contour.end if answer.contour else None, self.modes, reason)
+        elements = answer.contour.elements if answer.contour else ()
+        for element in elements:
             block, state = states[owner.get(element.name, claim.blocks[0].line)]
             is_rapid = state.motion == 0 and not self._is_own_motion(block)
-            yield self._segment(block, state, element, Motion.RAPID if is_rapid else Motion.FEED)
-        reason = "the contour is not solved"
+            motion = Motion.RAPID if is_rapid else Motion.FEED
+            # Axes outside the plane move along.
+            ends = self.state, left if element is elements[-1] else self.state
+            yield self._segment(block, state, element, motion, ends)
         if answer.contour is None:
             yield self._unfollowed(claim.blocks[0], reason)
-        self.state = leave(claim, answer.contour.end if answer.contour else None, self.modes, reason)
+        elif not elements and any(map(claim.beside_plane, claim.blocks)):
+            block, state = states[claim.blocks[0].line]
+            motion = Motion.RAPID if state.motion == 0 else Motion.FEED
+            yield self._travel(block, state, motion, (self._place(self.state), self._place(left)), None)
+        self.state = left
 
     def _is_own_motion(self, block: Block) -> bool:
         """Whether a code of the block itself makes it a contour, so that the motion in force has no part in it."""
         codes = codes_of(block, self.modes)
         return any(not isinstance(code, Word) and code.effect is Effect.CONTOUR for code in codes)
 
-    def _segment(self, block: Block, state: State, segment: Segment, motion: Motion) -> Travel:
-        """An element of a contour in space."""
+    def _segment(
+        self, block: Block, state: State, segment: Segment, motion: Motion, states: tuple[State, State]
+    ) -> Travel:
+        """An element of a contour in space, where the other axes are as in the states before and after it."""
         first, second = (self.axes.index(axis) for axis in state.plane.axes)
         places: list[Place] = []
-        for at in (segment.start, segment.end):
-            place = list(self._place(self.state))
+        for at, where in zip((segment.start, segment.end), states, strict=True):
+            place = list(self._place(where))
             place[first], place[second] = at
             places.append(tuple(place))
         bend = None

@@ -26,12 +26,23 @@ def leave(
             before[axis].is_skippable for axis in axes
         )
         ends = zip(axes, end, strict=True)
-        return state.move({axis: end_of_contour(value, last.span, is_skippable=is_skippable) for axis, value in ends})
+        state = state.move({axis: end_of_contour(value, last.span, is_skippable=is_skippable) for axis, value in ends})
+        return _move_beside(state, claim, modes)
     lost = state.lose(state.plane.axes, reason, cause or last.span)
     if last.faults:
         return lost
-    absolute = replace(state, is_incremental=False)
-    return lost.move(positions(absolute, _axis_words(last, modes), modes, last.is_skippable))
+    told = replace(lost, is_incremental=state.is_incremental and not claim.is_end_absolute)
+    return lost.move(positions(told, _axis_words(last, modes), modes, last.is_skippable))
+
+
+def _move_beside(state: State, claim: Claim, modes: Modes) -> State:
+    """The state with the axes outside the plane where the words of a contour's blocks lead."""
+    here = claim.before
+    for block in claim.blocks:
+        words = claim.beside_plane(block)
+        here = apply_modes(here.move(state.axes), block, modes)
+        state = state.move(positions(here, words, modes, block.is_skippable)) if words else state
+    return state
 
 
 def end_of_contour(value: float, span: Span, *, is_skippable: bool = False) -> Position:

@@ -84,8 +84,15 @@ class Claim:
     """The words that would choose, whether they are stated or not."""
     conventions: tuple[Convention, ...] = ()
     """What the manual does not say and the reading rests on."""
+    is_end_absolute: bool = False
+    """Whether its last block states its end as coordinates even where increments are in force."""
     limits: Mapping[str, Decimal] = field(default_factory=dict)
     """Values of givens, mm, on whose two sides the words are read in different ways while the others stay."""
+
+    def beside_plane(self, block: Block) -> list[Word]:
+        """The words of one of its blocks that move an axis outside the plane."""
+        rows = ((word, self.lexicon.addresses.get(word.address)) for word in block.words)
+        return [word for word, row in rows if row and row.axis and row.axis not in self.after.plane.axes]
 
     @property
     def directives(self) -> tuple[Directive, ...]:
@@ -135,7 +142,10 @@ def unused_words(claim: Claim, profile: Profile) -> list[Word]:
     used = {fact.given for fact in (*profile.facts, *profile.ignored)}
     used |= {choice.given for choice in claim.choices} | {question.name for question in profile.questions}
     used |= {name for row in claim.form.corners for name in row.shapes}
-    return [given.word for name, given in claim.givens.items() if given.word and name not in used]
+    # One block moves all its axes; where several make a contour, that is left to its rules.
+    beside = claim.beside_plane(claim.blocks[0]) if len(claim.blocks) == 1 else []
+    words = (given.word for name, given in claim.givens.items() if given.word and name not in used)
+    return [word for word in words if word not in beside]
 
 
 def _questions(claim: Claim, asked: frozenset[str], layout: Layout) -> Iterator[Question]:

@@ -48,14 +48,16 @@ def advance_plainly(state: State, passage: Passage, modes: Modes) -> State:
     """The state after plain lines; each axis and the motion are where the last line that says so has them. What an
     axis is told is read when somebody asks."""
     axes, motion = dict[str, Position](), None
+    text = "".join(passage.lines).upper()
+    programmed = [axis for axis in modes.axes if axis in text]
     for place in range(len(passage.lines) - 1, -1, -1):
         words, found = words_of(passage.lines[place]), None
         motion = motion_of(words) if motion is None else motion
-        for axis in modes.axes:
+        for axis in programmed:
             if axis in words and axis not in axes:
                 found = found or _Moved(passage.lines[place], passage.line + place, state.unit, modes)
                 axes[axis] = Awaited(partial(found.position, axis))
-        if motion is not None and len(axes) == len(modes.axes):
+        if motion is not None and len(axes) == len(programmed):
             break
     if motion is not None and motion != state.motion:
         state = replace(state, motion=motion)

@@ -159,7 +159,8 @@ def _of_place(each: Element, names: set[str], around: set[str]) -> Iterator[str]
         yield "Q, and a word that over-defines it is missing"
     if names & _BENDS and "@last" in around:
         yield "a corner and nothing after it"
-    if "off-plane" in names and "@ordinary" not in around:
+    beside = sum(name.startswith("beside-") for name in names)
+    if beside and "@ordinary" not in around and not ("@only" in around and ",A" in names and beside == 1):
         yield "an axis outside the plane"
     if "@other-plane" in around:
         yield "in another plane"

@@ -18,13 +18,14 @@ from contoursolve.dialects.nct_99m.element import (
     Element,
     pair_role,
 )
+from contoursolve.dialects.nct_99m.lexicon import AXES
 from contoursolve.model import FIRST, SECOND, Arc, CornerShape, Line, Role, Turn
 from contoursolve.reading import CornerRow, FactRow, Form, Sample
 from contoursolve.tolerance import RADIUS_DIFFERENCE
 
 START = "S"
 
-ALLOWED = frozenset({"N", "G", "F", "S", "T", "M", "D", "H", "X", "Y", "Z", "I", "J", "K", "R", ",A", ",C", ",R", "Q"})
+ALLOWED = frozenset({"N", "G", "F", "S", "T", "M", "D", "H", *AXES, "I", "J", "K", "R", ",A", ",C", ",R", "Q"})
 
 _ORDERS = (("first", FIRST), ("second", SECOND))
 

@@ -9,10 +9,12 @@ from contoursolve.dialects.nct_99m.chain import Names, compose, names_of
 from contoursolve.dialects.nct_99m.element import (
     AIMED,
     ALONE,
+    BESIDE,
     CIRCLE_CIRCLE,
     FOLLOWED,
     LAST,
     LINE_LINE,
+    ONLY,
     ORDINARY,
     OTHER_PLANE,
     POINT,
@@ -22,7 +24,7 @@ from contoursolve.dialects.nct_99m.element import (
     Element,
     pair_role,
 )
-from contoursolve.dialects.nct_99m.lexicon import MANUAL
+from contoursolve.dialects.nct_99m.lexicon import AXES, MANUAL
 from contoursolve.model import Choice, Given, Side, Turn, Unit
 from contoursolve.reading import Claim, Convention, Form, Lexicon, Modes, Selector, Setting, State
 from contoursolve.source import Evidence, Source
@@ -124,6 +126,7 @@ def claim_of(members: Sequence[Member], before: State, modes: Modes) -> Claim:
         circumstances=frozenset(circumstances),
         choices=tuple(_choices(elements, names, known, modes)),
         selectors=tuple(_selectors(elements, names, known, modes)),
+        is_end_absolute=elements[-1].is_over,
         conventions=tuple(_conventions(form, circumstances, modes)),
     )
 
@@ -133,7 +136,7 @@ def _calls(member: Member, lexicon: Lexicon) -> dict[str, str]:
     plane = member.here.plane
     step = "-step" if member.here.is_incremental and not member.element.is_over else ""
     called = {address: address for address, row in lexicon.addresses.items() if not row.axis}
-    called |= dict.fromkeys({"X", "Y", "Z"} - {*plane.axes}, "off-plane")
+    called |= {axis: name for axis, name in zip(AXES, BESIDE, strict=True) if axis not in plane.axes}
     called |= dict.fromkeys({"I", "J", "K"} - {*plane.centers}, "wrong-center")
     for addresses, what, suffix in ((plane.axes, "", step), (plane.centers, "center-", "")):
         called |= {address: f"{what}{order}{suffix}" for address, order in zip(addresses, _ORDERS, strict=True)}
@@ -190,6 +193,7 @@ def _circumstances(member: Member, first: State, *, is_only: bool) -> Iterator[s
         RAPID: member.here.motion == 0,
         FOLLOWED: member.element.is_followed,
         LAST: member.is_last,
+        ONLY: is_only,
         ORDINARY: is_only and member.element.turn is not None,
     }
     return (name for name, is_true in holds.items() if is_true)

@@ -6,6 +6,7 @@ tables serves G17, G18 and G19.
 
 from dataclasses import dataclass
 
+from contoursolve.dialects.nct_99m.lexicon import AXES
 from contoursolve.model import Turn
 
 LINE, ARC = "line", "arc"
@@ -21,6 +22,10 @@ FOLLOWED = "@followed"
 """The next block is over-defined, so that this one ends in a computed intersection."""
 LAST = "@last"
 """No G1, G2 or G3 block follows."""
+ONLY = "@only"
+"""The only block of its contour."""
+BESIDE = tuple(f"beside-{axis}" for axis in AXES)
+"""Words that move an axis outside the plane, each with its axis."""
 ORDINARY = "@ordinary"
 """The control calculates nothing for it."""
 

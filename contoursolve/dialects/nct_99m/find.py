@@ -10,6 +10,7 @@ from itertools import count
 
 from contoursolve.dialects.nct_99m.claim import Member, claim_of
 from contoursolve.dialects.nct_99m.element import CHAMFER, ROUNDING, Element
+from contoursolve.dialects.nct_99m.lexicon import AXES
 from contoursolve.model import Turn
 from contoursolve.reading import Claim, Effect, Modes, State, apply_modes, codes_of
 from contoursolve.syntax import Block, Word
@@ -89,7 +90,7 @@ def _stated(block: Block) -> set[str]:
 def _moves(block: Block, here: State) -> bool:
     """Whether a block is a motion: it has a coordinate, an angle, a corner; an arc a centre, R, or just its G code.
     A Q that belongs to nothing is looked at, too."""
-    moving = {"X", "Y", "Z", ",A", CHAMFER, ROUNDING}
+    moving = {*AXES, ",A", CHAMFER, ROUNDING}
     if here.motion in _TURNS:
         moving |= {"I", "J", "K", "R"}
     if not block.find("M"):

@@ -6,12 +6,14 @@ from contoursolve.source import Evidence, Source
 
 MANUAL = "NCT 99M/2000M Programmer's Manual"
 CHAPTER = Source(MANUAL, "16.3.3, p. 129", Evidence.PRINTED)
+PARALLEL = Source(MANUAL, "16.2, p. 120", Evidence.PRINTED)
 CODES_SOURCE = Source(MANUAL, "list of G codes", Evidence.ASSUMED)
 
 ADDRESSES = (
     Address("X", "coordinate", Unit.MM, CHAPTER, axis="X"),
     Address("Y", "coordinate", Unit.MM, CHAPTER, axis="Y"),
     Address("Z", "coordinate", Unit.MM, CHAPTER, axis="Z"),
+    *(Address(axis, "coordinate of a parallel axis", Unit.MM, PARALLEL, axis=axis) for axis in "UVW"),
     Address("I", "centre along X, from where the arc begins", Unit.MM, CHAPTER),
     Address("J", "centre along Y, from where the arc begins", Unit.MM, CHAPTER),
     Address("K", "centre along Z, from where the arc begins", Unit.MM, CHAPTER),
@@ -23,6 +25,8 @@ ADDRESSES = (
 )
 
 NUMBERS = NumberFormat(WithoutPoint.AS_WRITTEN, Source(MANUAL, "examples, p. 123-130", Evidence.PRINTED))
+
+AXES = ("X", "Y", "Z", "U", "V", "W")
 
 XY = Plane("G17", ("X", "Y"), ("I", "J"))
 ZX = Plane("G18", ("Z", "X"), ("K", "I"))
@@ -66,6 +70,6 @@ CODES = (
 MODES = Modes(
     lexicon=Lexicon({row.address: row for row in ADDRESSES}, NUMBERS),
     codes={code.number: code for code in CODES},
-    axes=("X", "Y", "Z"),
+    axes=AXES,
     calls=frozenset({98, 99}),
 )

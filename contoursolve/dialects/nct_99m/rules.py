@@ -6,6 +6,7 @@ from contoursolve.diagnostic import Alarm, Severity
 from contoursolve.dialects.nct_99m.element import (
     ALONE,
     ARC,
+    BESIDE,
     CIRCLE_CIRCLE,
     CIRCLE_LINE,
     FOLLOWED,
@@ -13,6 +14,7 @@ from contoursolve.dialects.nct_99m.element import (
     LINE,
     LINE_CIRCLE,
     LINE_LINE,
+    ONLY,
     ORDINARY,
     OTHER_PLANE,
     OVER_CIRCLE,
@@ -312,12 +314,12 @@ COMBINATION_RULES = (
     Rule(
         code="nct-axis-outside-plane",
         message="{words} moves an axis outside the plane in which the contour is computed",
-        help="move that axis in a block of its own",
+        help="move that axis in a block of its own; only a line by one coordinate and ,A may have one such word",
         source=_ASSUMED,
         roles=_ANY,
-        when=some("off-plane") & ~some(ORDINARY),
-        accepted=(_GOOD,),
-        rejected=(_GOOD + " Z-5",),
+        when=some(*BESIDE) & ~some(ORDINARY) & ~(some(",A") & some(ONLY) & at_most(1, *BESIDE)),
+        accepted=(_GOOD, _BY_ANGLE + " Z-5", _BY_ANGLE + " W-5"),
+        rejected=(_GOOD + " Z-5", _BY_ANGLE + " Z-5 W-5", _CUT.replace("G1 X30", "G1 X30 Z-5")),
     ),
     Rule(
         code="nct-plane-changes",
