@@ -318,9 +318,10 @@ def test_more_of_it_or_elsewhere_is_refused(text):
     assert codes(text) == {"nct-axis-outside-plane"}
 
 
-def test_increments_of_a_contour_without_a_path_lead_nowhere():
-    """They were taken as coordinates."""
-    text = "G17 G90 G0 X10 Y10 Z3\nG91 G1 X10 ,A90 Z2\nG90 G18 X50 ,A30"
-    first, second = solve(text).answers
+def test_increments_of_a_contour_without_a_path_are_no_coordinates():
+    first, second = solve("G17 G90 G0 X10 Y10 Z3\nG91 G1 X15 ,A90 Z2\nG90 G18 X50 ,A30").answers
     assert first.contour is None
-    assert second.start.values == (5, None)
+    assert second.start.values == (5, 25)
+    first, second = solve("G17 G90 G0 X10 Y10 Z3\nG91 G1 X15 ,C50\nX10\nG90 Y50 ,A30").answers
+    assert first.contour is None
+    assert second.start.values == (None, None)

@@ -31,7 +31,9 @@ def leave(
     lost = state.lose(state.plane.axes, reason, cause or last.span)
     if last.faults:
         return lost
-    told = replace(lost, is_incremental=state.is_incremental and not claim.is_end_absolute)
+    # Increments count from where the last block begins, which is known of an only one.
+    origin = state if len(claim.blocks) == 1 else lost
+    told = replace(origin, is_incremental=state.is_incremental and not claim.is_end_absolute)
     return lost.move(positions(told, _axis_words(last, modes), modes, last.is_skippable))
 
 
