@@ -12,11 +12,16 @@ from random import Random
 from typing import NamedTuple
 
 import pytest
+from click.testing import CliRunner
 from generate_lx3 import random_g11, random_g112
 from generate_nct import FORMS, random_chain, random_cornered, random_pair
 from test_backwards import SHAPES, draw_g111
 
-from contoursolve import solve
+from contoursolve import feasible, solve
+from contoursolve.cli import main
+from contoursolve.notebook.exploration import begin
+from contoursolve.notebook.reach import range_of
+from contoursolve.notebook.view import view_of
 from contoursolve.solving import RefusalKind
 
 STEP = Decimal("0.001")
@@ -219,3 +224,79 @@ def test_corners_that_leave_each_other_no_room_are_made_smaller_together():
     (finding,) = solve(LATHE.format("P3. D3.")).diagnostics
     assert finding.help == "delete P3., or delete D3., or write at most 1.500 mm for both"
     assert "G111 A180. K-30. B90. X66. P1.5 D1.5" in [fix.replacement for fix in finding.fixes]
+
+
+# Ranges -----------------------------------------------------------------------------------------------------
+
+END = re.compile(r"(-?[0-9.]+) (?:mm|in|deg) at (most|least)$")
+
+
+def with_value(text: str, word: str, value: Decimal) -> str:
+    """The program with another value of a word, which is named by its line and its address."""
+    line, _, address = word.partition(":")
+    lines = text.split("\n")
+    lines[int(line) - 1] = re.sub(rf"(?<![A-Z,]){address}-?[0-9.]+", f"{address}{value}", lines[int(line) - 1])
+    return "\n".join(lines)
+
+
+def has_contour(text: str) -> bool:
+    answers = solve(text, depth="verdict").answers
+    return len(answers) == 1 and answers[0].contour is not None
+
+
+def count_tight_ends(seed: int, count: int) -> Counter[str]:
+    """The ends of ranges that were shown of a word each of so many random blocks, by kind, all tight."""
+    rng, found = Random(seed), Counter()
+    for kind in islice(cycle(KINDS), count):
+        text = KINDS[kind](rng).strip()
+        lines = text.split("\n")
+        line = rng.randrange(1, len(lines))
+        word = f"{line + 1}:{rng.choice(re.findall(r'(,?[A-FH-Z])-?[0-9.]+', lines[line]) or 'X')}"
+        try:
+            ranges = feasible(text, word)
+        except ValueError:  # words that choose, and programs that show no control
+            continue
+        for each in ranges.intervals:
+            for end, way in ((each.low, -1), (each.high, 1)):
+                shown = END.search(end.reason.text) if end.reason else None
+                # Beside lines that are parallel, points are too far away for numbers.
+                if shown is None or "parallel" in end.reason.text:
+                    continue
+                value, beyond = Decimal(shown[1]), Decimal(shown[1]) + way * STEP
+                if each.high.value - each.low.value > 2 * STEP:
+                    assert has_contour(with_value(text, word, value)), (text, word, end)
+                assert float(beyond) not in each, (text, word, end)
+                if float(beyond) not in ranges:
+                    assert not has_contour(with_value(text, word, beyond)), (text, word, end)
+                found[kind] += 1
+    return found
+
+
+def test_every_shown_end_of_a_range_works_and_one_increment_more_does_not():
+    assert count_tight_ends(4, 16).total() > 8
+
+
+@pytest.mark.slow
+def test_every_shown_end_of_hundreds_of_ranges_works_and_one_increment_more_does_not():
+    found = count_tight_ends(16, 400)
+    assert sum(count > 10 for count in found.values()) > 5, found
+
+
+@pytest.mark.parametrize(("unit", "step"), [("mm", STEP), ("inch", Decimal("0.0001"))])
+def test_the_explorer_and_the_command_show_ends_that_work(unit, step):
+    block, start = "G111 X4. A180. K-1.2 B119.3 P.2", "X2. Z0."
+
+    def works(size: Decimal) -> bool:
+        answers = solve(block.replace("P.2", f"P{size}"), start=start, units=unit).answers
+        return answers[0].contour is not None
+
+    now = begin(block, start=start, units=unit)
+    field = next(each for each in view_of(now)["fields"] if each["key"] == "P")
+    noted = re.fullmatch(r"0 ≤ P ≤ ([0-9.]+)", range_of(now, field)["note"])[1]
+    arguments = ["range", "--block", block, "--start", start, "--units", unit, "--word", "P"]
+    told = re.search(
+        r"to +([0-9.]+) (?:mm|in) .*: ([0-9.]+) (?:mm|in) at most", CliRunner().invoke(main, arguments).output
+    )
+    for shown in (noted, *told.groups()):
+        assert works(Decimal(shown))
+        assert not works(Decimal(shown) + step)

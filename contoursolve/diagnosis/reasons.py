@@ -12,7 +12,7 @@ from contoursolve.solving.affine import AffineFacts, Circuit
 from contoursolve.solving.compare import is_conflict
 from contoursolve.syntax import FACT
 from contoursolve.tolerance import REGULAR
-from contoursolve.wording import angle_text, join, length_text, place_text
+from contoursolve.wording import angle_text, join, length_text, limit_text, place_text
 
 
 def conflict_reasons(profile: Profile, affine: AffineFacts, circuit: Circuit) -> Iterator[str]:
@@ -94,7 +94,7 @@ def path_reasons(profile: Profile, affine: AffineFacts | None, finding: Diagnost
     if "angle_from" in values:
         yield (
             f"a line through the same end point meets the circle with {finding.addresses[0]} between "
-            f"{angle_text(values['angle_from'])} and {angle_text(values['angle_to'])}"
+            f"{limit_text(values['angle_from'], 'deg', -1)} and {limit_text(values['angle_to'], 'deg', 1)}"
         )
     if affine is not None and finding.about is RefusalKind.LINE_REVERSED:
         fixed = affine.fixed_by(affine.facts)

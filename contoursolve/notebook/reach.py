@@ -1,7 +1,7 @@
 """Where on its slider each word has a contour."""
 
 from collections.abc import Mapping
-from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
+from decimal import Decimal
 from typing import Any
 
 from contoursolve.families import FamilyError, Feasible, feasible
@@ -9,9 +9,7 @@ from contoursolve.families.boundary import End, Interval, Way
 from contoursolve.notebook.exploration import Exploration, words_of
 from contoursolve.reading import Trouble
 from contoursolve.syntax import Word
-
-_DIGITS = Decimal("0.001")
-"""mm or degrees. To which an end is rounded, into its range."""
+from contoursolve.wording import inward
 
 _MARGIN = 0.1
 """Share of a range that a slider shows beyond its ends."""
@@ -66,17 +64,21 @@ def range_of(exploration: Exploration, field: Mapping[str, Any]) -> Data:
 
 def _note(found: Feasible, name: str) -> str:
     """The ranges in a line, such as `0 ≤ P ≤ 51.961`."""
-    shown = " or ".join(filter(None, (_interval(each, name) for each in found.intervals)))
+    shown = " or ".join(filter(None, (_interval(each, name, found.unit) for each in found.intervals)))
     known = "" if found.is_complete else " (at least)"
     if not found.intervals:
         return f"no contour for any {name}{known}"
     return f"{shown or f'any {name}'}{known}"
 
 
-def _interval(interval: Interval, name: str) -> str:
-    if interval.low.value == interval.high.value:
-        return f"{name} = {interval.low.value:.6g}"
-    low, high = _end(interval.low, ROUND_CEILING), _end(interval.high, ROUND_FLOOR)
+def _interval(interval: Interval, name: str, unit: str) -> str:
+    least, most = (
+        inward(Decimal(repr(each.value)), unit, way) for each, way in ((interval.low, -1), (interval.high, 1))
+    )
+    if least > most or interval.low.value == interval.high.value:
+        # No value of the control's increment lies between them.
+        return f"{name} = {(interval.low.value + interval.high.value) / 2:.9g}"
+    low, high = _end(interval.low, least, -1), _end(interval.high, most, 1)
     if not low and high:
         return f"{name} {high}"
     if low and not high:
@@ -85,15 +87,13 @@ def _interval(interval: Interval, name: str) -> str:
     return f"{low} {name} {high}" if low and high else ""
 
 
-def _end(end: End, rounding: str) -> str:
+def _end(end: End, rounded: Decimal, way: int) -> str:
     """An end rounded into its range, with the sign that says whether it belongs to it."""
     if end.way is Way.RANGE:
         return ""
-    exact = Decimal(repr(end.value))
-    rounded = exact.quantize(_DIGITS, rounding)
-    sign = "<" if rounded == exact and not end.is_included else "≤"
+    sign = "<" if rounded == Decimal(repr(end.value)) and not end.is_included else "≤"
     text = f"{rounded.normalize() + 0:f}"
-    return f"{text} {sign}" if rounding == ROUND_CEILING else f"{sign} {text}"
+    return f"{text} {sign}" if way < 0 else f"{sign} {text}"
 
 
 def _reasons(found: Feasible) -> list[str]:

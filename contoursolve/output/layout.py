@@ -3,6 +3,7 @@
 import re
 import unicodedata
 from collections.abc import Sequence
+from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Decimal
 
 from contoursolve.model import Length, Plane
 
@@ -49,9 +50,13 @@ def length_of(mm: float, unit: Length) -> str:
     return f"{mm:z.4f}" if unit is Length.MM else f"{mm / _INCH:z.5f}"
 
 
-def written(value: float, unit: str) -> str:
-    """A value as its word has it, with its unit (mm, inch or deg); decimals as for lengths."""
-    return f"{value:z.5f} {short_name(unit)}" if unit == "inch" else f"{value:z.4f} {unit}"
+def written(value: float, unit: str, way: int = 0) -> str:
+    """A value as its word has it, with its unit (mm, inch or deg); decimals as for lengths. An upper (`way` 1) or a
+    lower limit (-1) is rounded into its range."""
+    decimals = 5 if unit == "inch" else 4
+    rounding = {1: ROUND_FLOOR, -1: ROUND_CEILING}.get(way, ROUND_HALF_EVEN)
+    shown = Decimal(repr(value)).quantize(Decimal(1).scaleb(-decimals), rounding) if way else value
+    return f"{shown:z.{decimals}f} {short_name(unit)}"
 
 
 def coordinates(place: Sequence[float | None], plane: Plane, unit: Length) -> str:

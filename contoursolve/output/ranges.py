@@ -37,16 +37,16 @@ def range_rows(found: Feasible) -> list[tuple[str, str, str, str]]:
     """Two rows for each range: its number, which end, the value, and what ends it there."""
     rows = []
     for place, each in enumerate(found.intervals, 1):
-        rows.append((f"{place}.", "from", *_row(each.low, found.unit)))
-        rows.append(("", "to", *_row(each.high, found.unit)))
+        rows.append((f"{place}.", "from", *_row(each.low, found.unit, -1)))
+        rows.append(("", "to", *_row(each.high, found.unit, 1)))
     return rows
 
 
-def _row(end: End, unit: str) -> tuple[str, str]:
+def _row(end: End, unit: str, way: int) -> tuple[str, str]:
     if end.reason is None:
-        return written(end.value, unit), "the range that was looked at"
+        return written(end.value, unit, way), "the range that was looked at"
     text = end.reason.text if end.is_verified else f"{end.reason.text} (not confirmed on both sides)"
-    return written(end.value, unit), text if end.is_included else f"{text}; this value itself has none"
+    return written(end.value, unit, way), text if end.is_included else f"{text}; this value itself has none"
 
 
 def range_data(found: Feasible) -> dict[str, Any]:

@@ -13,6 +13,7 @@ from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import along, distance, middle, minus, on_arc, unit
 from contoursolve.pictures.wording import number, word_text
 from contoursolve.source import Span
+from contoursolve.wording import length_limit
 
 _BESIDE_ARROW = 0.36
 """Of an arc, from its start: where its radius is written, off the arrow in its middle."""
@@ -123,7 +124,8 @@ def _corners(
         role = roles.get(corner.size, Role.GIVEN)
         limit = _limit(known, corner.name)
         if limit is not None:
-            text += f" (max {number(limit, profile.unit)})"
+            largest = length_limit(limit, profile.unit)
+            text += f" (max {number(float(largest * profile.unit.in_mm), profile.unit)})"
         drawn, at = elements.get(corner.name), known.points.get(corner.at)
         if drawn is not None:
             pointed = pointing_at(drawn, text, role)
