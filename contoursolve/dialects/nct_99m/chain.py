@@ -6,6 +6,7 @@ from functools import lru_cache
 from itertools import pairwise
 
 from contoursolve.constraints import Collinear, Coordinate, Heading, Offset, OnCircle, Radius
+from contoursolve.dialects.nct_99m.assumptions import ASSUMPTIONS
 from contoursolve.dialects.nct_99m.element import (
     AIMED,
     CHAMFER,
@@ -138,6 +139,7 @@ def compose(elements: tuple[Element, ...], slack: float, *, counts_clockwise: bo
         choices=tuple(f"{second.prefix}Q" for role, (_, second) in meeting if role != LINE_LINE),
         sample=_SAMPLES.get(elements),
         meanings=dict(_meanings(elements, names)),
+        assumptions=ASSUMPTIONS,
         is_contour=name != "arc",
     )
 

@@ -11,9 +11,12 @@ from contoursolve.dialects.nct_99m.element import (
     ALONE,
     BESIDE,
     CIRCLE_CIRCLE,
+    FEED,
     FOLLOWED,
     LAST,
     LINE_LINE,
+    NEGATIVE_RADIUS,
+    ONE_CENTER,
     ONLY,
     ORDINARY,
     OTHER_PLANE,
@@ -187,7 +190,13 @@ def _supplied(
 
 
 def _circumstances(member: Member, first: State, *, is_only: bool) -> Iterator[str]:
+    radius = member.block.find("R")
+    is_negative = radius is not None and radius.number is not None and radius.number < 0
+    centers = sum(member.block.find(address) is not None for address in first.plane.centers)
     holds = {
+        FEED: member.block.find("F") is not None,
+        NEGATIVE_RADIUS: member.element.is_over and is_negative,
+        ONE_CENTER: member.element.turn is not None and not member.element.is_over and centers == 1,
         ALONE: member.is_alone,
         OTHER_PLANE: member.here.plane != first.plane,
         RAPID: member.here.motion == 0,

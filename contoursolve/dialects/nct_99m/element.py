@@ -22,6 +22,8 @@ FOLLOWED = "@followed"
 """The next block is over-defined, so that this one ends in a computed intersection."""
 LAST = "@last"
 """No G1, G2 or G3 block follows."""
+FEED, NEGATIVE_RADIUS, ONE_CENTER = "@feed", "@negative-radius", "@one-center"
+"""A feed in the block; an over-defined circle with a negative R; one of the two distances to the centre."""
 ONLY = "@only"
 """The only block of its contour."""
 BESIDE = tuple(f"beside-{axis}" for axis in AXES)

@@ -7,6 +7,8 @@ from contoursolve.source import Evidence, Source
 MANUAL = "NCT 99M/2000M Programmer's Manual"
 CHAPTER = Source(MANUAL, "16.3.3, p. 129", Evidence.PRINTED)
 PARALLEL = Source(MANUAL, "16.2, p. 120", Evidence.PRINTED)
+ARCS = Source(MANUAL, "p. 25", Evidence.PRINTED)
+ANGLE = Source(MANUAL, "p. 120 and 123, not printed on p. 129", Evidence.DERIVED)
 CODES_SOURCE = Source(MANUAL, "list of G codes", Evidence.ASSUMED)
 
 ADDRESSES = (
@@ -14,11 +16,11 @@ ADDRESSES = (
     Address("Y", "coordinate", Unit.MM, CHAPTER, axis="Y"),
     Address("Z", "coordinate", Unit.MM, CHAPTER, axis="Z"),
     *(Address(axis, "coordinate of a parallel axis", Unit.MM, PARALLEL, axis=axis) for axis in "UVW"),
-    Address("I", "centre along X, from where the arc begins", Unit.MM, CHAPTER),
-    Address("J", "centre along Y, from where the arc begins", Unit.MM, CHAPTER),
-    Address("K", "centre along Z, from where the arc begins", Unit.MM, CHAPTER),
-    Address("R", "radius; negative for an arc of more than 180 deg", Unit.MM, CHAPTER),
-    Address(",A", "angle of the line, from the plane's first axis, counter-clockwise", Unit.DEGREE, CHAPTER),
+    Address("I", "centre along X, from where the arc begins", Unit.MM, ARCS),
+    Address("J", "centre along Y, from where the arc begins", Unit.MM, ARCS),
+    Address("K", "centre along Z, from where the arc begins", Unit.MM, ARCS),
+    Address("R", "radius; negative for an arc of more than 180 deg", Unit.MM, ARCS),
+    Address(",A", "angle of the line, from the plane's first axis, counter-clockwise", Unit.DEGREE, ANGLE),
     Address(",C", "chamfer", Unit.MM, Source(MANUAL, "16.1", Evidence.PRINTED)),
     Address(",R", "rounding", Unit.MM, Source(MANUAL, "16.1", Evidence.PRINTED)),
     Address("Q", "which intersection: along a line, negative the nearer, positive the farther", Unit.SIGN, CHAPTER),

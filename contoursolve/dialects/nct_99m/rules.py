@@ -52,7 +52,7 @@ def _manual(place: str, evidence: Evidence = Evidence.PRINTED) -> Source:
     return Source(MANUAL, place, evidence)
 
 
-_CHAPTER = _manual("16.3")
+_GEOMETRY = _manual("16.3: on no page seen", Evidence.DERIVED)
 _ASSUMED = _manual("16.3: not described", Evidence.ASSUMED)
 _CIRCLE = Alarm("3014 ERRONEOUS CIRCLE DEF.", Evidence.PRINTED)
 _CIRCLE_R = Alarm("3012 ERRONEOUS CIRCLE DEF. R", Evidence.PRINTED)
@@ -145,7 +145,7 @@ COMBINATION_RULES = (
         code="nct-q-unused",
         message="{words}: two lines meet in one point, so Q chooses nothing",
         help="delete it",
-        source=_manual("16.3.1"),
+        source=_manual("16.3.1, p. 123"),
         severity=Severity.WARNING,
         roles=(LINE_LINE,),
         when=some("2:Q"),
@@ -156,7 +156,7 @@ COMBINATION_RULES = (
         code="nct-circle-undefined",
         message="the arc has neither a centre nor a radius",
         help="add the centre's two distances from the start point, or R with a point",
-        source=_manual("16.3.3, p. 129; alarm 3014"),
+        source=_manual("p. 26 (4.3): alarm 3014"),
         alarm=_CIRCLE,
         roles=(ARC,),
         when=at_most(0, _CENTERS, "R"),
@@ -177,7 +177,7 @@ COMBINATION_RULES = (
         code="nct-radius-without-point",
         message="{words}: with R the arc needs a point of the circle",
         help="add the coordinates of a point, or give the centre instead",
-        source=_manual("16.3.3, p. 129; alarm 3012"),
+        source=_manual("p. 26 (4.3): alarm 3012"),
         alarm=_CIRCLE_R,
         roles=(ARC,),
         when=some("R") & ~some(*_POINT),
@@ -198,7 +198,7 @@ COMBINATION_RULES = (
         code="nct-center-outside-plane",
         message="{words} lies outside the selected plane",
         help="G17 takes I and J, G18 takes I and K, G19 takes J and K",
-        source=_manual("16.3.3, p. 129; alarm 3014"),
+        source=_manual("p. 26 (4.3): alarm 3014"),
         alarm=_CIRCLE,
         roles=(ARC, OVER_CIRCLE),
         when=some("wrong-center"),
@@ -273,7 +273,7 @@ COMBINATION_RULES = (
         message="{words} alone does not say where the line ends",
         help="add one coordinate of its end; or, if it shall end in an intersection, over-define the next block: a "
         "line by both coordinates and ,A, an arc by its end, its centre and R",
-        source=_manual("16.2"),
+        source=_manual("16.2, p. 120"),
         roles=(LINE,),
         when=some(",A") & ~some(*_POINT) & ~some(FOLLOWED),
         accepted=(_BY_ANGLE, _LINES),
@@ -312,14 +312,25 @@ COMBINATION_RULES = (
         rejected=(_CUT.replace(",C10", ",C-10"),),
     ),
     Rule(
+        code="nct-corner-outside-plane",
+        message="{words}: a corner lies in the plane, but the block moves an axis outside it",
+        help="move that axis in a block of its own",
+        source=_manual("16.1; alarm 3081"),
+        alarm=_CORNERS,
+        roles=_ANY,
+        when=some(*BESIDE) & some(",C", ",R"),
+        accepted=(_CUT,),
+        rejected=(_CUT.replace("G1 X30", "G1 X30 Z-5"),),
+    ),
+    Rule(
         code="nct-axis-outside-plane",
         message="{words} moves an axis outside the plane in which the contour is computed",
         help="move that axis in a block of its own; only a line by one coordinate and ,A may have one such word",
         source=_ASSUMED,
         roles=_ANY,
-        when=some(*BESIDE) & ~some(ORDINARY) & ~(some(",A") & some(ONLY) & at_most(1, *BESIDE)),
+        when=some(*BESIDE) & ~some(ORDINARY) & ~some(",C", ",R") & ~(some(",A") & some(ONLY) & at_most(1, *BESIDE)),
         accepted=(_GOOD, _BY_ANGLE + " Z-5", _BY_ANGLE + " W-5"),
-        rejected=(_GOOD + " Z-5", _BY_ANGLE + " Z-5 W-5", _CUT.replace("G1 X30", "G1 X30 Z-5")),
+        rejected=(_GOOD + " Z-5", _BY_ANGLE + " Z-5 W-5", _CUT + " Z-5"),
     ),
     Rule(
         code="nct-plane-changes",
@@ -357,7 +368,7 @@ GEOMETRY_RULES = (
         code="nct-circle-missed",
         message="the line misses the circle: it passes the centre at {actual}, the radius is {limit}, {off} too far",
         help="change the line, or make the circle larger",
-        source=_CHAPTER,
+        source=_GEOMETRY,
         about=RefusalKind.CIRCLE_MISSED,
         accepted=(_GOOD,),
         rejected=(_START + _ARC + "G1 X-50 Y80 ,A180 Q-1",),
@@ -387,8 +398,7 @@ GEOMETRY_RULES = (
         message="{words}: the radius of {actual} is less than half the distance from the start to the "
         "point, {limit}: no circle passes through both",
         help="write at least {limit}",
-        source=_manual("16.3.3, p. 129; alarm 3012", Evidence.DERIVED),
-        alarm=Alarm("3012 ERRONEOUS CIRCLE DEF. R", Evidence.ASSUMED),
+        source=_manual("p. 25: R; no alarm is printed for it", Evidence.DERIVED),
         about=RefusalKind.RADIUS_TOO_SMALL,
         accepted=(_GOOD,),
         rejected=(_START + "G3 X-50 Y0 R40\n" + _LINE,),
@@ -397,7 +407,7 @@ GEOMETRY_RULES = (
         code="nct-circle-degenerate",
         message="{words} define no circle: the radius is 0, or the point is the start point",
         help="give a centre away from the start, or a point away from it",
-        source=_manual("alarm 3012: end equals start"),
+        source=_manual("p. 26 (4.3): alarm 3012, end equals start"),
         alarm=_CIRCLE_R,
         about=RefusalKind.CIRCLE_UNDEFINED,
         accepted=(_GOOD, _CENTERED),
@@ -409,7 +419,7 @@ GEOMETRY_RULES = (
         "that differs by {off}, allowed {limit}",
         help="correct the point, the centre or the radius; a centre counts from where the arc begins, but that of an "
         "over-defined circle is absolute",
-        source=_manual("alarm 3011; the allowed difference is a machine parameter", Evidence.ASSUMED),
+        source=_manual("p. 26 (4.3): alarm 3011; the allowed difference is a machine parameter", Evidence.ASSUMED),
         alarm=Alarm("3011 RADIUS DIFFERENCE", Evidence.PRINTED),
         about=RefusalKind.RADIUS_DIFFERENCE,
         accepted=(_START + "G3 X-50 Y0 I-50 J0\n" + _LINE,),
@@ -420,7 +430,7 @@ GEOMETRY_RULES = (
         message="{words}: two points of the arc differ in their distance from the centre by {off}, within the "
         "control's {limit}",
         help="correct the point, the centre or the radius",
-        source=_manual("alarm 3011; the allowed difference is a machine parameter", Evidence.ASSUMED),
+        source=_manual("p. 26 (4.3): alarm 3011; the allowed difference is a machine parameter", Evidence.ASSUMED),
         severity=Severity.INFO,
         about=RemarkKind.RADIUS_DIFFERS,
         accepted=(_START + "G3 X-50 Y0 I-50 J0\n" + _LINE,),
@@ -460,7 +470,7 @@ GEOMETRY_RULES = (
         code="nct-circles-apart",
         message="the two circles do not meet: their centres are {actual} apart, and they meet at {limit}",
         help="change a centre or a radius by {off}",
-        source=_CHAPTER,
+        source=_GEOMETRY,
         about=RefusalKind.CIRCLES_APART,
         accepted=(_CIRCLES,),
         rejected=(_CIRCLES.replace("I-40 J20 R40", "I-40 J160 R40"),),
@@ -478,7 +488,7 @@ GEOMETRY_RULES = (
         code="nct-parallel",
         message="no point satisfies {words} together: the lines are parallel and {off} apart",
         help="change an angle or a point",
-        source=_CHAPTER,
+        source=_GEOMETRY,
         about=RefusalKind.LINES_PARALLEL,
         accepted=(_LINES,),
         rejected=(_LINES.replace(",A225", ",A150"),),
