@@ -15,6 +15,7 @@ from oracle_nct import Settings, runs
 from contoursolve import Result, check, expand, solve
 from contoursolve.cli import main
 from contoursolve.diagnostic import Diagnostic
+from contoursolve.dialects import DIALECTS
 from contoursolve.families import Code, family
 from contoursolve.output.document import to_json
 from contoursolve.project import SettingError
@@ -315,7 +316,7 @@ def test_an_expanded_program_with_an_axis_beside_the_plane_is_the_same_path(axis
     ],
 )
 def test_more_of_it_or_elsewhere_is_refused(text):
-    assert codes(text) == {"nct-axis-outside-plane"}
+    assert codes(text) == {"nct-corner-outside-plane" if ",C" in text or ",R" in text else "nct-axis-outside-plane"}
 
 
 def test_increments_of_a_contour_without_a_path_are_no_coordinates():
@@ -325,3 +326,77 @@ def test_increments_of_a_contour_without_a_path_are_no_coordinates():
     first, second = solve("G17 G90 G0 X10 Y10 Z3\nG91 G1 X15 ,C50\nX10\nG90 Y50 ,A30").answers
     assert first.contour is None
     assert second.start.values == (None, None)
+
+
+# Grades, places, alarms, and what is assumed --------------------------------------------------------------------
+
+ROWS = {
+    # As the sheet has them: place, grade, alarm.
+    "nct-circle-missed": ("16.3: on no page seen", "derived", None),
+    "nct-circles-apart": ("16.3: on no page seen", "derived", None),
+    "nct-parallel": ("16.3: on no page seen", "derived", None),
+    "nct-point-is-start": ("16.3.1, p. 123", "printed", None),
+    "nct-q-missing": ("16.3: not described", "assumed", None),
+    "nct-q-zero": ("16.3: not described", "assumed", None),
+    "nct-reversed": ("16.3.3, p. 129: movements contrary to programmer's needs", "printed", None),
+    "nct-compensation-off": ("16.3: every format and example has it", "assumed", None),
+    "nct-radius-too-small": ("p. 25: R; no alarm is printed for it", "derived", None),
+    "nct-circle-undefined": ("p. 26 (4.3): alarm 3014", "printed", "3014"),
+    "nct-center-outside-plane": ("p. 26 (4.3): alarm 3014", "printed", "3014"),
+    "nct-radius-without-point": ("p. 26 (4.3): alarm 3012", "printed", "3012"),
+    "nct-circle-degenerate": ("p. 26 (4.3): alarm 3012, end equals start", "printed", "3012"),
+    "nct-two-corners": ("16.1; alarm 3017", "printed", "3017"),
+    "nct-corner-without-next": ("16.1; alarm 3081", "printed", "3081"),
+    "nct-corner-outside-plane": ("16.1; alarm 3081", "printed", "3081"),
+    "nct-corner-too-large": ("16.1; alarm 3084", "printed", "3084"),
+    "nct-coordinate-missing": ("16.2, p. 120", "printed", None),
+    "nct-axis-outside-plane": ("16.3: not described", "assumed", None),
+}
+
+
+@pytest.mark.parametrize("code", ROWS)
+def test_each_row_has_the_place_the_grade_and_the_alarm_of_the_sheet(code):
+    (rule,) = (rule for rule in DIALECTS["nct-99m"].rules if rule.code == code)
+    alarm = rule.alarm.number.split()[0] if rule.alarm else None
+    assert (rule.source.place, rule.source.evidence.value, alarm) == ROWS[code]
+
+
+def test_single_block_stops_are_named_where_corners_are_explained():
+    """P. 120."""
+    text = "in single-block mode the control stops after each inserted chamfer or rounding, too (16.1, p. 120)"
+    for code in ("nct-corner-too-large", "nct-two-corners", "nct-corner-without-next"):
+        assert text in CliRunner().invoke(main, ["explain", code]).output
+    corner, plain = "G17 G90 G0 X0 Y0\nG1 X30 ,C10\nX40 Y40", LINES
+    for program, is_told in ((corner, True), (plain, False)):
+        assert (text in CliRunner().invoke(main, ["solve", "-", "--explain"], input=program).output) is is_told
+
+
+@pytest.mark.parametrize(
+    ("text", "names"),
+    [
+        (LINES, []),
+        (TO_CIRCLE + " Q-1", []),
+        (TO_CIRCLE.replace("R50", "R-50 Q1"), ["sign-of-radius"]),
+        (FROM_CIRCLE.replace("X-50 Y0 R50", "I-50 J0") + "G1 X-50 Y42.857 ,A171.87 Q-1", ["circle-without-point"]),
+        (FROM_CIRCLE.replace("R50", "I-50") + "G1 X-50 Y42.857 ,A171.87 Q-1", ["one-of-center"]),
+        (LINES.replace(",A150", ",A150 ,R0"), ["corner-of-zero"]),
+        (LINES + " F100", ["feed-in-block"]),
+        ("G17 G90 G0 X0 Y0\nG91 G1 X10 ,A45", ["increment-beside-angle"]),
+        ("G17 G90 G0 X0 Y0\nG1 X10 ,A45 Z-5", []),
+    ],
+)
+def test_what_a_contour_rests_on_is_named_in_text_and_json(text, names):
+    (contour,) = json.loads(to_json(solve(text)))["contours"]
+    assert (contour["status"], [each["name"] for each in contour["assumptions"]]) == ("solved", names)
+    assert all(each["source"]["evidence"] == "assumed" for each in contour["assumptions"])
+    shown = CliRunner().invoke(main, ["solve", "-"], input=text).output
+    assert ("rests on: " in shown) is bool(names)
+    assert all(each["meaning"] in shown for each in contour["assumptions"])
+
+
+def test_compensation_is_named_only_where_it_decides():
+    free = {"nct-99m.compensation": "free"}
+    for text, named_there in ((LINES, []), (LINES.replace("G41 ", ""), ["compensation"])):
+        (contour,) = json.loads(to_json(solve(text, settings=free)))["contours"]
+        assert contour["status"] == "solved"
+        assert [each["setting"] for each in contour["conventions"]] == named_there

@@ -63,6 +63,7 @@ def rule_lines(rule: Rule, controls: Iterable[str]) -> list[str]:
     lines = [f"{rule.code} ({rule.severity.value}): {rule.title}", ""]
     facts = [
         ("what to do", rule.advice),
+        *([("good to know", rule.note)] if rule.note else []),
         ("source", str(rule.source)),
         ("control", f"alarm {rule.alarm.number} ({rule.alarm.evidence.value})" if rule.alarm else "no alarm known"),
         ("applies to", ", ".join(controls)),

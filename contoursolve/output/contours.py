@@ -34,6 +34,8 @@ def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False)
         from contoursolve.output.construction import construction_lines  # noqa: PLC0415 - only on demand
 
         lines += ["", *construction_lines(answer)]
+        if answer.contour and answer.profile.figure.corners and answer.claim.form.corner_note:
+            lines.append(f"    {answer.claim.form.corner_note}")
     if answer.contour:
         lines += ["", *columns(path_rows(answer), left=(0, 1))]
     if answer.contour:

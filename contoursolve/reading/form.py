@@ -73,6 +73,8 @@ class Form:
     """Whether each word states one value, whatever the values are."""
     is_contour: bool = True
     """False for what a control calculates nothing for: it is checked, and not listed."""
+    corner_note: str = ""
+    """What the control does at each corner that it inserts, half a sentence without a full stop."""
     assumptions: tuple[Assumption, ...] = ()
     """What its blocks may rest on."""
 

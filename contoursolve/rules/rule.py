@@ -35,6 +35,8 @@ class Rule(Shown):
     ignores: str = ""
     alarm: Alarm | None = None
     severity: Severity = Severity.ERROR
+    note: str = ""
+    """What the manual says besides about the same thing, half a sentence without a full stop."""
     is_about_geometry: bool = False
     """What it refuses could be written, but cannot be made."""
 

@@ -19,7 +19,7 @@ from contoursolve.dialects.nct_99m.element import (
     Element,
     pair_role,
 )
-from contoursolve.dialects.nct_99m.lexicon import AXES
+from contoursolve.dialects.nct_99m.lexicon import AXES, SINGLE_BLOCK
 from contoursolve.model import FIRST, SECOND, Arc, CornerShape, Line, Role, Turn
 from contoursolve.reading import CornerRow, FactRow, Form, Sample
 from contoursolve.tolerance import RADIUS_DIFFERENCE
@@ -139,6 +139,7 @@ def compose(elements: tuple[Element, ...], slack: float, *, counts_clockwise: bo
         choices=tuple(f"{second.prefix}Q" for role, (_, second) in meeting if role != LINE_LINE),
         sample=_SAMPLES.get(elements),
         meanings=dict(_meanings(elements, names)),
+        corner_note=SINGLE_BLOCK,
         assumptions=ASSUMPTIONS,
         is_contour=name != "arc",
     )

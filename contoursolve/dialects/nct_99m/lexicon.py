@@ -9,6 +9,7 @@ CHAPTER = Source(MANUAL, "16.3.3, p. 129", Evidence.PRINTED)
 PARALLEL = Source(MANUAL, "16.2, p. 120", Evidence.PRINTED)
 ARCS = Source(MANUAL, "p. 25", Evidence.PRINTED)
 ANGLE = Source(MANUAL, "p. 120 and 123, not printed on p. 129", Evidence.DERIVED)
+SINGLE_BLOCK = "in single-block mode the control stops after each inserted chamfer or rounding, too (16.1, p. 120)"
 CODES_SOURCE = Source(MANUAL, "list of G codes", Evidence.ASSUMED)
 
 ADDRESSES = (

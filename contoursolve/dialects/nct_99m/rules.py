@@ -22,7 +22,7 @@ from contoursolve.dialects.nct_99m.element import (
     RAPID,
     UNCOMPENSATED,
 )
-from contoursolve.dialects.nct_99m.lexicon import MANUAL
+from contoursolve.dialects.nct_99m.lexicon import MANUAL, SINGLE_BLOCK
 from contoursolve.reading import Trouble
 from contoursolve.rules import Rule, Value, all_of, at_most, some
 from contoursolve.solving import RefusalKind, RemarkKind
@@ -287,6 +287,7 @@ COMBINATION_RULES = (
         alarm=Alarm("3017 ,C AND ,R IN ONE BLOCK", Evidence.PRINTED),
         roles=_ANY,
         when=all_of(",C", ",R"),
+        note=SINGLE_BLOCK,
         accepted=(_CUT, _ROUNDED),
         rejected=(_CUT.replace(",C10", ",C10 ,R5"),),
     ),
@@ -298,6 +299,7 @@ COMBINATION_RULES = (
         alarm=_CORNERS,
         roles=_ANY,
         when=some(",C", ",R") & some(LAST),
+        note=SINGLE_BLOCK,
         accepted=(_CUT,),
         rejected=("G17 G90 G0 X0 Y0\nG1 X30 ,C10\nM8\nX40 Y40", "G17 G90 G0 X0 Y0\nG1 X30 ,R5\nG0 X40 Y40"),
     ),
@@ -308,6 +310,7 @@ COMBINATION_RULES = (
         source=_manual("16.1: not described", Evidence.ASSUMED),
         roles=_ANY,
         when=Value((",C", ",R"), least=Decimal(0)),
+        note=SINGLE_BLOCK,
         accepted=(_CUT,),
         rejected=(_CUT.replace(",C10", ",C-10"),),
     ),
@@ -319,6 +322,7 @@ COMBINATION_RULES = (
         alarm=_CORNERS,
         roles=_ANY,
         when=some(*BESIDE) & some(",C", ",R"),
+        note=SINGLE_BLOCK,
         accepted=(_CUT,),
         rejected=(_CUT.replace("G1 X30", "G1 X30 Z-5"),),
     ),
@@ -509,6 +513,7 @@ GEOMETRY_RULES = (
         source=_manual("16.1; alarm 3084"),
         alarm=_TOO_HIGH,
         about=RefusalKind.CORNER_TOO_LARGE,
+        note=SINGLE_BLOCK,
         accepted=(_CUT, _ROUNDED),
         rejected=(_CUT.replace(",C10", ",C31"), _ROUNDED.replace(",R8", ",R40")),
     ),
@@ -519,6 +524,7 @@ GEOMETRY_RULES = (
         source=_manual("16.1; alarm 3084", Evidence.DERIVED),
         alarm=_TOO_HIGH,
         about=RefusalKind.CORNERS_OVERLAP,
+        note=SINGLE_BLOCK,
         accepted=(_CUT,),
         rejected=("G17 G90 G0 X0 Y0\nG1 X30 ,C20\nY30 ,C20\nX60",),
     ),
