@@ -11,6 +11,7 @@ import string
 from decimal import Decimal
 from math import hypot, isfinite
 from pathlib import Path
+from time import process_time
 
 import pytest
 from hypothesis import given, settings
@@ -21,6 +22,7 @@ from contoursolve.dialects import DIALECTS
 from contoursolve.output.contours import contour_lines
 from contoursolve.output.document import to_json
 from contoursolve.output.findings import finding_lines
+from contoursolve.spelling import Meanings
 
 PROGRAMS = {
     path.name: (path.read_text(), "nct-99m" if "NCT" in path.read_text() else "yasnac-lx3")
@@ -180,6 +182,36 @@ def test_mutated_contours_are_answered(seed):
                 assert all(finding_lines(finding, "x.nc", sources) for finding in result.diagnostics)
         except Exception as error:
             raise AssertionError(f"solve({text!r}, control={control!r}, rules={rules!r})") from error
+
+
+MANY, EVERY = int(os.environ.get("CONTOURSOLVE_MANY", "100000")), 200
+"""How many mutants are read, of which two in five are judged; and of how many one goes all the way."""
+
+LINE = 2.0
+"""Seconds of processor time that no mutant may need; they take a thousandth of it."""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(1_000, 1_000 + SHARDS))
+def test_many_mutated_contours_are_judged(seed):
+    draw = random.Random(seed)
+    for count in range(MANY // SHARDS):
+        text, control = draw.choice(WINDOWS)
+        for _ in range(draw.choice((1, 1, 2, 2, 3, 8))):
+            text = mutate(text, draw) or " "
+        rules, depth = draw.choice((*["enforce"] * 8, "warn", "off")), "full" if count % EVERY == 0 else "verdict"
+        begin = process_time()
+        try:
+            if count % 5 > 1:
+                for block in parse(text).blocks:
+                    Meanings(block).at(block.span)
+                continue
+            result = solve(text, control=control, rules=rules, depth=depth)
+            if depth == "full":
+                check(result, text)
+        except Exception as error:
+            raise AssertionError(f"solve({text!r}, control={control!r}, rules={rules!r}, depth={depth!r})") from error
+        assert depth == "full" or process_time() - begin < LINE, text
 
 
 def test_mutated_whole_programs_are_answered():

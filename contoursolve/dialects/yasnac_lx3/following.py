@@ -121,6 +121,9 @@ def _forgotten(name: str, alone: list[Word], block: Block, state: State, context
     """Words of multiple cornering without its code."""
     rule = context.row(Trouble.CODE_FORGOTTEN)
     finding = report(context, rule, Basis.RULE, alone, code=name, stand="stand" if len(alone) > 1 else "stands")
+    if name not in CORNERING:
+        # Behind G11 and G12 nothing says which of the two is meant.
+        return finding
     meant = restate(block, CORNERING[name])
     claim = find([meant], 0, state, modes)
     answer = examine(claim, tuple(context.rules), Policy.ENFORCE) if claim is not None else None

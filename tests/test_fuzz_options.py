@@ -1,0 +1,162 @@
+"""Options that nobody would give: every command ends with a status of its own, and never in a traceback."""
+
+import os
+import random
+import resource
+import string
+import warnings
+
+import pytest
+from click.testing import CliRunner
+
+from contoursolve.cli import main
+
+OPTIONS = int(os.environ.get("CONTOURSOLVE_OPTIONS", "50000"))
+SHARDS = 10
+"""A failing shard names its seed, so that one failure is repeated in seconds."""
+
+LONGEST = 20.0
+"""Seconds of processor time that no command may need; all of them take a hundredth of it."""
+
+BLOCKS = (
+    ("--block", "G111 X100. A180. K-30. B120. P5. Q5.", "--start", "X40. Z0."),
+    ("--block", "G111 X100. A180. B120. K?", "--start", "X40. Z0.", "--fact", "length of line 1 = 30"),
+    ("--block", "G1 ,A225 ,R5", "--block", "G1 X10 Y20 ,A180", "--start", "G17 G41 X90 Y60", "--control", "nct-99m"),
+    ("part.nc",),
+    ("odd.nc",),
+)
+COMMANDS = {
+    "check": ((), ("--format", "json"), ("--format", "sarif"), ("--format", "github"), ("--fail-on", "warning")),
+    "solve": ((), ("--format", "json"), ("--explain",), ("--rules", "off"), ("--units", "inch")),
+    "expand": (
+        (),
+        ("--post", "linuxcnc"),
+        ("--decimals", "3"),
+        ("--arcs", "radius"),
+        ("--keep-going",),
+        ("-o", "x.nc"),
+    ),
+    "diff": (("part.nc",), ("odd.nc", "--format", "json")),
+    "plot": (("-o", "x.svg", "--force"), ("-o", "x.dxf")),
+    "verify": (("result.json",), ("part.nc", "--format", "json")),
+    "rules": ((), ("--control", "nct-99m")),
+    "explain": (("g111-line-1",), ("words-missing",)),
+    "facts": ((),),
+    "filter": (("part.nc",),),
+    "range": (("--word", "K"), ("--word", "A", "--within", "170:190")),
+    "find": (("--word", "K", "--bring", "end Z-54."),),
+    "sensitivity": ((), ("--tolerance", "K=0.1")),
+    "sweep": (("--vary", "A=170:190:10"), ("--vary", "K=-30,-31", "--format", "json"), ("--vary", "A=@values.csv")),
+}
+HEAVY = ("range", "find", "sensitivity", "sweep", "plot")
+"""Commands that are rarely run to their end here; most of their arguments are wrong."""
+
+ATOMS = (
+    *(
+        "",
+        " ",
+        "-",
+        "--",
+        "=",
+        ":",
+        ",",
+        ".",
+        "@",
+        "?",
+        "#1",
+        "(",
+        ")",
+        "[",
+        "\n",
+        "\t",
+        "\0",
+        "\x1b",
+        "\u7c97",
+        "\u0663",
+    ),
+    *(
+        "1e308",
+        "-1e308",
+        "1e-400",
+        "1e9999999999",
+        "nan",
+        "inf",
+        "-0",
+        "9" * 30,
+        "0.1",
+        "1:2:0",
+        "0:1:1e-99",
+        "1_0",
+        "0x1",
+    ),
+    *("--format", "json", "--control", "sys:x", "nct-99m", "--set", "a.b=c", "--rules", "off", "--units", "inch"),
+    *("--block", "--start", "--fact", "G111", "X1", "A180.", "length of line 1 = 1e999", "Z of end of line 2 = ?"),
+    *("/", "..", "nowhere.nc", "part.nc", "odd.nc", "values.csv", "@values.csv:B", "x.png", "-o", "-", "\udcff", "::x"),
+    *("--help", "-h", "--version", "--vary", "--word", "--bring", "--within", "K", "start.X", "end", "V1", "line 1"),
+)
+PART = "%\nO1\nG00 X40. Z0.\nG111 X100. A180. K-30. B120. P5. Q5.\nG01 X120.\nM30\n%\n"
+ODD = "G0 X40. Z0.\nG111 X100. A180. B120.\nG111 X1O0. A180. K--30. B120.\nG02 X60. Z-10.005 I10. J0.\nG111 ((\n"
+
+
+def mutate(arguments: list[str], draw: random.Random) -> list[str]:
+    """One random change of arguments, or within one of them."""
+    place, changed = draw.randrange(len(arguments) + 1), list(arguments)
+    text = changed[place] if place < len(changed) else ""
+    at = draw.randrange(len(text) + 1)
+    match draw.randrange(7):
+        case 0 | 1:
+            changed[place : place + 1] = [draw.choice(ATOMS)]
+        case 2:
+            changed[place:place] = [draw.choice(ATOMS)]
+        case 3:
+            changed[place : place + 1] = []
+        case 4:
+            changed[place : place + 1] = [text[:at] + draw.choice(ATOMS) + text[at:]]
+        case 5:
+            changed[place : place + 1] = [text[:at] + draw.choice(string.printable) + text[at + 1 :]]
+        case _:
+            changed[place : place + 1] = [text[:at] + text[at + 1 :]]
+    return changed
+
+
+def arguments_of(draw: random.Random) -> list[str]:
+    command = draw.choice(tuple(COMMANDS))
+    if command in HEAVY and draw.random() < 0.7:
+        command = draw.choice(tuple(COMMANDS))
+    given = () if command in ("rules", "explain", "facts", "filter") else draw.choice(BLOCKS)
+    arguments = [*given, *draw.choice(COMMANDS[command])]
+    for _ in range(draw.choice((1, 1, 1, 2, 4))):
+        arguments = mutate(arguments, draw)
+    if command in HEAVY and draw.random() < 0.8:
+        arguments.append(draw.choice(("--no-such-option", "--units=yard", "--start")))
+    return [command, *arguments] if draw.random() < 0.99 else mutate([command, *arguments], draw)
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    (tmp_path / "part.nc").write_text(PART)
+    (tmp_path / "odd.nc").write_text(ODD)
+    (tmp_path / "values.csv").write_text("A,B\n170,1\n180,1e308\n")
+    (tmp_path / "result.json").write_text(
+        CliRunner().invoke(main, ["solve", str(tmp_path / "part.nc"), "--format", "json"]).output
+    )
+    below = tmp_path / "below"
+    below.mkdir()
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(SHARDS))
+def test_mutated_options_are_answered(folder, seed):
+    draw, runner = random.Random(seed), CliRunner()
+    for _ in range(OPTIONS // SHARDS):
+        arguments = arguments_of(draw)
+        begin = resource.getrusage(resource.RUSAGE_SELF).ru_utime
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            done = runner.invoke(main, arguments, input="G111 X1\n")
+        is_answered = done.exception is None or isinstance(done.exception, SystemExit)
+        assert is_answered, (seed, arguments, done.exc_info)
+        assert done.exit_code in (0, 1, 2), (seed, arguments, done.output)
+        assert resource.getrusage(resource.RUSAGE_SELF).ru_utime - begin < LONGEST, (seed, arguments)
