@@ -359,7 +359,9 @@ class _Examiner:
             from contoursolve.fill import fill_in  # noqa: PLC0415 - few blocks ask for a value
 
             answer = replace(answer, filled=fill_in(answer, state, dialect))
-        has_findings = any(each.severity is not Severity.INFO for each in answer.diagnostics)
+        # A path across the spindle axis is as the words say it.
+        told = (each for each in answer.diagnostics if each.about is not Trouble.AXIS_CROSSED)
+        has_findings = any(each.severity is not Severity.INFO for each in told)
         if has_findings and self.depth is not Depth.VERDICT:
             # Most programs need no diagnosis, and none should wait for its import.
             from contoursolve.diagnosis import diagnose  # noqa: PLC0415
