@@ -296,6 +296,13 @@ def explain_result(
             told += _for_both(values, profile.unit)
         fields["smaller"] = ", or ".join(told) or f"make the corners smaller by {fields['off']} of it in all"
     finding = report(context, context.row(event.kind), Basis.NUMERICAL, words, values, labels, **fields)
+    if event.kind is RefusalKind.BEVEL_IN_BAND and "limit" in values:
+        _, shown = _largest(values["limit"], profile.unit)
+        finding = replace(
+            finding,
+            labels=(Label(finding.span, f"at most {shown}"), *finding.labels[1:]),
+            help=f"write at most {shown}, or {finding.help}",
+        )
     if isinstance(event, Refusal) and event.beside and "together" in values:
         takers = [given.word for name in event.beside if (given := profile.givens.get(name)) and given.word]
         finding = replace(

@@ -75,7 +75,7 @@ def marked(answer: Answer) -> Iterator[tuple[Edit, ...]]:
             yield (change(Word(FACT, None, False, old, each.span), each.text),)
 
 
-OF_CORNERS = (RefusalKind.CORNER_TOO_LARGE, RefusalKind.CORNERS_OVERLAP)
+OF_CORNERS = (RefusalKind.CORNER_TOO_LARGE, RefusalKind.CORNERS_OVERLAP, RefusalKind.BEVEL_IN_BAND)
 
 
 def fitting(answer: Answer) -> Iterator[tuple[Edit, ...]]:

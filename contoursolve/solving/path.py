@@ -1,6 +1,7 @@
 """Can the control make the path? Direction of travel, and the room for each corner."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from math import hypot
 
 from contoursolve.model import FIRST, SECOND, Arc, Corner, Figure, Line, Profile
@@ -37,7 +38,13 @@ def check_path(
                 remarks.append(Remark(RemarkKind.LINE_VANISHES, element.name))
     if not refusals:
         for corner in figure.corners:
-            refusals += _check_corner(corner, profile, points, out, sizes[corner.size])
+            for refusal in _check_corner(corner, profile, points, out, sizes[corner.size]):
+                values = dict(refusal.values)
+                if refusal.kind is RefusalKind.BEVEL_IN_BAND and _touches_arc(corner, figure, out):
+                    # Between two lines no size has a bevel; on an arc a smaller one may.
+                    limit, _ = _largest(corner, figure, out, sizes[corner.size], resize)
+                    values |= {"limit": limit} if limit >= LEAST else {}
+                refusals.append(replace(refusal, values=values))
     if not refusals:
         refusals += _check_room(figure, out, sizes, resize)
     if not refusals:
@@ -164,7 +171,7 @@ def _largest(
         return _crowded(corner, resize({corner.size: each}))
 
     high = size
-    if not any(isinstance(each, Arc) and each.name in _elements(corner, out) for each in figure.path):
+    if not _touches_arc(corner, figure, out):
         # Setbacks on lines are proportional to the size.
         for name, setback in _setbacks(corner, out).items():
             room = out.get(f"room:{name}", out[f"length:{name}"] - setback) + setback
@@ -173,6 +180,10 @@ def _largest(
     element = crowded(limit + max(NEAR, NEAR * limit))
     others = (other for other in figure.corners if other is not corner and element in _elements(other, out))
     return limit, tuple(other.size for other in others)
+
+
+def _touches_arc(corner: Corner, figure: Figure, out: Outputs) -> bool:
+    return any(isinstance(each, Arc) and each.name in _elements(corner, out) for each in figure.path)
 
 
 def _largest_together(
