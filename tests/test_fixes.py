@@ -56,6 +56,11 @@ def test_several_words_move_in_the_order_in_which_a_machine_needs_them():
     assert {row.source.evidence for row in ERRANDS} == {Evidence.ASSUMED}
 
 
+def test_all_words_of_one_letter_move():
+    (finding,) = solve(f"{TAPER} M30 M08 M9", start=START).diagnostics
+    assert finding.fixes[0].replacement.split("\n") == ["M08", TAPER, "M9", "M30"]
+
+
 def test_a_feed_that_a_fix_drops_is_named_and_the_fix_is_not_automatic():
     (finding,) = solve(f"{TAPER} F0.2 F0.3", start=START).diagnostics
     assert finding.fixes[0].description.startswith("delete F0.3 (feed) -> ")

@@ -120,7 +120,13 @@ def moving(claim: Claim, drafts: Iterable[tuple[Edit, ...]]) -> Iterator[tuple[E
     for edits in drafts:
         if len(claim.blocks) == 1:
             moved = tuple(replace(edit, kind=EditKind.MOVE) if _is_moved(edit) else edit for edit in edits)
-            yield from () if moved == edits else (moved,)
+            if moved != edits:
+                # A block may have several of one letter, such as M08 and M30.
+                spans = {edit.span for edit in edits}
+                letters = {edit.address for edit in moved if edit.kind is EditKind.MOVE}
+                more = (drop(word) for word in claim.blocks[0].words if word.address in letters)
+                others = (each for each in more if each.span not in spans and _is_moved(each))
+                yield (*moved, *(replace(each, kind=EditKind.MOVE) for each in others))
         yield edits
 
 
