@@ -20,6 +20,7 @@ from hypothesis import strategies as st
 
 import contoursolve
 from contoursolve.cli import main
+from contoursolve.dialects import NCT_99M, YASNAC_LX3
 from contoursolve.syntax import parse
 from contoursolve.verification import CannotVerifyError, Document, Verdict, verify
 
@@ -716,6 +717,38 @@ def test_the_status_of_a_contour_is_worked_out_from_its_words(desk, name):
             assert desk.is_wrong({**result, "rules": other}), "made under other rules"
 
 
+ONE_LINE = {
+    "there and back": "G1 ,A0.\nG1 X50. Y0. ,A180.",
+    "the same way": "G1 ,A0.\nG1 X50. Y0. ,A0.",
+    "by its point": "G1 X20 Y0\nG1 X50. Y0. ,A180.",
+    "and a third line": "G1 ,A0. ,R2\nG1 X50. Y0. ,A180.\nG1 X80 Y50 ,A90",
+    "that are parallel": "G1 ,A0.\nG1 X50. Y1. ,A180.",
+}
+
+
+@pytest.mark.parametrize("name", ONE_LINE)
+def test_two_lines_that_are_one_leave_their_meeting_open(desk, name):
+    status = "no-solution" if "parallel" in name else "underdetermined"
+    result = desk.solve("G17 G90 G42 D1 G0 X0 Y0\n" + ONE_LINE[name], "--control", "nct-99m")
+    assert result["contours"][0]["status"] == status
+    receipt = desk.receipt(result)
+    assert (failures(receipt), receipt["verdict"]) == ([], "verified")
+    for other in (*STATUSES, "undecided"):
+        assert other == status or desk.is_wrong(with_contour(result, status=other)), other
+
+
+BOTH_AT_ONCE = ["Z-27.727 W-4.211 A180. B-152.", "A137. I10. K-10.", "U61. X100. A180. K-30.", "U60. X100. A180. K-30."]
+
+
+@pytest.mark.parametrize("words", [*BOTH_AT_ONCE, "A180. K-30. B120. X100. Z-47. Q5."])
+def test_words_that_lack_something_and_contradict_each_other_conflict(desk, words):
+    result = desk.solve(f"{LATHE}G111 {words}", "--rules", "off")
+    status = result["contours"][0]["status"]
+    assert failures(desk.receipt(result)) == []
+    for other in (*STATUSES, "undecided"):
+        assert other == status or desk.is_wrong(with_contour(result, status=other)), other
+
+
 @pytest.mark.parametrize(
     "words",
     [
@@ -898,6 +931,38 @@ def listed(result: dict[str, Any]) -> Iterator[tuple[Place, float]]:
     for place, value in numbers(result["contours"]):
         if not {"certificate", "diagnosis", "start", "deviation_mm"} & set(place):
             yield ("contours", *place), value
+
+
+QUICK = ("two contours", "Q is missing", "a fact chooses", "line touches a circle", "a fact that agrees")
+
+
+@pytest.mark.parametrize("name", [pytest.param(n, marks=() if n in QUICK else pytest.mark.slow) for n in EXTENDED])
+def test_no_other_status_passes_for_what_lists_solutions_and_answers(desk, name):
+    """Whether the others are wrong, or nothing can be said of them: none is verified."""
+    result = solved(desk, name)
+    status = result["contours"][-1]["status"]
+    has_paths = any(each["is_path"] for each in result["contours"][-1]["solutions"])
+    for other in (*STATUSES, "undecided"):
+        if other != status:
+            changed_one = with_contour(result, status=other)
+            verdict = desk.receipt(changed_one)["verdict"]
+            assert verdict == "failed" or (verdict == "nothing-checked" and not has_paths), (other, verdict)
+
+
+def examples():
+    """Every example of every rule, with its control."""
+    for control in (YASNAC_LX3, NCT_99M):
+        for rule in control.rules:
+            for number, text in enumerate((*rule.rejected, *rule.accepted)):
+                yield pytest.param(control.name, text, id=f"{rule.code} {number}")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("control", "text"), list(examples()))
+@pytest.mark.parametrize("rules", ["enforce", "off"])
+def test_what_solve_says_of_the_examples_of_the_rules_is_right(desk, control, text, rules):
+    result = desk.solve(text, "--control", control, "--rules", rules)
+    assert failures(desk.receipt(result)) == []
 
 
 @pytest.mark.parametrize("name", EXTENDED)

@@ -47,7 +47,7 @@ class Case:
     the start point may be from the one that was solved from.
 
     `choices` are the signs of the words that choose between solutions; a solution that is listed beside the
-    contour has those that select it, and tells no branch (`is_listed`). `is_selected` tells that words
+    contour has those that select it, and tells no branch (`is_listed`). `selecting` is how many words
     that are not needed to fix the points select them from other solutions. `grain` (mm) is what the numbers lost
     when they were written with as many decimals as the certificate's radius leaves a meaning. `next_end` is where
     the line of the next block ends, if the program tells it. `rules` is the policy that the result names, if it does.
@@ -65,7 +65,7 @@ class Case:
     facts: tuple[StatedFact, ...] = ()
     choices: Mapping[str, int] = field(default_factory=dict)
     is_listed: bool = False
-    is_selected: bool = False
+    selecting: int = 0
     grain: float = 0.0
     next_end: complex | None = None
     rules: Rules | None = None

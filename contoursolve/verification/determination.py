@@ -18,12 +18,12 @@ def check_statements(case: Case, ledger: Ledger, statements: Sequence[Statement]
 
     Where a contour is claimed overdetermined, the words that are not needed hold within the least increment
     only, and those that hold exactly must fix the points. So it is where a word selects the contour from other
-    solutions of the words that are needed.
+    solutions of the words that are needed; such a word is not one too many.
     """
     words = [each.word for each in statements if each.word]
-    is_over = case.claimed.status is ClaimedStatus.OVERDETERMINED
-    if case.is_selected and len(statements) > len(unknowns):
-        is_over = True
+    surplus = len(statements) - len(unknowns)
+    is_claimed_over = case.claimed.status is ClaimedStatus.OVERDETERMINED
+    is_over = is_claimed_over or (case.selecting > 0 and surplus > 0)
     for each in statements:
         stated = [each.word] if each.word else []
         if is_over and abs(each.residual) > case.limit:
@@ -32,9 +32,9 @@ def check_statements(case: Case, ledger: Ledger, statements: Sequence[Statement]
             ledger.measure(each.name, stated, each.residual, case.limit)
         if each.against:
             ledger.measure(f"{each.name} in its direction", stated, each.against, case.limit)
-    surplus = len(statements) - len(unknowns)
     name, found = "as many words as the status says", f"there are {len(statements)} for {len(unknowns)} unknowns"
-    ledger.require(name, words, surplus > 0 if is_over else surplus == 0, found)
+    is_right = surplus > case.selecting if is_claimed_over else 0 <= surplus <= case.selecting
+    ledger.require(name, words, is_right, found)
     holding = [each for each in statements if not is_over or abs(each.residual) <= case.limit]
     moved = displacement(holding, len(unknowns))
     is_fixed = moved.rank == len(unknowns)
@@ -51,24 +51,27 @@ def check_statements(case: Case, ledger: Ledger, statements: Sequence[Statement]
 
 def _is_alone(statements: Sequence[Statement], unknowns: Sequence[float], free: int, reach: float) -> bool:
     """Whether no solutions lie beside one where an unknown is not fixed to first order: where two have become one,
-    as where a line touches a circle, a step to either side leaves no solution."""
+    as where a line touches a circle, steps to either side leave no solution."""
+    return all(any(_is_off(statements, unknowns, free, way * step * reach, reach) for step in ASIDE) for way in (1, -1))
+
+
+def _is_off(statements: Sequence[Statement], unknowns: Sequence[float], free: int, step: float, reach: float) -> bool:
+    """Whether there is no solution with one unknown so far aside."""
     others = [index for index in range(len(unknowns)) if index != free]
-    for step in (ASIDE * reach, -ASIDE * reach):
-        at = [value + (step if index == free else 0.0) for index, value in enumerate(unknowns)]
-        for _ in range(ITERATIONS):
-            here = [_moved(each, unknowns, at) for each in statements]
-            moves = displacement([_without(each, free) for each in here], len(others)).moves
-            for index, move in zip(others, moves, strict=True):
-                at[index] -= move
-            if max(map(abs, moves), default=0.0) > reach:
-                break
-        if all(abs(_moved(each, unknowns, at).residual) <= RESIDUAL + ROUNDING * reach for each in statements):
-            return False
-    return True
+    at = [value + (step if index == free else 0.0) for index, value in enumerate(unknowns)]
+    for _ in range(ITERATIONS):
+        here = [_moved(each, unknowns, at) for each in statements]
+        moves = displacement([_without(each, free) for each in here], len(others)).moves
+        for index, move in zip(others, moves, strict=True):
+            at[index] -= move
+        if max(map(abs, moves), default=0.0) > reach:
+            break
+    return any(abs(_moved(each, unknowns, at).residual) > RESIDUAL + ROUNDING * reach for each in statements)
 
 
-ASIDE = 1e-3
-"""1 (share of the reach). How far aside a neighbouring solution is looked for."""
+ASIDE = (1e-3, 5e-3)
+"""1 (share of the reach). How far aside neighbouring solutions are looked for; where two doubles meet, the nearest are
+hardly off."""
 
 ITERATIONS = 10
 

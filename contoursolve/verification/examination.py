@@ -35,7 +35,7 @@ def examine(found: Found, claimed: ClaimedContour, ledger: Ledger, selected: Map
         facts=read_facts(claim, checker.elements(claim), checker.points(claim), found.apart),
         choices=signs_of(claim, checker.choosing(claim)) if selected is None else selected,
         is_listed=selected is not None,
-        is_selected=_is_selected(claimed),
+        selecting=_selecting(claimed),
         next_end=case.place(found.next_end) if found.next_end else None,
         rules=found.rules,
     )
@@ -51,10 +51,10 @@ def examine(found: Found, claimed: ClaimedContour, ledger: Ledger, selected: Map
     return True
 
 
-def _is_selected(claimed: ClaimedContour) -> bool:
-    """Whether the result names a solution that is none because a word or a fact disagrees with it."""
-    reasons = [reason for each in claimed.solutions or () for reason in each.reasons if not each.is_path]
-    return any(reason.startswith(("words-disagree", "fact-disagrees")) for reason in reasons)
+def _selecting(claimed: ClaimedContour) -> int:
+    """How many words and facts the result names because a solution that it lists is none by them."""
+    reasons = [reason.partition(" ") for each in claimed.solutions or () for reason in each.reasons if not each.is_path]
+    return len({about for kind, _, about in reasons if kind in ("words-disagree", "fact-disagrees")})
 
 
 def signs_of(claim: Claim, names: tuple[str, ...]) -> dict[str, int]:

@@ -26,14 +26,16 @@ def stand(case: Case) -> Standing | None:
     by_x, by_z = bool(set(used) & {"X", "U"}), bool(set(used) & {"Z", "W"})
     lands_nowhere = bool(made["corner 2"]) and by_x == by_z
     generic = list(statements_at(_with_angles(case), used, 0j, 0j))
-    is_loose = lands_nowhere or displacement(generic, UNKNOWNS).rank < UNKNOWNS
+    rank = displacement(generic, UNKNOWNS).rank
+    is_loose = lands_nowhere or rank < UNKNOWNS
     if twice:
         return Standing(disagrees=f"{' and '.join(twice)} given twice", is_twice=True, is_loose=is_loose)
+    stated = list(statements_at(case, used, 0j, 0j))
     if is_loose:
-        return Standing(is_loose=True)
+        agree = _agree(case, used, stated, generic, rank) if len(stated) > rank else True
+        return None if agree is None else Standing("" if agree else " ".join(case.texts(*used)), is_loose=True)
     if any(size < 0 for size in _sizes(case).values()):
         return Standing()
-    stated = list(statements_at(case, used, 0j, 0j))
     moved = displacement(stated, UNKNOWNS)
     if len(stated) == UNKNOWNS and moved.rank < UNKNOWNS:
         # Two words state the same line, or two parallel ones; where both happens, it is open which counts.
@@ -70,24 +72,30 @@ def _at(stated: Sequence[Statement], moves: Sequence[float]) -> list[float]:
 
 
 def _over(case: Case, used: tuple[str, ...], stated: list[Statement], generic: list[Statement]) -> Standing | None:
-    """Every set of words that fixes the points must tell whether the others agree; else it depends on which are
-    solved for."""
+    agree = _agree(case, used, stated, generic, UNKNOWNS)
+    if agree:
+        return Standing(is_over=True, candidates=(_candidate(case, used, displacement(stated, UNKNOWNS).moves),))
+    return None if agree is None else Standing(disagrees=" ".join(case.texts(*used)))
+
+
+def _agree(
+    case: Case, used: tuple[str, ...], stated: list[Statement], generic: list[Statement], rank: int
+) -> bool | None:
+    """Whether words that say more than they need to agree. Every set of so many of them as say something of their own
+    must tell whether the others do; None where it depends on which are solved for."""
     worst: list[float] = []
-    for rows in combinations(range(len(stated)), UNKNOWNS):
-        if displacement([generic[row] for row in rows], UNKNOWNS).rank < UNKNOWNS:
+    for rows in combinations(range(len(stated)), rank):
+        if displacement([generic[row] for row in rows], UNKNOWNS).rank < rank:
             continue
         moved = displacement([stated[row] for row in rows], UNKNOWNS)
-        if moved.rank < UNKNOWNS:
+        if moved.rank < rank:
             return None
         v1, v2 = complex(*moved.moves[:2]), complex(*moved.moves[2:])
         here = list(statements_at(case, used, -v1, -v2))
         worst.append(max(abs(each.residual) / each.allowed for each in here))
     if all(each > _CLEARLY for each in worst):
-        return Standing(disagrees=" ".join(case.texts(*used)))
-    if all(each < 1 / _CLEARLY for each in worst):
-        moves = displacement(stated, UNKNOWNS).moves
-        return Standing(is_over=True, candidates=(_candidate(case, used, moves),))
-    return None
+        return False
+    return True if all(each < 1 / _CLEARLY for each in worst) else None
 
 
 def _candidate(case: Case, used: tuple[str, ...], moves: Sequence[float]) -> Candidate:

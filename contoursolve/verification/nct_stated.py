@@ -23,7 +23,7 @@ from contoursolve.verification.quantity import Quantity
 from contoursolve.verification.rails import UnmakeableError
 from contoursolve.verification.statement import Statement, displacement
 
-ON_CIRCLE = "the given point lies on its circle"
+ON_CIRCLE, RADIUS = "the given point lies on its circle", "the radius is the one given"
 
 Sides = dict[str, set[str | None]]
 
@@ -90,7 +90,7 @@ def _statements(case: Case, figure: Figure) -> Iterator[Statement]:
             yield state(ON_CIRCLE, "", _ring_off(each, each.own))
         if case.states(each.given("R")):
             size = _stated_radius(case, each, figure)
-            yield state("the radius is the one given", each.given("R"), _size_off(each, size))
+            yield state(RADIUS, each.given("R"), _size_off(each, size))
 
 
 Residual = Callable[[Figure], float]
@@ -163,14 +163,14 @@ def _of_line(case: Case, each: Element, figure: Figure, state: State) -> Iterato
 def _needed(
     case: Case, ledger: Ledger, of_words: list[Statement], of_facts: list[Statement], unknowns: int
 ) -> list[Statement]:
-    """The statements without those about a given point whose circle is known without it: what differs less than a
-    machine parameter is then accepted (alarm 3011)."""
+    """The statements without those about a given point, or a radius, whose circle is known without it: what differs
+    less than a machine parameter is then accepted (alarm 3011)."""
     needed = [*of_words, *of_facts]
-    for given in [each for each in of_words if each.name == ON_CIRCLE]:
+    for given in [each for each in of_words if each.name in (ON_CIRCLE, RADIUS)]:
         others = [each for each in needed if each is not given]
         holding = [each for each in others if abs(each.residual) <= case.limit]
         if displacement(holding, unknowns).rank == unknowns:
-            ledger.measure(ON_CIRCLE, (), given.residual, case.slack + case.limit)
+            ledger.measure(given.name, (), given.residual, case.slack + case.limit)
             needed = others
     return needed
 

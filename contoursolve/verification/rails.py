@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from math import atan2, inf, sqrt
 
 from contoursolve.model import Turn
-from contoursolve.tolerance import LENGTH, REGULAR
+from contoursolve.tolerance import LENGTH, REGULAR, RESIDUAL
 from contoursolve.verification.measure import ROUNDING, cross, dot, unit
 
 NEARER, FARTHER = -1, 1
@@ -131,6 +131,8 @@ def meet(first: Rail, second: Rail, unsure: float) -> Meeting:
 def _cross_lines(first: Ray, second: Ray, unsure: float) -> Meeting:
     turn = cross(first.along, second.along)
     if abs(turn) <= REGULAR:
+        if abs(cross(first.along, second.at - first.at)) <= RESIDUAL:
+            raise LooseError("the two lines are one, so that they meet everywhere")
         raise UnmakeableError("the lines are parallel")
     ahead = cross(second.at - first.at, second.along) / turn
     place = first.at + ahead * first.along

@@ -58,7 +58,7 @@ def check_solutions(found: Found, claimed: ClaimedContour, ledger: Ledger) -> bo
         selects = bool(first.selects and first.selects == second.selects)
         remark = "the same words select both"
         ledger.require(f"solutions {one} and {other} are told apart", first.selects, not selects, remark)
-    is_checked, eligible, is_known = False, 0, True
+    is_checked, eligible, is_known, is_exact = False, 0, True, False
     for number, each in paths:
         _check_selects(found, each, [other for _, other in paths if other is not each], number, ledger)
         if each.is_chosen and claimed.has_path:
@@ -75,7 +75,12 @@ def check_solutions(found: Found, claimed: ClaimedContour, ledger: Ledger) -> bo
         for check in attempt.checks:
             ledger.checks.append(replace(check, name=f"solution {number}: {check.name}"))
         ledger.omissions += [each for each in attempt.omissions if each not in ledger.omissions]
-        eligible += not attempt.failures and _is_eligible(found, claimed, each)
+        if not attempt.failures and _is_eligible(found, claimed, each):
+            eligible += 1
+            exact = (
+                partial(_attempt, found, claimed, each, *one) for one in readings if one[0] is ClaimedStatus.SOLVED
+            )
+            is_exact |= not fewest(exact).failures
     if not is_known:
         ledger.omit("which of the solutions is chosen", "not all of them were checked")
     elif claimed.has_path and paths:
@@ -83,6 +88,12 @@ def check_solutions(found: Found, claimed: ClaimedContour, ledger: Ledger) -> bo
     elif claimed.status is ClaimedStatus.AMBIGUOUS:
         remark = f"{eligible} of {len(paths)} agree with it"
         ledger.require("the program does not choose one path", (), eligible > 1, remark)
+    elif eligible:
+        # Where words that agree say more than they need to, that is said first; what rules reject was checked by them.
+        is_over = claimed.status is ClaimedStatus.OVERDETERMINED and not is_exact
+        is_right = is_over or (claimed.status is ClaimedStatus.REJECTED and not found.claim.directives)
+        remark = f"the result says {claimed.status.value}, and {eligible} of {len(paths)} agree with the program"
+        ledger.require("a contour with paths that the program allows is ambiguous", (), is_right, remark)
     return is_checked
 
 
