@@ -11,7 +11,7 @@ from test_family import CASES, text_of
 
 import contoursolve
 from contoursolve.cli import main
-from contoursolve.families import Code, FamilyError, RefusedError, Way, family, feasible, region
+from contoursolve.families import Code, FamilyError, RefusedError, Way, family, feasible, region, regions
 from contoursolve.families.ranges import NotClosedError
 
 BLOCK, START = "G111 X100. A180. K-30. B120. P5. Q5.", "X40. Z0."
@@ -217,6 +217,15 @@ def test_a_line_of_values_without_a_contour_within_a_region_is_a_gap():
     (gap,) = [each for each in region(block, words, within, **options).boundaries if each.is_gap]
     assert gap.reason.text == "corner 1 joins two lines of one direction"
     assert all(first == pytest.approx(second, abs=1e-9) for first, second in gap.points)
+
+
+def test_a_line_that_is_left_out_leaves_the_region_open(monkeypatch):
+    block, options, words, within = REGIONS["two angles"]
+    monkeypatch.setattr(regions, "_is_zero", lambda *_: False)
+    found = region(block, words, within, **options)
+    assert not any(each.is_gap for each in found.boundaries)
+    assert found.doubts[0] == "there may be a line on which something is zero that must not be"
+    assert not found.is_complete
 
 
 def test_rules_bound_a_region_too():

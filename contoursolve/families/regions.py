@@ -54,8 +54,8 @@ class Boundary:
 class Region(Shown):
     """The values of two words, within a box, with which a block has a contour, by the lines that bound them.
 
-    `units` are what the words are written in. `is_complete` tells whether it is proven that no line is missing, and no
-    part that is wider than a cell of `cell` (by word).
+    `units` are what the words are written in. Without `doubts`, it is proven that no line is missing, and no part that
+    is wider than a cell of `cell` (by word); else they say why it is not.
     """
 
     words: tuple[str, str]
@@ -64,9 +64,14 @@ class Region(Shown):
     within: tuple[Point, Point]
     boundaries: tuple[Boundary, ...]
     cell: Point
-    is_complete: bool
+    doubts: tuple[str, ...]
     exists: bool
     """Whether the contour exists anywhere in the box, as far as was looked."""
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether these lines are proven to be all."""
+        return not self.doubts
 
 
 def region(
@@ -163,7 +168,7 @@ class _Map:
             for axis, (low, high) in enumerate(self.within)
         ]
         self.kinds: dict[tuple[int, int], Kind] = {}
-        self.is_complete = True
+        self.doubts: list[str] = []
 
     def run(self) -> Region:
         """The region."""
@@ -182,10 +187,14 @@ class _Map:
             ]
             cells = [*edge.cells]
             for lines in gaps:
-                traces = [trace for trace in lines.traces() if _is_zero(field, trace)]
-                boundaries += [self._boundary(field, kind, trace, is_gap=True) for trace in traces]
+                for trace in lines.traces():
+                    if _is_zero(field, trace):
+                        boundaries.append(self._boundary(field, kind, trace, is_gap=True))
+                    elif not _jumps(field, trace):
+                        self.doubts.append("there may be a line on which something is zero that must not be")
                 cells += lines.cells
-            self.is_complete = self.is_complete and field.is_proven(cells)
+            if not field.is_proven(cells):
+                self.doubts.append("some part could not be proven to be alike, however finely it was divided")
         boundaries += self._limits(fields)
         size = tuple((high - low) / (NODES - 1) for low, high in self.within)
         return Region(
@@ -195,7 +204,7 @@ class _Map:
             within=(self.within[0], self.within[1]),
             boundaries=tuple(boundaries),
             cell=(size[0], size[1]),
-            is_complete=self.is_complete,
+            doubts=tuple(dict.fromkeys(self.doubts)),
             exists=any(field.is_inside.any() for field in fields.values()),
         )
 
@@ -326,6 +335,11 @@ def _normals(points: Array) -> Array:
 def _is_zero(field: Field, trace: Trace) -> bool:
     """Whether a margin is zero on a line, and does not jump there."""
     return bool(numpy.max(numpy.abs(field.values(trace.points)[trace.check])) <= LENGTH)
+
+
+def _jumps(field: Field, trace: Trace) -> bool:
+    """Whether a margin is zero nowhere on a line, on which it changes its sign all the same."""
+    return bool(numpy.min(numpy.abs(field.values(trace.points)[trace.check])) > LENGTH)
 
 
 def _runs(tell: Callable[[Array], NDArray[numpy.bool_]], field: Field, axis: int, value: float) -> Iterator[Point]:

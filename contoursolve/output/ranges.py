@@ -82,6 +82,7 @@ def region_lines(found: Region) -> Iterator[str]:
     yield region_title(found)
     rows = region_rows(found)
     yield from columns(rows, left=(0, 1, 3)) if rows else ()
+    yield from (f"  not proven: {each}" for each in found.doubts)
 
 
 def region_title(found: Region) -> str:
@@ -121,6 +122,7 @@ def region_data(found: Region) -> dict[str, Any]:
         "within": [list(each) for each in found.within],
         "exists": found.exists,
         "complete": found.is_complete,
+        "doubts": list(found.doubts),
         "cell": list(found.cell),
         "boundaries": [_boundary(each) for each in found.boundaries],
     }
