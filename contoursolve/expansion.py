@@ -2,6 +2,7 @@
 
 from collections import deque
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from decimal import Decimal
 from itertools import chain
 
@@ -100,7 +101,7 @@ class _Expander:
         self.watch = Watch(options.post, dialect, options.post.readings.get(_machine(dialect)))
         summary.unfamiliar = self.watch.found
         self.numberer = Numberer(self.modes, numbers)
-        self.formats: dict[tuple[str, bool, bool], Format] = {}
+        self.formats: dict[tuple[tuple[str, str], bool, bool], Format] = {}
         self.offsets = Offsets(self.modes)
         self.motion: int | None = None
         """The motion that is in force in the expanded program, where it differs from the original."""
@@ -271,7 +272,7 @@ class _Expander:
             if isinstance(answer, Answer):
                 state = apply_modes(state, block, self.modes)
                 is_rapid = state.motion == 0 and not self._is_own_motion(block)
-            form = self._format(state)
+            form = self._format(state if answer.plane is state.plane else replace(state, plane=answer.plane))
             moves: list[Move] = []
             for segment in groups.get(block.line, ()):
                 for move in emit(segment, here, form, is_rapid=is_rapid):
@@ -306,7 +307,7 @@ class _Expander:
         return float(first or 0) + one, float(second or 0) + two
 
     def _format(self, state: State) -> Format:
-        key = state.plane.code, state.unit is Length.INCH, state.is_incremental
+        key = state.plane.axes, state.unit is Length.INCH, state.is_incremental
         if key not in self.formats:
             numbers, post = self.modes.lexicon.numbers, self.options.post
             own, decimals = post.digits(state.unit, numbers), self.options.decimals

@@ -135,8 +135,8 @@ class Queue:
         if pending.left is not None:
             return pending.left()
         contour, addresses = pending.contour, self.dialect.modes.lexicon.addresses
-        state = contour.after if isinstance(contour, Claim) else pending.step.before
-        axes = [*state.plane.axes]
+        state = contour.left if isinstance(contour, Claim) else pending.step.before
+        axes = [*(contour.after if isinstance(contour, Claim) else state).plane.axes]
         beside = [*map(contour.beside_plane, contour.blocks)] if isinstance(contour, Claim) else []
         for words in beside:
             axes += [axis for axis in (addresses[word.address].axis for word in words) if axis not in axes]

@@ -312,7 +312,7 @@ def test_an_expanded_program_with_an_axis_beside_the_plane_is_the_same_path(axis
         "G17 G90 G0 X0 Y0\nG1 X30 Z-5 ,C10\nX40 Y40",
         "G17 G90 G0 X0 Y0\nG1 X30 ,A45 Z-5 ,R2\nX40 Y-40",
         LINES + " Z-5",
-        LINES.replace("G1 ,A150", "G1 ,A150 U5"),
+        LINES.replace("G1 ,A150", "G1 ,A150 W5"),
     ],
 )
 def test_more_of_it_or_elsewhere_is_refused(text):
@@ -400,3 +400,26 @@ def test_compensation_is_named_only_where_it_decides():
         (contour,) = json.loads(to_json(solve(text, settings=free)))["contours"]
         assert contour["status"] == "solved"
         assert [each["setting"] for each in contour["conventions"]] == named_there
+
+
+def test_a_parallel_axis_stands_for_that_of_the_plane_where_a_line_by_its_angle_has_no_other_coordinate(tmp_path):
+    text = "G17 G90 G0 X1 Y2 U10 V20 W30\nG1 U30 ,A45 Z-5\nG1 X11 ,A0\nG19 G91 W10 ,A90\nG90 Z0 ,A90"
+    result = solve(text)
+    assert errors(result) == []
+    assert [answer.plane.axes for answer in result.answers] == [("U", "Y"), ("X", "Y"), ("Y", "W"), ("Y", "Z")]
+    assert [answer.contour.end for answer in result.answers] == [
+        pytest.approx(at) for at in ((30, 22), (11, 22), (22, 40), (22, 0))
+    ]
+    contours = json.loads(to_json(result))["contours"]
+    assert [each["name"] for each in contours[0]["assumptions"]] == ["parallel-axis"]
+    expanded = expand(text).text
+    assert "G01 U30 Y22 Z-5" in expanded
+    documents = Document("program", text.encode()), Document("result", to_json(result).encode())
+    assert verify(*documents).verdict is not Verdict.FAILED
+    old, new = tmp_path / "old.nc", tmp_path / "new.nc"
+    old.write_text(text)
+    new.write_text(expanded)
+    outcome = CliRunner().invoke(main, ["diff", str(old), str(new), "--control", "nct-99m"])
+    assert outcome.exit_code == 0, outcome.output
+    assert codes("G17 G90 G0 X0 Y0\nG1 U30 ,A45") == {"position-unknown"}
+    assert codes("G17 G90 G0 X0 Y0 U0\nG1 U30 ,A45 ,R5\nX50 Y0") == {"nct-plane-changes"}

@@ -76,7 +76,7 @@ class _Follower:
         states: dict[int, tuple[Block, State]] = {}
         for block in claim.blocks:
             here = apply_modes(here, block, self.modes)
-            states[block.line] = block, here
+            states[block.line] = block, replace(here, plane=answer.plane)
         owner = {claim.form.path[0].name: claim.blocks[0].line}
         if len(claim.blocks) > 1:
             owner = {each.name: block.line for each, block in zip(claim.form.path, claim.blocks, strict=True)}

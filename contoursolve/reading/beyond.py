@@ -19,16 +19,16 @@ def leave(
     Where it has no end, for this reason, whose `cause` may lie in a line before it, an axis that its last block
     programs is still known.
     """
-    state, last = claim.after, claim.blocks[-1]
+    state, last, axes = claim.left, claim.blocks[-1], claim.after.plane.axes
     if end is not None:
-        axes, before = state.plane.axes, claim.before.axes
+        before = claim.before.axes
         is_skippable = any(block.is_skippable for block in claim.blocks) or any(
             before[axis].is_skippable for axis in axes
         )
         ends = zip(axes, end, strict=True)
         state = state.move({axis: end_of_contour(value, last.span, is_skippable=is_skippable) for axis, value in ends})
         return _move_beside(state, claim, modes)
-    lost = state.lose(state.plane.axes, reason, cause or last.span)
+    lost = state.lose(axes, reason, cause or last.span)
     if last.faults:
         return lost
     # Increments count from where the last block begins, which is known of an only one.
@@ -57,7 +57,7 @@ def next_place(blocks: Sequence[Block], claim: Claim, modes: Modes) -> tuple[Dec
     block = next((block for block in blocks if block.words), None)
     if block is None or block.faults:
         return None
-    state = apply_modes(claim.after, block, modes)
+    state = apply_modes(claim.left, block, modes)
     if state.motion not in (0, 1, None):
         return None
     unknown = state.lose(modes.axes, "the contour before it is not solved yet", block.span)

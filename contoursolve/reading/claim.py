@@ -1,12 +1,12 @@
 """A contour found in a program: its form, its blocks, and every word with the given that it states."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from decimal import Decimal
 from enum import Enum
 
 from contoursolve.constraints import Radius
-from contoursolve.model import Choice, Fact, Given, Layout, Profile, Question, Side
+from contoursolve.model import Choice, Fact, Given, Layout, Plane, Profile, Question, Side
 from contoursolve.reading.form import Form, lay_out
 from contoursolve.reading.lexicon import Lexicon
 from contoursolve.reading.setting import Assumption, Convention
@@ -84,6 +84,8 @@ class Claim:
     """The words that would choose, whether they are stated or not."""
     conventions: tuple[Convention, ...] = ()
     """What the manual does not say and the reading rests on."""
+    selected: Plane | None = None
+    """The plane in force behind it, where a parallel axis may stand for an axis of that."""
     is_end_absolute: bool = False
     """Whether its last block states its end as coordinates even where increments are in force."""
     limits: Mapping[str, Decimal] = field(default_factory=dict)
@@ -93,6 +95,11 @@ class Claim:
         """The words of one of its blocks that move an axis outside the plane."""
         rows = ((word, self.lexicon.addresses.get(word.address)) for word in block.words)
         return [word for word, row in rows if row and row.axis and row.axis not in self.after.plane.axes]
+
+    @property
+    def left(self) -> State:
+        """The modes that it leaves."""
+        return self.after if self.selected in (None, self.after.plane) else replace(self.after, plane=self.selected)
 
     @property
     def directives(self) -> tuple[Directive, ...]:

@@ -12,6 +12,7 @@ from contoursolve.dialects.nct_99m.element import (
     ONE_CENTER,
     OVER_CIRCLE,
     OVER_LINE,
+    PARALLEL,
     ROUNDING,
 )
 from contoursolve.dialects.nct_99m.lexicon import MANUAL
@@ -47,6 +48,13 @@ ASSUMPTIONS = (
         "p. 25: not described",
         (ARC,),
         some(ONE_CENTER),
+    ),
+    _row(
+        "parallel-axis",
+        "U, V or W beside ,A stands for the axis of the plane to which it is parallel, where that has no word",
+        "16.2, p. 120: X, Y, Z or their parallel axes",
+        (LINE,),
+        some(PARALLEL),
     ),
     _row(
         "increment-beside-angle",

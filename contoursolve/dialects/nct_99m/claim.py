@@ -20,6 +20,7 @@ from contoursolve.dialects.nct_99m.element import (
     ONLY,
     ORDINARY,
     OTHER_PLANE,
+    PARALLEL,
     POINT,
     RAPID,
     UNCOMPENSATED,
@@ -27,7 +28,7 @@ from contoursolve.dialects.nct_99m.element import (
     Element,
     pair_role,
 )
-from contoursolve.dialects.nct_99m.lexicon import AXES, MANUAL
+from contoursolve.dialects.nct_99m.lexicon import AXES, MANUAL, PARALLEL_TO, PLANES
 from contoursolve.model import Choice, Given, Side, Turn, Unit
 from contoursolve.reading import Claim, Convention, Form, Lexicon, Modes, Selector, Setting, State
 from contoursolve.source import Evidence, Source
@@ -130,6 +131,7 @@ def claim_of(members: Sequence[Member], before: State, modes: Modes) -> Claim:
         choices=tuple(_choices(elements, names, known, modes)),
         selectors=tuple(_selectors(elements, names, known, modes)),
         is_end_absolute=elements[-1].is_over,
+        selected=PLANES[members[-1].here.plane.code],
         conventions=tuple(_conventions(form, circumstances, modes)),
     )
 
@@ -203,6 +205,7 @@ def _circumstances(member: Member, first: State, *, is_only: bool) -> Iterator[s
         FOLLOWED: member.element.is_followed,
         LAST: member.is_last,
         ONLY: is_only,
+        PARALLEL: not {*member.here.plane.axes} <= {*PARALLEL_TO},
         ORDINARY: is_only and member.element.turn is not None,
     }
     return (name for name, is_true in holds.items() if is_true)

@@ -24,6 +24,8 @@ LAST = "@last"
 """No G1, G2 or G3 block follows."""
 FEED, NEGATIVE_RADIUS, ONE_CENTER = "@feed", "@negative-radius", "@one-center"
 """A feed in the block; an over-defined circle with a negative R; one of the two distances to the centre."""
+PARALLEL = "@parallel"
+"""A parallel axis stands for an axis of the plane."""
 ONLY = "@only"
 """The only block of its contour."""
 BESIDE = tuple(f"beside-{axis}" for axis in AXES)

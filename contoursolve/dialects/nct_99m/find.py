@@ -10,7 +10,7 @@ from itertools import count
 
 from contoursolve.dialects.nct_99m.claim import Member, claim_of
 from contoursolve.dialects.nct_99m.element import CHAMFER, ROUNDING, Element
-from contoursolve.dialects.nct_99m.lexicon import AXES
+from contoursolve.dialects.nct_99m.lexicon import AXES, PARALLEL_TO, PLANES
 from contoursolve.model import Turn
 from contoursolve.reading import Claim, Effect, Modes, State, apply_modes, codes_of
 from contoursolve.syntax import Block, Word
@@ -33,7 +33,7 @@ def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> Cla
         following = _next(blocks, position)
         if following is None or not _is_motion(blocks[following], last.here, modes):
             break
-        here = apply_modes(last.here, blocks[following], modes)
+        here = _apply(last.here, blocks[following], modes)
         is_over = _is_meant_over_defined(blocks[following], here) or _is_stated(last, blocks[following], here)
         is_cut = here.motion in (1, 2, 3) and _moves(blocks[following], here)
         if not is_over and not (_has_corner(last.block) and is_cut):
@@ -53,8 +53,22 @@ def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> Cla
 
 
 def _member(block: Block, before: State, modes: Modes, *, is_over: bool) -> Member:
-    here = apply_modes(before, block, modes)
+    here = _apply(before, block, modes)
     return Member(block, Element(_TURNS.get(here.motion or 0), is_over, is_followed=False), here)
+
+
+def _apply(before: State, block: Block, modes: Modes) -> State:
+    """The state with the block's G codes in force; its plane has a parallel axis in place of its own one where a line
+    by its angle has only that coordinate (16.2)."""
+    here = apply_modes(before, block, modes)
+    plane = PLANES[here.plane.code]
+    here = here if here.plane == plane else replace(here, plane=plane)
+    stated, axes = _stated(block), here.plane.axes
+    parallel = [axis for axis in axes if PARALLEL_TO[axis] in stated]
+    if ",A" not in stated or here.motion not in (0, 1) or stated & {*axes} or len(parallel) != 1:
+        return here
+    named = tuple(PARALLEL_TO[axis] if axis in parallel else axis for axis in axes)
+    return replace(here, plane=replace(here.plane, axes=(named[0], named[1])))
 
 
 def _next(blocks: Sequence[Block], index: int) -> int | None:

@@ -30,10 +30,12 @@ ADDRESSES = (
 NUMBERS = NumberFormat(WithoutPoint.AS_WRITTEN, Source(MANUAL, "examples, p. 123-130", Evidence.PRINTED))
 
 AXES = ("X", "Y", "Z", "U", "V", "W")
+PARALLEL_TO = {"X": "U", "Y": "V", "Z": "W"}
 
 XY = Plane("G17", ("X", "Y"), ("I", "J"))
 ZX = Plane("G18", ("Z", "X"), ("K", "I"))
 YZ = Plane("G19", ("Y", "Z"), ("J", "K"))
+PLANES = {plane.code: plane for plane in (XY, ZX, YZ)}
 
 
 def _codes(effect: Effect, meanings: dict[int, str]) -> tuple[Code, ...]:
