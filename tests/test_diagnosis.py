@@ -526,7 +526,9 @@ def test_no_two_fixes_write_the_same_numbers_and_none_writes_the_old_one():
                 meanings = [meaning(fix.replacement) for fix in fixes]
                 doubles = [fix.description for fix, own in zip(fixes, meanings, strict=True) if meanings.count(own) > 1]
                 assert not doubles, (case.text, doubles)
-                assert meaning(case.text) not in meanings, (case.text, [fix.description for fix in fixes])
+                # A word that moves into a block of its own keeps its number.
+                new = [own for fix, own in zip(fixes, meanings, strict=True) if "move " not in fix.description]
+                assert meaning(case.text) not in new, (case.text, [fix.description for fix in fixes])
 
 
 def _number(name: str, text: str) -> str:
@@ -573,14 +575,17 @@ def test_safe_fix_keeps_the_contour_and_no_other_fix_is_called_so():
                 continue
             again = answer_to(fix.replacement, start=case.start_text).contour
             is_same = reference is not None and same_contour(reference, again)
-            assert (fix.applicability is Applicability.SAFE) == is_same, (case.text, fix)
+            # What else the machine does is not the contour.
+            is_kept = not re.search("delete [MSTF]", fix.description)
+            assert (fix.applicability is Applicability.SAFE) == (is_same and is_kept), (case.text, fix)
             seen[fix.applicability] += 1
     assert min(seen.values()) > 50
 
 
 def test_no_fix_contains_another_one():
     for case, answer in broken_blocks():
-        changes = [changed_words(case.text, fix.replacement) for fix in fixes_of(answer)]
+        unmoved = [fix for fix in fixes_of(answer) if "move " not in fix.description]
+        changes = [changed_words(case.text, fix.replacement) for fix in unmoved]
         assert len(set(changes)) == len(changes), case.text
         assert not any(one < other for one in changes for other in changes), (case.text, fixes_of(answer))
 
