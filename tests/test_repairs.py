@@ -1,6 +1,7 @@
 """Repairs: those that drop words against a search through all sets of words, and how much is tried for them."""
 
 import random
+import re
 from itertools import combinations
 from typing import Any
 
@@ -10,6 +11,7 @@ from generate_slips import FORMS, Spoilt
 
 from contoursolve import Status, solve
 from contoursolve.diagnosis import attempt
+from contoursolve.diagnostic import Applicability
 
 
 def places(lines: tuple[str, ...]) -> list[tuple[int, int]]:
@@ -26,10 +28,11 @@ def without(lines: tuple[str, ...], dropped: frozenset[tuple[int, int]]) -> list
 
 
 def is_clean(lines: list[str], control: str) -> bool:
-    """Whether all blocks make one contour that is solved without an error or a warning."""
+    """Whether all blocks make one contour that is solved without an error or a warning, but for a path that crosses
+    the spindle axis, which may be meant."""
     result = solve("\n".join(lines), control=control, depth="verdict")
     is_whole = len(result.answers) == 1 and len(result.answers[0].lines) == len(lines) - 1
-    findings = [each for each in result.diagnostics if each.severity.value != "info"]
+    findings = [each for each in result.diagnostics if each.severity.value != "info" and each.code != "axis-crossed"]
     return is_whole and result.answers[0].status is Status.SOLVED and not findings
 
 
@@ -93,6 +96,59 @@ def test_negative_corner_words_are_dropped_like_others(block, start, left):
     if left:
         fixes = [fix.replacement for finding in solve(block, start=start).diagnostics for fix in finding.fixes]
         assert left in fixes
+
+
+def placeholders(spoilt: Spoilt) -> list[tuple[str, str]]:
+    """The fixes that lack a number: what they say, and the program with the numbers that they name."""
+    result = solve(spoilt.text, control=spoilt.control)
+    found = []
+    for fix in (fix for finding in result.diagnostics for fix in finding.fixes):
+        if fix.applicability is Applicability.PLACEHOLDER:
+            text = fix.replacement
+            for number in re.search(r"\(such as (.+)\)$", fix.description)[1].split():
+                text = re.sub(rf"(?<!\S){number.rstrip('-.0123456789')}\?", number, text, count=1)
+            found.append((fix.description, f"{spoilt.lines[0]}\n{text}"))
+    return found
+
+
+def check_placeholders(spoilt: Spoilt) -> int:
+    """That every number that a fix names makes a contour; how many such fixes there are."""
+    found = placeholders(spoilt)
+    for description, text in found:
+        assert is_clean(text.split("\n"), spoilt.control), (spoilt, description)
+    return len(found)
+
+
+@pytest.mark.parametrize("form", ["g111", "g112", "cornered"])
+def test_a_word_without_its_number_is_offered_with_a_number_that_makes_a_contour(form):
+    draw = random.Random(6)
+    assert sum(check_placeholders(FORMS[form](draw)) for _ in range(8)) > 0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("form", "blocks"), [("g111", 200), ("g112", 100), ("pair", 60), ("cornered", 60), ("chain", 30)]
+)
+def test_a_word_without_its_number_is_offered_with_a_number_in_many_blocks(form, blocks):
+    draw = random.Random(61)
+    assert sum(check_placeholders(FORMS[form](draw)) for _ in range(blocks)) > blocks / 10
+
+
+@pytest.mark.parametrize(
+    "block", ["G111 X100. A180. B160. C2.", "G111 X100. A180. B120. C5. D5.", "G111 I10. B180. Z-40."]
+)
+def test_a_word_is_offered_without_its_number_exactly_where_some_number_makes_a_contour(block):
+    said = [description for description, _ in placeholders(Spoilt(("G00 X40. Z0.", block), "yasnac-lx3"))]
+    for address in sorted(set("AIKBXUZW") - {word[0] for word in block.split()[1:]}):
+        values = range(-175, 181, 5) if address in "AB" else range(-100, 101, 4)
+        works = any(is_clean(["G00 X40. Z0.", f"{block} {address}{value}."], "yasnac-lx3") for value in values)
+        assert works == any(each.startswith(f"add {address}?") for each in said), (address, said)
+
+
+def test_a_point_on_the_line_itself_is_not_offered():
+    result = solve("G17 G90 G42 D1 G0 X0 Y0\nG1 ,A0.\nG1 X50. Y0. ,A180.", control="nct-99m")
+    fixes = [fix.description for finding in result.diagnostics for fix in finding.fixes]
+    assert not any(fix.startswith("delete ,A0.; add X?") for fix in fixes)
 
 
 OUTLINE = """G17 G90 G0 X0 Y0

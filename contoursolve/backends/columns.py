@@ -10,6 +10,7 @@ import numpy
 from numpy.typing import NDArray
 
 from contoursolve.backends.numeric import Tape
+from contoursolve.backends.replay import Replay
 
 Array = NDArray[numpy.float64]
 
@@ -182,3 +183,33 @@ def difference(value: Array | float, other: Array | float) -> Array:
 _BILLION = 1e9
 _WHOLE = 2.0**52
 """Whole numbers below this have exact differences."""
+
+
+class Rows:
+    """What is not arithmetic, for columns of which few rows are computed once: compiling would take longer."""
+
+    root = staticmethod(numpy.sqrt)
+    cosine = staticmethod(numpy.cos)
+    sine = staticmethod(numpy.sin)
+    magnitude = staticmethod(numpy.abs)
+    sign = staticmethod(numpy.sign)
+    angle = staticmethod(numpy.arctan2)
+    larger = staticmethod(numpy.fmax)
+    equal = staticmethod(numpy.equal)
+    at_most = staticmethod(numpy.less_equal)
+    below = staticmethod(numpy.less)
+
+    @staticmethod
+    def opposite(condition: Any) -> Any:
+        """Where a condition, a number or a truth value, does not hold."""
+        return numpy.equal(condition, 0)
+
+    @staticmethod
+    def chosen(condition: Any, value: Any) -> Any:
+        """The value where a condition holds, else 0."""
+        return numpy.where(numpy.equal(condition, 0), 0.0, value)
+
+
+def replay_rows(tape: Tape) -> Replay:
+    """The outputs of a tape for columns of its inputs, without compiling them."""
+    return Replay(tape.shared(), Rows, float)

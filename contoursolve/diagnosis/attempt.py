@@ -8,7 +8,8 @@ from itertools import chain
 from contoursolve.analysis import judge, order
 from contoursolve.constraints import assemble
 from contoursolve.contour import Contour
-from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, Side, apply_edits, edit_facts
+from contoursolve.diagnosis.edits import Edit, EditKind, Side, apply_edits, edit_facts
+from contoursolve.diagnosis.examples import propose, sampled
 from contoursolve.diagnosis.subsets import LARGEST_ROLE
 from contoursolve.diagnostic import Applicability, Diagnostic, Severity
 from contoursolve.dialects import Dialect
@@ -61,6 +62,8 @@ class Repair:
     deviation: float
     warnings: int = 0
     """Rules that warn about the changed block and did not before."""
+    example: tuple[Edit, ...] = ()
+    """The edits with numbers for the placeholders that make a contour."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,8 +115,8 @@ def _try(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], before: Before
         return None
     replacement = "\n".join(texts)
     if any(edit.is_placeholder for edit in edits):
-        is_fixed = _is_fixed_by_a_number(claim, dialect, edits, before.next_place)
-        return Repair(edits, replacement, Applicability.PLACEHOLDER, None, 0.0) if is_fixed else None
+        example = _example(claim, dialect, edits, before)
+        return Repair(edits, replacement, Applicability.PLACEHOLDER, None, 0.0, example=example) if example else None
     answer = examine_edited(claim, dialect, edits, before)
     if answer is None or answer.contour is None or not _is_settled(answer, edits):
         return None
@@ -238,23 +241,17 @@ def _parted(blocks: list[Block], edits: tuple[Edit, ...]) -> tuple[list[Block], 
     return blocks[:first], blocks[first:last], blocks[last:]
 
 
-_SAMPLE = "37.123"
-"""Stands for any number where only the words matter."""
-
-
-def _is_fixed_by_a_number(
-    claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], next_place: tuple[Decimal, Decimal] | None
-) -> bool:
-    """Whether the words determine the drawing at these values, whatever number the placeholder becomes."""
-    sample = (
-        replace(edit, text=edit.text.replace(PLACEHOLDER, _SAMPLE)) if edit.is_placeholder else edit for edit in edits
-    )
-    found = _find(claim, dialect, tuple(sample))
+def _example(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> tuple[Edit, ...] | None:
+    """The edits with a number for every placeholder that makes a contour; as they are where further facts are stated,
+    if these determine the drawing whatever the numbers are. None if nothing is found."""
+    found = _find(claim, dialect, sampled(edits))
     if found is None:
-        return False
+        return None
     profile = read(found, frozenset())
     if profile.is_extended:
-        profile, is_stated = _with_facts(profile, found, next_place)
-        return is_stated and judge(assemble(profile)).is_determined
+        profile, is_stated = _with_facts(profile, found, before.next_place)
+        return edits if is_stated and judge(assemble(profile)).is_determined else None
     affine = affine_facts(profile, profile.facts)
-    return affine is None or not affine.freedoms()
+    if affine is not None and affine.freedoms():
+        return None
+    return next((each for each in propose(found, profile, edits) if _try(claim, dialect, each, before)), None)

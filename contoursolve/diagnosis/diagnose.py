@@ -206,6 +206,9 @@ _ABOUT_FREEDOM = (Trouble.UNDERDETERMINED, RefusalKind.NOT_FIXED)
 def _fix(answer: Answer, repair: Repair) -> Fix:
     """A repair in words, with the place where the contour then ends or turns."""
     description = "; ".join(str(edit) for edit in repair.edits)
+    numbers = [each.text for each, edit in zip(repair.example, repair.edits, strict=False) if each != edit]
+    if numbers:
+        description += f" (such as {' '.join(numbers)})"
     if repair.contour:
         profile, contour = answer.profile, repair.contour
         name, at = "the contour ends", contour.end

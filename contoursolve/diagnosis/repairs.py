@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from decimal import ROUND_HALF_EVEN, Decimal
 from functools import lru_cache
-from itertools import combinations, product
+from itertools import chain, combinations, product
 from math import copysign
 
 from contoursolve.diagnosis.attempt import Before, Repairs, choose_repairs
@@ -171,11 +171,9 @@ def _legal_sets(
     for base in bases:
         touched = {edit.span for edit in base}
         corners = [drop(claim.words[name]) for name in sorted(at_fault) if claim.words[name].span not in touched]
-        is_only_dropping = all(edit.kind is EditKind.DROP for edit in base)
-        if not is_only_dropping and not any(edit.is_placeholder for edit in base):
-            yield from (
-                (*base, *dropped) for size in range(1, len(corners) + 1) for dropped in combinations(corners, size)
-            )
+        if any(edit.kind is not EditKind.DROP for edit in base):
+            sets = chain.from_iterable(combinations(corners, size) for size in range(1, len(corners) + 1))
+            yield from (tuple(sorted((*base, *some), key=lambda edit: edit.kind is not EditKind.DROP)) for some in sets)
     if frozenset() in changes:
         yield from ((*forced, *edits) for edits in _other_corners(claim, at_fault))
 

@@ -1,0 +1,153 @@
+"""Numbers for words that a repair adds without one: some with which there is a contour."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from math import log10
+
+import numpy
+
+from contoursolve.backends.columns import Array
+from contoursolve.constraints import Coordinate, Radius
+from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, write_word
+from contoursolve.model import Profile, Unit
+from contoursolve.reading import Claim
+from contoursolve.solving.rows import passed_rows
+
+MOST_PROPOSED = 8
+"""Numbers that are proposed for a repair; a few, because a rule may refuse what the equations accept."""
+
+ROWS = 4_000
+"""Numbers, or combinations of several, that are looked through."""
+
+SEED = 1
+"""Of the combinations that are looked through."""
+
+REACH = 4.0
+"""Times the largest length of a contour: how far its other lengths are looked for."""
+
+SAMPLE = "37.123"
+"""Stands for any number where only the words matter."""
+
+
+def sampled(edits: Sequence[Edit]) -> tuple[Edit, ...]:
+    """The edits with some number for every placeholder."""
+    return tuple(_numbered(edit, edit.address + SAMPLE) if edit.is_placeholder else edit for edit in edits)
+
+
+def propose(claim: Claim, profile: Profile, edits: Sequence[Edit]) -> Iterator[tuple[Edit, ...]]:
+    """The edits with numbers for the placeholders, with which every check is passed as far as floats can tell, those
+    with the most room around them first; where no one function tells, some that lie far apart.
+
+    `claim` and `profile` are those of the sampled edits.
+    """
+    added = [edit for edit in edits if edit.is_placeholder]
+    names = [_name_of(claim, edit) for edit in added]
+    if any(name not in profile.givens for name in names):
+        return
+    runs = list(_one(claim, profile, names[0]) if len(names) == 1 else _several(claim, profile, names))
+    for run in runs[:MOST_PROPOSED]:
+        texts = [_write(claim, name, run[:, column]) for column, name in enumerate(names)]
+        numbers = iter(texts)
+        yield tuple(_numbered(edit, next(numbers)) if edit.is_placeholder else edit for edit in edits)
+
+
+def _numbered(edit: Edit, text: str) -> Edit:
+    return replace(edit, text=text)
+
+
+def _name_of(claim: Claim, edit: Edit) -> str:
+    """The given that an added word states."""
+    words = claim.words.items()
+    return next(
+        (name for name, word in words if word.address == edit.address and word.span.line == edit.line), PLACEHOLDER
+    )
+
+
+def _one(claim: Claim, profile: Profile, name: str) -> list[Array]:
+    """Stretches of numbers for one given that are passed, shape (numbers, 1), the longest first."""
+    grid = _grid(claim, profile, name)
+    passed = passed_rows(profile, {name: grid})
+    if passed is None:
+        return [grid[[place], numpy.newaxis] for place in _apart(len(grid))]
+    places = numpy.flatnonzero(passed)
+    parts = numpy.split(places, numpy.flatnonzero(numpy.diff(places) > 1) + 1) if places.size else []
+    return [grid[part, numpy.newaxis] for part in sorted(parts, key=len, reverse=True)]
+
+
+def _several(claim: Claim, profile: Profile, names: Sequence[str]) -> Iterator[Array]:
+    """Combinations of numbers for several givens that are passed, shape (1, givens): first those of few decimals, those
+    of lengths that are usual in this contour first."""
+    rng, reach = numpy.random.default_rng(SEED), _reach(profile, names)
+    for is_coarse in (True, False):
+        grids = [_grid(claim, profile, name, reach / REACH / 5 if is_coarse else 0.0) for name in names]
+        rows = numpy.stack([rng.choice(grid, ROWS) for grid in grids], axis=1)
+        passed = passed_rows(profile, dict(zip(names, rows.T, strict=True)))
+        if passed is None:
+            yield from (rows[[place]] for place in _apart(len(rows)))
+            return
+        lengths = [place for place, name in enumerate(names) if profile.givens[name].unit is not Unit.DEGREE]
+        steps = rows[:, lengths] - [_start_of(profile, names[place]) for place in lengths]
+        unusual = ((abs(steps) * REACH / reach - 0.5) ** 2).sum(axis=1)
+        places = numpy.flatnonzero(passed)
+        yield from (rows[[place]] for place in places[numpy.argsort(unusual[places], kind="stable")][:MOST_PROPOSED])
+
+
+def _apart(count: int) -> list[int]:
+    """Some of so many places, far apart."""
+    return [number * (count - 1) // (MOST_PROPOSED + 1) for number in range(1, MOST_PROPOSED + 1)]
+
+
+def _reach(profile: Profile, names: Sequence[str]) -> float:
+    """How far from the start point, or from zero, lengths are looked for, mm."""
+    lengths = (
+        abs(float(given.value) - _start_of(profile, name))
+        for name, given in profile.givens.items()
+        if given.unit is Unit.MM and name not in names
+    )
+    return REACH * max((*lengths, 10.0))
+
+
+def _start_of(profile: Profile, name: str) -> float:
+    """The coordinate of the start point on the axis of a given that is a coordinate, mm; 0 for any other."""
+    axis = next((fact.axis for fact in profile.facts if isinstance(fact, Coordinate) and fact.given == name), None)
+    return float(profile.start.values[axis] or 0) if axis is not None else 0.0
+
+
+def _grid(claim: Claim, profile: Profile, name: str, coarse: float = 0.0) -> Array:
+    """The numbers that are looked through for a given, mm (X as radius) or degrees, at the least increments: dense
+    about what is near, up to several times the contour's size. Coarse ones differ by about so many mm, or 15 degrees.
+    """
+    if profile.givens[name].unit is Unit.DEGREE:
+        return numpy.linspace(-180, 180, 25 if coarse else 1441)
+    along = numpy.linspace(-1, 1, 2001)
+    steps = _reach(profile, [name]) * (0.1 * along + 0.9 * along**3)
+    sizes = {corner.size for corner in profile.figure.corners}
+    sizes |= {fact.given for fact in profile.facts if isinstance(fact, Radius)}
+    if name in sizes:
+        steps = steps[steps > 0]
+    step = _increment(claim, name)
+    if coarse:
+        step *= 10 ** max(0, round(log10(coarse / step)))
+    return numpy.unique(numpy.rint((_start_of(profile, name) + steps) / step) * step)
+
+
+def _increment(claim: Claim, name: str) -> float:
+    """The least increment of a given's word, mm (X as radius)."""
+    row, unit = claim.lexicon.addresses[claim.words[name].address], claim.after.unit
+    step = float(claim.lexicon.numbers.step(row.unit, unit)) * float(unit.in_mm)
+    return step / 2 if row.is_diameter else step
+
+
+def _write(claim: Claim, name: str, values: Array) -> str:
+    """A word for a value among those of a run, with as few decimals as one in its middle half can have."""
+    word, unit = claim.words[name], claim.after.unit
+    row = claim.lexicon.addresses[word.address]
+    scale = 1.0
+    if row.unit is not Unit.DEGREE:
+        scale = (2 if row.is_diameter else 1) / float(unit.in_mm)
+    quarter = len(values) // 4
+    low, high = (float(values[place]) * scale for place in (quarter, len(values) - 1 - quarter))
+    middle = float(values[len(values) // 2]) * scale
+    rounded = (round(middle, digits) for digits in (-1, 0, 1, 2))
+    number = next((each for each in rounded if low <= each <= high), middle)
+    return write_word(word.address, number / scale, claim.lexicon, unit)
