@@ -490,7 +490,9 @@ def test_fix_applied_solves_the_block_and_removes_its_findings():
                 continue
             again = answer_to(fix.replacement, start=case.start_text)
             assert again.status.value == "solved", (case.text, fix)
-            left = [each for each in again.diagnostics if each.severity is not Severity.INFO]
+            # A path that crosses the spindle axis may be meant.
+            told = [each for each in again.diagnostics if each.code != "axis-crossed"]
+            left = [each for each in told if each.severity is not Severity.INFO]
             for each in left:
                 if each.code == "axis-crossed":
                     continue  # it may be meant
