@@ -9,14 +9,13 @@ from typing import TYPE_CHECKING
 
 from contoursolve import syntax
 from contoursolve.choices import choice_of
-from contoursolve.diagnostic import Diagnostic, Severity
+from contoursolve.diagnostic import Diagnostic
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Depth, Policy
 from contoursolve.model import Length
 from contoursolve.numbering import Numbers
-from contoursolve.pipeline import Result, run
+from contoursolve.pipeline import Result, Run, without_contour
 from contoursolve.project import find_settings
-from contoursolve.reading import Trouble
 from contoursolve.recognise import choose
 from contoursolve.syntax import STANDARD_INPUT, Directive, Program, UnreadableProgramError
 
@@ -181,6 +180,30 @@ def solve_program(
     settings: Mapping[str, str] | None = None,
 ) -> Result:
     """Solve every contour of a program that was parsed or read before; as `solve`."""
+    return follow_program(
+        program,
+        control=control,
+        start=start,
+        units=units,
+        rules=rules,
+        depth=depth,
+        facts=facts,
+        settings=settings,
+    ).collect()
+
+
+def follow_program(
+    program: Program,
+    *,
+    control: str | Dialect | None = None,
+    start: str | None = None,
+    units: str = "mm",
+    rules: str = "enforce",
+    depth: str = "full",
+    facts: Iterable[str | Statement] = (),
+    settings: Mapping[str, str] | None = None,
+) -> Run:
+    """The same as a stream of contours and findings, for a program of any length."""
     dialect = choose(control, program, settings)
     beginning = syntax.parse(start, program.name, first_line=0) if start is not None else None
     unit, policy = choice_of(Length, units, "units"), choice_of(Policy, rules, "rules")
@@ -189,7 +212,7 @@ def solve_program(
         from contoursolve.batch import Batch  # noqa: PLC0415 - a few blocks are solved before it is imported
 
         together = Batch(dialect, policy, is_proven=deep is not Depth.PATH)
-    return run(program, dialect, unit, policy, deep, beginning, _facts(facts), together)
+    return Run(program, dialect, unit, policy, deep, beginning, _facts(facts), together)
 
 
 _MANY = 64
@@ -209,11 +232,7 @@ def _fact(fact: str | Statement, line: int) -> Directive:
 
 def only_findings(result: Result) -> Result:
     """The result as `check` reports it: that there is nothing to solve is then a warning."""
-    findings = [
-        replace(each, severity=Severity.WARNING) if each.about is Trouble.NO_CONTOUR else each
-        for each in result.diagnostics
-    ]
-    return replace(result, diagnostics=tuple(findings))
+    return replace(result, diagnostics=tuple(map(without_contour, result.diagnostics)))
 
 
 def expand(

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field, replace
 from itertools import islice
 from typing import TYPE_CHECKING, cast
 
-from contoursolve.ahead import Line, View, each_block, go_on, pass_plainly
+from contoursolve.ahead import Line, View, go_on, pass_plainly
 from contoursolve.diagnostic import Basis, Diagnostic, Severity
 from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.examine import Answer, Depth, Policy, examine, rank
@@ -140,21 +140,55 @@ def run(
     only contour; raises FactPlaceError if it has several. Without a dialect only the characters of the program are
     examined.
     """
-    if facts and dialect is not None:
-        program, facts = attach(program, dialect, unit, start, facts)
-    examiner = _Examiner(dialect, unit, policy, depth, together)
-    answers: list[Answer] = []
-    everything: list[Diagnostic] = []
-    for step in examiner.steps(program.blocks, start):
-        everything += step.findings
-        if isinstance(step.answer, Answer):
-            answers.append(step.answer)
-    if not answers and not any(each.severity is Severity.ERROR for each in everything):
-        everything.append(examiner.nothing_to_solve(program.blocks))
-    everything += [each for answer in answers for each in answer.diagnostics]
-    everything.sort(key=rank)
-    control, settings = (dialect.name, dialect.modes.settings) if dialect else (None, {})
-    return Result(program, control, tuple(answers), tuple(everything), start, tuple(facts), settings, policy)
+    return Run(program, dialect, unit, policy, depth, start, facts, together).collect()
+
+
+class Run:
+    """The same as a stream: contours, and findings about other blocks, as they are found. `frame` is the result without
+    them. Raises FactPlaceError."""
+
+    def __init__(
+        self,
+        program: Program,
+        dialect: Dialect | None,
+        unit: Length,
+        policy: Policy,
+        depth: Depth = Depth.FULL,
+        start: Program | None = None,
+        facts: Sequence[Directive] = (),
+        together: Together | None = None,
+    ) -> None:
+        if facts and dialect is not None:
+            program, facts = attach(program, dialect, unit, start, facts)
+        control, settings = (dialect.name, dialect.modes.settings) if dialect else (None, {})
+        self.frame = Result(program, control, (), (), start, tuple(facts), settings, policy)
+        self._examiner = _Examiner(dialect, unit, policy, depth, together)
+
+    def __iter__(self) -> Iterator[Answer | Diagnostic]:
+        program, examiner, is_told = self.frame.program, self._examiner, False
+        # Blocks that are not kept are read as they are needed.
+        is_whole = isinstance(program.blocks, tuple) or self.frame.control is None
+        for step in examiner.steps(program.blocks if is_whole else iter(program.blocks), self.frame.start):
+            is_told = is_told or any(each.severity is Severity.ERROR for each in step.findings)
+            yield from step.findings
+            if isinstance(step.answer, Answer):
+                is_told = True
+                yield step.answer
+        if not is_told:
+            yield examiner.nothing_to_solve(program.blocks)
+
+    def collect(self) -> Result:
+        """All of it."""
+        items = list(self)
+        answers = [each for each in items if isinstance(each, Answer)]
+        everything = [each for each in items if isinstance(each, Diagnostic)]
+        everything += [each for answer in answers for each in answer.diagnostics]
+        return replace(self.frame, answers=tuple(answers), diagnostics=tuple(sorted(everything, key=rank)))
+
+
+def without_contour(finding: Diagnostic) -> Diagnostic:
+    """The finding as `check` reports it: that there is nothing to solve is a warning then."""
+    return replace(finding, severity=Severity.WARNING) if finding.about is Trouble.NO_CONTOUR else finding
 
 
 def walk(
@@ -225,7 +259,7 @@ class _Examiner:
     def _walk(self, blocks: Iterable[Line], start: Program | None) -> Iterator[Step | Pending]:
         """Every block and every contour, in order, contours as they are found."""
         if self.dialect is None:
-            read, is_shown = list(each_block(list(blocks), 0)), False
+            read, is_shown = cast("Sequence[Block]", blocks), False
             for index, block in enumerate(read):
                 self.diagnostics += self.marks.look(block)
                 self._check_block(block)
@@ -337,7 +371,7 @@ class _Examiner:
         if dialect is None:
             return False
         state = dialect.initial_state(self.unit)
-        for block in (*(start.blocks if start else ()), *blocks[:index]):
+        for block in (*(start.blocks if start else ()), *islice(blocks, index)):
             state = advance(state, block, dialect.modes)
         self._check_letters(dialect, blocks[index : index + _NEAR], state)
         return True

@@ -40,7 +40,10 @@ def recognise(program: Program) -> Dialect | None:
 
     Raises UnknownControlError if its blocks show more than one.
     """
-    shown = [dialect for dialect in DIALECTS.values() if any(map(dialect.signs, program.blocks))]
+    shown: list[Dialect] = []
+    for block in program.blocks:
+        shown += [each for each in DIALECTS.values() if each not in shown and each.signs(block)]
+    shown.sort(key=list(DIALECTS.values()).index)
     if len(shown) > 1:
         raise several_controls({each.name: what_shows(program.blocks, each) for each in shown})
     return shown[0] if shown else None

@@ -8,10 +8,10 @@ from typing import Any
 import click
 
 from contoursolve import syntax
-from contoursolve.api import UnreadableProgramError, read_program, solve_program
+from contoursolve.api import UnreadableProgramError, follow_program, read_program
 from contoursolve.cli.options import CouldNotRunError
 from contoursolve.dialects import DIALECTS
-from contoursolve.pipeline import FactPlaceError, Result
+from contoursolve.pipeline import FactPlaceError, Result, Run
 from contoursolve.project import SettingError, find_settings, read_setting
 from contoursolve.recognise import UnknownControlError
 from contoursolve.syntax import STANDARD_INPUT, Program
@@ -46,9 +46,14 @@ def named_after(program: str | None, suffix: str) -> Path:
 
 def examine(program: Program, start: str | None, assignments: Sequence[str], options: dict[str, Any]) -> Result:
     """The result of a program under the options of the command; what makes no sense ends the command."""
+    return follow(program, start, assignments, options).collect()
+
+
+def follow(program: Program, start: str | None, assignments: Sequence[str], options: dict[str, Any]) -> Run:
+    """The same as a stream."""
     try:
         settings = settings_of(folder_of(program), assignments)
-        return solve_program(program, start=start, settings=settings, **options)
+        return follow_program(program, start=start, settings=settings, **options)
     except SettingError as error:
         raise CouldNotRunError(str(error)) from None
     except UnknownControlError as error:

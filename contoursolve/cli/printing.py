@@ -38,6 +38,13 @@ def print_lines(lines: Iterable[str]) -> None:
         say("\n".join(batch))
 
 
+def print_pieces(pieces: Iterable[str]) -> None:
+    """Print the pieces of a document, in batches."""
+    for batch in _batched(pieces, 1_000):
+        click.echo("".join(batch), nl=False)
+    click.echo()
+
+
 def _batched(lines: Iterable[str], size: int) -> Iterator[list[str]]:
     """Lists of up to `size` lines (itertools.batched is in Python 3.12)."""
     iterator = iter(lines)

@@ -7,18 +7,19 @@ import click
 
 from contoursolve import __version__
 from contoursolve.api import only_findings
-from contoursolve.cli.loading import examine, load
+from contoursolve.cli.loading import follow, load
 from contoursolve.cli.options import (
     COULD_NOT_RUN,
     FOUND_ERRORS,
     CouldNotRunError,
     common_options,
 )
-from contoursolve.cli.printing import print_lines, say, style_of_output
+from contoursolve.cli.printing import print_lines, print_pieces, say, style_of_output
 from contoursolve.diagnostic import Severity
 from contoursolve.dialects import Dialect
-from contoursolve.output.document import findings_to_json, to_json
-from contoursolve.output.listing import closing_lines, lines_of_findings, listing_lines, summary_line
+from contoursolve.output.document import Findings, Shelf, stream_json
+from contoursolve.output.listing import Tally, closing_lines, stream_findings, stream_listing
+from contoursolve.pipeline import Result
 
 
 @click.command(short_help="Solve every contour block of a program.")
@@ -56,13 +57,13 @@ def solve(
     contoursolve solve --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0."
     contoursolve solve --start "X40. Z0." --fact "length of line 1 = 30" --block "G111 X100. A180. B120. K?"
     """
-    result = examine(load([program] if program else [], blocks, start)[0](), start, assignments, options)
+    run, tally = follow(load([program] if program else [], blocks, start)[0](), start, assignments, options), Tally()
     if format_ == "json":
-        click.echo(to_json(result))
+        print_pieces(stream_json(run, tally))
     else:
-        print_lines(listing_lines(result, style_of_output(), is_explained=is_explained))
-        print_lines(closing_lines(result))
-    context.exit(FOUND_ERRORS if result.has_errors else 0)
+        print_lines(stream_listing(run, tally, style_of_output(), is_explained=is_explained))
+        print_lines(closing_lines(run.frame, tally))
+    context.exit(FOUND_ERRORS if tally.severities[Severity.ERROR] else 0)
 
 
 @click.command(short_help="Report findings only, for any number of programs.")
@@ -101,23 +102,34 @@ def check(
     contoursolve check shaft.nc flange.nc
     contoursolve check --control yasnac-lx3 - < shaft.nc
     """
-    is_shown = len(programs) > 1 and sys.stderr.isatty()
-    results, failures = [], []
+    # A bar among the lines of a terminal would be torn.
+    is_shown = len(programs) > 1 and sys.stderr.isatty() and not (format_ == "text" and sys.stdout.isatty())
+    tally, document = Tally(), Findings(context.with_resource(Shelf()))
+    results, done, failed = list[Result](), 0, False
     with click.progressbar(
         load(programs, blocks, start), label="checking", file=sys.stderr, hidden=not is_shown
     ) as loaded:
         for loader in loaded:
             try:
-                results.append(only_findings(examine(loader(), start, assignments, options)))
+                run = follow(loader(), start, assignments, options)
             except CouldNotRunError as error:
-                failures.append(error)
-    for failure in failures:
-        failure.show()
-    if failures and not results:
+                error.show()
+                failed = True
+                continue
+            done += 1
+            if format_ == "text":
+                print_lines(stream_findings(run, tally, style_of_output()))
+            elif format_ == "json":
+                document.add(run, tally)
+            else:
+                results.append(only_findings(run.collect()))
+                for finding in results[-1].diagnostics:
+                    tally.add(finding)
+    if failed and not done:
         context.exit(COULD_NOT_RUN)
     match format_:
         case "json":
-            click.echo(findings_to_json(results))
+            print_pieces(document.pieces())
         case "sarif":
             from contoursolve.output.exchange import to_sarif  # noqa: PLC0415 - only here
 
@@ -128,9 +140,7 @@ def check(
 
             click.echo(to_github(results))
         case _:
-            for result in results:
-                print_lines(lines_of_findings(result, result.diagnostics, style_of_output()))
-            say(summary_line(results))
+            say(tally.line(done))
     failing = {"error": (Severity.ERROR,), "warning": (Severity.ERROR, Severity.WARNING), "never": ()}[fail_on]
-    found = {finding.severity for result in results for finding in result.diagnostics}
-    context.exit(COULD_NOT_RUN if failures else FOUND_ERRORS if found & set(failing) else 0)
+    is_failing = any(tally.severities[each] for each in failing)
+    context.exit(COULD_NOT_RUN if failed else FOUND_ERRORS if is_failing else 0)

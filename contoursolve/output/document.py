@@ -1,14 +1,16 @@
 """Results as plain data for JSON: schema contoursolve/solve/1."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
+from tempfile import SpooledTemporaryFile
 from typing import Any
 
 from contoursolve.contour import ArcSegment, Contour, Segment
 from contoursolve.data import json_text
 from contoursolve.diagnostic import Diagnosis, Diagnostic
-from contoursolve.examine import Answer, AskedValue
+from contoursolve.examine import Answer, AskedValue, rank
+from contoursolve.output.listing import Tally
 from contoursolve.output.solutions import DECIMALS, decimals_of, list_solutions, printed_certificate
-from contoursolve.pipeline import Result
+from contoursolve.pipeline import Result, Run, without_contour
 from contoursolve.solving import Point
 from contoursolve.solving.certificate import Certificate, Proof
 from contoursolve.source import Source, Span
@@ -16,41 +18,124 @@ from contoursolve.source import Source, Span
 
 def to_json(result: Result) -> str:
     """The contours and findings of one program; lengths in mm, X of a lathe as radius, angles in degrees."""
-    return _document(
-        {
-            "schema": "contoursolve/solve/1",
-            "program": result.program.name,
-            "control": result.control,
-            "rules": result.policy.value,
-            "settings": {f"{result.control}.{name}": value for name, value in sorted(result.settings.items())},
-        },
-        contours=map(_contour, result.answers),
-        diagnostics=(finding_data(each, result) for each in result.diagnostics),
-    )
+    contours = (_indented(_contour(each), 2) for each in result.answers)
+    findings = (_indented(finding_data(each, result), 2) for each in result.diagnostics)
+    return "".join(_document(_head(result), contours=contours, diagnostics=findings))
 
 
-def findings_to_json(results: Sequence[Result]) -> str:
-    """The findings of several programs; each finding names its program."""
-    return _document(
-        {"schema": "contoursolve/check/1"},
-        programs=(
-            {"program": each.program.name, "control": each.control, "contours": len(each.answers)} for each in results
-        ),
-        diagnostics=(
-            {"program": result.program.name, **finding_data(each, result)}
-            for result in results
-            for each in result.diagnostics
-        ),
-    )
+def _head(result: Result) -> dict[str, Any]:
+    return {
+        "schema": "contoursolve/solve/1",
+        "program": result.program.name,
+        "control": result.control,
+        "rules": result.policy.value,
+        "settings": {f"{result.control}.{name}": value for name, value in sorted(result.settings.items())},
+    }
 
 
-def _document(head: Mapping[str, Any], **lists: Iterable[Any]) -> str:
-    """An object of texts and lists; each row becomes text by itself, for the data of all would fill the memory."""
-    members = [f"{json_text(name)}: {_indented(value)}" for name, value in head.items()]
-    for name, values in lists.items():
-        rows = ",\n  ".join(_indented(value, 2) for value in values)
-        members.append(f"{json_text(name)}: " + (f"[\n  {rows}\n ]" if rows else "[]"))
-    return "{\n " + ",\n ".join(members) + "\n}"
+def stream_json(run: Run, tally: Tally) -> Iterator[str]:
+    """The same document in pieces, as its contours are solved; findings wait for their turn outside the memory."""
+    if run.frame.start or run.frame.facts:
+        # What is stated apart is shown at the only contour, which is known at the end; such programs are short.
+        result = run.collect()
+        for finding in result.diagnostics:
+            tally.add(finding)
+        yield to_json(result)
+        return
+    with Shelf() as shelf:
+        contours = _shelving(run, tally, shelf, 0, {})
+        yield from _document(_head(run.frame), contours=map(_in_list, contours), diagnostics=shelf)
+
+
+def _in_list(answer: Answer) -> str:
+    return _indented(_contour(answer), 2)
+
+
+def _shelving(
+    run: Run, tally: Tally, shelf: "Shelf", number: int, about: Mapping[str, Any], *, is_check: bool = False
+) -> Iterator[Answer]:
+    """The contours of a run, whose findings go to a shelf."""
+    for item in run:
+        is_contour = isinstance(item, Answer)
+        for finding in item.diagnostics if isinstance(item, Answer) else (item,):
+            shown = without_contour(finding) if is_check else finding
+            tally.add(shown)
+            text = _indented({**about, **finding_data(shown, run.frame)}, 2)
+            shelf.put((number, rank(finding), is_contour), text)
+        if isinstance(item, Answer):
+            tally.statuses[item.status] += 1
+            yield item
+
+
+class Shelf:
+    """Texts in a temporary file, which come back in the order of their keys."""
+
+    def __init__(self) -> None:
+        self._file = SpooledTemporaryFile(_IN_MEMORY)  # noqa: SIM115 - closed by __exit__
+        self._places: list[tuple[Any, int, int]] = []
+
+    def __enter__(self) -> "Shelf":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._file.close()
+
+    def put(self, key: Any, text: str) -> None:
+        """Add a text of ASCII; of equal keys, the first comes first."""
+        self._places.append((key, self._file.tell(), len(text)))
+        self._file.write(text.encode("ascii"))
+
+    def __iter__(self) -> Iterator[str]:
+        for _, place, length in sorted(self._places):
+            self._file.seek(place)
+            yield self._file.read(length).decode("ascii")
+
+
+_IN_MEMORY = 1 << 22
+"""Bytes of a shelf that need no file."""
+
+
+class Findings:
+    """The findings of several programs as one document; each finding names its program."""
+
+    def __init__(self, shelf: Shelf) -> None:
+        self.shelf = shelf
+        self._programs: list[dict[str, Any]] = []
+
+    def add(self, run: Run, tally: Tally) -> None:
+        """The findings of one more program, as `check` reports them."""
+        frame, about = run.frame, {"program": run.frame.program.name}
+        number, contours = len(self._programs), 0
+        if frame.start or frame.facts:
+            result = run.collect()
+            contours = len(result.answers)
+            for place, finding in enumerate(map(without_contour, result.diagnostics)):
+                tally.add(finding)
+                self.shelf.put((number, place), _indented({**about, **finding_data(finding, result)}, 2))
+        else:
+            contours = sum(1 for _ in _shelving(run, tally, self.shelf, number, about, is_check=True))
+        self._programs.append({**about, "control": frame.control, "contours": contours})
+
+    def pieces(self) -> Iterator[str]:
+        """The document."""
+        programs = (_indented(each, 2) for each in self._programs)
+        yield from _document({"schema": "contoursolve/check/1"}, programs=programs, diagnostics=self.shelf)
+
+
+def _document(head: Mapping[str, Any], **lists: Iterable[str]) -> Iterator[str]:
+    """An object of texts and lists in pieces; each row is text by itself, for the data of all would fill the memory."""
+    before = "{\n "
+    for name, value in head.items():
+        yield f"{before}{json_text(name)}: {_indented(value)}"
+        before = ",\n "
+    for name, rows in lists.items():
+        yield f"{before}{json_text(name)}: ["
+        between = "\n  "
+        for row in rows:
+            yield between + row
+            between = ",\n  "
+        yield "]" if between == "\n  " else "\n ]"
+    yield "\n}"
 
 
 def _indented(data: Any, depth: int = 1) -> str:

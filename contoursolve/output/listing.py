@@ -2,15 +2,17 @@
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
+from heapq import heappop, heappush
+from typing import Any, TypeVar
 
 from contoursolve.diagnostic import Diagnostic, Fix, Severity
 from contoursolve.dialects import DIALECTS
-from contoursolve.examine import Answer
+from contoursolve.examine import Answer, rank
 from contoursolve.output.contours import contour_lines
 from contoursolve.output.findings import Style, finding_lines
 from contoursolve.output.layout import count
-from contoursolve.pipeline import Result
+from contoursolve.pipeline import Result, Run, without_contour
 from contoursolve.recognise import what_shows
 from contoursolve.solving import Status
 
@@ -25,7 +27,63 @@ def listed(result: Result) -> list[Diagnostic | Answer]:
 
 def listing_lines(result: Result, style: Style, *, is_explained: bool = False) -> Iterator[str]:
     """Everything about a result."""
-    for item in listed(result):
+    return _listing_lines(listed(result), result, style, is_explained=is_explained)
+
+
+def stream_listing(run: Run, tally: "Tally", style: Style, *, is_explained: bool = False) -> Iterator[str]:
+    """The same of a stream."""
+
+    def items() -> Iterator[tuple[Any, Answer | Diagnostic]]:
+        for item in run:
+            if isinstance(item, Answer):
+                tally.statuses[item.status] += 1
+                for finding in item.diagnostics:
+                    tally.add(finding)
+                yield (item.lines[0], True), item
+            else:
+                tally.add(item)
+                yield (item.span.line, False, rank(item)), item
+
+    return _listing_lines(_in_order(items()), run.frame, style, is_explained=is_explained)
+
+
+def stream_findings(run: Run, tally: "Tally", style: Style) -> Iterator[str]:
+    """The findings of a stream, as `check` reports them."""
+
+    def items() -> Iterator[tuple[Any, Diagnostic]]:
+        for item in run:
+            is_contour = isinstance(item, Answer)
+            if isinstance(item, Answer):
+                tally.statuses[item.status] += 1
+            for finding in item.diagnostics if isinstance(item, Answer) else (item,):
+                shown = without_contour(finding)
+                tally.add(shown)
+                yield (rank(finding), is_contour), shown
+
+    return lines_of_findings(run.frame, _in_order(items()), style)
+
+
+_Item = TypeVar("_Item")
+
+_HELD = 1_000
+"""Contours and findings that wait for others that belong before them: what is told late may be about an early line."""
+
+
+def _in_order(items: Iterable[tuple[Any, _Item]]) -> Iterator[_Item]:
+    """Items by their keys, as far as so many at a time allow."""
+    held: list[tuple[Any, int, _Item]] = []
+    for number, (key, item) in enumerate(items):
+        heappush(held, (key, number, item))
+        if len(held) > _HELD:
+            yield heappop(held)[2]
+    while held:
+        yield heappop(held)[2]
+
+
+def _listing_lines(
+    items: Iterable[Diagnostic | Answer], result: Result, style: Style, *, is_explained: bool
+) -> Iterator[str]:
+    for item in items:
         if isinstance(item, Answer):
             yield from contour_lines(item, result, is_explained=is_explained)
             yield from lines_of_findings(result, item.diagnostics, style)
@@ -55,23 +113,44 @@ def sources_of(result: Result, finding: Diagnostic) -> dict[int, str]:
     return sources | {fact.span.line: fact.text for fact in result.facts}
 
 
-def closing_lines(result: Result) -> Iterator[str]:
-    """For which control a program was read and what shows that, and what was found in all."""
+def closing_lines(result: Result, tally: "Tally | None" = None) -> Iterator[str]:
+    """For which control a program was read and what shows that, and what was found in all: of a result that is only
+    the frame of a stream, as it was counted."""
     if result.control is not None:
         own = DIALECTS.get(result.control)
         sign = what_shows(result.program.blocks, own) if own else ""
         yield f"read as {result.control}" + (f": {sign} shows it" if sign else ", as was asked for")
-    yield summary_line([result])
+    yield (tally or _tally([result])).line(1)
 
 
 def summary_line(results: Sequence[Result]) -> str:
     """What was examined and what was found; nothing examined is not the same as nothing found."""
-    answers = [answer for result in results for answer in result.answers]
-    findings = [finding for result in results for finding in result.diagnostics]
-    statuses = Counter(answer.status for answer in answers)
-    solved = ", ".join(f"{statuses[status]} {status.value}" for status in reversed(Status) if statuses[status])
-    severities = Counter(finding.severity for finding in findings)
-    found = ", ".join(count(severities[each], each.value) for each in Severity if severities[each])
-    examined = f"{count(len(answers), 'contour')} ({solved})" if answers else "no contour examined"
-    programs = f"{count(len(results), 'program')}, " if len(results) > 1 else ""
-    return f"{programs}{examined}; {found or 'nothing found'}"
+    return _tally(results).line(len(results))
+
+
+@dataclass(frozen=True, slots=True)
+class Tally:
+    """How many contours have each status, and how many findings each severity."""
+
+    statuses: Counter[Status] = field(default_factory=Counter)
+    severities: Counter[Severity] = field(default_factory=Counter)
+
+    def add(self, finding: Diagnostic) -> None:
+        """Count a finding."""
+        self.severities[finding.severity] += 1
+
+    def line(self, programs: int) -> str:
+        """What was examined in some programs, and what was found."""
+        total, statuses = self.statuses.total(), self.statuses
+        solved = ", ".join(f"{statuses[status]} {status.value}" for status in reversed(Status) if statuses[status])
+        found = ", ".join(count(self.severities[each], each.value) for each in Severity if self.severities[each])
+        examined = f"{count(total, 'contour')} ({solved})" if total else "no contour examined"
+        several = f"{count(programs, 'program')}, " if programs > 1 else ""
+        return f"{several}{examined}; {found or 'nothing found'}"
+
+
+def _tally(results: Sequence[Result]) -> Tally:
+    return Tally(
+        Counter(answer.status for result in results for answer in result.answers),
+        Counter(finding.severity for result in results for finding in result.diagnostics),
+    )

@@ -1,8 +1,10 @@
 """Reads characters into words: one table of tokens, no knowledge of any control."""
 
 import re
-from collections.abc import Container
+from array import array
+from collections.abc import Container, Iterator, Sequence
 from decimal import Decimal
+from typing import overload
 
 from contoursolve.source import Span
 from contoursolve.syntax.word import Block, Directive, Fault, FaultKind, Macro, Program, Word
@@ -50,11 +52,42 @@ def parse(text: str, name: str = "<program>", first_line: int = 1) -> Program:
 
     Line ends are LF, CRLF or CR. The text is not changed: each word keeps its characters and place.
     """
-    lines = _LINE_END.split(text)
-    if len(lines) > 1 and lines[-1] == "":
-        lines.pop()
-    blocks = tuple(parse_block(line, number) for number, line in enumerate(lines, first_line))
-    return Program(name, text, blocks)
+    blocks = Blocks(text, first_line)
+    return Program(name, text, tuple(blocks) if len(blocks) <= MANY_LINES else blocks)
+
+
+MANY_LINES = 10_000
+"""Lines up to which a program's blocks are kept; a block takes 50 times the memory of its line."""
+
+
+class Blocks(Sequence[Block]):
+    """The blocks of a text, each read whenever somebody looks at it."""
+
+    def __init__(self, text: str, first_line: int) -> None:
+        self._text, self._first = text, first_line
+        self._begins = array("Q", (0, *(end.end() for end in _LINE_END.finditer(text))))
+        if len(self._begins) == 1 or self._begins[-1] < len(text):
+            self._begins.append(len(text))
+
+    def __len__(self) -> int:
+        return len(self._begins) - 1
+
+    @overload
+    def __getitem__(self, index: int) -> Block: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> tuple[Block, ...]: ...
+
+    def __getitem__(self, index: int | slice) -> Block | tuple[Block, ...]:
+        places = range(len(self))[index]
+        return tuple(map(self._read, places)) if isinstance(places, range) else self._read(places)
+
+    def __iter__(self) -> Iterator[Block]:
+        return map(self._read, range(len(self)))
+
+    def _read(self, place: int) -> Block:
+        line = self._text[self._begins[place] : self._begins[place + 1]].rstrip("\r\n")
+        return parse_block(line, self._first + place)
 
 
 def split_lines(text: str) -> list[str]:

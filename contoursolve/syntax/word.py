@@ -1,6 +1,7 @@
 """Words, blocks and programs exactly as they were typed."""
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from enum import Enum
@@ -125,4 +126,4 @@ class Program(Shown):
 
     name: str
     text: str
-    blocks: tuple[Block, ...]
+    blocks: Sequence[Block]

@@ -47,7 +47,7 @@ def follow(
     `start` are blocks that state the start point apart from the program. Facts that only the result states are taken
     as stated in the last block of their contour.
     """
-    blocks, state, start_error = _with_facts(program.blocks, claims), dialect.initial_state(unit), 0.0
+    blocks, state, start_error = _with_facts(tuple(program.blocks), claims), dialect.initial_state(unit), 0.0
     for block in start.blocks if start else ():
         state = advance(state, block, dialect.modes)
     apart = sum(each.span.line < 0 for block in program.blocks for each in block.directives)

@@ -1,0 +1,80 @@
+"""Programs of any length: what is kept of a program does not grow with it, and the outputs are those of short ones."""
+
+import os
+import random
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+import contoursolve
+from contoursolve.cli import main
+from contoursolve.output import listing
+from contoursolve.syntax import lexer
+
+PROGRAMS = sorted((Path(__file__).parent.parent / "notebooks" / "programs").glob("*.nc"))
+MOST = 300_000
+"""KB that a program of 1,000,000 lines may take; one of 200,000 takes no more than a part of it."""
+
+
+def long_program(lines: int) -> str:
+    draw = random.Random(lines)
+    rows = ["G50 S2000", "G00 X40. Z0."]
+    for number in range(lines // 5):
+        rows += [
+            f"N{number % 9999:04d} G00 X40. Z0.",
+            f"G111 X100. A180. K-{draw.uniform(20, 40):.3f} B120. P5. Q5. F0.2",
+        ]
+        rows += [f"G01 X120. Z-{draw.uniform(50, 80):.3f}", f"X{draw.uniform(100, 150):.3f}", f"(COMMENT {number})"]
+    return "\n".join(rows) + "\n"
+
+
+@pytest.mark.parametrize("arguments", [
+    ("check",), ("check", "--format", "json"), ("solve",), ("solve", "--format", "json"), ("check", "--format", "github"),
+])  # fmt: skip
+def test_blocks_that_are_not_kept_give_the_same_output(arguments, monkeypatch, tmp_path):
+    odd = tmp_path / "odd.nc"
+    odd.write_text(
+        "X1\n%\nG0 X40. Z0.\nG111 X100. A180. B120.\nG111 A180. K--3.\r\nX1 X2 \u00e9\rG0 X40. Z0.\n%\nX5 Y1e9\n"
+    )
+    paths = [*map(str, PROGRAMS), str(odd)]
+    expected = [CliRunner().invoke(main, [*arguments, path]) for path in paths]
+    monkeypatch.setattr(lexer, "MANY_LINES", 1)
+    for path, each in zip(paths, expected, strict=True):
+        found = CliRunner().invoke(main, [*arguments, path])
+        assert (found.exit_code, found.output) == (each.exit_code, each.output)
+
+
+@pytest.mark.parametrize("text", ["", "\n", "\r", "a", "a\n", "a\r\nb", "a\n\r\n\rb\r", "\n\n", "X1\r\n"])
+def test_blocks_that_are_not_kept_are_the_same_blocks(text, monkeypatch):
+    kept = contoursolve.parse(text).blocks
+    monkeypatch.setattr(lexer, "MANY_LINES", -1)
+    read = contoursolve.parse(text).blocks
+    assert not isinstance(read, tuple)
+    assert (tuple(read), len(read), read[:2], read[-1]) == (kept, len(kept), kept[:2], kept[-1])
+    with pytest.raises(IndexError):
+        read[len(kept)]
+
+
+def test_a_late_finding_about_an_early_line_comes_first_as_long_as_it_may(monkeypatch):
+    keys = [3, 1, 2, 9, 4]
+    assert list(listing._in_order((key, key) for key in keys)) == sorted(keys)
+    monkeypatch.setattr(listing, "_HELD", 2)
+    assert list(listing._in_order((key, key) for key in keys)) == [1, 2, 3, 4, 9]
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not hasattr(os, "wait4"), reason="asks the system for the memory of a process")
+@pytest.mark.parametrize("arguments", [("check",), ("solve", "--format", "json")])
+def test_long_programs_take_little_memory(arguments, tmp_path):
+    program = tmp_path / "long.nc"
+    program.write_text(long_program(60_000))
+    command = [sys.executable, "-m", "contoursolve", *arguments, str(program)]
+    with (tmp_path / "out").open("wb") as output:
+        running = subprocess.Popen(command, stdout=output)
+        _, status, used = os.wait4(running.pid, 0)
+        running.returncode = os.waitstatus_to_exitcode(status)
+    assert running.returncode == 0
+    assert used.ru_maxrss * (1 if sys.platform != "darwin" else 1 / 1024) < MOST / 2
