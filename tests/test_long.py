@@ -32,7 +32,8 @@ def long_program(lines: int) -> str:
 
 
 @pytest.mark.parametrize("arguments", [
-    ("check",), ("check", "--format", "json"), ("solve",), ("solve", "--format", "json"), ("check", "--format", "github"),
+    ("check",), ("check", "--format", "json"), ("solve",), ("solve", "--format", "json"),
+    ("check", "--format", "github"),
 ])  # fmt: skip
 def test_blocks_that_are_not_kept_give_the_same_output(arguments, monkeypatch, tmp_path):
     odd = tmp_path / "odd.nc"
