@@ -396,7 +396,7 @@ def crossings_of(block, options, name, goal, found):
 
 def ask_back(rng, scans):
     """A random sound block, asked by up to six of its words for the end that it has; how many questions that were."""
-    block, options, answer = (g111_of if rng.random() < 0.6 else drawn_of)(rng)
+    block, options, answer = (g111_of if rng.random() < 0.85 else drawn_of)(rng)
     words, count = [*answer.claim.words.values()], 0
     words = rng.sample(words, min(6, len(words)))
     for axis in (0, 1):
