@@ -49,7 +49,7 @@ def value_text(value: float, unit: str, more: int = 0) -> str:
     return f"{_number(value, 4 + more)} in" if unit == "inch" else f"{_number(value, 3 + more)} {unit}"
 
 
-MOST_DECIMALS = 6
+MOST_DECIMALS = 12
 """Decimals more than usual; beyond them, values differ by rounding alone."""
 
 

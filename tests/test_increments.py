@@ -161,3 +161,47 @@ def test_no_message_shows_two_equal_numbers_as_different():
     told = [each.message for each in answer.diagnostics if each.code == "words-conflict"]
     assert all("180.000 deg, they give 180.000 deg" not in each for each in told)
     assert json.loads(to_json(contoursolve.solve(TAPER.format(91.961), start="X40. Z0.")))["contours"]
+
+
+ARC = "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y{} ,A180 Q-1"
+
+
+@pytest.mark.parametrize(
+    ("y", "code"),
+    [
+        ("50", "nct-circle-touched"),
+        ("50.0000000000001", "nct-circle-missed"),
+        ("49.9999999999999", None),
+        ("50.00000000000003", "nct-circle-missed"),
+    ],
+)
+def test_whether_a_line_touches_a_circle_is_decided_on_the_exact_words(y, code):
+    answer = answer_to(ARC.format(y))
+    assert [each.code for each in answer.diagnostics] == ([code] if code else [])
+    found = family(ARC.format(y), vary={"2:X": [-50.0, -60.0]})
+    assert Code(found["status"][0]).status is answer.status
+    if code == "nct-circle-missed":
+        (finding,) = answer.diagnostics
+        assert finding.values["off_by_mm"] == pytest.approx(float(y.replace("50.", "0.")), rel=1e-3)
+    if code is None:
+        assert answer.contour.points["P1"][0] == pytest.approx((2 * 50 * 1e-13) ** 0.5, rel=1e-3)
+
+
+FAR = "G111 A180. K-10. B179.9999999999 X41."
+
+
+def test_a_contour_farther_away_than_words_reach_is_none():
+    answer = answer_to(FAR, "X40. Z0.")
+    assert answer.status.value == "no-solution"
+    (finding,) = answer.diagnostics
+    assert finding.code == "out-of-range"
+    assert finding.message.startswith("V2 lies 286478897575.412 mm from the start point")
+    assert finding.values == {"limit": 1e6, "actual": pytest.approx(286478897575.4)}
+    assert answer.contour is None
+    angles = [179.9999999999, 179.999, 179.99, 120.0]
+    found = family(FAR, start="X40. Z0.", vary={"B": angles})
+    singles = [answer_to(FAR.replace("179.9999999999", f"{each:.10f}"), "X40. Z0.").status for each in angles]
+    assert [Code(status).status for status in found["status"]] == singles
+    program = f"G0 X40. Z0.\n{FAR}"
+    result = to_json(contoursolve.solve(program))
+    assert verify(*(Document("", each.encode()) for each in (program, result))).verdict is not Verdict.FAILED

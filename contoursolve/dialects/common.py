@@ -400,6 +400,15 @@ SYSTEM_RULES = (
         rejected=(),
     ),
     Rule(
+        code="out-of-range",
+        message="{subject} lies {actual} from the start point, and words reach {limit} at most",
+        help="look for two directions that are almost the same, or for a lost decimal point",
+        source=_GEOMETRY,
+        about=RefusalKind.OUT_OF_RANGE,
+        accepted=(_GOOD,),
+        rejected=("G00 X40. Z0.\nG111 A180. K-10. B179.9999999999 X41.",),
+    ),
+    Rule(
         code="contour-sensitive",
         message="the points are known to {actual} only: the block is close to a singular case",
         help="choose words that fix the points more firmly, such as coordinates instead of angles",

@@ -19,7 +19,7 @@ from contoursolve.families.ranges import NotClosedError
 from contoursolve.model import Choice, Fact
 from contoursolve.settling import orders_of, settled_by
 from contoursolve.solving import RefusalKind
-from contoursolve.solving.checks import Check, Checks, Source, Test, at_origin, check_facts, check_path
+from contoursolve.solving.checks import Check, Checks, Source, Test, at_origin, check_facts, check_path, check_range
 from contoursolve.solving.closed import ROOT, ClosedForm, Need, NoFormulaError, close
 from contoursolve.tolerance import REGULAR
 from contoursolve.wording import join
@@ -138,7 +138,7 @@ def _compile(system: System, words: int, follows: Follows, choices: tuple[Choice
     source = Source(system.figure, tape, lookup(system, tape, known | at_origin(system.figure)))
     plan = form.machine.plan
     facts = check_facts(source, plan.checks, len(plan.basis))
-    found = [*_conditions(form), *_sides(form, choices), *facts, *check_path(source)]
+    found = [*_conditions(form), *_sides(form, choices), *facts, check_range(source), *check_path(source)]
     outputs = {str(number): expression for number, (_, expression) in enumerate(found)}
     return form, Margins(tuple(each for each, _ in found), Chart(tape, outputs, words, dict(follows)))
 

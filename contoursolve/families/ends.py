@@ -136,6 +136,7 @@ _PHRASES: Mapping[RefusalKind, Callable[[Check, About], str]] = {
     RefusalKind.LANDING_UNKNOWN: _always("no line advances along the line that {subject} lands on"),
     RefusalKind.NO_POINT: _apart,
     RefusalKind.ARC_EMPTY: _always("{subject} ends where it begins"),
+    RefusalKind.OUT_OF_RANGE: _always("a point lies farther away than words reach"),
 }
 
 

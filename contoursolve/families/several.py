@@ -16,7 +16,15 @@ from contoursolve.families.kinds import Kind
 from contoursolve.families.ranges import Places, Ranges
 from contoursolve.model import FIRST, SECOND, Fact, Profile, Question, Unit, scalar
 from contoursolve.solving import RefusalKind, Solution
-from contoursolve.solving.checks import Source, add_checks, at_origin, check_facts, check_path, check_residuals
+from contoursolve.solving.checks import (
+    Source,
+    add_checks,
+    at_origin,
+    check_facts,
+    check_path,
+    check_range,
+    check_residuals,
+)
 from contoursolve.solving.compile import PathMachine, compile_path
 from contoursolve.solving.kernel import Kernel, make_kernel
 from contoursolve.solving.verdict import Code, Verdict, code_of, reason_of
@@ -89,7 +97,8 @@ class Several:
         relative = self.machine.tape.copy()
         origin = lookup(self.system, relative, at_origin(self.system.figure))
         corners = largest(relative.expression(name) for name in self.machine.corner_residuals)
-        path = [*check_path(Source(self.system.figure, relative, origin)), check_residuals(corners)]
+        source = Source(self.system.figure, relative, origin)
+        path = [check_range(source), *check_path(source), check_residuals(corners)]
         add_checks(relative, path, len(facts))
         self.path = Columns(compile_columns(relative, relative.inputs))
         self.before_path = len(facts)

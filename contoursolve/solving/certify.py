@@ -10,7 +10,7 @@ from contoursolve.backends.inputs import COSINE, SINE
 from contoursolve.constraints import System
 from contoursolve.model import FIRST, SECOND, Profile, Unit, scalar
 from contoursolve.solving.certificate import Certificate, Proof, up_to_one_digit
-from contoursolve.solving.compile import ProofMachine, compile_proof
+from contoursolve.solving.compile import ProofMachine, compile_decision, compile_proof
 from contoursolve.solving.numbers import axes_of
 
 BITS = 128
@@ -50,6 +50,24 @@ def certify(profile: Profile, system: System, out: Mapping[str, float], bound: f
         ):
             return Certificate(Proof.EXACT, 0.0)
     return Certificate(Proof.UNIQUE, up_to_one_digit(radius))
+
+
+DECISION = 256
+"""Bits of the balls that decide whether two elements meet; numbers that agree in all of them are the same."""
+
+
+def decide_meeting(profile: Profile, system: System, number: int) -> tuple[int, float]:
+    """Whether the elements of a step of the construction miss each other (-1), touch (0) or meet twice (1), on the
+    exact words; and the discriminant, mm**2."""
+    machine = compile_decision(system, number)
+    with ball.precision(DECISION):
+        start = [ball.exact(value) for value in profile.start.values if value is not None]
+        inputs = _inputs(profile, system, start)
+        try:
+            (found,) = machine.replay([inputs[name] for name in machine.inputs])
+        except (ArithmeticError, ValueError):
+            return 0, 0.0
+        return ball.sign(found) or 0, ball.middle(found)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

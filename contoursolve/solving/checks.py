@@ -7,7 +7,7 @@ ranges of `families.margins` read this table.
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
-from functools import lru_cache
+from functools import lru_cache, reduce
 from typing import Any
 
 from contoursolve.backends.inputs import lookup
@@ -29,7 +29,7 @@ from contoursolve.solving.compile import compile_system
 from contoursolve.solving.corners import Pair
 from contoursolve.solving.plan import AffineStep, DistanceStep, Step, TwoCirclesStep, lines_through
 from contoursolve.solving.solution import RefusalKind
-from contoursolve.tolerance import LENGTH, REGULAR, RESIDUAL, TOUCHING
+from contoursolve.tolerance import LARGEST, LENGTH, REGULAR, RESIDUAL, TOUCHING
 
 
 class Test(Enum):
@@ -143,6 +143,7 @@ def compile_checks(system: System) -> Checked:
     corners = largest(tape.expression(name) for name in machine.corner_residuals)
     pairs = [
         *check_steps(source, plan.steps),
+        check_range(source),
         check_residuals(basis),
         *check_facts(source, plan.checks, len(plan.basis)),
         *check_path(source),
@@ -226,6 +227,14 @@ def _check_step(source: Source, number: int, step: Step) -> Checks:
 def check_residuals(worst: Any) -> tuple[Check, Any]:
     """Whether equations that were solved are satisfied, by their largest residual (mm)."""
     return Check(RefusalKind.NOT_VERIFIED, "", "", Test.AT_LEAST, -RESIDUAL, role=Role.EQUATION), -worst
+
+
+def check_range(source: Source) -> tuple[Check, Any]:
+    """Whether words reach every point from the start."""
+    start = source.figure.start
+    ways = (way for name in source.figure.points for way in source.way(start, name))
+    farthest: Any = reduce(larger, map(magnitude, ways))
+    return Check(RefusalKind.OUT_OF_RANGE, "", "", Test.NOT_BELOW, 0.0), LARGEST - farthest
 
 
 def check_facts(source: Source, facts: Sequence[Fact], first: int) -> Checks:

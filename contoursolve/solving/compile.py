@@ -41,8 +41,8 @@ _FUNCTIONS = Functions(sqrt, cosine_of, sine_of)
 
 
 class _Builder:
-    def __init__(self, system: System) -> None:
-        self.system = system
+    def __init__(self, system: System, touching: float = TOUCHING) -> None:
+        self.system, self.touching = system, touching
         self.tape = Tape()
         self.scalars: dict[str, Any] = {}
         for axis in (FIRST, SECOND):
@@ -162,7 +162,7 @@ class _Builder:
         if not given:
             return radius
         give = half_circle_allowance(chord, 2 * half, given, lambda key: self.tape.input(INCREMENT_OF + key), magnitude)
-        rounding = TOUCHING * scale
+        rounding = self.touching * scale
         short = half - radius
         is_short = magnitude(short - (give + rounding) / 2) <= (give - rounding) / 2
         self.short[name] = where(is_short, short, 0)
@@ -176,7 +176,8 @@ class _Builder:
         self.tape.output(f"offset:{number}", offset)
         self.tape.output(f"scale:{number}", scale)
         self.tape.output(f"radius:{number}", radius)
-        return where(_touches(offset, radius, scale), 0, sqrt(discriminant))
+        is_touching = magnitude(magnitude(offset) - radius) <= self.touching * scale
+        return where(is_touching, 0, sqrt(discriminant))
 
     def outputs(self, plan: Plan) -> tuple[tuple[int, int, str], ...]:
         """The unknowns, the residuals of all facts, and the Jacobian of the basis."""
@@ -325,10 +326,6 @@ def _quadrant_between(arriving: Pair, leaving: Pair) -> Pair:
     return first, second
 
 
-def _touches(offset: Any, radius: Any, scale: Any) -> Any:
-    return magnitude(magnitude(offset) - radius) <= TOUCHING * scale
-
-
 @dataclass(frozen=True, slots=True)
 class Machine:
     """The plan of a system with its function, and the names of those outputs that come in numbers."""
@@ -386,6 +383,34 @@ def compile_proof(system: System) -> ProofMachine:
     """The closed form of a determined system for exact numbers and balls."""
     tape = compile_system(system).tape.keep(_PROOF_OUTPUTS, system.unknowns)
     return ProofMachine(Replay(tape.function(), Exactly, ball.exact), tape.inputs, tape.outputs)
+
+
+@lru_cache(maxsize=256)
+def compile_decision(system: System, number: int) -> ProofMachine:
+    """The discriminant of one step of a determined system for exact numbers and balls: whether a line or a circle that
+    floats cannot tell from a touching one meets the circle."""
+    builder = _Builder(system, touching=0.0)
+    for each, step in enumerate(make_plan(system).steps[: number + 1]):
+        builder.run(step, each)
+    tape = builder.tape.keep((), (f"discriminant:{number}",))
+    return ProofMachine(Replay(tape.function(), _Deciding, ball.exact), tape.inputs, tape.outputs)
+
+
+class _Deciding:
+    """Functions of balls of many bits, in which a number that may be zero is zero."""
+
+    root = staticmethod(ball.root)
+    magnitude = staticmethod(ball.magnitude)
+
+    @staticmethod
+    def sign(value: ball.Number) -> int:
+        """-1, 0 or 1."""
+        return ball.sign(value) or 0
+
+    @staticmethod
+    def at_most(value: ball.Number, limit: ball.Number) -> bool:
+        """Whether a value is at most so large."""
+        return ball.sign(value - limit) != 1
 
 
 class Exactly:

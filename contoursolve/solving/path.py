@@ -7,7 +7,7 @@ from math import hypot
 from contoursolve.model import FIRST, SECOND, Arc, Corner, Figure, Line, Profile
 from contoursolve.solving.compare import increments_of
 from contoursolve.solving.solution import BESIDE, Point, Refusal, RefusalKind, Remark, RemarkKind
-from contoursolve.tolerance import LENGTH, REGULAR, RESIDUAL
+from contoursolve.tolerance import LARGEST, LENGTH, REGULAR, RESIDUAL
 
 Outputs = Mapping[str, float]
 
@@ -26,9 +26,9 @@ def check_path(
     `resize` gives the outputs for other sizes.
     """
     figure = profile.figure
-    refusals: list[Refusal] = []
+    refusals = check_range(figure, points)
     remarks: list[Remark] = []
-    for element in figure.path:
+    for element in figure.path if not refusals else ():
         if isinstance(element, Arc):
             if hypot(*_difference(points[element.tail], points[element.head])) <= LENGTH:
                 refusals.append(Refusal(RefusalKind.ARC_EMPTY, element.name))
@@ -53,6 +53,15 @@ def check_path(
         if not all(residual <= RESIDUAL for residual in residuals):  # true for NaN
             refusals.append(Refusal(RefusalKind.NOT_VERIFIED, "", (), {"limit": RESIDUAL, "actual": max(residuals)}))
     return refusals, remarks
+
+
+def check_range(figure: Figure, points: Mapping[str, Point]) -> list[Refusal]:
+    """The point that lies farthest from the start, if no word reaches it."""
+    start = points[figure.start]
+    far = [(abs(at), name) for name in figure.points for at in _difference(start, points[name])]
+    away, name = max(far, default=(0.0, ""))
+    values = {"limit": LARGEST, "actual": away}
+    return [Refusal(RefusalKind.OUT_OF_RANGE, name, (), values)] if away > LARGEST else []
 
 
 def _check_direction(line: Line, out: Outputs, profile: Profile) -> list[Refusal]:

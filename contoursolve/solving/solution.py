@@ -55,6 +55,8 @@ class RefusalKind(Enum):
     NO_POINT = "no-point"
     SEARCH_UNFINISHED = "search-unfinished"
     NOT_VERIFIED = "not-verified"
+    OUT_OF_RANGE = "out-of-range"
+    """A point lies farther from the start than any word reaches."""
 
     @property
     def status(self) -> Status:

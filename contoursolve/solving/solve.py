@@ -21,11 +21,11 @@ from contoursolve.constraints import (
 from contoursolve.model import FIRST, SECOND, Fact, Profile, scalar
 from contoursolve.solving.affine import affine_facts
 from contoursolve.solving.certificate import Certificate, up_to_one_digit
-from contoursolve.solving.certify import certify
+from contoursolve.solving.certify import certify, decide_meeting
 from contoursolve.solving.compare import compare_affine, compare_fact, givens_of
 from contoursolve.solving.compile import compile_system
 from contoursolve.solving.numbers import inputs_of, lookup, scalars_of, sizes_of, solution_at
-from contoursolve.solving.path import check_path
+from contoursolve.solving.path import check_path, check_range
 from contoursolve.solving.plan import (
     AffineStep,
     DistanceStep,
@@ -138,8 +138,12 @@ class _Attempt:
                 self.refusals.append(refusal)
                 self._compare_all()
                 return self._refused()
-        self._check_equations()
         points = {name: self._point(name) for name in (self.system.figure.start, *self.system.figure.points)}
+        self.refusals += check_range(self.system.figure, points)
+        if self.refusals:
+            self._compare_all()
+        else:
+            self._check_equations()
         sizes = sizes_of(self.profile)
         if not self.refusals:
             refusals, remarks = check_path(
@@ -235,10 +239,15 @@ class _Attempt:
                 return Refusal(RefusalKind.CIRCLE_UNDEFINED, subject, givens)
             return Refusal(kind, subject, givens, values)
         if abs(offset - radius) <= TOUCHING * self.out[f"scale:{number}"]:
+            short = self.out.get(f"short:{number}", 0.0)
+            sign, discriminant = decide_meeting(self.profile, self.system, number) if not short else (0, 0.0)
+            if sign < 0:
+                off = -discriminant / (2 * radius)
+                return Refusal(kind, subject, givens, {"off_by_mm": off, **values})
             self._note_double(number, step)
             # A circle about the middle of two points is an ordinary half circle.
             if is_center:
-                self._note_half_circle(offset, self.out.get(f"short:{number}", 0.0), subject, givens)
+                self._note_half_circle(offset, short, subject, givens)
             else:
                 self.remarks.append(Remark(RemarkKind.TOUCHES, subject, givens, values))
         elif not offset < radius:  # true for NaN

@@ -5,6 +5,7 @@ from dataclasses import replace
 from decimal import Decimal
 
 from contoursolve.dialects import DIALECTS
+from contoursolve.tolerance import LARGEST
 from contoursolve.verification.case import Case, make_case
 from contoursolve.verification.claimed import (
     ClaimedCertificate,
@@ -145,6 +146,10 @@ def _is_path(found: Found, claimed: ClaimedContour, candidate: Candidate, standi
     """Whether the checks of the form find nothing against a path that was made here."""
     if candidate.path is None:
         return False
+    start = found.claim.before.start().values
+    pairs = (pair for at in candidate.path.points.values() for pair in zip(at, start, strict=True))
+    if any(abs(value - float(origin or 0)) > LARGEST for value, origin in pairs):
+        return False  # no word reaches it
     alone = replace(
         claimed,
         status=ClaimedStatus.OVERDETERMINED if standing.is_over else ClaimedStatus.SOLVED,
