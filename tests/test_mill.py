@@ -214,6 +214,7 @@ AT = "G17 G90 G0 X0 Y0 Z0"
         ("G2 X30 Y5 I15 J0 Z-5", {"nct-radius-difference"}),
         ("G2 X30 R14.9", {"nct-radius-too-small"}),
         ("G2 X30 R14.9995", set()),
+        ("G2 X30 R14.998", {"nct-radius-too-small"}),
         ("G2 X30 I15 K0", {"nct-center-outside-plane"}),
         ("G2 R15", {"nct-radius-without-point"}),
         ("G2 X30", {"nct-circle-undefined"}),

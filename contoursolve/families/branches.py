@@ -133,7 +133,7 @@ def _named(form: ClosedForm, checks: Sequence[Check], kind: Kind) -> Iterator[Ch
 def _compile(system: System, words: int, follows: Follows, choices: tuple[Choice, ...]) -> tuple[ClosedForm, Margins]:
     """The closed form of a system, and the margins of all its branches as functions of some words."""
     form = close(system)
-    tape = form.machine.tape
+    tape = form.machine.tape.copy()
     known = {name: tape.expression(name) for name in system.unknowns}
     source = Source(system.figure, tape, lookup(system, tape, known | at_origin(system.figure)))
     plan = form.machine.plan

@@ -140,6 +140,7 @@ class Several:
                 found[name] = value
         for axis, origin in enumerate(kind.origin(ranges, places)):
             found[scalar(self.system.figure.start, axis)] = numpy.atleast_1d(origin)
+        found |= {name: numpy.array([value]) for name, value in kind.profile.increments.items()}
         return found
 
     def _pairs(self, values: Mapping[str, Array], settled: Settled) -> Pairs:

@@ -216,7 +216,8 @@ def _check_step(source: Source, number: int, step: Step) -> Checks:
     offset, radius = out(f"offset:{number}"), out(f"radius:{number}")
     give = out(f"scale:{number}") * TOUCHING
     meets = Check(kind, subject, "", Test.AT_LEAST, 0.0)
-    yield meets, radius - offset + give
+    gap = f"gap:{number}"
+    yield meets, (out(gap) if gap in source.tape.outputs else radius - offset) + give
     yield meets, radius + offset + give
     if not is_half:
         # A circle about the middle of two points is an ordinary half circle.

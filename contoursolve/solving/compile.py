@@ -138,7 +138,8 @@ class _Builder:
         scale = one + other + sum(magnitude(value) for value in (*first, *second))
         if step.is_equal:
             one = other = self._half_circle(step.first.radius, offset, chord, scale, number)
-        root = self._root((one - offset) * (one + offset), offset, one, scale, number)
+        gap = self.tape.expression(f"gap:{number}") if f"gap:{number}" in self.tape.outputs else one - offset
+        root = self._root(gap * (one + offset), offset, one, scale, number)
         along, rise = offset / length, self.tape.input(f"side:{step.point}") * self._sense(step) * root / length
         self.set_point(
             step.point,
@@ -162,11 +163,13 @@ class _Builder:
         if not given:
             return radius
         give = half_circle_allowance(chord, 2 * half, given, lambda key: self.tape.input(INCREMENT_OF + key), magnitude)
-        rounding = self.touching * scale
+        # From where it is a touching one for floats as well, so that no value lies between.
+        rounding = self.touching * scale / 2
         short = half - radius
         is_short = magnitude(short - (give + rounding) / 2) <= (give - rounding) / 2
         self.short[name] = where(is_short, short, 0)
         self.tape.output(f"short:{number}", self.short[name])
+        self.tape.output(f"gap:{number}", where(is_short, 0, radius - half))
         self.scalars[name] = where(is_short, half, radius)
         return self.scalars[name]
 
@@ -176,7 +179,9 @@ class _Builder:
         self.tape.output(f"offset:{number}", offset)
         self.tape.output(f"scale:{number}", scale)
         self.tape.output(f"radius:{number}", radius)
-        is_touching = magnitude(magnitude(offset) - radius) <= self.touching * scale
+        gap = f"gap:{number}"
+        apart = self.tape.expression(gap) if gap in self.tape.outputs else magnitude(offset) - radius
+        is_touching = magnitude(apart) <= self.touching * scale
         return where(is_touching, 0, sqrt(discriminant))
 
     def outputs(self, plan: Plan) -> tuple[tuple[int, int, str], ...]:
