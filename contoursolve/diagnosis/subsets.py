@@ -132,15 +132,18 @@ def _drop_sets(words: _Combination, droppable: frozenset[str]) -> _Sets:
             break
         if not check(rules, form.roles, dict.fromkeys((claim.words.keys() | claim.circumstances) - names)):
             same.append(names)
-    for names in _subsets(sorted(droppable)) if shaping else ():
-        if names & shaping:
+    # What several words of two blocks do to their form together, no single one need show.
+    is_single = len(claim.blocks) == 1
+    reread = shaping if is_single else droppable
+    for names in _subsets(sorted(droppable)) if reread else ():
+        if names & reread:
             read += 1
             if read > most_read:
                 break
             found = _read_without(words, names)
             if found and not check(rules, found.form.roles, dict.fromkeys((*found.words, *found.circumstances))):
                 other.append(names)
-    return _Sets(tuple(same), tuple(other), checked <= MOST_CHECKED and read <= most_read)
+    return _Sets(tuple(same), tuple(other), is_single and checked <= MOST_CHECKED and read <= most_read)
 
 
 def _subsets(names: Iterable[str]) -> Iterator[frozenset[str]]:
