@@ -39,7 +39,7 @@ _NAMES = tuple(f"G{code:02}" for code in range(4))
 """The codes of motions as they are written."""
 
 
-_TOLD = (Trouble.TEXT_OUTSIDE, Trouble.LETTER_FOR_DIGIT, Trouble.COMMA_MISSING)
+_TOLD = (Trouble.TEXT_OUTSIDE, Trouble.LETTER_FOR_DIGIT, Trouble.CODE_MISTYPED, Trouble.COMMA_MISSING)
 """What is told about lines that stay: they may be cut in another way than they are meant."""
 
 

@@ -45,11 +45,17 @@ class Together(Protocol):
         """The answers to contours whose start is known, the same as `examine` gives to each of them."""
 
 
+Previous = tuple[Sequence[Block], State]
+"""The contour, or the block, before a place, and the state before it."""
+
+
 class Pending:
     """A contour that is found and not solved yet: a claim, or a block of a mould, in a state, and what follows it."""
 
-    def __init__(self, contour: Claim | Cast, step: Step, view: View, after: int) -> None:
-        self.contour, self.step, self.view, self.after = contour, step, view, after
+    def __init__(
+        self, contour: Claim | Cast, step: Step, view: View, after: int, previous: Previous | None = None
+    ) -> None:
+        self.contour, self.step, self.view, self.after, self.previous = contour, step, view, after, previous
         self.wave = max([each.wave for each in step.before.axes.values() if isinstance(each, Awaited)], default=0)
         """How many contours in a row have to be solved before."""
         self.left: Callable[[], State] | None = None
@@ -65,9 +71,11 @@ class Queue:
         self.dialect, self.together, self.examine = dialect, together, examine
         self.pending: list[Pending] = []
 
-    def add(self, contour: Claim | Cast, step: Step, view: View, after: int) -> Pending:
+    def add(
+        self, contour: Claim | Cast, step: Step, view: View, after: int, previous: Previous | None = None
+    ) -> Pending:
         """A contour that begins a view and ends before its block `after`; without company, it is solved at once."""
-        pending = Pending(contour, step, view, after)
+        pending = Pending(contour, step, view, after, previous)
         self.pending.append(pending)
         if self.together is None:
             self.settle()

@@ -12,7 +12,7 @@ from contoursolve.examine import Answer, Depth, Policy, examine, rank
 from contoursolve.explain import Context, report
 from contoursolve.model import Length, Plane
 from contoursolve.moulds import Cast
-from contoursolve.pending import Pending, Queue, Step, Together
+from contoursolve.pending import Pending, Previous, Queue, Step, Together
 from contoursolve.percent import Marks
 from contoursolve.reading import (
     Claim,
@@ -237,6 +237,9 @@ class _Examiner:
         self.together = together
         self.diagnostics: list[Diagnostic] = []
         self.marks = Marks(Context(self.rules, unit))
+        self.previous: Previous | None = None
+        """The last contour or block that says something, and the state before it: with a comma in the next block, it
+        may be part of the contour there."""
         self.start_unit = unit
         """In which a start point that is stated apart counts, until a contour has another unit."""
         self.queue = Queue(dialect or DIALECTS["yasnac-lx3"], together, self._examine)
@@ -323,7 +326,9 @@ class _Examiner:
                 self.diagnostics += self.marks.look(each)
             if isinstance(found, Claim) and found.form.is_contour:
                 self._check_units(start, found)
-                pending = self.queue.add(found, Step(blocks_of_step, state, findings=self._findings()), view, after)
+                step = Step(blocks_of_step, state, findings=self._findings())
+                pending = self.queue.add(found, step, view, after, self.previous)
+                self.previous = found.blocks, state
                 yield pending
                 state = self.queue.leave(pending)
             else:
@@ -337,6 +342,7 @@ class _Examiner:
                 else:
                     self._check_block(block)
                     self._check_slips(view, (before, state))
+                self.previous = ((block,), before) if block.words else self.previous
                 yield Step(blocks_of_step, before, findings=self._findings())
             held, index = go_on(held, index, after)
 
@@ -349,7 +355,12 @@ class _Examiner:
         if any(f",{word.address}" in dialect.modes.lexicon.addresses for word in block.words):
             from contoursolve.slips import explain_commas  # noqa: PLC0415 - few programs need it
 
-            self.diagnostics += explain_commas(context, dialect, blocks[:_NEAR], states)
+            self.diagnostics += explain_commas(context, dialect, blocks[:_NEAR], states, self.previous)
+        codes = dialect.modes.codes
+        if any(word.address == "G" and word.number is not None and word.number not in codes for word in block.words):
+            from contoursolve.slips import explain_codes  # noqa: PLC0415 - few programs need it
+
+            self.diagnostics = [*explain_codes(context, dialect, blocks[:_NEAR], states[0], self.diagnostics)]
         if has_lookalike_code(block):
             self._check_letters(dialect, blocks[:_NEAR], states[0])
 
@@ -400,7 +411,13 @@ class _Examiner:
             # Most programs need no diagnosis, and none should wait for its import.
             from contoursolve.diagnosis import diagnose  # noqa: PLC0415
 
-            answer = diagnose(answer, dialect, self.policy, blocks[after : after + _NEAR])
+            answer = diagnose(answer, dialect, self.policy, blocks[after : after + _NEAR], pending.previous)
+        elif self.depth is not Depth.VERDICT and any(
+            each.about is Trouble.POINT_MISSING for each in answer.diagnostics
+        ):
+            from contoursolve.diagnosis import mend_points  # noqa: PLC0415
+
+            answer = mend_points(answer, dialect)
         return answer
 
     def _check_units(self, start: Program | None, found: Claim) -> None:

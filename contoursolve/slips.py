@@ -5,6 +5,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from contoursolve.diagnosis import Edit, EditKind, apply_edits
+from contoursolve.diagnosis.slips import mistyped_codes
 from contoursolve.diagnostic import Applicability, Basis, Diagnostic, Fix
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Depth, Policy, examine
@@ -14,7 +15,7 @@ from contoursolve.spelling import respelled
 from contoursolve.syntax import Block, Word, find_lookalikes, lookalike_at, parse_block
 from contoursolve.wording import join
 
-_LINE = 1
+_LINES = (0, 1)
 _OF_A_LINE = (
     Effect.MOTION,
     Effect.PLANE,
@@ -27,14 +28,19 @@ _OF_A_LINE = (
 
 
 def explain_commas(
-    context: Context, dialect: Dialect, blocks: Sequence[Block], states: tuple[State, State]
+    context: Context,
+    dialect: Dialect,
+    blocks: Sequence[Block],
+    states: tuple[State, State],
+    previous: tuple[Sequence[Block], State] | None = None,
 ) -> Iterator[Diagnostic]:
     """Words of a line, the first of some blocks, whose address the control reads with a comma only: each with the
-    comma as its fix, if that makes a contour that is solved. `states` are those before and after the block."""
+    comma as its fix, if that makes a contour that is solved. `states` are those before and after the block; `previous`
+    are the blocks before it, which may be part of the contour then, and the state before them."""
     block, (before, after) = blocks[0], states
     addresses = dialect.modes.lexicon.addresses
     codes = codes_of(block, dialect.modes)
-    is_line = after.motion == _LINE and not block.macro and any(map(block.find, after.plane.axes))
+    is_line = after.motion in _LINES and not block.macro
     if not is_line or any(isinstance(code, Word) or code.effect not in _OF_A_LINE for code in codes):
         return
     for word in block.words:
@@ -44,7 +50,29 @@ def explain_commas(
         finding = report(context, context.row(Trouble.COMMA_MISSING), Basis.RULE, [word], meant=text)
         edit = Edit(EditKind.CHANGE, word.address, word.span, word.text, text)
         found, replacement = _read(dialect, blocks, [edit], before)
-        yield replace(finding, fixes=tuple(_tried(dialect, found, [edit], replacement)))
+        fixes = tuple(_tried(dialect, found, [edit], replacement))
+        if previous and not fixes:
+            edited = parse_block(replacement, block.line)
+            other = dialect.find([*previous[0], edited, *blocks[1:]], 0, previous[1], dialect.modes)
+            fixes = tuple(_tried(dialect, other if other and edited in other.blocks else None, [edit], replacement))
+        if fixes or any(map(block.find, after.plane.axes)):
+            yield replace(finding, fixes=fixes)
+
+
+def explain_codes(
+    context: Context, dialect: Dialect, blocks: Sequence[Block], before: State, findings: Sequence[Diagnostic]
+) -> Iterator[Diagnostic]:
+    """G codes of a block, the first of some, that the control does not know and with which it is a contour that is
+    solved if one slip of their digits is mended, as in G110."""
+    yield from findings
+    for word in blocks[0].words:
+        for text in mistyped_codes(word, dialect.modes) if word.number not in dialect.modes.codes else ():
+            edit = Edit(EditKind.CHANGE, word.address, word.span, word.text, text)
+            found, replacement = _read(dialect, blocks, [edit], before)
+            fixes = tuple(_tried(dialect, found, [edit], replacement))
+            if fixes:
+                finding = report(context, context.row(Trouble.CODE_MISTYPED), Basis.RULE, [word], meant=text)
+                yield replace(finding, fixes=fixes)
 
 
 def explain_letters(

@@ -7,7 +7,7 @@ from decimal import Decimal
 
 from contoursolve.diagnostic import Basis, Diagnostic, Label
 from contoursolve.explain import Context, report
-from contoursolve.model import Length
+from contoursolve.model import CornerShape, Length
 from contoursolve.reading import Claim, Lexicon, Position, Trouble
 from contoursolve.source import Span
 from contoursolve.syntax import Block, Fault, Lookalike, Word, find_lookalikes, lookalike_at, mended
@@ -196,10 +196,21 @@ def _explain_unknown(context: Context, claim: Claim) -> Iterator[Diagnostic]:
         rule, other = context.row(Trouble.UNKNOWN_ADDRESS), respelled(word, form.allowed)
         meant = lookalike_at(mendable, word.span)
         other = "" if meant else other
-        do = f"write {other}" if other else f"write {meant.new} for {meant.old}" if meant else "delete it"
+        sizes = _roundings(claim) if word.address == "R" else []
+        texts = [f"{address}{word.text.strip()[1:].strip()}" for address in sizes]
+        ways = [*texts, *filter(None, [other]), *([f"{meant.new} for {meant.old}"] if meant else [])]
+        do = f"write {' or '.join(ways)}" if ways else "delete it"
         name = form.name if form.name.startswith("G") else form.title
         finding = report(context, rule, Basis.RULE, [word], form=name, allowed=allowed, do=do)
+        if texts and not meant:
+            finding = replace(finding, message=f"{word.text.strip()}: {name} has no R; roundings are {join(sizes)}")
         yield replace(finding, message=_ask(meant)) if meant else finding
+
+
+def _roundings(claim: Claim) -> list[str]:
+    """The addresses of roundings of a contour."""
+    shapes = ((name, shape) for row in claim.form.corners for name, shape in row.shapes.items())
+    return [claim.vocabulary[name][0] for name, shape in shapes if shape is CornerShape.FILLET]
 
 
 def respelled(word: Word, allowed: Container[str]) -> str:

@@ -1,7 +1,7 @@
 """Why a contour is refused, and what to write instead."""
 
 from contoursolve.diagnosis.attempt import Repair, Repairs
-from contoursolve.diagnosis.diagnose import diagnose
+from contoursolve.diagnosis.diagnose import diagnose, mend_points
 from contoursolve.diagnosis.edits import Edit, EditKind, apply_edits
 from contoursolve.diagnosis.repairs import find_repairs
 from contoursolve.diagnosis.table import Row, tabulate
@@ -19,5 +19,6 @@ __all__ = [
     "apply_edits",
     "diagnose",
     "find_repairs",
+    "mend_points",
     "tabulate",
 ]

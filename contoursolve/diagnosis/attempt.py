@@ -1,29 +1,38 @@
 """A repair that is tried: the edits are applied to the text, and what comes out is read, checked and solved."""
 
-from collections.abc import Iterable
+import re
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
-from itertools import chain
+from itertools import chain, islice
 
 from contoursolve.analysis import judge, order
 from contoursolve.constraints import assemble
 from contoursolve.contour import Contour
-from contoursolve.diagnosis.edits import Edit, EditKind, Side, apply_edits, edit_facts
+from contoursolve.diagnosis.edits import Edit, EditKind, Side, Why, apply_edits, edit_facts
 from contoursolve.diagnosis.examples import propose, sampled
+from contoursolve.diagnosis.slips import FEW, NEIGHBOUR, POINT_LOST, ROUND, SLIPS, Slip, recognise
 from contoursolve.diagnosis.subsets import LARGEST_ROLE
 from contoursolve.diagnostic import Applicability, Diagnostic, Severity
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer, Policy, examine
 from contoursolve.model import Profile
-from contoursolve.reading import Claim, Trouble, advance, read
-from contoursolve.solving import Status
+from contoursolve.reading import Claim, State, Trouble, advance, read
+from contoursolve.solving import RemarkKind, Status
 from contoursolve.solving.affine import affine_facts
-from contoursolve.syntax import Block, mended, parse_block
+from contoursolve.source import Span
+from contoursolve.syntax import Block, parse_block
 from contoursolve.tolerance import AGREEMENT
 
 MOST_TRIED = 60
 """Changed blocks that are tried for one contour, fewer for a chain, whose every trial takes longer; beyond it the list
 is not called complete."""
+
+MOST_SLIPS = 60
+"""Changed blocks that are considered for the slips of one contour."""
+
+MOST_OF_DIGITS = 3
+"""Slips of digits that are told; there may be many."""
 
 MOST_CONSIDERED = 2_000
 """Changed blocks that are looked at for one contour; most of them contain a repair that was found before."""
@@ -45,6 +54,10 @@ class Before:
     next_place: tuple[Decimal, Decimal] | None = None
     following: tuple[Block, ...] = ()
     """The blocks after it, of which a corner needs one."""
+    blamed: frozenset[Span] = frozenset()
+    """The words that findings are about."""
+    previous: tuple[Sequence[Block], State] | None = None
+    """What is before it, and the state before that: with its commas in place, it may be the end of it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,6 +77,16 @@ class Repair:
     """Rules that warn about the changed block and did not before."""
     example: tuple[Edit, ...] = ()
     """The edits with numbers for the placeholders that make a contour."""
+    is_exact: bool = True
+    """Whether its circles pass through their points, and do not only miss them by less than a control minds."""
+    is_blamed: bool = True
+    """Whether a finding is about a word that it changes."""
+    reason: Why = Why.OTHER
+    """The least convincing of the reasons for its edits."""
+    slips: tuple[Slip | None, ...] = ()
+    """The slip that explains each edit."""
+    drawbacks: tuple[str, ...] = ()
+    """What makes it unlikely to be meant, in words."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,11 +101,34 @@ class Repairs:
 
 
 def choose_repairs(
-    claim: Claim, dialect: Dialect, stages: Iterable[Iterable[tuple[Edit, ...]]], before: Before
+    claim: Claim,
+    dialect: Dialect,
+    stages: Iterable[Iterable[tuple[Edit, ...]]],
+    before: Before,
+    slips: Iterable[tuple[Edit, ...]] = (),
+    digits: Iterable[tuple[Edit, ...]] = (),
+    radii: Iterable[tuple[Edit, ...]] = (),
 ) -> Repairs:
-    """The drafts that are repairs, none of which contains another one; of each stage after what came before."""
+    """The drafts that are repairs, none of which contains another one; of each stage after what came before.
+
+    `slips` are tried besides, `digits` where neither these nor a value that agrees or fits explains the block; of
+    `radii` those count that make round points.
+    """
     found: list[Repair] = []
     tried: set[tuple[Edit, ...]] = set()
+
+    def try_slips(drafts: Iterable[tuple[Edit, ...]], enough: int, *, is_round: bool = False) -> None:
+        for edits in islice(drafts, MOST_SLIPS):
+            repair = _try(claim, dialect, edits, before)
+            if is_round and repair and not _has_round_points(repair):
+                continue
+            if repair and not any(set(other.edits) <= set(edits) for other in found):
+                found.append(repair)
+            if sum(each.reason is Why.SLIP for each in found) >= enough:
+                return
+
+    try_slips(slips, MOST_SLIPS)
+    try_slips(radii, MOST_SLIPS, is_round=True)
     spent = 0
     most = MOST_TRIED if len(claim.blocks) <= LARGEST_ROLE else max(8, 2 * MOST_TRIED // len(claim.blocks))
     considered = 0
@@ -95,20 +141,127 @@ def choose_repairs(
             repair = _try(claim, dialect, edits, before)
             found += [repair] if repair else []
             spent += _extra(claim, dialect, edits, before)
+    if not any(each.reason in _STRONG and each.is_exact and not each.drawbacks for each in found):
+        try_slips(digits, MOST_OF_DIGITS)
     found = [repair for repair in found if not any(set(other.edits) < set(repair.edits) for other in found)]
     found.sort(key=_order)
-    return Repairs(tuple(found), is_complete=len(tried) + spent <= most and considered <= MOST_CONSIDERED)
+    found = [each for at, each in enumerate(found) if not any(_is_again(each, other) for other in found[:at])]
+    is_complete = len(tried) + spent <= most and considered <= MOST_CONSIDERED
+    return Repairs(tuple(_large_last(found, before)), is_complete=is_complete)
 
 
-def _order(repair: Repair) -> tuple[bool, bool, int, int, float]:
-    is_placeholder = repair.applicability is Applicability.PLACEHOLDER
-    # A forgotten point or comma is the commonest slip, and one slip however many words lack it; so is what looks
-    # almost like a number.
-    is_slip = all(edit.text == f"{edit.old}." or _is_comma(edit) or _is_mended(edit) for edit in repair.edits)
-    return is_placeholder, not is_slip, len(repair.edits), repair.warnings, repair.deviation
+def _order(repair: Repair) -> tuple[object, ...]:
+    """What a colleague would name first: what a slip of typing explains, then what agrees with the other words, what
+    fits, what is missing, what is one too many; among equals the smallest change."""
+    slip = max((min(SLIPS.index(each), len(FEW) + 1) for each in repair.slips if each), default=0)
+    is_other = repair.applicability is not Applicability.SAFE
+    size = _size(repair.contour) if repair.contour else 0.0
+    # A lost point is looked for at the end of a number first; in a long one, before the last three digits.
+    lost = [edit for edit, each in _explained(repair) if each and each.sentence == "a lost decimal point"]
+    lost += [edit for edit, each in _explained(repair) if each is POINT_LOST]
+    decimals = [len(edit.text.partition(".")[2]) for edit in lost]
+    decimals = [_DECIMALS - each if len(edit.text) > _LONG else each for edit, each in zip(lost, decimals, strict=True)]
+    is_of_digits = repair.reason is Why.SLIP and any(each and each.is_of_digits for each in repair.slips) and not lost
+    return (
+        bool(repair.drawbacks),
+        repair.reason,
+        not repair.is_exact,
+        repair.reason is Why.SLIP and not _has_round_points(repair),
+        slip if repair.reason is Why.SLIP else 0,
+        sum(decimals),
+        not repair.is_blamed,
+        sum(_change(edit) for edit in repair.edits) if is_of_digits else 0,
+        repair.warnings,
+        is_other,
+        repair.deviation,
+        len(repair.edits),
+        round(size, 6) if NEIGHBOUR not in repair.slips else 0,
+    )
+
+
+def _large_last(found: list[Repair], before: Before) -> list[Repair]:
+    """Repairs in order, behind the others those that make the contour more than twice as large as it was, or as the
+    first one makes it; of several by the same slip in one word, as the smallest one. A slip that makes it several times
+    as large as another slip does goes there, too."""
+    sizes = [_size(each.contour) for each in found if each.contour and _is_alike(each, found[0])]
+    if before.contour is None and not sizes:
+        return found
+    largest = 2 * (_size(before.contour) if before.contour else min(sizes))
+    by_slips = [_size(each.contour) for each in found if each.contour and each.reason is Why.SLIP]
+    largest = min([largest, *(_SEVERAL * size for size in by_slips)])
+    large = [
+        each for each in found if each.contour and _size(each.contour) > largest and not all(map(_is_comma, each.edits))
+    ]
+    rest = [each for each in found if each not in large]
+    return rest + [replace(each, drawbacks=(*each.drawbacks, _LARGE)) for each in large]
+
+
+def _change(edit: Edit) -> float:
+    """By how much a number is changed, of its size."""
+    old, new = (_NUMBER.search(text) for text in (edit.old, edit.text))
+    return abs(float(new[0]) / float(old[0]) - 1) if old and new and float(old[0]) else 1.0
+
+
+_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)")
+
+
+def _has_round_points(repair: Repair) -> bool:
+    """Whether the intersections that a control computes come out at round numbers, which hardly happens by chance."""
+    points = [at for name, at in repair.contour.points.items() if name.startswith("P")] if repair.contour else []
+    return bool(points) and all(abs(round(each, 1) - each) <= AGREEMENT for at in points for each in at)
+
+
+def _explained(repair: Repair) -> Iterator[tuple[Edit, Slip | None]]:
+    return zip(repair.edits, repair.slips, strict=True)
+
+
+def _is_again(repair: Repair, other: Repair) -> bool:
+    """Whether a repair writes another value in the same words for the same contour, as R-50 for R50."""
+    is_same = repair.contour is not None and repair.contour == other.contour
+    changes = all(edit.kind is EditKind.CHANGE for edit in (*repair.edits, *other.edits))
+    return is_same and changes and [edit.span for edit in repair.edits] == [edit.span for edit in other.edits]
+
+
+def _is_alike(repair: Repair, other: Repair) -> bool:
+    """Whether two repairs say that the same slip happened to the same words."""
+    return repair.slips == other.slips and [edit.span for edit in repair.edits] == [edit.span for edit in other.edits]
+
+
+_STRONG = (Why.SLIP, Why.FITS)
+_SEVERAL, _DECIMALS, _LONG = 5, 3, 6
+_LARGE = "more than twice as large"
+_ACROSS = "across the spindle axis"
+
+
+def _size(contour: Contour) -> float:
+    """The larger side of the rectangle around the points of a path, mm."""
+    points = [contour.start, *(element.end for element in contour.elements)]
+    return max(max(each[axis] for each in points) - min(each[axis] for each in points) for axis in (0, 1))
+
+
+def _drawbacks(contour: Contour, reference: Contour | None) -> Iterator[str]:
+    """What the path does that hardly anybody means, unless it did so before."""
+    if contour.crossing is not None and (reference is None or reference.crossing is None):
+        yield _ACROSS
 
 
 def _try(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> Repair | None:
+    """The repair with the reasons for it, if it is one."""
+    repair = _solve_edited(claim, dialect, edits, before)
+    if repair is None:
+        return None
+    found = tuple(recognise(edit, claim) or (ROUND if _is_round(edit) else None) for edit in edits)
+    reason = max(Why.SLIP if slip else edit.reason for edit, slip in zip(edits, found, strict=True))
+    is_blamed = not before.blamed or any(edit.span in before.blamed for edit in edits)
+    return replace(repair, reason=reason, slips=found, is_blamed=is_blamed)
+
+
+def _is_round(edit: Edit) -> bool:
+    """Whether a word gets a round number from the others, which hardly happens by chance."""
+    return edit.why is Why.AGREES and len(edit.text.partition(".")[2]) <= 1 and edit.kind is EditKind.CHANGE
+
+
+def _solve_edited(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> Repair | None:
     """The repair, if the changed block is read as the same form, accepted, and solved without a finding."""
     texts = apply_edits(claim.blocks, edits)
     if texts == tuple(block.text for block in claim.blocks) and all(edit.is_in_block for edit in edits):
@@ -125,13 +278,19 @@ def _try(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], before: Before
     rules = [each for each in findings if (answer.profile.is_extended and _is_rule(each)) or _is_crossing(each)]
     if not all(each in rules or _now_agrees(each, before) for each in findings):
         return None
+    if answer.contour.crossing is not None and before.codes == {each.code for each in rules if _is_crossing(each)}:
+        return None
     reference = before.contour
     deviation = answer.contour.deviation(reference) if reference else float("inf")
     is_same = reference is not None and answer.contour.is_alike(reference) and deviation <= AGREEMENT
     is_safe = is_same and not any(_drops_more(edit, claim) for edit in edits)
     applicability = Applicability.SAFE if is_safe else Applicability.CHANGES_CONTOUR
     warnings = sum(each.code not in before.codes for each in rules)
-    return Repair(edits, replacement, applicability, answer.contour, deviation, warnings)
+    drawbacks = tuple(_drawbacks(answer.contour, reference))
+    is_exact = all(each.about is not RemarkKind.RADIUS_DIFFERS for each in answer.diagnostics)
+    return Repair(
+        edits, replacement, applicability, answer.contour, deviation, warnings, is_exact=is_exact, drawbacks=drawbacks
+    )
 
 
 def _drops_more(edit: Edit, claim: Claim) -> bool:
@@ -172,7 +331,7 @@ def _now_agrees(finding: Diagnostic, before: Before) -> bool:
 
 def examine_edited(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> Answer | None:
     """The answer to the edited blocks; None where they are not read as the same contour any more."""
-    found = _find(claim, dialect, edits, before.following)
+    found = _find(claim, dialect, edits, before)
     if found is None or _largest_step(found, before) > LARGEST_STEP:
         return None
     return examine(found, dialect.rules, Policy.ENFORCE, lambda: before.next_place)
@@ -180,7 +339,7 @@ def examine_edited(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], befo
 
 def _extra(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> int:
     """How many more drafts trying these edits counts for."""
-    found = _find(claim, dialect, edits) if claim.directives else None
+    found = _find(claim, dialect, edits, before) if claim.directives else None
     return SLOW - 1 if found and EASY_STEP < _largest_step(found, before) <= LARGEST_STEP else 0
 
 
@@ -212,23 +371,23 @@ def _is_comma(edit: Edit) -> bool:
     return edit.kind is EditKind.CHANGE and edit.text != edit.old and edit.text.strip(", ") == edit.old.strip(", ")
 
 
-def _is_mended(edit: Edit) -> bool:
-    """Whether what could not be read becomes the word that it looks like."""
-    return edit.kind is EditKind.CHANGE and edit.text == mended(edit.old)
-
-
-def _find(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], following: tuple[Block, ...] = ()) -> Claim | None:
+def _find(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> Claim | None:
     texts = apply_edits(claim.blocks, edits)
     lines = [(part, block.line) for text, block in zip(texts, claim.blocks, strict=True) for part in text.split("\n")]
-    before, blocks, behind = _parted([parse_block(*line) for line in lines], edits)
+    ahead, blocks, behind = _parted([parse_block(*line) for line in lines], edits)
     state = claim.before
-    for block in before:
+    for block in ahead:
         state = advance(state, block, dialect.modes)
     apart = edit_facts([each for each in claim.directives if each.span.line < 0], edits)
     blocks[-1] = replace(blocks[-1], directives=(*blocks[-1].directives, *apart))
-    more = following if all(map(_is_comma, edits)) else ()
+    is_about_commas = all(map(_is_comma, edits))
+    more = before.following if is_about_commas else ()
+    if is_about_commas and before.previous and before.previous[0][-1].line < blocks[0].line:
+        whole = dialect.find([*before.previous[0], *blocks, *more], 0, before.previous[1], dialect.modes)
+        if isinstance(whole, Claim) and whole.blocks[-1].line >= blocks[-1].line:
+            return whole
     found = dialect.find([*blocks, *more], 0, state, dialect.modes)
-    others = (dialect.find([*before, *behind], index, state, dialect.modes) for index in range(len(before + behind)))
+    others = (dialect.find([*ahead, *behind], index, state, dialect.modes) for index in range(len(ahead + behind)))
     if not isinstance(found, Claim) or any(isinstance(each, Claim) for each in others):
         return None
     return found if len(found.blocks) == len(blocks) or (more and len(found.blocks) > len(blocks)) else None
@@ -244,7 +403,7 @@ def _parted(blocks: list[Block], edits: tuple[Edit, ...]) -> tuple[list[Block], 
 def _example(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> tuple[Edit, ...] | None:
     """The edits with a number for every placeholder that makes a contour; as they are where further facts are stated,
     if these determine the drawing whatever the numbers are. None if nothing is found."""
-    found = _find(claim, dialect, sampled(edits))
+    found = _find(claim, dialect, sampled(edits), Before(frozenset(), None))
     if found is None:
         return None
     profile = read(found, frozenset())

@@ -1,6 +1,6 @@
 """Adds to the findings of a contour why they are so, and what to write instead."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
 from contoursolve.analysis import judge
@@ -15,7 +15,7 @@ from contoursolve.diagnostic import Diagnosis, Diagnostic, Fix, Label, Severity,
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer, Policy
 from contoursolve.model import Profile
-from contoursolve.reading import Trouble
+from contoursolve.reading import State, Trouble
 from contoursolve.solving import RefusalKind, RemarkKind, scalars_of
 from contoursolve.solving.affine import NO_CIRCUITS, AffineFacts, Circuit, affine_facts
 from contoursolve.solving.compare import compare_affine, is_conflict
@@ -24,15 +24,21 @@ from contoursolve.syntax import FACT, Block, Word
 from contoursolve.wording import SHOWN, join, length_text, place_text
 
 
-def diagnose(answer: Answer, dialect: Dialect, policy: Policy, following: Iterable[Block] = ()) -> Answer:
+def diagnose(
+    answer: Answer,
+    dialect: Dialect,
+    policy: Policy,
+    following: Iterable[Block] = (),
+    previous: tuple[Sequence[Block], State] | None = None,
+) -> Answer:
     """The answer with a diagnosis; its findings with their reasons, the first one with the repairs. `following` are
-    the next blocks."""
+    the next blocks, `previous` those before it, of which it may be the end, with the state before them."""
     profile = answer.profile
     affine = affine_facts(profile, (*profile.facts, *profile.ignored))
     is_readable = not any(block.faults for block in answer.claim.blocks)
     circuits, is_every_tie = affine.circuits() if affine and is_readable else NO_CIRCUITS
     freedoms = affine.freedoms() if affine and is_readable else ()
-    repairs = find_repairs(answer, dialect, tuple(following))
+    repairs = find_repairs(answer, dialect, tuple(following), previous)
     diagnosis = Diagnosis(
         layers=list_layers(answer, policy),
         freedoms=freedoms,
@@ -45,6 +51,10 @@ def diagnose(answer: Answer, dialect: Dialect, policy: Policy, following: Iterab
         reasons = tuple(_reasons(answer, affine, circuits, diagnosis, finding))
         labels = _start_labels(answer) if reasons and finding.about in _FROM_START else ()
         findings.append(replace(finding, notes=finding.notes + reasons, labels=finding.labels + labels))
+    if repairs.repairs and any(edit.address == "G" for edit in repairs.repairs[0].edits):
+        # What is unknown to this contour may be known to that one.
+        first = "; ".join(map(str, repairs.repairs[0].edits))
+        findings = [replace(each, help=first) if each.about is Trouble.UNKNOWN_ADDRESS else each for each in findings]
     main = _main(findings, is_extended=profile.is_extended)
     if main is not None:
         fixes = tuple(_fix(answer, repair) for repair in repairs.repairs)
@@ -69,6 +79,17 @@ _AGAINST = (
     RefusalKind.RADIUS_DIFFERENCE,
     RefusalKind.LINES_PARALLEL,
 )
+
+
+def mend_points(answer: Answer, dialect: Dialect) -> Answer:
+    """The answer; its findings that a number lacks its point with what they were meant to be, each about its words."""
+    repairs = find_repairs(answer, dialect).repairs
+    findings = []
+    for finding in answer.diagnostics:
+        spans = {label.span for label in finding.labels if finding.about is Trouble.POINT_MISSING}
+        own = (repair for repair in repairs if any(edit.span in spans for edit in repair.edits))
+        findings.append(replace(finding, fixes=tuple(_fix(answer, repair) for repair in own)))
+    return replace(answer, diagnostics=tuple(findings))
 
 
 def _main(findings: list[Diagnostic], *, is_extended: bool) -> int | None:
@@ -205,7 +226,9 @@ _ABOUT_FREEDOM = (Trouble.UNDERDETERMINED, RefusalKind.NOT_FIXED)
 
 def _fix(answer: Answer, repair: Repair) -> Fix:
     """A repair in words, with the place where the contour then ends or turns."""
-    description = "; ".join(str(edit) for edit in repair.edits)
+    edits = zip(repair.edits, repair.slips, strict=True)
+    told = (f"{edit} ({slip.sentence})" if slip and slip.sentence else str(edit) for edit, slip in edits)
+    description = "; ".join(told)
     numbers = [each.text for each, edit in zip(repair.example, repair.edits, strict=False) if each != edit]
     if numbers:
         description += f" (such as {' '.join(numbers)})"
@@ -218,6 +241,7 @@ def _fix(answer: Answer, repair: Repair) -> Fix:
             name, at = f"{point} is", contour.points[point]
         place = place_text(profile, scalars_of({"": at}))
         description += f" -> {name} at {place}"
+        description += "".join(f", {drawback}" for drawback in repair.drawbacks)
     dropped = [edit.old for edit in repair.edits if edit.kind is EditKind.DROP and edit.errand]
     is_beside = len(dropped) == len(repair.edits)
     effect = f"drops {join(dropped)}" if is_beside else ""

@@ -6,7 +6,7 @@ from decimal import Decimal
 from itertools import product
 from math import copysign
 
-from contoursolve.diagnosis.edits import AT_MOST, Edit, EditKind, write_word
+from contoursolve.diagnosis.edits import AT_MOST, Edit, EditKind, Why, write_word
 from contoursolve.diagnostic import Diagnostic, Severity
 from contoursolve.examine import Answer
 from contoursolve.model import Given, Length, Unit
@@ -111,7 +111,7 @@ def _written(answer: Answer, sizes: Iterable[Mapping[Span, float]]) -> Iterator[
             continue
         text = write_word(word.address, copysign(size, given.value), claim.lexicon, unit, AT_MOST)
         if Decimal(text.removeprefix(word.address)):
-            yield change(word, text)
+            yield change(word, text, Why.FITS)
 
 
 def moving(claim: Claim, drafts: Iterable[tuple[Edit, ...]]) -> Iterator[tuple[Edit, ...]]:
@@ -139,9 +139,9 @@ def drop(word: Word) -> Edit:
     return Edit(EditKind.DROP, word.address, word.span, word.text)
 
 
-def change(word: Word, text: str) -> Edit:
+def change(word: Word, text: str, why: Why = Why.OTHER) -> Edit:
     """A word, or a fact as a word, written with another text."""
-    return Edit(EditKind.CHANGE, word.address, word.span, word.text, text)
+    return Edit(EditKind.CHANGE, word.address, word.span, word.text, text, why=why)
 
 
 def has_faults(claim: Claim) -> bool:

@@ -2,9 +2,9 @@
 
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from decimal import ROUND_DOWN, ROUND_HALF_EVEN, ROUND_UP, Decimal
-from enum import Enum
+from enum import Enum, IntEnum
 
 from contoursolve.model import Length, Unit
 from contoursolve.reading import Lexicon, WithoutPoint
@@ -74,6 +74,23 @@ def errand_of(address: str, text: str) -> Errand | None:
     return next(fitting, None)
 
 
+class Why(IntEnum):
+    """Why an edit is proposed, the reason that a colleague would think of first before the others."""
+
+    SLIP = 0
+    """A slip of typing explains it."""
+    AGREES = 1
+    """It agrees with the other words."""
+    FITS = 2
+    """It is the largest value that fits."""
+    OTHER = 3
+    """It is another word or value with which there is a contour."""
+    MISSING = 4
+    """The word is missing."""
+    NOT_NEEDED = 5
+    """The word is one too many."""
+
+
 @dataclass(frozen=True, slots=True)
 class Edit:
     """One word dropped, added or changed. `span` is the old word's place, `text` the new word."""
@@ -85,6 +102,14 @@ class Edit:
     text: str = ""
     line: int = 0
     """Line of the block that an added word goes to."""
+    why: Why = field(default=Why.OTHER, compare=False)
+
+    @property
+    def reason(self) -> Why:
+        """Why it is proposed."""
+        return {EditKind.DROP: Why.NOT_NEEDED, EditKind.ADD: Why.MISSING, EditKind.MOVE: Why.AGREES}.get(
+            self.kind, self.why
+        )
 
     def __str__(self) -> str:
         old, text = (self._shown(each) for each in (self.old, self.text))
@@ -113,6 +138,9 @@ class Edit:
     def is_placeholder(self) -> bool:
         """Whether it adds a word whose number is still to be chosen."""
         return self.kind is EditKind.ADD and self.text.endswith(PLACEHOLDER)
+
+
+_REASONS = {EditKind.DROP: Why.NOT_NEEDED, EditKind.ADD: Why.MISSING, EditKind.MOVE: Why.AGREES}
 
 
 def apply_edits(blocks: Iterable[Block], edits: Iterable[Edit]) -> tuple[str, ...]:

@@ -1,14 +1,15 @@
 """What to write instead: every smallest change of a block's words that the control accepts and that has a
 contour. Each one is applied to the text, read, checked and solved again before it is offered."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import ROUND_HALF_EVEN, Decimal
 from functools import lru_cache
 from itertools import chain, combinations, product
-from math import copysign
+from math import copysign, sqrt
 
-from contoursolve.diagnosis.attempt import Before, Repairs, choose_repairs
+from contoursolve.constraints import Radius
+from contoursolve.diagnosis.attempt import Before, Repairs, choose_repairs, examine_edited
 from contoursolve.diagnosis.drafts import (
     OF_CORNERS,
     change,
@@ -23,7 +24,17 @@ from contoursolve.diagnosis.drafts import (
     unreadable,
     variants,
 )
-from contoursolve.diagnosis.edits import AT_LEAST, PLACEHOLDER, Edit, EditKind, write_word
+from contoursolve.diagnosis.edits import AT_LEAST, PLACEHOLDER, Edit, EditKind, Why, write_word
+from contoursolve.diagnosis.slips import (
+    FEW,
+    OF_DIGITS,
+    blamed_spans,
+    explained,
+    other_codes,
+    point_slips,
+    slips,
+    suspects,
+)
 from contoursolve.diagnosis.subsets import (
     LARGEST_ROLE,
     block_of,
@@ -37,27 +48,38 @@ from contoursolve.diagnostic import Diagnostic, Severity
 from contoursolve.dialects import Dialect
 from contoursolve.examine import MOST_CHOICES, Answer, Policy, count_choices, examine
 from contoursolve.model import Given, Profile, Role, Unit
-from contoursolve.reading import Claim, Form, read
+from contoursolve.reading import Claim, Form, State, read
 from contoursolve.rules import Rule, check
-from contoursolve.solving import Status, lookup
+from contoursolve.solving import RefusalKind, Status, lookup
 from contoursolve.solving.affine import AffineFacts, Circuit, affine_facts
 from contoursolve.solving.compare import is_conflict
 from contoursolve.spelling import torn_codes
 from contoursolve.syntax import Block, Word
 
+MOST_BLOCKS = 6
+"""Of a contour in which wrong digits are looked for."""
+
 MOST_EDITS = 4
 """Words that a repair may touch; more is a new block."""
 
 
-def find_repairs(answer: Answer, dialect: Dialect, following: tuple[Block, ...] = ()) -> Repairs:
+def find_repairs(
+    answer: Answer,
+    dialect: Dialect,
+    following: tuple[Block, ...] = (),
+    previous: tuple[Sequence[Block], State] | None = None,
+) -> Repairs:
     """The repairs of a contour that was refused, or in which a word is ignored.
 
-    A repair leaves no error and no warning. None of them contains another one. `following` are the next blocks.
+    A repair leaves no error and no warning. None of them contains another one. `following` are the next blocks,
+    `previous` those before it, of which it may be the end, with the state before them.
     """
     claim = answer.claim
     if not answer.start.is_known:
         return Repairs((), is_complete=False)
     codes = frozenset(each.code for each in answer.diagnostics)
+    if all(each.severity is Severity.INFO for each in answer.diagnostics):
+        return choose_repairs(claim, dialect, (), Before(codes, answer.contour), point_slips(answer))
     if torn_codes(claim):
         # Without its letters the code is another one, which nobody has written.
         repairs = choose_repairs(claim, dialect, [mended_words(answer)], Before(codes, None, following=following))
@@ -77,17 +99,62 @@ def find_repairs(answer: Answer, dialect: Dialect, following: tuple[Block, ...] 
     alone = tuple(names for names in drop_sets.found if len(names) == 1 and is_blamed(answer, *names))
     # What makes a refused combination legal is searched for; of a legal one, any word at fault may be too much.
     first, then = _sets(answer, dialect, whole), _dropping(answer, alone)
-    stages = (
+    changes = (
         _values(answer, dialect, whole),
         *((first, then) if answer.status is Status.REJECTED else (then, first)),
         _slips(answer, dialect, whole),
         _dropping(answer, drop_sets.found),
     )
-    slips = (mended_words(answer), missing_points(answer), commas(answer), marked(answer), fitting(answer))
-    moved = (moving(claim, stage) for stage in stages)
-    repairs = choose_repairs(claim, dialect, (*slips, *moved), Before(codes, reference, following=following))
+    spelled = (mended_words(answer), missing_points(answer), commas(answer), marked(answer), fitting(answer))
+    moved = (moving(claim, stage) for stage in changes)
+    blamed = frozenset(blamed_spans(answer))
+    before = Before(codes, reference, following=following, blamed=blamed, previous=previous)
+    stages = (*spelled, *moved)
+    repairs = choose_repairs(claim, dialect, stages, before, *_slips_of(answer, dialect, whole, before))
     is_complete = repairs.is_complete and drop_sets.is_complete and not has_faults(claim)
     return replace(repairs, is_complete=is_complete)
+
+
+def _slips_of(
+    answer: Answer, dialect: Dialect, whole: "_Geometry", before: Before
+) -> Iterator[Iterator[tuple[Edit, ...]]]:
+    """Slips that may explain what is wrong, those of digits, and those of the radii of circles that are missed."""
+    claim = answer.claim
+    against = whole.conflicts
+    tied = {fact.given or "" for circuit in against for fact in circuit.facts}
+    words = suspects(answer, tied)
+    if against and not any(each.about in _SINGULAR for each in answer.diagnostics):
+        # One word that is wrong is in each contradiction, and the others tell its value.
+        names = frozenset.intersection(*(frozenset(fact.given or "" for fact in each.facts) for each in against))
+        yield chain.from_iterable(_agreeing(claim, name) for name in claim.words if name in names)
+        return
+    offences = [each.rule.when for each in check(dialect.rules, claim.form.roles, claim.stated())]
+    is_about_values = all(when is None or when.reads_values for when in offences)
+    if answer.status not in (Status.NO_SOLUTION, Status.CONFLICTING, Status.SOLVED) and not (
+        offences and is_about_values
+    ):
+        of_addresses = [slip for slip in FEW if not slip.is_of_numbers]
+        yield chain(slips(answer, of_addresses, words), other_codes(answer, dialect.modes))
+        return
+    blamed = blamed_spans(answer)
+    is_missed = any(each.about is RefusalKind.CIRCLE_MISSED for each in answer.diagnostics)
+    sizes = {row.fact.given for row in claim.form.facts if isinstance(row.fact, Radius)}
+    yield chain(_of_circles(answer, dialect, before), slips(answer, FEW, words))
+    if len(claim.blocks) > MOST_BLOCKS:
+        return
+    near = [word for word in words if word.span in blamed]
+    yield slips(answer, OF_DIGITS, near or words[:1])
+    yield slips(answer, OF_DIGITS, [claim.words[name] for name in claim.words if name in sizes and is_missed])
+
+
+def _agreeing(claim: Claim, name: str) -> Iterator[tuple[Edit, ...]]:
+    """A word as a slip explains it, with about the value that the others leave it."""
+    value = _Geometry.of(claim, frozenset(claim.givens) - {name}).implied(claim, name)
+    if value is not None:
+        yield from ((change(claim.words[name], text),) for text in explained(claim.words[name], value, claim))
+
+
+_SINGULAR = (RefusalKind.LINES_PARALLEL, RefusalKind.NOT_FIXED)
 
 
 @dataclass(frozen=True, slots=True)
@@ -331,16 +398,70 @@ def _values(answer: Answer, dialect: Dialect, whole: _Geometry) -> Iterator[tupl
         texts = [
             write_word(word.address, value, lexicon, unit, rounding) for rounding, value in _asked(answer, word, given)
         ]
+        agreeing: list[str] = []
         asked_together += [change(word, texts[0])] if texts and texts[0] != word.text else []
         if name in tied and answer.status is not Status.OVERDETERMINED:
             value = _Geometry.of(claim, frozenset(claim.givens) - {name}).implied(claim, name)
             if value is not None and given.unit is Unit.DEGREE:
                 value += 360 * round((float(given.value) - value) / 360)
-            texts += [write_word(word.address, value, lexicon, unit)] if value is not None else []
+            agreeing = [write_word(word.address, value, lexicon, unit)] if value is not None else []
+            texts += agreeing
         new = (text for text in dict.fromkeys(texts) if Decimal(text.removeprefix(word.address)) != word.number)
-        yield from ((*forced, change(word, text)) for text in new)
+        why = dict.fromkeys(agreeing, Why.AGREES)
+        yield from ((*forced, change(word, text, why.get(text, Why.OTHER))) for text in new)
     if len(asked_together) > 1:
         yield (*forced, *asked_together)
+
+
+def _of_circles(answer: Answer, dialect: Dialect, before: Before) -> Iterator[tuple[Edit, ...]]:
+    """Words that place a circle twice, each with the value that agrees with the others, or with what a slip makes of
+    about this value."""
+    claim, unit, lexicon = answer.claim, answer.claim.after.unit, dialect.modes.lexicon
+    finding = next((each for each in answer.diagnostics if each.about is RefusalKind.RADIUS_DIFFERENCE), None)
+    if finding is None or has_faults(claim):
+        return
+    spans = {label.span for label in finding.labels}
+    for name, word in claim.words.items():
+        given = claim.givens.get(name)
+        if given is None or word.number is None or word.span not in spans:
+            continue
+        value = float(given.value)
+        texts = [write_word(word.address, value + step, lexicon, unit) for step in (-_STEP, 0.0, _STEP)]
+        gaps = [_gap(examine_edited(claim, dialect, (change(word, text),), before)) for text in texts]
+        for step in _zeros([gap for gap in gaps if gap is not None]):
+            text = write_word(word.address, value + step, lexicon, unit)
+            slips = list(explained(word, value + step, claim))
+            yield from ((change(word, each, Why.AGREES),) for each in slips or [text])
+
+
+_FLAT = 1e-6
+"""mm^2: what is bent less is a line."""
+
+_STEP = 5.0
+"""mm by which a word of a circle is changed to see how it misses its point then."""
+
+
+def _gap(answer: Answer | None) -> float | None:
+    """By how much the square of a radius differs from that of the distance of a point that the circle misses."""
+    if answer is not None and answer.contour is not None:
+        return 0.0
+    for finding in answer.diagnostics if answer else ():
+        if finding.about is RefusalKind.RADIUS_DIFFERENCE and "distance" in finding.values:
+            return finding.values["distance"] ** 2 - finding.values["radius"] ** 2
+    return None
+
+
+def _zeros(gaps: list[float]) -> Iterator[float]:
+    """Where a quadratic function vanishes that is known a step before, at and behind 0."""
+    if len(gaps) != 3:  # noqa: PLR2004
+        return
+    before, at, behind = gaps
+    bend, slope = (before + behind) / 2 - at, (behind - before) / 2
+    if abs(bend) <= _FLAT:
+        yield from [-at / slope * _STEP] if slope else ()
+    elif slope * slope >= 4 * bend * at:
+        root = sqrt(slope * slope - 4 * bend * at)
+        yield from sorted(((-slope + sign * root) / (2 * bend) * _STEP for sign in (1, -1)), key=abs)
 
 
 def _slips(answer: Answer, dialect: Dialect, whole: _Geometry) -> Iterator[tuple[Edit, ...]]:

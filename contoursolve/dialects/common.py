@@ -125,6 +125,16 @@ READING_RULES = (
         rejected=(_GOOD + "\nG1l1 A180. B120. X160. Z-80.",),
     ),
     Rule(
+        code="code-mistyped",
+        message="{words} is no code that is known here: with {meant} this block would be a contour",
+        help="write {meant} if that is meant",
+        source=_READING,
+        about=Trouble.CODE_MISTYPED,
+        severity=Severity.WARNING,
+        accepted=(_GOOD,),
+        rejected=(_GOOD + "\nG110 A180. B120. X160. Z-80.",),
+    ),
+    Rule(
         code="value-variable",
         message="{words} depends on a macro variable, whose value is known only to the control",
         help="write the number",

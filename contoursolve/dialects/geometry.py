@@ -89,7 +89,7 @@ GEOMETRY_RULES = (
     _row(
         RefusalKind.LINE_REVERSED,
         "{subject} would run against {words}: its end lies {off} behind its start",
-        "write {expected}, or move the end to the other side",
+        "check the signs: as its ends lie, it would run at {expected}",
         _ARC + _LINE,
         _ARC + "G1 X-50 Y42.857 ,A-8.13 Q-1",
     ),

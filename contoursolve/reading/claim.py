@@ -25,6 +25,7 @@ class Trouble(Enum):
     START_IN_INCREMENTS = "start-in-increments"
     COMMA_MISSING = "comma-missing"
     LETTER_FOR_DIGIT = "letter-for-digit"
+    CODE_MISTYPED = "code-mistyped"
     VALUE_TOO_LARGE = "value-too-large"
     POSITION_UNKNOWN = "position-unknown"
     SKIPPABLE_START = "skippable-start"

@@ -454,8 +454,8 @@ GEOMETRY_RULES = (
         code="nct-reversed",
         message="the line would run against {words}: it would end {off} behind where it begins; the control "
         "gives no alarm and makes the wrong motion",
-        help="write {expected} at ,A, or move the end point; next to a circle the other angle also exchanges the "
-        "meanings of Q",
+        help="check the signs: as its ends lie, the line would run at {expected}; next to a circle the other angle "
+        "also exchanges the meanings of Q",
         source=_manual("16.3.3, p. 129: movements contrary to programmer's needs"),
         about=RefusalKind.LINE_REVERSED,
         accepted=(_GOOD,),

@@ -24,7 +24,8 @@ def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> Cla
         return claim_g111(block, state, modes)
     if 112 in own:  # noqa: PLR2004
         return claim_g112(block, state, modes)
-    addresses = {word.address for word in block.words}
+    # A word that cannot be read still shows what the block was meant to be.
+    addresses = {word.address.lstrip(",") for word in block.words} | {fault.address for fault in block.faults}
     corner = next((code for code in own if code in (_BEVELLING, _ROUNDING)), None)
     if corner and addresses & {*_AXES, "I", "K"}:
         return claim_leaving(block, corner, state, modes)

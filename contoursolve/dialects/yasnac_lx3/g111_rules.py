@@ -151,7 +151,7 @@ _COMBINATION_RULES = (
     Rule(
         code="g111-angle-range",
         message="{words} is outside -360 to 360 deg",
-        help="write {within}, the same direction within one turn",
+        help="write an angle from -360 to 360 deg; this one is the direction of {within}",
         source=manual("2.8.30, p. 140 (vii)"),
         alarm=_COMBINATION,
         roles=(_ROLE,),
@@ -233,7 +233,7 @@ _GEOMETRY_RULES = (
     Rule(
         code="g111-reversed",
         message="{subject} would run against {words}: its end lies {off} behind its start",
-        help="write {expected}, or move the end to the other side",
+        help="check the signs: as its ends lie, it would run at {expected}",
         source=manual("2.8.30, p. 146: moves away", Evidence.DERIVED),
         alarm=_GEOMETRY,
         roles=(_ROLE,),
