@@ -1,5 +1,6 @@
 """Lines on the terminal, in its colours."""
 
+import gc
 import os
 from collections.abc import Iterable, Iterator
 from itertools import islice
@@ -42,6 +43,8 @@ def print_pieces(pieces: Iterable[str]) -> None:
     """Print the pieces of a document, in batches."""
     for batch in _batched(pieces, 1_000):
         click.echo("".join(batch), nl=False)
+        # The encoder of the standard library leaves cycles behind for each text, and a command collects none by itself.
+        gc.collect(0)
     click.echo()
 
 

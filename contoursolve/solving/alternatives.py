@@ -291,9 +291,8 @@ def side_values(system: System, at: Values, chosen: Set[str]) -> dict[str, tuple
         for circle in circles:
             if circle.point in (line.tail, line.head) and circle.point in unknown:
                 # The sense of travel is that of the angle, or leads from end to end where no angle is stated.
-                way = step(line.tail, line.toward or line.head)
-                if line.heading is not None:
-                    way = at.direction(line.heading)
+                tips = (line.tail, line.toward or line.head)
+                way = at.direction(line.heading) if line.heading is not None else step(*tips)
                 spoke = step(circle.center, circle.point)
                 along = way[FIRST] * spoke[FIRST] + way[SECOND] * spoke[SECOND]
                 sides[circle.point] = along, Side.FARTHER.value, Side.NEARER.value
