@@ -16,6 +16,9 @@ from contoursolve.solving.rows import passed_rows
 MOST_PROPOSED = 8
 """Numbers that are proposed for a repair; a few, because a rule may refuse what the equations accept."""
 
+FEW_PROPOSED = 4
+"""Numbers that are proposed where none has room around it."""
+
 ROWS = 4_000
 """Numbers, or combinations of several, that are looked through."""
 
@@ -67,8 +70,10 @@ def _one(claim: Claim, profile: Profile, name: str) -> list[Array]:
     """Stretches of numbers for one given that are passed, shape (numbers, 1), the longest first."""
     grid = _grid(claim, profile, name)
     passed = passed_rows(profile, {name: grid})
-    if passed is None:
-        return [grid[[place], numpy.newaxis] for place in _apart(len(grid))]
+    if passed is None or not passed.any():
+        # Where a corner always takes the whole of a line, as under G12, no number has room around it.
+        count = MOST_PROPOSED if passed is None else FEW_PROPOSED
+        return [grid[[place], numpy.newaxis] for place in _apart(len(grid), count)]
     places = numpy.flatnonzero(passed)
     parts = numpy.split(places, numpy.flatnonzero(numpy.diff(places) > 1) + 1) if places.size else []
     return [grid[part, numpy.newaxis] for part in sorted(parts, key=len, reverse=True)]
@@ -83,7 +88,7 @@ def _several(claim: Claim, profile: Profile, names: Sequence[str]) -> Iterator[A
         rows = numpy.stack([rng.choice(grid, ROWS) for grid in grids], axis=1)
         passed = passed_rows(profile, dict(zip(names, rows.T, strict=True)))
         if passed is None:
-            yield from (rows[[place]] for place in _apart(len(rows)))
+            yield from (rows[[place]] for place in _apart(len(rows), MOST_PROPOSED))
             return
         lengths = [place for place, name in enumerate(names) if profile.givens[name].unit is not Unit.DEGREE]
         steps = rows[:, lengths] - [_start_of(profile, names[place]) for place in lengths]
@@ -92,9 +97,9 @@ def _several(claim: Claim, profile: Profile, names: Sequence[str]) -> Iterator[A
         yield from (rows[[place]] for place in places[numpy.argsort(unusual[places], kind="stable")][:MOST_PROPOSED])
 
 
-def _apart(count: int) -> list[int]:
-    """Some of so many places, far apart."""
-    return [number * (count - 1) // (MOST_PROPOSED + 1) for number in range(1, MOST_PROPOSED + 1)]
+def _apart(count: int, few: int) -> list[int]:
+    """A few of so many places, far apart."""
+    return [number * (count - 1) // (few + 1) for number in range(1, few + 1)]
 
 
 def _reach(profile: Profile, names: Sequence[str]) -> float:
