@@ -34,7 +34,7 @@ from contoursolve.sketch.drawn import Asked, Drawings, Drawn, worded
 from contoursolve.solving import lookup, scalars_of
 from contoursolve.solving.alternatives import Alternative, Alternatives, find_alternatives
 from contoursolve.solving.decide import decide
-from contoursolve.solving.solution import Status
+from contoursolve.solving.solution import RefusalKind, Status
 from contoursolve.statements import (
     DirectionIs,
     Draft,
@@ -46,6 +46,7 @@ from contoursolve.statements import (
     read_statement,
 )
 from contoursolve.statements.apply import rank
+from contoursolve.tolerance import LARGEST
 
 Questions = Mapping[str, tuple[Fact, Unit]]
 """What is asked for, by the name of the fact."""
@@ -186,8 +187,8 @@ class Sketch:
         return Drawings(
             status=decide(alternatives, profile).status,
             drawings=tuple(_drawn(item, profile, questions, texts) for item in items),
-            is_complete=alternatives.is_complete,
-            doubts=_doubts(alternatives),
+            is_complete=alternatives.is_complete and not _far(alternatives),
+            doubts=(*_doubts(alternatives), *_far(alternatives)),
             reach=alternatives.reach,
             free=(),
             ties=ties,
@@ -234,3 +235,10 @@ def _drawn(item: Alternative, profile: Profile, questions: Questions, texts: Map
 
 def _doubts(alternatives: Alternatives) -> tuple[str, ...]:
     return tuple(f"{', '.join(doubt.unknowns)}: {doubt.obstacle.value}" for doubt in alternatives.doubts)
+
+
+def _far(alternatives: Alternatives) -> list[str]:
+    """What is said of drawings that are left out because they reach too far."""
+    kinds = {refusal.kind for item in alternatives.items for refusal in item.solution.refusals}
+    is_far = RefusalKind.OUT_OF_RANGE in kinds
+    return [f"a drawing that reaches farther than {LARGEST:,.0f} mm is left out"] if is_far else []

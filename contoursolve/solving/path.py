@@ -56,7 +56,9 @@ def check_path(
 
 
 def check_range(figure: Figure, points: Mapping[str, Point]) -> list[Refusal]:
-    """The point that lies farthest from the start, if no word reaches it."""
+    """The point of a path that lies farthest from the start, if no word reaches it."""
+    if not figure.path:
+        return []
     start = points[figure.start]
     far = [(abs(at), name) for name in figure.points for at in _difference(start, points[name])]
     away, name = max(far, default=(0.0, ""))

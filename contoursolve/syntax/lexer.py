@@ -12,8 +12,9 @@ from contoursolve.syntax.word import Block, Directive, Fault, FaultKind, Macro, 
 LONGEST_BLOCK = 2_000
 """Characters of a block outside comments; no control reads more, and a listing shows no more."""
 
-LONGEST_NUMBER = 24
-"""Characters of a number. Controls read 8 digits, and Python's decimals divide numbers of 28."""
+LONGEST_NUMBER, MOST_BEFORE_POINT = 32, 20
+"""Characters of a number, and those before its point. Controls read 8 digits; Python's decimals divide what has at most
+28 before the point of the quotient."""
 
 _LINE_END = re.compile(r"\r\n|\n|\r")
 _LINE = re.compile(r"[^\r\n]*(?:\r\n|\n|\r)|[^\r\n]+")
@@ -122,7 +123,7 @@ def parse_block(text: str, line: int) -> Block:
         span = Span(line, token.start() + 1, token.end() + 1)
         if kind == "word":
             comma, letter, number, asked = token.group("comma", "letter", "number", "asked")
-            if number and len(number) > LONGEST_NUMBER:
+            if number and (len(number) > LONGEST_NUMBER or len(number.partition(".")[0]) > MOST_BEFORE_POINT):
                 faults.append(Fault(FaultKind.NUMBER_TOO_LONG, token[0], span))
                 continue
             address = (comma + letter).upper()
