@@ -210,7 +210,10 @@ def _explain_unknown(context: Context, claim: Claim) -> Iterator[Diagnostic]:
 def _roundings(claim: Claim) -> list[str]:
     """The addresses of roundings of a contour."""
     shapes = ((name, shape) for row in claim.form.corners for name, shape in row.shapes.items())
-    return [claim.vocabulary[name][0] for name, shape in shapes if shape is CornerShape.FILLET]
+    # Under G11 and G12 a corner has the word of a line.
+    return [
+        claim.vocabulary[name][0] for name, shape in shapes if shape is CornerShape.FILLET and name in claim.vocabulary
+    ]
 
 
 def respelled(word: Word, allowed: Container[str]) -> str:

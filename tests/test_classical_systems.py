@@ -342,10 +342,12 @@ KNOWN_BROKEN = {
     ("chebyquad 8", 100.0): "no root: two of Chebyshev's 8 nodes are complex",
     ("chebyquad 9", 10.0): FAR,
     ("chebyquad 9", 100.0): FAR,
-    ("trigonometric 5", 100.0): "a root, but at 1e7, where a rounding of the unknowns leaves 5e-10",
     ("boggs", 100.0): "each finder stays in one of the waves of the cosine, where there is no root",
 }
 """(problem, multiple of its standard start) not found, and why; one that is found after all fails."""
+
+BY_MACHINE = {("trigonometric 5", 100.0)}
+"""Left out: the root is at 1e7, where a rounding of the unknowns leaves 5e-10 on some machines, and less on others."""
 
 CASES = [
     pytest.param(
@@ -358,6 +360,7 @@ CASES = [
     )
     for name, problem in PROBLEMS.items()
     for factor in ((1.0, 10.0, 100.0) if any(problem.start) else (1.0,))
+    if (name, factor) not in BY_MACHINE
 ]
 
 RESIDUAL = 1e-10

@@ -652,6 +652,9 @@ def in_inches(case: Case) -> Case:
     return replace(case, words=words, start=(case.start[0] / Decimal("25.4"), case.start[1] / Decimal("25.4")))
 
 
+SLIP = re.compile(r"\(an? |\(two |\(the word of ")
+
+
 def verdict(answer: Answer) -> dict[str, Any]:
     diagnosis = answer.diagnosis
     return {
@@ -661,7 +664,8 @@ def verdict(answer: Answer) -> dict[str, Any]:
         "layers": diagnosis and verdicts(answer),
         "ties": diagnosis and {(frozenset(tie.addresses), tie.is_conflict) for tie in diagnosis.ties},
         "freedoms": diagnosis and {(each.point, each.direction is None) for each in diagnosis.freedoms},
-        "fixes": len(fixes_of(answer)),
+        # What may have been mistyped depends on how a number is written.
+        "fixes": sum(not SLIP.search(fix.description) for fix in fixes_of(answer)),
     }
 
 
@@ -862,7 +866,8 @@ def test_completions_are_exactly_the_words_that_make_a_block_legal_and_determine
                 and ((len(own) == 2 and len(then) == 2) or (len(own) == 1 and len(then) == 3))
             ):
                 legal.add(name)
-        # A legal word that leaves the block singular at these values, whatever its number, completes nothing.
+        # A legal word that leaves the block singular at these values, or without a contour, whatever its number,
+        # completes nothing.
         addresses = {each.word[0] for each in found}
         assert addresses <= legal, case.text
         for name in legal - addresses:
@@ -870,7 +875,9 @@ def test_completions_are_exactly_the_words_that_make_a_block_legal_and_determine
                 numpy.linalg.matrix_rank(rows_of(case.words | {name: Decimal(value)})[0], tol=1e-9)
                 for value in ("30", "67.1")
             ]
-            assert max(ranks) < 4, (case.text, name)
+            numbers = range(-175, 180, 10) if max(ranks) == 4 else ()
+            tried = [replace(case, words=case.words | {name: Decimal(number)}).solve() for number in numbers]
+            assert not any(each.contour for each in tried), (case.text, name)
         seen += len(addresses)
     assert seen > 40
 

@@ -211,7 +211,7 @@ def test_a_range_on_a_slider_ends_where_single_solves_say_so():
                     assert explore.set_word(now, each["key"], end + inward * 0.002).answer.contour is not None
                     assert explore.set_word(now, each["key"], end - inward * 0.002).answer.contour is None
     assert range_of(now, field(now, "P"))["note"] == "0 ≤ P ≤ 51.961"
-    assert range_of(now, field(now, "A"))["note"] == "138.219 ≤ A < 270"
+    assert range_of(now, field(now, "A"))["note"] == "138.219 ≤ A ≤ 269.998"
     freed = explore.free(now, "X")
     assert [range_of(freed, field(freed, key)) for key in "AKBP"] == [{}] * 4  # another word is missing
     assert range_of(explore.begin(f"{PAIR} Q-1"), {**field(explore.begin(f"{PAIR} Q-1"), "Q")}) == {}

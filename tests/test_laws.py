@@ -13,7 +13,7 @@ from random import Random
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from oracle import PLANES
 
@@ -151,12 +151,16 @@ PROBLEMS = st.one_of(tapers(), pairs())
 
 # Likeness ---------------------------------------------------------------------------------------------
 
+INCHES_APART = 0.02
+"""mm. By so much words may differ that agree as inches and disagree as millimetres, with some increments of each."""
+
 OTHER_WAY = {"cw": "ccw", "ccw": "cw", "G2": "G3", "G3": "G2", "G41": "G42", "G42": "G41", "": ""}
 
 
 def describe(answer: Answer, is_mirrored: bool = False, shift: float = 0.0) -> tuple[list[Any], list[float]]:
     """What must be equal, and the lengths that must be equal to the tolerance; after moving the contour."""
-    codes = Counter(each.code for each in answer.diagnostics)
+    # Moved, a path crosses the spindle axis or does so no more.
+    codes = Counter(each.code for each in answer.diagnostics if each.code != "axis-crossed")
     facts: list[Any] = [answer.status, dict(answer.sides), codes]
     if answer.contour is None:
         return facts, []
@@ -247,7 +251,11 @@ def test_inches_and_millimetres_give_the_same_contour(problem: Problem, is_in_pr
 
     text = "\n".join(" ".join(block.texts()) for block in problem.blocks)
     in_inches = problem.answer("G20\n" + text) if is_in_program else problem.answer(text, units="inch")
-    assert_alike(replace(problem, blocks=tuple(map(in_mm, problem.blocks))), in_inches)
+    in_millimetres = replace(problem, blocks=tuple(map(in_mm, problem.blocks)))
+    # Words agree within half their increments, which are larger in inches.
+    findings = (*in_millimetres.answer().diagnostics, *in_inches.diagnostics)
+    assume(not any(each.values.get("off_by_mm", 1.0) < INCHES_APART for each in findings))
+    assert_alike(in_millimetres, in_inches)
 
 
 @LAW

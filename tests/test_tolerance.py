@@ -61,7 +61,7 @@ def test_tolerances_beyond_which_there_is_no_contour_are_told():
 
 
 def test_no_combination_of_the_limits_may_have_a_contour():
-    limits = tolerances(BLOCK, {"A": 1e9}, start=START).limits
+    limits = tolerances(BLOCK, {"A": 999_000}, start=START).limits
     assert (limits.count, limits.without) == (2, 2)
     assert np.isnan([*limits.low, *limits.high]).all()
 

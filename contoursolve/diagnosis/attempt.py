@@ -58,6 +58,8 @@ class Before:
     """The words that findings are about."""
     previous: tuple[Sequence[Block], State] | None = None
     """What is before it, and the state before that: with its commas in place, it may be the end of it."""
+    is_redundant: bool = False
+    """Whether its words say something twice, and agree."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -325,7 +327,7 @@ def _is_rule(finding: Diagnostic) -> bool:
 
 def _now_agrees(finding: Diagnostic, before: Before) -> bool:
     """Whether a finding that the block did not have before says only that a word now agrees."""
-    is_new = finding.code not in before.codes and finding.severity is Severity.WARNING
+    is_new = finding.code not in before.codes and not before.is_redundant and finding.severity is Severity.WARNING
     return is_new and finding.values.get("off_by_mm", float("inf")) <= AGREEMENT
 
 

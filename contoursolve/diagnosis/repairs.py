@@ -108,7 +108,8 @@ def find_repairs(
     spelled = (mended_words(answer), missing_points(answer), commas(answer), marked(answer), fitting(answer))
     moved = (moving(claim, stage) for stage in changes)
     blamed = frozenset(blamed_spans(answer))
-    before = Before(codes, reference, following=following, blamed=blamed, previous=previous)
+    is_redundant = answer.status is Status.OVERDETERMINED
+    before = Before(codes, reference, None, following, blamed, previous, is_redundant)
     stages = (*spelled, *moved)
     repairs = choose_repairs(claim, dialect, stages, before, *_slips_of(answer, dialect, whole, before))
     is_complete = repairs.is_complete and drop_sets.is_complete and not has_faults(claim)

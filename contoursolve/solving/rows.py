@@ -34,7 +34,8 @@ def passed_rows(profile: Profile, values: Mapping[str, Array]) -> numpy.ndarray 
         else:
             inputs[name] = difference(column, float(start[axes[name]] or 0)) if name in axes else column
     with numpy.errstate(all="ignore"):
-        (is_clear,) = replay([inputs[name] for name in names])
+        # Numbers of NumPy, because those of Python do not divide by zero.
+        (is_clear,) = replay([numpy.float64(inputs[name]) for name in names])
     return numpy.broadcast_to(numpy.equal(is_clear, 1), len(next(iter(values.values()))))
 
 
