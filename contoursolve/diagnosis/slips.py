@@ -1,6 +1,7 @@
 """Slips of typing: one table of kinds, each with what a word may have been meant to be, the most plausible first."""
 
 import re
+from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import dataclass, replace
 from decimal import Decimal
@@ -229,8 +230,11 @@ def mistyped_codes(word: Word, modes: Modes) -> list[str]:
 
 
 def other_codes(answer: Answer, modes: Modes) -> Iterator[tuple[Edit, ...]]:
-    """The G codes of a contour as those of other contours that they may have been meant to be."""
+    """The G codes of a contour as those of other contours that they may have been meant to be; none of a code that its
+    block repeats, because the other one would stay."""
     words = [word for block in answer.claim.blocks for word in block.words]
+    times = Counter((word.span.line, word.address, word.number) for word in words)
+    words = [word for word in words if times[word.span.line, word.address, word.number] == 1]
     yield from ((change(word, text),) for word in words for text in mistyped_codes(word, modes))
 
 
