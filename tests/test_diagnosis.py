@@ -652,9 +652,6 @@ def in_inches(case: Case) -> Case:
     return replace(case, words=words, start=(case.start[0] / Decimal("25.4"), case.start[1] / Decimal("25.4")))
 
 
-SLIP = re.compile(r"\(an? |\(two |\(the word of ")
-
-
 def verdict(answer: Answer) -> dict[str, Any]:
     diagnosis = answer.diagnosis
     return {
@@ -664,8 +661,8 @@ def verdict(answer: Answer) -> dict[str, Any]:
         "layers": diagnosis and verdicts(answer),
         "ties": diagnosis and {(frozenset(tie.addresses), tie.is_conflict) for tie in diagnosis.ties},
         "freedoms": diagnosis and {(each.point, each.direction is None) for each in diagnosis.freedoms},
-        # What may have been mistyped depends on how a number is written.
-        "fixes": sum(not SLIP.search(fix.description) for fix in fixes_of(answer)),
+        # How many there are depends on how numbers are written: slips of typing explain some of them.
+        "fixes": bool(fixes_of(answer)),
     }
 
 
