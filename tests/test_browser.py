@@ -189,7 +189,7 @@ def test_in_jupyterlab_a_slider_moves_the_path_and_a_finding_comes_and_goes(brow
         page.wait_for_function(DIFFERS, arg=[f"{EXPLORER} figure", before])
         assert explorer.locator(".finding").count() == 0
         slider.press("End")
-        finding = explorer.locator(".finding.error")
+        finding = explorer.locator(".finding.error").first
         finding.wait_for()
         assert "corner 1 does not fit" in finding.inner_text()
         page.screenshot(path=artefacts / "jupyterlab-refused.png")

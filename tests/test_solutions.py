@@ -558,7 +558,7 @@ def test_a_chain_is_found_again_from_facts_that_are_true_of_it(first: int) -> No
         drawings = sketch_of(chain, facts).solve()
         drawn = [chain_of(each, chain) for each in drawings]
         assert is_among(chain, drawn), f"seed {seed}: the drawing is missing"
-        assert drawings.is_complete, f"seed {seed}: there may be others"
+        assert all("farther than" in doubt for doubt in drawings.doubts), f"seed {seed}: there may be others"
         assert all(is_drawing(each, facts) for each in drawn), f"seed {seed}: a drawing is none"
         if len(chain.elements) <= 3:
             # Newton's method may run off to where rounding hides what is not true.
