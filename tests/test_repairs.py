@@ -2,6 +2,7 @@
 
 import random
 import re
+from decimal import Decimal
 from itertools import combinations
 from typing import Any
 
@@ -105,7 +106,7 @@ def placeholders(spoilt: Spoilt) -> list[tuple[str, str]]:
     for fix in (fix for finding in result.diagnostics for fix in finding.fixes):
         if fix.applicability is Applicability.PLACEHOLDER:
             text = fix.replacement
-            for number in re.search(r"\(such as (.+)\)$", fix.description)[1].split():
+            for number in re.search(r"\(such as ([^,]+).*\)$", fix.description)[1].split():
                 text = re.sub(rf"(?<!\S){number.rstrip('-.0123456789')}\?", number, text, count=1)
             found.append((fix.description, f"{spoilt.lines[0]}\n{text}"))
     return found
@@ -132,6 +133,43 @@ def test_a_word_without_its_number_is_offered_with_a_number_that_makes_a_contour
 def test_a_word_without_its_number_is_offered_with_a_number_in_many_blocks(form, blocks):
     draw = random.Random(61)
     assert sum(check_placeholders(FORMS[form](draw)) for _ in range(blocks)) > blocks / 10
+
+
+STEP = {"from": Decimal("-0.001"), "up to": Decimal("0.001")}
+
+
+def check_ends(spoilt: Spoilt) -> int:
+    """That each end of the numbers that a fix names makes a contour, and one increment more does not; how many."""
+    count = 0
+    for finding in solve(spoilt.text, control=spoilt.control).diagnostics:
+        for fix in finding.fixes:
+            for word, address, number in re.findall(r", (from|up to) (,?[A-Z])(-?[.\d]+)", fix.description):
+                at, count = Decimal(number), count + 1
+                for value, is_good in ((at, True), (at + STEP[word], False)):
+                    text = fix.replacement.replace(
+                        f"{address}?", f"{address}{value:f}{'' if '.' in str(value) else '.'}"
+                    )
+                    assert is_clean([spoilt.lines[0], *text.split("\n")], spoilt.control) is is_good, (
+                        spoilt,
+                        fix,
+                        value,
+                    )
+    return count
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("form", ["g111", "g112", "pair", "cornered"])
+def test_the_numbers_that_are_named_for_a_word_reach_to_the_last_increment_in_many_blocks(form):
+    draw = random.Random(6)
+    assert sum(check_ends(FORMS[form](draw)) for _ in range(25)) > 0
+
+
+@pytest.mark.parametrize(
+    ("block", "ends"),
+    [("G111 X100. A180. B160. C2.", 3), ("G111 X100. A180. K-30. P5. Q5.", 4), ("G111 A180. K-30. B135. P5. Q5.", 4)],
+)
+def test_the_numbers_that_are_named_for_a_word_reach_to_the_last_increment(block, ends):
+    assert check_ends(Spoilt(("G00 X40. Z0.", block), "yasnac-lx3")) == ends
 
 
 @pytest.mark.parametrize(

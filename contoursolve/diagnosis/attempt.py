@@ -10,7 +10,7 @@ from contoursolve.analysis import judge, order
 from contoursolve.constraints import assemble
 from contoursolve.contour import Contour
 from contoursolve.diagnosis.edits import Edit, EditKind, Side, Why, apply_edits, edit_facts
-from contoursolve.diagnosis.examples import propose, sampled
+from contoursolve.diagnosis.examples import ends, propose, sampled
 from contoursolve.diagnosis.slips import FEW, NEIGHBOUR, POINT_LOST, ROUND, SLIPS, Slip, recognise
 from contoursolve.diagnosis.subsets import LARGEST_ROLE
 from contoursolve.diagnostic import Applicability, Diagnostic, Severity
@@ -79,6 +79,8 @@ class Repair:
     """Rules that warn about the changed block and did not before."""
     example: tuple[Edit, ...] = ()
     """The edits with numbers for the placeholders that make a contour."""
+    ends: tuple[str, ...] = ()
+    """From which number to which one the placeholder may be; nothing where no end was found."""
     is_exact: bool = True
     """Whether its circles pass through their points, and do not only miss them by less than a control minds."""
     is_blamed: bool = True
@@ -149,6 +151,7 @@ def choose_repairs(
     found.sort(key=_order)
     found = [each for at, each in enumerate(found) if not any(_is_again(each, other) for other in found[:at])]
     is_complete = len(tried) + spent <= most and considered <= MOST_CONSIDERED
+    found = [_with_ends(each, claim, dialect, before) if each.example else each for each in found]
     return Repairs(tuple(_large_last(found, before)), is_complete=is_complete)
 
 
@@ -416,3 +419,15 @@ def _example(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], before: Be
     if affine is not None and affine.freedoms():
         return None
     return next((each for each in propose(found, profile, edits) if _try(claim, dialect, each, before)), None)
+
+
+def _with_ends(repair: Repair, claim: Claim, dialect: Dialect, before: Before) -> Repair:
+    """A repair with a placeholder, with the numbers between which that of its example stands."""
+    found = _find(claim, dialect, repair.example, before) if repair.example != repair.edits else None
+    if found is None:
+        return repair
+
+    def is_accepted(edits: tuple[Edit, ...]) -> bool:
+        return _try(claim, dialect, edits, before) is not None
+
+    return replace(repair, ends=tuple(ends(found, read(found, frozenset()), repair.edits, is_accepted)))

@@ -231,7 +231,7 @@ def _fix(answer: Answer, repair: Repair) -> Fix:
     description = "; ".join(told)
     numbers = [each.text for each, edit in zip(repair.example, repair.edits, strict=False) if each != edit]
     if numbers:
-        description += f" (such as {' '.join(numbers)})"
+        description += f" (such as {' '.join(numbers)}{''.join(f', {each}' for each in repair.ends)})"
     if repair.contour:
         profile, contour = answer.profile, repair.contour
         name, at = "the contour ends", contour.end

@@ -1,7 +1,9 @@
 """Numbers for words that a repair adds without one: some with which there is a contour."""
 
-from collections.abc import Iterator, Sequence
+from bisect import bisect_left
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 from math import log10
 
 import numpy
@@ -21,6 +23,9 @@ FEW_PROPOSED = 4
 
 ROWS = 4_000
 """Numbers, or combinations of several, that are looked through."""
+
+MOST_REFUSED = 1_024
+"""Numbers at the end of a stretch that the equations accept, of which a rule may refuse the last."""
 
 SEED = 1
 """Of the combinations that are looked through."""
@@ -52,6 +57,60 @@ def propose(claim: Claim, profile: Profile, edits: Sequence[Edit]) -> Iterator[t
         texts = [_write(claim, name, run[:, column]) for column, name in enumerate(names)]
         numbers = iter(texts)
         yield tuple(_numbered(edit, next(numbers)) if edit.is_placeholder else edit for edit in edits)
+
+
+def ends(
+    claim: Claim, profile: Profile, edits: Sequence[Edit], is_accepted: Callable[[tuple[Edit, ...]], bool]
+) -> Iterator[str]:
+    """From which number to which one, around that of an example, the equations and the rules accept the edits: a side
+    on which no end is found is left out; nothing if several words are added, or no function tells.
+
+    `claim` and `profile` are those of the example. Rules refuse some of the last numbers that the equations accept.
+    """
+    added = [edit for edit in edits if edit.is_placeholder]
+    name = _name_of(claim, added[0])
+    if len(added) > 1 or name not in profile.givens:
+        return
+    value, grid = float(profile.givens[name].value), _grid(claim, profile, name)
+    passed, step = passed_rows(profile, {name: grid}), _increment(claim, name)
+    if passed is None:
+        return
+
+    def accepts(text: str) -> bool:
+        return is_accepted(tuple(_numbered(edit, text) if edit.is_placeholder else edit for edit in edits))
+
+    for word, inward in (("from", step), ("up to", -step)):
+        side = numpy.flatnonzero((grid - value) * inward < 0)[:: -1 if inward > 0 else 1]
+        if passed[side].all():
+            continue
+        number = int(numpy.argmin(passed[side]))
+        good = float(grid[side[number - 1]]) if number else value
+        last = _last(claim, profile, name, good, float(grid[side[number]]))
+        text = _text(claim, name, last)
+        if accepts(text) or (text := _first(partial(_text, claim, name), last, inward, accepts)):
+            yield f"{word} {text}"
+
+
+def _first(write: Callable[[float], str], last: float, inward: float, accepts: Callable[[str], bool]) -> str:
+    """The first number from an end inwards that is accepted, as all behind it are; nothing if none is."""
+    place = bisect_left(range(MOST_REFUSED), True, key=lambda place: accepts(write(last + inward * place)))
+    return write(last + inward * place) if place < MOST_REFUSED else ""
+
+
+def _last(claim: Claim, profile: Profile, name: str, good: float, bad: float) -> float:
+    """The last value that is passed on the way from one that is to one that is not."""
+    step = _increment(claim, name)
+    while abs(bad - good) > 1.5 * step:
+        between = numpy.unique(numpy.rint(numpy.linspace(good, bad, ROWS) / step) * step)
+        between = between if good < bad else between[::-1]
+        passed = passed_rows(profile, {name: between})
+        if passed is None or passed.all():
+            break
+        place = int(numpy.argmin(passed))
+        if not place:
+            break
+        good, bad = float(between[place - 1]), float(between[place])
+    return good
 
 
 def _numbered(edit: Edit, text: str) -> Edit:
@@ -145,8 +204,7 @@ def _increment(claim: Claim, name: str) -> float:
 
 def _write(claim: Claim, name: str, values: Array) -> str:
     """A word for a value among those of a run, with as few decimals as one in its middle half can have."""
-    word, unit = claim.words[name], claim.after.unit
-    row = claim.lexicon.addresses[word.address]
+    row, unit = claim.lexicon.addresses[claim.words[name].address], claim.after.unit
     scale = 1.0
     if row.unit is not Unit.DEGREE:
         scale = (2 if row.is_diameter else 1) / float(unit.in_mm)
@@ -155,4 +213,9 @@ def _write(claim: Claim, name: str, values: Array) -> str:
     middle = float(values[len(values) // 2]) * scale
     rounded = (round(middle, digits) for digits in (-1, 0, 1, 2))
     number = next((each for each in rounded if low <= each <= high), middle)
-    return write_word(word.address, number / scale, claim.lexicon, unit)
+    return _text(claim, name, number / scale)
+
+
+def _text(claim: Claim, name: str, value: float) -> str:
+    """A word for a value, mm (X as radius) or degrees."""
+    return write_word(claim.words[name].address, value, claim.lexicon, claim.after.unit)
