@@ -222,6 +222,14 @@ def test_programs_are_read_as_the_settings_say_and_the_check_of_results_agrees(s
     assert statuses["solved"] >= count / 5
 
 
+def test_a_setting_is_not_that_of_the_same_blocks_before():
+    """What is compiled for a form is kept; a difference of radii is not a part of the form's text."""
+    text = FROM_CIRCLE.replace("R50", "I-50.005 J0") + "G1 X-50 Y42.857 ,A171.87 Q-1"
+    allowed = ["0.02", "0.002", "0.02", "0.002"]
+    statuses = [solve(text, settings=named(Settings(radius_difference=each))).answers[0].status for each in allowed]
+    assert [status.value for status in statuses] == ["solved", "conflicting"] * 2
+
+
 def test_the_point_met_first_is_counted_from_where_the_arc_starts_in_a_chain_too():
     """The sheet's third reading: from the start of the first circle's arc, which may be an intersection itself."""
     chain = "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 I-50 J0\nX-40 Y60 I-40 J20 R40 Q-1\nG2 X20 Y60 I-10 J60 R30 Q-1"

@@ -15,8 +15,8 @@ class System:
 
     The coordinates of the figure's start and places are known, all other points, the radii and the carriers
     are unknown. `choices` are the points with two solutions between which something outside the facts chooses.
-    `key` is a text that is equal for equal systems; caches go by it. `equations_key` leaves out the
-    path and the corners, which state nothing about the points.
+    Caches go by systems: those are equal whose `key` and facts are; by how much a fact may be off is not in its text.
+    `equations_key` leaves out the path and the corners, which state nothing about the points.
     """
 
     figure: Figure
@@ -29,7 +29,7 @@ class System:
     key: str
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, System) and self.key == other.key
+        return isinstance(other, System) and self.key == other.key and self.facts == other.facts
 
     def __hash__(self) -> int:
         return hash(self.key)
