@@ -49,6 +49,11 @@ class Tape:
             if not self.data.closed:
                 text.detach()
 
+    def encode(self, text: str) -> bytes:
+        """The bytes of a text that takes the place of its lines. Remarks may quote a fact of the command line, with
+        characters that the program's encoding lacks; they become question marks."""
+        return text.encode(self.encoding, "replace")
+
     def read(self) -> str:
         """All of it."""
         self.data.seek(len(self.mark))

@@ -90,20 +90,20 @@ def rewrite(
     size, place, told = 0, len(tape.mark), 0.0
     for line in lines:
         if line is OPENING:
-            body.write("".join(held).encode(tape.encoding))
+            body.write(tape.encode("".join(held)))
             held, size, place = [], 0, body.tell()
             continue
         held.append(str(line))
         size += len(held[-1])
         if size >= _BATCH:
-            body.write("".join(held).encode(tape.encoding))
+            body.write(tape.encode("".join(held)))
             held, size = [], 0
             if tape.share - told >= _REPORTED:
                 told = tape.share
                 progress(told)
-    body.write("".join(held).encode(tape.encoding))
+    body.write(tape.encode("".join(held)))
     opening = opening_of(options, dialect, unit, summary) if dialect else ""
-    return Rewritten(body, place, opening.encode(tape.encoding), dialect.name if dialect else None, summary)
+    return Rewritten(body, place, tape.encode(opening), dialect.name if dialect else None, summary)
 
 
 def _blocks(tape: Tape, unread: list[Left]) -> Iterator[Block]:

@@ -146,6 +146,25 @@ def folder(tmp_path, monkeypatch):
     return tmp_path
 
 
+@pytest.mark.parametrize("command", COMMANDS)
+@pytest.mark.parametrize("name", ["x\0.svg", "-o", "\0"])
+def test_a_nul_in_any_argument_is_told(folder, command, name):
+    done = CliRunner().invoke(main, [command, "part.nc", "-o", name, "x\0.dxf"])
+    assert (done.exit_code, done.stdout) == (2, "")
+    assert done.stderr.splitlines()[-1] == "Error: arguments with a NUL character cannot be read"
+
+
+@pytest.mark.parametrize("data", [b"G00 X40. Z0. (\xe9)\n", b"G00 X40. Z0. (\xc3\xa9)\n"])
+@pytest.mark.parametrize("fact", ["\udcff", "\u7c97 = 3"])
+def test_a_fact_with_characters_that_the_program_cannot_hold_is_told(folder, data, fact):
+    (folder / "fact.nc").write_bytes(data + b"G111 X100. A180. K-30. B120.\n")
+    done = CliRunner().invoke(main, ["expand", "--keep-going", "fact.nc", "--fact", fact])
+    assert done.exit_code == 1
+    assert "NOT EXPANDED" in done.stdout
+    assert data in done.stdout_bytes
+    assert "error" in done.stderr
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(SHARDS))
 def test_mutated_options_are_answered(folder, seed):

@@ -52,6 +52,12 @@ class _Commands(click.Group):
             leave_threads(STOPPED)
             ctx.exit(STOPPED)
 
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Read the arguments. A shell cannot pass a NUL, and no file has it in its name."""
+        if any("\0" in argument for argument in args):
+            raise click.UsageError("arguments with a NUL character cannot be read", ctx)
+        return super().parse_args(ctx, args)
+
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002 - as click calls it
         """The command of this name."""
         module, _, name = _COMMANDS.get(cmd_name, "").partition(":")
