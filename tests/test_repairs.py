@@ -28,11 +28,16 @@ def without(lines: tuple[str, ...], dropped: frozenset[tuple[int, int]]) -> list
     ]
 
 
+BESIDE = re.compile(r"[MST]\d+(?: [MST]\d+)*")
+"""A block of words that have nothing to do with the contour, as they may be moved into one of their own."""
+
+
 def is_clean(lines: list[str], control: str) -> bool:
-    """Whether all blocks make one contour that is solved without an error or a warning, but for a path that crosses
-    the spindle axis, which may be meant."""
+    """Whether all blocks but those of other words make one contour that is solved without an error or a warning, but
+    for a path that crosses the spindle axis, which may be meant."""
     result = solve("\n".join(lines), control=control, depth="verdict")
-    is_whole = len(result.answers) == 1 and len(result.answers[0].lines) == len(lines) - 1
+    blocks = [line for line in lines[1:] if not BESIDE.fullmatch(line)]
+    is_whole = len(result.answers) == 1 and len(result.answers[0].lines) == len(blocks)
     findings = [each for each in result.diagnostics if each.severity.value != "info" and each.code != "axis-crossed"]
     return is_whole and result.answers[0].status is Status.SOLVED and not findings
 
