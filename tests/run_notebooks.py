@@ -9,10 +9,10 @@ import os
 import sys
 import tempfile
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-import nbformat
-from nbclient import NotebookClient
-from nbclient.exceptions import CellExecutionError
+if TYPE_CHECKING:
+    import nbformat  # takes seconds, and whoever collects tests imports this module
 
 FOLDER = Path(__file__).parent.parent / "notebooks"
 NOTEBOOKS = sorted(FOLDER.glob("*.ipynb"))
@@ -23,11 +23,14 @@ WIDGET = "application/vnd.jupyter.widget-view+json"
 """A widget lives in a kernel, and has another name in each; what it shows without one stays."""
 
 
-def execute(path: Path) -> nbformat.NotebookNode:
+def execute(path: Path) -> "nbformat.NotebookNode":
     """The notebook with the outputs that a clean kernel gives it; raises CellExecutionError.
 
     What tells of the machine and of the moment is left out: versions, times, the names of widgets.
     """
+    import nbformat  # noqa: PLC0415
+    from nbclient import NotebookClient  # noqa: PLC0415
+
     notebook = nbformat.read(path, as_version=4)
     client = NotebookClient(
         notebook,
@@ -46,8 +49,10 @@ def execute(path: Path) -> nbformat.NotebookNode:
     return notebook
 
 
-def text_of(notebook: nbformat.NotebookNode) -> str:
+def text_of(notebook: "nbformat.NotebookNode") -> str:
     """The file of a notebook; the same notebook gives the same text."""
+    import nbformat  # noqa: PLC0415
+
     return nbformat.writes(notebook, indent=1, sort_keys=True, ensure_ascii=False) + "\n"
 
 
@@ -57,6 +62,8 @@ def main() -> int:
     parser.add_argument("notebooks", nargs="*", type=Path, default=NOTEBOOKS)
     parser.add_argument("--into", type=Path, help="the folder for the results, instead of the notebooks themselves")
     arguments = parser.parse_args()
+    from nbclient.exceptions import CellExecutionError  # noqa: PLC0415
+
     if sys.platform == "win32":
         # The sockets of a kernel need an event loop that can wait for them.
         asyncio.set_event_loop_policy(asyncio.WindowsSelectorEventLoopPolicy())

@@ -227,19 +227,27 @@ def block_of(words: Words) -> str:
     )
 
 
-@lru_cache(maxsize=1)
-def random_diagnoses() -> list[tuple[Words, Answer]]:
+def few_and_many(few: int, many: int) -> pytest.MarkDecorator:
+    return pytest.mark.parametrize("count", [few, pytest.param(many, marks=pytest.mark.slow)])
+
+
+FOR_DIAGNOSES, FOR_BLOCKS = few_and_many(30, 250), few_and_many(10, 60)
+
+
+@lru_cache
+def random_diagnoses(count: int) -> list[tuple[Words, Answer]]:
     random, result = Random(3), []
-    while len(result) < 500:
+    while len(result) < count:
         size = random.choice((1, 2, 3, 4, 5, 5, 6, 6, 7, 8))
         words = random_words(random, "".join(random.sample(EQUATIONS, size)))
         result.append((words, answer_to(block_of(words), "off")))
     return result
 
 
-def test_ties_are_all_minimal_dependent_sets_and_conflicts_all_minimal_inconsistent_ones():
+@FOR_DIAGNOSES
+def test_ties_are_all_minimal_dependent_sets_and_conflicts_all_minimal_inconsistent_ones(count):
     conflicts_seen = ties_seen = 0
-    for words, answer in random_diagnoses():
+    for words, answer in random_diagnoses(count):
         conflicts, dependent, is_near = brute_force(words)
         if is_near:
             continue
@@ -251,12 +259,13 @@ def test_ties_are_all_minimal_dependent_sets_and_conflicts_all_minimal_inconsist
         assert {frozenset(tie.addresses) for tie in answer.diagnosis.ties if tie.is_conflict} == conflicts, words
         assert answer.diagnosis.ties_complete
         conflicts_seen, ties_seen = conflicts_seen + len(conflicts), ties_seen + len(dependent)
-    assert conflicts_seen > 250
-    assert ties_seen > conflicts_seen + 250
+    assert conflicts_seen > count / 2
+    assert ties_seen > conflicts_seen + count / 2
 
 
-def test_status_is_that_of_the_ranks():
-    for words, answer in random_diagnoses():
+@FOR_DIAGNOSES
+def test_status_is_that_of_the_ranks(count):
+    for words, answer in random_diagnoses(count):
         conflicts, dependent, is_near = brute_force(words)
         if is_near:
             continue
@@ -274,9 +283,10 @@ def test_status_is_that_of_the_ranks():
             assert status in ("overdetermined" if dependent else "solved", "no-solution"), said
 
 
-def test_amount_of_a_tie_is_the_largest_change_of_one_word_that_makes_it_agree():
+@FOR_DIAGNOSES
+def test_amount_of_a_tie_is_the_largest_change_of_one_word_that_makes_it_agree(count):
     seen = 0
-    for words, answer in random_diagnoses():
+    for words, answer in random_diagnoses(count):
         for tie in answer.diagnosis.ties if answer.diagnosis else ():
             own = {name: words[name] for name in tie.addresses}
             matrix, right = rows_of(own)
@@ -284,12 +294,13 @@ def test_amount_of_a_tie_is_the_largest_change_of_one_word_that_makes_it_agree()
             expected = max(abs(float(weights @ right) / weights))
             assert tie.off_by_mm == pytest.approx(expected, rel=1e-9, abs=1e-9), (words, tie)
             seen += tie.is_conflict
-    assert seen > 500
+    assert seen > count
 
 
-def test_freedoms_are_the_null_space_seen_at_each_point():
+@FOR_DIAGNOSES
+def test_freedoms_are_the_null_space_seen_at_each_point(count):
     seen = Counter()
-    for words, answer in random_diagnoses():
+    for words, answer in random_diagnoses(count):
         if answer.diagnosis is None:
             continue
         matrix, _ = rows_of(words)
@@ -310,12 +321,13 @@ def test_freedoms_are_the_null_space_seen_at_each_point():
                 assert motion[list(columns)] == pytest.approx(direction, abs=1e-9), words
                 assert matrix @ motion == pytest.approx(numpy.zeros(len(matrix)), abs=1e-9), words
             seen[dimension] += 1
-    assert min(seen[dimension] for dimension in (0, 1, 2)) > 50
+    assert min(seen[dimension] for dimension in (0, 1, 2)) > count / 10
 
 
-def test_identities_hold_for_every_consistent_block_that_has_them():
+@few_and_many(10, 60)
+def test_identities_hold_for_every_consistent_block_that_has_them(count):
     random, seen = Random(4), set()
-    for _ in range(150):
+    for _ in range(count):
         v1, v2 = (complex(random.uniform(5, 50), random.uniform(5, 50)) for _ in range(2))
         z, x = random.uniform(-50, 50), random.uniform(20, 60)
         if abs(v2 - v1) < 1:
@@ -390,7 +402,7 @@ def good_words(random: Random) -> tuple[Words, Answer]:
         words = {name: random.choice((1, 2, 3)) * Decimal("0.254") if name in "CPDQ"
                  else Decimal(15 * random.randint(-11, 12)) if name in "AB"
                  else random.choice((-3, -2, -1, 1, 2, 3)) * Decimal("12.7") for name in names}  # fmt: skip
-        answer = answer_to(block_of(words))
+        answer = answer_to(block_of(words), depth="verdict")
         if answer.status.value == "solved" and not answer.diagnostics:
             return words, answer
 
@@ -451,10 +463,10 @@ def broken(random: Random, kind: str) -> Case:
                 return Case(kind, words, with_comma=random.choice(list(words)))
 
 
-@lru_cache(maxsize=1)
-def broken_blocks() -> list[tuple[Case, Answer]]:
+@lru_cache
+def broken_blocks(count: int) -> list[tuple[Case, Answer]]:
     random = Random(5)
-    cases = [broken(random, KINDS[number % len(KINDS)]) for number in range(150)]
+    cases = [broken(random, KINDS[number % len(KINDS)]) for number in range(count)]
     return [(case, case.solve()) for case in cases]
 
 
@@ -483,9 +495,10 @@ def same_contour(one: Any, other: Any, tolerance: float = AGREEMENT) -> bool:
     return all(hypot(a[0] - b[0], a[1] - b[1]) <= tolerance for a, b in pairs)
 
 
-def test_fix_applied_solves_the_block_and_removes_its_findings():
+@FOR_BLOCKS
+def test_fix_applied_solves_the_block_and_removes_its_findings(count):
     seen = Counter()
-    for case, answer in broken_blocks():
+    for case, answer in broken_blocks(count):
         old = {finding.code for finding in answer.diagnostics}
         for fix in fixes_of(answer):
             if fix.applicability is Applicability.PLACEHOLDER:
@@ -502,12 +515,15 @@ def test_fix_applied_solves_the_block_and_removes_its_findings():
                 assert each.code.endswith("-ignored"), (case.text, fix, each.code)
                 assert each.values["off_by_mm"] <= AGREEMENT, (case.text, fix)
             seen[case.kind] += 1
-    assert all(seen[kind] > 5 for kind in KINDS if kind != "missing"), seen
+    # Not every block of a kind has a fix.
+    assert len(seen) >= 8, seen
+    assert count < 60 or all(seen[kind] > count / 30 for kind in KINDS if kind != "missing"), seen
 
 
-def test_fix_offered_with_the_rules_off_removes_the_findings_that_it_was_offered_for():
+@FOR_BLOCKS
+def test_fix_offered_with_the_rules_off_removes_the_findings_that_it_was_offered_for(count):
     wrong = []
-    for case, _ in broken_blocks()[:150]:
+    for case, _ in broken_blocks(count):
         answer = case.solve(rules="off")
         old = {finding.code for finding in answer.diagnostics if finding.severity is not Severity.INFO}
         for fix in fixes_of(answer):
@@ -518,12 +534,13 @@ def test_fix_offered_with_the_rules_off_removes_the_findings_that_it_was_offered
     assert wrong == []
 
 
-def test_no_two_fixes_write_the_same_numbers_and_none_writes_the_old_one():
+@FOR_BLOCKS
+def test_no_two_fixes_write_the_same_numbers_and_none_writes_the_old_one(count):
     def meaning(text: str) -> frozenset[tuple[str, str]]:
         words = re.findall(r"([A-Z])([-+0-9.,?]+)", text)
         return frozenset((name, _number(name, value)) for name, value in words)
 
-    for case, answer in broken_blocks():
+    for case, answer in broken_blocks(count):
         for each in (answer, case.solve(rules="off")):
             # What mends both of two findings stands with both.
             for fixes in {finding.fixes for finding in each.diagnostics}:
@@ -543,19 +560,21 @@ def _number(name: str, text: str) -> str:
     return str(((value + 360) % 360).normalize()) if abs(value) <= 360 else text
 
 
-def test_every_broken_block_that_one_word_would_mend_has_a_fix():
+@FOR_BLOCKS
+def test_every_broken_block_that_one_word_would_mend_has_a_fix(count):
     without = [
         (case.kind, case.text)
-        for case, answer in broken_blocks()
+        for case, answer in broken_blocks(count)
         if answer.diagnostics and case.kind != "sign" and not fixes_of(answer)
     ]
     assert without == []
 
 
-def test_every_single_word_whose_dropping_mends_a_block_is_offered():
+@FOR_BLOCKS
+def test_every_single_word_whose_dropping_mends_a_block_is_offered(count):
     """Against trying each word."""
     missing, seen = [], 0
-    for case, answer in broken_blocks():
+    for case, answer in broken_blocks(count):
         if not answer.diagnostics or case.kind == "comma":  # that word is corrected, not dropped
             continue
         offered = {fix.replacement for fix in fixes_of(answer)}
@@ -567,12 +586,13 @@ def test_every_single_word_whose_dropping_mends_a_block_is_offered():
                 seen += 1
                 missing += [(case.text, words[index])] if text not in offered else []
     assert missing == []
-    assert seen > 100
+    assert seen > count * 2 / 3
 
 
-def test_safe_fix_keeps_the_contour_and_no_other_fix_is_called_so():
+@FOR_BLOCKS
+def test_safe_fix_keeps_the_contour_and_no_other_fix_is_called_so(count):
     seen = Counter()
-    for case, answer in broken_blocks():
+    for case, answer in broken_blocks(count):
         reference = answer.contour or case.solve(rules="off").contour
         for fix in fixes_of(answer):
             if fix.applicability is Applicability.PLACEHOLDER:
@@ -583,19 +603,21 @@ def test_safe_fix_keeps_the_contour_and_no_other_fix_is_called_so():
             is_kept = not re.search("delete [MSTF]", fix.description)
             assert (fix.applicability is Applicability.SAFE) == (is_same and is_kept), (case.text, fix)
             seen[fix.applicability] += 1
-    assert min(seen.values()) > 50
+    assert min(seen.values()) > count / 3
 
 
-def test_no_fix_contains_another_one():
-    for case, answer in broken_blocks():
+@FOR_BLOCKS
+def test_no_fix_contains_another_one(count):
+    for case, answer in broken_blocks(count):
         unmoved = [fix for fix in fixes_of(answer) if "move " not in fix.description]
         changes = [changed_words(case.text, fix.replacement) for fix in unmoved]
         assert len(set(changes)) == len(changes), case.text
         assert not any(one < other for one in changes for other in changes), (case.text, fixes_of(answer))
 
 
-def test_fix_says_where_the_contour_then_ends():
-    for case, answer in broken_blocks():
+@FOR_BLOCKS
+def test_fix_says_where_the_contour_then_ends(count):
+    for case, answer in broken_blocks(count):
         for fix in fixes_of(answer):
             found = re.search(r"the contour ends at Z(\S+) mm X(\S+) mm", fix.description)
             assert bool(found) == (fix.applicability is not Applicability.PLACEHOLDER), fix
@@ -608,9 +630,10 @@ def test_fix_says_where_the_contour_then_ends():
 NUMBERS = ("30.", "-30.", "120.", "5.", "-150.", "67.")
 
 
-def test_placeholder_makes_a_legal_determined_block_for_some_number():
+@FOR_BLOCKS
+def test_placeholder_makes_a_legal_determined_block_for_some_number(count):
     random, solved, seen = Random(6), 0, 0
-    for case, answer in broken_blocks():
+    for case, answer in broken_blocks(count):
         placeholders = [fix for fix in fixes_of(answer) if fix.applicability is Applicability.PLACEHOLDER]
         for fix in random.sample(placeholders, min(3, len(placeholders))):
             assert "?" in fix.replacement
@@ -621,7 +644,7 @@ def test_placeholder_makes_a_legal_determined_block_for_some_number():
             assert statuses & {"solved", "no-solution"}, (case.text, fix, statuses)
             assert "rejected" not in statuses, (case.text, fix)
             solved, seen = solved + ("solved" in statuses), seen + 1
-    assert seen > 25
+    assert seen > count / 6
     assert solved > seen / 2
 
 
@@ -668,9 +691,10 @@ def verdict(answer: Answer) -> dict[str, Any]:
 
 @pytest.mark.parametrize("rules", ["enforce", "off"])
 @pytest.mark.parametrize("change", [shuffled, mirrored, shifted, in_inches])
-def test_diagnosis_does_not_depend_on_order_unit_mirror_image_or_shift(change, rules):
+@FOR_BLOCKS
+def test_diagnosis_does_not_depend_on_order_unit_mirror_image_or_shift(change, rules, count):
     wrong = []
-    for case, before in broken_blocks()[:120]:
+    for case, before in broken_blocks(count):
         start = (Decimal("38.1"), case.start[1]) if change is in_inches else case.start
         units = "inch" if change is in_inches else "mm"
         if change is in_inches and case.kind in ("agrees", "x and u"):
@@ -683,8 +707,9 @@ def test_diagnosis_does_not_depend_on_order_unit_mirror_image_or_shift(change, r
     assert wrong == []
 
 
-def test_repairs_do_not_depend_on_the_order_of_words():
-    for case, answer in broken_blocks():
+@FOR_BLOCKS
+def test_repairs_do_not_depend_on_the_order_of_words(count):
+    for case, answer in broken_blocks(count):
         other = shuffled(case).solve()
         assert {frozenset(fix.replacement.split()) for fix in fixes_of(answer)} == {
             frozenset(fix.replacement.split()) for fix in fixes_of(other)
@@ -723,7 +748,7 @@ def exact_v1(a: Decimal, b: Decimal, x: Decimal, z: Decimal) -> tuple[Any, Any]:
 
 
 @pytest.mark.parametrize("half_turn", [0, 180])
-@pytest.mark.parametrize("sign", [1, -1])
+@pytest.mark.parametrize("sign", [1, pytest.param(-1, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("aside", ["on the way", "10 mm aside"])
 def test_lines_ever_more_parallel_are_never_solved_wrongly(half_turn, sign, aside):
     statuses = []
@@ -752,7 +777,7 @@ def test_lines_ever_more_parallel_are_never_solved_wrongly(half_turn, sign, asid
         assert "solved" not in statuses[3:] or aside != "on the way"
 
 
-@pytest.mark.parametrize("sign", [1, -1])
+@pytest.mark.parametrize("sign", [1, pytest.param(-1, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("side", [1, -1])
 @pytest.mark.parametrize("circle", ["I-50", "X-50 Y0 R50", "X-50 Y0 I-50"])
 def test_line_ever_closer_to_touching_the_circle_is_never_solved_wrongly(sign, side, circle):
@@ -804,24 +829,31 @@ def test_layer_that_could_not_run_says_so_and_why(text, rules, start, not_run, r
     assert all(layers[name].verdict is not Verdict.NOT_RUN for name in LAYERS[: LAYERS.index(first)])
 
 
-def test_layers_never_contradict_the_status():
-    for _, answer in broken_blocks():
+@FOR_BLOCKS
+def test_layers_never_contradict_the_status(count):
+    for _, answer in broken_blocks(count):
         assert_layers_fit(answer)
-    for _, answer in random_diagnoses():
+
+
+@FOR_DIAGNOSES
+def test_layers_of_random_words_never_contradict_the_status(count):
+    for _, answer in random_diagnoses(count):
         assert_layers_fit(answer)
 
 
 # What-if and completions ------------------------------------------------------------------------------
 
 
-def test_what_if_without_an_edit_is_solve():
-    for case, answer in broken_blocks()[:60]:
+@FOR_BLOCKS
+def test_what_if_without_an_edit_is_solve(count):
+    for case, answer in broken_blocks(count):
         (same,) = what_if(case.text, control="yasnac-lx3", start=case.start_text).answers
         assert same == answer, case.text
 
 
-def test_what_if_does_what_its_words_say():
-    for case, _ in broken_blocks()[:60]:
+@FOR_BLOCKS
+def test_what_if_does_what_its_words_say(count):
+    for case, _ in broken_blocks(count):
         if case.kind == "comma":
             continue
         name, *_ = case.words
@@ -841,10 +873,11 @@ def test_what_if_refuses_to_edit_a_word_that_is_not_there_once(address):
         what_if("G111 A135. I10. Z-40. Z-40.", drop=[address], start=START)
 
 
-def test_completions_are_exactly_the_words_that_make_a_block_legal_and_determined():
+@FOR_BLOCKS
+def test_completions_are_exactly_the_words_that_make_a_block_legal_and_determined(count):
     """Restated from the manual: the missing one of two of A, I, K or of two of line 2."""
     seen = 0
-    for case, answer in broken_blocks():
+    for case, answer in broken_blocks(count):
         found = completions(case.text, control="yasnac-lx3", start=case.start_text)
         if case.kind != "missing" or answer.status.value == "solved":
             continue
@@ -876,7 +909,7 @@ def test_completions_are_exactly_the_words_that_make_a_block_legal_and_determine
             tried = [replace(case, words=case.words | {name: Decimal(number)}).solve() for number in numbers]
             assert not any(each.contour for each in tried), (case.text, name)
         seen += len(addresses)
-    assert seen > 40
+    assert seen > count / 4
 
 
 def test_completion_with_a_contour_solves():
@@ -893,8 +926,9 @@ def test_completion_with_a_contour_solves():
     assert hypot(first[0] - second[0], first[1] - second[1]) > 1
 
 
-def test_completions_without_a_contour_end_with_a_question_mark():
-    for case, _ in broken_blocks()[:60]:
+@FOR_BLOCKS
+def test_completions_without_a_contour_end_with_a_question_mark(count):
+    for case, _ in broken_blocks(count):
         for each in completions(case.text, control="yasnac-lx3", start=case.start_text):
             assert each.word in each.block
             assert each.word.endswith("?") == (each.contour is None)

@@ -87,17 +87,19 @@ def block(letters: frozenset[str]) -> str:
     return " ".join(("G111", *(WORDS[letter] for letter in LETTERS if letter in letters)))
 
 
-@pytest.fixture(scope="module")
-def results() -> dict[tuple[str, frozenset[str]], Result]:
+@pytest.fixture(scope="module", params=["some", pytest.param("all", marks=pytest.mark.slow)])
+def results(request) -> dict[tuple[str, frozenset[str]], Result]:
+    legal = [letters for letters in SETS if not refuses(letters)]
+    some = [*legal[::6], *SETS[::50]]
     return {
         (rules, letters): solve(block(letters), control="yasnac-lx3", start=START, rules=rules, depth="verdict")
         for rules in ("enforce", "warn", "off")
-        for letters in SETS
+        for letters in (SETS if request.param == "all" else some)
     }
 
 
 def statuses(results, rules):
-    return {letters: results[rules, letters].answers[0].status.value for letters in SETS}
+    return {letters: result.answers[0].status.value for (own, letters), result in results.items() if own == rules}
 
 
 def differences(found, expected):
@@ -108,15 +110,19 @@ def differences(found, expected):
     }
 
 
-def test_all_4096_sets_have_one_contour_with_a_status(results):
+def test_276_of_4096_sets_are_legal():
     assert len(SETS) == 4096
+    assert sum(not refuses(letters) for letters in SETS) == 276
+
+
+def test_every_set_has_one_contour_with_a_status(results):
     assert all(len(result.answers) == 1 for result in results.values())
 
 
 def test_a_set_is_rejected_exactly_when_the_sheet_refuses_it(results):
     found = statuses(results, "enforce")
-    assert {block(each) for each in SETS if found[each] == "rejected"} == {
-        block(each) for each in SETS if refuses(each)
+    assert {block(each) for each in found if found[each] == "rejected"} == {
+        block(each) for each in found if refuses(each)
     }
 
 
@@ -124,7 +130,7 @@ def test_a_legal_set_has_the_status_of_the_words_that_the_control_uses(results):
     found = statuses(results, "enforce")
     legal = {letters: status for letters, status in found.items() if not refuses(letters)}
     assert differences(legal, lambda letters: geometry(used(letters))) == {}
-    assert len(legal) == 276
+    assert len(legal) >= 46
 
 
 def test_without_rules_a_set_has_the_status_of_the_geometry(results):
@@ -132,7 +138,7 @@ def test_without_rules_a_set_has_the_status_of_the_geometry(results):
 
 
 def test_rules_as_warnings_refuse_nothing_and_keep_the_refusal(results):
-    for letters in SETS:
+    for letters in statuses(results, "warn"):
         result = results["warn", letters]
         strict = {each.code for each in results["enforce", letters].diagnostics if each.basis.value == "rule"}
         assert result.answers[0].status.value != "rejected"

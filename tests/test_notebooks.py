@@ -19,12 +19,13 @@ LINUXCNC = "linuxcnc"
 
 
 @pytest.fixture(scope="module")
-def executed(tmp_path_factory):
-    """A folder with every notebook executed again, and what was said of those that failed. The kernels run apart
-    from the tests: what Jupyter warns of is no warning of ours."""
+def executed(request, tmp_path_factory):
+    """A folder with every notebook that this run looks at executed again, and what was said of those that failed.
+    The kernels run apart from the tests: what Jupyter warns of is no warning of ours."""
+    looking = [item for item in request.session.items if "executed" in getattr(item, "fixturenames", ())]
     folder = tmp_path_factory.mktemp("notebooks")
     done = subprocess.run(
-        [sys.executable, str(RUNNER), "--into", str(folder)],
+        [sys.executable, str(RUNNER), "--into", str(folder), *(str(item.callspec.params["path"]) for item in looking)],
         capture_output=True,
         text=True,
         encoding="utf-8",
@@ -50,7 +51,11 @@ def test_there_is_one_notebook_of_each_number():
     assert [path.name[:2] for path in NOTEBOOKS] == NAMES
 
 
-@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+@pytest.mark.parametrize(
+    "path",
+    [NOTEBOOKS[0], *(pytest.param(path, marks=pytest.mark.slow) for path in NOTEBOOKS[1:])],
+    ids=lambda path: path.stem,
+)
 def test_a_notebook_runs_and_shows_what_this_version_gives(path, executed):
     folder, errors = executed
     again = folder / path.name
