@@ -384,11 +384,17 @@ def test_json_of_check_names_each_finding_and_its_program():
     Draft202012Validator({"type": "array", "items": DIAGNOSTIC}).validate(findings)
 
 
-def test_two_processes_write_the_same_bytes():
-    for path in (BROKEN, PLATE):
-        for form in ("text", "json"):
-            first = run_process("solve", path, "--format", form, PYTHONHASHSEED="1")
-            assert first == run_process("solve", path, "--format", form, PYTHONHASHSEED="2")
+@pytest.mark.parametrize(
+    ("path", "form"),
+    [
+        (BROKEN, "json"),
+        *(pytest.param(*case, marks=pytest.mark.slow) for case in ((BROKEN, "text"), (PLATE, "text"), (PLATE, "json"))),
+    ],
+    ids=["broken-json", "broken-text", "plate-text", "plate-json"],
+)
+def test_two_processes_write_the_same_bytes(path, form):
+    first = run_process("solve", path, "--format", form, PYTHONHASHSEED="1")
+    assert first == run_process("solve", path, "--format", form, PYTHONHASHSEED="2")
 
 
 # --- Bad inputs ------------------------------------------------------------------------------------
@@ -467,12 +473,15 @@ BAD = {
     "1 MB of brackets": (START + "G111 A" + "[" * 1_000_000, "block-too-long"),
     "1 MB of commas": (START + "G111 " + "," * 1_000_000, "block-too-long"),
     "1 MB of an open comment": (GOOD + " (" + "(" * 1_000_000, "comment-not-closed"),
+    "500 bad lines": ("G111 A\n" * 500, "number-missing position-unknown"),
     "5,000 bad lines": ("G111 A\n" * 5_000, "number-missing position-unknown"),
 }
+LONG = ("5,000 bad lines", "1 MB of an open comment")
+"""Seconds are spent on them."""
 WARNINGS = {"comment-not-closed"}
 
 
-@pytest.mark.parametrize("name", BAD)
+@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.slow] * (name in LONG)) for name in BAD])
 def test_bad_input_gives_one_clear_finding(name, save):
     text, expected = BAD[name]
     path, began = save(text), time.process_time()
@@ -487,7 +496,14 @@ def test_bad_input_gives_one_clear_finding(name, save):
     assert is_harmless or not any(each["end"] for each in document["contours"])
 
 
-@pytest.mark.parametrize("name", [name for name, (text, _) in BAD.items() if len(text) > 30_000])
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(name, marks=[pytest.mark.slow] * (name in LONG))
+        for name, (text, _) in BAD.items()
+        if len(text) > 30_000
+    ],
+)
 def test_listing_of_a_huge_program_is_quick_and_its_lines_are_short(name, save):
     text, _ = BAD[name]
     path, began = save(text), time.process_time()
@@ -526,7 +542,10 @@ UNREAD = {
 }
 
 
-@pytest.mark.parametrize("name", UNREAD)
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(name, marks=[] if name in ("solve, errors", "bad usage") else pytest.mark.slow) for name in UNREAD],
+)
 def test_the_exit_status_is_the_same_if_nobody_reads_the_output(name):
     command = [sys.executable, "-m", "contoursolve", *UNREAD[name]]
     status = run(*UNREAD[name])[0]
@@ -595,7 +614,7 @@ def test_standard_input_is_read_like_a_file(save):
     for name in ("UTF-8", "Latin-1", "CRLF"):
         from_file = solve_json(save(ENCODINGS[name]))
         assert solve_json("-", stdin=ENCODINGS[name]) == {**from_file, "program": "<standard input>"}
-        assert run_process("solve", "-", "--format", "json", stdin=ENCODINGS[name])[0] == 0
+    assert run_process("solve", "-", "--format", "json", stdin=ENCODINGS["Latin-1"])[0] == 0
     assert run("check", "-", stdin=b"\x00\x01")[0] == 2
     assert run("check", "-", stdin=b"")[0] == 0
 

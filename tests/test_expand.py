@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
+from examples import law
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from interpreter import RefusedError, assert_path, interpret, needs_rs274
@@ -117,7 +118,7 @@ LATHE = Plane("G18", ("Z", "X"), ("K", "I"), (False, True))
     st.integers(1, 5),
     st.integers(0, 4),
 )
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=200, deadline=None)
 def test_a_rounded_arc_is_valid_and_as_near_as_reported(
     z, x, radius, begin, sweep, turn, arcs, is_incremental, decimals, arc_decimals
 ):
@@ -171,7 +172,7 @@ TARGETS = {"same": ("yasnac-lx3", "nct-99m"), "fanuc": ("fanuc-lathe", "fanuc-mi
 
 @pytest.mark.parametrize("post", TARGETS)
 @pytest.mark.parametrize("arcs", ["center", "radius"])
-@pytest.mark.parametrize("decimals", [1, 2, 3, 4])
+@pytest.mark.parametrize("decimals", [1, *(pytest.param(more, marks=pytest.mark.slow) for more in (2, 3, 4))])
 @pytest.mark.parametrize("unit", ["mm", "inch"])
 def test_with_few_decimals_every_arc_is_still_one(post, arcs, decimals, unit):
     programs = [PROGRAMS.joinpath(f"{name}.nc").read_text() for name in ("shaft", "roller", "plate", "cover")]
@@ -491,12 +492,13 @@ def test_a_code_that_a_control_of_ones_own_reads_as_the_target_does_is_not_read_
 
 @needs_rs274
 @pytest.mark.parametrize("machine", Machine)
-def test_linuxcnc_stops_at_every_code_of_which_no_row_says_what_it_does(machine, tmp_path):
+@pytest.mark.parametrize("stride", [15, pytest.param(1, marks=pytest.mark.slow)])
+def test_linuxcnc_stops_at_every_code_of_which_no_row_says_what_it_does(machine, stride, tmp_path):
     reading = LINUXCNC.readings[machine]
     opening = LINUXCNC.opening[machine].format(unit="G21")
     codes = [code for code in range(120) if code not in reading.g and f"G{code}" not in reading.otherwise]
     assert len(codes) > 50
-    for code in codes:
+    for code in codes[::stride]:
         for words in ("", "X50. Z-60.", "Z-60. R1. Q1. P1"):
             with pytest.raises(RefusedError):
                 interpret(f"{opening} F100\nG00 X40. Z0.\nG{code} {words}\nM2\n", tmp_path)
@@ -567,12 +569,13 @@ def test_a_text_without_a_contour_comes_out_as_it_was(text, control):
         assert contoursolve.expand(text, control=control, keep_going=True).text == text
 
 
-@given(
+@law(
     st.lists(PLAIN | st.just(START + TAPER + " P2.") | st.just("G111 A180."), max_size=12),
     ENDS,
     st.sampled_from(["same", "linuxcnc", "fanuc"]),
+    few=25,
+    derandomize=False,
 )
-@settings(deadline=None)
 def test_only_contours_change_and_only_once(blocks, end, post):
     blocks = [each.replace("\n", end) for each in blocks]
     text = end.join(blocks)
@@ -651,7 +654,7 @@ MILL_LINES = (
 )
 
 
-@given(
+@law(
     st.sampled_from(("yasnac-lx3", "nct-99m")).flatmap(
         lambda control: st.tuples(
             st.just(control),
@@ -659,8 +662,10 @@ MILL_LINES = (
         )
     ),
     st.sampled_from((1, 2, 3, 1000)),
+    few=50,
+    many=300,
+    derandomize=False,
 )
-@settings(deadline=None, max_examples=300)
 def test_a_program_that_is_read_as_a_stream_has_the_same_contours(program, batch):
     control, lines = program
     dialect = DIALECTS[control]
@@ -686,7 +691,7 @@ def path_of(text, control):
     return follow(result, dialect, Length.MM, dialect.modes.axes)
 
 
-@given(
+@law(
     st.sampled_from(("yasnac-lx3", "nct-99m")).flatmap(
         lambda control: st.tuples(
             st.just(control),
@@ -696,9 +701,10 @@ def path_of(text, control):
                 max_size=10,
             ),
         )
-    )
+    ),
+    few=25,
+    derandomize=False,
 )
-@settings(deadline=None, max_examples=300)
 def test_what_is_left_means_the_same_and_expanding_again_changes_nothing(program):
     control, lines = program
     text = "\n".join(("G00 X40. Z0." if control == "yasnac-lx3" else "G17 G41 G0 X50 Y0 D1", *lines))
@@ -758,7 +764,7 @@ TAILS = [b"\n", b"\r\n", b"\r", b""]
     st.sampled_from(["same", "linuxcnc", "fanuc"]),
     st.sampled_from([b"", b"\xef\xbb\xbf"]),
 )
-@settings(deadline=None, max_examples=100)
+@settings(deadline=None, max_examples=40)
 def test_a_file_without_a_contour_keeps_every_byte(pieces, post, mark):
     data = mark + b"".join(each if isinstance(each, bytes) else each.encode() for each in pieces)
     for arguments in ((), ("--control", "yasnac-lx3")):
@@ -805,6 +811,7 @@ def test_in_place_keeps_every_older_file(tmp_path):
     assert len(list(tmp_path.iterdir())) == 3
 
 
+@pytest.mark.slow
 def test_killed_at_any_moment_a_file_is_the_old_one_or_the_whole_new_one(tmp_path):
     text = "G00 X40. Z0.\n" + f"{START}{TAPER} P2.\n" * 300
     old = tmp_path / "old.nc"
@@ -842,11 +849,14 @@ main(["expand", "--in-place", sys.argv[2]])
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there is no SIGKILL")
-def test_killed_before_any_step_on_a_file_nothing_is_lost(tmp_path):
+@pytest.mark.parametrize(
+    ("steps", "least"), [((5, 39), 2), pytest.param(range(1, 40), 9, marks=pytest.mark.slow)], ids=["some", "all"]
+)
+def test_killed_before_any_step_on_a_file_nothing_is_lost(steps, least, tmp_path):
     text = START + TAPER + "\n"
     whole = contoursolve.expand(text).text
     outcomes = []
-    for step in range(1, 40):
+    for step in steps:
         folder = tmp_path / str(step)
         folder.mkdir()
         old = folder / "old.nc"
@@ -861,7 +871,7 @@ def test_killed_before_any_step_on_a_file_nothing_is_lost(tmp_path):
             break
     assert {code for code, _ in outcomes[:-1]} == {-9}
     assert [done for _, done in outcomes] == sorted(done for _, done in outcomes)
-    assert len(outcomes) > 8
+    assert len(outcomes) >= least
     assert outcomes[-1] == (0, True)
 
 
@@ -870,7 +880,11 @@ def test_killed_before_any_step_on_a_file_nothing_is_lost(tmp_path):
 
 @pytest.mark.skipif(sys.platform == "win32", reason="an open file cannot be cut there")
 @pytest.mark.parametrize(
-    "change", [lambda file: os.truncate(file, file.stat().st_size - 7), lambda file: file.write_text("")]
+    "change",
+    [
+        pytest.param(lambda file: os.truncate(file, file.stat().st_size - 7), id="shorter"),
+        pytest.param(lambda file: file.write_text(""), id="empty", marks=pytest.mark.slow),
+    ],
 )
 def test_a_program_that_is_cut_while_it_is_expanded_is_noticed(change, tmp_path):
     old = tmp_path / "old.nc"
@@ -887,27 +901,32 @@ def test_a_program_that_is_cut_while_it_is_expanded_is_noticed(change, tmp_path)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there are no pseudo-terminals")
-def test_progress_is_shown_on_a_terminal_and_nowhere_else(tmp_path):
+@pytest.mark.parametrize(
+    ("lines", "is_terminal", "is_shown"),
+    [
+        (30_000, True, True),
+        pytest.param(30_000, False, False, marks=pytest.mark.slow),
+        pytest.param(30, True, False, marks=pytest.mark.slow),
+    ],
+)
+def test_progress_is_shown_on_a_terminal_and_nowhere_else(lines, is_terminal, is_shown, tmp_path):
     import pty  # noqa: PLC0415 - only where there are terminals
 
     old, new = tmp_path / "old.nc", tmp_path / "new.nc"
-    for lines, is_terminal, is_shown in ((30_000, True, True), (30_000, False, False), (30, True, False)):
-        old.write_text(START + "G01 X41. F.1\n" * lines + START + TAPER + "\n")
-        with new.open("wb") as out:
-            mine, its = pty.openpty() if is_terminal else os.pipe()
-            process = subprocess.Popen(
-                [sys.executable, "-m", "contoursolve", "expand", str(old)], stdout=out, stderr=its
-            )
-            os.close(its)
-            said = b""
-            while piece := _read(mine):
-                said += piece
-            os.close(mine)
-            assert process.wait() == 0
-        assert (b"expanding  [" in said) == is_shown
-        assert (b"100%" in said) == is_shown
-        assert said.decode().splitlines()[-1] == "1 contour expanded, at most 0.0005 mm off"
-        assert new.read_text() == contoursolve.expand(old.read_text()).text
+    old.write_text(START + "G01 X41. F.1\n" * lines + START + TAPER + "\n")
+    with new.open("wb") as out:
+        mine, its = pty.openpty() if is_terminal else os.pipe()
+        process = subprocess.Popen([sys.executable, "-m", "contoursolve", "expand", str(old)], stdout=out, stderr=its)
+        os.close(its)
+        said = b""
+        while piece := _read(mine):
+            said += piece
+        os.close(mine)
+        assert process.wait() == 0
+    assert (b"expanding  [" in said) == is_shown
+    assert (b"100%" in said) == is_shown
+    assert said.decode().splitlines()[-1] == "1 contour expanded, at most 0.0005 mm off"
+    assert new.read_text() == contoursolve.expand(old.read_text()).text
 
 
 def _read(descriptor):
@@ -968,13 +987,18 @@ def test_linuxcnc_opens_an_old_program_through_the_filter(tmp_path):
     ("data", "status", "message"),
     [
         (START.encode() + b"G111 A180. B120. X100.\n", 1, "error[g111-line-1]"),
-        (b"G111 A1.\nG1 X1 Y1 ,A5\n", 2, "say which with --control yasnac-lx3|nct-99m"),
         (b"\x00\x01binary", 2, "is not a text file"),
-        (None, 2, "no such file"),
-        (b"", 0, "nothing to expand"),
-        (b"(ONLY A COMMENT)", 0, "nothing to expand"),
+        *(
+            pytest.param(*case, marks=pytest.mark.slow)
+            for case in (
+                (b"G111 A1.\nG1 X1 Y1 ,A5\n", 2, "say which with --control yasnac-lx3|nct-99m"),
+                (None, 2, "no such file"),
+                (b"", 0, "nothing to expand"),
+                (b"(ONLY A COMMENT)", 0, "nothing to expand"),
+            )
+        ),
     ],
-    ids=["not solved", "two controls", "binary", "missing", "empty", "comment"],
+    ids=["not solved", "binary", "two controls", "missing", "empty", "comment"],
 )
 def test_linuxcnc_is_told_why_the_filter_fails(data, status, message, tmp_path):
     old = tmp_path / "old.nc"

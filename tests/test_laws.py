@@ -6,7 +6,6 @@ elements are equal, and all coordinates to 1e-9 mm.
 """
 
 from collections import Counter
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from math import atan2, degrees, hypot
@@ -14,6 +13,7 @@ from random import Random
 from typing import Any
 
 import pytest
+from examples import law
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from oracle import PLANES
@@ -25,7 +25,6 @@ TOLERANCE = 1e-9
 
 LATHE, MILL = "yasnac-lx3", "nct-99m"
 NOT_LENGTHS = {LATHE: ("A", "B"), MILL: (",A", "Q")}
-FEW_OR_MANY = pytest.mark.parametrize("count", [20, pytest.param(200, marks=pytest.mark.slow)])
 
 Words = dict[str, Decimal]
 
@@ -187,20 +186,6 @@ def assert_alike(problem: Problem, other: Answer, is_mirrored: bool = False, shi
 
 
 # Laws -------------------------------------------------------------------------------------------------
-
-
-def law(*strategies: st.SearchStrategy[Any]) -> Callable[[Callable[..., None]], Callable[[int], None]]:
-    """A law of what is drawn, held against few examples, and as a slow test against many."""
-
-    def hold(check: Callable[..., None]) -> Callable[[int], None]:
-        @FEW_OR_MANY
-        def test(count: int) -> None:
-            settings(derandomize=True, deadline=None, max_examples=count)(given(*strategies)(check))()
-
-        test.__doc__ = check.__doc__
-        return test
-
-    return hold
 
 
 @pytest.mark.parametrize(("count", "least"), [(250, 1), pytest.param(1_000, 10, marks=pytest.mark.slow)])
