@@ -26,7 +26,8 @@ def has_contour(block, word, value, options):
 
 
 @pytest.mark.parametrize(("name", "word"), WORDS)
-def test_a_value_is_in_a_range_exactly_if_a_single_solve_has_a_contour(name, word):
+@pytest.mark.parametrize("count", [10, pytest.param(120, marks=pytest.mark.slow)])
+def test_a_value_is_in_a_range_exactly_if_a_single_solve_has_a_contour(name, word, count):
     block, options, ranges = CASES[name]
     low, high = ranges.get(word, (0, 360))
     found = feasible(block, word, within=(low, high), **options)
@@ -34,7 +35,7 @@ def test_a_value_is_in_a_range_exactly_if_a_single_solve_has_a_contour(name, wor
     ends = [end for each in found.intervals for end in (each.low, each.high)]
     assert all(end.is_verified for end in ends), [end for end in ends if not end.is_verified]
     rng = np.random.default_rng(len(name))
-    values = {round(float(value), 3) for value in rng.uniform(low, high, 120)}
+    values = {round(float(value), 3) for value in rng.uniform(low, high, count)}
     values |= {round(end.value + step, 3) for end in ends for step in (-0.003, -0.001, 0, 0.001, 0.003)}
     for value in sorted(values):
         if low <= value <= high and all(abs(value - end.value) > 2e-5 for end in ends):
@@ -181,7 +182,7 @@ def crossings(found, value):
             yield second[place] + share * (second[place + 1] - second[place])
 
 
-@pytest.mark.parametrize("name", REGIONS)
+@pytest.mark.parametrize("name", [pytest.param(n, marks=[pytest.mark.slow] * (n != "a circle")) for n in REGIONS])
 def test_a_cut_through_a_region_has_the_ends_of_the_range_of_the_other_word(name):
     block, options, words, within = REGIONS[name]
     found = region(block, words, within, **options)
@@ -373,7 +374,17 @@ def check_against_family(block, word, found, options):
     return bool(solved.any())
 
 
-@pytest.mark.parametrize("name", FACTS)
+QUICK = (
+    "an angle from a length",
+    "facts of which the first ones fix nothing, in inches",
+    "said twice",
+    "words that ask alone",
+    "a start point",
+    "a start point that is a block",
+)
+
+
+@pytest.mark.parametrize("name", [pytest.param(n, marks=() if n in QUICK else pytest.mark.slow) for n in FACTS])
 def test_ranges_with_facts_and_start_points_are_those_of_a_fine_family(name):
     block, options, ranges = FACTS[name]
     exists = []
@@ -419,6 +430,7 @@ def random_block(rng):
     return text, facts, rng.choice(free)
 
 
+@pytest.mark.slow
 def test_ranges_of_random_facts_are_those_of_a_fine_family():
     rng, existing = Random(5), 0
     while existing < 6:
@@ -445,11 +457,16 @@ def test_ranges_of_random_facts_are_those_of_a_fine_family():
 @pytest.mark.parametrize(
     ("name", "words"),
     [
-        ("a radius from a straight part", ("K", "straight part of line 2")),
-        ("a radius from a straight part", ("start.X", "B")),
         ("a start point", ("start.X", "P")),
         ("an angle from a length", ("K", "length of line 1")),
-        ("an angle from a point", ("R", "X of P1")),
+        *(
+            pytest.param(name, words, marks=pytest.mark.slow)
+            for name, words in (
+                ("a radius from a straight part", ("K", "straight part of line 2")),
+                ("a radius from a straight part", ("start.X", "B")),
+                ("an angle from a point", ("R", "X of P1")),
+            )
+        ),
     ],
 )
 def test_a_cut_through_a_region_with_facts_is_what_a_fine_family_shows(name, words):

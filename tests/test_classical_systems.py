@@ -349,15 +349,16 @@ KNOWN_BROKEN = {
 BY_MACHINE = {("trigonometric 5", 100.0)}
 """Left out: the root is at 1e7, where a rounding of the unknowns leaves 5e-10 on some machines, and less on others."""
 
+
+def marks(name: str, factor: float, *, may_fail: bool) -> list[pytest.MarkDecorator]:
+    found = [pytest.mark.slow] if factor == 100.0 or (name[:4] == "cheb" and factor == 10.0) else []
+    if may_fail and (name, factor) in KNOWN_BROKEN:
+        found.append(pytest.mark.xfail(strict=True, raises=AssertionError, reason=KNOWN_BROKEN[name, factor]))
+    return found
+
+
 CASES = [
-    pytest.param(
-        name,
-        factor,
-        id=f"{name} x{factor:g}",
-        marks=[pytest.mark.xfail(strict=True, raises=AssertionError, reason=KNOWN_BROKEN[name, factor])]
-        if (name, factor) in KNOWN_BROKEN
-        else [],
-    )
+    (name, factor)
     for name, problem in PROBLEMS.items()
     for factor in ((1.0, 10.0, 100.0) if any(problem.start) else (1.0,))
     if (name, factor) not in BY_MACHINE
@@ -398,7 +399,11 @@ def largest(system: System, values: Sequence[float]) -> float:
     return math.nan if any(map(math.isnan, residuals)) else max(residuals)
 
 
-@pytest.mark.parametrize(("name", "factor"), CASES)
+def cases(*, may_fail: bool) -> list[Any]:
+    return [pytest.param(*case, id="{} x{:g}".format(*case), marks=marks(*case, may_fail=may_fail)) for case in CASES]
+
+
+@pytest.mark.parametrize(("name", "factor"), cases(may_fail=True))
 def test_a_root_is_found_from(name, factor):
     problem = PROBLEMS[name]
     root = search_multiple(name, factor)
@@ -410,7 +415,7 @@ def test_a_root_is_found_from(name, factor):
     assert problem.is_regular in (None, root.is_regular)
 
 
-@pytest.mark.parametrize(("name", "factor"), [tuple(case.values) for case in CASES])
+@pytest.mark.parametrize(("name", "factor"), cases(may_fail=False))
 def test_what_is_said_to_be_found_is_a_root(name, factor):
     """The known broken ones, too."""
     problem = PROBLEMS[name]
@@ -420,7 +425,7 @@ def test_what_is_said_to_be_found_is_a_root(name, factor):
 
 
 def test_each_known_broken_case_is_a_case():
-    assert KNOWN_BROKEN.keys() <= {tuple(case.values) for case in CASES}
+    assert KNOWN_BROKEN.keys() <= set(CASES)
 
 
 @pytest.mark.parametrize("name", [name for name in PROBLEMS if (name, 1.0) not in KNOWN_BROKEN])
@@ -476,7 +481,20 @@ def abs_(value: Any) -> Any:
     return of("sqrt", value**2)
 
 
-@pytest.mark.parametrize("name", ROOTLESS)
+QUICK = (
+    "a line that misses a circle by 1e-9",
+    "a redundant system in conflict",
+    "an exponential that vanishes by underflow",
+    "a hyperbola from afar",
+    "a logarithm where it has no value",
+    "a root of a negative number",
+    "a step",
+    "an arc cosine at its end",
+    "far from zero",
+)
+
+
+@pytest.mark.parametrize("name", [pytest.param(n, marks=() if n in QUICK else pytest.mark.slow) for n in ROOTLESS])
 def test_no_root_is_found_of(name):
     system, guess = ROOTLESS[name]
     root = search(system, guess)
@@ -493,7 +511,7 @@ def test_a_guess_that_is_no_number_leads_nowhere_or_to_a_root(guess):
 @pytest.mark.parametrize(
     "name", ["helical valley", "powell badly scaled", "boggs", "sample 18", "hammarling 2", "wood gradient"]
 )
-@pytest.mark.parametrize("size", [1e-300, 1e-12, 1e20, 1e160, 1.7e308])
+@pytest.mark.parametrize("size", [1e-300, 1e-12, pytest.param(1e20, marks=pytest.mark.slow), 1e160, 1.7e308])
 def test_a_guess_of_any_size_raises_nothing(name, size):
     problem = PROBLEMS[name]
     for sign in (1.0, -1.0):
@@ -574,13 +592,14 @@ def two_circles(x: Numbers) -> list[Any]:
     return [x[0] ** 2 + x[1] ** 2 - 25.0, (x[0] - 6.0) ** 2 + x[1] ** 2 - 16.0]
 
 
-def test_a_thousand_guesses_lead_to_the_two_points_of_two_circles_or_nowhere():
+@pytest.mark.parametrize("count", [100, pytest.param(1_000, marks=pytest.mark.slow)])
+def test_guesses_lead_to_the_two_points_of_two_circles_or_nowhere(count):
     unknowns = symbols(2)
     finder = RootFinder(two_circles(unknowns), unknowns)
     draw = random.Random(20260101)
     height = 5.0 * 7.0**0.5 / 4.0
     found = [0, 0]
-    for _ in range(1000):
+    for _ in range(count):
         size = 10.0 ** draw.uniform(-2.0, 4.0)
         root = finder([draw.uniform(-size, size), draw.uniform(-size, size)])
         if root.is_found:
@@ -588,8 +607,8 @@ def test_a_thousand_guesses_lead_to_the_two_points_of_two_circles_or_nowhere():
             assert root.values == pytest.approx((3.75, height if side else -height), abs=1e-13)
             assert root.is_regular
             found[side] += 1
-    assert sum(found) == 1000
-    assert min(found) > 400
+    assert sum(found) == count
+    assert min(found) > 0.4 * count
 
 
 @pytest.mark.parametrize("shift", [1e3, 1e6])
@@ -604,7 +623,7 @@ def test_rounding_of_large_coordinates_is_no_reason_to_lose_a_root(shift):
         unknowns,
     )
     draw = random.Random(7)
-    for _ in range(100):
+    for _ in range(20):
         guess = [shift + draw.uniform(-9.0, 9.0), draw.uniform(-9.0, 9.0)]
         root = finder([guess[0], guess[1] - shift / 3.0])
         assert root.is_found
@@ -635,7 +654,13 @@ def test_the_same_guess_gives_the_same_root_whatever_was_searched_before():
     assert search(freudenstein_roth, [0.5, -2.0]) == first
 
 
-@pytest.mark.parametrize("proposal", [(math.nan, 0.0), (math.inf, 1.0), (1.5, 1.5), (7.0, 7.0)])
+@pytest.mark.parametrize(
+    "proposal",
+    [
+        (math.nan, 0.0),
+        *(pytest.param(each, marks=pytest.mark.slow) for each in ((math.inf, 1.0), (1.5, 1.5), (7.0, 7.0))),
+    ],
+)
 def test_no_finder_is_believed(proposal):
     unknowns = symbols(2)
     finder = RootFinder([unknowns[0] ** 2 + 1.0, unknowns[1]], unknowns)

@@ -128,18 +128,24 @@ def compare_circles(things: Sequence[Thing]) -> str:
     return "right"
 
 
+def few_and_many(few: int, many: int) -> pytest.MarkDecorator:
+    return pytest.mark.parametrize("count", [few, pytest.param(many, marks=pytest.mark.slow)])
+
+
 @pytest.mark.parametrize("kinds", KINDS)
-def test_as_many_circles_touch_three_things_as_there_are_and_they_are_those(kinds: str) -> None:
+@few_and_many(6, 50)
+def test_as_many_circles_touch_three_things_as_there_are_and_they_are_those(kinds: str, count: int) -> None:
     random = Random(f"circles {kinds}")
-    results = Counter(compare_circles(written(oracle.random_things(random, kinds))) for _ in range(50))
-    assert results == {"right": 50}
+    results = Counter(compare_circles(written(oracle.random_things(random, kinds))) for _ in range(count))
+    assert results == {"right": count}
 
 
 @pytest.mark.parametrize("kinds", KINDS)
-def test_a_circle_is_found_among_those_that_touch_what_touches_it(kinds: str) -> None:
+@few_and_many(3, 25)
+def test_a_circle_is_found_among_those_that_touch_what_touches_it(kinds: str, count: int) -> None:
     """The things are where rounding has put them: two solutions may be close together, or just vanished."""
     random = Random(f"touching {kinds}")
-    for _ in range(25):
+    for _ in range(count):
         circle, given = oracle.touching_things(random, kinds)
         things = written(given)
         assert compare_circles(things) == "right"
@@ -206,9 +212,10 @@ def test_a_circle_moves_through_another_and_has_4_3_2_1_and_0_tangents_with_it(t
 
 
 @pytest.mark.parametrize("kinds", ["CC", "CP"])
-def test_as_many_lines_touch_two_things_as_there_are(kinds: str) -> None:
+@few_and_many(15, 60)
+def test_as_many_lines_touch_two_things_as_there_are(kinds: str, count: int) -> None:
     random = Random(f"lines {kinds}")
-    counts = Counter(compare_lines(written(oracle.random_things(random, kinds))) for _ in range(60))
+    counts = Counter(compare_lines(written(oracle.random_things(random, kinds))) for _ in range(count))
     assert None not in counts
     assert set(counts) == ({0, 2, 4} if kinds == "CC" else {0, 2})
 
@@ -294,6 +301,10 @@ def test_the_command_line_counts_the_intersections_of_a_pair_without_q(arc: str,
 LADDER = tuple(sign * Decimal(10) ** -power for power in range(1, 15) for sign in (1, -1))
 """Distances from an exact contact, mm: from 0.1 to 1e-14, on both sides."""
 
+FEW_OR_ALL_RUNGS = pytest.mark.parametrize(
+    "ladder", [LADDER[::9], pytest.param(LADDER, marks=pytest.mark.slow)], ids=["few", "all"]
+)
+
 
 def assert_count(drawings: Drawings, count: int) -> bool:
     """The right count, which is True, or an honest doubt."""
@@ -331,7 +342,8 @@ def test_two_circles_near_a_contact_have_as_many_common_tangents_as_there_are() 
         assert assert_count(inside, 2 if step > 0 else 0)
 
 
-def test_two_rods_near_their_farthest_reach_have_two_places_or_none() -> None:
+@FEW_OR_ALL_RUNGS
+def test_two_rods_near_their_farthest_reach_have_two_places_or_none(ladder: Sequence[Decimal]) -> None:
     """There is no closed form: the second rod, 30 long, touches a circle, and the first, 40 long, turns to lead far."""
 
     def reach(turn: Any) -> Any:
@@ -342,7 +354,7 @@ def test_two_rods_near_their_farthest_reach_have_two_places_or_none() -> None:
     with mp.workdps(50):
         turn = mp.findroot(lambda each: mp.diff(reach, each), -0.116)
         farthest = Decimal(mp.nstr(reach(turn), 40))
-    for step in LADDER:
+    for step in ladder:
         is_known = assert_count(two_rods(farthest - step).solve(), 2 if step > 0 else 0)
         assert is_known or abs(step) < Decimal("1e-10")
 
@@ -360,8 +372,9 @@ def test_two_rods_near_their_farthest_reach_have_two_places_or_none() -> None:
         lambda step: (Line(str(step), 0, 0), Line(0, 0, 90), Line(0, str(step), 45)),
     ],
 )
-def test_circles_that_touch_what_nearly_touches_are_counted(things: Any) -> None:
-    for step in (*LADDER, 0):
+@FEW_OR_ALL_RUNGS
+def test_circles_that_touch_what_nearly_touches_are_counted(things: Any, ladder: Sequence[Decimal]) -> None:
+    for step in (*ladder, 0):
         three = tuple(things(step))
         is_known = assert_count(circles_touching(three), len(oracle.tangent_circles(*three, keep_given=True)))
         # Three lines through one point: no ball of a sine of 45 degrees tells a radius of exactly 0.
@@ -377,9 +390,10 @@ def pair(
 
 
 @pytest.mark.parametrize("rules", ["enforce", "off"])
-def test_a_pair_near_a_tangent_is_solved_or_refused_and_nothing_between(rules: str) -> None:
+@FEW_OR_ALL_RUNGS
+def test_a_pair_near_a_tangent_is_solved_or_refused_and_nothing_between(rules: str, ladder: Sequence[Decimal]) -> None:
     """For example X60 Y49.99999999999999 at 180 degrees, of which the exact tangent is at Y50."""
-    for step in LADDER:
+    for step in ladder:
         inside = step > 0
         for answer in (
             pair(100 - step, rules=rules),
@@ -397,8 +411,9 @@ def test_a_pair_near_a_tangent_is_solved_or_refused_and_nothing_between(rules: s
         assert (answer.certificate.proof, answer.certificate.gap) == (Proof.EXACT, 0.0)
 
 
-def test_a_pair_without_q_near_a_tangent_has_two_solutions_one_or_none() -> None:
-    for step in (*LADDER, Decimal(0)):
+@FEW_OR_ALL_RUNGS
+def test_a_pair_without_q_near_a_tangent_has_two_solutions_one_or_none(ladder: Sequence[Decimal]) -> None:
+    for step in (*ladder, Decimal(0)):
         alternatives = list_alternatives(pair(100 - step, word=""))
         assert alternatives is not None
         assert alternatives.is_complete
@@ -479,12 +494,14 @@ def search_from(stage: Stage, guesses: int, random: Random) -> None:
             assert hits == set(range(len(places)))
 
 
-def test_a_thousand_guesses_lead_to_the_certified_solutions_and_to_no_other() -> None:
-    search_from(stage_of(three_circles()), 1_000, Random(1000))
+@few_and_many(150, 1_000)
+def test_guesses_lead_to_the_certified_solutions_and_to_no_other(count: int) -> None:
+    search_from(stage_of(three_circles()), count, Random(1000))
 
 
-def test_guesses_for_a_step_without_closed_form_lead_to_the_solutions_that_dividing_finds() -> None:
-    search_from(stage_of(two_rods()), 200, Random(200))
+@few_and_many(50, 200)
+def test_guesses_for_a_step_without_closed_form_lead_to_the_solutions_that_dividing_finds(count: int) -> None:
+    search_from(stage_of(two_rods()), count, Random(200))
 
 
 # A value that moves ------------------------------------------------------------------------------------------
@@ -515,18 +532,18 @@ FAMILIES = (
     Family("G00 X40. Z0.\nG111 I5. A{} B120. X100. P1.", "yasnac-lx3", 125, 178, 300),
     Family("G00 X40. Z0.\nG111 A{} X100. Z-60. B120.", "yasnac-lx3", 130, 178, 20),
 )
-STEPS = 200
 
 
 @pytest.mark.parametrize("family", FAMILIES)
-def test_a_contour_follows_a_value_that_moves_without_a_jump_or_says_why_it_ends(family: Family) -> None:
-    step = (family.last - family.first) / STEPS
+@pytest.mark.parametrize("steps", [25, pytest.param(200, marks=pytest.mark.slow)])
+def test_a_contour_follows_a_value_that_moves_without_a_jump_or_says_why_it_ends(family: Family, steps: int) -> None:
+    step = (family.last - family.first) / steps
     answers = []
-    for number in range(STEPS + 1):
+    for number in range(steps + 1):
         value = format(Decimal(repr(round(family.first + number * step, 9))), "f")
         value += "" if "." in value else "."
         answers.append(contoursolve.solve(family.program.format(value), control=family.control).answers[0])
-    assert sum(answer.contour is not None for answer in answers) > STEPS / 2
+    assert sum(answer.contour is not None for answer in answers) > steps / 2
     for before, after in pairwise(answers):
         if before.diagnostics or after.diagnostics:
             continue
@@ -548,12 +565,12 @@ def jump(one: Any, other: Any) -> float:
 
 # Drawn first, stated afterwards ------------------------------------------------------------------------------
 
-CASES = 200
 
-
-@pytest.mark.parametrize("first", range(0, CASES, 50))
-def test_a_chain_is_found_again_from_facts_that_are_true_of_it(first: int) -> None:
-    for seed in range(first, first + 50):
+@pytest.mark.parametrize(
+    "seeds", [range(6), *(pytest.param(range(n, n + 50), marks=pytest.mark.slow) for n in range(6, 150, 50))], ids=str
+)
+def test_a_chain_is_found_again_from_facts_that_are_true_of_it(seeds: range) -> None:
+    for seed in seeds:
         chain, facts = chain_case(seed)
         drawings = sketch_of(chain, facts).solve()
         drawn = [chain_of(each, chain) for each in drawings]
@@ -723,10 +740,11 @@ def test_the_end_of_a_line_is_within_the_certified_radius_wherever_the_sketch_be
     assert off <= Fraction(drawn.certificate.radius)
 
 
-def test_the_exact_intersection_of_a_pair_is_within_the_certified_radius() -> None:
+@few_and_many(9, 90)
+def test_the_exact_intersection_of_a_pair_is_within_the_certified_radius(count: int) -> None:
     random = Random(1633)
     with mp.workdps(60):
-        for number in range(150):
+        for number in range(count):
             places = (0, 3, 9)[number % 3]
             start, center, end = (
                 tuple(round(Decimal(random.uniform(-reach, reach)), places) for _ in range(2))
@@ -770,9 +788,10 @@ def test_what_the_command_line_prints_is_within_the_radius_that_it_prints() -> N
 
 
 @pytest.mark.parametrize("kinds", KINDS)
-def test_the_exact_circle_is_within_the_certified_radius(kinds: str) -> None:
+@few_and_many(3, 15)
+def test_the_exact_circle_is_within_the_certified_radius(kinds: str, count: int) -> None:
     random = Random(f"certified {kinds}")
-    for _ in range(15):
+    for _ in range(count):
         things = written(oracle.random_things(random, kinds))
         wanted = oracle.tangent_circles(*things, keep_given=True)
         for drawn in circles_touching(things):
