@@ -1,6 +1,7 @@
-"""What holds for all tests."""
+"""What holds for every test."""
 
-import sys
+import signal
 
-# For the syntax of IRIs jsonschema builds dozens of parsers when it is imported, which takes seconds. No test has them.
-sys.modules.setdefault("rfc3987_syntax", None)
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    # A shell ignores interrupts in what it starts in the background, and so would every child of a test.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
