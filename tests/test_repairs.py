@@ -32,14 +32,14 @@ BESIDE = re.compile(r"[MST]\d+(?: [MST]\d+)*")
 """A block of words that have nothing to do with the contour, as they may be moved into one of their own."""
 
 
-def is_clean(lines: list[str], control: str) -> bool:
-    """Whether all blocks but those of other words make one contour that is solved without an error or a warning, but
-    for a path that crosses the spindle axis, which may be meant."""
+def is_clean(lines: list[str], control: str, contours: int = 1) -> bool:
+    """Whether all blocks but those of other words make one contour, or so many, solved without an error or a warning,
+    but for a path that crosses the spindle axis, which may be meant."""
     result = solve("\n".join(lines), control=control, depth="verdict")
     blocks = [line for line in lines[1:] if not BESIDE.fullmatch(line)]
-    is_whole = len(result.answers) == 1 and len(result.answers[0].lines) == len(blocks)
+    is_whole = len(result.answers) == contours and sum(len(each.lines) for each in result.answers) == len(blocks)
     findings = [each for each in result.diagnostics if each.severity.value != "info" and each.code != "axis-crossed"]
-    return is_whole and result.answers[0].status is Status.SOLVED and not findings
+    return is_whole and all(each.status is Status.SOLVED for each in result.answers) and not findings
 
 
 def drops_by_search(spoilt: Spoilt, largest: int = 5) -> list[frozenset[tuple[int, int]]]:
@@ -108,20 +108,25 @@ def placeholders(spoilt: Spoilt) -> list[tuple[str, str]]:
     """The fixes that lack a number: what they say, and the program with the numbers that they name."""
     result = solve(spoilt.text, control=spoilt.control)
     found = []
-    for fix in (fix for finding in result.diagnostics for fix in finding.fixes):
+    for finding, fix in ((each, fix) for each in result.diagnostics for fix in each.fixes):
         if fix.applicability is Applicability.PLACEHOLDER:
             text = fix.replacement
-            for number in re.search(r"\(such as ([^,]+).*\)$", fix.description)[1].split():
+            for number in re.search(r"\(such as (.+?)(?:, (?:from|up to) .*)?\)$", fix.description)[1].split():
                 text = re.sub(rf"(?<!\S){number.rstrip('-.0123456789')}\?", number, text, count=1)
-            found.append((fix.description, f"{spoilt.lines[0]}\n{text}"))
+            mended = next((each.lines for each in result.answers if finding.span.line in each.lines), (2,))
+            lines = [*spoilt.lines[: mended[0] - 1], *text.split("\n"), *spoilt.lines[mended[-1] :]]
+            found.append((fix.description, "\n".join(lines)))
     return found
 
 
 def check_placeholders(spoilt: Spoilt) -> int:
     """That every number that a fix names makes a contour; how many such fixes there are."""
     found = placeholders(spoilt)
+    answers = solve(spoilt.text, control=spoilt.control, depth="verdict").answers if found else ()
+    if sum(answer.status is not Status.SOLVED for answer in answers) > 1:
+        return 0  # each of two contours would have to be mended
     for description, text in found:
-        assert is_clean(text.split("\n"), spoilt.control), (spoilt, description)
+        assert is_clean(text.split("\n"), spoilt.control, len(answers)), (spoilt, description)
     return len(found)
 
 
@@ -133,11 +138,27 @@ def test_a_word_without_its_number_is_offered_with_a_number_that_makes_a_contour
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("form", "blocks"), [("g111", 200), ("g112", 100), ("pair", 60), ("cornered", 60), ("chain", 30)]
+    ("form", "blocks", "least"),
+    [("g111", 60, 240), ("g112", 60, 8), ("pair", 60, 8), ("cornered", 60, 8), ("chain", 60, 4)],
 )
-def test_a_word_without_its_number_is_offered_with_a_number_in_many_blocks(form, blocks):
+def test_a_word_without_its_number_is_offered_with_a_number_in_many_blocks(form, blocks, least):
+    """Of 60 chains, 5 lack a word, and one of these is no contour whatever it is."""
     draw = random.Random(61)
-    assert sum(check_placeholders(FORMS[form](draw)) for _ in range(blocks)) > blocks / 10
+    assert sum(check_placeholders(FORMS[form](draw)) for _ in range(blocks)) >= least
+
+
+@pytest.mark.parametrize(
+    ("circle", "fix"),
+    [
+        ("X-40 Y60 I-40 J20", "add R? (such as R40, from R39.99, up to R40.01)"),
+        ("X-40 I-40 J20 R40", "add Y? (such as Y60, from Y59.99, up to Y60.01)"),
+        ("X-30 Y60 J30 R50", "add I? (such as I-70, from I-70.012, up to I-69.988)"),
+    ],
+)
+def test_the_word_that_closes_a_circle_is_found_between_numbers_of_which_none_does(circle, fix):
+    result = solve(f"G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG3 {circle} Q-1", control="nct-99m")
+    fixes = [each.description for finding in result.diagnostics for each in finding.fixes]
+    assert fix in fixes
 
 
 STEP = {"from": Decimal("-0.001"), "up to": Decimal("0.001")}

@@ -13,13 +13,16 @@ from contoursolve.constraints import Coordinate, Radius
 from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, write_word
 from contoursolve.model import Profile, Unit
 from contoursolve.reading import Claim
-from contoursolve.solving.rows import passed_rows
+from contoursolve.solving.rows import agreement_rows, passed_rows
 
 MOST_PROPOSED = 8
 """Numbers that are proposed for a repair; a few, because a rule may refuse what the equations accept."""
 
 FEW_PROPOSED = 4
 """Numbers that are proposed where none has room around it."""
+
+MOST_PLACES = 4
+"""Places about which words may agree that are looked at closely."""
 
 ROWS = 4_000
 """Numbers, or combinations of several, that are looked through."""
@@ -129,6 +132,9 @@ def _one(claim: Claim, profile: Profile, name: str) -> list[Array]:
     """Stretches of numbers for one given that are passed, shape (numbers, 1), the longest first."""
     grid = _grid(claim, profile, name)
     passed = passed_rows(profile, {name: grid})
+    if passed is not None and passed.sum() <= FEW_PROPOSED:
+        grid = _closer(claim, profile, name, grid)
+        passed = passed_rows(profile, {name: grid})
     if passed is None or not passed.any():
         # Where a corner always takes the whole of a line, as under G12, no number has room around it.
         count = MOST_PROPOSED if passed is None else FEW_PROPOSED
@@ -136,6 +142,21 @@ def _one(claim: Claim, profile: Profile, name: str) -> list[Array]:
     places = numpy.flatnonzero(passed)
     parts = numpy.split(places, numpy.flatnonzero(numpy.diff(places) > 1) + 1) if places.size else []
     return [grid[part, numpy.newaxis] for part in sorted(parts, key=len, reverse=True)]
+
+
+def _closer(claim: Claim, profile: Profile, name: str, grid: Array) -> Array:
+    """And the numbers about those with which the other words agree best, as those of a circle with its point, if there
+    are words that need not be there."""
+    agreement = agreement_rows(profile, {name: grid})
+    if agreement is None or profile.givens[name].unit is Unit.DEGREE:
+        return grid
+    agreement = numpy.nan_to_num(agreement, nan=-numpy.inf)
+    inner = agreement[1:-1]
+    peaks = 1 + numpy.flatnonzero((inner >= agreement[:-2]) & (inner > agreement[2:]))
+    peaks = peaks[numpy.argsort(-agreement[peaks], kind="stable")][:MOST_PLACES]
+    step = _increment(claim, name)
+    about = [numpy.linspace(grid[place - 1], grid[place + 1], ROWS) for place in peaks]
+    return numpy.unique(numpy.rint(numpy.concatenate([grid, *about]) / step) * step)
 
 
 def _several(claim: Claim, profile: Profile, names: Sequence[str]) -> Iterator[Array]:
