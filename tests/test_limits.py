@@ -36,6 +36,8 @@ class Limit(NamedTuple):
     line: int
     columns: slice
     size: Decimal
+    hides_others: bool
+    """Whether other corners are looked at when this one is mended: a bevel that is nowhere leaves no path."""
 
 
 def corners_blamed(text: str) -> tuple[list[Limit], set[tuple[int, int]], bool]:
@@ -49,7 +51,8 @@ def corners_blamed(text: str) -> tuple[list[Limit], set[tuple[int, int]], bool]:
                 places.add((label.span.line, label.span.column))
             if found or label.text.startswith("no room left"):
                 columns = slice(label.span.column - 1, label.span.end_column - 1)
-                limits.append(Limit(label.span.line, columns, Decimal(found[1] if found else 0)))
+                size, is_nowhere = Decimal(found[1] if found else 0), finding.about is RefusalKind.BEVEL_IN_BAND
+                limits.append(Limit(label.span.line, columns, size, is_nowhere))
     return limits, places, answer.contour is not None
 
 
@@ -72,7 +75,7 @@ def assert_limits_are_tight(text: str) -> int:
             _, places, is_solved = corners_blamed(with_size(text, limit, limit.size))
             assert place not in places, (text, limit, "what is shown does not work")
             if len(limits) == 1:
-                assert is_solved, (text, limit, "what is shown makes no contour")
+                assert is_solved or (limit.hides_others and places), (text, limit, "what is shown makes no contour")
         _, places, is_solved = corners_blamed(with_size(text, limit, limit.size + STEP))
         assert not is_solved, (text, limit, "more than the limit works")
         assert place in places or not limit.size, (text, limit, "more than the limit is not refused")
@@ -162,9 +165,9 @@ def test_every_shown_limit_of_a_corner_works_and_one_increment_more_does_not():
 
 
 @pytest.mark.slow
-def test_every_shown_limit_of_five_thousand_blocks_works_and_one_increment_more_does_not():
-    found = count_tight_limits(15, 5_000)
-    assert min(found[kind] for kind in KINDS) > 100, found
+def test_every_shown_limit_of_many_blocks_works_and_one_increment_more_does_not():
+    found = count_tight_limits(15, 800)
+    assert min(found[kind] for kind in KINDS) > 16, found
 
 
 LATHE = "G00 X60. Z0.\nG111 A180. K-30. B90. X66. {}"
@@ -278,8 +281,8 @@ def test_every_shown_end_of_a_range_works_and_one_increment_more_does_not():
 
 
 @pytest.mark.slow
-def test_every_shown_end_of_hundreds_of_ranges_works_and_one_increment_more_does_not():
-    found = count_tight_ends(16, 250)
+def test_every_shown_end_of_many_ranges_works_and_one_increment_more_does_not():
+    found = count_tight_ends(16, 160)
     assert sum(count > 5 for count in found.values()) > 5, found
 
 
