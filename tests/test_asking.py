@@ -391,9 +391,10 @@ def assert_words_hold(taper: Taper, erased: str, drawing: Drawing) -> None:
         assert abs(wrapped(off) if word in ANGLES else off) < 1e-7, word
 
 
-def test_a_taper_comes_back_from_a_fact_instead_of_a_word() -> None:
+@pytest.mark.parametrize(("seeds", "least"), [(2, 0), pytest.param(36, 10, marks=pytest.mark.slow)])
+def test_a_taper_comes_back_from_a_fact_instead_of_a_word(seeds: int, least: int) -> None:
     kinds, erased = Counter[str](), Counter[str]()
-    for case in (case for seed in range(36) for case in taper_cases(seed)):
+    for case in (case for seed in range(seeds) for case in taper_cases(seed)):
         if kinds[case.facts[0].kind] >= OFTEN and erased[case.erased] >= OFTEN:
             continue
         (answer,) = solve(case.program, **case.arguments).answers
@@ -414,10 +415,12 @@ def test_a_taper_comes_back_from_a_fact_instead_of_a_word() -> None:
             assert all(each.value is None for each in answer.answers)
         kinds.update(fact.kind for fact in case.facts)
         erased[case.erased] += 1
-    assert len(kinds) == 17, kinds
-    assert min(kinds.values()) >= 10, kinds
-    assert min(erased.values()) >= 10, erased
-    assert erased.keys() == set("AIKBXUZWCPDQ")
+    assert kinds.total() > 5 * seeds
+    if least:
+        assert len(kinds) == 17, kinds
+        assert min(kinds.values()) >= least, kinds
+        assert min(erased.values()) >= least, erased
+        assert erased.keys() == set("AIKBXUZWCPDQ")
 
 
 def assert_asked(case: Case, answer: Answer) -> None:
@@ -635,9 +638,10 @@ def is_moved_pair(pair: Pair, erased: str, fact: Fact) -> bool:
     return min(rates) > 0.02 * (0.1 if address == ",A" else 1)
 
 
-def test_a_circle_and_a_line_come_back_from_a_fact_instead_of_a_word() -> None:
+@pytest.mark.parametrize(("seeds", "least"), [(3, 1), pytest.param(30, 10, marks=pytest.mark.slow)])
+def test_a_circle_and_a_line_come_back_from_a_fact_instead_of_a_word(seeds: int, least: int) -> None:
     kinds, words, unfinished = Counter[str](), Counter[str](), 0
-    for seed in range(30):
+    for seed in range(seeds):
         rng = Random(seed)
         pair, name = random_pair(rng), rng.choice(("mm", "inch"))
         units = pair.units(25.4 if name == "inch" else 1.0)
@@ -667,8 +671,8 @@ def test_a_circle_and_a_line_come_back_from_a_fact_instead_of_a_word() -> None:
                     true = abs(pair.arc["R"]) if erased == "1R" else pair.line[erased[1:]]
                     off = asked.value - true
                     assert abs(wrapped(off) if erased == "2,A" else off) < TOLERANCE, (program, arguments)
-    assert min(kinds.values()) >= 10, kinds
-    assert min(words.values()) >= 10, words
+    assert min(kinds.values()) >= least, kinds
+    assert min(words.values()) >= least, words
     assert unfinished == 0
 
 

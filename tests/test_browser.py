@@ -163,6 +163,7 @@ READS = "([selector, value]) => document.querySelector(selector).value === value
 EXPLORER = ".contoursolve.explorer"
 
 
+@pytest.mark.slow
 def test_in_jupyterlab_a_slider_moves_the_path_and_a_finding_comes_and_goes(browser, tmp_path, artefacts):
     write_notebook(tmp_path / "explore.ipynb")
     with jupyterlab(tmp_path) as address:
@@ -229,7 +230,7 @@ OVERFLOW = "document.documentElement.scrollWidth - document.documentElement.clie
 PAPER = "getComputedStyle(document.body).backgroundColor"
 
 
-@pytest.mark.parametrize("name", ["shaft_broken", "plate"])
+@pytest.mark.parametrize("name", ["shaft_broken", pytest.param("plate", marks=pytest.mark.slow)])
 def test_the_report_opens_in_light_and_dark_and_prints(browser, tmp_path, artefacts, name):
     written = tmp_path / f"{name}.html"
     done = subprocess.run(

@@ -161,7 +161,7 @@ def test_chains_are_without_accidents() -> None:
 
 
 def test_standard_facts_are_as_many_as_determine_a_chain() -> None:
-    for _, chain in many(200):
+    for _, chain in many(60):
         facts = standard_facts(chain)
         assert len(facts) == chain.freedom
         assert condition(chain, facts) > 1e-4
@@ -171,7 +171,7 @@ def test_standard_facts_are_as_many_as_determine_a_chain() -> None:
 
 def test_random_facts_determine_the_chain_and_come_again_with_their_seed() -> None:
     kinds = Counter[str]()
-    for random, chain in many(100, 1000):
+    for random, chain in many(60, 1000):
         swaps, seed = random.randint(0, chain.freedom), random.random()
         facts = random_facts(chain, Random(seed), swaps)
         assert facts == random_facts(chain, Random(seed), swaps)
@@ -254,7 +254,8 @@ def test_a_circle_that_touches_by_construction_is_found(kinds: str) -> None:
         assert min(misses) < 1e-7 * size
 
 
-def test_no_search_finds_a_circle_that_the_closed_form_does_not() -> None:
+@pytest.mark.parametrize("count", [4, pytest.param(12, marks=pytest.mark.slow)])
+def test_no_search_finds_a_circle_that_the_closed_form_does_not(count: int) -> None:
     hits = 0
     for kinds in KINDS_OF_THREE:
         random = Random(kinds)
@@ -267,12 +268,12 @@ def test_no_search_finds_a_circle_that_the_closed_form_does_not() -> None:
             for kind in kinds
         ]
         known = tangent_circles(*things)
-        for _ in range(12):
+        for _ in range(count):
             found = searched([random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(0.1, 2)], things)
             if found is not None:
                 hits += 1
                 assert any(max(abs(a - b) for a, b in zip(found, one, strict=True)) < 1e-6 for one in known), things
-    assert hits > 40
+    assert hits > 2 * count
 
 
 def searched(start: list[float], things: list[Thing]) -> Circle | None:

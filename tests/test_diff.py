@@ -325,7 +325,7 @@ def test_dividing_lines_and_arcs_changes_nothing(diff, drawing, data):
     assert (back["verdict"], back["largest_deviation"]["mm"]) == ("equal", found["largest_deviation"]["mm"])
 
 
-@settings(max_examples=120, deadline=None)
+@settings(max_examples=40, deadline=None)
 @given(pieces, st.data())
 def test_every_coordinate_that_is_changed_by_a_hundredth_is_found(diff, drawing, data):
     one = write(drawing)

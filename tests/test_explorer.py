@@ -179,11 +179,12 @@ def act(now, rng):
 @pytest.mark.parametrize(
     "text", [WHOLE, f"{PAIR} Q-1", "G112 X60. I10. K-8. R10. P1. Q1."], ids=["G111", "pair", "G112"]
 )
-def test_whatever_the_reader_does_the_view_shows_what_the_text_comes_to(text):
+@pytest.mark.parametrize("times", [2, pytest.param(4, marks=pytest.mark.slow)])
+def test_whatever_the_reader_does_the_view_shows_what_the_text_comes_to(text, times):
     rng = random.Random(f"explorer {text}")
     options = {} if "G17" in text else START
     seen = set()
-    for _ in range(4):
+    for _ in range(times):
         now = explore.begin(text, **options)
         for _ in range(8):
             now = act(now, rng)

@@ -1,4 +1,4 @@
-"""Random rows of families against closed forms of their own; CONTOURSOLVE_ROWS sets how many (200,000 a form)."""
+"""Random rows of families against closed forms of their own; CONTOURSOLVE_ROWS sets how many slow tests take."""
 
 import os
 
@@ -9,6 +9,7 @@ from oracle_columns import JUDGED, circle_line, g111
 from contoursolve.families import Code, family
 
 ROWS, PART = int(os.environ.get("CONTOURSOLVE_ROWS", "200000")), 500_000
+"""Of a form, and of it at once."""
 
 FARTHEST = 1e6  # mm, in X by diameter or radius; between its half and its double nothing is judged
 
@@ -38,12 +39,13 @@ def draw(rng, low, high, rows):
 
 
 @pytest.mark.parametrize("name", FORMS)
-def test_no_wrong_answer_is_called_solved_and_no_right_one_is_lost(name):
+@pytest.mark.parametrize("count", [20_000, pytest.param(ROWS, marks=pytest.mark.slow)])
+def test_no_wrong_answer_is_called_solved_and_no_right_one_is_lost(name, count):
     block, options, axes, oracle, ranges = FORMS[name]
     solved = judged = 0
-    for part in range(0, ROWS, PART):
+    for part in range(0, count, PART):
         rng = np.random.default_rng([part, sorted(FORMS).index(name)])
-        rows = min(PART, ROWS - part)
+        rows = min(PART, count - part)
         values = {word: draw(rng, *ends, rows) for word, ends in ranges.items()}
         if "Q" in ranges and ranges["Q"] == (-1, 1):
             values["Q"] = rng.choice([-1.0, 1.0], rows)
@@ -62,5 +64,5 @@ def test_no_wrong_answer_is_called_solved_and_no_right_one_is_lost(name):
             off = np.abs(first + 1j * second - expected)[good] / size[good]
             assert not (off > 1e-12).any(), (place, np.nanmax(off))
         solved, judged = solved + good.sum(), judged + np.isfinite(margin).sum()
-    assert solved > ROWS / 20
-    assert judged > ROWS * 0.7
+    assert solved > count / 20
+    assert judged > count * 0.7

@@ -315,7 +315,7 @@ FREE = ("G111 A180. B120. X100. P5. Q5.", "G111 A180. K-30. B120. P? Q5.", WHOLE
 
 
 @given(st.sampled_from(FREE), st.lists(fact_texts(), min_size=1, max_size=2), st.booleans())
-@settings(max_examples=40, deadline=None, derandomize=True)
+@settings(max_examples=20, deadline=None, derandomize=True)
 def test_any_fact_about_a_block_is_answered(block: str, facts: list[str], is_comment: bool) -> None:
     if is_comment:
         arguments = ["--block", f"{block} (contoursolve: {'; '.join(facts)})"]
@@ -348,7 +348,7 @@ def asked(word: str) -> str:
 
 
 @given(st.lists(st.sampled_from(ASKABLE), min_size=1, max_size=12, unique=True), st.randoms(use_true_random=False))
-@settings(max_examples=80, deadline=None, derandomize=True)
+@settings(max_examples=15, deadline=None, derandomize=True)
 @example(list(ASKABLE[:12]), None)
 def test_a_question_mark_may_stand_in_any_word_of_a_taper(words: list[str], rng: Any) -> None:
     texts = [asked(word) if rng is None or rng.random() < 0.4 else word for word in words]

@@ -166,10 +166,11 @@ def test_a_fanuc_control_runs_every_program_where_it_was_drawn(arcs):
 
 
 @pytest.mark.parametrize("post", ["same", "linuxcnc", "fanuc"])
-def test_diff_finds_every_program_equal_and_each_coordinate_that_is_off_by_a_hundredth(post):
+@pytest.mark.parametrize("stride", [5, pytest.param(1, marks=pytest.mark.slow)])
+def test_diff_finds_every_program_equal_and_each_coordinate_that_is_off_by_a_hundredth(post, stride):
     rng = Random(10)
     targets = {"same": (LX3, NCT), "linuxcnc": ("linuxcnc", "linuxcnc"), "fanuc": ("fanuc-lathe", "fanuc-mill")}
-    for each in drawings():
+    for each in drawings()[::stride]:
         arcs, target = rng.choice(("center", "radius")), targets[post][each.control == NCT]
         new = contoursolve.expand(each.text, post=post, arcs=arcs, control=each.control).text
         old = path_of(each.text, each.control)

@@ -3,6 +3,7 @@
 import random
 from collections import Counter
 from decimal import Decimal
+from functools import cache
 from itertools import product
 from math import cos, radians, sin
 
@@ -112,10 +113,11 @@ def test_g11_g12_and_g01_are_the_drawings_they_were_written_from():
             assert getattr(getattr(found, "turn", None), "value", "") == expected.turn
 
 
-def test_verdicts_on_disturbed_blocks_are_those_of_the_oracle():
+@pytest.mark.parametrize("count", [40, pytest.param(500, marks=pytest.mark.slow)])
+def test_verdicts_on_disturbed_blocks_are_those_of_the_oracle(count):
     rng = random.Random(146)
     statuses = Counter()
-    for number in range(500):
+    for number in range(count):
         one, two = rng.choice(("", "P", "C")), rng.choice(("", "Q", "D"))
         drawn = random_g112(rng, rng.choice(FORMS), one, two) if number % 3 else random_g11(rng, 1)
         program = disturbed(rng, drawn)
@@ -127,7 +129,7 @@ def test_verdicts_on_disturbed_blocks_are_those_of_the_oracle():
                 statuses[outcome.status] += 1
                 if outcome.status == "solved":
                     assert_same(answer, outcome.elements, outcome.points)
-    assert min(statuses[status] for status in ("solved", "no-solution", "rejected")) > 20
+    assert min(statuses[status] for status in ("solved", "no-solution", "rejected")) > count / 25
 
 
 def transformed(drawn, word):
@@ -439,10 +441,14 @@ def test_settings_have_names_and_a_contour_tells_on_which_it_rests():
         YASNAC_LX3.configure({"bevel": "45"})
 
 
+@cache
+def printed_tables():
+    return CliRunner().invoke(main, ["rules", "--table", "--control", "yasnac-lx3"]).output.split("\n\n")
+
+
 def table(form):
     """{letters: (legality, determinacy)} of a form's part of the printed table, without the letters of every row."""
-    outcome = CliRunner().invoke(main, ["rules", "--table", "--control", "yasnac-lx3"])
-    (part,) = (part for part in outcome.output.split("\n\n") if part.startswith(f"yasnac-lx3 {form}:"))
+    (part,) = (part for part in printed_tables() if part.startswith(f"yasnac-lx3 {form}:"))
     rows = [line.split(" | ") for line in part.splitlines()[1:]]
     found = {frozenset(words.split()) - {"-"}: (legality, rest) for words, legality, rest in rows}
     shared = frozenset.intersection(*found)

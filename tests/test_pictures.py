@@ -35,7 +35,8 @@ from contoursolve.pictures.sheet import Box, Shape, Stroke, Text
 from contoursolve.pictures.theme import DARK_COLORS, DASHES, LIGHT_COLORS, Role
 
 PROGRAMS = sorted((Path(__file__).parent.parent / "notebooks" / "programs").glob("*.nc"))
-RANDOM = int(os.environ.get("CONTOURSOLVE_PICTURES", "160"))
+RANDOM = int(os.environ.get("CONTOURSOLVE_PICTURES", "20"))
+"""Blocks of one seed."""
 """Random blocks that are drawn; 2,000 for a thorough run."""
 
 MOST_BYTES = 60_000
@@ -157,7 +158,13 @@ def test_a_drawing_in_inches_says_so():
     assert {"X (diameter)", "Z"} <= set(millimetres)
 
 
-@pytest.mark.parametrize(("control", "code", "program"), examples("rejected"))
+@pytest.mark.parametrize(
+    ("control", "code", "program"),
+    [
+        pytest.param(*each.values, id=each.id, marks=[pytest.mark.slow] * (number % 6 > 0))
+        for number, each in enumerate(examples("rejected"))
+    ],
+)
 def test_what_a_rule_refuses_is_drawn(control, code, program):
     result = examine(program, control)
     check(draw_result(result))
@@ -177,11 +184,11 @@ def random_block(draw: random.Random) -> tuple[str, str]:
 HOSTILE = "(]]></svg><script>alert[1]</script> & \" ' \x0b \ud800 \u202e $x^2$ {0} %s \\ <!-- )"
 
 
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(1, 8))])
 def test_random_blocks_of_every_status_are_drawn(seed):
     draw, statuses = random.Random(seed), set()
     near = windows()
-    for number in range(RANDOM // 8):
+    for number in range(RANDOM):
         if number % 2:
             text, start = random_block(draw)
             result = contoursolve.solve(
@@ -327,6 +334,7 @@ def test_text_of_a_program_is_escaped():
     assert picture.png(50)
 
 
+@pytest.mark.slow
 def test_the_same_contour_gives_the_same_bytes_in_every_process():
     program = (
         "import contoursolve, sys; from contoursolve.pictures import draw_result; "
@@ -499,7 +507,10 @@ REGIONS = {
 }
 
 
-@pytest.mark.parametrize("name", REGIONS)
+TWO_REGIONS = [pytest.param(n, marks=[pytest.mark.slow] * (n not in ("a gap", "a rule"))) for n in REGIONS]
+
+
+@pytest.mark.parametrize("name", TWO_REGIONS)
 def test_the_exact_lines_of_a_map_part_single_solves_that_have_a_contour_from_those_that_have_none(name):
     block, within, options = REGIONS[name]
     axes = {word: numpy.linspace(*ends, 61) for word, ends in within.items()}
@@ -534,7 +545,7 @@ def dense(line):
 
 def test_where_no_exact_line_can_be_told_the_cells_have_their_boundaries():
     facts = ["length of line 1 = 35", "angle from line 1 to line 2 = -50"]
-    vary = {"X": numpy.arange(80, 121, 10.0), "K": numpy.arange(-55, -10, 5.0)}
+    vary = {"X": numpy.arange(80, 121, 20.0), "K": numpy.arange(-55, -10, 15.0)}
     told = contoursolve.family("G111 X100. A? K-30. B?", start=START, vary=vary, facts=facts)
     picture = draw_family_map(told)
     check(picture)
@@ -542,7 +553,7 @@ def test_where_no_exact_line_can_be_told_the_cells_have_their_boundaries():
     assert lines_of(picture, width=1.4)
 
 
-@pytest.mark.parametrize("name", REGIONS)
+@pytest.mark.parametrize("name", TWO_REGIONS)
 def test_a_region_has_its_lines_with_names_and_teeth_where_there_is_no_contour(name):
     block, within, options = REGIONS[name]
     found = contoursolve.families.region(block, tuple(within), tuple(within.values()), **options)

@@ -19,8 +19,8 @@ from contoursolve.markup import style
 from contoursolve.notebook import bundle as bundles
 from contoursolve.solving.enumerate import Effort
 
-BLOCKS = int(os.environ.get("CONTOURSOLVE_RICH", "160"))
-SHARDS = 4
+BLOCKS = int(os.environ.get("CONTOURSOLVE_RICH", "14"))
+"""Of one seed."""
 LARGEST = 400_000
 """Characters of one kind of data of one block."""
 
@@ -139,11 +139,11 @@ def random_block(random):
     return f"G17 G41 G0 X{scale:.4f} Y0\nG3 X{-scale:.4f} Y0 R{scale:.4f}\n{line}", "nct-99m"
 
 
-@pytest.mark.parametrize("shard", range(SHARDS))
-def test_any_block_is_shown_as_text_html_and_svg_that_hold_nothing_but_what_they_should(shard):
-    rng = random.Random(f"rich {shard}")
+@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(1, 10))])
+def test_any_block_is_shown_as_text_html_and_svg_that_hold_nothing_but_what_they_should(seed):
+    rng = random.Random(f"rich {seed}")
     seen = set()
-    for number in range(BLOCKS // SHARDS):
+    for number in range(BLOCKS):
         text, control = random_block(rng)
         rules = rng.choice(("enforce", "warn", "off"))
         result = contoursolve.solve(text, control=control, rules=rules, name=rng.choice(HOSTILE))
@@ -247,7 +247,9 @@ QUESTIONS = {
 }
 
 
-@pytest.mark.parametrize("name", QUESTIONS)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.slow] * name.startswith("region")) for name in QUESTIONS]
+)
 def test_what_is_asked_about_families_shows_itself_with_every_reason_and_value(name):
     ask = QUESTIONS[name]
     for comment in ("", f" ({re.sub('[()]', '', HOSTILE[0])})"):

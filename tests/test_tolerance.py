@@ -99,7 +99,9 @@ FACTS = [
 ]
 
 
-@pytest.mark.parametrize(("block", "start", "facts"), FACTS)
+@pytest.mark.parametrize(
+    ("block", "start", "facts"), [*FACTS[:1], *(pytest.param(*each, marks=pytest.mark.slow) for each in FACTS[1:])]
+)
 def test_derivatives_of_equations_without_a_closed_form_are_central_differences(block, start, facts):
     slopes = sensitivity(block, start=start, facts=facts).slopes
     step, compared = 1e-4, 0
