@@ -5,7 +5,7 @@ from functools import lru_cache
 
 from contoursolve.backends import ball
 from contoursolve.backends.ball import Number
-from contoursolve.backends.rootfinder import RootFinder, finder_of
+from contoursolve.backends.rootfinder import Finder, finder_of
 from contoursolve.solving.division import Division
 from contoursolve.solving.elimination import Root
 from contoursolve.solving.kernel import Kernel
@@ -30,8 +30,9 @@ def settle(kernel: Kernel, division: Division, inputs: Mapping[str, Number]) -> 
 def search(kernel: Kernel, guess: Sequence[float], inputs: Mapping[str, Number]) -> list[Number] | None:
     """A box about the solution that a guess leads to, if it can be proven to be one."""
     names = kernel.arguments[len(kernel.unknowns) :]
-    root = _finder(kernel).quick(guess, [ball.middle(inputs[name]) for name in names])
-    return prove(kernel, root.values, inputs) if root.is_found and root.is_regular else None
+    finder = _finder(kernel)
+    found = finder(guess, [ball.middle(inputs[name]) for name in names]) if finder else None
+    return prove(kernel, found, inputs) if found else None
 
 
 def _pinned(kernel: Kernel, box: list[Number], inputs: Mapping[str, Number]) -> list[Number]:
@@ -46,5 +47,5 @@ def _pinned(kernel: Kernel, box: list[Number], inputs: Mapping[str, Number]) -> 
 
 
 @lru_cache(maxsize=256)
-def _finder(kernel: Kernel) -> RootFinder:
+def _finder(kernel: Kernel) -> Finder | None:
     return finder_of(kernel.function, len(kernel.unknowns))
