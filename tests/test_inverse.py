@@ -38,6 +38,15 @@ WORDS = [
 ]
 
 
+def fast(cases, *few):
+    """Cases of which all but these few are slow."""
+    return [case if case in few else pytest.param(*case, marks=pytest.mark.slow) for case in cases]
+
+
+QUICK = [WORDS[0], WORDS[1], WORDS[4], WORDS[7], WORDS[10], WORDS[12], WORDS[13]]
+"""Of those that take a second or less, one of each kind."""
+
+
 def solved(name, word, value):
     block, options, _ = CASES[name]
     return contoursolve.solve(text_of(block, [word], [value]), depth="verdict", **options).answers[0]
@@ -50,7 +59,7 @@ def goal_of(point, answer, axes=(0, 1)):
     return f"{point} {' '.join(words)}"
 
 
-@pytest.mark.parametrize(("name", "word", "point"), WORDS)
+@pytest.mark.parametrize(("name", "word", "point"), fast(WORDS, *QUICK))
 def test_the_value_with_which_a_point_was_computed_is_found_again(name, word, point):
     block, options, ranges = CASES[name]
     low, high = ranges.get(word, (0, 360))
@@ -77,7 +86,7 @@ def test_the_value_with_which_a_point_was_computed_is_found_again(name, word, po
     assert compared
 
 
-@pytest.mark.parametrize(("name", "word", "point"), WORDS)
+@pytest.mark.parametrize(("name", "word", "point"), fast(WORDS, *QUICK))
 def test_no_value_is_missed_that_a_fine_grid_shows(name, word, point):
     """Between neighbours on a grid a coordinate passes its goal, or the distance has a least value."""
     block, options, ranges = CASES[name]
@@ -247,7 +256,7 @@ FREE = [
 ]
 
 
-@pytest.mark.parametrize(("name", "word", "point"), FREE)
+@pytest.mark.parametrize(("name", "word", "point"), fast(FREE, FREE[3], FREE[6], FREE[7]))
 def test_facts_and_start_points_are_found_again_as_words_are(name, word, point):
     """The value of a random single solve is among those that bring its point where it was."""
     block, options, ranges = FACTS[name]
@@ -418,7 +427,10 @@ def ask_back(rng, scans):
     return count
 
 
-@pytest.mark.parametrize(("seed", "questions"), [(1, 12), pytest.param(2, 1_000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize(
+    ("seed", "questions"),
+    [(1, 4), pytest.param(1, 12, marks=pytest.mark.slow), pytest.param(2, 150, marks=pytest.mark.slow)],
+)
 def test_asked_for_the_end_that_it_has_each_word_finds_its_own_value(seed, questions):
     """Or the list is not called complete; one that is has every value that a scan of single solves brackets."""
     rng, asked = Random(seed), 0

@@ -1,7 +1,7 @@
 """NCT chapter 16: every form, corners and chains, held against drawings and against closed forms of their own.
 
 Programs are written from paths that were drawn first; `disturbed` ones mean something that nobody drew, and are held
-against the oracle's verdict. Set MILL_INSTANCES to draw so many of each form (default 15).
+against the oracle's verdict. Set MILL_INSTANCES to draw so many of each form in the slow tests (default 15).
 """
 
 import json
@@ -30,7 +30,8 @@ from contoursolve.output.document import to_json
 CLOSE = 1e-8
 """mm. Words have 12 decimals, and points of a chain build on each other."""
 
-INSTANCES = int(os.environ.get("MILL_INSTANCES", "15"))
+COUNTS = (6, pytest.param(int(os.environ.get("MILL_INSTANCES", "15")), marks=pytest.mark.slow))
+"""Instances of each form."""
 
 
 def answers_of(result: Result) -> list[dict[str, Any]]:
@@ -106,28 +107,31 @@ def assert_drawn(drawn: Drawn) -> None:
 
 
 @pytest.mark.parametrize(("form", "corner"), tuple(product(FORMS, ("", "C", "R"))))
-def test_every_drawn_pair_is_found_again(form, corner):
+@pytest.mark.parametrize("instances", COUNTS)
+def test_every_drawn_pair_is_found_again(form, corner, instances):
     rng = Random(f"{form}{corner}")
     kinds: Counter[str] = Counter()
-    for number in range(INSTANCES):
+    for number in range(instances):
         drawn = random_pair(rng, form, tuple(PLANES)[number % 3], corner)
         assert_drawn(drawn)
         kinds.update((drawn.elements[0].turn, drawn.elements[-1].turn, "Q-" if "Q-" in drawn.text else "Q+"))
-    assert min(kinds[side] for side in ("Q-", "Q+")) > 2 or form == "line-line"
-    assert min(kinds[turn] for turn in ("cw", "ccw")) > 2 or form == "line-line"
+    assert min(kinds[side] for side in ("Q-", "Q+")) > instances // 7 or form == "line-line"
+    assert min(kinds[turn] for turn in ("cw", "ccw")) > instances // 7 or form == "line-line"
 
 
 @pytest.mark.parametrize("plane", PLANES)
-def test_every_drawn_path_with_corners_is_found_again(plane):
+@pytest.mark.parametrize("instances", COUNTS)
+def test_every_drawn_path_with_corners_is_found_again(plane, instances):
     rng = Random(plane)
-    for _ in range(2 * INSTANCES):
+    for _ in range(2 * instances):
         assert_drawn(random_cornered(rng, plane))
 
 
 @pytest.mark.parametrize("blocks", [1, 2, 3, 5, 8, 12, 19])
-def test_every_drawn_chain_is_found_again(blocks):
+@pytest.mark.parametrize("instances", COUNTS)
+def test_every_drawn_chain_is_found_again(blocks, instances):
     rng = Random(blocks)
-    for _ in range(1 + INSTANCES // blocks // 2):
+    for _ in range(1 + instances // blocks // 2):
         for plane in PLANES:
             assert_drawn(random_chain(rng, blocks, plane))
 
@@ -168,15 +172,16 @@ def compare(program: Sequence[str], expected: Run) -> str:
     return expected.status
 
 
-def test_blocks_that_nobody_drew_are_solved_or_refused_as_the_sheet_says():
+@pytest.mark.parametrize("instances", COUNTS)
+def test_blocks_that_nobody_drew_are_solved_or_refused_as_the_sheet_says(instances):
     rng = Random(1600)
     statuses: Counter[str] = Counter()
-    for _ in range(12 * INSTANCES):
+    for _ in range(12 * instances):
         program = disturbed(rng, draw_any(rng))
         (expected,) = runs(program)
         statuses[compare(program, expected)] += 1
     assert statuses[""] < 0.03 * statuses.total()
-    assert min(statuses[status] for status in ("solved", "no-solution", "conflicting", "rejected")) > INSTANCES // 4
+    assert min(statuses[status] for status in ("solved", "no-solution", "conflicting", "rejected")) > instances // 4
 
 
 def subsets() -> Iterator[tuple[str, list[str]]]:
@@ -193,7 +198,7 @@ def subsets() -> Iterator[tuple[str, list[str]]]:
 
 
 @pytest.mark.parametrize("rules", ["enforce", "off"])
-@pytest.mark.parametrize("stride", [5, pytest.param(1, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("stride", [37, pytest.param(1, marks=pytest.mark.slow)])
 def test_every_set_of_words_of_a_form_gets_a_status(rules, stride):
     for name, program in islice(subsets(), 0, None, stride):
         result = solve_mill(program, rules)
@@ -268,8 +273,9 @@ def spoil(program: Sequence[str], kind: str) -> tuple[list[str], int]:
         ("corner twice", "nct-two-corners"),
     ],
 )
-def test_a_mistake_in_a_long_chain_is_found_in_its_block_and_soon(kind, code):
-    drawn = random_chain(Random(0), 19, 17, corners=0)
+@pytest.mark.parametrize("blocks", [7, pytest.param(19, marks=pytest.mark.slow)])
+def test_a_mistake_in_a_long_chain_is_found_in_its_block_and_soon(kind, code, blocks):
+    drawn = random_chain(Random(0), blocks, 17, corners=0)
     program, line = spoil(drawn.program, kind)
     began = time.process_time()
     result = solve_mill(program, depth="full")

@@ -32,12 +32,13 @@ BESIDE = re.compile(r"[MST]\d+(?: [MST]\d+)*")
 """A block of words that have nothing to do with the contour, as they may be moved into one of their own."""
 
 
-def is_clean(lines: list[str], control: str, contours: int = 1) -> bool:
-    """Whether all blocks but those of other words make one contour, or so many, solved without an error or a warning,
-    but for a path that crosses the spindle axis, which may be meant."""
+def is_clean(lines: list[str], control: str, contours: int = 1, plain: int = 0) -> bool:
+    """Whether all blocks but those of other words, and so many that are plain, make one contour, or so many, solved
+    without an error or a warning, but for a path that crosses the spindle axis, which may be meant."""
     result = solve("\n".join(lines), control=control, depth="verdict")
     blocks = [line for line in lines[1:] if not BESIDE.fullmatch(line)]
-    is_whole = len(result.answers) == contours and sum(len(each.lines) for each in result.answers) == len(blocks)
+    covered = sum(len(each.lines) for each in result.answers)
+    is_whole = len(result.answers) == contours and covered == len(blocks) - plain
     findings = [each for each in result.diagnostics if each.severity.value != "info" and each.code != "axis-crossed"]
     return is_whole and all(each.status is Status.SOLVED for each in result.answers) and not findings
 
@@ -76,7 +77,7 @@ def test_every_smallest_set_of_words_to_drop_is_offered(form):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("form", "blocks"), [("g111", 200), ("g112", 60)])
+@pytest.mark.parametrize(("form", "blocks"), [("g111", 100), ("g112", 60)])
 def test_every_smallest_set_of_words_to_drop_is_offered_for_many(form, blocks):
     draw = random.Random(71)
     compared = sum(check_drops(FORMS[form](draw)) for _ in range(blocks))
@@ -125,8 +126,9 @@ def check_placeholders(spoilt: Spoilt) -> int:
     answers = solve(spoilt.text, control=spoilt.control, depth="verdict").answers if found else ()
     if sum(answer.status is not Status.SOLVED for answer in answers) > 1:
         return 0  # each of two contours would have to be mended
+    plain = len(spoilt.lines) - 1 - sum(len(answer.lines) for answer in answers)
     for description, text in found:
-        assert is_clean(text.split("\n"), spoilt.control, len(answers)), (spoilt, description)
+        assert is_clean(text.split("\n"), spoilt.control, len(answers), plain), (spoilt, description)
     return len(found)
 
 

@@ -153,19 +153,16 @@ def places(seed: int, count: int) -> tuple[list[int | None], int]:
 
 
 def assert_what_was_meant_is_named(found: list[int | None]) -> None:
+    """Of fewer than 100, one may be missed."""
     first, three = (sum(place is not None and place < most for place in found) for most in (1, 3))
     assert first >= 0.95 * len(found), (first, three, len(found))
-    assert three >= 0.99 * len(found), (first, three, len(found))
+    assert three >= min(0.99 * len(found), len(found) - 1), (first, three, len(found))
 
 
-def test_of_random_slips_95_percent_have_what_was_meant_as_first_fix_and_99_among_three():
-    found, sound_again = places(15, 150)
+@pytest.mark.parametrize(
+    ("seed", "count"), [(15, 40), *(pytest.param(*each, marks=pytest.mark.slow) for each in ((15, 150), (16, 500)))]
+)
+def test_of_random_slips_95_percent_have_what_was_meant_as_first_fix_and_99_among_three(seed, count):
+    found, sound_again = places(seed, count)
     assert_what_was_meant_is_named(found)
-    assert sound_again > 20
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("seed", [16, 17, 18])
-def test_of_1500_more_slips_it_is_the_same(seed):
-    found, _ = places(seed, 500)
-    assert_what_was_meant_is_named(found)
+    assert sound_again > count / 8

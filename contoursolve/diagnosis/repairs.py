@@ -54,7 +54,7 @@ from contoursolve.solving import RefusalKind, Status, lookup
 from contoursolve.solving.affine import AffineFacts, Circuit, affine_facts
 from contoursolve.solving.compare import is_conflict
 from contoursolve.spelling import torn_codes
-from contoursolve.syntax import Block, Word
+from contoursolve.syntax import Block, FaultKind, Word
 
 MOST_BLOCKS = 6
 """Of a contour in which wrong digits are looked for."""
@@ -76,6 +76,9 @@ def find_repairs(
     """
     claim = answer.claim
     if not answer.start.is_known:
+        return Repairs((), is_complete=False)
+    if any(fault.kind is FaultKind.COMMENT_NOT_CLOSED for block in claim.blocks for fault in block.faults):
+        # No change of words closes it, and what leaves a warning is no repair.
         return Repairs((), is_complete=False)
     codes = frozenset(each.code for each in answer.diagnostics)
     if all(each.severity is Severity.INFO for each in answer.diagnostics):
