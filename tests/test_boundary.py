@@ -458,10 +458,10 @@ def test_ranges_of_random_facts_are_those_of_a_fine_family():
     ("name", "words"),
     [
         ("a start point", ("start.X", "P")),
-        ("an angle from a length", ("K", "length of line 1")),
         *(
             pytest.param(name, words, marks=pytest.mark.slow)
             for name, words in (
+                ("an angle from a length", ("K", "length of line 1")),
                 ("a radius from a straight part", ("K", "straight part of line 2")),
                 ("a radius from a straight part", ("start.X", "B")),
                 ("an angle from a point", ("R", "X of P1")),

@@ -106,7 +106,9 @@ def test_exit_status_is_0_without_errors_1_with_errors_and_2_if_it_could_not_run
     assert bool(output) == (status != 2 or arguments == ("check", SHAFT, "no such file.nc"))
 
 
-@pytest.mark.parametrize(("status", "arguments"), [(0, (SHAFT,)), (1, (BROKEN,)), (2, ("nothing.nc",))])
+@pytest.mark.parametrize(
+    ("status", "arguments"), [pytest.param(0, (SHAFT,), marks=pytest.mark.slow), (1, (BROKEN,)), (2, ("nothing.nc",))]
+)
 def test_exit_status_of_a_process_is_the_same(status, arguments):
     assert run_process("solve", *arguments)[0] == status
 
@@ -473,7 +475,7 @@ BAD = {
     "1 MB of brackets": (START + "G111 A" + "[" * 1_000_000, "block-too-long"),
     "1 MB of commas": (START + "G111 " + "," * 1_000_000, "block-too-long"),
     "1 MB of an open comment": (GOOD + " (" + "(" * 1_000_000, "comment-not-closed"),
-    "500 bad lines": ("G111 A\n" * 500, "number-missing position-unknown"),
+    "100 bad lines": ("G111 A\n" * 100, "number-missing position-unknown"),
     "5,000 bad lines": ("G111 A\n" * 5_000, "number-missing position-unknown"),
 }
 LONG = ("5,000 bad lines", "1 MB of an open comment")
@@ -544,7 +546,7 @@ UNREAD = {
 
 @pytest.mark.parametrize(
     "name",
-    [pytest.param(name, marks=[] if name in ("solve, errors", "bad usage") else pytest.mark.slow) for name in UNREAD],
+    [pytest.param(name, marks=[] if name in ("explain", "bad usage") else pytest.mark.slow) for name in UNREAD],
 )
 def test_the_exit_status_is_the_same_if_nobody_reads_the_output(name):
     command = [sys.executable, "-m", "contoursolve", *UNREAD[name]]

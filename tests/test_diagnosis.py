@@ -689,7 +689,7 @@ def verdict(answer: Answer) -> dict[str, Any]:
     }
 
 
-@pytest.mark.parametrize("rules", ["enforce", "off"])
+@pytest.mark.parametrize("rules", ["enforce", pytest.param("off", marks=pytest.mark.slow)])
 @pytest.mark.parametrize("change", [shuffled, mirrored, shifted, in_inches])
 @FOR_BLOCKS
 def test_diagnosis_does_not_depend_on_order_unit_mirror_image_or_shift(change, rules, count):
@@ -779,7 +779,7 @@ def test_lines_ever_more_parallel_are_never_solved_wrongly(half_turn, sign, asid
 
 @pytest.mark.parametrize("sign", [1, pytest.param(-1, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("side", [1, -1])
-@pytest.mark.parametrize("circle", ["I-50", "X-50 Y0 R50", "X-50 Y0 I-50"])
+@pytest.mark.parametrize("circle", ["I-50", pytest.param("X-50 Y0 R50", marks=pytest.mark.slow), "X-50 Y0 I-50"])
 def test_line_ever_closer_to_touching_the_circle_is_never_solved_wrongly(sign, side, circle):
     for power in range(1, 15):
         height = 50 * (1 + sign * Decimal(10) ** -power)
@@ -851,7 +851,7 @@ def test_what_if_without_an_edit_is_solve(count):
         assert same == answer, case.text
 
 
-@FOR_BLOCKS
+@few_and_many(5, 60)
 def test_what_if_does_what_its_words_say(count):
     for case, _ in broken_blocks(count):
         if case.kind == "comma":

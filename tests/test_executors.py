@@ -60,7 +60,7 @@ def here():
     "pool",
     [
         pytest.param(lambda: ThreadPoolExecutor(2), id="threads"),
-        pytest.param(processes, id="processes"),
+        pytest.param(processes, id="processes", marks=pytest.mark.slow),
         pytest.param(loky, id="loky", marks=pytest.mark.slow),
         pytest.param(dask, id="dask", marks=pytest.mark.slow),
     ],
@@ -97,10 +97,8 @@ def start(*arguments, cwd):
     )
 
 
-@pytest.mark.parametrize(
-    ("name", "step", "most"),
-    [("family.parquet", "0.15", 4), pytest.param("family.csv", "0.1", 6, marks=pytest.mark.slow)],
-)
+@pytest.mark.slow
+@pytest.mark.parametrize(("name", "step", "most"), [("family.parquet", "0.15", 4), ("family.csv", "0.1", 6)])
 def test_a_sweep_that_was_killed_goes_on_and_ends_with_the_same_bytes(name, step, most, tmp_path, monkeypatch):
     pytest.importorskip("pyarrow")
     asked = [*SWEEP[:-1], f"P=0:60:{step}", "-o", name]
@@ -274,6 +272,7 @@ def test_a_sweep_runs_on_the_cluster_of_a_scheduler(tmp_path):
     assert (tmp_path / "one.parquet").read_bytes() == (tmp_path / "two.parquet").read_bytes()
 
 
+@pytest.mark.slow
 def test_a_scheduler_that_goes_away_ends_the_sweep(tmp_path):
     pytest.importorskip("distributed")
     file = tmp_path / "scheduler.json"

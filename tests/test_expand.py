@@ -882,7 +882,7 @@ def test_killed_before_any_step_on_a_file_nothing_is_lost(steps, least, tmp_path
 @pytest.mark.parametrize(
     "change",
     [
-        pytest.param(lambda file: os.truncate(file, file.stat().st_size - 7), id="shorter"),
+        pytest.param(lambda file: os.truncate(file, file.stat().st_size - 7), id="shorter", marks=pytest.mark.slow),
         pytest.param(lambda file: file.write_text(""), id="empty", marks=pytest.mark.slow),
     ],
 )
@@ -904,9 +904,9 @@ def test_a_program_that_is_cut_while_it_is_expanded_is_noticed(change, tmp_path)
 @pytest.mark.parametrize(
     ("lines", "is_terminal", "is_shown"),
     [
-        (30_000, True, True),
+        pytest.param(30_000, True, True, marks=pytest.mark.slow),
         pytest.param(30_000, False, False, marks=pytest.mark.slow),
-        pytest.param(30, True, False, marks=pytest.mark.slow),
+        (30, True, False),
     ],
 )
 def test_progress_is_shown_on_a_terminal_and_nowhere_else(lines, is_terminal, is_shown, tmp_path):
@@ -987,7 +987,7 @@ def test_linuxcnc_opens_an_old_program_through_the_filter(tmp_path):
     ("data", "status", "message"),
     [
         (START.encode() + b"G111 A180. B120. X100.\n", 1, "error[g111-line-1]"),
-        (b"\x00\x01binary", 2, "is not a text file"),
+        pytest.param(b"\x00\x01binary", 2, "is not a text file", marks=pytest.mark.slow),
         *(
             pytest.param(*case, marks=pytest.mark.slow)
             for case in (

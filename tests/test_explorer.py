@@ -177,7 +177,9 @@ def act(now, rng):
 
 
 @pytest.mark.parametrize(
-    "text", [WHOLE, f"{PAIR} Q-1", "G112 X60. I10. K-8. R10. P1. Q1."], ids=["G111", "pair", "G112"]
+    "text",
+    [WHOLE, pytest.param(f"{PAIR} Q-1", marks=pytest.mark.slow), "G112 X60. I10. K-8. R10. P1. Q1."],
+    ids=["G111", "pair", "G112"],
 )
 @pytest.mark.parametrize("times", [2, pytest.param(4, marks=pytest.mark.slow)])
 def test_whatever_the_reader_does_the_view_shows_what_the_text_comes_to(text, times):

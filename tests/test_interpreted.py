@@ -141,8 +141,16 @@ def within(each: Drawing, post: str) -> float:
 
 
 @needs_rs274
-@pytest.mark.parametrize("arcs", ["center", "radius"])
-@pytest.mark.parametrize("post", ["linuxcnc", "fanuc"])
+@pytest.mark.parametrize(
+    ("post", "arcs"),
+    [
+        ("linuxcnc", "center"),
+        *(
+            pytest.param(*each, marks=pytest.mark.slow)
+            for each in (("linuxcnc", "radius"), ("fanuc", "center"), ("fanuc", "radius"))
+        ),
+    ],
+)
 def test_linuxcnc_runs_every_program_where_it_was_drawn(post, arcs, tmp_path):
     programs = expanded(post, arcs)
     if post == "fanuc":

@@ -281,7 +281,13 @@ def nudged(result: dict[str, Any]) -> Iterator[dict[str, Any]]:
             yield changed(result, place, value + off)
 
 
-@pytest.mark.parametrize("text", SAMPLES.values(), ids=SAMPLES)
+@pytest.mark.parametrize(
+    "text",
+    [
+        pytest.param(text, id=name, marks=[pytest.mark.slow] * (number % 4 > 0))
+        for number, (name, text) in enumerate(SAMPLES.items())
+    ],
+)
 def test_a_number_that_is_off_by_a_millionth_is_found(desk, text):
     result = older(desk.solve(text))
     every = list(coordinates(result))
@@ -344,7 +350,9 @@ MUTATED = {
 }
 
 
-@pytest.mark.parametrize("name", MUTATED)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.slow] * (n % 3 > 0)) for n, name in enumerate(MUTATED)]
+)
 @pytest.mark.parametrize("most", [15, pytest.param(MOST, marks=pytest.mark.slow)])
 def test_nothing_that_a_contour_claims_can_be_changed(desk, name, most):
     result = desk.solve(MUTATED[name])
@@ -389,7 +397,14 @@ def tampered(contour: dict[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
     yield "negative radius", {"certificate": {"kind": "verified", "radius": -1e-9}}
 
 
-@pytest.mark.parametrize("name", ["two roundings", "two bevels", "sharp corners", "a radius", "a centre", *NEW])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "two roundings",
+        "a radius",
+        *(pytest.param(name, marks=pytest.mark.slow) for name in ("two bevels", "sharp corners", "a centre", *NEW)),
+    ],
+)
 def test_a_result_that_was_tampered_with_is_found(desk, name):
     result = older(desk.solve(SAMPLES[name]))
     (contour,) = result["contours"]
@@ -421,7 +436,7 @@ def random_programs(count: int) -> Iterator[tuple[str, str]]:
             yield "\n".join(generate_nct.disturbed(rng, drawn)), control
 
 
-@pytest.mark.parametrize("count", [10, pytest.param(25, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [5, pytest.param(25, marks=pytest.mark.slow)])
 def test_random_programs_of_every_form_are_right(desk, count):
     """Whatever becomes of the blocks is worked out again, and one number that is off is found."""
     rng, statuses = Random(8), set()
@@ -701,7 +716,7 @@ STANDINGS = {
 
 
 @pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=[pytest.mark.slow] * (n % 3 > 0)) for n, name in enumerate(STANDINGS)]
+    "name", [pytest.param(name, marks=[pytest.mark.slow] * (n % 6 > 0)) for n, name in enumerate(STANDINGS)]
 )
 def test_the_status_of_a_contour_is_worked_out_from_its_words(desk, name):
     """The statuses are those that the manuals' rules and the geometry give, under the rules and without them."""
@@ -1513,7 +1528,8 @@ def damaged(result: dict[str, Any], others: list[dict[str, Any]], rng: Random) -
     return copy
 
 
-@pytest.mark.parametrize("times", [5, pytest.param(36, marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("times", [36])
 def test_however_a_result_is_damaged_there_is_an_answer(desk, times):
     """Right, wrong, or no result: never an exception."""
     rng, results = Random(11), {}
