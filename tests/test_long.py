@@ -32,8 +32,9 @@ def long_program(lines: int) -> str:
 
 
 @pytest.mark.parametrize("arguments", [
-    ("check",), ("check", "--format", "json"), ("solve",), ("solve", "--format", "json"),
-    ("check", "--format", "github"),
+    ("check",), ("solve", "--format", "json"),
+    *(pytest.param(each, marks=pytest.mark.slow) for each in (("check", "--format", "json"), ("solve",))),
+    pytest.param(("check", "--format", "github"), marks=pytest.mark.slow),
 ])  # fmt: skip
 def test_blocks_that_are_not_kept_give_the_same_output(arguments, monkeypatch, tmp_path):
     odd = tmp_path / "odd.nc"
@@ -68,10 +69,10 @@ def test_a_late_finding_about_an_early_line_comes_first_as_long_as_it_may(monkey
 
 @pytest.mark.slow
 @pytest.mark.skipif(not hasattr(os, "wait4"), reason="asks the system for the memory of a process")
-@pytest.mark.parametrize("arguments", [("check",), ("solve", "--format", "json")])
-def test_long_programs_take_little_memory(arguments, tmp_path):
+@pytest.mark.parametrize(("arguments", "lines"), [(("check",), 60_000), (("solve", "--format", "json"), 30_000)])
+def test_long_programs_take_little_memory(arguments, lines, tmp_path):
     program = tmp_path / "long.nc"
-    program.write_text(long_program(60_000))
+    program.write_text(long_program(lines))
     command = [sys.executable, "-m", "contoursolve", *arguments, str(program)]
     with (tmp_path / "out").open("wb") as output:
         running = subprocess.Popen(command, stdout=output)
