@@ -183,7 +183,7 @@ def test_mutated_contours_are_answered(seed):
             raise AssertionError(f"solve({text!r}, control={control!r}, rules={rules!r})") from error
 
 
-MANY, EVERY = int(os.environ.get("CONTOURSOLVE_MANY", "6000")), 200
+MANY, EVERY = int(os.environ.get("CONTOURSOLVE_MANY", "20000")), 200
 """How many mutants of one seed are read, of which two in five are judged; and of how many one goes all the way."""
 
 LINE = 2.0
