@@ -3,7 +3,6 @@
 from bisect import bisect_left
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from functools import partial
 from math import log10
 
 import numpy
@@ -26,9 +25,6 @@ MOST_PLACES = 4
 
 ROWS = 4_000
 """Numbers, or combinations of several, that are looked through."""
-
-MOST_REFUSED = 1_024
-"""Numbers at the end of a stretch that the equations accept, of which a rule may refuse the last."""
 
 SEED = 1
 """Of the combinations that are looked through."""
@@ -89,15 +85,13 @@ def ends(
         number = int(numpy.argmin(passed[side]))
         good = float(grid[side[number - 1]]) if number else value
         last = _last(claim, profile, name, good, float(grid[side[number]]))
-        text = _text(claim, name, last)
-        if accepts(text) or (text := _first(partial(_text, claim, name), last, inward, accepts)):
-            yield f"{word} {text}"
+        steps = range(round(abs(value - last) / step) + 1)
 
+        def at(number: int, last: float = last, inward: float = inward) -> str:
+            return _text(claim, name, last + inward * number)
 
-def _first(write: Callable[[float], str], last: float, inward: float, accepts: Callable[[str], bool]) -> str:
-    """The first number from an end inwards that is accepted, as all behind it are; nothing if none is."""
-    place = bisect_left(range(MOST_REFUSED), True, key=lambda place: accepts(write(last + inward * place)))
-    return write(last + inward * place) if place < MOST_REFUSED else ""
+        first = 0 if accepts(at(0)) else bisect_left(steps, True, 1, len(steps) - 1, key=lambda n: accepts(at(n)))
+        yield f"{word} {at(first)}"
 
 
 def _last(claim: Claim, profile: Profile, name: str, good: float, bad: float) -> float:
