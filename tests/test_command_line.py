@@ -525,20 +525,12 @@ def test_program_without_a_contour_is_an_error_to_solve_and_a_warning_to_check(s
 
 UNREAD = {
     "solve": ("solve", SHAFT),
-    "solve, errors": ("solve", BROKEN),
     "check, errors": ("check", BROKEN, "--format", "json"),
     "expand": ("expand", SHAFT),
-    "expand, nothing written": ("expand", SHAFT, "--post", "linuxcnc"),
     "filter": ("filter", PLATE),
-    "diff": ("diff", SHAFT, PLATE),
-    "range": ("range", *ONE, "--word", "P"),
-    "find": ("find", *ONE, "--word", "A", "--bring", "end Z-50."),
-    "sensitivity": ("sensitivity", *ONE),
     "sweep": ("sweep", *ONE, "--vary", "A=170:190:1"),
-    "plot": ("plot", *ONE, "-o", "-"),
     "rules": ("rules", "--table"),
     "explain": ("explain", "g111-line-1"),
-    "facts": ("facts",),
     "help": ("--help",),
     "bad usage": ("solve", "--nonsense"),
 }

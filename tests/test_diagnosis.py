@@ -231,7 +231,7 @@ def few_and_many(few: int, many: int) -> pytest.MarkDecorator:
     return pytest.mark.parametrize("count", [few, pytest.param(many, marks=pytest.mark.slow)])
 
 
-FOR_DIAGNOSES, FOR_BLOCKS = few_and_many(30, 250), few_and_many(10, 60)
+FOR_DIAGNOSES, FOR_BLOCKS = few_and_many(30, 120), few_and_many(10, 40)
 
 
 @lru_cache
@@ -324,7 +324,7 @@ def test_freedoms_are_the_null_space_seen_at_each_point(count):
     assert min(seen[dimension] for dimension in (0, 1, 2)) > count / 10
 
 
-@few_and_many(10, 60)
+@few_and_many(10, 40)
 def test_identities_hold_for_every_consistent_block_that_has_them(count):
     random, seen = Random(4), set()
     for _ in range(count):
@@ -851,7 +851,7 @@ def test_what_if_without_an_edit_is_solve(count):
         assert same == answer, case.text
 
 
-@few_and_many(5, 60)
+@few_and_many(5, 30)
 def test_what_if_does_what_its_words_say(count):
     for case, _ in broken_blocks(count):
         if case.kind == "comma":

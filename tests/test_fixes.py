@@ -124,7 +124,7 @@ def path(contour):
 def test_a_fix_that_keeps_the_contour_keeps_every_element():
     rng, kept = Random(8), 0
     for kind in KINDS:
-        for _ in range(20):
+        for _ in range(10):
             first, *rest = KINDS[kind](rng).split("\n")
             rest[0] += rng.choice((" M08", " ,A45", " I5", " R-30", " X10", " C2", " Q2", " S100"))
             for rules in ("enforce", "off"):
@@ -141,4 +141,4 @@ def test_a_fix_that_keeps_the_contour_keeps_every_element():
                             assert len(one) == len(other), (first, rest, fix)
                             numbers = zip(one, other, strict=True)
                             assert all(a == pytest.approx(b, abs=1e-3) if a != b else True for a, b in numbers)
-    assert kept > 10
+    assert kept > 5
