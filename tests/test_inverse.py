@@ -15,8 +15,8 @@ from test_family import CASES, filled, text_of
 import contoursolve
 from contoursolve.cli import main
 from contoursolve.families import FamilyError, family, find_word, inverse
-from contoursolve.families.goals import place_of
-from contoursolve.families.recipe import recipe_of
+from contoursolve.families.spec import recipe_of
+from contoursolve.families.targets import place_of
 from contoursolve.output.solutions import list_solutions
 
 BLOCK, START = "G111 X100. A180. K-30. B120. P5. Q5.", "X40. Z0."

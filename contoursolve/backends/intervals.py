@@ -35,6 +35,9 @@ class Intervals:
     low: Array
     high: Array
 
+    def __getitem__(self, places: slice | NDArray[numpy.bool_]) -> "Intervals":
+        return Intervals(self.low[places], self.high[places])
+
     def __add__(self, other: "Intervals") -> "Intervals":
         return Intervals(down(self.low + other.low), up(self.high + other.high))
 

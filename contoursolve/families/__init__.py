@@ -1,23 +1,25 @@
 """Families: one block with some words free, a million contours at once."""
 
-from contoursolve.families.boundary import End, Feasible, Interval, Way, feasible
-from contoursolve.families.distribute import THREADS
-from contoursolve.families.ends import Reason
-from contoursolve.families.estimate import MOST_ROWS, room_of, seconds_of
-from contoursolve.families.evaluate import family, pieces, sweep
-from contoursolve.families.export import csv_lines, write_parquet
-from contoursolve.families.goals import Goal
+from contoursolve.families.checkpoints import MOST_ROWS, Parts, others, parts_of, room_of, seconds_of
+from contoursolve.families.compiled_sweep import Sweep
+from contoursolve.families.derivatives import (
+    Effect,
+    Limits,
+    Missing,
+    Sensitivity,
+    Spread,
+    Tolerances,
+    sensitivity,
+    tolerances,
+)
+from contoursolve.families.evaluate import THREADS, Tally, Telling, family, pieces, sweep, telling_of
+from contoursolve.families.export import Family, Measure, csv_lines, summary_of, write_parquet
+from contoursolve.families.feasible_ranges import End, Feasible, Interval, Way, feasible
 from contoursolve.families.inverse import Found, Hit, find_word
-from contoursolve.families.measures import Measure
-from contoursolve.families.parts import Parts, others, parts_of
-from contoursolve.families.prepared import Sweep
-from contoursolve.families.ranges import FamilyError, name_of
+from contoursolve.families.limit_reasons import Reason
 from contoursolve.families.regions import Boundary, Region, region, region_of, units_of
-from contoursolve.families.result import Family, summary_of
-from contoursolve.families.slopes import Sensitivity, Spread, sensitivity
-from contoursolve.families.telling import Tally, Telling, telling_of
-from contoursolve.families.template import RefusedError
-from contoursolve.families.tolerance import Effect, Limits, Missing, Tolerances, tolerances
+from contoursolve.families.spec import FamilyError, RefusedError, name_of
+from contoursolve.families.targets import Goal
 from contoursolve.solving.verdict import REASONS, Code
 
 __all__ = [

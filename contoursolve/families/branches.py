@@ -1,5 +1,6 @@
-"""The solutions of a kind of contour, each as a function of its free words: one where the words choose it, several
-where further facts, values that are asked for, or choices that nothing makes leave several."""
+"""The solutions of a class of rows, each as a function of its free words, with the margins of its checks: one where the
+words choose it, several where further facts, values that are asked for, or choices that nothing makes leave several.
+"""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -7,28 +8,96 @@ from functools import lru_cache
 from itertools import product
 
 import numpy
+from numpy.typing import NDArray
 
-from contoursolve.backends.chart import Chart
+from contoursolve.backends.chart import Bounds, Chart
 from contoursolve.backends.inputs import lookup
+from contoursolve.backends.intervals import Array, Intervals
 from contoursolve.constraints import System
-from contoursolve.families.ends import about_of
-from contoursolve.families.isolate import LEVEL
-from contoursolve.families.kinds import Follows, Kind
-from contoursolve.families.margins import Margins, compile_margins, compile_results
-from contoursolve.families.ranges import NotClosedError
+from contoursolve.families.case_classes import Follows, Kind
+from contoursolve.families.limit_reasons import about_of
+from contoursolve.families.spec import NotClosedError
 from contoursolve.model import Choice, Fact
 from contoursolve.settling import orders_of, settled_by
 from contoursolve.solving import RefusalKind
-from contoursolve.solving.checks import Check, Checks, Source, Test, at_origin, check_facts, check_path, check_range
+from contoursolve.solving.checks import (
+    Check,
+    Checks,
+    Role,
+    Source,
+    Test,
+    at_origin,
+    check_facts,
+    check_path,
+    check_range,
+    compile_checks,
+)
 from contoursolve.solving.closed import ROOT, ClosedForm, Need, NoFormulaError, close
+from contoursolve.solving.compile import compile_system
 from contoursolve.tolerance import REGULAR
 from contoursolve.wording import join
+
+Bits = NDArray[numpy.bool_]
+
+_ROLES = (Role.CONTOUR, Role.FACT)
+"""Checks that tell whether there is a contour."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Margins:
+    """All checks of a system in their order, and their margins as functions of the free words."""
+
+    checks: tuple[Check, ...]
+    chart: Chart
+
+    @property
+    def limits(self) -> Array:
+        """The limits by check, as a column."""
+        return numpy.array([[each.limit] for each in self.checks])
+
+    @property
+    def is_apart(self) -> Bits:
+        """Which checks are about being apart from zero, as a column."""
+        return numpy.array([[each.test is Test.APART] for each in self.checks])
+
+    def failing(self, values: Array) -> Bits:
+        """Which checks fail, by (check, place). NaN fails, and a margin that is just at its limit passes, whatever the
+        test says of these: ends are looked at by single solves."""
+        size = numpy.where(self.is_apart, numpy.abs(values), values)
+        return ~numpy.where(self.is_apart, size > self.limits, size >= self.limits)
+
+    def first_failing(self, values: Array) -> NDArray[numpy.int64]:
+        """The number of the first check that fails, place by place; -1 where none does."""
+        fails = self.failing(values)
+        found: NDArray[numpy.int64] = numpy.where(fails.any(axis=0), fails.argmax(axis=0), -1)
+        return found
+
+    def verdicts(self, bounds: Bounds, is_level: Bits) -> tuple[Bits, Bits]:
+        """In which boxes all checks are passed for certain, and in which one of them fails everywhere; `is_level` are
+        the margins that are zero everywhere."""
+        limits, is_apart = self.limits, self.is_apart
+        bounds.low[is_level], bounds.high[is_level] = 0.0, 0.0
+        passes = bounds.low >= limits
+        passes = numpy.where(is_apart, (bounds.low > limits) | (bounds.high < -limits), passes)
+        fails = numpy.where(is_apart, numpy.maximum(-bounds.low, bounds.high) <= limits, bounds.high < limits)
+        return passes.all(axis=0) & bounds.is_defined, fails.any(axis=0) | bounds.is_undefined
+
+
+@lru_cache(maxsize=256)
+def compile_margins(system: System, words: int, follows: Follows) -> Margins:
+    """The margins of a system that has a closed form as functions of some words."""
+    checked = compile_checks(system)
+    kept = {number: check for number, check in enumerate(checked.checks) if check.role in _ROLES}
+    outputs = {str(number): checked.margins[number] for number in kept}
+    return Margins(tuple(kept.values()), Chart(checked.tape, outputs, words, dict(follows)))
+
 
 INSTEAD = "solve it value by value with `family` (`contoursolve sweep`)"
 """What to do where no range can be told."""
 
-PLACES = 64
-"""Places drawn at random at which what must not be zero is looked at."""
+PLACES, LEVEL = 64, 1e-10
+"""What is less than this, mm, at so many places drawn at random is zero everywhere: the checks are analytic between the
+few places where a direction turns."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -43,12 +112,41 @@ class Branch:
 
     def results(self, names: Sequence[str], *, is_rate: bool = False) -> tuple[Chart, list[float]]:
         """Some outputs as functions of the words, or their derivatives by the first, with the other inputs."""
-        follows = self.kind.follows(self.words)
-        if self.kind.is_closed:
-            chart = compile_results(self.kind.system, len(self.words), follows, tuple(names), is_rate=is_rate)
-        else:
-            chart = _results(self.kind.system, len(self.words), follows, tuple(names), is_rate=is_rate)
+        follows, is_closed = self.kind.follows(self.words), self.kind.is_closed
+        system, count = self.kind.system, len(self.words)
+        chart = _compile_results(system, count, follows, tuple(names), is_rate=is_rate, is_closed=is_closed)
         return chart, self.kind.fixed(chart.fixed, dict(self.signs))
+
+    def at(self, words: Sequence[Array]) -> Array:
+        """The margins at these values of the words, by (check, place)."""
+        return self.margins.chart.at(words, self.fixed)
+
+    def slopes_at(self, words: Sequence[Array]) -> Array:
+        """The derivatives of the margins by the words, by (word, check, place)."""
+        return self.margins.chart.slopes_at(words, self.fixed)
+
+    def verdicts(self, words: Sequence[Intervals], is_level: Bits, few: int = 0) -> tuple[Bits, Bits]:
+        """In which boxes of the words all checks are passed for certain, and in which one of them fails everywhere;
+        where more boxes than `few` are not decided, they are bounded better. `is_level` are the margins that are zero
+        everywhere."""
+        chart = self.margins.chart
+        bounds = chart.between(words, self.fixed)
+        passes, fails = self.margins.verdicts(bounds, is_level)
+        rest = ~(passes | fails) & bounds.is_smooth
+        if rest.sum() > few:
+            finer = chart.narrowed(bounds[rest], [each[rest] for each in words], self.fixed)
+            passes[rest], fails[rest] = self.margins.verdicts(finer, is_level)
+        return passes, fails
+
+    def sample(self, low: Sequence[float], high: Sequence[float]) -> Array:
+        """The margins at places drawn at random in a box of the words."""
+        rng = numpy.random.default_rng(PLACES)
+        return self.at([rng.uniform(*each, PLACES) for each in zip(low, high, strict=True)])
+
+    def find_level(self, low: Sequence[float], high: Sequence[float]) -> Bits:
+        """Which margins are zero everywhere in a box of the words."""
+        found: Bits = numpy.max(numpy.abs(self.sample(low, high)), axis=1) <= LEVEL
+        return found
 
 
 def branches_of(kind: Kind, words: Sequence[str], low: Sequence[float], high: Sequence[float]) -> tuple[Branch, ...]:
@@ -90,10 +188,8 @@ def _distinct(branches: Sequence[Branch], low: Sequence[float], high: Sequence[f
     if branches[0].kind.is_closed:
         return tuple(branches)
     form, found = close(branches[0].kind.system), list[Branch]()
-    rng = numpy.random.default_rng(PLACES)
-    places = [rng.uniform(*each, PLACES) for each in zip(low, high, strict=True)]
     for branch in branches:
-        values = branch.margins.chart.at(places, branch.fixed)[: len(form.conditions)]
+        values = branch.sample(low, high)[: len(form.conditions)]
         again = False
         for condition, row in zip(form.conditions, values, strict=True):
             if condition.need is Need.REGULAR and (numpy.abs(row) <= REGULAR).all():
@@ -144,8 +240,11 @@ def _compile(system: System, words: int, follows: Follows, choices: tuple[Choice
 
 
 @lru_cache(maxsize=256)
-def _results(system: System, words: int, follows: Follows, names: tuple[str, ...], *, is_rate: bool) -> Chart:
-    tape = close(system).machine.tape
+def _compile_results(
+    system: System, words: int, follows: Follows, names: tuple[str, ...], *, is_rate: bool, is_closed: bool
+) -> Chart:
+    """Some outputs of a system, or their derivatives by the first word, as functions of some words."""
+    tape = compile_system(system).tape if is_closed else close(system).machine.tape
     return Chart(tape, {name: tape.expression(name) for name in names}, words, dict(follows), is_rate=is_rate)
 
 

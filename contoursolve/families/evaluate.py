@@ -1,21 +1,69 @@
-"""Solves a contour for many values of some of its words."""
+"""Solves a contour for many values of some of its words, with any executor, and tells why no row has a contour."""
 
 import pickle
-from collections.abc import Collection, Iterable, Iterator, Mapping
-from concurrent.futures import Executor
+from collections import deque
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from concurrent.futures import Executor, Future, ThreadPoolExecutor
+from contextlib import contextmanager
+from dataclasses import dataclass, field
 from functools import lru_cache, partial
+from typing import TypeVar
 
-from numpy.typing import ArrayLike
+import numpy
+from numpy.typing import ArrayLike, NDArray
 
 from contoursolve.backends.columns import Array
+from contoursolve.diagnostic import Severity
 from contoursolve.dialects import Dialect
-from contoursolve.families.distribute import in_order, threads
-from contoursolve.families.examples import Examples, Kinds, examples_of, kinds_of
-from contoursolve.families.prepared import Sweep, Table
-from contoursolve.families.ranges import FamilyError, Ranges, Stretches, ranges_of
-from contoursolve.families.recipe import Recipe, recipe_of
-from contoursolve.families.refusal import check_block
-from contoursolve.families.result import Family
+from contoursolve.families.case_classes import Examples, Kinds, check_block, examples_of, kinds_of, weights_of
+from contoursolve.families.compiled_sweep import Sweep, Table
+from contoursolve.families.export import Family
+from contoursolve.families.spec import FamilyError, Ranges, Recipe, Stretches, ranges_of, recipe_of
+from contoursolve.solving import Status
+from contoursolve.solving.verdict import REASONS, Code
+
+Result = TypeVar("Result")
+
+THREADS = "contoursolve"
+"""What the names of the threads begin with."""
+
+
+@contextmanager
+def threads(count: int) -> Iterator[Executor | None]:
+    """Threads as an executor; none for one. Whoever presses Ctrl-C does not wait for what they have under way, which
+    may be minutes."""
+    if count <= 1:
+        yield None
+        return
+    executor = ThreadPoolExecutor(count, THREADS)
+    is_waiting = True
+    try:
+        yield executor
+    except KeyboardInterrupt:
+        is_waiting = False
+        raise
+    finally:
+        executor.shutdown(wait=is_waiting, cancel_futures=not is_waiting)
+
+
+def in_order(tasks: Iterable[Callable[[], Result]], executor: Executor | None, ahead: int) -> Iterator[Result]:
+    """The results of tasks in their order, of which at most one more than `ahead` are under way or waiting to be taken;
+    without an executor, one after the other. An error of a task ends all of them, and is raised with its traceback."""
+    if executor is None:
+        yield from (task() for task in tasks)
+        return
+    waiting: deque[Future[Result]] = deque()
+    try:
+        for task in tasks:
+            waiting.append(executor.submit(task))
+            if len(waiting) > ahead:
+                yield waiting.popleft().result()
+        while waiting:
+            yield waiting.popleft().result()
+    finally:
+        for future in waiting:
+            future.cancel()
+
 
 STRETCH = 65_536
 """Rows that are evaluated, or written to a file, at once."""
@@ -187,3 +235,62 @@ def _check_workers(workers: int | None) -> int:
     if workers is not None and workers < 1:
         raise FamilyError(f"workers is {workers}; it must be at least 1")
     return workers or 1
+
+
+@dataclass(frozen=True, slots=True)
+class Telling:
+    """The reason that most rows have: how many, the values of one of them as written, and the first error that `solve`
+    finds in that one."""
+
+    count: int
+    values: Mapping[str, float]
+    code: str
+    message: str
+
+
+@dataclass(slots=True)
+class Tally:
+    """How many rows have each status and reason, and the values of the first of each."""
+
+    words: tuple[str, ...]
+    counts: NDArray[numpy.int64] = field(default_factory=lambda: numpy.zeros((len(Code), len(REASONS)), numpy.int64))
+    firsts: dict[tuple[int, int], dict[str, float]] = field(default_factory=dict)
+
+    def add(self, table: Table) -> None:
+        """Count some rows, in their order."""
+        status, reason = table["status"], table["reason"]
+        known = self.counts > 0
+        numpy.add.at(self.counts, (status, reason), 1)
+        for code, number in numpy.argwhere((self.counts > 0) & ~known).tolist():
+            row = int(numpy.argmax((status == code) & (reason == number)))
+            self.firsts[code, number] = {word: float(table[word][row]) for word in self.words}
+
+
+def telling_of(ready: Sweep, tally: Tally) -> Telling | None:
+    """Why no row has a contour; None where rows have different statuses, or a contour."""
+    totals = tally.counts.sum(axis=1)
+    code = int(totals.argmax())
+    if totals[code] != totals.sum() or Code(code).status in (Status.SOLVED, Status.OVERDETERMINED):
+        return None
+    if all(kind.status is not None for kind in ready.kinds):
+        return _by_kinds(ready)
+    number = int(tally.counts[code].argmax())
+    values = tally.firsts[code, number]
+    return Telling(int(tally.counts[code, number]), values, *_error(ready, values))
+
+
+def _by_kinds(ready: Sweep) -> Telling:
+    """The same where rules tell of all rows: `reason` does not say which."""
+    counts, firsts = dict[str, int](), dict[str, tuple[dict[str, float], str]]()
+    for (_, numbers), weight in zip(ready.examples.rows, weights_of(ready.examples, ready.ranges), strict=True):
+        values = dict(zip(ready.ranges.values, numbers, strict=True))
+        code, message = _error(ready, values)
+        counts[code] = counts.get(code, 0) + weight
+        firsts.setdefault(code, (values, message))
+    most = max(counts, key=lambda code: counts[code])
+    return Telling(counts[most], firsts[most][0], most, firsts[most][1])
+
+
+def _error(ready: Sweep, values: Mapping[str, float]) -> tuple[str, str]:
+    findings = ready.found.template.solve(values).diagnostics
+    return next(((each.code, each.message) for each in findings if each.severity is Severity.ERROR), ("", ""))

@@ -15,16 +15,13 @@ from contoursolve.diagnosis.edits import write_word
 from contoursolve.diagnostic import Severity
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer
-from contoursolve.families.asking import asked_values
-from contoursolve.families.goals import CONSTANT, Curve, Goal, end_name, place_of, read_goal
-from contoursolve.families.ranges import FamilyError, NotClosedError, NotMovedError
-from contoursolve.families.recipe import recipe_of
-from contoursolve.families.refusal import check_block
-from contoursolve.families.results import results_of
-from contoursolve.families.roots import Zero, find_zeros
-from contoursolve.families.slopes import slopes_of
-from contoursolve.families.survey import LEAST_GAP, Piece, Survey, short
-from contoursolve.families.template import Template
+from contoursolve.families.case_classes import check_block, results_of
+from contoursolve.families.derivatives import slopes_of
+from contoursolve.families.feasible_ranges import LEAST_GAP, Piece, Survey, short
+from contoursolve.families.inverse_by_constraint import asked_values
+from contoursolve.families.spec import FamilyError, NotClosedError, NotMovedError, Template, recipe_of
+from contoursolve.families.subdivision import Zero, find_zeros
+from contoursolve.families.targets import CONSTANT, Curve, Goal, end_name, place_of, read_goal
 from contoursolve.model import FIRST, SECOND, Length, Plane, Unit
 from contoursolve.shown import Shown
 from contoursolve.solving import Point, Status

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise, product
+from itertools import product
 
 import numpy
 from numpy.typing import NDArray
@@ -10,17 +10,14 @@ from numpy.typing import NDArray
 from contoursolve.backends.intervals import Array
 from contoursolve.diagnostic import Severity
 from contoursolve.dialects import Dialect
-from contoursolve.families.boundary import ASIDE, Way
+from contoursolve.families.boundary_tracing import BISECTIONS, NODES, Box, Field, Trace, edge_of, gaps_of
 from contoursolve.families.branches import branches_of
-from contoursolve.families.ends import Reason, about_of, called, phrase, same
-from contoursolve.families.kinds import Kind, alike, kind_of, limits_of, unit_of, value_of
-from contoursolve.families.measures import measure_of_word
-from contoursolve.families.outline import BISECTIONS, NODES, Box, Field, Trace, edge_of, gaps_of
-from contoursolve.families.ranges import FamilyError, read_limits
-from contoursolve.families.recipe import recipe_of
-from contoursolve.families.refusal import check_block
-from contoursolve.families.result import Family
-from contoursolve.families.template import Template, find_words
+from contoursolve.families.case_classes import Kind, alike, check_block, kind_of, limits_of, unit_of, value_of
+from contoursolve.families.export import Family, measure_of_word
+from contoursolve.families.feasible_ranges import ASIDE, Way
+from contoursolve.families.limit_reasons import Reason, about_of, called, phrase, same
+from contoursolve.families.spec import FamilyError, Template, find_words, read_limits, recipe_of
+from contoursolve.families.subdivision import bisect
 from contoursolve.model import Unit
 from contoursolve.shown import Shown
 from contoursolve.solving import RefusalKind, RemarkKind
@@ -351,19 +348,12 @@ def _runs(tell: Callable[[Array], NDArray[numpy.bool_]], field: Field, axis: int
         return numpy.stack(both if axis == 0 else both[::-1], axis=1)
 
     states = tell(points(along))
-    begin = float(along[0]) if states[0] else None
-    for number, (one, other) in enumerate(pairwise(states.tolist())):
-        if one is other:
-            continue
-        low, high = float(along[number]), float(along[number + 1])
-        for _ in range(BISECTIONS):
-            middle = (low + high) / 2
-            low, high = (middle, high) if bool(tell(points(numpy.array([middle])))[0]) is one else (low, middle)
-        if one and begin is not None:
-            yield begin, low
-        begin = high if other else None
-    if begin is not None:
-        yield begin, float(along[-1])
+    changes = numpy.flatnonzero(states[1:] != states[:-1])
+    before = states[changes]
+    ends, begins = bisect(along[changes], along[changes + 1], lambda middle: tell(points(middle)) == before, BISECTIONS)
+    lows = [*([along[0]] if states[0] else []), *begins[~before]]
+    highs = [*ends[before], *([along[-1]] if states[-1] else [])]
+    yield from ((float(low), float(high)) for low, high in zip(lows, highs, strict=True))
 
 
 def _place(axis: int, own: int, other: int) -> tuple[int, int]:

@@ -11,7 +11,7 @@ from contoursolve.api import solve
 from contoursolve.diagnosis.edits import Edit, EditKind, apply_edits, write_word
 from contoursolve.diagnostic import Diagnostic, Fix
 from contoursolve.examine import Answer
-from contoursolve.families.template import call
+from contoursolve.families.spec import call
 from contoursolve.fill import FARTHEST
 from contoursolve.model import Unit
 from contoursolve.output.solutions import Listed, list_solutions

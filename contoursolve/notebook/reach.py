@@ -4,8 +4,7 @@ from collections.abc import Mapping
 from decimal import Decimal
 from typing import Any
 
-from contoursolve.families import FamilyError, Feasible, feasible
-from contoursolve.families.boundary import End, Interval, Way
+from contoursolve.families import End, FamilyError, Feasible, Interval, Way, feasible
 from contoursolve.notebook.exploration import Exploration, words_of
 from contoursolve.reading import Trouble
 from contoursolve.syntax import Word

@@ -1,7 +1,7 @@
 """What must hold of a contour: every check of its steps, its facts and its path, as one table of margins.
 
 `solving.solve` and `solving.path` ask the same of a single contour, in words; the columns of `solving.verdict` and the
-ranges of `families.margins` read this table.
+ranges of `families.branches` read this table.
 """
 
 from collections.abc import Iterable, Iterator, Sequence

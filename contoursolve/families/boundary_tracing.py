@@ -1,5 +1,6 @@
 """The edge of the region in two words in which all checks of a contour are passed: points on a grid's edges, joined
-cell by cell, each brought onto the zero of the margin that governs it."""
+cell by cell, each brought onto the zero of the margin that governs it.
+"""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -8,7 +9,8 @@ import numpy
 from numpy.typing import NDArray
 
 from contoursolve.backends.intervals import Array, Intervals
-from contoursolve.families.branches import Branch
+from contoursolve.families.branches import LEVEL, Branch
+from contoursolve.families.subdivision import bisect
 from contoursolve.solving import RefusalKind
 from contoursolve.solving.checks import Test
 
@@ -27,8 +29,8 @@ SAG, HALVINGS = 2e-4, 4
 LEVELS, MOST = 6, 10_000
 """How often a cell is divided in which intervals do not tell that all of it is alike, and into how many parts."""
 
-FAR, LEVEL = 1.5, 1e-10
-"""Cells that the corner of two lines may be away from the middle of their points; mm below which a margin is zero."""
+FAR = 1.5
+"""Cells that the corner of two lines may be away from the middle of their points."""
 
 Point = tuple[float, float]
 Cell = tuple[int, int]
@@ -75,12 +77,12 @@ class Field:
     def values(self, points: Array) -> Array:
         """All margins by (check, point)."""
         words = [points[:, 0], points[:, 1]]
-        return numpy.concatenate([branch.margins.chart.at(words, branch.fixed) for branch in self.branches])
+        return numpy.concatenate([branch.at(words) for branch in self.branches])
 
     def slopes(self, points: Array) -> Array:
         """The derivatives of all margins by (word, check, point), each for the whole width of the box."""
         words = [points[:, 0], points[:, 1]]
-        slopes = [branch.margins.chart.slopes_at(words, branch.fixed) for branch in self.branches]
+        slopes = [branch.slopes_at(words) for branch in self.branches]
         found: Array = numpy.concatenate(slopes, axis=1) * self.box.size[:, None, None]
         return found
 
@@ -180,15 +182,8 @@ class Field:
         size = words[0].low.size
         undecided, passing = numpy.zeros(size, bool), numpy.zeros(size, numpy.int64)
         for branch, at_nodes in zip(self.branches, self._parts(self.at_nodes), strict=True):
-            margins, chart = branch.margins, branch.margins.chart
             is_level = numpy.nan_to_num(numpy.abs(at_nodes)).max(axis=1) <= LEVEL
-            bounds = chart.between(words, branch.fixed)
-            passes, fails = margins.verdicts(bounds, is_level)
-            rest = ~(passes | fails)
-            if rest.any():
-                part = [Intervals(each.low[rest], each.high[rest]) for each in words]
-                finer = chart.narrowed(bounds[rest], part, branch.fixed)
-                passes[rest], fails[rest] = margins.verdicts(finer, is_level)
+            passes, fails = branch.verdicts(words, is_level)
             undecided |= ~(passes | fails)
             passing += passes
         return undecided & (passing < 2)  # noqa: PLR2004 - two contours are one too many, whatever the others are
@@ -214,10 +209,7 @@ class Lines:
         self.edges: dict[tuple[int, int, int], int] = {}
         pairs = list(self._edges(is_counted))
         inside, outside = (field.nodes[[pair[side] for pair in pairs]] for side in (0, 1))
-        for _ in range(BISECTIONS if pairs else 0):
-            middle = (inside + outside) / 2
-            is_in = tell(middle)[:, None]
-            inside, outside = numpy.where(is_in, middle, inside), numpy.where(is_in, outside, middle)
+        outside = bisect(inside, outside, lambda points: tell(points)[:, None], BISECTIONS)[1]
         self.checks = govern(outside) if pairs else numpy.zeros(0, numpy.int64)
         self.points = outside
         if pairs:

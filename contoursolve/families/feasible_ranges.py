@@ -1,29 +1,31 @@
-"""The values of one word of a block in order: how they are read, and where the contour is solved."""
+"""Where a contour exists: every range of one word's values in which it is solved, and what ends each."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from enum import Enum
 from itertools import pairwise
 from math import copysign, inf, isfinite, sqrt
 
 import numpy
 
 from contoursolve.backends.intervals import Array
+from contoursolve.diagnostic import Severity
+from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer
 from contoursolve.families.branches import INSTEAD, Branch, branches_of
-from contoursolve.families.isolate import Stretch, divide
-from contoursolve.families.kinds import Kind, alike, kind_of, limits_of, unit_of, value_of
-from contoursolve.families.ranges import FamilyError, NotClosedError, read_limits
-from contoursolve.families.template import Template
+from contoursolve.families.case_classes import Kind, alike, check_block, kind_of, limits_of, unit_of, value_of
+from contoursolve.families.limit_reasons import Reason, about_of, called, phrase, same
+from contoursolve.families.spec import FamilyError, NotClosedError, Template, read_limits, recipe_of
+from contoursolve.families.subdivision import SAMPLES, Stretch, find_stretches, section
 from contoursolve.model import Unit
+from contoursolve.shown import Shown
+from contoursolve.solving import RefusalKind, RemarkKind
 from contoursolve.solving.checks import Check
 from contoursolve.tolerance import LARGEST, LENGTH
-from contoursolve.wording import value_text
+from contoursolve.wording import limit_text, value_text
 
 LEAST_GAP = 1e-4
 """mm or degrees: a tenth of the controls' least increment. What is narrower may be missed."""
-
-SAMPLES, SECTIONS = 33, 12
-"""Values at which a stretch that is not decided is looked at, and how often what lies between two is divided so."""
 
 REACH = 1_000.0
 """mm. How far a length is looked at where no range is given: as far as most machines travel. Twice the value that
@@ -43,7 +45,7 @@ CLOSE = 1e-6
 Part = tuple[float, float, bool]
 """From one value to another, and whether all checks are passed there."""
 
-ASIDE = 0.382
+TRIED = 0.382
 """Share of a piece at which a single solve must agree with the solutions in closed form."""
 
 SMALL = 1e-4
@@ -190,7 +192,7 @@ class Survey:
             yield from self._joined(branches[0], *lines[0])
             return
         for piece in self._together(kind, branches, lines):
-            at = piece.low + ASIDE * (piece.high - piece.low)
+            at = piece.low + TRIED * (piece.high - piece.low)
             if self.is_solved(at) is piece.is_solved:
                 yield piece
                 continue
@@ -205,7 +207,7 @@ class Survey:
         parts: list[Part] = []
         holes: list[float] = []
         near = [self.stated] if low < self.stated < high else []
-        stretches = divide(branch.margins, branch.fixed, low, high, near=near)
+        stretches = find_stretches(branch, low, high, near=near)
         for before, stretch, after in zip([None, *stretches], stretches, [*stretches[1:], None], strict=False):
             if stretch.is_passed is not None:
                 parts.append((stretch.low, stretch.high, stretch.is_passed))
@@ -294,7 +296,7 @@ class Survey:
 
     def failing(self, branch: Branch, value: float) -> list[Check]:
         """The checks that fail at a value, in their order."""
-        values = branch.margins.chart.at([numpy.array([value])], branch.fixed)
+        values = branch.at([numpy.array([value])])
         return [branch.margins.checks[number] for number in branch.margins.failing(values)[:, 0].nonzero()[0]]
 
 
@@ -303,14 +305,14 @@ class _Undecided:
     is passed by rounding alone."""
 
     def __init__(self, survey: Survey, branch: Branch) -> None:
-        self.survey, self.branch, self.margins, self.fixed = survey, branch, branch.margins, branch.fixed
+        self.survey, self.branch, self.margins = survey, branch, branch.margins
 
     def decide(self, stretch: Stretch, before: Stretch | None, after: Stretch | None) -> tuple[list[Part], list[float]]:
         """Its parts, as far as samples tell, and single values that may differ from them."""
         if stretch.high - stretch.low > LEAST_GAP:
             self.survey.doubt(stretch.low, stretch.high, "the search for a proof was given up")
         places = numpy.linspace(stretch.low, stretch.high, SAMPLES)
-        values = self._values(places)
+        values = self.branch.at([places])
         states = (self.margins.first_failing(values) < 0).tolist()
         if before is not None:
             states[0] = before.is_passed
@@ -333,21 +335,13 @@ class _Undecided:
         zeros = [self._zero(places, values[row], row) for row in rows]
         return parts, sorted({short(each, REGULAR_ROUNDING) for each in zeros if each is not None})
 
-    def _values(self, places: Array) -> Array:
-        return self.margins.chart.at([places], self.fixed)
-
     def _crossing(self, low: float, high: float, state: bool) -> float:
         """Where the verdict changes."""
-        for _ in range(SECTIONS):
-            places = numpy.linspace(low, high, SAMPLES)
-            changed = (self.margins.first_failing(self._values(places)) < 0) != state
-            changed[0], changed[-1] = False, True
-            number = int(changed.argmax())
-            low, high = float(places[number - 1]), float(places[number])
-            if high - low <= 4 * numpy.spacing(max(abs(low), abs(high))):
-                break
+        low, high = section(
+            low, high, lambda places: (self.margins.first_failing(self.branch.at([places])) < 0) != state
+        )
         outside = high if state else low
-        number = int(self.margins.first_failing(self._values(numpy.array([outside])))[0])
+        number = int(self.margins.first_failing(self.branch.at([numpy.array([outside])]))[0])
         value, is_closed = self._exact(number, outside)
         value = short(value, REGULAR_ROUNDING if self.margins.is_apart[number, 0] else ROUNDING)
         if abs(round(value, 3) - value) <= 2 * LENGTH * max(1.0, abs(value)):
@@ -362,8 +356,8 @@ class _Undecided:
         found = value
         for _ in range(1 if is_closed else 3):
             places = [numpy.array([found, found + 1.0])]
-            at = float(self._values(places[0])[number, 0])
-            slope, next_slope = map(float, self.margins.chart.slopes_at(places, self.fixed)[0, number])
+            at = float(self.branch.at(places)[number, 0])
+            slope, next_slope = map(float, self.branch.slopes_at(places)[0, number])
             square = slope * slope - 2 * at * (next_slope - slope) if is_closed else slope * slope
             divisor = slope + copysign(sqrt(max(square, 0.0)), slope) if isfinite(square) else 0.0
             step = -2 * at / divisor if divisor else inf
@@ -379,13 +373,7 @@ class _Undecided:
             return None
         low, high = float(places[changes[0]]), float(places[changes[0] + 1])
         sign = numpy.sign(values[changes[0]])
-        for _ in range(SECTIONS):
-            finer = numpy.linspace(low, high, SAMPLES)
-            changed = numpy.sign(self._values(finer)[row]) != sign
-            changed[0], changed[-1] = False, True
-            number = int(changed.argmax())
-            low, high = float(finer[number - 1]), float(finer[number])
-        return high
+        return section(low, high, lambda finer: numpy.sign(self.branch.at([finer])[row]) != sign)[1]
 
 
 def short(value: float, give: float = ROUNDING) -> float:
@@ -395,3 +383,215 @@ def short(value: float, give: float = ROUNDING) -> float:
         if abs(rounded - value) <= give:
             return rounded + 0.0
     return value
+
+
+__all__ = ["LEAST_GAP", "End", "Feasible", "Interval", "Way", "feasible"]
+
+ASIDE = (1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4)
+"""Share of an end (at least of 1). How far beside it single solves are tried, until they tell its two sides apart."""
+
+
+class Way(Enum):
+    """How an end was found."""
+
+    CLOSED_FORM = "closed form"
+    """What ends there is a polynomial of degree 1 or 2 in the word."""
+    BISECTION = "bisection"
+    """By dividing a stretch outside of which it is proven that there is no end."""
+    RULE = "rule"
+    """A rule begins to refuse there, or the words are read in another way."""
+    RANGE = "range"
+    """The range that was asked about ends there; the contour goes on."""
+
+
+@dataclass(frozen=True, slots=True)
+class End:
+    """One end of a range of values with a contour.
+
+    `value` is as the word is written. `reason` says what fails beyond it; None where only the range that was asked
+    about ends. At `inside` a single solve has the contour, at `outside` it has none; None where no values close to the
+    end tell so. `is_included` tells whether the value itself has the contour.
+    """
+
+    value: float
+    way: Way
+    reason: Reason | None
+    is_included: bool
+    inside: float | None
+    outside: float | None
+
+    @property
+    def is_verified(self) -> bool:
+        """Whether single solves agree on its two sides, as far as it has two."""
+        return self.way is Way.RANGE or None not in (self.inside, self.outside)
+
+
+@dataclass(frozen=True, slots=True)
+class Interval:
+    """A range of a word's values in all of which the contour is solved; both ends are the same for a single value."""
+
+    low: End
+    high: End
+
+    def __contains__(self, value: float) -> bool:
+        for end in (self.low, self.high):
+            if value == end.value:
+                return end.is_included
+        return self.low.value < value < self.high.value
+
+
+@dataclass(frozen=True, slots=True)
+class Feasible(Shown):
+    """All values of a word, within a range, with which its block has a contour.
+
+    `unit` is what the word is written in (mm, inch or deg), `stated` the value that the block has. Without `doubts`, it
+    is proven that nothing wider than `LEAST_GAP` is missing; else these are some of the ranges, and they say why.
+    """
+
+    word: str
+    unit: str
+    stated: float
+    within: tuple[float, float]
+    intervals: tuple[Interval, ...]
+    doubts: tuple[str, ...]
+    refusal: str
+    """Why the block as it stands has no contour; empty if it has."""
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether these are proven to be all."""
+        return not self.doubts
+
+    def __contains__(self, value: float) -> bool:
+        return any(value in each for each in self.intervals)
+
+
+def feasible(
+    block: str,
+    word: str,
+    *,
+    start: str | None = None,
+    within: tuple[float, float] | None = None,
+    control: str | Dialect | None = None,
+    facts: Iterable[str] = (),
+    units: str = "mm",
+    rules: str = "enforce",
+    settings: Mapping[str, str] | None = None,
+) -> Feasible:
+    """Every range of a word's values, as it is written, in which the contour is solved.
+
+    Args:
+        block: the block, or the blocks of one contour.
+        word: the word by its letter (`P`, `,A`), or with its line where several have it (`2:,A`); a word of the start
+            point as `start.X`; a fact by what it gives the value of (`length of line 1`).
+        within: the range to look at; without it, an angle turns once (0 to 360, or -360 to 0 for a negative one), and
+            a length is looked at for 1 m to either side.
+        start: and all others as for `family`, with the same errors; also raises FamilyError where facts or `?` leave no
+            closed form, and names them: `family` solves such a block value by value.
+
+    The range is divided into stretches in each of which all that is checked of a contour is bounded by intervals, so
+    that no part with or without a contour is overlooked. Each end is computed, and solved on both sides. Where facts,
+    `?` or a choice that nothing makes leave several solutions, all are followed; the contour exists where one alone
+    can be made.
+
+    >>> found = feasible("G111 X100. A180. K-30. B120. P5. Q5.", "P", start="X40. Z0.")
+    >>> [(round(each.low.value, 4), round(each.high.value, 4)) for each in found.intervals]
+    [(0.0, 51.9615)]
+    >>> found.intervals[0].high.reason.text
+    'P too large for line 1: 51.961 mm at most'
+    """
+    template = recipe_of(
+        block, (word,), start=start, control=control, facts=facts, units=units, rules=rules, settings=settings
+    ).template()
+    check_block(template)
+    name = next(iter(template.words))
+    survey = Survey(template, name)
+    low, high = survey.range_of(within)
+    pieces = survey.pieces(low, high)
+    intervals = tuple(
+        Interval(_end(survey, pieces, first, last, -1), _end(survey, pieces, last, first, +1))
+        for first, last in _runs(pieces)
+    )
+    return Feasible(name, survey.unit, survey.stated, (low, high), intervals, tuple(survey.doubts), _refusal(survey))
+
+
+def _refusal(survey: Survey) -> str:
+    errors = (each for each in survey.solve(survey.stated).diagnostics if each.severity is Severity.ERROR)
+    return next((each.message for each in errors), "")
+
+
+def _runs(pieces: Sequence[Piece]) -> list[tuple[int, int]]:
+    """The first and the last of the pieces of each range with a contour."""
+    runs: list[tuple[int, int]] = []
+    for number, piece in enumerate(pieces):
+        if piece.is_solved and runs and runs[-1][1] == number - 1:
+            runs[-1] = runs[-1][0], number
+        elif piece.is_solved:
+            runs.append((number, number))
+    return runs
+
+
+def _end(survey: Survey, pieces: Sequence[Piece], number: int, other: int, way: int) -> End:
+    """The lower (-1) or upper (+1) end of a range from one piece to another, of which `number` is at this end."""
+    value = pieces[number].low if way < 0 else pieces[number].high
+    if not 0 <= number + way < len(pieces):
+        return End(value, Way.RANGE, None, True, None, None)
+    beyond = pieces[number + way]
+    width = abs(value - (pieces[other].high if way < 0 else pieces[other].low))
+    inside, outside = _sides(survey, value, way, beyond, width)
+    crossing = survey.crossings.get(value)
+    reason, is_rule = _reason(survey, value, way, outside, crossing, (beyond, pieces[number]))
+    how = Way.CLOSED_FORM if crossing is not None and crossing.is_closed else Way.BISECTION
+    return End(value, Way.RULE if is_rule else how, reason, survey.is_solved(value), inside, outside)
+
+
+def _sides(survey: Survey, value: float, way: int, beyond: Piece, width: float) -> tuple[float | None, float | None]:
+    """Values close to an end on its two sides that single solves tell apart, within the range, which is so wide, and
+    within what lies beyond it."""
+    for share in ASIDE:
+        step = share * max(1.0, abs(value))
+        inside = value - way * min(step, width)
+        outside = value + way * min(step, (beyond.high - beyond.low) / 2)
+        if survey.is_solved(inside) and not survey.is_solved(outside):
+            return inside, outside
+    return None, None
+
+
+def _reason(
+    survey: Survey, value: float, way: int, outside: float | None, crossing: Crossing | None, near: Sequence[Piece]
+) -> tuple[Reason, bool]:
+    """What fails beyond an end, and whether it is a rule or the reading of the words; `near` are the pieces on its two
+    sides, the one beyond it first."""
+    at, limit = value_text(value, survey.unit), limit_text(value, survey.unit, way, is_included=survey.is_solved(value))
+    limit = f"at {at}" if near[0].is_value else f"{limit} at {'most' if way > 0 else 'least'}"
+    beyond = "at" if near[0].is_value else "above" if way > 0 else "below"
+    there = outside if outside is not None else (near[0].low + near[0].high) / 2
+    finding = next((each for each in survey.solve(there).diagnostics if each.severity is Severity.ERROR), None)
+    code, message = (finding.code, finding.message) if finding is not None else ("", "")
+    kind = finding.about if finding is not None and isinstance(finding.about, RefusalKind) else None
+    if kind is RefusalKind.NOT_VERIFIED:
+        # Close to a singular case rounding alone keeps the equations from holding.
+        kind, code, message = None, "", ""
+    if finding is not None and finding.about is RemarkKind.SEVERAL:
+        # Another solution becomes a contour, too.
+        return Reason(f"{message}: {limit}", code, message), False
+    read_as = crossing.kind if crossing is not None else next((each.kind for each in near if each.kind), None)
+    if finding is not None and kind is None and code:
+        says = f"rule {code} refuses" if finding.about is None else f"{code} is found for"
+        return Reason(f"{says} {called(survey.word)} {beyond} {at}", code, message), crossing is None
+    if read_as is None:
+        return Reason(f"{message or 'there is no contour'}: {limit}", code, message), True
+    about = about_of(read_as.free, read_as.profile)
+    branch = crossing.branch if crossing is not None else near[1].branch
+    failing = survey.failing(branch, there) if branch is not None else []
+    if crossing is not None:
+        failing.insert(0, crossing.check)
+    check = next((each for each in failing if kind is None or same(each.kind, kind)), None)
+    if check is None:
+        return Reason(f"{message or 'there is no contour'}: {limit}", code, message), crossing is None
+    text = phrase(check, kind or check.kind, about)
+    is_singular = crossing is not None and crossing.check.kind is RefusalKind.LINES_PARALLEL
+    if crossing is not None and is_singular and not same(crossing.check.kind, check.kind):
+        text, limit = f"{phrase(crossing.check, crossing.check.kind, about)}: {limit}", f"beyond it {text}"
+        return Reason(f"{text}; {limit}", code, message), False
+    return Reason(f"{text}: {limit}", code, message), crossing is None and not near[0].is_value

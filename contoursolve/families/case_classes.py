@@ -1,10 +1,16 @@
-"""Rows of a family that the rules treat alike: one system, one choice of branches, one function."""
+"""Rows that the rules treat alike, which have one system, one choice of branches, one function: which classes of rows a
+case has, and what they have for results.
+"""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from decimal import Decimal
+from itertools import pairwise, product
+from math import isfinite, nan, prod
+from typing import Any
 
 import numpy
+from numpy.typing import NDArray
 
 from contoursolve.analysis import judge
 from contoursolve.backends.chart import Following
@@ -13,9 +19,8 @@ from contoursolve.backends.inputs import COSINE, SINE
 from contoursolve.constraints import System, assemble
 from contoursolve.diagnostic import Basis, Severity
 from contoursolve.examine import MOST_CHOICES, Answer, count_choices
-from contoursolve.families.ranges import FamilyError, Places, Ranges
-from contoursolve.families.template import Template, is_same, unit_word
-from contoursolve.model import Given, Profile, Start, Unit
+from contoursolve.families.spec import FamilyError, Places, Ranges, RefusedError, Template, is_same, unit_word
+from contoursolve.model import FIRST, SECOND, CornerShape, Given, Profile, Question, Start, Unit, scalar
 from contoursolve.reading import Trouble
 from contoursolve.rules import Rule, Value
 from contoursolve.solving import RemarkKind, Solution, Status, is_closed, points_with_two_solutions
@@ -23,7 +28,7 @@ from contoursolve.solving.checks import Check, compile_checks
 from contoursolve.solving.compile import Machine, compile_system
 from contoursolve.solving.numbers import axes_of, inputs_of
 from contoursolve.solving.solve import solve
-from contoursolve.solving.verdict import Codes
+from contoursolve.solving.verdict import Codes, code_of, reason_of
 from contoursolve.syntax import FACT, Word
 from contoursolve.tolerance import LARGEST
 
@@ -381,3 +386,230 @@ def _verdict(answer: Answer) -> Status | None:
     if answer.status is Status.REJECTED or is_structural or len(system.facts) == len(system.unknowns):
         return answer.status
     raise FamilyError(f"{errors[0].message}; leave out what is said twice, or apply no rules")
+
+
+Results = Mapping[str, NDArray[Any]]
+"""Columns by name."""
+
+Behind = tuple[str, int | None]
+"""The output behind a result, and the axis of a coordinate: inside they count from the start point."""
+
+
+def shown_as(output: str) -> str:
+    """The output that has the results."""
+    return f"shown:{output}"
+
+
+def names_of(kind: Kind) -> dict[str, str]:
+    """The names of the results, by the outputs that have them."""
+    return {"worst": "residual"} | {shown_as(output): name for name, (output, _) in results_of(kind).items()}
+
+
+def sides_of_choice(kind: Kind) -> dict[str, int]:
+    """The sides that the words choose, by the point: +1 farther or left, -1 nearer or right."""
+    shown = kind.profile.intersections
+    return {choice.point: choice.side.sign for choice in kind.profile.choices if choice.given and choice.point in shown}
+
+
+def results_of(kind: Kind) -> dict[str, Behind]:
+    """The output behind each result, and the axis of a coordinate: inside they count from the start point."""
+    figure = kind.system.figure
+    axes = list(zip((FIRST, SECOND), kind.profile.plane.axes, strict=True))
+    found: dict[str, tuple[str, int | None]] = {}
+    for point in figure.points:
+        found |= {f"{point}.{letter}": (scalar(point, axis), axis) for axis, letter in axes}
+    found |= {f"{radius}": (radius, None) for radius in figure.radii}
+    for corner in figure.corners:
+        for place in ("begin", "end", *(("center",) if corner.shape is CornerShape.FILLET else ())):
+            for axis, letter in axes:
+                found[f"{corner.name}.{place}.{letter}"] = f"{place}:{corner.name}.{axis}", axis
+    return found | {f"{element.name}.room": (f"room:{element.name}", None) for element in figure.path}
+
+
+def asked_of(profile: Profile) -> dict[str, Question]:
+    """The values that are asked for, by the names of their columns."""
+    found: dict[str, Question] = {}
+    for question in profile.questions:
+        name = f"asked.{question.word.text.partition('=')[0].rstrip('? ').strip()}"
+        found[f"{name} in line {question.word.span.line}" if name in found else name] = question
+    return found
+
+
+def fill_row(kind: Kind, values: Mapping[str, float], row: int, table: Results) -> None:
+    """The results of a single solve in a row."""
+    solution = kind.solve(values)
+    table["status"][row] = code_of(solution.status)
+    table["reason"][row] = reason_of(solution.refusals[0].kind if solution.refusals else None)
+    if not solution.points:
+        for name in (*(name for name in table if name.endswith(".room")), "residual"):
+            # A room without points is none.
+            table[name][row] = table[name][row] if isfinite(table[name][row]) else nan
+        return
+    letters = kind.profile.plane.axes
+    for radius, value in solution.radii.items():
+        table[radius][row] = value
+    pairs = dict(solution.points)
+    del pairs[kind.system.figure.start]
+    for name, corner in solution.corners.items():
+        pairs |= {f"{name}.begin": corner.begin, f"{name}.end": corner.end}
+        pairs |= {f"{name}.center": corner.center} if corner.center is not None else {}
+    for name, pair in pairs.items():
+        for letter, value in zip(letters, pair, strict=True):
+            table[f"{name}.{letter}"][row] = value
+    touching = {remark.subject for remark in solution.remarks if remark.kind is RemarkKind.TOUCHES}
+    for point, side in sides_of_choice(kind).items():
+        table[f"branch.{point}"][row] = 0 if point in touching else side
+
+
+@dataclass(frozen=True, slots=True)
+class Examples:
+    """One row of each kind that the rules may tell apart, as plain data.
+
+    Each word has a scale and bounds: its values, scaled, lie between two bounds or on one, which gives a number;
+    `rows` are the numbers of all words, with values that have them.
+    """
+
+    scales: tuple[float, ...]
+    bounds: tuple[tuple[float, ...], ...]
+    rows: tuple[tuple[tuple[int, ...], tuple[float, ...]], ...]
+
+    def key(self, values: Sequence[Array], places: Sequence[Places]) -> NDArray[numpy.int64]:
+        """The numbers of all words as one, row by row."""
+        key = numpy.zeros(places[0].size, numpy.int64)
+        for each, at, scale, bounds in zip(values, places, self.scales, self.bounds, strict=True):
+            key = key * (2 * len(bounds) + 1) + intervals_of(each * scale, bounds)[at]
+        return key
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Kinds:
+    """The kinds of rows of a family; `keys`, in order, are the keys of `Examples`, and `numbers` the kind of each."""
+
+    template: Template
+    items: tuple[Kind, ...]
+    keys: NDArray[numpy.int64]
+    numbers: NDArray[numpy.int64]
+
+
+def examples_of(template: Template, ranges: Ranges) -> Examples:
+    """A row for each set of intervals in which the values lie. Raises FamilyError."""
+    scales, bounds = limits_of(template, {name: float(values[0]) for name, values in ranges.values.items()})
+    if prod(2 * len(limits) + 1 for limits in bounds) >= 2**63:
+        raise FamilyError(f"{len(bounds)} words are too many to vary at once")
+    columns = [
+        intervals_of(values * scale, limits)
+        for values, scale, limits in zip(ranges.values.values(), scales, bounds, strict=True)
+    ]
+    rows: list[tuple[tuple[int, ...], tuple[float, ...]]] = []
+    words = list(ranges.values.values())
+    if ranges.is_paired:
+        keys, firsts = numpy.unique(numpy.stack(columns, axis=1), axis=0, return_index=True)
+        for key, row in zip(keys.tolist(), firsts.tolist(), strict=True):
+            rows.append((tuple(key), tuple(float(values[row]) for values in words)))
+    else:
+        found = [
+            zip(*(part.tolist() for part in numpy.unique(each, return_index=True)), strict=True) for each in columns
+        ]
+        for choice in product(*found):
+            places = zip(words, (place for _, place in choice), strict=True)
+            rows.append((tuple(int(number) for number, _ in choice), tuple(float(each[at]) for each, at in places)))
+    return Examples(tuple(scales), tuple(bounds), tuple(rows))
+
+
+def kinds_of(template: Template, examples: Examples) -> Kinds:
+    """The kinds of the example rows. Raises FamilyError."""
+    items: list[Kind] = []
+    numbers: dict[int, int] = {}
+    for parts, values in examples.rows:
+        kind = kind_of(template, dict(zip(template.words, values, strict=True)))
+        same = next((number for number, each in enumerate(items) if alike(each, kind)), None)
+        key = 0
+        for part, bounds in zip(parts, examples.bounds, strict=True):
+            key = key * (2 * len(bounds) + 1) + part
+        numbers[key] = len(items) if same is None else same
+        if same is None:
+            items.append(kind)
+    ordered = sorted(numbers.items())
+    return Kinds(
+        template,
+        tuple(items),
+        numpy.array([key for key, _ in ordered], numpy.int64),
+        numpy.array([number for _, number in ordered], numpy.int64),
+    )
+
+
+def weights_of(examples: Examples, ranges: Ranges) -> list[int]:
+    """How many rows of a family are like each of the examples."""
+    words = zip(ranges.values.values(), examples.scales, examples.bounds, strict=True)
+    columns = [intervals_of(values * scale, bounds) for values, scale, bounds in words]
+    if ranges.is_paired:
+        counts: list[int] = numpy.unique(numpy.stack(columns, axis=1), axis=0, return_counts=True)[1].tolist()
+        return counts
+    many = [numpy.bincount(column).tolist() for column in columns]
+    return [prod(each[part] for each, part in zip(many, parts, strict=True)) for parts, _ in examples.rows]
+
+
+Refusals = frozenset[tuple[str, int, tuple[str, ...]]]
+"""Findings by code, line and words."""
+
+
+def check_block(template: Template, values: Mapping[str, float] | None = None) -> None:
+    """Raise RefusedError where a block is refused whatever the values of its free words; `values` are those of one row,
+    without it those that the words have in the block.
+
+    Rules treat the values between two of their limits alike. Word by word, the value with the fewest refusals is
+    taken; what then is left does not depend on the values.
+    """
+    answer = template.solve(values or {})
+    left = _refusals(answer)
+    if not left:
+        return
+    chosen = dict(values or {name: value_of(word, answer) for name, word in template.words.items()})
+    limits = zip(chosen, *limits_of(template, chosen), strict=True) if chosen else ()
+    for name, scale, bounds in limits:
+        for value in _probes(bounds):
+            tried = {**chosen, name: value / scale}
+            try:
+                found = _refusals(template.solve(tried))
+            except FamilyError:  # with this value it is no single contour
+                continue
+            if _weight(found) < _weight(left):
+                left, chosen = found, tried
+            if not left:
+                return
+    raise RefusedError(template.examined())
+
+
+def _refusals(answer: Answer) -> Refusals:
+    """What refuses a block by its text, its words or the structure of its equations."""
+    if answer.status not in _REFUSED:
+        return frozenset()
+    errors = (each for each in answer.diagnostics if each.severity is Severity.ERROR)
+    return frozenset(
+        (each.code, each.span.line, each.addresses)
+        for each in errors
+        if each.basis is not Basis.NUMERICAL or each.about in _USELESS
+    )
+
+
+_REFUSED = (Status.REJECTED, Status.CONFLICTING, Status.UNDERDETERMINED)
+"""What a block may be without its values."""
+
+
+def _weight(refusals: Refusals) -> tuple[int, int]:
+    """How much is refused: findings, and the words that they name."""
+    return len(refusals), sum(len(words) for _, _, words in refusals)
+
+
+_USELESS = (Trouble.FACT_UNREADABLE, Trouble.FACT_IMPOSSIBLE)
+"""Findings about facts that cannot be used, whatever they rest on."""
+
+
+def _probes(bounds: tuple[float, ...]) -> Iterator[float]:
+    """A value on each limit of the rules and between each two, as far as values are read."""
+    inner = [each for each in bounds if abs(each) < LARGEST]
+    yield from inner
+    # Near the least of them, for what is large may fit nowhere.
+    for low, high in pairwise((-LARGEST, *inner, LARGEST)):
+        step = min(1.0, (high - low) / 2)
+        yield low + step if low >= 0 else high - step

@@ -1,4 +1,4 @@
-"""Where a point of a contour is wanted, and how far it is from there as a function of one word."""
+"""Where a point of a contour is wanted."""
 
 import re
 from collections.abc import Sequence
@@ -11,9 +11,8 @@ from numpy.typing import NDArray
 
 from contoursolve.backends.intervals import Array, Intervals, constant
 from contoursolve.contour import Contour
-from contoursolve.families.branches import Branch
-from contoursolve.families.isolate import find_level
-from contoursolve.families.ranges import FamilyError
+from contoursolve.families.branches import PLACES, Branch
+from contoursolve.families.spec import FamilyError
 from contoursolve.model import Figure, Length, Plane, Unit
 from contoursolve.reading import Lexicon, WithoutPoint
 from contoursolve.solving import Point
@@ -21,8 +20,8 @@ from contoursolve.source import Span
 from contoursolve.syntax import Word
 from contoursolve.unpointed import counts_few, readings
 
-PLACES, CONSTANT = 64, 1e-10
-"""A coordinate whose rate, mm for each unit of the word, is less at so many places drawn at random never changes."""
+CONSTANT = 1e-10
+"""mm for each unit of the word. A coordinate whose rate is less at places drawn at random never changes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,11 +115,13 @@ class Curve:
         return bool((numpy.abs(self._slopes_at(places)) <= CONSTANT).all())
 
     def is_void(self, cells: Intervals) -> NDArray[numpy.bool_]:
-        margins, fixed = self.branch.margins, self.branch.fixed
-        is_level = find_level(margins, fixed, *self.within)
-        return margins.verdicts(margins.chart.between([cells], fixed), is_level)[1]
+        """Where there is no contour for certain, so that no zero counts."""
+        low, high = self.within
+        # Bounds as they are: what is not decided by them is divided.
+        return self.branch.verdicts([cells], self.branch.find_level([low], [high]), cells.low.size)[1]
 
     def at(self, places: Array) -> Array:
+        """The values."""
         drifted = numpy.array(self.drift)[:, None] * places
         values = self.chart.at([places], self.fixed[0]) + drifted - numpy.array(self.place)[:, None]
         if not self.is_nearest:
@@ -134,6 +135,7 @@ class Curve:
         return found
 
     def between(self, cells: Intervals) -> tuple[Intervals, NDArray[numpy.bool_]]:
+        """What the values lie between, and where nothing jumps."""
         away, is_smooth = self._away(cells)
         if not self.is_nearest:
             return away[0], is_smooth
@@ -141,6 +143,7 @@ class Curve:
         return away[0] * rates[0] + away[1] * rates[1], is_smooth
 
     def slopes(self, cells: Intervals) -> Intervals:
+        """What the derivatives lie between."""
         rates = self._rates(cells)
         if not self.is_nearest:
             return rates[0]

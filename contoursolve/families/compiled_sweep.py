@@ -1,4 +1,4 @@
-"""A family that is ready to be evaluated, any stretch of its rows at a time."""
+"""A case that is ready to be evaluated, any stretch of its rows at a time."""
 
 import threading
 from collections.abc import Mapping, Sequence
@@ -14,13 +14,24 @@ from numpy.typing import NDArray
 from contoursolve.backends.columns import ROWS, Array, ColumnFunction, Columns, compile_columns
 from contoursolve.backends.numeric import where
 from contoursolve.constraints import System
-from contoursolve.families.examples import Examples, Kinds
-from contoursolve.families.kinds import ORIGIN, Input, Kind
-from contoursolve.families.measures import Measure, measures_of
-from contoursolve.families.ranges import Places, Ranges, Stretches
-from contoursolve.families.recipe import Recipe
-from contoursolve.families.results import Behind, Results, fill_row, names_of, results_of, shown_as, sides_of_choice
-from contoursolve.families.several import BLOCK, Several, asked_of
+from contoursolve.families.branch_rows import BLOCK, Several
+from contoursolve.families.case_classes import (
+    ORIGIN,
+    Behind,
+    Examples,
+    Input,
+    Kind,
+    Kinds,
+    Results,
+    asked_of,
+    fill_row,
+    names_of,
+    results_of,
+    shown_as,
+    sides_of_choice,
+)
+from contoursolve.families.export import Measure, measures_of
+from contoursolve.families.spec import Places, Ranges, Recipe, Stretches
 from contoursolve.solving import RefusalKind
 from contoursolve.solving.checks import NO_PLACE, compile_checks
 from contoursolve.solving.plan import Step, TwoCirclesStep

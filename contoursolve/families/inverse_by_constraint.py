@@ -1,4 +1,4 @@
-"""The inverse question where there is no closed form: the word is asked for, and the goal stated as a fact."""
+"""The inverse question where there is no closed form: the word is asked for, and the target stated as a fact."""
 
 import re
 from collections.abc import Iterator
@@ -6,9 +6,8 @@ from collections.abc import Iterator
 from contoursolve import syntax
 from contoursolve.diagnostic import Severity
 from contoursolve.examine import Answer, Depth, answer_question, count_choices, list_alternatives
-from contoursolve.families.goals import Goal
-from contoursolve.families.ranges import FamilyError, NotMovedError
-from contoursolve.families.template import Template, is_same, write
+from contoursolve.families.spec import FamilyError, NotMovedError, Template, is_same, write
+from contoursolve.families.targets import Goal
 from contoursolve.model import Figure, Unit
 from contoursolve.pipeline import run
 from contoursolve.reading import Trouble

@@ -1,0 +1,391 @@
+"""A block with free words, how it is read, and the values that the words take: plain data, from which any process makes
+the same functions.
+"""
+
+import re
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from decimal import Decimal, InvalidOperation
+from math import isfinite
+
+import numpy
+from numpy.typing import ArrayLike, NDArray
+
+from contoursolve import syntax
+from contoursolve.backends.columns import Array
+from contoursolve.choices import choice_of
+from contoursolve.diagnostic import Severity
+from contoursolve.dialects import DIALECTS, Dialect
+from contoursolve.examine import Answer, Depth, Policy
+from contoursolve.model import Length
+from contoursolve.pipeline import Result, run
+from contoursolve.reading import Trouble
+from contoursolve.recognise import UnknownControlError, choose
+from contoursolve.syntax import FACT, Directive, Program, Word
+from contoursolve.tolerance import LARGEST
+
+Places = NDArray[numpy.int64]
+
+LONGEST = 262_144
+"""Values of one word of a grid that are prepared once for all rows; of more, a stretch at a time."""
+
+
+class FamilyError(ValueError):
+    """A family that cannot be evaluated; the message says why, and what to do."""
+
+
+class NotClosedError(FamilyError):
+    """What needs a closed form is asked about a block that has none."""
+
+
+class NotMovedError(FamilyError):
+    """A word that does not move a point in the direction that is asked about."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Ranges:
+    """The values of each free word, by its name: as columns side by side (`is_paired`), or as the axes of a grid whose
+    last word varies fastest."""
+
+    values: Mapping[str, Array]
+    is_paired: bool
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """(rows,) for columns, one size for each word for a grid."""
+        sizes = tuple(each.size for each in self.values.values())
+        return sizes[:1] if self.is_paired else sizes
+
+    @property
+    def count(self) -> int:
+        """Rows altogether."""
+        total = 1
+        for size in self.shape:
+            total *= size
+        return total
+
+    def places(self, word: str, first: int, last: int) -> Places:
+        """Where the values of a word are for the rows from `first` to before `last`."""
+        if self.is_paired:
+            return numpy.arange(first, last)
+        number = list(self.values).index(word)
+        size, stride = self.shape[number], 1
+        for other in self.shape[number + 1 :]:
+            stride *= other
+        # Repeating what is there takes a tenth of the time of dividing row numbers.
+        if stride == 1:
+            skipped = first % size
+            return numpy.resize(numpy.arange(size), skipped + last - first)[skipped:]
+        wholes = numpy.arange(first // stride, (last - 1) // stride + 1) % size
+        skipped = first % stride
+        return numpy.repeat(wholes, stride)[skipped : skipped + last - first]
+
+    def rows(self, first: int, last: int) -> "Ranges":
+        """The rows from `first` to before `last` as columns."""
+        return Ranges({word: values[self.places(word, first, last)] for word, values in self.values.items()}, True)
+
+    def row(self, places: Mapping[str, Places], number: int) -> dict[str, float]:
+        """The values of one row, from where those of some rows are."""
+        return {word: float(values[places[word][number]]) for word, values in self.values.items()}
+
+    @property
+    def is_long(self) -> bool:
+        """Whether there are too many values to prepare all of them beforehand."""
+        return self.is_paired or max(self.shape) > LONGEST
+
+
+def name_of(text: str) -> str:
+    """The name of a word, upper case; of a word of the start point, `start.X`; of a fact, its text."""
+    parts = text.split()
+    if len(parts) > 1:
+        return " ".join(parts)
+    head, dot, rest = text.strip().partition(".")
+    return f"{START}.{rest.upper()}" if dot and head.lower() == START else text.strip().upper()
+
+
+START = "start"
+
+
+def ranges_of(vary: Mapping[str, ArrayLike], *, is_paired: bool) -> Ranges:
+    """The ranges of a mapping. Raises FamilyError for what is no list of numbers."""
+    if not isinstance(vary, Mapping):
+        raise TypeError(f"vary is a mapping of words to their values, such as {{'A': [170, 180]}}, not {vary!r}")
+    if not vary:
+        raise FamilyError("no word varies; name one with its values, such as A with 170 to 190")
+    values: dict[str, Array] = {}
+    for name, each in vary.items():
+        word = name_of(name)
+        try:
+            array = numpy.atleast_1d(numpy.asarray(each, dtype=numpy.float64))
+        except (TypeError, ValueError):
+            raise FamilyError(f"the values of {name} are not numbers") from None
+        if array.ndim != 1 or not array.size:
+            raise FamilyError(f"{name} needs a list of one or more numbers, not an array of shape {array.shape}")
+        if not numpy.isfinite(array).all():
+            raise FamilyError(f"the values of {name} must be finite numbers")
+        if numpy.abs(array).max() > LARGEST:
+            value = array[numpy.abs(array).argmax()]
+            raise FamilyError(f"{name} goes to {value:g}, beyond {LARGEST:,.0f}, the largest value that is read")
+        if word in values:
+            raise FamilyError(f"{name} is named twice")
+        values[word] = array
+    sizes = {word: array.size for word, array in values.items()}
+    if is_paired and len(set(sizes.values())) > 1:
+        told = ", ".join(f"{word} has {size:,}" for word, size in sizes.items())
+        raise FamilyError(f"paired words need equally many values: {told}")
+    return Ranges(values, is_paired)
+
+
+def read_limits(word: str, within: tuple[float, float], largest: float, unit: str) -> tuple[float, float]:
+    """The range in which a word is looked at, as it is written. Raises FamilyError for one that is none, or that goes
+    beyond the largest value that is read."""
+    try:
+        low, high = map(float, within)
+    except (TypeError, ValueError):
+        raise FamilyError(f"the range of {word} is two numbers, the smaller one first, not {within!r}") from None
+    told = f"{word} from {low:g} to {high:g}"
+    if not (isfinite(low) and isfinite(high)):
+        raise FamilyError(f"{told} is no range; give two finite numbers")
+    if low >= high:
+        raise FamilyError(f"{told} is no range; the smaller number comes first")
+    if low < -largest or high > largest:
+        raise FamilyError(f"{told} goes beyond {largest:,.0f} {unit}, the largest value that is read; look at less")
+    return low, high
+
+
+@dataclass(frozen=True, slots=True)
+class Stretches(Collection[tuple[int, int]]):
+    """The rows from 0 to `count` in stretches of at most `size`; however many, they take no memory."""
+
+    count: int
+    size: int
+
+    def __len__(self) -> int:
+        return (self.count + self.size - 1) // self.size
+
+    def __iter__(self) -> Iterator[tuple[int, int]]:
+        return ((first, min(first + self.size, self.count)) for first in range(0, self.count, self.size))
+
+    def __contains__(self, stretch: object) -> bool:
+        return any(stretch == each for each in self)
+
+
+class RefusedError(FamilyError):
+    """A block that is refused whatever the values of its free words. The message has the first error and what to do;
+    `result` is what `solve` says of the block as it stands."""
+
+    def __init__(self, result: Result) -> None:
+        self.result = result
+        error = next(each for each in result.diagnostics if each.severity is Severity.ERROR)
+        remedy = error.fixes[0].description if error.fixes else error.help
+        super().__init__(f"{error.message}; {remedy}" if remedy else error.message)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Template:
+    """A program with one contour, how it is read, and its free words by the names that the user gave them: words of its
+    blocks, words of the start point, and facts whose value is free."""
+
+    program: Program
+    dialect: Dialect
+    unit: Length
+    policy: Policy
+    start: Program | None
+    words: Mapping[str, Word]
+    facts: tuple[Directive, ...] = ()
+
+    def solve(self, values: Mapping[str, float]) -> Answer:
+        """What a single solve says. Raises FamilyError where the blocks are no single contour with a known start."""
+        program = self._fill(self.program, values, 1)
+        start = self._fill(self.start, values, 0) if self.start is not None else None
+        result = run(program, self.dialect, self.unit, self.policy, Depth.VERDICT, start, self._facts(values))
+        if len(result.answers) != 1:
+            if not result.answers and result.has_errors:
+                raise RefusedError(self.examined())
+            reasons = [each.message for each in result.diagnostics]
+            told = f"the block has {len(result.answers)} contours; a family is about one"
+            raise FamilyError(reasons[0] if reasons and not result.answers else told)
+        answer = result.answers[0]
+        if not answer.start.is_known:
+            if any(each.severity is Severity.ERROR and not each.span.line for each in result.diagnostics):
+                raise RefusedError(self.examined())
+            raise FamilyError('the start point is not known; state it as the start, such as "X40. Z0."')
+        return answer
+
+    def examined(self) -> Result:
+        """All that `solve` says of the block as it stands, with every repair."""
+        return run(self.program, self.dialect, self.unit, self.policy, Depth.FULL, self.start, self.facts)
+
+    def texts(self, values: Mapping[str, float]) -> Iterator[str]:
+        """The lines of the block with these values, and the facts that are stated apart from it."""
+        yield from (block.text for block in self._fill(self.program, values, 1).blocks)
+        yield from (each.text for each in self._facts(values))
+
+    def filled(self, values: Mapping[str, float]) -> "Template":
+        """The block with these values written in it, and no word free."""
+        program = self._fill(self.program, values, 1)
+        start = self._fill(self.start, values, 0) if self.start is not None else None
+        return replace(self, program=program, start=start, words={}, facts=tuple(self._facts(values)))
+
+    def _fill(self, program: Program, values: Mapping[str, float], first_line: int) -> Program:
+        """A program with these values in place of the free words'."""
+        lines = {block.line: block.text for block in program.blocks}
+        free = [(name, word) for name, word in self.words.items() if word.span.line in lines and name in values]
+        # From the right, so that the columns of the others stay true.
+        for name, word in sorted(free, key=lambda item: item[1].span, reverse=True):
+            line, span = lines[word.span.line], word.span
+            typed = _stating(word, values[name]) if word.address == FACT else word.address + write(values[name])
+            lines[span.line] = line[: span.column - 1] + typed + line[span.end_column - 1 :]
+        return syntax.parse("\n".join(lines.values()), program.name, first_line)
+
+    def _facts(self, values: Mapping[str, float]) -> list[Directive]:
+        free = {word.span.line: _stating(word, values[name]) for name, word in self.words.items() if name in values}
+        lines = ((each, each.span.line) for each in self.facts)
+        return [syntax.read_directive(free[line], line) if line in free else each for each, line in lines]
+
+
+def write(value: float) -> str:
+    """A number as a word has it: with a point, without an exponent, and all its digits."""
+    text = format(Decimal(repr(float(value))), "f")
+    return text if "." in text else f"{text}."
+
+
+def find_words(template: Template, names: Sequence[str]) -> dict[str, Word]:
+    """The words that names such as `A`, `,A`, `2:,A` (of line 2), `start.X` or `length of line 1` (a fact) speak of.
+    Raises FamilyError if one does not say which."""
+    found: dict[str, Word] = {}
+    program, start, facts = template.program, template.start, template.facts
+    words = _words_of(program)
+    stated = {
+        _subject(each.text): each
+        for each in (*facts, *(each for block in program.blocks for each in block.directives))
+        if "=" in each.text
+    }
+    for name in names:
+        head, _, address = name.rpartition(".")
+        if " " in name:
+            found[name] = _fact_of(name, stated)
+            continue
+        if head == START:
+            found[name] = _only(address, _words_of(start) if start is not None else [], "the start point", "")
+        else:
+            line, _, address = name.rpartition(":")
+            if line and not line.isdigit():
+                raise FamilyError(f"{name} names no word; write its letter, or LINE:LETTER such as 2:,A")
+            found[name] = _only(address, words, "the block", line)
+    if len({word.span for word in found.values()}) < len(found):
+        raise FamilyError(f"{' and '.join(found)} name a word twice")
+    return found
+
+
+def _words_of(program: Program) -> list[Word]:
+    return [word for block in program.blocks for word in block.words if word.address not in _NEVER]
+
+
+def _only(address: str, words: Sequence[Word], where: str, line: str) -> Word:
+    same = [word for word in words if word.address == address and (not line or word.span.line == int(line))]
+    if len(same) != 1:
+        have = ", ".join(call(word, words) for word in words)
+        if len({word.span.line for word in same}) == len(same) > 1:
+            which = " or ".join(call(word, words) for word in same)
+            raise FamilyError(f"{where} has {len(same)} words {address}; write {which}")
+        told = f"{len(same)} words {address}" if same else f"no word {address}"
+        raise FamilyError(f"{where} has {told}{f' in line {line}' if line else ''}; its words are {have or 'none'}")
+    if same[0].number is None:
+        raise FamilyError(f"{same[0].text} has no number to vary")
+    return same[0]
+
+
+def _fact_of(name: str, stated: Mapping[str, Directive]) -> Word:
+    """A fact whose value is a number, as a word with that number."""
+    fact = stated.get(_subject(name))
+    if fact is None:
+        raise FamilyError(f"no fact says what {name} is; there are {', '.join(stated) or 'none'}")
+    text = fact.text.partition("=")[2].strip()
+    try:
+        number = Decimal(text)
+    except InvalidOperation:
+        raise FamilyError(f"{fact.text}: {text} is no number that could vary") from None
+    return Word(FACT, number, "." in text, fact.text, fact.span)
+
+
+def _subject(text: str) -> str:
+    """What a fact gives the value of, however it is spaced."""
+    return " ".join(text.partition("=")[0].split()).lower()
+
+
+def is_same(typed: Word, other: Word) -> bool:
+    """Whether a word, wherever it now stands in its line, is the free word that was typed."""
+    is_alike = (typed.span.line, typed.address) == (other.span.line, other.address)
+    return is_alike and (typed.address != FACT or _subject(typed.text) == _subject(other.text))
+
+
+def unit_word(word: Word, *, has_point: bool) -> Word:
+    """The word with the number 1."""
+    return replace(word, number=Decimal(1), has_point=has_point)
+
+
+def _stating(word: Word, value: float) -> str:
+    return re.sub(r"=.*", f"= {write(value)}", word.text)
+
+
+_NEVER = ("G", "N", "M")
+"""What says what the other words mean."""
+
+
+def call(word: Word, words: Sequence[Word]) -> str:
+    """The name of a word among all: its letter, with its line where several have it."""
+    is_alone = sum(each.address == word.address for each in words) == 1
+    return word.address if is_alone else f"{word.span.line}:{word.address}"
+
+
+@dataclass(frozen=True, slots=True)
+class Recipe:
+    """A block, the names of its free words, and how it is read: the arguments of `family`, but for the values."""
+
+    block: str
+    names: tuple[str, ...]
+    start: str | None
+    control: str | Dialect | None
+    facts: tuple[str, ...]
+    units: str
+    rules: str
+    settings: tuple[tuple[str, str], ...]
+
+    def template(self) -> Template:
+        """The block with its free words. Raises FamilyError for a word that is not there, UnknownControlError,
+        SettingError, and ValueError for units or rules that are none of their choices."""
+        for name, text in (("block", self.block), ("start", self.start or "")):
+            if not isinstance(text, str):
+                raise TypeError(f"the {name} is a text (str), not {type(text).__name__}")
+        program = syntax.parse(self.block, "<block>")
+        unit, policy = choice_of(Length, self.units, "units"), choice_of(Policy, self.rules, "rules")
+        start = syntax.parse(self.start, "<start>", first_line=0) if self.start is not None else None
+        dialect = choose(self.control, program, dict(self.settings))
+        if dialect is None:
+            unread = run(program, None, unit, policy, start=start)
+            errors = [each for each in unread.diagnostics if each.severity is Severity.ERROR]
+            if any(each.about is not Trouble.NO_CONTOUR for each in errors):
+                raise RefusedError(unread)
+            choices = ", ".join(DIALECTS)
+            raise UnknownControlError(f"the block does not tell its control; name it; choose from {choices}")
+        facts = tuple(syntax.read_directive(fact, -number) for number, fact in enumerate(self.facts, 1))
+        template = Template(program, dialect, unit, policy, start, {}, facts)
+        return replace(template, words=find_words(template, self.names))
+
+
+def recipe_of(
+    block: str,
+    names: Iterable[str] = (),
+    *,
+    start: str | None,
+    control: str | Dialect | None,
+    facts: Iterable[str] = (),
+    units: str,
+    rules: str,
+    settings: Mapping[str, str] | None,
+) -> Recipe:
+    """The recipe of a block with the words of these names free; a text alone is one fact."""
+    stated = (facts,) if isinstance(facts, str) else tuple(facts)
+    options = tuple(sorted((settings or {}).items()))
+    return Recipe(block, tuple(map(name_of, names)), start, control, stated, units, rules, options)
