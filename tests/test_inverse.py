@@ -15,7 +15,7 @@ from test_family import CASES, filled, text_of
 import contoursolve
 from contoursolve.cli import main
 from contoursolve.families import FamilyError, family, find_word, inverse
-from contoursolve.families.spec import recipe_of
+from contoursolve.families.spec import spec_of
 from contoursolve.families.targets import place_of
 from contoursolve.output.solutions import list_solutions
 
@@ -380,7 +380,7 @@ def drawn_of(rng):
 def crossings_of(block, options, name, goal, found):
     """The values that bisection of single solves finds between neighbours of a scan that the goal parts."""
     names = {"start": None, "control": None, "facts": (), "units": "mm", "rules": "enforce", "settings": None}
-    template = recipe_of(block, (name,), **(names | options)).template()
+    template = spec_of(block, (name,), **(names | options)).template()
 
     def off(value):
         contour = template.solve({name: value}).contour

@@ -6,10 +6,10 @@ from shutil import disk_usage
 
 from contoursolve.cli.options import CouldNotRunError
 from contoursolve.cli.progress import duration
-from contoursolve.families import MOST_ROWS, Parts, Sweep, room_of, seconds_of
+from contoursolve.families import MOST_ROWS, CompiledSweep, Parts, room_of, seconds_of
 
 
-def check_extent(ready: Sweep, parts: Parts | None, target: Path | None, *, is_forced: bool) -> None:
+def check_extent(ready: CompiledSweep, parts: Parts | None, target: Path | None, *, is_forced: bool) -> None:
     """Raise CouldNotRunError for more contours than are begun at a word, or a file that the disk has no room for."""
     rows = ready.ranges.count
     if rows > sys.maxsize:

@@ -20,8 +20,8 @@ from contoursolve.families import (
     MOST_ROWS,
     REASONS,
     Code,
+    CompiledSweep,
     Parts,
-    Sweep,
     Tally,
     Telling,
     csv_lines,
@@ -159,7 +159,7 @@ def _target(output: str | None, is_forced: bool) -> Path | None:
 
 
 def _tables(
-    ready: Sweep,
+    ready: CompiledSweep,
     parts: Parts | None,
     workers: tuple[int | None, Executor | None],
     tally: Tally,

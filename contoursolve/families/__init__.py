@@ -1,7 +1,7 @@
 """Families: one block with some words free, a million contours at once."""
 
 from contoursolve.families.checkpoints import MOST_ROWS, Parts, others, parts_of, room_of, seconds_of
-from contoursolve.families.compiled_sweep import Sweep
+from contoursolve.families.compiled_sweep import CompiledSweep
 from contoursolve.families.derivatives import (
     Effect,
     Limits,
@@ -22,12 +22,16 @@ from contoursolve.families.spec import FamilyError, RefusedError, name_of
 from contoursolve.families.targets import Goal
 from contoursolve.solving.verdict import REASONS, Code
 
+Sweep = CompiledSweep
+"""The name that a sweep had before."""
+
 __all__ = [
     "MOST_ROWS",
     "REASONS",
     "THREADS",
     "Boundary",
     "Code",
+    "CompiledSweep",
     "Effect",
     "End",
     "Family",

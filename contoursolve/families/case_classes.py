@@ -17,9 +17,19 @@ from contoursolve.backends.chart import Following
 from contoursolve.backends.columns import Array, difference, directions
 from contoursolve.backends.inputs import COSINE, SINE
 from contoursolve.constraints import System, assemble
-from contoursolve.diagnostic import Basis, Severity
+from contoursolve.diagnostic import Basis
 from contoursolve.examine import MOST_CHOICES, Answer, count_choices
-from contoursolve.families.spec import FamilyError, Places, Ranges, RefusedError, Template, is_same, unit_word
+from contoursolve.families.spec import (
+    FamilyError,
+    Places,
+    Ranges,
+    RefusedError,
+    Template,
+    errors_of,
+    first_error,
+    is_same,
+    unit_word,
+)
 from contoursolve.model import FIRST, SECOND, CornerShape, Given, Profile, Question, Start, Unit, scalar
 from contoursolve.reading import Trouble
 from contoursolve.rules import Rule, Value
@@ -110,16 +120,6 @@ class Kind:
     def _counted(self) -> Mapping[str, int]:
         """The axis of each value that is stated as a coordinate, which counts from the start point inside."""
         return axes_of(self.system)
-
-    @property
-    def varied(self) -> tuple[str, ...]:
-        """The names of the inputs that vary."""
-        names: list[str] = []
-        for given in self.free:
-            is_angle = self.profile.givens[given].unit is Unit.DEGREE
-            names += (given + COSINE, given + SINE) if is_angle else (given,)
-        counted = (given for given, axis in self._counted.items() if axis in self.moves and given not in self.free)
-        return (*names, *counted, *(f"{ORIGIN}{axis}" for axis in self.moves))
 
     def columns(self, ranges: Ranges) -> dict[str, Input]:
         """The inputs of the function that vary."""
@@ -222,8 +222,7 @@ def unit_of(word: Word, answer: Answer) -> Unit:
     row = answer.claim.lexicon.addresses.get(word.address)
     given = next((each for each in answer.profile.givens.values() if each.word and is_same(word, each.word)), None)
     if row is None and given is None:
-        errors = (each.message for each in answer.diagnostics if each.severity is Severity.ERROR)
-        raise FamilyError(next(errors, f"{word.text} states no value"))
+        raise FamilyError(first_error(answer) or f"{word.text} states no value")
     return row.unit if row is not None else given.unit if given is not None else Unit.MM
 
 
@@ -261,7 +260,7 @@ def limits_of(template: Template, values: Mapping[str, float]) -> tuple[list[flo
     return scales, bounds
 
 
-def intervals_of(values: Array, bounds: tuple[float, ...]) -> Codes:
+def _intervals_of(values: Array, bounds: tuple[float, ...]) -> Codes:
     """The number of the interval between two bounds in which each value lies; a bound is an interval of its own."""
     limits = numpy.array(bounds)
     places = numpy.searchsorted(limits, values, "left") + numpy.searchsorted(limits, values, "right")
@@ -374,7 +373,7 @@ def _fixed(kind: Kind) -> dict[str, Decimal]:
 
 def _verdict(answer: Answer) -> Status | None:
     """The status that all rows of the kind have, if the equations are not solved."""
-    errors = [each for each in answer.diagnostics if each.severity is Severity.ERROR]
+    errors = errors_of(answer)
     is_refused = any(each.basis is Basis.RULE for each in errors)
     system = assemble(answer.profile)
     is_loose = not judge(system).is_determined
@@ -462,33 +461,30 @@ def fill_row(kind: Kind, values: Mapping[str, float], row: int, table: Results) 
 
 
 @dataclass(frozen=True, slots=True)
-class Examples:
-    """One row of each kind that the rules may tell apart, as plain data.
+class Example:
+    """A row of a kind that the rules may tell apart: its key, its values, and how many rows have this key."""
 
-    Each word has a scale and bounds: its values, scaled, lie between two bounds or on one, which gives a number;
-    `rows` are the numbers of all words, with values that have them.
+    key: int
+    values: tuple[float, ...]
+    count: int
+
+
+@dataclass(frozen=True, slots=True)
+class Examples:
+    """One row of each kind that the rules may tell apart, in the order of their keys, as plain data.
+
+    Each word has a scale and bounds: its values, scaled, lie between two bounds or on one, which gives a number; the
+    numbers of all words make the key.
     """
 
     scales: tuple[float, ...]
     bounds: tuple[tuple[float, ...], ...]
-    rows: tuple[tuple[tuple[int, ...], tuple[float, ...]], ...]
+    rows: tuple[Example, ...]
 
     def key(self, values: Sequence[Array], places: Sequence[Places]) -> NDArray[numpy.int64]:
-        """The numbers of all words as one, row by row."""
-        key = numpy.zeros(places[0].size, numpy.int64)
-        for each, at, scale, bounds in zip(values, places, self.scales, self.bounds, strict=True):
-            key = key * (2 * len(bounds) + 1) + intervals_of(each * scale, bounds)[at]
-        return key
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Kinds:
-    """The kinds of rows of a family; `keys`, in order, are the keys of `Examples`, and `numbers` the kind of each."""
-
-    template: Template
-    items: tuple[Kind, ...]
-    keys: NDArray[numpy.int64]
-    numbers: NDArray[numpy.int64]
+        """The keys of some rows."""
+        words = zip(values, places, self.scales, self.bounds, strict=True)
+        return _key_of((_intervals_of(each * scale, bounds)[at] for each, at, scale, bounds in words), self.bounds)
 
 
 def examples_of(template: Template, ranges: Ranges) -> Examples:
@@ -496,57 +492,41 @@ def examples_of(template: Template, ranges: Ranges) -> Examples:
     scales, bounds = limits_of(template, {name: float(values[0]) for name, values in ranges.values.items()})
     if prod(2 * len(limits) + 1 for limits in bounds) >= 2**63:
         raise FamilyError(f"{len(bounds)} words are too many to vary at once")
-    columns = [
-        intervals_of(values * scale, limits)
-        for values, scale, limits in zip(ranges.values.values(), scales, bounds, strict=True)
-    ]
-    rows: list[tuple[tuple[int, ...], tuple[float, ...]]] = []
     words = list(ranges.values.values())
-    if ranges.is_paired:
-        keys, firsts = numpy.unique(numpy.stack(columns, axis=1), axis=0, return_index=True)
-        for key, row in zip(keys.tolist(), firsts.tolist(), strict=True):
-            rows.append((tuple(key), tuple(float(values[row]) for values in words)))
-    else:
-        found = [
-            zip(*(part.tolist() for part in numpy.unique(each, return_index=True)), strict=True) for each in columns
-        ]
-        for choice in product(*found):
-            places = zip(words, (place for _, place in choice), strict=True)
-            rows.append((tuple(int(number) for number, _ in choice), tuple(float(each[at]) for each, at in places)))
+    parts = [_intervals_of(values * scale, limits) for values, scale, limits in zip(words, scales, bounds, strict=True)]
+    columns = [_key_of(parts, bounds)] if ranges.is_paired else parts
+    rows: list[Example] = []
+    for choice in product(*(zip(*_unique(each), strict=True) for each in columns)):
+        numbers, firsts, counts = zip(*choice, strict=True)
+        places = firsts * len(words) if ranges.is_paired else firsts
+        key = numbers[0] if ranges.is_paired else int(_key_of(numbers, bounds)[0])
+        rows.append(Example(key, tuple(float(each[at]) for each, at in zip(words, places, strict=True)), prod(counts)))
     return Examples(tuple(scales), tuple(bounds), tuple(rows))
 
 
-def kinds_of(template: Template, examples: Examples) -> Kinds:
-    """The kinds of the example rows. Raises FamilyError."""
+def _key_of(numbers: Iterable[NDArray[Any] | int], bounds: Sequence[tuple[float, ...]]) -> NDArray[numpy.int64]:
+    """The numbers of the intervals of all words as one, row by row."""
+    key = numpy.zeros(1, numpy.int64)
+    for each, limits in zip(numbers, bounds, strict=True):
+        key = key * (2 * len(limits) + 1) + each
+    return key
+
+
+def _unique(numbers: NDArray[Any]) -> tuple[list[int], list[int], list[int]]:
+    """Numbers in order, each once, with the first place and the count of each."""
+    found, firsts, counts = numpy.unique(numbers, return_index=True, return_counts=True)
+    return found.tolist(), firsts.tolist(), counts.tolist()
+
+
+def kinds_of(template: Template, examples: Examples) -> tuple[tuple[Kind, ...], NDArray[numpy.int64]]:
+    """The kinds of the example rows, each once, and the number of the kind of each example. Raises FamilyError."""
     items: list[Kind] = []
-    numbers: dict[int, int] = {}
-    for parts, values in examples.rows:
-        kind = kind_of(template, dict(zip(template.words, values, strict=True)))
-        same = next((number for number, each in enumerate(items) if alike(each, kind)), None)
-        key = 0
-        for part, bounds in zip(parts, examples.bounds, strict=True):
-            key = key * (2 * len(bounds) + 1) + part
-        numbers[key] = len(items) if same is None else same
-        if same is None:
-            items.append(kind)
-    ordered = sorted(numbers.items())
-    return Kinds(
-        template,
-        tuple(items),
-        numpy.array([key for key, _ in ordered], numpy.int64),
-        numpy.array([number for _, number in ordered], numpy.int64),
-    )
-
-
-def weights_of(examples: Examples, ranges: Ranges) -> list[int]:
-    """How many rows of a family are like each of the examples."""
-    words = zip(ranges.values.values(), examples.scales, examples.bounds, strict=True)
-    columns = [intervals_of(values * scale, bounds) for values, scale, bounds in words]
-    if ranges.is_paired:
-        counts: list[int] = numpy.unique(numpy.stack(columns, axis=1), axis=0, return_counts=True)[1].tolist()
-        return counts
-    many = [numpy.bincount(column).tolist() for column in columns]
-    return [prod(each[part] for each, part in zip(many, parts, strict=True)) for parts, _ in examples.rows]
+    numbers: list[int] = []
+    for row in examples.rows:
+        kind = kind_of(template, dict(zip(template.words, row.values, strict=True)))
+        numbers.append(next((number for number, each in enumerate(items) if alike(each, kind)), len(items)))
+        items += [kind] if numbers[-1] == len(items) else []
+    return tuple(items), numpy.array(numbers, numpy.int64)
 
 
 Refusals = frozenset[tuple[str, int, tuple[str, ...]]]
@@ -584,10 +564,9 @@ def _refusals(answer: Answer) -> Refusals:
     """What refuses a block by its text, its words or the structure of its equations."""
     if answer.status not in _REFUSED:
         return frozenset()
-    errors = (each for each in answer.diagnostics if each.severity is Severity.ERROR)
     return frozenset(
         (each.code, each.span.line, each.addresses)
-        for each in errors
+        for each in errors_of(answer)
         if each.basis is not Basis.NUMERICAL or each.about in _USELESS
     )
 

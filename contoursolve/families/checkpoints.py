@@ -16,7 +16,7 @@ from time import perf_counter
 
 import numpy
 
-from contoursolve.families.compiled_sweep import Sweep, Table
+from contoursolve.families.compiled_sweep import CompiledSweep, Table
 from contoursolve.families.evaluate import STRETCH, solve_parts
 from contoursolve.families.spec import Stretches
 
@@ -31,7 +31,7 @@ class Parts:
     """
 
     folder: Path
-    ready: Sweep
+    ready: CompiledSweep
 
     def __iter__(self) -> Iterator[tuple[int, int]]:
         return iter(Stretches(self.ready.ranges.count, STRETCH))
@@ -102,7 +102,7 @@ class Parts:
             temporary.unlink(missing_ok=True)
 
 
-def parts_of(target: Path, ready: Sweep) -> Parts:
+def parts_of(target: Path, ready: CompiledSweep) -> Parts:
     """The parts of a sweep that is to be written to a file, on the disk on which that is."""
     target = _real(target)
     return Parts(target.with_name(f".{target.name}.{digest(ready)}.parts"), ready)
@@ -120,9 +120,9 @@ def others(parts: Parts, target: Path) -> Collection[Path]:
     return sorted(folder for folder in found if folder != parts.folder)
 
 
-def digest(ready: Sweep) -> str:
+def digest(ready: CompiledSweep) -> str:
     """A name for everything that the results depend on: the block, its options, its values, and the versions."""
-    found = hashlib.sha256(repr((ready.recipe, ready.ranges.is_paired, STRETCH, versions())).encode())
+    found = hashlib.sha256(repr((ready.spec, ready.ranges.is_paired, STRETCH, versions())).encode())
     for word, values in ready.ranges.values.items():
         found.update(f"{word} {values.size} {values.dtype.str}".encode())
         found.update(numpy.ascontiguousarray(values).data)
@@ -154,7 +154,7 @@ NUMBER = 20
 """Bytes of a number in CSV: 17 digits, a sign, a point and a comma."""
 
 
-def seconds_of(ready: Sweep) -> float:
+def seconds_of(ready: CompiledSweep) -> float:
     """The seconds that all rows take on one thread, if they take as long as the first ones."""
     most, rows = min(STRETCH, ready.ranges.count), FEWEST
     while True:

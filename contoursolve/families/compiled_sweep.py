@@ -1,7 +1,7 @@
 """A case that is ready to be evaluated, any stretch of its rows at a time."""
 
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import product
@@ -21,7 +21,6 @@ from contoursolve.families.case_classes import (
     Examples,
     Input,
     Kind,
-    Kinds,
     Results,
     asked_of,
     fill_row,
@@ -31,7 +30,7 @@ from contoursolve.families.case_classes import (
     sides_of_choice,
 )
 from contoursolve.families.export import Measure, measures_of
-from contoursolve.families.spec import Places, Ranges, Recipe, Stretches
+from contoursolve.families.spec import Places, Ranges, Stretches, SweepSpec, Template
 from contoursolve.solving import RefusalKind
 from contoursolve.solving.checks import NO_PLACE, compile_checks
 from contoursolve.solving.plan import Step, TwoCirclesStep
@@ -40,6 +39,7 @@ from contoursolve.tolerance import TOUCHING
 
 Table = dict[str, NDArray[Any]]
 Target = slice | Places
+Bits = NDArray[numpy.bool_]
 
 _NEEDED = ("passed", "margin:", "cosine:", "worst")
 """What the verdict reads."""
@@ -53,20 +53,18 @@ _NOWHERE = [reason_of(kind) for kind in (None, *NO_PLACE)]
 
 
 @dataclass(slots=True, eq=False)
-class Sweep:
-    """The kinds of rows of a family, and how to evaluate them; every thread has functions of its own."""
+class CompiledSweep:
+    """A case that is read, the kinds of its rows, and how to evaluate them; every thread has functions of its own."""
 
-    recipe: Recipe
-    """Plain data from which the same kinds can be made elsewhere."""
+    spec: SweepSpec
+    """Plain data from which, with the examples, the same can be made elsewhere."""
     examples: Examples
-    found: Kinds
     ranges: Ranges
+    template: Template
+    kinds: tuple[Kind, ...]
+    numbers: NDArray[numpy.int64]
+    """The kind of each example."""
     local: threading.local = field(default_factory=threading.local)
-
-    @property
-    def kinds(self) -> tuple[Kind, ...]:
-        """The kinds of rows."""
-        return self.found.items
 
     @property
     def is_one_function(self) -> bool:
@@ -101,8 +99,7 @@ class Sweep:
 
     def measures(self) -> dict[str, Measure]:
         """What the words and the results are measured in."""
-        row = {word: float(values[0]) for word, values in self.ranges.values.items()}
-        return measures_of(self.found.template, row, (*self.ranges.values, *self.columns()))
+        return measures_of(self.template, self.ranges, self.columns())
 
     def evaluate(self, first: int, last: int, table: Results) -> None:
         """Fill in the results of the rows from `first` to before `last`."""
@@ -111,55 +108,38 @@ class Sweep:
             ranges, first, last = ranges.rows(first, last), 0, last - first
             self.local.__dict__.pop("inputs", None)
         places = {word: ranges.places(word, first, last) for word in ranges.values}
-        if self.is_one_function:
-            for begin, end in Stretches(last - first, ROWS):
-                part = {word: place[begin:end] for word, place in places.items()}
-                self._evaluate(0, self.kinds[0], ranges, part, slice(begin, end), end - begin, table)
-            return
         number = numpy.zeros(last - first, numpy.int64)
         if len(self.kinds) > 1:
             key = self.examples.key(list(ranges.values.values()), list(places.values()))
-            number = self.found.numbers[numpy.searchsorted(self.found.keys, key)]
+            number = self.numbers[numpy.searchsorted([each.key for each in self.examples.rows], key)]
         for each, kind in enumerate(self.kinds):
-            own = numpy.flatnonzero(number == each)
+            # Where one function answers all rows, results are written in place.
+            own = None if self.is_one_function else numpy.flatnonzero(number == each)
             if kind.status is not None:
                 table["status"][own] = code_of(kind.status)
                 continue
+            solve: Callable[..., None] = self._solve_closed
+            size = ROWS
             if not kind.is_closed:
-                solve = self._solve_open if kind.open_points else self._solve_several
-                for begin, end in Stretches(own.size, BLOCK):
-                    part = {word: place[own[begin:end]] for word, place in places.items()}
-                    solve(each, kind, ranges, part, own[begin:end], table)
-                continue
-            for begin, end in Stretches(own.size, ROWS):
-                target = own[begin:end]
+                solve, size = self._solve_open if kind.open_points else self._solve_several, BLOCK
+            for begin, end in Stretches(last - first if own is None else own.size, size):
+                target = slice(begin, end) if own is None else own[begin:end]
                 part = {word: place[target] for word, place in places.items()}
-                self._evaluate(each, kind, ranges, part, target, end - begin, table)
+                solve(each, kind, ranges, part, target, table)
 
-    def _evaluate(
-        self,
-        number: int,
-        kind: Kind,
-        ranges: Ranges,
-        places: Mapping[str, Places],
-        target: Target,
-        rows: int,
-        table: Results,
+    def _solve_closed(
+        self, number: int, kind: Kind, ranges: Ranges, places: Mapping[str, Places], target: Target, table: Results
     ) -> None:
-        function, inputs = self._function(number, kind), self._inputs(number, kind, ranges)
-        for place, name in enumerate(function.compiled.varied):
-            inputs[name].fill(places, function.inputs[place, :rows])
-        names = names_of(kind)
+        """The rows of a kind with one function for all of them."""
+        rows = next(iter(places.values())).size
+        function, names = self._function(number, kind, ranges, places, rows), names_of(kind)
         into = {output: table[name][target] for output, name in names.items()} if isinstance(target, slice) else {}
         out = function.evaluate(rows, into)
         if not isinstance(target, slice):
             for output, name in names.items():
                 table[name][target] = out[output]
         verdict = Verdict(kind.checks, out, rows)
-        for point, side in sides_of_choice(kind).items():
-            table[f"branch.{point}"][target] = verdict.is_clear.view(numpy.int8) * numpy.int8(side)
-        table["status"][target] = verdict.status
-        table["reason"][target] = verdict.reason
+        _note(kind, verdict.is_clear, verdict.status, verdict.reason, target, table)
         again = numpy.flatnonzero(verdict.again)
         at = again + target.start if isinstance(target, slice) else target[again]
         for row, place in zip(again.tolist(), at.tolist(), strict=True):
@@ -174,9 +154,7 @@ class Sweep:
             made[number] = Several(kind)
         several: Several = made[number]
         settled = several.solve(ranges, places)
-        table["status"][target], table["reason"][target] = settled.status, settled.reason
-        for point, side in sides_of_choice(kind).items():
-            table[f"branch.{point}"][target] = numpy.where(settled.is_path, side, 0)
+        _note(kind, settled.is_path, settled.status, settled.reason, target, table)
         shown = numpy.flatnonzero(settled.is_shown)
         for first, last in Stretches(shown.size, ROWS):
             rows = shown[first:last]
@@ -194,13 +172,11 @@ class Sweep:
         self, number: int, kind: Kind, ranges: Ranges, places: Mapping[str, Places], target: Places, table: Results
     ) -> None:
         """The rows of a kind with choices that nothing makes: every side of every point is tried."""
-        function, inputs = self._function(number, kind), self._inputs(number, kind, ranges)
         names, plan, rows = names_of(kind), kind.machine.plan, target.size
+        function = self._function(number, kind, ranges, places, rows)
         count, again = numpy.zeros(rows, numpy.int64), numpy.zeros(rows, bool)
         reason = numpy.full(rows, reason_of(RefusalKind.NO_POINT), numpy.uint8)
         sides = [function.compiled.fixed.index(f"side:{point}") for point in kind.open_points]
-        for place, name in enumerate(function.compiled.varied):
-            inputs[name].fill(places, function.inputs[place, :rows])
         for signs in product((1.0, -1.0), repeat=len(sides)):
             function.fix(sides, signs)
             out = function.evaluate(rows)
@@ -216,41 +192,40 @@ class Sweep:
         several = target[count > 1]
         for name in names.values():
             table[name][several] = numpy.nan
-        table["status"][target] = numpy.choose(
-            numpy.minimum(count, 2), (Code.NO_SOLUTION, Code.SOLVED, Code.AMBIGUOUS)
-        ).astype(numpy.uint8)
-        table["reason"][target] = numpy.where(count == 0, reason, 0)
-        for point, side in sides_of_choice(kind).items():
-            table[f"branch.{point}"][target] = numpy.where(count == 1, side, 0)
+        status = numpy.choose(numpy.minimum(count, 2), (Code.NO_SOLUTION, Code.SOLVED, Code.AMBIGUOUS))
+        _note(kind, count == 1, status.astype(numpy.uint8), numpy.where(count == 0, reason, 0), target, table)
         if again.any():
             for name in names.values():
                 table[name][target[again]] = numpy.nan
             part = {word: place[again] for word, place in places.items()}
             self._solve_several(number, kind, ranges, part, target[again], table)
 
-    def _inputs(self, number: int, kind: Kind, ranges: Ranges) -> Mapping[str, Input]:
-        """The inputs that vary of a kind at these values, for this thread."""
-        made = self.local.__dict__.setdefault("inputs", {})
-        if number not in made:
-            made[number] = kind.columns(ranges)
-        found: Mapping[str, Input] = made[number]
-        return found
-
-    def _function(self, number: int, kind: Kind) -> Columns:
-        """The function of a kind for this thread."""
-        made = self.local.__dict__.setdefault("functions", {})
-        if number not in made:
-            function = Columns(
-                _compile(kind.system, frozenset(kind.varied), tuple(results_of(kind).values()), bool(kind.open_points))
-            )
-            numbers = {f"side:{point}": 1.0 for point in kind.open_points} | kind.numbers()
-            function.fix(slice(None), [numbers[name] for name in function.compiled.fixed])
-            made[number] = function
-        found: Columns = made[number]
-        return found
+    def _function(self, number: int, kind: Kind, ranges: Ranges, places: Mapping[str, Places], rows: int) -> Columns:
+        """The function of a kind for this thread, at the values of some rows."""
+        inputs: dict[int, Mapping[str, Input]] = self.local.__dict__.setdefault("inputs", {})
+        functions: dict[int, Columns] = self.local.__dict__.setdefault("functions", {})
+        if number not in inputs:
+            inputs[number] = kind.columns(ranges)
+        if number not in functions:
+            shown, varied = tuple(results_of(kind).values()), frozenset(inputs[number])
+            function = functions[number] = Columns(_compile(kind.system, varied, shown, bool(kind.open_points)))
+            fixed = {f"side:{point}": 1.0 for point in kind.open_points} | kind.numbers()
+            function.fix(slice(None), [fixed[name] for name in function.compiled.fixed])
+        for place, name in enumerate(functions[number].compiled.varied):
+            inputs[number][name].fill(places, functions[number].inputs[place, :rows])
+        return functions[number]
 
 
-def _halves(steps: Sequence[Step], out: Results, rows: int) -> NDArray[numpy.bool_]:
+def _note(
+    kind: Kind, is_path: Bits, status: NDArray[Any], reason: NDArray[Any], target: Target, table: Results
+) -> None:
+    """The status, the reason and the sides of some rows; `is_path` tells which of them have a contour."""
+    table["status"][target], table["reason"][target] = status, reason
+    for point, side in sides_of_choice(kind).items():
+        table[f"branch.{point}"][target] = is_path.view(numpy.int8) * numpy.int8(side)
+
+
+def _halves(steps: Sequence[Step], out: Results, rows: int) -> Bits:
     """Where the two places of the centre of a half circle are one."""
     found = numpy.zeros(rows, bool)
     for number, step in enumerate(steps):

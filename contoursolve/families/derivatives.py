@@ -17,13 +17,12 @@ from contoursolve.backends.inputs import COSINE, SIDE, SINE, lookup
 from contoursolve.backends.intervals import Array
 from contoursolve.backends.numeric import Compiled, Tape
 from contoursolve.constraints import System, assemble
-from contoursolve.diagnostic import Severity
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer
 from contoursolve.families.case_classes import Kind, check_block, kind_in, results_of, unit_of, value_of
-from contoursolve.families.evaluate import family
+from contoursolve.families.evaluate import compile_sweep, solve_sweep
 from contoursolve.families.export import Family
-from contoursolve.families.spec import FamilyError, Template, call, find_words, recipe_of
+from contoursolve.families.spec import FamilyError, Template, call, find_words, first_error, ranges_of, spec_of
 from contoursolve.families.targets import end_name, place_of
 from contoursolve.model import FIRST, SECOND, Given, Length, Plane, Profile, Unit, scalar
 from contoursolve.shown import Shown
@@ -231,8 +230,8 @@ def sensitivity(
     >>> {word: f"{slope:.3f}" for word, slope in slopes["V2.Z"].items()}
     {'X': '-0.289', 'A': '-0.302', 'K': '1.000', 'B': '-0.698', 'P': '0.000', 'Q': '0.000'}
     """
-    recipe = recipe_of(block, start=start, control=control, facts=facts, units=units, rules=rules, settings=settings)
-    template = recipe.template()
+    spec = spec_of(block, start=start, control=control, facts=facts, units=units, rules=rules, settings=settings)
+    template = spec.template()
     check_block(template)
     return slopes_of(template.solve({}))
 
@@ -341,9 +340,10 @@ def _fact_name(given: Given, profile: Profile) -> str:
 def _check(solution: Solution | None, answer: Answer) -> None:
     status = solution.status if solution is not None else answer.status
     if solution is None or status is not Status.SOLVED:
-        error = next((each.message for each in answer.diagnostics if each.severity is Severity.ERROR), "")
-        why = f": {error}" if error else ""
-        raise FamilyError(f"{_UNSOLVED[status]}{why}; only a contour that is solved has derivatives")
+        error = first_error(answer)
+        raise FamilyError(
+            f"{_UNSOLVED[status]}{f': {error}' if error else ''}; only a contour that is solved has derivatives"
+        )
     if any(remark.kind in (RemarkKind.TOUCHES, RemarkKind.DOUBLE) for remark in solution.remarks):
         raise FamilyError("two solutions have become one, so that no derivative exists")
 
@@ -452,8 +452,8 @@ def tolerances(
     >>> [(each.word, round(each.moves, 4)) for each in found.effects[:2]]
     [('A', 0.0302), ('K', 0.02)]
     """
-    recipe = recipe_of(block, start=start, control=control, facts=facts, units=units, rules=rules, settings=settings)
-    template = recipe.template()
+    spec = spec_of(block, start=start, control=control, facts=facts, units=units, rules=rules, settings=settings)
+    template = spec.template()
     check_block(template)
     answer = template.solve({})
     slopes, axes = slopes_of(answer).slopes, answer.plane.axes
@@ -471,16 +471,8 @@ def tolerances(
     limits = None
     if allowed and len(allowed) <= MOST_WORDS:
         values = {word: study.value(word) for word in allowed}
-        found = family(
-            block,
-            vary={word: [values[word] - off, values[word] + off] for word, off in allowed.items()},
-            start=start,
-            control=control,
-            facts=recipe.facts,
-            units=units,
-            rules=rules,
-            settings=settings,
-        )
+        vary = {word: [values[word] - off, values[word] + off] for word, off in allowed.items()}
+        found = solve_sweep(compile_sweep(spec, ranges_of(vary, is_paired=False)))
         # A family without any contour has no points.
         none = numpy.full(len(found), nan)
         limits = _limits(*(found.columns.get(f"{name}.{axis}", none) for axis in axes))
@@ -491,15 +483,13 @@ def tolerances(
 
 def _missing(template: Template, found: Family) -> Iterator[Missing]:
     """The rows without a contour, each reason once, the most frequent first."""
-    free = replace(template, words=find_words(template, list(found.ranges.values)))
+    free = template.with_words(list(found.ranges.values))
     kinds = numpy.stack([found.columns["status"], found.columns["reason"]], axis=1)
     reasons, firsts, counts = numpy.unique(kinds, axis=0, return_index=True, return_counts=True)
     for number in numpy.argsort(-counts, kind="stable").tolist():
         if reasons[number, 0] > Code.OVERDETERMINED:
             values = {word: float(found[word].reshape(-1)[firsts[number]]) for word in found.ranges.values}
-            findings = free.solve(values).diagnostics
-            message = next((each.message for each in findings if each.severity is Severity.ERROR), "")
-            yield Missing(int(counts[number]), values, message)
+            yield Missing(int(counts[number]), values, first_error(free.solve(values)))
 
 
 def _limits(first: Array, second: Array) -> Limits:
@@ -562,7 +552,6 @@ class _Study:
 
     def _moved(self, word: str, value: float) -> float | None:
         """How far the point moves when a word gets another value, mm; None where there is no contour then."""
-        template = replace(self.template, words=find_words(self.template, [word]))
-        contour = template.solve({word: value}).contour
+        contour = self.template.with_words([word]).solve({word: value}).contour
         at = place_of(self.point, contour) if contour is not None else None
         return None if at is None else hypot(at[0] - self.place[0], at[1] - self.place[1])

@@ -5,7 +5,7 @@ from collections import deque
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache, partial
 from typing import TypeVar
 
@@ -13,12 +13,20 @@ import numpy
 from numpy.typing import ArrayLike, NDArray
 
 from contoursolve.backends.columns import Array
-from contoursolve.diagnostic import Severity
 from contoursolve.dialects import Dialect
-from contoursolve.families.case_classes import Examples, Kinds, check_block, examples_of, kinds_of, weights_of
-from contoursolve.families.compiled_sweep import Sweep, Table
+from contoursolve.families.case_classes import Examples, check_block, examples_of, kinds_of
+from contoursolve.families.compiled_sweep import CompiledSweep, Table
 from contoursolve.families.export import Family
-from contoursolve.families.spec import FamilyError, Ranges, Recipe, Stretches, ranges_of, recipe_of
+from contoursolve.families.spec import (
+    FamilyError,
+    Ranges,
+    Stretches,
+    SweepSpec,
+    Template,
+    errors_of,
+    ranges_of,
+    spec_of,
+)
 from contoursolve.solving import Status
 from contoursolve.solving.verdict import REASONS, Code
 
@@ -83,18 +91,25 @@ def sweep(
     units: str = "mm",
     rules: str = "enforce",
     settings: Mapping[str, str] | None = None,
-) -> Sweep:
+) -> CompiledSweep:
     """A family that is ready to be evaluated; arguments and errors as for `family`."""
     ranges = ranges_of(vary, is_paired=paired)
-    recipe = recipe_of(
-        block, ranges.values, start=start, control=control, facts=facts, units=units, rules=rules, settings=settings
-    )
-    template = recipe.template()
-    examples = examples_of(template, ranges)
-    kinds = kinds_of(template, examples)
-    if all(kind.status is not None for kind in kinds.items):
-        check_block(template, dict(zip(template.words, examples.rows[0][1], strict=True)))
-    return Sweep(recipe, examples, kinds, ranges)
+    spec = spec_of(block, start=start, control=control, facts=facts, units=units, rules=rules, settings=settings)
+    return compile_sweep(spec, ranges)
+
+
+def compile_sweep(spec: SweepSpec, ranges: Ranges) -> CompiledSweep:
+    """The sweep of a case over some values, whatever words it had free; errors as for `family`."""
+    spec = replace(spec, names=tuple(ranges.values))
+    template = spec.template()
+    ready = _compiled(spec, examples_of(template, ranges), ranges, template)
+    if all(kind.status is not None for kind in ready.kinds):
+        check_block(template, dict(zip(template.words, ready.examples.rows[0].values, strict=True)))
+    return ready
+
+
+def _compiled(spec: SweepSpec, examples: Examples, ranges: Ranges, template: Template) -> CompiledSweep:
+    return CompiledSweep(spec, examples, ranges, template, *kinds_of(template, examples))
 
 
 def family(
@@ -159,6 +174,11 @@ def family(
         rules=rules,
         settings=settings,
     )
+    return solve_sweep(ready, workers, executor)
+
+
+def solve_sweep(ready: CompiledSweep, workers: int | None = None, executor: Executor | None = None) -> Family:
+    """All rows of a sweep; errors as for `family`."""
     count = _check_workers(workers)
     try:
         table = ready.empty(ready.ranges.count)
@@ -174,14 +194,14 @@ def family(
         for (first, last), part in zip(parts, solve_parts(ready, parts, workers, executor), strict=True):
             for name, column in table.items():
                 column[first:last] = part[name]
-        return Family(ready.ranges, table, ready.recipe)
+        return Family(ready.ranges, table, ready.spec)
     with threads(min(count, len(parts))) as pool:
         for _ in in_order((partial(fill, *part) for part in parts), pool, count):
             pass
-    return Family(ready.ranges, table, ready.recipe)
+    return Family(ready.ranges, table, ready.spec)
 
 
-def pieces(ready: Sweep, workers: int | None = None, executor: Executor | None = None) -> Iterator[Table]:
+def pieces(ready: CompiledSweep, workers: int | None = None, executor: Executor | None = None) -> Iterator[Table]:
     """The words and results of all rows in order, some thousands at a time, so that any number of rows takes no more
     memory than a few of these. Raises FamilyError for less than one worker."""
     parts = Stretches(ready.ranges.count, STRETCH)
@@ -190,7 +210,10 @@ def pieces(ready: Sweep, workers: int | None = None, executor: Executor | None =
 
 
 def solve_parts(
-    ready: Sweep, parts: Collection[tuple[int, int]], workers: int | None = None, executor: Executor | None = None
+    ready: CompiledSweep,
+    parts: Collection[tuple[int, int]],
+    workers: int | None = None,
+    executor: Executor | None = None,
 ) -> Iterator[Table]:
     """The results of some stretches of rows, in order. Raises FamilyError for less than one worker."""
     count = _check_workers(workers)
@@ -203,10 +226,10 @@ def solve_parts(
         yield from in_order((partial(_solve, ready, *part) for part in parts), pool, count)
 
 
-def _pack(ready: Sweep) -> bytes:
+def _pack(ready: CompiledSweep) -> bytes:
     """What a family is made from; functions of CasADi cannot be sent. Raises FamilyError."""
     try:
-        return pickle.dumps((ready.recipe, ready.examples))
+        return pickle.dumps((ready.spec, ready.examples))
     except (pickle.PicklingError, AttributeError, TypeError) as error:
         raise FamilyError(
             f"this control cannot be sent to an executor ({error}); its functions must stand in a module, by name"
@@ -216,16 +239,17 @@ def _pack(ready: Sweep) -> bytes:
 def solve_rows(packed: bytes, values: dict[str, Array]) -> Table:
     """The results of some rows of a family, from plain data alone: what a worker is asked for."""
     ranges = Ranges(values, is_paired=True)
-    return _solve(Sweep(*_unpack(packed), ranges), 0, ranges.count)
+    return _solve(replace(_unpack(packed), ranges=ranges), 0, ranges.count)
 
 
 @lru_cache(maxsize=16)
-def _unpack(packed: bytes) -> tuple[Recipe, Examples, Kinds]:
-    recipe, examples = pickle.loads(packed)
-    return recipe, examples, kinds_of(recipe.template(), examples)
+def _unpack(packed: bytes) -> CompiledSweep:
+    """A packed sweep, with no values."""
+    spec, examples = pickle.loads(packed)
+    return _compiled(spec, examples, Ranges({}, is_paired=True), spec.template())
 
 
-def _solve(ready: Sweep, first: int, last: int) -> Table:
+def _solve(ready: CompiledSweep, first: int, last: int) -> Table:
     table = ready.empty(last - first)
     ready.evaluate(first, last, table)
     return table
@@ -266,7 +290,7 @@ class Tally:
             self.firsts[code, number] = {word: float(table[word][row]) for word in self.words}
 
 
-def telling_of(ready: Sweep, tally: Tally) -> Telling | None:
+def telling_of(ready: CompiledSweep, tally: Tally) -> Telling | None:
     """Why no row has a contour; None where rows have different statuses, or a contour."""
     totals = tally.counts.sum(axis=1)
     code = int(totals.argmax())
@@ -279,18 +303,18 @@ def telling_of(ready: Sweep, tally: Tally) -> Telling | None:
     return Telling(int(tally.counts[code, number]), values, *_error(ready, values))
 
 
-def _by_kinds(ready: Sweep) -> Telling:
+def _by_kinds(ready: CompiledSweep) -> Telling:
     """The same where rules tell of all rows: `reason` does not say which."""
     counts, firsts = dict[str, int](), dict[str, tuple[dict[str, float], str]]()
-    for (_, numbers), weight in zip(ready.examples.rows, weights_of(ready.examples, ready.ranges), strict=True):
-        values = dict(zip(ready.ranges.values, numbers, strict=True))
+    for row in ready.examples.rows:
+        values = dict(zip(ready.ranges.values, row.values, strict=True))
         code, message = _error(ready, values)
-        counts[code] = counts.get(code, 0) + weight
+        counts[code] = counts.get(code, 0) + row.count
         firsts.setdefault(code, (values, message))
     most = max(counts, key=lambda code: counts[code])
     return Telling(counts[most], firsts[most][0], most, firsts[most][1])
 
 
-def _error(ready: Sweep, values: Mapping[str, float]) -> tuple[str, str]:
-    findings = ready.found.template.solve(values).diagnostics
-    return next(((each.code, each.message) for each in findings if each.severity is Severity.ERROR), ("", ""))
+def _error(ready: CompiledSweep, values: Mapping[str, float]) -> tuple[str, str]:
+    errors = errors_of(ready.template.solve(values))
+    return (errors[0].code, errors[0].message) if errors else ("", "")

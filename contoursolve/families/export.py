@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from contoursolve.examine import Answer
 from contoursolve.extras import need
 from contoursolve.families.case_classes import asked_of, unit_of
-from contoursolve.families.spec import FamilyError, Ranges, Recipe, Template, is_same
+from contoursolve.families.spec import FamilyError, Ranges, SweepSpec, Template, is_same
 from contoursolve.model import Unit
 from contoursolve.shown import Shown
 from contoursolve.solving import Status
@@ -35,14 +35,14 @@ class Measure:
         return {name: text for name, text in found.items() if text}
 
 
-def measures_of(template: Template, values: Mapping[str, float], names: Iterable[str]) -> dict[str, Measure]:
-    """The measures of some columns; `values` are those of any row."""
-    answer = template.solve(values)
+def measures_of(template: Template, ranges: Ranges, columns: Iterable[str]) -> dict[str, Measure]:
+    """The measures of the words and of some columns."""
+    answer = template.solve({word: float(values[0]) for word, values in ranges.values.items()})
     plane = answer.plane
     radial = {axis for axis, is_diameter in zip(plane.axes, plane.diameters, strict=True) if is_diameter}
     asked = asked_of(answer.profile)
     found: dict[str, Measure] = {}
-    for name in names:
+    for name in (*ranges.values, *columns):
         head, _, axis = name.rpartition(".")
         if name in template.words:
             found[name] = measure_of_word(template.words[name], answer)
@@ -92,7 +92,7 @@ class Family(Shown):
 
     ranges: Ranges
     columns: Mapping[str, NDArray[Any]]
-    recipe: Recipe | None = field(default=None, repr=False)
+    spec: SweepSpec = field(repr=False)
     """Plain data from which its block can be read again."""
 
     @property
@@ -127,11 +127,8 @@ class Family(Shown):
         return summary_of(numpy.bincount(self.columns["status"], minlength=len(Code)))
 
     def measures(self) -> dict[str, Measure]:
-        """What each array is measured in, by name; empty where it is not known from what block they come."""
-        if self.recipe is None:
-            return {}
-        row = {word: float(values[0]) for word, values in self.ranges.values.items()}
-        return measures_of(self.recipe.template(), row, self.names)
+        """What each array is measured in, by name."""
+        return measures_of(self.spec.template(), self.ranges, self.columns)
 
     def to_arrow(self) -> Any:
         """A pyarrow.Table with a column for each array: `status` and `reason` in words, as dictionaries (no reason is

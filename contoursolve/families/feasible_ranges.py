@@ -15,7 +15,7 @@ from contoursolve.examine import Answer
 from contoursolve.families.branches import INSTEAD, Branch, branches_of
 from contoursolve.families.case_classes import Kind, alike, check_block, kind_of, limits_of, unit_of, value_of
 from contoursolve.families.limit_reasons import Reason, about_of, called, phrase, same
-from contoursolve.families.spec import FamilyError, NotClosedError, Template, read_limits, recipe_of
+from contoursolve.families.spec import FamilyError, NotClosedError, Template, first_error, read_limits, spec_of
 from contoursolve.families.subdivision import SAMPLES, Stretch, find_stretches, section
 from contoursolve.model import Unit
 from contoursolve.shown import Shown
@@ -500,7 +500,7 @@ def feasible(
     >>> found.intervals[0].high.reason.text
     'P too large for line 1: 51.961 mm at most'
     """
-    template = recipe_of(
+    template = spec_of(
         block, (word,), start=start, control=control, facts=facts, units=units, rules=rules, settings=settings
     ).template()
     check_block(template)
@@ -512,12 +512,8 @@ def feasible(
         Interval(_end(survey, pieces, first, last, -1), _end(survey, pieces, last, first, +1))
         for first, last in _runs(pieces)
     )
-    return Feasible(name, survey.unit, survey.stated, (low, high), intervals, tuple(survey.doubts), _refusal(survey))
-
-
-def _refusal(survey: Survey) -> str:
-    errors = (each for each in survey.solve(survey.stated).diagnostics if each.severity is Severity.ERROR)
-    return next((each.message for each in errors), "")
+    refusal = first_error(survey.solve(survey.stated))
+    return Feasible(name, survey.unit, survey.stated, (low, high), intervals, tuple(survey.doubts), refusal)
 
 
 def _runs(pieces: Sequence[Piece]) -> list[tuple[int, int]]:

@@ -12,14 +12,22 @@ from contoursolve.backends.intervals import Intervals
 from contoursolve.constraints import assemble
 from contoursolve.contour import Contour
 from contoursolve.diagnosis.edits import write_word
-from contoursolve.diagnostic import Severity
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer
 from contoursolve.families.case_classes import check_block, results_of
 from contoursolve.families.derivatives import slopes_of
 from contoursolve.families.feasible_ranges import LEAST_GAP, Piece, Survey, short
 from contoursolve.families.inverse_by_constraint import asked_values
-from contoursolve.families.spec import FamilyError, NotClosedError, NotMovedError, Template, recipe_of
+from contoursolve.families.spec import (
+    FamilyError,
+    NotClosedError,
+    NotMovedError,
+    Template,
+    first_error,
+    spec_of,
+    with_value,
+    write,
+)
 from contoursolve.families.subdivision import Zero, find_zeros
 from contoursolve.families.targets import CONSTANT, Curve, Goal, end_name, place_of, read_goal
 from contoursolve.model import FIRST, SECOND, Length, Plane, Unit
@@ -122,7 +130,7 @@ def find_word(
     >>> [(round(each.value, 4), each.block) for each in found.hits]
     [(119.6749, 'G111 X100. A180. K-30. B119.675 P5. Q5.')]
     """
-    template = recipe_of(
+    template = spec_of(
         block, (word,), start=start, control=control, facts=facts, units=units, rules=rules, settings=settings
     ).template()
     check_block(template)
@@ -134,7 +142,7 @@ def find_word(
     low, high = survey.range_of(within)
     search = _Search(survey, wanted)
     about = (name, survey.unit, survey.stated, wanted, answer.plane, answer.unit, (low, high))
-    remark = next((each.message for each in answer.diagnostics if each.severity is Severity.ERROR), "")
+    remark = first_error(answer)
     remark = f"as it stands, the block has no contour: {remark}" if remark else ""
     try:
         hits = search.hits(survey.pieces(low, high))
@@ -170,9 +178,9 @@ def _check_open(answer: Answer) -> None:
     """Raise FamilyError where further facts cannot be used, or leave something open, whatever the values."""
     if answer.profile.is_extended and answer.contour is None:
         is_open = not judge(assemble(answer.profile)).is_determined
-        errors = [each.message for each in answer.diagnostics if each.severity is Severity.ERROR]
-        if errors and (is_open or answer.status is Status.REJECTED):
-            raise FamilyError(errors[0])
+        error = first_error(answer)
+        if error and (is_open or answer.status is Status.REJECTED):
+            raise FamilyError(error)
 
 
 def _lines(template: Template) -> set[int]:
@@ -388,13 +396,11 @@ class _Search:
         template, word = self.survey.template, self.survey.word
         typed = template.words[word]
         if typed.address == FACT:
-            return "\n".join(template.texts({word: value}))
-        written = write_word(typed.address, value * self.survey.scale, answer.claim.lexicon, answer.unit)
-        blocks = template.program.blocks
+            texts = {word: with_value(typed, write(value))}
+        else:
+            lexicon, unit = answer.claim.lexicon, answer.unit
+            texts = {word: write_word(typed.address, value * self.survey.scale, lexicon, unit)}
         if template.start is not None and typed.span.line not in _lines(template):
-            blocks = template.start.blocks
-        lines = {block.line: block.text for block in blocks}
-        line, span = lines[typed.span.line], typed.span
-        lines[span.line] = line[: span.column - 1] + written + line[span.end_column - 1 :]
-        facts = template.facts if blocks is template.program.blocks else ()
-        return "\n".join([*lines.values(), *(fact.text for fact in facts)])
+            return "\n".join(template.lines(template.start, texts))
+        facts = template.typed(texts).facts
+        return "\n".join([*template.lines(template.program, texts), *(fact.text for fact in facts)])

@@ -1,18 +1,16 @@
 """The inverse question where there is no closed form: the word is asked for, and the target stated as a fact."""
 
-import re
 from collections.abc import Iterator
+from dataclasses import replace
 
 from contoursolve import syntax
-from contoursolve.diagnostic import Severity
 from contoursolve.examine import Answer, Depth, answer_question, count_choices, list_alternatives
-from contoursolve.families.spec import FamilyError, NotMovedError, Template, is_same, write
+from contoursolve.families.spec import FamilyError, NotMovedError, Template, first_error, is_same, with_value, write
 from contoursolve.families.targets import Goal
 from contoursolve.model import Figure, Unit
-from contoursolve.pipeline import run
 from contoursolve.reading import Trouble
 from contoursolve.solving import Status
-from contoursolve.syntax import FACT, Directive, Word
+from contoursolve.syntax import Word
 from contoursolve.wording import unknowns_text
 
 
@@ -20,26 +18,20 @@ def asked_values(template: Template, word: str, goal: Goal, answer: Answer) -> t
     """Every value of a word or a fact, as written, with which a point has one coordinate, and why these are not proven
     to be all; nothing if they are. `answer` is that of the block as it is. Raises NotMovedError, FamilyError."""
     typed = template.words[word]
-    lines = {block.line: block.text for block in template.program.blocks}
-    if typed.span.line in lines:
-        line, span = lines[typed.span.line], typed.span
-        lines[span.line] = line[: span.column - 1] + _asking(typed) + line[span.end_column - 1 :]
-    facts = [_asked(fact, typed) for fact in template.facts]
-    facts.append(syntax.read_directive(_stated(goal, answer), -len(facts) - 1))
-    program = syntax.parse("\n".join(lines.values()), template.program.name)
-    result = run(program, template.dialect, template.unit, template.policy, Depth.VERDICT, template.start, facts)
-    errors = [each.message for each in result.diagnostics if each.severity is Severity.ERROR]
+    asking = template.typed({word: with_value(typed, "?")})
+    facts = (*asking.facts, syntax.read_directive(_stated(goal, answer), -len(asking.facts) - 1))
+    result = replace(asking, facts=facts).examined(Depth.VERDICT)
     unread = [each.message for each in result.diagnostics if each.about in _UNREAD]
     if unread:
         raise FamilyError(unread[0])
     if len(result.answers) != 1:
-        raise FamilyError(errors[0] if errors else "the block is no single contour")
+        raise FamilyError(first_error(result) or "the block is no single contour")
     status = result.answers[0].status
     if status is Status.UNDERDETERMINED and answer.contour is not None:
         # The goal says nothing of the word, which is open without its value.
         raise NotMovedError(f"{word} does not move {goal.point} in this direction")
     if status in (Status.UNDERDETERMINED, Status.REJECTED):
-        raise FamilyError(errors[0])
+        raise FamilyError(first_error(result))
     return list(_values(result.answers[0], typed)), list(_doubts(result.answers[0]))
 
 
@@ -74,17 +66,6 @@ def _doubts(found: Answer) -> Iterator[str]:
         yield f"the other sides of {choices} points: too many to go through"
     elif found.contour is None and found.status is Status.UNDECIDED:
         yield "no value was found, and that there is none is not proven"
-
-
-def _asking(typed: Word) -> str:
-    """A word, or a fact, with ? in place of its value."""
-    return re.sub(r"=.*", "= ?", typed.text) if typed.address == FACT else f"{typed.address}?"
-
-
-def _asked(fact: Directive, typed: Word) -> Directive:
-    if typed.address == FACT and fact.span == typed.span:
-        return syntax.read_directive(_asking(typed), fact.span.line)
-    return fact
 
 
 def _stated(goal: Goal, answer: Answer) -> str:

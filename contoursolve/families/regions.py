@@ -1,7 +1,7 @@
 """Where a contour exists in two words: the lines that bound the region, each with what fails beyond it."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import product
 
 import numpy
@@ -16,7 +16,7 @@ from contoursolve.families.case_classes import Kind, alike, check_block, kind_of
 from contoursolve.families.export import Family, measure_of_word
 from contoursolve.families.feasible_ranges import ASIDE, Way
 from contoursolve.families.limit_reasons import Reason, about_of, called, phrase, same
-from contoursolve.families.spec import FamilyError, Template, find_words, read_limits, recipe_of
+from contoursolve.families.spec import FamilyError, Template, read_limits, spec_of
 from contoursolve.families.subdivision import bisect
 from contoursolve.model import Unit
 from contoursolve.shown import Shown
@@ -101,12 +101,10 @@ def region(
     """
     if isinstance(words, str) or len(words) != 2 or len(within) != 2:  # noqa: PLR2004 - axes of a map
         raise FamilyError("name two words, and a range for each of them")
-    recipe = recipe_of(
-        block, words, start=start, control=control, facts=facts, units=units, rules=rules, settings=settings
-    )
-    template = recipe.template()
+    spec = spec_of(block, words, start=start, control=control, facts=facts, units=units, rules=rules, settings=settings)
+    template = spec.template()
     check_block(template)
-    return _region(template, (recipe.names[0], recipe.names[1]), within)
+    return _region(template, (spec.names[0], spec.names[1]), within)
 
 
 def region_of(family: Family, words: tuple[str, str]) -> Region:
@@ -117,10 +115,10 @@ def region_of(family: Family, words: tuple[str, str]) -> Region:
     values = family.ranges.values
     others = {name: column for name, column in values.items() if name not in words}
     several = next((name for name, column in others.items() if column.size > 1), None)
-    if several is not None or family.recipe is None or any(word not in values for word in words):
+    if several is not None or any(word not in values for word in words):
         raise FamilyError(f"{' and '.join(words)} are not the only words that vary")
-    filled = family.recipe.template().filled({name: float(column[0]) for name, column in others.items()})
-    template = replace(filled, words=find_words(filled, words))
+    filled = family.spec.template().filled({name: float(column[0]) for name, column in others.items()})
+    template = filled.with_words(words)
     first, second = ((float(values[word].min()), float(values[word].max())) for word in words)
     return _region(template, words, (first, second))
 
@@ -128,9 +126,7 @@ def region_of(family: Family, words: tuple[str, str]) -> Region:
 def units_of(family: Family, words: Sequence[str]) -> tuple[str, ...]:
     """What words of a family are written in (mm, inch or deg); empty for one that only chooses between two places, and
     where nothing tells."""
-    if family.recipe is None:
-        return ("",) * len(words)
-    template = family.recipe.template()
+    template = family.spec.template()
     answer = template.solve({})
     return tuple(measure_of_word(template.words[word], answer).unit for word in words)
 

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from contoursolve import syntax
 from contoursolve.backends.columns import Array
 from contoursolve.choices import choice_of
-from contoursolve.diagnostic import Severity
+from contoursolve.diagnostic import Diagnostic, Severity
 from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.examine import Answer, Depth, Policy
 from contoursolve.model import Length
@@ -170,13 +170,23 @@ class Stretches(Collection[tuple[int, int]]):
         return any(stretch == each for each in self)
 
 
+def errors_of(found: Answer | Result) -> list[Diagnostic]:
+    """The errors among the findings."""
+    return [each for each in found.diagnostics if each.severity is Severity.ERROR]
+
+
+def first_error(found: Answer | Result) -> str:
+    """The message of the first error; empty without one."""
+    return next((each.message for each in errors_of(found)), "")
+
+
 class RefusedError(FamilyError):
     """A block that is refused whatever the values of its free words. The message has the first error and what to do;
     `result` is what `solve` says of the block as it stands."""
 
     def __init__(self, result: Result) -> None:
         self.result = result
-        error = next(each for each in result.diagnostics if each.severity is Severity.ERROR)
+        error = errors_of(result)[0]
         remedy = error.fixes[0].description if error.fixes else error.help
         super().__init__(f"{error.message}; {remedy}" if remedy else error.message)
 
@@ -194,11 +204,13 @@ class Template:
     words: Mapping[str, Word]
     facts: tuple[Directive, ...] = ()
 
+    def with_words(self, names: Sequence[str]) -> "Template":
+        """The same block with the words of these names free. Raises FamilyError as `find_words`."""
+        return replace(self, words=find_words(self, names))
+
     def solve(self, values: Mapping[str, float]) -> Answer:
         """What a single solve says. Raises FamilyError where the blocks are no single contour with a known start."""
-        program = self._fill(self.program, values, 1)
-        start = self._fill(self.start, values, 0) if self.start is not None else None
-        result = run(program, self.dialect, self.unit, self.policy, Depth.VERDICT, start, self._facts(values))
+        result = self.filled(values).examined(Depth.VERDICT)
         if len(result.answers) != 1:
             if not result.answers and result.has_errors:
                 raise RefusedError(self.examined())
@@ -207,41 +219,41 @@ class Template:
             raise FamilyError(reasons[0] if reasons and not result.answers else told)
         answer = result.answers[0]
         if not answer.start.is_known:
-            if any(each.severity is Severity.ERROR and not each.span.line for each in result.diagnostics):
+            if any(not each.span.line for each in errors_of(result)):
                 raise RefusedError(self.examined())
             raise FamilyError('the start point is not known; state it as the start, such as "X40. Z0."')
         return answer
 
-    def examined(self) -> Result:
+    def examined(self, depth: Depth = Depth.FULL) -> Result:
         """All that `solve` says of the block as it stands, with every repair."""
-        return run(self.program, self.dialect, self.unit, self.policy, Depth.FULL, self.start, self.facts)
-
-    def texts(self, values: Mapping[str, float]) -> Iterator[str]:
-        """The lines of the block with these values, and the facts that are stated apart from it."""
-        yield from (block.text for block in self._fill(self.program, values, 1).blocks)
-        yield from (each.text for each in self._facts(values))
+        return run(self.program, self.dialect, self.unit, self.policy, depth, self.start, self.facts)
 
     def filled(self, values: Mapping[str, float]) -> "Template":
         """The block with these values written in it, and no word free."""
-        program = self._fill(self.program, values, 1)
-        start = self._fill(self.start, values, 0) if self.start is not None else None
-        return replace(self, program=program, start=start, words={}, facts=tuple(self._facts(values)))
+        words = self.words.items()
+        return self.typed({name: with_value(word, write(values[name])) for name, word in words if name in values})
 
-    def _fill(self, program: Program, values: Mapping[str, float], first_line: int) -> Program:
-        """A program with these values in place of the free words'."""
-        lines = {block.line: block.text for block in program.blocks}
-        free = [(name, word) for name, word in self.words.items() if word.span.line in lines and name in values]
-        # From the right, so that the columns of the others stay true.
-        for name, word in sorted(free, key=lambda item: item[1].span, reverse=True):
-            line, span = lines[word.span.line], word.span
-            typed = _stating(word, values[name]) if word.address == FACT else word.address + write(values[name])
-            lines[span.line] = line[: span.column - 1] + typed + line[span.end_column - 1 :]
-        return syntax.parse("\n".join(lines.values()), program.name, first_line)
-
-    def _facts(self, values: Mapping[str, float]) -> list[Directive]:
-        free = {word.span.line: _stating(word, values[name]) for name, word in self.words.items() if name in values}
+    def typed(self, texts: Mapping[str, str]) -> "Template":
+        """The block with these texts in place of free words, and no word free."""
+        program = syntax.parse("\n".join(self.lines(self.program, texts)), self.program.name)
+        start = self.start
+        if start is not None:
+            start = syntax.parse("\n".join(self.lines(start, texts)), start.name, first_line=0)
+        free = {self.words[name].span.line: text for name, text in texts.items()}
         lines = ((each, each.span.line) for each in self.facts)
-        return [syntax.read_directive(free[line], line) if line in free else each for each, line in lines]
+        facts = tuple(syntax.read_directive(free[line], line) if line in free else each for each, line in lines)
+        return replace(self, program=program, start=start, words={}, facts=facts)
+
+    def lines(self, program: Program, texts: Mapping[str, str]) -> list[str]:
+        """The lines of the block, or of the start, with these texts in place of free words."""
+        lines = {block.line: block.text for block in program.blocks}
+        free = [(word.span, texts[name]) for name, word in self.words.items() if name in texts]
+        # From the right, so that the columns of the others stay true.
+        for span, text in sorted(free, reverse=True):
+            if span.line in lines:
+                line = lines[span.line]
+                lines[span.line] = line[: span.column - 1] + text + line[span.end_column - 1 :]
+        return list(lines.values())
 
 
 def write(value: float) -> str:
@@ -325,8 +337,9 @@ def unit_word(word: Word, *, has_point: bool) -> Word:
     return replace(word, number=Decimal(1), has_point=has_point)
 
 
-def _stating(word: Word, value: float) -> str:
-    return re.sub(r"=.*", f"= {write(value)}", word.text)
+def with_value(word: Word, value: str) -> str:
+    """The text of a word, or of a fact, with another value."""
+    return re.sub(r"=.*", f"= {value}", word.text) if word.address == FACT else word.address + value
 
 
 _NEVER = ("G", "N", "M")
@@ -340,7 +353,7 @@ def call(word: Word, words: Sequence[Word]) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class Recipe:
+class SweepSpec:
     """A block, the names of its free words, and how it is read: the arguments of `family`, but for the values."""
 
     block: str
@@ -364,17 +377,16 @@ class Recipe:
         dialect = choose(self.control, program, dict(self.settings))
         if dialect is None:
             unread = run(program, None, unit, policy, start=start)
-            errors = [each for each in unread.diagnostics if each.severity is Severity.ERROR]
-            if any(each.about is not Trouble.NO_CONTOUR for each in errors):
+            if any(each.about is not Trouble.NO_CONTOUR for each in errors_of(unread)):
                 raise RefusedError(unread)
             choices = ", ".join(DIALECTS)
             raise UnknownControlError(f"the block does not tell its control; name it; choose from {choices}")
         facts = tuple(syntax.read_directive(fact, -number) for number, fact in enumerate(self.facts, 1))
         template = Template(program, dialect, unit, policy, start, {}, facts)
-        return replace(template, words=find_words(template, self.names))
+        return template.with_words(self.names)
 
 
-def recipe_of(
+def spec_of(
     block: str,
     names: Iterable[str] = (),
     *,
@@ -384,8 +396,8 @@ def recipe_of(
     units: str,
     rules: str,
     settings: Mapping[str, str] | None,
-) -> Recipe:
-    """The recipe of a block with the words of these names free; a text alone is one fact."""
+) -> SweepSpec:
+    """The spec of a block with the words of these names free; a text alone is one fact."""
     stated = (facts,) if isinstance(facts, str) else tuple(facts)
     options = tuple(sorted((settings or {}).items()))
-    return Recipe(block, tuple(map(name_of, names)), start, control, stated, units, rules, options)
+    return SweepSpec(block, tuple(map(name_of, names)), start, control, stated, units, rules, options)

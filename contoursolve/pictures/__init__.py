@@ -14,7 +14,7 @@ from contoursolve.pictures.theme import Theme
 from contoursolve.pipeline import Result
 
 if TYPE_CHECKING:
-    from contoursolve.families import Family, Feasible, Region, Sweep
+    from contoursolve.families import CompiledSweep, Family, Feasible, Region
 
 __all__ = [
     "Picture",
@@ -103,7 +103,7 @@ def draw_region(region: Region, *, theme: Theme = Theme.LIGHT, title: str | None
     return finish(lay_out_region(region, told), theme, told, told)
 
 
-def draw_sweep(ready: Sweep, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
+def draw_sweep(ready: CompiledSweep, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
     """The picture of a sweep: the fan of contours where one word varies, the map of outcomes where two do.
 
     Solves what it shows, and no more. Raises FamilyError for paired words, and where none or more than two vary.
