@@ -5,7 +5,7 @@ it proves there holds for every row whose values lie in it: so many solutions, e
 same side for all of them. A range in which something remains undecided is divided.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy
@@ -357,12 +357,7 @@ class Several:
 
     def _pairs(self, values: Mapping[str, Array], settled: Settled) -> Pairs:
         """Every row with each of its solutions; rows without any are settled."""
-        names = self.system.unknowns
-        rows: list[Places] = []
-        chosen: list[Bits] = []
-        middles: dict[str, list[Array]] = {name: [] for name in names}
-        radii: dict[str, list[Array]] = {name: [] for name in names}
-        signs: dict[str, list[Array]] = {}
+        found: list[tuple[Places, Place, bool]] = []
         for cell in cells_of(self.kind, self.groups, values):
             if cell.solutions is None:
                 settled.again[cell.rows] = True
@@ -376,21 +371,21 @@ class Several:
                 middle = cell.rows[cell.rows.size // 2]
                 self._solve_alone({word: float(each[middle]) for word, each in values.items()}, cell.rows, settled)
                 continue
-            for found, is_chosen in zip(cell.solutions, cell.is_chosen, strict=True):
-                rows.append(cell.rows)
-                chosen.append(numpy.full(cell.rows.size, is_chosen))
-                for name in names:
-                    low, high = found.bounds[name]
-                    middles[name].append(numpy.full(cell.rows.size, (low + high) / 2))
-                    radii[name].append(numpy.full(cell.rows.size, (high - low) / 2))
-                for side, sign in found.signs.items():
-                    signs.setdefault(SIDE + side, []).append(numpy.full(cell.rows.size, float(sign)))
+            found += [(cell.rows, *each) for each in zip(cell.solutions, cell.is_chosen, strict=True)]
+        sizes = numpy.array([rows.size for rows, _, _ in found], numpy.int64)
+
+        def spread(values: Iterable[float]) -> Array:
+            return numpy.repeat(numpy.array(list(values), float), sizes)
+
+        names, places = self.system.unknowns, [place for _, place, _ in found]
+        bounds = {name: [place.bounds[name] for place in places] for name in names}
+        sides = places[0].signs if places else ()
         return Pairs(
-            numpy.concatenate([numpy.zeros(0, numpy.int64), *rows]),
-            numpy.concatenate([numpy.zeros(0, bool), *chosen]),
-            {name: numpy.concatenate([numpy.zeros(0), *each]) for name, each in middles.items()},
-            {name: numpy.concatenate([numpy.zeros(0), *each]) for name, each in radii.items()},
-            {name: numpy.concatenate(each) for name, each in signs.items()},
+            numpy.concatenate([numpy.zeros(0, numpy.int64), *(rows for rows, _, _ in found)]),
+            numpy.repeat(numpy.array([is_chosen for _, _, is_chosen in found], bool), sizes),
+            {name: spread((low + high) / 2 for low, high in each) for name, each in bounds.items()},
+            {name: spread((high - low) / 2 for low, high in each) for name, each in bounds.items()},
+            {SIDE + side: spread(place.signs[side] for place in places) for side in sides},
         )
 
     def _decide(self, pairs: Pairs, given: Mapping[str, Array], settled: Settled) -> None:

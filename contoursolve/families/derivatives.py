@@ -524,30 +524,23 @@ class _Study:
 
     def effect(self, word: str, slope: Point, tolerance: float | None) -> Effect:
         """What a word does."""
-        moves = hypot(*slope) * tolerance if tolerance else 0.0
-        typed = self.words.get(word)
+        moves, typed = hypot(*slope) * tolerance if tolerance else 0.0, self.words.get(word)
+        lexicon, value = self.answer.claim.lexicon, self.value(word)
+        stated = unit_of(find_words(self.template, [word])[word], self.answer)
+        unit = "deg" if stated is Unit.DEGREE else self.answer.unit.value
+        effect = Effect(word, unit, value, slope, tolerance, moves, None, None, None, None, 0.0)
         if typed is None:
-            stated = unit_of(find_words(self.template, [word])[word], self.answer)
-            unit = "deg" if stated is Unit.DEGREE else self.answer.unit.value
-            return Effect(word, unit, self.value(word), slope, tolerance, moves, None, None, None, None, 0.0)
-        lexicon, value = self.answer.claim.lexicon, Decimal(repr(self.value(word)))
-        row = lexicon.addresses[typed.address]
-        step = lexicon.numbers.step(row.unit, self.answer.unit)
-        unit = "deg" if row.unit is Unit.DEGREE else self.answer.unit.value
-        halves = [self._moved(word, float(value + way * step / 2)) for way in (-1, 1)]
-        rounded = value.quantize(step, ROUND_HALF_EVEN)
-        return Effect(
-            word,
-            unit,
-            float(value),
-            slope,
-            tolerance,
-            moves,
-            float(step),
+            return effect
+        exact, step = Decimal(repr(value)), lexicon.numbers.step(stated, self.answer.unit)
+        halves = [self._moved(word, float(exact + way * step / 2)) for way in (-1, 1)]
+        rounded = exact.quantize(step, ROUND_HALF_EVEN)
+        return replace(
+            effect,
+            increment=float(step),
             by_half=None if None in halves else max(each for each in halves if each is not None),
             rounded=float(rounded),
-            by_rounding=self._moved(word, float(rounded)) if rounded != value else 0.0,
-            by_rounding_linear=hypot(*slope) * float(abs(rounded - value)),
+            by_rounding=self._moved(word, float(rounded)) if rounded != exact else 0.0,
+            by_rounding_linear=hypot(*slope) * float(abs(rounded - exact)),
         )
 
     def _moved(self, word: str, value: float) -> float | None:

@@ -9,12 +9,11 @@ from math import copysign, inf, isfinite, sqrt
 import numpy
 
 from contoursolve.backends.intervals import Array
-from contoursolve.diagnostic import Severity
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer
 from contoursolve.families.branches import INSTEAD, Branch, branches_of
 from contoursolve.families.case_classes import Kind, alike, check_block, kind_of, limits_of, unit_of, value_of
-from contoursolve.families.limit_reasons import Reason, about_of, called, phrase, same
+from contoursolve.families.limit_reasons import NO_FAILURE, Reason, about_of, called, failure_of, phrase, same
 from contoursolve.families.spec import FamilyError, NotClosedError, Template, first_error, read_limits, spec_of
 from contoursolve.families.subdivision import SAMPLES, Stretch, find_stretches, section
 from contoursolve.model import Unit
@@ -562,21 +561,21 @@ def _reason(
     limit = f"at {at}" if near[0].is_value else f"{limit} at {'most' if way > 0 else 'least'}"
     beyond = "at" if near[0].is_value else "above" if way > 0 else "below"
     there = outside if outside is not None else (near[0].low + near[0].high) / 2
-    finding = next((each for each in survey.solve(there).diagnostics if each.severity is Severity.ERROR), None)
-    code, message = (finding.code, finding.message) if finding is not None else ("", "")
-    kind = finding.about if finding is not None and isinstance(finding.about, RefusalKind) else None
-    if kind is RefusalKind.NOT_VERIFIED:
+    failure, event = failure_of(survey.solve(there))
+    if event is RefusalKind.NOT_VERIFIED:
         # Close to a singular case rounding alone keeps the equations from holding.
-        kind, code, message = None, "", ""
-    if finding is not None and finding.about is RemarkKind.SEVERAL:
+        failure, event = NO_FAILURE
+    if event is RemarkKind.SEVERAL:
         # Another solution becomes a contour, too.
-        return Reason(f"{message}: {limit}", code, message), False
+        return replace(failure, text=f"{failure.message}: {limit}"), False
+    kind = event if isinstance(event, RefusalKind) else None
     read_as = crossing.kind if crossing is not None else next((each.kind for each in near if each.kind), None)
-    if finding is not None and kind is None and code:
-        says = f"rule {code} refuses" if finding.about is None else f"{code} is found for"
-        return Reason(f"{says} {called(survey.word)} {beyond} {at}", code, message), crossing is None
+    if kind is None and failure.code:
+        says = f"rule {failure.code} refuses" if event is None else f"{failure.code} is found for"
+        return replace(failure, text=f"{says} {called(survey.word)} {beyond} {at}"), crossing is None
+    unnamed = replace(failure, text=f"{failure.message or 'there is no contour'}: {limit}")
     if read_as is None:
-        return Reason(f"{message or 'there is no contour'}: {limit}", code, message), True
+        return unnamed, True
     about = about_of(read_as.free, read_as.profile)
     branch = crossing.branch if crossing is not None else near[1].branch
     failing = survey.failing(branch, there) if branch is not None else []
@@ -584,10 +583,10 @@ def _reason(
         failing.insert(0, crossing.check)
     check = next((each for each in failing if kind is None or same(each.kind, kind)), None)
     if check is None:
-        return Reason(f"{message or 'there is no contour'}: {limit}", code, message), crossing is None
+        return unnamed, crossing is None
     text = phrase(check, kind or check.kind, about)
     is_singular = crossing is not None and crossing.check.kind is RefusalKind.LINES_PARALLEL
     if crossing is not None and is_singular and not same(crossing.check.kind, check.kind):
         text, limit = f"{phrase(crossing.check, crossing.check.kind, about)}: {limit}", f"beyond it {text}"
-        return Reason(f"{text}; {limit}", code, message), False
-    return Reason(f"{text}: {limit}", code, message), crossing is None and not near[0].is_value
+        return replace(failure, text=f"{text}; {limit}"), False
+    return replace(failure, text=f"{text}: {limit}"), crossing is None and not near[0].is_value

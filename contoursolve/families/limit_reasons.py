@@ -2,7 +2,10 @@
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from enum import Enum
 
+from contoursolve.examine import Answer
+from contoursolve.families.spec import errors_of
 from contoursolve.model import Line, Profile
 from contoursolve.solving import RefusalKind
 from contoursolve.solving.checks import Check
@@ -20,6 +23,15 @@ class Reason:
     text: str
     code: str
     message: str
+
+
+NO_FAILURE: tuple[Reason, Enum | None] = Reason("", "", ""), None
+
+
+def failure_of(answer: Answer) -> tuple[Reason, Enum | None]:
+    """The first error that a single solve finds, in its own words, and the event that it is about."""
+    error = next(iter(errors_of(answer)), None)
+    return (Reason(error.message, error.code, error.message), error.about) if error is not None else NO_FAILURE
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,21 +1,21 @@
 """Where a contour exists in two words: the lines that bound the region, each with what fails beyond it."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 
 import numpy
 from numpy.typing import NDArray
 
 from contoursolve.backends.intervals import Array
-from contoursolve.diagnostic import Severity
 from contoursolve.dialects import Dialect
+from contoursolve.examine import Answer
 from contoursolve.families.boundary_tracing import BISECTIONS, NODES, Box, Field, Trace, edge_of, gaps_of
 from contoursolve.families.branches import branches_of
 from contoursolve.families.case_classes import Kind, alike, check_block, kind_of, limits_of, unit_of, value_of
 from contoursolve.families.export import Family, measure_of_word
 from contoursolve.families.feasible_ranges import ASIDE, Way
-from contoursolve.families.limit_reasons import Reason, about_of, called, phrase, same
+from contoursolve.families.limit_reasons import NO_FAILURE, Reason, about_of, called, failure_of, phrase, same
 from contoursolve.families.spec import FamilyError, Template, read_limits, spec_of
 from contoursolve.families.subdivision import bisect
 from contoursolve.model import Unit
@@ -104,7 +104,7 @@ def region(
     spec = spec_of(block, words, start=start, control=control, facts=facts, units=units, rules=rules, settings=settings)
     template = spec.template()
     check_block(template)
-    return _region(template, (spec.names[0], spec.names[1]), within)
+    return _Map(template, (spec.names[0], spec.names[1]), within).run()
 
 
 def region_of(family: Family, words: tuple[str, str]) -> Region:
@@ -120,7 +120,7 @@ def region_of(family: Family, words: tuple[str, str]) -> Region:
     filled = family.spec.template().filled({name: float(column[0]) for name, column in others.items()})
     template = filled.with_words(words)
     first, second = ((float(values[word].min()), float(values[word].max())) for word in words)
-    return _region(template, words, (first, second))
+    return _Map(template, words, (first, second)).run()
 
 
 def units_of(family: Family, words: Sequence[str]) -> tuple[str, ...]:
@@ -131,18 +131,13 @@ def units_of(family: Family, words: Sequence[str]) -> tuple[str, ...]:
     return tuple(measure_of_word(template.words[word], answer).unit for word in words)
 
 
-def _region(template: Template, names: tuple[str, str], within: tuple[Point, Point]) -> Region:
-    """The region of two words of a block that is read."""
-    if names[0] == names[1]:
-        raise FamilyError(f"{names[0]} is named twice")
-    return _Map(template, names, within).run()
-
-
 class _Map:
     """Two words of one block."""
 
     def __init__(self, template: Template, words: tuple[str, str], within: tuple[Point, Point]) -> None:
         self.template, self.words = template, words
+        if words[0] == words[1]:
+            raise FamilyError(f"{words[0]} is named twice")
         answer = template.solve({})
         self.stated = tuple(value_of(template.words[word], answer) for word in words)
         values = dict(zip(words, self.stated, strict=True))
@@ -251,20 +246,17 @@ class _Map:
 
     def _reason(self, field: Field, kind: Kind, number: int, there: Point, *, is_gap: bool) -> Reason:
         """What fails beyond a line, at values there."""
-        answer = self.template.solve(dict(zip(self.words, there, strict=True)))
-        finding = next((each for each in answer.diagnostics if each.severity is Severity.ERROR), None)
-        code, message = (finding.code, finding.message) if finding is not None else ("", "")
-        refusal = finding.about if finding is not None and isinstance(finding.about, RefusalKind) else None
-        if finding is not None and finding.about is RemarkKind.SEVERAL and not is_gap:
-            return Reason(message, code, message)
-        check, checks = field.checks[number], field.checks
-        if refusal is RefusalKind.NOT_VERIFIED or is_gap:
-            refusal, code, message = None, "", ""
+        failure, event = failure_of(self._solve(there))
+        if event is RemarkKind.SEVERAL and not is_gap:
+            return failure
+        if event is RefusalKind.NOT_VERIFIED or is_gap:
+            failure, event = NO_FAILURE
+        check, checks, refusal = field.checks[number], field.checks, event if isinstance(event, RefusalKind) else None
         if refusal is not None and not same(check.kind, refusal):
             fails = field.fails(numpy.array([there]))[:, 0]
             check = next((checks[each] for each in numpy.flatnonzero(fails) if same(checks[each].kind, refusal)), check)
         text = phrase(check, refusal or check.kind, about_of(kind.free, kind.profile))
-        return Reason(text, code, message)
+        return replace(failure, text=text)
 
     def _limits(self, fields: Mapping[tuple[int, int], Field]) -> Iterator[Boundary]:
         """The parts of the limits of rules beyond which there is no contour."""
@@ -290,22 +282,19 @@ class _Map:
         """A part of the limit of a rule."""
         middle = (span[0] + span[1]) / 2
         inside, outside = (_point(axis, value + side, middle) for side in (-step, step))
-        answer = self.template.solve(dict(zip(self.words, outside, strict=True)))
-        finding = next((each for each in answer.diagnostics if each.severity is Severity.ERROR), None)
-        word, where = called(self.words[axis]), "above" if step > 0 else "below"
-        at = value_text(value, self.units[axis])
-        text = f"there is no contour for {word} {where} {at}"
-        if finding is not None and finding.about is None:
-            text = f"rule {finding.code} refuses {word} {where} {at}"
-        code, message = (finding.code, finding.message) if finding is not None else ("", "")
-        is_told = answer.contour is None and self._has_contour(inside)
+        answer = self._solve(outside)
+        (failure, event), where = failure_of(answer), "above" if step > 0 else "below"
+        says = f"rule {failure.code} refuses" if failure.code and event is None else "there is no contour for"
+        text = f"{says} {called(self.words[axis])} {where} {value_text(value, self.units[axis])}"
+        is_told = answer.contour is None and self._solve(inside).contour is not None
         points = tuple(_point(axis, value, end) for end in span)
+        unverified = 0 if is_told else 1
         return Boundary(
-            points, Reason(text, code, message), Way.RULE, inside, outside, is_gap=False, unverified=0 if is_told else 1
+            points, replace(failure, text=text), Way.RULE, inside, outside, is_gap=False, unverified=unverified
         )
 
-    def _has_contour(self, at: Point) -> bool:
-        return self.template.solve(dict(zip(self.words, at, strict=True))).contour is not None
+    def _solve(self, at: Point) -> Answer:
+        return self.template.solve(dict(zip(self.words, at, strict=True)))
 
 
 def _has_extent(field: Field, trace: Trace) -> bool:
