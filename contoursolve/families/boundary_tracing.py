@@ -39,7 +39,7 @@ Node = tuple[str, int]
 
 
 @dataclass(frozen=True, slots=True)
-class Trace:
+class BoundaryTrace:
     """A line of the edge on which one check begins to fail; its first and last point are the same if it is closed."""
 
     check: int
@@ -48,7 +48,7 @@ class Trace:
 
 
 @dataclass(frozen=True, slots=True)
-class Box:
+class WordBox:
     """The range of both words."""
 
     low: Point
@@ -62,10 +62,10 @@ class Box:
 
 
 class Field:
-    """The margins of one kind of contour on a grid over a box, of all its solutions one after the other. Inside is
+    """The margins of one class of contours on a grid over a box, of all its solutions one after the other. Inside is
     where one solution alone passes its checks."""
 
-    def __init__(self, branches: Sequence[Branch], box: Box) -> None:
+    def __init__(self, branches: Sequence[Branch], box: WordBox) -> None:
         self.branches, self.box = branches, box
         self.checks = tuple(check for branch in branches for check in branch.margins.checks)
         self.axes = [numpy.linspace(box.low[word], box.high[word], NODES) for word in (0, 1)]
@@ -189,7 +189,7 @@ class Field:
         return undecided & (passing < 2)  # noqa: PLR2004 - two contours are one too many, whatever the others are
 
 
-class Lines:
+class GridLines:
     """The lines that part two states of the nodes of a grid, such as inside and outside.
 
     `tell` gives the state of points, and `govern` the check whose margin is zero between two points that differ.
@@ -238,7 +238,7 @@ class Lines:
                     cells.setdefault(cell, []).append(number)
         return cells
 
-    def traces(self) -> list[Trace]:
+    def traces(self) -> list[BoundaryTrace]:
         """The lines, one for each check that governs a part."""
         links: dict[int, dict[Node, list[Node]]] = {}
         for first, second, check in self._segments():
@@ -249,7 +249,7 @@ class Lines:
         for check in sorted(links):
             for path in _paths(links[check]):
                 points = numpy.array([self._at(node) for node in path])
-                found.append(Trace(check, self._refined(points, check)))
+                found.append(BoundaryTrace(check, self._refined(points, check)))
         return found
 
     def _at(self, node: Node) -> Array:
@@ -301,17 +301,17 @@ class Lines:
         return points
 
 
-def edge_of(field: Field) -> Lines:
+def edge_of(field: Field) -> GridLines:
     """The edge of the region in which all checks are passed."""
     everywhere = numpy.ones_like(field.is_inside)
-    return Lines(field, field.is_inside, lambda points: field.failing(points) < 0, field.failing, everywhere)
+    return GridLines(field, field.is_inside, lambda points: field.failing(points) < 0, field.failing, everywhere)
 
 
-def gaps_of(field: Field) -> Iterator[Lines]:
+def gaps_of(field: Field) -> Iterator[GridLines]:
     """The lines within the region on which something is zero that must not be."""
     for number, check in enumerate(field.checks):
         if check.test is Test.APART and check.kind is not RefusalKind.LANDING_UNKNOWN:
-            lines = Lines(
+            lines = GridLines(
                 field,
                 (field.at_nodes[number] > 0).reshape(NODES, NODES),
                 lambda points, number=number: field.values(points)[number] > 0,  # type: ignore[misc]

@@ -18,7 +18,7 @@ from contoursolve.backends.columns import ROWS, Array, Columns, columns_of, comp
 from contoursolve.backends.inputs import COSINE, SIDE, SINE, lookup
 from contoursolve.backends.numeric import Tape, largest
 from contoursolve.constraints import Coordinate, Radius, System, Values
-from contoursolve.families.case_classes import Kind, asked_of
+from contoursolve.families.case_classes import CaseClass, asked_of
 from contoursolve.families.spec import Places, Ranges
 from contoursolve.model import FIRST, SECOND, Fact, Profile, Unit, scalar
 from contoursolve.solving import RefusalKind, Solution
@@ -65,7 +65,7 @@ BOXES = replace(BALLS, vanishes=_vanishes)
 
 
 @dataclass(frozen=True, slots=True)
-class Box(Ground):
+class BoxGround(Ground):
     """The ground for all rows of a box. `nearest` is the ground for the value of each that is nearest to zero."""
 
     directions: Mapping[str, tuple[Number, Number]]
@@ -110,14 +110,14 @@ class Cell:
     is_lost: bool = False
 
 
-def cells_of(kind: Kind, groups: tuple[Group, ...], values: Mapping[str, Array]) -> Iterator[Cell]:
+def cells_of(case: CaseClass, groups: tuple[Group, ...], values: Mapping[str, Array]) -> Iterator[Cell]:
     """The rows in cells, in an order that follows from the values alone."""
-    words = sorted({word for word, _ in kind.free.values()} | {word for word, _, _ in kind.moves.values()})
+    words = sorted({word for word, _ in case.free.values()} | {word for word, _, _ in case.moves.values()})
     columns = numpy.array([values[word] for word in words])
     spread = numpy.ptp(columns, axis=1)
     spread[spread == 0] = 1.0
     first = dict(zip(words, columns[:, 0].tolist(), strict=True))
-    is_searched = _is_searched(kind, groups, first)
+    is_searched = _is_searched(case, groups, first)
     few = FEW_SEARCHED if is_searched else FEW
     pending, apart = [numpy.arange(columns.shape[1])], list[Rows]()
     while pending:
@@ -127,7 +127,7 @@ def cells_of(kind: Kind, groups: tuple[Group, ...], values: Mapping[str, Array])
         cell = Cell(rows, None)
         if rows.size > few:
             ends = [dict(zip(words, each.tolist(), strict=True)) for each in (low, high)]
-            cell = _solve(kind, groups, rows, *ends, is_searched=is_searched)
+            cell = _solve(case, groups, rows, *ends, is_searched=is_searched)
         if cell.solutions is not None:
             yield cell
         elif rows.size <= few or (high == low).all():
@@ -141,30 +141,32 @@ def cells_of(kind: Kind, groups: tuple[Group, ...], values: Mapping[str, Array])
     if apart:
         rows = numpy.concatenate(apart)
         yield from _solve_each(
-            kind, groups, rows, [dict(zip(words, each, strict=True)) for each in columns[:, rows].T.tolist()]
+            case, groups, rows, [dict(zip(words, each, strict=True)) for each in columns[:, rows].T.tolist()]
         )
 
 
-def _solve_each(kind: Kind, groups: tuple[Group, ...], rows: Rows, values: Sequence[Mapping[str, float]]) -> list[Cell]:
+def _solve_each(
+    case: CaseClass, groups: tuple[Group, ...], rows: Rows, values: Sequence[Mapping[str, float]]
+) -> list[Cell]:
     """A cell for each row; all rows are searched together."""
     with ball.precision(ball.WORKING):
-        grounds = [ground_of(kind.at(each)) for each in values]
-        enumerations = enumerate_many(grounds, kind.system, groups, Close.REFUSE, ROW)
+        grounds = [ground_of(case.at(each)) for each in values]
+        enumerations = enumerate_many(grounds, case.system, groups, Close.REFUSE, ROW)
         return [
-            _cell(kind, row, ground, each) if isinstance(each, Enumeration) else Cell(row, None)
+            _cell(case, row, ground, each) if isinstance(each, Enumeration) else Cell(row, None)
             for row, ground, each in zip(rows[:, None], grounds, enumerations, strict=True)
         ]
 
 
-def _is_searched(kind: Kind, groups: tuple[Group, ...], values: Mapping[str, float]) -> bool:
+def _is_searched(case: CaseClass, groups: tuple[Group, ...], values: Mapping[str, float]) -> bool:
     """Whether the row of these values has a step without a closed form, or cannot be told to have none."""
     with ball.precision(ball.WORKING):
-        (found,) = enumerate_many([ground_of(kind.at(values))], kind.system, groups, Close.DOUBLE, BOX)
+        (found,) = enumerate_many([ground_of(case.at(values))], case.system, groups, Close.DOUBLE, BOX)
         return not isinstance(found, Enumeration) or found.is_searched
 
 
 def _solve(
-    kind: Kind,
+    case: CaseClass,
     groups: tuple[Group, ...],
     rows: Rows,
     low: Mapping[str, float],
@@ -173,25 +175,25 @@ def _solve(
     is_searched: bool,
 ) -> Cell:
     with ball.precision(ball.WORKING):
-        box = _box(kind, low, high)
+        box = _box(case, low, high)
         effort = BOX if is_searched else SMALL_BOX
-        (found,) = enumerate_many([box], kind.system, groups, Close.REFUSE, effort)
+        (found,) = enumerate_many([box], case.system, groups, Close.REFUSE, effort)
         if not isinstance(found, Enumeration):
             return Cell(rows, None)
-        if found.is_searched and not all(_is_near(each, box, kind.system) for each in found.found):
+        if found.is_searched and not all(_is_near(each, box, case.system) for each in found.found):
             return Cell(rows, None)
-        return _cell(kind, rows, box, found)
+        return _cell(case, rows, box, found)
 
 
-def _cell(kind: Kind, rows: Rows, ground: Ground, enumeration: Enumeration) -> Cell:
+def _cell(case: CaseClass, rows: Rows, ground: Ground, enumeration: Enumeration) -> Cell:
     """The cell of rows for all of which a search on a ground holds."""
-    choices = kind.profile.choices
+    choices = case.profile.choices
     points = {choice.point for choice in choices}
     if not enumeration.is_complete or any(each.doubles for each in enumeration.found):
         return Cell(rows, None)
     try:
         sides = [
-            sides_of(kind.system, ground.values(each.scalars, each.signs, kind.system), points)
+            sides_of(case.system, ground.values(each.scalars, each.signs, case.system), points)
             for each in enumeration.found
         ]
     except (ArithmeticError, ValueError):
@@ -210,17 +212,17 @@ def _cell(kind: Kind, rows: Rows, ground: Ground, enumeration: Enumeration) -> C
     return Cell(rows, tuple(items), tuple(is_chosen), enumeration.is_lost)
 
 
-def _is_near(found: Found, box: Box, system: System) -> bool:
+def _is_near(found: Found, box: BoxGround, system: System) -> bool:
     """Whether a solution lies within the reach of the search of every single row."""
     reach = box.nearest.reach(system)
     bounds = {name: ball.bounds(value) for name, value in found.scalars.items()}
     return all(reach[name][0] <= low and high <= reach[name][1] for name, (low, high) in bounds.items())
 
 
-def _box(kind: Kind, low: Mapping[str, float], high: Mapping[str, float]) -> Box:
+def _box(case: CaseClass, low: Mapping[str, float], high: Mapping[str, float]) -> BoxGround:
     """The ground of all rows whose words lie between two values."""
-    ends = kind.at(low), kind.at(high)
-    lowest, highest, nearest = (ground_of(profile) for profile in (*ends, _nearest(kind, low, high)))
+    ends = case.at(low), case.at(high)
+    lowest, highest, nearest = (ground_of(profile) for profile in (*ends, _nearest(case, low, high)))
     amounts, directions = {}, {}
     for name, given in ends[0].givens.items():
         one, other = sorted((given.value, ends[1].givens[name].value))
@@ -230,16 +232,16 @@ def _box(kind: Kind, low: Mapping[str, float], high: Mapping[str, float]) -> Box
             amounts[name] = ball.hull(one, other)
     starts = zip((FIRST, SECOND), ends[0].start.values, ends[1].start.values, strict=True)
     scalars = {
-        scalar(kind.profile.figure.start, axis): ball.hull(*sorted((one, other)))
+        scalar(case.profile.figure.start, axis): ball.hull(*sorted((one, other)))
         for axis, one, other in starts
         if one is not None and other is not None
     }
-    return Box(scalars, amounts, lowest.angles, directions, lowest, highest, nearest)
+    return BoxGround(scalars, amounts, lowest.angles, directions, lowest, highest, nearest)
 
 
-def _nearest(kind: Kind, low: Mapping[str, float], high: Mapping[str, float]) -> Profile:
+def _nearest(case: CaseClass, low: Mapping[str, float], high: Mapping[str, float]) -> Profile:
     """The profile with the values that are nearest to zero."""
-    return kind.at({word: min(max(0.0, low[word]), high[word]) for word in low})
+    return case.at({word: min(max(0.0, low[word]), high[word]) for word in low})
 
 
 BLOCK = 8_192
@@ -285,11 +287,11 @@ class Settled:
 
 
 class Several:
-    """The functions of a kind whose rows may have several solutions, for one thread."""
+    """The functions of a class whose rows may have several solutions, for one thread."""
 
-    def __init__(self, kind: Kind) -> None:
-        self.kind = kind
-        self.system: System = kind.system
+    def __init__(self, case: CaseClass) -> None:
+        self.case = case
+        self.system: System = case.system
         verdict = judge(self.system)
         self.basis = tuple(self.system.facts[index] for index in verdict.basis)
         checks = tuple(fact for index, fact in enumerate(self.system.facts) if index not in verdict.basis)
@@ -340,25 +342,25 @@ class Several:
 
     def _given(self, ranges: Ranges, places: Mapping[str, Places]) -> dict[str, Array]:
         """All that is known, row by row or as one number, by the names of the inputs."""
-        kind, found = self.kind, dict[str, Array]()
-        for name, given in kind.profile.givens.items():
+        case, found = self.case, dict[str, Array]()
+        for name, given in case.profile.givens.items():
             value = numpy.array([float(given.value)])
-            if name in kind.free:
-                word, factor = kind.free[name]
+            if name in case.free:
+                word, factor = case.free[name]
                 value = ranges.values[word][places[word]] * float(factor)
             if given.unit is Unit.DEGREE:
                 found[name + COSINE], found[name + SINE] = directions(value)
             else:
                 found[name] = value
-        for axis, origin in enumerate(kind.origin(ranges, places)):
+        for axis, origin in enumerate(case.origin(ranges, places)):
             found[scalar(self.system.figure.start, axis)] = numpy.atleast_1d(origin)
-        found |= {name: numpy.array([value]) for name, value in kind.profile.increments.items()}
+        found |= {name: numpy.array([value]) for name, value in case.profile.increments.items()}
         return found
 
     def _pairs(self, values: Mapping[str, Array], settled: Settled) -> Pairs:
         """Every row with each of its solutions; rows without any are settled."""
         found: list[tuple[Places, Place, bool]] = []
-        for cell in cells_of(self.kind, self.groups, values):
+        for cell in cells_of(self.case, self.groups, values):
             if cell.solutions is None:
                 settled.again[cell.rows] = True
                 continue
@@ -492,7 +494,7 @@ class Several:
 
     def _solve_alone(self, values: Mapping[str, float], rows: Sequence[int] | Places, settled: Settled) -> None:
         """What a single solve says, for all of some rows."""
-        solution: Solution = self.kind.solve(values)
+        solution: Solution = self.case.solve(values)
         settled.status[rows] = code_of(solution.status)
         settled.reason[rows] = reason_of(solution.refusals[0].kind if solution.refusals else None)
         settled.is_path[rows] = settled.is_shown[rows] = bool(solution.scalars)
@@ -511,7 +513,7 @@ class Several:
         relative = self._relative(known)
         found = {**relative, **_run_apart(self.path, relative, rows.size)}
         found |= {
-            name: self._ask(question.fact, known, rows.size) for name, question in asked_of(self.kind.profile).items()
+            name: self._ask(question.fact, known, rows.size) for name, question in asked_of(self.case.profile).items()
         }
         worst = numpy.maximum.reduce(
             [numpy.zeros(rows.size), *(numpy.abs(found[name]) for name in self.machine.corner_residuals)]
@@ -534,7 +536,7 @@ class Several:
             return known[scalar(fact.point, fact.axis)]
         found = numpy.full(rows, numpy.nan)
         columns = {name: numpy.broadcast_to(each, rows).tolist() for name, each in known.items()}
-        angles = [given.name for given in self.kind.profile.givens.values() if given.unit is Unit.DEGREE]
+        angles = [given.name for given in self.case.profile.givens.values() if given.unit is Unit.DEGREE]
         for row in range(rows):
             numbers = {name: each[row] for name, each in columns.items()}
             pairs = {name: (numbers[name + COSINE], numbers[name + SINE]) for name in angles}

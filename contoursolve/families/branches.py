@@ -14,7 +14,7 @@ from contoursolve.backends.chart import Bounds, Chart
 from contoursolve.backends.inputs import lookup
 from contoursolve.backends.intervals import Array, Intervals
 from contoursolve.constraints import System
-from contoursolve.families.case_classes import Follows, Kind
+from contoursolve.families.case_classes import CaseClass, Follows
 from contoursolve.families.limit_reasons import about_of
 from contoursolve.families.spec import NotClosedError
 from contoursolve.model import Choice, Fact
@@ -102,9 +102,9 @@ few places where a direction turns."""
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Branch:
-    """One of the solutions of a kind: its checks as margins, and the values of their other inputs."""
+    """One of the solutions of a class: its checks as margins, and the values of their other inputs."""
 
-    kind: Kind
+    case: CaseClass
     words: tuple[str, ...]
     margins: Margins
     fixed: tuple[float, ...]
@@ -112,10 +112,10 @@ class Branch:
 
     def results(self, names: Sequence[str], *, is_rate: bool = False) -> tuple[Chart, list[float]]:
         """Some outputs as functions of the words, or their derivatives by the first, with the other inputs."""
-        follows, is_closed = self.kind.follows(self.words), self.kind.is_closed
-        system, count = self.kind.system, len(self.words)
+        follows, is_closed = self.case.follows(self.words), self.case.is_closed
+        system, count = self.case.system, len(self.words)
         chart = _compile_results(system, count, follows, tuple(names), is_rate=is_rate, is_closed=is_closed)
-        return chart, self.kind.fixed(chart.fixed, dict(self.signs))
+        return chart, self.case.fixed(chart.fixed, dict(self.signs))
 
     def at(self, words: Sequence[Array]) -> Array:
         """The margins at these values of the words, by (check, place)."""
@@ -149,51 +149,53 @@ class Branch:
         return found
 
 
-def branches_of(kind: Kind, words: Sequence[str], low: Sequence[float], high: Sequence[float]) -> tuple[Branch, ...]:
-    """The branches of a kind that is solved, in a box of its words. Raises NotClosedError where there is no closed
+def branches_of(
+    case: CaseClass, words: Sequence[str], low: Sequence[float], high: Sequence[float]
+) -> tuple[Branch, ...]:
+    """The branches of a class that is solved, in a box of its words. Raises NotClosedError where there is no closed
     form."""
     try:
-        return _distinct(_branches(kind, words), low, high)
+        return _distinct(_branches(case, words), low, high)
     except NotClosedError:
         # Facts that are singular at their values may have another in their place, as in a single solve.
-        for profile in orders_of(kind.profile):
+        for profile in orders_of(case.profile):
             try:
-                return _distinct(_branches(replace(kind, profile=profile), words), low, high)
+                return _distinct(_branches(replace(case, profile=profile), words), low, high)
             except NotClosedError:
                 continue
         raise
 
 
-def _branches(kind: Kind, words: Sequence[str]) -> tuple[Branch, ...]:
-    follows = kind.follows(words)
-    if kind.is_closed:
-        margins = compile_margins(kind.system, len(words), follows)
-        return (Branch(kind, tuple(words), margins, tuple(kind.fixed(margins.chart.fixed))),)
+def _branches(case: CaseClass, words: Sequence[str]) -> tuple[Branch, ...]:
+    follows = case.follows(words)
+    if case.is_closed:
+        margins = compile_margins(case.system, len(words), follows)
+        return (Branch(case, tuple(words), margins, tuple(case.fixed(margins.chart.fixed))),)
     try:
-        form, margins = _compile(kind.system, len(words), follows, kind.profile.choices)
+        form, margins = _compile(case.system, len(words), follows, case.profile.choices)
     except NoFormulaError as error:
-        blamed = _texts(kind, _givens(kind, error.facts, error.unknowns)) or "the block"
+        blamed = _texts(case, _givens(case, error.facts, error.unknowns)) or "the block"
         raise NotClosedError(f"{blamed}: {error.why}; {INSTEAD}") from None
-    margins = replace(margins, checks=tuple(_named(form, margins.checks, kind)))
+    margins = replace(margins, checks=tuple(_named(form, margins.checks, case)))
     found = []
     for values in product((1.0, -1.0), repeat=len(form.signs)):
         signs = tuple(zip(form.signs, values, strict=True))
-        found.append(Branch(kind, tuple(words), margins, tuple(kind.fixed(margins.chart.fixed, dict(signs))), signs))
+        found.append(Branch(case, tuple(words), margins, tuple(case.fixed(margins.chart.fixed, dict(signs))), signs))
     return tuple(found)
 
 
 def _distinct(branches: Sequence[Branch], low: Sequence[float], high: Sequence[float]) -> tuple[Branch, ...]:
     """The branches without those that are another one for all values in a box, as the two places of the centre of a
     half circle. Raises NotClosedError where what is divided by is zero for all of them."""
-    if branches[0].kind.is_closed:
+    if branches[0].case.is_closed:
         return tuple(branches)
-    form, found = close(branches[0].kind.system), list[Branch]()
+    form, found = close(branches[0].case.system), list[Branch]()
     for branch in branches:
         values = branch.sample(low, high)[: len(form.conditions)]
         again = False
         for condition, row in zip(form.conditions, values, strict=True):
             if condition.need is Need.REGULAR and (numpy.abs(row) <= REGULAR).all():
-                blamed = _texts(branch.kind, _givens(branch.kind, condition.facts, condition.unknowns))
+                blamed = _texts(branch.case, _givens(branch.case, condition.facts, condition.unknowns))
                 raise NotClosedError(f"{blamed} do not fix what they speak about, whatever the value; {INSTEAD}")
             is_double = condition.need is Need.REAL and (numpy.abs(row) <= LEVEL).all()
             again = again or (is_double and dict(branch.signs)[ROOT + ",".join(condition.unknowns)] < 0)
@@ -202,26 +204,26 @@ def _distinct(branches: Sequence[Branch], low: Sequence[float], high: Sequence[f
     return tuple(found)
 
 
-def _texts(kind: Kind, givens: Sequence[str]) -> str:
+def _texts(case: CaseClass, givens: Sequence[str]) -> str:
     """The words and facts that state values, and those that ask."""
-    stated = about_of(kind.free, kind.profile).words(givens)
-    asked = join(list(dict.fromkeys(question.word.text for question in kind.profile.questions)))
+    stated = about_of(case.free, case.profile).words(givens)
+    asked = join(list(dict.fromkeys(question.word.text for question in case.profile.questions)))
     return f"{stated} with {asked}" if stated and asked else stated or asked
 
 
-def _givens(kind: Kind, facts: Sequence[Fact], unknowns: Sequence[str]) -> tuple[str, ...]:
+def _givens(case: CaseClass, facts: Sequence[Fact], unknowns: Sequence[str]) -> tuple[str, ...]:
     """The values that some facts state; where one states none, also what they build on."""
     found = [fact.given for fact in facts if fact.given]
     for name in unknowns if len(found) < len(facts) or not found else ():
-        found += settled_by(kind.profile, name)
+        found += settled_by(case.profile, name)
     return tuple(dict.fromkeys(found))
 
 
-def _named(form: ClosedForm, checks: Sequence[Check], kind: Kind) -> Iterator[Check]:
+def _named(form: ClosedForm, checks: Sequence[Check], case: CaseClass) -> Iterator[Check]:
     """The checks, with the values that their conditions are about."""
     count = len(form.conditions)
     for condition, check in zip(form.conditions, checks[:count], strict=True):
-        yield replace(check, givens=_givens(kind, condition.facts, condition.unknowns))
+        yield replace(check, givens=_givens(case, condition.facts, condition.unknowns))
     yield from checks[count:]
 
 

@@ -71,7 +71,7 @@ MOST_OPEN = 3
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Kind:
+class CaseClass:
     """Rows that share a profile but for the values of the free words.
 
     `status` is the verdict where it does not depend on the values. `free` has, by the name of each value that follows
@@ -275,21 +275,21 @@ def _limits(rules: Iterable[Rule]) -> Iterable[Decimal]:
                     yield limit
 
 
-def kind_of(template: Template, values: Mapping[str, float], answer: Answer | None = None) -> Kind:
-    """The kind of the row with these values; `answer` is its single solve. Raises FamilyError where a word cannot
+def case_of(template: Template, values: Mapping[str, float], answer: Answer | None = None) -> CaseClass:
+    """The class of the row with these values; `answer` is its single solve. Raises FamilyError where a word cannot
     vary."""
     answer = answer or template.solve(values)
     moving = [name for name, word in template.words.items() if not list(_stated_by(word, answer.profile))]
     words = {name: word for name, word in template.words.items() if name not in moving}
-    kind = kind_in(answer, words, values)
-    if kind.status is not None:
+    case = case_in(answer, words, values)
+    if case.status is not None:
         # What is refused may not even state the value.
-        return kind
+        return case
     moves = {axis: move for name in moving for axis, move in _moves(template, values, name, answer)}
     idle = [template.words[name].text for name in moving if name not in [word for word, _, _ in moves.values()]]
     if idle:
         raise FamilyError(f"{idle[0]} cannot vary: the contour has no value of it")
-    return replace(kind, moves=moves)
+    return replace(case, moves=moves)
 
 
 def _moves(
@@ -308,8 +308,8 @@ def _moves(
             yield axis, (name, factor, value - factor * Decimal(repr(values[name])))
 
 
-def kind_in(answer: Answer, words: Mapping[str, Word], values: Mapping[str, float]) -> Kind:
-    """The kind of a contour that was solved at these values of its free words. Raises FamilyError as `kind_of`."""
+def case_in(answer: Answer, words: Mapping[str, Word], values: Mapping[str, float]) -> CaseClass:
+    """The class of a contour that was solved at these values of its free words. Raises FamilyError as `case_of`."""
     profile = answer.profile
     status = _verdict(answer)
     free: dict[str, tuple[str, Decimal]] = {}
@@ -328,7 +328,7 @@ def kind_in(answer: Answer, words: Mapping[str, Word], values: Mapping[str, floa
             and is_closed(system)
             and all(point in chosen for point in points_with_two_solutions(system))
         )
-    return Kind(profile, status, free, is_closed=is_function)
+    return CaseClass(profile, status, free, is_closed=is_function)
 
 
 def _factor(answer: Answer, typed: Word, given: Given, number: Decimal) -> Decimal:
@@ -348,8 +348,8 @@ def _stated_by(typed: Word, profile: Profile) -> Iterable[Given]:
             yield given
 
 
-def alike(one: Kind, other: Kind) -> bool:
-    """Whether rows of two kinds can be evaluated together."""
+def alike(one: CaseClass, other: CaseClass) -> bool:
+    """Whether rows of two classes can be evaluated together."""
     if one.status is not None or other.status is not None:
         return one.status is other.status
     return (
@@ -362,17 +362,17 @@ def alike(one: Kind, other: Kind) -> bool:
     )
 
 
-def _drawing(kind: Kind) -> object:
+def _drawing(case: CaseClass) -> object:
     """What is drawn and stated; profiles with further facts have layouts of their own."""
-    return kind.system if kind.profile.is_extended else kind.profile.layout
+    return case.system if case.profile.is_extended else case.profile.layout
 
 
-def _fixed(kind: Kind) -> dict[str, Decimal]:
-    return {name: given.value for name, given in kind.profile.givens.items() if name not in kind.free}
+def _fixed(case: CaseClass) -> dict[str, Decimal]:
+    return {name: given.value for name, given in case.profile.givens.items() if name not in case.free}
 
 
 def _verdict(answer: Answer) -> Status | None:
-    """The status that all rows of the kind have, if the equations are not solved."""
+    """The status that all rows of the class have, if the equations are not solved."""
     errors = errors_of(answer)
     is_refused = any(each.basis is Basis.RULE for each in errors)
     system = assemble(answer.profile)
@@ -399,21 +399,21 @@ def shown_as(output: str) -> str:
     return f"shown:{output}"
 
 
-def names_of(kind: Kind) -> dict[str, str]:
+def names_of(case: CaseClass) -> dict[str, str]:
     """The names of the results, by the outputs that have them."""
-    return {"worst": "residual"} | {shown_as(output): name for name, (output, _) in results_of(kind).items()}
+    return {"worst": "residual"} | {shown_as(output): name for name, (output, _) in results_of(case).items()}
 
 
-def sides_of_choice(kind: Kind) -> dict[str, int]:
+def sides_of_choice(case: CaseClass) -> dict[str, int]:
     """The sides that the words choose, by the point: +1 farther or left, -1 nearer or right."""
-    shown = kind.profile.intersections
-    return {choice.point: choice.side.sign for choice in kind.profile.choices if choice.given and choice.point in shown}
+    shown = case.profile.intersections
+    return {choice.point: choice.side.sign for choice in case.profile.choices if choice.given and choice.point in shown}
 
 
-def results_of(kind: Kind) -> dict[str, Behind]:
+def results_of(case: CaseClass) -> dict[str, Behind]:
     """The output behind each result, and the axis of a coordinate: inside they count from the start point."""
-    figure = kind.system.figure
-    axes = list(zip((FIRST, SECOND), kind.profile.plane.axes, strict=True))
+    figure = case.system.figure
+    axes = list(zip((FIRST, SECOND), case.profile.plane.axes, strict=True))
     found: dict[str, tuple[str, int | None]] = {}
     for point in figure.points:
         found |= {f"{point}.{letter}": (scalar(point, axis), axis) for axis, letter in axes}
@@ -434,9 +434,9 @@ def asked_of(profile: Profile) -> dict[str, Question]:
     return found
 
 
-def fill_row(kind: Kind, values: Mapping[str, float], row: int, table: Results) -> None:
+def fill_row(case: CaseClass, values: Mapping[str, float], row: int, table: Results) -> None:
     """The results of a single solve in a row."""
-    solution = kind.solve(values)
+    solution = case.solve(values)
     table["status"][row] = code_of(solution.status)
     table["reason"][row] = reason_of(solution.refusals[0].kind if solution.refusals else None)
     if not solution.points:
@@ -444,11 +444,11 @@ def fill_row(kind: Kind, values: Mapping[str, float], row: int, table: Results) 
             # A room without points is none.
             table[name][row] = table[name][row] if isfinite(table[name][row]) else nan
         return
-    letters = kind.profile.plane.axes
+    letters = case.profile.plane.axes
     for radius, value in solution.radii.items():
         table[radius][row] = value
     pairs = dict(solution.points)
-    del pairs[kind.system.figure.start]
+    del pairs[case.system.figure.start]
     for name, corner in solution.corners.items():
         pairs |= {f"{name}.begin": corner.begin, f"{name}.end": corner.end}
         pairs |= {f"{name}.center": corner.center} if corner.center is not None else {}
@@ -456,13 +456,13 @@ def fill_row(kind: Kind, values: Mapping[str, float], row: int, table: Results) 
         for letter, value in zip(letters, pair, strict=True):
             table[f"{name}.{letter}"][row] = value
     touching = {remark.subject for remark in solution.remarks if remark.kind is RemarkKind.TOUCHES}
-    for point, side in sides_of_choice(kind).items():
+    for point, side in sides_of_choice(case).items():
         table[f"branch.{point}"][row] = 0 if point in touching else side
 
 
 @dataclass(frozen=True, slots=True)
 class Example:
-    """A row of a kind that the rules may tell apart: its key, its values, and how many rows have this key."""
+    """A row of a class that the rules may tell apart: its key, its values, and how many rows have this key."""
 
     key: int
     values: tuple[float, ...]
@@ -471,7 +471,7 @@ class Example:
 
 @dataclass(frozen=True, slots=True)
 class Examples:
-    """One row of each kind that the rules may tell apart, in the order of their keys, as plain data.
+    """One row of each class that the rules may tell apart, in the order of their keys, as plain data.
 
     Each word has a scale and bounds: its values, scaled, lie between two bounds or on one, which gives a number; the
     numbers of all words make the key.
@@ -518,14 +518,14 @@ def _unique(numbers: NDArray[Any]) -> tuple[list[int], list[int], list[int]]:
     return found.tolist(), firsts.tolist(), counts.tolist()
 
 
-def kinds_of(template: Template, examples: Examples) -> tuple[tuple[Kind, ...], NDArray[numpy.int64]]:
-    """The kinds of the example rows, each once, and the number of the kind of each example. Raises FamilyError."""
-    items: list[Kind] = []
+def cases_of(template: Template, examples: Examples) -> tuple[tuple[CaseClass, ...], NDArray[numpy.int64]]:
+    """The classes of the example rows, each once, and the number of the class of each example. Raises FamilyError."""
+    items: list[CaseClass] = []
     numbers: list[int] = []
     for row in examples.rows:
-        kind = kind_of(template, dict(zip(template.words, row.values, strict=True)))
-        numbers.append(next((number for number, each in enumerate(items) if alike(each, kind)), len(items)))
-        items += [kind] if numbers[-1] == len(items) else []
+        case = case_of(template, dict(zip(template.words, row.values, strict=True)))
+        numbers.append(next((number for number, each in enumerate(items) if alike(each, case)), len(items)))
+        items += [case] if numbers[-1] == len(items) else []
     return tuple(items), numpy.array(numbers, numpy.int64)
 
 

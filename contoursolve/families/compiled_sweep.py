@@ -18,9 +18,9 @@ from contoursolve.families.branch_rows import BLOCK, Several
 from contoursolve.families.case_classes import (
     ORIGIN,
     Behind,
+    CaseClass,
     Examples,
     Input,
-    Kind,
     Results,
     asked_of,
     fill_row,
@@ -54,36 +54,36 @@ _NOWHERE = [reason_of(kind) for kind in (None, *NO_PLACE)]
 
 @dataclass(slots=True, eq=False)
 class CompiledSweep:
-    """A case that is read, the kinds of its rows, and how to evaluate them; every thread has functions of its own."""
+    """A case that is read, the classes of its rows, and how to evaluate them; every thread has functions of its own."""
 
     spec: SweepSpec
     """Plain data from which, with the examples, the same can be made elsewhere."""
     examples: Examples
     ranges: Ranges
     template: Template
-    kinds: tuple[Kind, ...]
+    cases: tuple[CaseClass, ...]
     numbers: NDArray[numpy.int64]
-    """The kind of each example."""
+    """The class of each example."""
     local: threading.local = field(default_factory=threading.local)
 
     @property
     def is_one_function(self) -> bool:
         """Whether one function answers all rows."""
-        return len(self.kinds) == 1 and self.kinds[0].status is None and self.kinds[0].is_closed
+        return len(self.cases) == 1 and self.cases[0].status is None and self.cases[0].is_closed
 
     def columns(self) -> dict[str, type[numpy.generic]]:
         """The names and types of all results, in order."""
         found: dict[str, type[numpy.generic]] = {"status": numpy.uint8, "reason": numpy.uint8}
-        for kind in self.kinds:
-            if kind.status is None:
-                found |= {f"branch.{point}": numpy.int8 for point in sides_of_choice(kind)}
-        for kind in self.kinds:
-            if kind.status is None:
-                found |= dict.fromkeys((*results_of(kind), *asked_of(kind.profile)), numpy.float64)
+        for case in self.cases:
+            if case.status is None:
+                found |= {f"branch.{point}": numpy.int8 for point in sides_of_choice(case)}
+        for case in self.cases:
+            if case.status is None:
+                found |= dict.fromkeys((*results_of(case), *asked_of(case.profile)), numpy.float64)
         return {**found, "residual": numpy.float64}
 
     def empty(self, rows: int) -> Table:
-        """Room for the results of so many rows; NaN and 0 where not every kind has all of them."""
+        """Room for the results of so many rows; NaN and 0 where not every class has all of them."""
         kinds = self.columns()
         numbers = [name for name, kind in kinds.items() if kind is numpy.float64]
         # In one piece: the system hands out large pieces in large pages, a twentieth of the time of a family.
@@ -109,59 +109,59 @@ class CompiledSweep:
             self.local.__dict__.pop("inputs", None)
         places = {word: ranges.places(word, first, last) for word in ranges.values}
         number = numpy.zeros(last - first, numpy.int64)
-        if len(self.kinds) > 1:
+        if len(self.cases) > 1:
             key = self.examples.key(list(ranges.values.values()), list(places.values()))
             number = self.numbers[numpy.searchsorted([each.key for each in self.examples.rows], key)]
-        for each, kind in enumerate(self.kinds):
+        for each, case in enumerate(self.cases):
             # Where one function answers all rows, results are written in place.
             own = None if self.is_one_function else numpy.flatnonzero(number == each)
-            if kind.status is not None:
-                table["status"][own] = code_of(kind.status)
+            if case.status is not None:
+                table["status"][own] = code_of(case.status)
                 continue
             solve: Callable[..., None] = self._solve_closed
             size = ROWS
-            if not kind.is_closed:
-                solve, size = self._solve_open if kind.open_points else self._solve_several, BLOCK
+            if not case.is_closed:
+                solve, size = self._solve_open if case.open_points else self._solve_several, BLOCK
             for begin, end in Stretches(last - first if own is None else own.size, size):
                 target = slice(begin, end) if own is None else own[begin:end]
                 part = {word: place[target] for word, place in places.items()}
-                solve(each, kind, ranges, part, target, table)
+                solve(each, case, ranges, part, target, table)
 
     def _solve_closed(
-        self, number: int, kind: Kind, ranges: Ranges, places: Mapping[str, Places], target: Target, table: Results
+        self, number: int, case: CaseClass, ranges: Ranges, places: Mapping[str, Places], target: Target, table: Results
     ) -> None:
-        """The rows of a kind with one function for all of them."""
+        """The rows of a class with one function for all of them."""
         rows = next(iter(places.values())).size
-        function, names = self._function(number, kind, ranges, places, rows), names_of(kind)
+        function, names = self._function(number, case, ranges, places, rows), names_of(case)
         into = {output: table[name][target] for output, name in names.items()} if isinstance(target, slice) else {}
         out = function.evaluate(rows, into)
         if not isinstance(target, slice):
             for output, name in names.items():
                 table[name][target] = out[output]
-        verdict = Verdict(kind.checks, out, rows)
-        _note(kind, verdict.is_clear, verdict.status, verdict.reason, target, table)
+        verdict = Verdict(case.checks, out, rows)
+        _note(case, verdict.is_clear, verdict.status, verdict.reason, target, table)
         again = numpy.flatnonzero(verdict.again)
         at = again + target.start if isinstance(target, slice) else target[again]
         for row, place in zip(again.tolist(), at.tolist(), strict=True):
-            fill_row(kind, ranges.row(places, row), place, table)
+            fill_row(case, ranges.row(places, row), place, table)
 
     def _solve_several(
-        self, number: int, kind: Kind, ranges: Ranges, places: Mapping[str, Places], target: Places, table: Results
+        self, number: int, case: CaseClass, ranges: Ranges, places: Mapping[str, Places], target: Places, table: Results
     ) -> None:
-        """The rows of a kind without one function for all of them."""
+        """The rows of a class without one function for all of them."""
         made = self.local.__dict__.setdefault("several", {})
         if number not in made:
-            made[number] = Several(kind)
+            made[number] = Several(case)
         several: Several = made[number]
         settled = several.solve(ranges, places)
-        _note(kind, settled.is_path, settled.status, settled.reason, target, table)
+        _note(case, settled.is_path, settled.status, settled.reason, target, table)
         shown = numpy.flatnonzero(settled.is_shown)
         for first, last in Stretches(shown.size, ROWS):
             rows = shown[first:last]
             out, worst = several.path_of(settled, rows, ranges, places)
-            origin = kind.origin(ranges, {word: place[rows] for word, place in places.items()})
+            origin = case.origin(ranges, {word: place[rows] for word, place in places.items()})
             is_path = settled.is_path[rows]
-            results = {**results_of(kind), **{name: (name, None) for name in asked_of(kind.profile)}}
+            results = {**results_of(case), **{name: (name, None) for name in asked_of(case.profile)}}
             for name, (output, axis) in results.items():
                 values = out[output] + (0.0 if axis is None else origin[axis])
                 is_measure = name.endswith(".room")
@@ -169,18 +169,18 @@ class CompiledSweep:
             table["residual"][target[rows]] = worst
 
     def _solve_open(
-        self, number: int, kind: Kind, ranges: Ranges, places: Mapping[str, Places], target: Places, table: Results
+        self, number: int, case: CaseClass, ranges: Ranges, places: Mapping[str, Places], target: Places, table: Results
     ) -> None:
-        """The rows of a kind with choices that nothing makes: every side of every point is tried."""
-        names, plan, rows = names_of(kind), kind.machine.plan, target.size
-        function = self._function(number, kind, ranges, places, rows)
+        """The rows of a class with choices that nothing makes: every side of every point is tried."""
+        names, plan, rows = names_of(case), case.machine.plan, target.size
+        function = self._function(number, case, ranges, places, rows)
         count, again = numpy.zeros(rows, numpy.int64), numpy.zeros(rows, bool)
         reason = numpy.full(rows, reason_of(RefusalKind.NO_POINT), numpy.uint8)
-        sides = [function.compiled.fixed.index(f"side:{point}") for point in kind.open_points]
+        sides = [function.compiled.fixed.index(f"side:{point}") for point in case.open_points]
         for signs in product((1.0, -1.0), repeat=len(sides)):
             function.fix(sides, signs)
             out = function.evaluate(rows)
-            verdict = Verdict(kind.checks, out, rows)
+            verdict = Verdict(case.checks, out, rows)
             is_path = verdict.is_clear
             again |= verdict.again | _halves(plan.steps, out, rows)
             is_first = (reason == reason_of(RefusalKind.NO_POINT)) & ~numpy.isin(verdict.reason, _NOWHERE)
@@ -193,23 +193,25 @@ class CompiledSweep:
         for name in names.values():
             table[name][several] = numpy.nan
         status = numpy.choose(numpy.minimum(count, 2), (Code.NO_SOLUTION, Code.SOLVED, Code.AMBIGUOUS))
-        _note(kind, count == 1, status.astype(numpy.uint8), numpy.where(count == 0, reason, 0), target, table)
+        _note(case, count == 1, status.astype(numpy.uint8), numpy.where(count == 0, reason, 0), target, table)
         if again.any():
             for name in names.values():
                 table[name][target[again]] = numpy.nan
             part = {word: place[again] for word, place in places.items()}
-            self._solve_several(number, kind, ranges, part, target[again], table)
+            self._solve_several(number, case, ranges, part, target[again], table)
 
-    def _function(self, number: int, kind: Kind, ranges: Ranges, places: Mapping[str, Places], rows: int) -> Columns:
-        """The function of a kind for this thread, at the values of some rows."""
+    def _function(
+        self, number: int, case: CaseClass, ranges: Ranges, places: Mapping[str, Places], rows: int
+    ) -> Columns:
+        """The function of a class for this thread, at the values of some rows."""
         inputs: dict[int, Mapping[str, Input]] = self.local.__dict__.setdefault("inputs", {})
         functions: dict[int, Columns] = self.local.__dict__.setdefault("functions", {})
         if number not in inputs:
-            inputs[number] = kind.columns(ranges)
+            inputs[number] = case.columns(ranges)
         if number not in functions:
-            shown, varied = tuple(results_of(kind).values()), frozenset(inputs[number])
-            function = functions[number] = Columns(_compile(kind.system, varied, shown, bool(kind.open_points)))
-            fixed = {f"side:{point}": 1.0 for point in kind.open_points} | kind.numbers()
+            shown, varied = tuple(results_of(case).values()), frozenset(inputs[number])
+            function = functions[number] = Columns(_compile(case.system, varied, shown, bool(case.open_points)))
+            fixed = {f"side:{point}": 1.0 for point in case.open_points} | case.numbers()
             function.fix(slice(None), [fixed[name] for name in function.compiled.fixed])
         for place, name in enumerate(functions[number].compiled.varied):
             inputs[number][name].fill(places, functions[number].inputs[place, :rows])
@@ -217,11 +219,11 @@ class CompiledSweep:
 
 
 def _note(
-    kind: Kind, is_path: Bits, status: NDArray[Any], reason: NDArray[Any], target: Target, table: Results
+    case: CaseClass, is_path: Bits, status: NDArray[Any], reason: NDArray[Any], target: Target, table: Results
 ) -> None:
     """The status, the reason and the sides of some rows; `is_path` tells which of them have a contour."""
     table["status"][target], table["reason"][target] = status, reason
-    for point, side in sides_of_choice(kind).items():
+    for point, side in sides_of_choice(case).items():
         table[f"branch.{point}"][target] = is_path.view(numpy.int8) * numpy.int8(side)
 
 

@@ -19,7 +19,7 @@ from contoursolve.backends.numeric import Compiled, Tape
 from contoursolve.constraints import System, assemble
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer
-from contoursolve.families.case_classes import Kind, check_block, kind_in, results_of, unit_of, value_of
+from contoursolve.families.case_classes import CaseClass, case_in, check_block, results_of, unit_of, value_of
 from contoursolve.families.evaluate import compile_sweep, solve_sweep
 from contoursolve.families.export import Family
 from contoursolve.families.spec import FamilyError, Template, call, find_words, first_error, ranges_of, spec_of
@@ -240,28 +240,28 @@ def slopes_of(answer: Answer) -> Sensitivity:
     """The derivatives of a contour that was solved; errors as for `sensitivity`."""
     words = stated_words(answer)
     values = {name: float(word.number or 0) for name, word in words.items()}
-    kind = kind_in(answer, words, values)
-    if not kind.is_closed or kind.profile.is_extended:
+    case = case_in(answer, words, values)
+    if not case.is_closed or case.profile.is_extended:
         return Sensitivity(_implicit(answer))
-    _check(kind.solve(values) if kind.status is None else None, answer)
-    results, tape = results_of(kind), kind.machine.tape
-    inputs = {name: value for name, value in kind.numbers().items() if name in tape.inputs}
+    _check(case.solve(values) if case.status is None else None, answer)
+    results, tape = results_of(case), case.machine.tape
+    inputs = {name: value for name, value in case.numbers().items() if name in tape.inputs}
     at = tape.slopes([output for output, _ in results.values()], list(inputs))(inputs)
     found: dict[str, dict[str, float]] = {}
-    singular = _singular(kind, inputs)
+    singular = _singular(case, inputs)
     for result, (output, _) in results.items():
         found[result] = dict.fromkeys(words, 0.0)
-        for given, (word, factor) in kind.free.items():
+        for given, (word, factor) in case.free.items():
             rates = {name: at.get(f"{output} by {name}", 0.0) for name in inputs}
-            slope = nan if word in singular else _by_given(kind.profile.givens[given], rates)
+            slope = nan if word in singular else _by_given(case.profile.givens[given], rates)
             found[result][word] += slope * float(factor)
     return Sensitivity(found)
 
 
-def _singular(kind: Kind, inputs: Mapping[str, float]) -> frozenset[str]:
+def _singular(case: CaseClass, inputs: Mapping[str, float]) -> frozenset[str]:
     """The words by which there is no derivative: they would part the two places of a centre that have become one, as
     in a half circle."""
-    machine, found = kind.machine, set[str]()
+    machine, found = case.machine, set[str]()
     out = machine.function(inputs)
     for number, step in enumerate(machine.plan.steps):
         if isinstance(step, TwoCirclesStep):
@@ -269,9 +269,9 @@ def _singular(kind: Kind, inputs: Mapping[str, float]) -> frozenset[str]:
             if abs(gap) <= TOUCHING * out[f"scale:{number}"]:
                 names = [f"radius:{number}", f"offset:{number}"]
                 at = machine.tape.slopes(names, list(inputs))(inputs)
-                for given, (word, _) in kind.free.items():
+                for given, (word, _) in case.free.items():
                     radius, offset = (
-                        _by_given(kind.profile.givens[given], {each: at[f"{name} by {each}"] for each in inputs})
+                        _by_given(case.profile.givens[given], {each: at[f"{name} by {each}"] for each in inputs})
                         for name in names
                     )
                     found |= {word} if abs(radius - offset) > SINGULAR else set()
@@ -303,8 +303,8 @@ def _implicit(answer: Answer) -> dict[str, dict[str, float]]:
     if solution is None:
         raise FamilyError("the block is not solved")
     profile = answer.profile
-    kind = Kind(profile, None, {}, is_closed=False)
-    results = results_of(kind)
+    case = CaseClass(profile, None, {}, is_closed=False)
+    results = results_of(case)
     results = {name: each for name, each in results.items() if not name.endswith(".room")}
     rates = Implicit(profile, solution).rates([output for output, _ in results.values()])
     names = {id(word): name for name, word in stated_words(answer).items()}

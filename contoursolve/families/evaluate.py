@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from contoursolve.backends.columns import Array
 from contoursolve.dialects import Dialect
-from contoursolve.families.case_classes import Examples, check_block, examples_of, kinds_of
+from contoursolve.families.case_classes import Examples, cases_of, check_block, examples_of
 from contoursolve.families.compiled_sweep import CompiledSweep, Table
 from contoursolve.families.export import Family
 from contoursolve.families.spec import (
@@ -103,13 +103,13 @@ def compile_sweep(spec: SweepSpec, ranges: Ranges) -> CompiledSweep:
     spec = replace(spec, names=tuple(ranges.values))
     template = spec.template()
     ready = _compiled(spec, examples_of(template, ranges), ranges, template)
-    if all(kind.status is not None for kind in ready.kinds):
+    if all(case.status is not None for case in ready.cases):
         check_block(template, dict(zip(template.words, ready.examples.rows[0].values, strict=True)))
     return ready
 
 
 def _compiled(spec: SweepSpec, examples: Examples, ranges: Ranges, template: Template) -> CompiledSweep:
-    return CompiledSweep(spec, examples, ranges, template, *kinds_of(template, examples))
+    return CompiledSweep(spec, examples, ranges, template, *cases_of(template, examples))
 
 
 def family(
@@ -296,7 +296,7 @@ def telling_of(ready: CompiledSweep, tally: Tally) -> Telling | None:
     code = int(totals.argmax())
     if totals[code] != totals.sum() or Code(code).status in (Status.SOLVED, Status.OVERDETERMINED):
         return None
-    if all(kind.status is not None for kind in ready.kinds):
+    if all(case.status is not None for case in ready.cases):
         return _by_kinds(ready)
     number = int(tally.counts[code].argmax())
     values = tally.firsts[code, number]

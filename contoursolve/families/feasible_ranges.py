@@ -12,7 +12,7 @@ from contoursolve.backends.intervals import Array
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer
 from contoursolve.families.branches import INSTEAD, Branch, branches_of
-from contoursolve.families.case_classes import Kind, alike, check_block, kind_of, limits_of, unit_of, value_of
+from contoursolve.families.case_classes import CaseClass, alike, case_of, check_block, limits_of, unit_of, value_of
 from contoursolve.families.limit_reasons import NO_FAILURE, Reason, about_of, called, failure_of, phrase, same
 from contoursolve.families.spec import FamilyError, NotClosedError, Template, first_error, read_limits, spec_of
 from contoursolve.families.subdivision import SAMPLES, Stretch, find_stretches, section
@@ -55,24 +55,24 @@ TOGETHER = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
-class Piece:
-    """Values from `low` to `high` without these two, or one value: whether the contour is solved there. `kind` is how
+class RangePiece:
+    """Values from `low` to `high` without these two, or one value: whether the contour is solved there. `case` is how
     the words are read; None for one value. `branch` is the only solution that is a contour there, if there is one."""
 
     low: float
     high: float
     is_solved: bool
-    kind: Kind | None
+    case: CaseClass | None
     branch: Branch | None = None
 
     @property
     def is_value(self) -> bool:
         """Whether it is one value."""
-        return self.kind is None
+        return self.case is None
 
 
 @dataclass(frozen=True, slots=True)
-class Crossing:
+class Onset:
     """Where a check begins to fail: the check, the solution that it is about, and whether the value is a zero in closed
     form."""
 
@@ -81,9 +81,9 @@ class Crossing:
     is_closed: bool
 
     @property
-    def kind(self) -> Kind:
+    def case(self) -> CaseClass:
         """How the words are read."""
-        return self.branch.kind
+        return self.branch.case
 
 
 def usual_range(stated: float, scale: float, *, is_angle: bool) -> tuple[float, float]:
@@ -113,7 +113,7 @@ class Survey:
         self.is_angle = kind is Unit.DEGREE
         self.unit = "deg" if self.is_angle else answer.unit.value
         self._answers: dict[float, Answer] = {self.stated: answer}
-        self.crossings: dict[float, Crossing] = {}
+        self.onsets: dict[float, Onset] = {}
         """What fails beyond the ends of the pieces, by their values."""
         self.doubts: list[str] = []
         """Where a stretch that is wider than `LEAST_GAP` is not decided by proof, and why; empty if there is none."""
@@ -140,21 +140,21 @@ class Survey:
             return usual_range(self.stated, self.scale, is_angle=self.is_angle)
         return read_limits(self.word, within, LARGEST / self.scale, self.unit)
 
-    def pieces(self, low: float, high: float) -> list[Piece]:
+    def pieces(self, low: float, high: float) -> list[RangePiece]:
         """The range in order: stretches, with the value between two of them wherever it may differ from both."""
         marks = [low, *(float(each) for each in self._limits if low < each < high), high]
-        kinds = [self._kind_at(self._middle(*each)) for each in pairwise(marks)]
-        found = [Piece(low, low, self.is_solved(low), None)]
+        cases = [self._case_at(self._middle(*each)) for each in pairwise(marks)]
+        found = [RangePiece(low, low, self.is_solved(low), None)]
         begin = low
-        for number, (kind, mark) in enumerate(zip(kinds, marks[1:], strict=True)):
-            if number + 1 < len(kinds) and self._goes_on(mark, kind, kinds[number + 1]):
+        for number, (case, mark) in enumerate(zip(cases, marks[1:], strict=True)):
+            if number + 1 < len(cases) and self._goes_on(mark, case, cases[number + 1]):
                 continue
-            found += self._stretches(kind, begin, mark)
-            found.append(Piece(mark, mark, self.is_solved(mark), None))
+            found += self._stretches(case, begin, mark)
+            found.append(RangePiece(mark, mark, self.is_solved(mark), None))
             begin = mark
         return list(self._closed(found))
 
-    def _closed(self, pieces: Sequence[Piece]) -> Iterator[Piece]:
+    def _closed(self, pieces: Sequence[RangePiece]) -> Iterator[RangePiece]:
         """The pieces, with what is narrow and has no contour between others that do as one value."""
         number = 0
         while number < len(pieces):
@@ -165,7 +165,7 @@ class Survey:
             is_between = number > 0 and last + 1 < len(pieces) and not piece.is_solved
             if is_between and width <= NARROW * max(1.0, abs(piece.low)):
                 value = short((piece.low + pieces[last].high) / 2, width)
-                yield Piece(value, value, is_solved=False, kind=None)
+                yield RangePiece(value, value, is_solved=False, case=None)
                 number = last
             else:
                 yield piece
@@ -174,23 +174,23 @@ class Survey:
     def _middle(self, first: float, last: float) -> float:
         return self.stated if first < self.stated < last else (first + last) / 2
 
-    def _kind_at(self, value: float) -> Kind:
-        return kind_of(self.template, {self.word: value}, self.solve(value))
+    def _case_at(self, value: float) -> CaseClass:
+        return case_of(self.template, {self.word: value}, self.solve(value))
 
-    def _goes_on(self, limit: float, kind: Kind, after: Kind) -> bool:
+    def _goes_on(self, limit: float, case: CaseClass, after: CaseClass) -> bool:
         """Whether a limit of some rule changes nothing for this word."""
-        return alike(kind, after) and alike(kind, self._kind_at(limit))
+        return alike(case, after) and alike(case, self._case_at(limit))
 
-    def _stretches(self, kind: Kind, low: float, high: float) -> Iterator[Piece]:
-        if kind.status is not None:
-            yield Piece(low, high, is_solved=False, kind=kind)
+    def _stretches(self, case: CaseClass, low: float, high: float) -> Iterator[RangePiece]:
+        if case.status is not None:
+            yield RangePiece(low, high, is_solved=False, case=case)
             return
-        branches = branches_of(kind, [self.word], [low], [high])
+        branches = branches_of(case, [self.word], [low], [high])
         lines = [self._parts(branch, low, high) for branch in branches]
-        if kind.is_closed:
+        if case.is_closed:
             yield from self._joined(branches[0], *lines[0])
             return
-        for piece in self._together(kind, branches, lines):
+        for piece in self._together(case, branches, lines):
             at = piece.low + TRIED * (piece.high - piece.low)
             if self.is_solved(at) is piece.is_solved:
                 yield piece
@@ -199,7 +199,7 @@ class Survey:
                 raise NotClosedError(f"at {self.word} {value_text(at, self.unit)} the closed form fails; {INSTEAD}")
             # So close to a singular value rounding alone keeps the closed form from telling.
             self.doubt(piece.low, piece.high, "rounding is too large for the closed form")
-            yield Piece(piece.low, piece.high, not piece.is_solved, kind)
+            yield RangePiece(piece.low, piece.high, not piece.is_solved, case)
 
     def _parts(self, branch: Branch, low: float, high: float) -> tuple[list[Part], list[float]]:
         """Where the checks of one solution are passed, and single values that may differ from the parts."""
@@ -216,28 +216,28 @@ class Survey:
             holes += between
         return parts, holes
 
-    def _joined(self, branch: Branch, parts: Sequence[Part], holes: Sequence[float]) -> Iterator[Piece]:
+    def _joined(self, branch: Branch, parts: Sequence[Part], holes: Sequence[float]) -> Iterator[RangePiece]:
         """Pieces of parts that go on without a break, apart from single values without a contour."""
         begin = parts[0][0]
         for (_, end, state), after in zip(parts, [*parts[1:], None], strict=False):
             if after is not None and after[2] is state:
                 continue
-            yield from self._parted(Piece(begin, end, state, branch.kind, branch if state else None), holes)
+            yield from self._parted(RangePiece(begin, end, state, branch.case, branch if state else None), holes)
             begin = end
 
-    def _parted(self, piece: Piece, holes: Sequence[float]) -> Iterator[Piece]:
+    def _parted(self, piece: RangePiece, holes: Sequence[float]) -> Iterator[RangePiece]:
         """A piece, parted by the single values in it that differ from it."""
         begin = piece.low
         for hole in holes:
             if begin < hole < piece.high and piece.is_solved is not self.is_solved(hole):
                 yield replace(piece, low=begin, high=hole)
-                yield Piece(hole, hole, not piece.is_solved, None)
+                yield RangePiece(hole, hole, not piece.is_solved, None)
                 begin = hole
         yield replace(piece, low=begin)
 
     def _together(
-        self, kind: Kind, branches: Sequence[Branch], lines: Sequence[tuple[Sequence[Part], Sequence[float]]]
-    ) -> Iterator[Piece]:
+        self, case: CaseClass, branches: Sequence[Branch], lines: Sequence[tuple[Sequence[Part], Sequence[float]]]
+    ) -> Iterator[RangePiece]:
         """Pieces of several solutions: there is a contour where one of them alone passes its checks."""
         holes = sorted({hole for _, own in lines for hole in own})
         changes = {one[1] for parts, _ in lines for one, other in pairwise(parts) if one[2] is not other[2]}
@@ -265,9 +265,9 @@ class Survey:
             is_alike = after is not None and (len(passing) == 1) is (len(after[1]) == 1)
             if is_alike:
                 end = self._least_increment(end, is_solved=branch is not None)  # noqa: PLW2901
-            yield from self._parted(Piece(begin, end, branch is not None, kind, branch), holes)
+            yield from self._parted(RangePiece(begin, end, branch is not None, case, branch), holes)
             if is_alike:
-                yield Piece(end, end, self.is_solved(end), None)
+                yield RangePiece(end, end, self.is_solved(end), None)
             begin = end
 
     def _without_slivers(
@@ -346,7 +346,7 @@ class _Undecided:
         if abs(round(value, 3) - value) <= 2 * LENGTH * max(1.0, abs(value)):
             # A length that counts as zero is not quite.
             value = round(value, 3) + 0.0
-        self.survey.crossings[value] = Crossing(self.margins.checks[number], self.branch, is_closed)
+        self.survey.onsets[value] = Onset(self.margins.checks[number], self.branch, is_closed)
         return value
 
     def _exact(self, number: int, value: float) -> tuple[float, bool]:
@@ -515,7 +515,7 @@ def feasible(
     return Feasible(name, survey.unit, survey.stated, (low, high), intervals, tuple(survey.doubts), refusal)
 
 
-def _runs(pieces: Sequence[Piece]) -> list[tuple[int, int]]:
+def _runs(pieces: Sequence[RangePiece]) -> list[tuple[int, int]]:
     """The first and the last of the pieces of each range with a contour."""
     runs: list[tuple[int, int]] = []
     for number, piece in enumerate(pieces):
@@ -526,7 +526,7 @@ def _runs(pieces: Sequence[Piece]) -> list[tuple[int, int]]:
     return runs
 
 
-def _end(survey: Survey, pieces: Sequence[Piece], number: int, other: int, way: int) -> End:
+def _end(survey: Survey, pieces: Sequence[RangePiece], number: int, other: int, way: int) -> End:
     """The lower (-1) or upper (+1) end of a range from one piece to another, of which `number` is at this end."""
     value = pieces[number].low if way < 0 else pieces[number].high
     if not 0 <= number + way < len(pieces):
@@ -534,13 +534,15 @@ def _end(survey: Survey, pieces: Sequence[Piece], number: int, other: int, way: 
     beyond = pieces[number + way]
     width = abs(value - (pieces[other].high if way < 0 else pieces[other].low))
     inside, outside = _sides(survey, value, way, beyond, width)
-    crossing = survey.crossings.get(value)
-    reason, is_rule = _reason(survey, value, way, outside, crossing, (beyond, pieces[number]))
-    how = Way.CLOSED_FORM if crossing is not None and crossing.is_closed else Way.BISECTION
+    onset = survey.onsets.get(value)
+    reason, is_rule = _reason(survey, value, way, outside, onset, (beyond, pieces[number]))
+    how = Way.CLOSED_FORM if onset is not None and onset.is_closed else Way.BISECTION
     return End(value, Way.RULE if is_rule else how, reason, survey.is_solved(value), inside, outside)
 
 
-def _sides(survey: Survey, value: float, way: int, beyond: Piece, width: float) -> tuple[float | None, float | None]:
+def _sides(
+    survey: Survey, value: float, way: int, beyond: RangePiece, width: float
+) -> tuple[float | None, float | None]:
     """Values close to an end on its two sides that single solves tell apart, within the range, which is so wide, and
     within what lies beyond it."""
     for share in ASIDE:
@@ -553,7 +555,7 @@ def _sides(survey: Survey, value: float, way: int, beyond: Piece, width: float) 
 
 
 def _reason(
-    survey: Survey, value: float, way: int, outside: float | None, crossing: Crossing | None, near: Sequence[Piece]
+    survey: Survey, value: float, way: int, outside: float | None, onset: Onset | None, near: Sequence[RangePiece]
 ) -> tuple[Reason, bool]:
     """What fails beyond an end, and whether it is a rule or the reading of the words; `near` are the pieces on its two
     sides, the one beyond it first."""
@@ -569,24 +571,24 @@ def _reason(
         # Another solution becomes a contour, too.
         return replace(failure, text=f"{failure.message}: {limit}"), False
     kind = event if isinstance(event, RefusalKind) else None
-    read_as = crossing.kind if crossing is not None else next((each.kind for each in near if each.kind), None)
+    read_as = onset.case if onset is not None else next((each.case for each in near if each.case), None)
     if kind is None and failure.code:
         says = f"rule {failure.code} refuses" if event is None else f"{failure.code} is found for"
-        return replace(failure, text=f"{says} {called(survey.word)} {beyond} {at}"), crossing is None
+        return replace(failure, text=f"{says} {called(survey.word)} {beyond} {at}"), onset is None
     unnamed = replace(failure, text=f"{failure.message or 'there is no contour'}: {limit}")
     if read_as is None:
         return unnamed, True
     about = about_of(read_as.free, read_as.profile)
-    branch = crossing.branch if crossing is not None else near[1].branch
+    branch = onset.branch if onset is not None else near[1].branch
     failing = survey.failing(branch, there) if branch is not None else []
-    if crossing is not None:
-        failing.insert(0, crossing.check)
+    if onset is not None:
+        failing.insert(0, onset.check)
     check = next((each for each in failing if kind is None or same(each.kind, kind)), None)
     if check is None:
-        return unnamed, crossing is None
+        return unnamed, onset is None
     text = phrase(check, kind or check.kind, about)
-    is_singular = crossing is not None and crossing.check.kind is RefusalKind.LINES_PARALLEL
-    if crossing is not None and is_singular and not same(crossing.check.kind, check.kind):
-        text, limit = f"{phrase(crossing.check, crossing.check.kind, about)}: {limit}", f"beyond it {text}"
+    is_singular = onset is not None and onset.check.kind is RefusalKind.LINES_PARALLEL
+    if onset is not None and is_singular and not same(onset.check.kind, check.kind):
+        text, limit = f"{phrase(onset.check, onset.check.kind, about)}: {limit}", f"beyond it {text}"
         return replace(failure, text=f"{text}; {limit}"), False
-    return replace(failure, text=f"{text}: {limit}"), crossing is None and not near[0].is_value
+    return replace(failure, text=f"{text}: {limit}"), onset is None and not near[0].is_value

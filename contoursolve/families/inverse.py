@@ -16,7 +16,7 @@ from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer
 from contoursolve.families.case_classes import check_block, results_of
 from contoursolve.families.derivatives import slopes_of
-from contoursolve.families.feasible_ranges import LEAST_GAP, Piece, Survey, short
+from contoursolve.families.feasible_ranges import LEAST_GAP, RangePiece, Survey, short
 from contoursolve.families.inverse_by_constraint import asked_values
 from contoursolve.families.spec import (
     FamilyError,
@@ -29,7 +29,7 @@ from contoursolve.families.spec import (
     write,
 )
 from contoursolve.families.subdivision import Zero, find_zeros
-from contoursolve.families.targets import CONSTANT, Curve, Goal, end_name, place_of, read_goal
+from contoursolve.families.targets import CONSTANT, Goal, TargetCurve, end_name, place_of, read_goal
 from contoursolve.model import FIRST, SECOND, Length, Plane, Unit
 from contoursolve.shown import Shown
 from contoursolve.solving import Point, Status
@@ -140,7 +140,7 @@ def find_word(
     _check_open(answer)
     survey = Survey(template, name)
     low, high = survey.range_of(within)
-    search = _Search(survey, wanted)
+    search = _TargetSearch(survey, wanted)
     about = (name, survey.unit, survey.stated, wanted, answer.plane, answer.unit, (low, high))
     remark = first_error(answer)
     remark = f"as it stands, the block has no contour: {remark}" if remark else ""
@@ -209,14 +209,14 @@ class _Candidate:
     doubt: str = ""
 
 
-class _Search:
+class _TargetSearch:
     """One goal for one word."""
 
     def __init__(self, survey: Survey, goal: Goal) -> None:
         self.survey, self.goal = survey, goal
         self.doubts: list[str] = []
 
-    def hits(self, pieces: Sequence[Piece]) -> list[Hit]:
+    def hits(self, pieces: Sequence[RangePiece]) -> list[Hit]:
         """The values that meet the goal, in order. What may be one and is not found to be is a doubt."""
         tried = [(each, self.hit(each.value, each.give)) for each in self._candidates(pieces)]
         found: list[Hit] = []
@@ -263,7 +263,7 @@ class _Search:
         """Remember that it is not proven what is at a value."""
         self.doubts.append(f"{self.survey.word} {value_text(value, self.survey.unit)}: {why}")
 
-    def _candidates(self, pieces: Sequence[Piece]) -> list[_Candidate]:
+    def _candidates(self, pieces: Sequence[RangePiece]) -> list[_Candidate]:
         """The values that may meet the goal."""
         found: list[_Candidate] = []
         ends = pieces[0].low, pieces[-1].high
@@ -292,7 +292,7 @@ class _Search:
             raise NotMovedError(f"{self.survey.word} does not move {self.goal.point} in this direction")
         return found
 
-    def _of_zero(self, zero: Zero, curve: Curve, piece: Piece) -> Iterator[_Candidate]:
+    def _of_zero(self, zero: Zero, curve: TargetCurve, piece: RangePiece) -> Iterator[_Candidate]:
         """What a zero of the curve may be."""
         if self.goal.is_nearest and zero.way < 0:
             return  # farther than its neighbours
@@ -309,7 +309,7 @@ class _Search:
             give = max(ARRIVED, 2 * steepest * float(numpy.spacing(abs(zero.value)))) if isfinite(steepest) else ARRIVED
         yield _Candidate(zero.value, give, doubt)
 
-    def _level(self, curve: Curve, piece: Piece) -> Iterator[_Candidate]:
+    def _level(self, curve: TargetCurve, piece: RangePiece) -> Iterator[_Candidate]:
         """A value of a piece in which the word does not move the point, if that is where it is wanted."""
         stated = self.survey.stated
         value = stated if piece.low < stated < piece.high else (piece.low + piece.high) / 2
@@ -317,7 +317,7 @@ class _Search:
             self.doubt(value, f"all values near it leave {self.goal.point} where it is")
             yield _Candidate(value)
 
-    def _ends(self, curve: Curve, piece: Piece) -> Iterator[float]:
+    def _ends(self, curve: TargetCurve, piece: RangePiece) -> Iterator[float]:
         """Ends of a piece that may meet the goal."""
         step = ARRIVED * max(1.0, abs(piece.low), abs(piece.high))
         inner = numpy.array([piece.low + step, piece.high - step])
@@ -326,30 +326,30 @@ class _Search:
             if not self.goal.is_nearest or not rises < 0:  # true for NaN
                 yield value
 
-    def _points(self, pieces: Sequence[Piece]) -> list[str]:
+    def _points(self, pieces: Sequence[RangePiece]) -> list[str]:
         """The names of the points of the contour."""
-        kind = next(piece.kind for piece in pieces if piece.kind and piece.is_solved)
-        letter = "." + kind.profile.plane.axes[0]
-        return ["end", *(name.removesuffix(letter) for name in results_of(kind) if name.endswith(letter))]
+        case = next(piece.case for piece in pieces if piece.case and piece.is_solved)
+        letter = "." + case.profile.plane.axes[0]
+        return ["end", *(name.removesuffix(letter) for name in results_of(case) if name.endswith(letter))]
 
-    def _curve(self, piece: Piece) -> Curve | None:
+    def _curve(self, piece: RangePiece) -> TargetCurve | None:
         """The curve of the solution of a piece; None where it has no such point."""
         branch = piece.branch
         if branch is None:
             return None
-        kind = branch.kind
-        results, axes = results_of(kind), kind.profile.plane.axes
-        point = end_name(kind.system.figure) if self.goal.point == "end" else self.goal.point
+        case = branch.case
+        results, axes = results_of(case), case.profile.plane.axes
+        point = end_name(case.system.figure) if self.goal.point == "end" else self.goal.point
         wanted = [axis for axis in (FIRST, SECOND) if self.goal.place[axis] is not None]
         if any(f"{point}.{axes[axis]}" not in results for axis in wanted):
             return None
         # Coordinates count from the start point inside, which may follow the word.
-        starts = [kind.moves.get(axis, ("", 0, kind.profile.start.values[axis] or 0)) for axis in wanted]
+        starts = [case.moves.get(axis, ("", 0, case.profile.start.values[axis] or 0)) for axis in wanted]
         place = [
             (self.goal.place[axis] or 0.0) - float(base) for axis, (_, _, base) in zip(wanted, starts, strict=True)
         ]
         names = tuple(results[f"{point}.{axes[axis]}"][0] for axis in wanted)
-        return Curve(branch, names, place, [float(each) for _, each, _ in starts], (piece.low, piece.high))
+        return TargetCurve(branch, names, place, [float(each) for _, each, _ in starts], (piece.low, piece.high))
 
     def hit(self, value: float, give: float = ARRIVED) -> Hit | None:
         """What becomes of a value by its single solve, as a shorter number where rounding alone parts the two; None if

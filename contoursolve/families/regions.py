@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from contoursolve.backends.intervals import Array
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer
-from contoursolve.families.boundary_tracing import BISECTIONS, NODES, Box, Field, Trace, edge_of, gaps_of
+from contoursolve.families.boundary_tracing import BISECTIONS, NODES, BoundaryTrace, Field, WordBox, edge_of, gaps_of
 from contoursolve.families.branches import branches_of
-from contoursolve.families.case_classes import Kind, alike, check_block, kind_of, limits_of, unit_of, value_of
+from contoursolve.families.case_classes import CaseClass, alike, case_of, check_block, limits_of, unit_of, value_of
 from contoursolve.families.export import Family, measure_of_word
 from contoursolve.families.feasible_ranges import ASIDE, Way
 from contoursolve.families.limit_reasons import NO_FAILURE, Reason, about_of, called, failure_of, phrase, same
@@ -155,29 +155,29 @@ class _Map:
             [low, *(each for limit in bounds[axis] if low < (each := limit / scales[axis]) < high), high]
             for axis, (low, high) in enumerate(self.within)
         ]
-        self.kinds: dict[tuple[int, int], Kind] = {}
+        self.cases: dict[tuple[int, int], CaseClass] = {}
         self.doubts: list[str] = []
 
     def run(self) -> Region:
         """The region."""
         for place in product(*(range(len(marks) - 1) for marks in self.marks)):
             middle = [(self.marks[axis][place[axis]] + self.marks[axis][place[axis] + 1]) / 2 for axis in (0, 1)]
-            self.kinds[place[0], place[1]] = self._kind(middle)
+            self.cases[place[0], place[1]] = self._case(middle)
         for axis in (0, 1):
             self._merge(axis)
         boundaries: list[Boundary] = []
-        fields = {place: self._field(place, kind) for place, kind in self.kinds.items() if kind.status is None}
+        fields = {place: self._field(place, case) for place, case in self.cases.items() if case.status is None}
         for place, field in fields.items():
-            kind = self.kinds[place]
+            case = self.cases[place]
             edge, gaps = edge_of(field), list(gaps_of(field))
             boundaries += [
-                self._boundary(field, kind, trace, is_gap=False) for trace in edge.traces() if _has_extent(field, trace)
+                self._boundary(field, case, trace, is_gap=False) for trace in edge.traces() if _has_extent(field, trace)
             ]
             cells = [*edge.cells]
             for lines in gaps:
                 for trace in lines.traces():
                     if _is_zero(field, trace):
-                        boundaries.append(self._boundary(field, kind, trace, is_gap=True))
+                        boundaries.append(self._boundary(field, case, trace, is_gap=True))
                     elif not _jumps(field, trace):
                         self.doubts.append("there may be a line on which something is zero that must not be")
                 cells += lines.cells
@@ -196,55 +196,55 @@ class _Map:
             exists=any(field.is_inside.any() for field in fields.values()),
         )
 
-    def _kind(self, at: Sequence[float]) -> Kind:
-        return kind_of(self.template, dict(zip(self.words, map(float, at), strict=True)))
+    def _case(self, at: Sequence[float]) -> CaseClass:
+        return case_of(self.template, dict(zip(self.words, map(float, at), strict=True)))
 
     def _merge(self, axis: int) -> None:
         """Leave out the limits of rules that change nothing for these words."""
         mark = 1
         while mark < len(self.marks[axis]) - 1:
             others = range(len(self.marks[1 - axis]) - 1)
-            if all(alike(self.kinds[_place(axis, mark - 1, n)], self.kinds[_place(axis, mark, n)]) for n in others):
+            if all(alike(self.cases[_place(axis, mark - 1, n)], self.cases[_place(axis, mark, n)]) for n in others):
                 del self.marks[axis][mark]
-                self.kinds = {
-                    _place(axis, each[axis] - (each[axis] >= mark), each[1 - axis]): kind
-                    for each, kind in self.kinds.items()
+                self.cases = {
+                    _place(axis, each[axis] - (each[axis] >= mark), each[1 - axis]): case
+                    for each, case in self.cases.items()
                 }
             else:
                 mark += 1
 
-    def _field(self, place: tuple[int, int], kind: Kind) -> Field:
+    def _field(self, place: tuple[int, int], case: CaseClass) -> Field:
         low, high = ([self.marks[axis][place[axis] + side] for axis in (0, 1)] for side in (0, 1))
-        branches = branches_of(kind, self.words, low, high)
-        return Field(branches, Box((low[0], low[1]), (high[0], high[1])))
+        branches = branches_of(case, self.words, low, high)
+        return Field(branches, WordBox((low[0], low[1]), (high[0], high[1])))
 
-    def _boundary(self, field: Field, kind: Kind, trace: Trace, *, is_gap: bool) -> Boundary:
+    def _boundary(self, field: Field, case: CaseClass, trace: BoundaryTrace, *, is_gap: bool) -> Boundary:
         """A line with what fails beyond it, solved on both sides of its points."""
         ways = _normals(trace.points / field.box.size) * field.box.size
-        found = [self._beside(kind, point, way, is_gap) for point, way in zip(trace.points, ways, strict=True)]
+        found = [self._beside(case, point, way, is_gap) for point, way in zip(trace.points, ways, strict=True)]
         middle = len(found) // 2
         inside, outside = found[middle]
         unverified = sum(pair == (None, None) for pair in found[1:-1])
         there = outside if outside is not None else tuple(trace.points[middle].tolist())
-        reason = self._reason(field, kind, trace.check, (there[0], there[1]), is_gap=is_gap)
+        reason = self._reason(field, case, trace.check, (there[0], there[1]), is_gap=is_gap)
         points = tuple((float(first), float(second)) for first, second in trace.points)
         return Boundary(points, reason, Way.BISECTION, inside, outside, is_gap, unverified)
 
-    def _beside(self, kind: Kind, point: Array, way: Array, is_gap: bool) -> tuple[Point | None, Point | None]:
+    def _beside(self, case: CaseClass, point: Array, way: Array, is_gap: bool) -> tuple[Point | None, Point | None]:
         """Values close to a point on both sides of its line, with and without the contour."""
         for share in ASIDE:
             sides = [(float(each[0]), float(each[1])) for each in (point + share * way, point - share * way)]
-            states = [self._is_solved(kind, side) for side in sides]
+            states = [self._is_solved(case, side) for side in sides]
             if is_gap and all(states):
                 return sides[0], sides[1]
             if not is_gap and states[0] is not states[1]:
                 return (sides[0], sides[1]) if states[0] else (sides[1], sides[0])
         return None, None
 
-    def _is_solved(self, kind: Kind, at: Point) -> bool:
-        return bool(kind.solve(dict(zip(self.words, at, strict=True))).points)
+    def _is_solved(self, case: CaseClass, at: Point) -> bool:
+        return bool(case.solve(dict(zip(self.words, at, strict=True))).points)
 
-    def _reason(self, field: Field, kind: Kind, number: int, there: Point, *, is_gap: bool) -> Reason:
+    def _reason(self, field: Field, case: CaseClass, number: int, there: Point, *, is_gap: bool) -> Reason:
         """What fails beyond a line, at values there."""
         failure, event = failure_of(self._solve(there))
         if event is RemarkKind.SEVERAL and not is_gap:
@@ -255,7 +255,7 @@ class _Map:
         if refusal is not None and not same(check.kind, refusal):
             fails = field.fails(numpy.array([there]))[:, 0]
             check = next((checks[each] for each in numpy.flatnonzero(fails) if same(checks[each].kind, refusal)), check)
-        text = phrase(check, refusal or check.kind, about_of(kind.free, kind.profile))
+        text = phrase(check, refusal or check.kind, about_of(case.free, case.profile))
         return replace(failure, text=text)
 
     def _limits(self, fields: Mapping[tuple[int, int], Field]) -> Iterator[Boundary]:
@@ -263,7 +263,7 @@ class _Map:
         for place, field in fields.items():
             for axis, way in product((0, 1), (-1, 1)):
                 other = _place(axis, place[axis] + way, place[1 - axis])
-                if other not in self.kinds:
+                if other not in self.cases:
                     continue
                 value = (field.box.high if way > 0 else field.box.low)[axis]
                 neighbour = fields.get(other)
@@ -297,7 +297,7 @@ class _Map:
         return self.template.solve(dict(zip(self.words, at, strict=True)))
 
 
-def _has_extent(field: Field, trace: Trace) -> bool:
+def _has_extent(field: Field, trace: BoundaryTrace) -> bool:
     """Whether a line is more than what a length that counts as zero leaves of the edge of the box."""
     near = ASIDE[2] * field.box.size
     away = numpy.minimum(trace.points - field.box.low, field.box.high - trace.points)
@@ -314,12 +314,12 @@ def _normals(points: Array) -> Array:
     return found
 
 
-def _is_zero(field: Field, trace: Trace) -> bool:
+def _is_zero(field: Field, trace: BoundaryTrace) -> bool:
     """Whether a margin is zero on a line, and does not jump there."""
     return bool(numpy.max(numpy.abs(field.values(trace.points)[trace.check])) <= LENGTH)
 
 
-def _jumps(field: Field, trace: Trace) -> bool:
+def _jumps(field: Field, trace: BoundaryTrace) -> bool:
     """Whether a margin is zero nowhere on a line, on which it changes its sign all the same."""
     return bool(numpy.min(numpy.abs(field.values(trace.points)[trace.check])) > LENGTH)
 

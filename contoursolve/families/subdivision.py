@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from contoursolve.backends.intervals import Array, Intervals
 from contoursolve.families.branches import Branch
-from contoursolve.families.targets import Curve
+from contoursolve.families.targets import TargetCurve
 
 Bits = NDArray[numpy.bool_]
 
@@ -187,7 +187,7 @@ class Zero:
     width: float = 0.0
 
 
-def find_zeros(curve: Curve, low: float, high: float) -> list[Zero]:
+def find_zeros(curve: TargetCurve, low: float, high: float) -> list[Zero]:
     """The zeros between two values in order, each to the last digit of a double, and one for each part that could not
     be decided: there is no other."""
     edges, found = numpy.linspace(low, high, ZEROS_FIRST + 1), list[Zero]()
@@ -202,7 +202,7 @@ def find_zeros(curve: Curve, low: float, high: float) -> list[Zero]:
     return sorted(found, key=lambda each: each.value)
 
 
-def _without_zeros(curve: Curve, cells: Intervals, fineness: Fineness, found: list[Zero]) -> Intervals:
+def _without_zeros(curve: TargetCurve, cells: Intervals, fineness: Fineness, found: list[Zero]) -> Intervals:
     """The narrow parts of cells that cannot be decided; the zeros in the others are `found`."""
 
     def decide(cells: Intervals) -> Intervals:
@@ -222,7 +222,7 @@ def _without_zeros(curve: Curve, cells: Intervals, fineness: Fineness, found: li
     return subdivide(cells, decide, fineness)
 
 
-def _crossings(curve: Curve, cells: Intervals, ways: NDArray[numpy.int64]) -> tuple[list[Zero], Bits]:
+def _crossings(curve: TargetCurve, cells: Intervals, ways: NDArray[numpy.int64]) -> tuple[list[Zero], Bits]:
     """The zeros in cells in which the function only rises (1) or only falls (-1), by bisection of all of them at once;
     and which cells are decided. One without a value at an end is not."""
     first, last = ways * curve.at(cells.low), ways * curve.at(cells.high)
@@ -247,7 +247,7 @@ def _clusters(cells: Intervals) -> list[tuple[float, float]]:
     return parts
 
 
-def _best(curve: Curve, low: float, high: float) -> float:
+def _best(curve: TargetCurve, low: float, high: float) -> float:
     """Where the function changes its sign between two values, or else is nearest to zero; the middle where it has no
     value."""
     found = (low + high) / 2

@@ -90,7 +90,7 @@ def end_name(figure: Figure) -> str:
     return last.head if landing is None else f"{landing}.end"
 
 
-class Curve:
+class TargetCurve:
     """A function of the word whose zeros are sought, for one solution: a coordinate less its goal, or half the rate at
     which the square of the distance to the goal grows. `names` are the coordinates; `drift` is by how many mm the start
     point, from which coordinates count inside, moves for each unit of the word, coordinate by coordinate. `within` are
