@@ -20,7 +20,7 @@ from contoursolve.backends.numeric import Tape, largest
 from contoursolve.constraints import Coordinate, Radius, System, Values
 from contoursolve.families.case_classes import CaseClass, asked_of
 from contoursolve.families.spec import Places, Ranges
-from contoursolve.model import FIRST, SECOND, Fact, Profile, Unit, scalar
+from contoursolve.model import FIRST, SECOND, Fact, Unit, scalar
 from contoursolve.solving import RefusalKind, Solution
 from contoursolve.solving.alternatives import BOTH, sides_of
 from contoursolve.solving.checks import (
@@ -49,8 +49,6 @@ ROW = replace(DRAWING, is_guessing=False)
 FEW, FEW_SEARCHED = 2, 64
 """Rows that are solved one by one sooner than in a box; and where a step has no closed form, so that a box of values
 costs several times as much as one row if it remains undecided."""
-
-Rows = NDArray[numpy.int64]
 
 
 def _vanishes(value: Number) -> bool:
@@ -90,126 +88,22 @@ class BoxGround(Ground):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Place:
-    """Where a solution lies, alone: the bounds of every unknown, and the sides at which elements touch."""
+    """Where a solution lies, alone: the bounds of every unknown, and the sides at which elements touch; and whether it
+    lies on the sides that the words choose."""
 
     bounds: Mapping[str, tuple[float, float]]
     signs: Mapping[str, int]
+    is_chosen: bool
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Cell:
     """Rows with the same solutions, each proven to be alone in its box; None where a single solve must decide.
+    `is_lost` tells that there is none because a search found none."""
 
-    `is_chosen` tells of each whether it lies on the sides that the words choose, `is_lost` that there is none because
-    a search found none.
-    """
-
-    rows: Rows
-    solutions: tuple[Place, ...] | None
-    is_chosen: tuple[bool, ...] = ()
+    rows: Places
+    solutions: tuple[Place, ...] | None = None
     is_lost: bool = False
-
-
-def cells_of(case: CaseClass, groups: tuple[Group, ...], values: Mapping[str, Array]) -> Iterator[Cell]:
-    """The rows in cells, in an order that follows from the values alone."""
-    words = sorted({word for word, _ in case.free.values()} | {word for word, _, _ in case.moves.values()})
-    columns = numpy.array([values[word] for word in words])
-    spread = numpy.ptp(columns, axis=1)
-    spread[spread == 0] = 1.0
-    first = dict(zip(words, columns[:, 0].tolist(), strict=True))
-    is_searched = _is_searched(case, groups, first)
-    few = FEW_SEARCHED if is_searched else FEW
-    pending, apart = [numpy.arange(columns.shape[1])], list[Rows]()
-    while pending:
-        rows = pending.pop()
-        own = columns[:, rows]
-        low, high = own.min(axis=1), own.max(axis=1)
-        cell = Cell(rows, None)
-        if rows.size > few:
-            ends = [dict(zip(words, each.tolist(), strict=True)) for each in (low, high)]
-            cell = _solve(case, groups, rows, *ends, is_searched=is_searched)
-        if cell.solutions is not None:
-            yield cell
-        elif rows.size <= few or (high == low).all():
-            apart.append(rows)
-        else:
-            widest = int(((high - low) / spread).argmax())
-            order = numpy.sort(own[widest])
-            middle = order[order.size // 2] if order[order.size // 2] > order[0] else order[order > order[0]][0]
-            is_low = own[widest] < middle
-            pending += [rows[~is_low], rows[is_low]]
-    if apart:
-        rows = numpy.concatenate(apart)
-        yield from _solve_each(
-            case, groups, rows, [dict(zip(words, each, strict=True)) for each in columns[:, rows].T.tolist()]
-        )
-
-
-def _solve_each(
-    case: CaseClass, groups: tuple[Group, ...], rows: Rows, values: Sequence[Mapping[str, float]]
-) -> list[Cell]:
-    """A cell for each row; all rows are searched together."""
-    with ball.precision(ball.WORKING):
-        grounds = [ground_of(case.at(each)) for each in values]
-        enumerations = enumerate_many(grounds, case.system, groups, Close.REFUSE, ROW)
-        return [
-            _cell(case, row, ground, each) if isinstance(each, Enumeration) else Cell(row, None)
-            for row, ground, each in zip(rows[:, None], grounds, enumerations, strict=True)
-        ]
-
-
-def _is_searched(case: CaseClass, groups: tuple[Group, ...], values: Mapping[str, float]) -> bool:
-    """Whether the row of these values has a step without a closed form, or cannot be told to have none."""
-    with ball.precision(ball.WORKING):
-        (found,) = enumerate_many([ground_of(case.at(values))], case.system, groups, Close.DOUBLE, BOX)
-        return not isinstance(found, Enumeration) or found.is_searched
-
-
-def _solve(
-    case: CaseClass,
-    groups: tuple[Group, ...],
-    rows: Rows,
-    low: Mapping[str, float],
-    high: Mapping[str, float],
-    *,
-    is_searched: bool,
-) -> Cell:
-    with ball.precision(ball.WORKING):
-        box = _box(case, low, high)
-        effort = BOX if is_searched else SMALL_BOX
-        (found,) = enumerate_many([box], case.system, groups, Close.REFUSE, effort)
-        if not isinstance(found, Enumeration):
-            return Cell(rows, None)
-        if found.is_searched and not all(_is_near(each, box, case.system) for each in found.found):
-            return Cell(rows, None)
-        return _cell(case, rows, box, found)
-
-
-def _cell(case: CaseClass, rows: Rows, ground: Ground, enumeration: Enumeration) -> Cell:
-    """The cell of rows for all of which a search on a ground holds."""
-    choices = case.profile.choices
-    points = {choice.point for choice in choices}
-    if not enumeration.is_complete or any(each.doubles for each in enumeration.found):
-        return Cell(rows, None)
-    try:
-        sides = [
-            sides_of(case.system, ground.values(each.scalars, each.signs, case.system), points)
-            for each in enumeration.found
-        ]
-    except (ArithmeticError, ValueError):
-        return Cell(rows, None)
-    if any(each.get(point) == BOTH for each in sides for point in points):
-        return Cell(rows, None)
-    items: list[Place] = []
-    is_chosen: list[bool] = []
-    for each, own in zip(enumeration.found, sides, strict=True):
-        fits = {choice: own.get(choice.point) in (choice.side.value, None) for choice in choices}
-        # What the form chooses by itself is no alternative.
-        if all(fits[choice] for choice in choices if not choice.given):
-            bounds = {name: ball.bounds(value) for name, value in each.scalars.items()}
-            items.append(Place(bounds, each.signs))
-            is_chosen.append(all(fits.values()))
-    return Cell(rows, tuple(items), tuple(is_chosen), enumeration.is_lost)
 
 
 def _is_near(found: Found, box: BoxGround, system: System) -> bool:
@@ -222,7 +116,8 @@ def _is_near(found: Found, box: BoxGround, system: System) -> bool:
 def _box(case: CaseClass, low: Mapping[str, float], high: Mapping[str, float]) -> BoxGround:
     """The ground of all rows whose words lie between two values."""
     ends = case.at(low), case.at(high)
-    lowest, highest, nearest = (ground_of(profile) for profile in (*ends, _nearest(case, low, high)))
+    closest = case.at({word: min(max(0.0, low[word]), high[word]) for word in low})
+    lowest, highest, nearest = (ground_of(profile) for profile in (*ends, closest))
     amounts, directions = {}, {}
     for name, given in ends[0].givens.items():
         one, other = sorted((given.value, ends[1].givens[name].value))
@@ -237,11 +132,6 @@ def _box(case: CaseClass, low: Mapping[str, float], high: Mapping[str, float]) -
         if one is not None and other is not None
     }
     return BoxGround(scalars, amounts, lowest.angles, directions, lowest, highest, nearest)
-
-
-def _nearest(case: CaseClass, low: Mapping[str, float], high: Mapping[str, float]) -> Profile:
-    """The profile with the values that are nearest to zero."""
-    return case.at({word: min(max(0.0, low[word]), high[word]) for word in low})
 
 
 BLOCK = 8_192
@@ -286,7 +176,7 @@ class Settled:
     again: Bits
 
 
-class Several:
+class BranchRows:
     """The functions of a class whose rows may have several solutions, for one thread."""
 
     def __init__(self, case: CaseClass) -> None:
@@ -357,10 +247,94 @@ class Several:
         found |= {name: numpy.array([value]) for name, value in case.profile.increments.items()}
         return found
 
+    def _cells(self, values: Mapping[str, Array]) -> Iterator[Cell]:
+        """The rows in cells, in an order that follows from the values alone."""
+        case = self.case
+        words = sorted({word for word, _ in case.free.values()} | {word for word, _, _ in case.moves.values()})
+        columns = numpy.array([values[word] for word in words])
+        spread = numpy.ptp(columns, axis=1)
+        spread[spread == 0] = 1.0
+
+        def named(column: Array) -> dict[str, float]:
+            return dict(zip(words, column.tolist(), strict=True))
+
+        is_searched = self._is_searched(named(columns[:, 0]))
+        few = FEW_SEARCHED if is_searched else FEW
+        pending, apart = [numpy.arange(columns.shape[1])], list[Places]()
+        while pending:
+            rows = pending.pop()
+            own = columns[:, rows]
+            low, high = own.min(axis=1), own.max(axis=1)
+            cell = Cell(rows)
+            if rows.size > few:
+                cell = self._solve_box(rows, named(low), named(high), BOX if is_searched else SMALL_BOX)
+            if cell.solutions is not None:
+                yield cell
+            elif rows.size <= few or (high == low).all():
+                apart.append(rows)
+            else:
+                widest = int(((high - low) / spread).argmax())
+                order = numpy.sort(own[widest])
+                middle = order[order.size // 2] if order[order.size // 2] > order[0] else order[order > order[0]][0]
+                is_low = own[widest] < middle
+                pending += [rows[~is_low], rows[is_low]]
+        if apart:
+            rows = numpy.concatenate(apart)
+            yield from self._solve_each(rows, [named(each) for each in columns[:, rows].T])
+
+    def _solve_each(self, rows: Places, values: Sequence[Mapping[str, float]]) -> list[Cell]:
+        """A cell for each row; all rows are searched together."""
+        with ball.precision(ball.WORKING):
+            grounds = [ground_of(self.case.at(each)) for each in values]
+            enumerations = enumerate_many(grounds, self.system, self.groups, Close.REFUSE, ROW)
+            return [
+                self._cell(row, ground, each) if isinstance(each, Enumeration) else Cell(row)
+                for row, ground, each in zip(rows[:, None], grounds, enumerations, strict=True)
+            ]
+
+    def _is_searched(self, values: Mapping[str, float]) -> bool:
+        """Whether the row of these values has a step without a closed form, or cannot be told to have none."""
+        with ball.precision(ball.WORKING):
+            ground = ground_of(self.case.at(values))
+            (found,) = enumerate_many([ground], self.system, self.groups, Close.DOUBLE, BOX)
+            return not isinstance(found, Enumeration) or found.is_searched
+
+    def _solve_box(self, rows: Places, low: Mapping[str, float], high: Mapping[str, float], effort: Effort) -> Cell:
+        """The cell of all rows whose words lie between two values."""
+        with ball.precision(ball.WORKING):
+            box = _box(self.case, low, high)
+            (found,) = enumerate_many([box], self.system, self.groups, Close.REFUSE, effort)
+            if not isinstance(found, Enumeration):
+                return Cell(rows)
+            if found.is_searched and not all(_is_near(each, box, self.system) for each in found.found):
+                return Cell(rows)
+            return self._cell(rows, box, found)
+
+    def _cell(self, rows: Places, ground: Ground, enumeration: Enumeration) -> Cell:
+        """The cell of rows for all of which a search on a ground holds."""
+        choices = self.case.profile.choices
+        points = {choice.point for choice in choices}
+        if not enumeration.is_complete or any(each.doubles for each in enumeration.found):
+            return Cell(rows)
+        items: list[Place] = []
+        for each in enumeration.found:
+            try:
+                sides = sides_of(self.system, ground.values(each.scalars, each.signs, self.system), points)
+            except (ArithmeticError, ValueError):
+                return Cell(rows)
+            if any(sides.get(point) == BOTH for point in points):
+                return Cell(rows)
+            fits = {choice: sides.get(choice.point) in (choice.side.value, None) for choice in choices}
+            # What the form chooses by itself is no alternative.
+            if all(fits[choice] for choice in choices if not choice.given):
+                bounds = {name: ball.bounds(value) for name, value in each.scalars.items()}
+                items.append(Place(bounds, each.signs, all(fits.values())))
+        return Cell(rows, tuple(items), enumeration.is_lost)
+
     def _pairs(self, values: Mapping[str, Array], settled: Settled) -> Pairs:
         """Every row with each of its solutions; rows without any are settled."""
-        found: list[tuple[Places, Place, bool]] = []
-        for cell in cells_of(self.case, self.groups, values):
+        found: list[tuple[Places, Place]] = []
+        for cell in self._cells(values):
             if cell.solutions is None:
                 settled.again[cell.rows] = True
                 continue
@@ -368,23 +342,23 @@ class Several:
                 settled.status[cell.rows] = Code.NO_SOLUTION
                 settled.reason[cell.rows] = reason_of(RefusalKind.NO_POINT)
                 continue
-            if not any(cell.is_chosen):
+            if not any(place.is_chosen for place in cell.solutions):
                 # Why there is none is the same for all of them.
                 middle = cell.rows[cell.rows.size // 2]
                 self._solve_alone({word: float(each[middle]) for word, each in values.items()}, cell.rows, settled)
                 continue
-            found += [(cell.rows, *each) for each in zip(cell.solutions, cell.is_chosen, strict=True)]
-        sizes = numpy.array([rows.size for rows, _, _ in found], numpy.int64)
+            found += [(cell.rows, place) for place in cell.solutions]
+        places = [place for _, place in found]
+        sizes = numpy.array([rows.size for rows, _ in found], numpy.int64)
 
         def spread(values: Iterable[float]) -> Array:
             return numpy.repeat(numpy.array(list(values), float), sizes)
 
-        names, places = self.system.unknowns, [place for _, place, _ in found]
-        bounds = {name: [place.bounds[name] for place in places] for name in names}
+        bounds = {name: [place.bounds[name] for place in places] for name in self.system.unknowns}
         sides = places[0].signs if places else ()
         return Pairs(
-            numpy.concatenate([numpy.zeros(0, numpy.int64), *(rows for rows, _, _ in found)]),
-            numpy.repeat(numpy.array([is_chosen for _, _, is_chosen in found], bool), sizes),
+            numpy.concatenate([numpy.zeros(0, numpy.int64), *(rows for rows, _ in found)]),
+            numpy.repeat(numpy.array([place.is_chosen for place in places], bool), sizes),
             {name: spread((low + high) / 2 for low, high in each) for name, each in bounds.items()},
             {name: spread((high - low) / 2 for low, high in each) for name, each in bounds.items()},
             {SIDE + side: spread(place.signs[side] for place in places) for side in sides},

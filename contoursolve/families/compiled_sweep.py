@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from contoursolve.backends.columns import ROWS, Array, ColumnFunction, Columns, compile_columns
 from contoursolve.backends.numeric import where
 from contoursolve.constraints import System
-from contoursolve.families.branch_rows import BLOCK, Several
+from contoursolve.families.branch_rows import BLOCK, BranchRows
 from contoursolve.families.case_classes import (
     ORIGIN,
     Behind,
@@ -151,8 +151,8 @@ class CompiledSweep:
         """The rows of a class without one function for all of them."""
         made = self.local.__dict__.setdefault("several", {})
         if number not in made:
-            made[number] = Several(case)
-        several: Several = made[number]
+            made[number] = BranchRows(case)
+        several: BranchRows = made[number]
         settled = several.solve(ranges, places)
         _note(case, settled.is_path, settled.status, settled.reason, target, table)
         shown = numpy.flatnonzero(settled.is_shown)

@@ -246,16 +246,25 @@ def slopes_of(answer: Answer) -> Sensitivity:
     _check(case.solve(values) if case.status is None else None, answer)
     results, tape = results_of(case), case.machine.tape
     inputs = {name: value for name, value in case.numbers().items() if name in tape.inputs}
-    at = tape.slopes([output for output, _ in results.values()], list(inputs))(inputs)
-    found: dict[str, dict[str, float]] = {}
-    singular = _singular(case, inputs)
-    for result, (output, _) in results.items():
-        found[result] = dict.fromkeys(words, 0.0)
-        for given, (word, factor) in case.free.items():
-            rates = {name: at.get(f"{output} by {name}", 0.0) for name in inputs}
-            slope = nan if word in singular else _by_given(case.profile.givens[given], rates)
-            found[result][word] += slope * float(factor)
-    return Sensitivity(found)
+    outputs, singular = [output for output, _ in results.values()], _singular(case, inputs)
+    at = tape.slopes(outputs, list(inputs))(inputs)
+    rates = {output: {name: at.get(f"{output} by {name}", 0.0) for name in inputs} for output in outputs}
+    givens = case.profile.givens
+    stated = [
+        (givens[given], word, nan if word in singular else float(factor)) for given, (word, factor) in case.free.items()
+    ]
+    return Sensitivity({result: _by_word(rates[output], stated, words) for result, (output, _) in results.items()})
+
+
+def _by_word(
+    rates: Mapping[str, float], stated: Iterable[tuple[Given, str, float]], words: Iterable[str]
+) -> dict[str, float]:
+    """The derivatives by words from those by inputs; `stated` are values, the word that states each, and the mm or
+    degrees for each unit of it."""
+    found = dict.fromkeys(words, 0.0)
+    for given, word, factor in stated:
+        found[word] = found.get(word, 0.0) + _by_given(given, rates) * factor
+    return found
 
 
 def _singular(case: CaseClass, inputs: Mapping[str, float]) -> frozenset[str]:
@@ -303,21 +312,16 @@ def _implicit(answer: Answer) -> dict[str, dict[str, float]]:
     if solution is None:
         raise FamilyError("the block is not solved")
     profile = answer.profile
-    case = CaseClass(profile, None, {}, is_closed=False)
-    results = results_of(case)
-    results = {name: each for name, each in results.items() if not name.endswith(".room")}
-    rates = Implicit(profile, solution).rates([output for output, _ in results.values()])
+    results = results_of(CaseClass(profile, None, {}, is_closed=False))
+    outputs = {name: output for name, (output, _) in results.items() if not name.endswith(".room")}
+    rates = Implicit(profile, solution).rates(outputs.values())
     names = {id(word): name for name, word in stated_words(answer).items()}
-    found: dict[str, dict[str, float]] = {}
-    for result, (output, _) in results.items():
-        found[result] = {}
-        for given in profile.givens.values():
-            if given.word is None or given.unit is Unit.SIGN:
-                continue
-            name = names.get(id(given.word)) or _fact_name(given, profile)
-            slope = _by_given(given, rates[output])
-            found[result][name] = found[result].get(name, 0.0) + slope * _scale(given, answer)
-    return found
+    stated = [
+        (given, names.get(id(given.word)) or _fact_name(given, profile), _scale(given, answer))
+        for given in profile.givens.values()
+        if given.word is not None and given.unit is not Unit.SIGN
+    ]
+    return {name: _by_word(rates[output], stated, ()) for name, output in outputs.items()}
 
 
 def _scale(given: Given, answer: Answer) -> float:

@@ -138,7 +138,7 @@ class Family(Shown):
 
     def to_parquet(self, path: str | Path) -> None:
         """Write that table to a Parquet file. Raises MissingExtraError without pyarrow."""
-        to_parquet({name: self[name].reshape(-1) for name in self.names}, self.measures(), path)
+        write_parquet(path, [{name: self[name].reshape(-1) for name in self.names}], self.measures())
 
     def to_xarray(self) -> Any:
         """An xarray.Dataset whose dimensions are the free words, or `row`; every variable has its `units` as an
@@ -182,11 +182,6 @@ def _in_words(arrow: Any, values: NDArray[Any], words: list[str | None]) -> Any:
     known = [word for word in words if word is not None]
     indices = values.astype(numpy.int32) - (len(words) - len(known))
     return arrow.DictionaryArray.from_arrays(arrow.array(indices, mask=indices < 0), arrow.array(known))
-
-
-def to_parquet(columns: Mapping[str, NDArray[Any]], measures: Measures, path: str | Path) -> None:
-    """A Parquet file."""
-    need("pyarrow.parquet", "family", "a Parquet file").write_table(to_arrow(columns, measures), path)
 
 
 def to_xarray(
