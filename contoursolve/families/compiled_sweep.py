@@ -1,7 +1,7 @@
 """A case that is ready to be evaluated, any stretch of its rows at a time."""
 
 import threading
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import product
@@ -106,81 +106,95 @@ class CompiledSweep:
         ranges = self.ranges
         if ranges.is_long:
             ranges, first, last = ranges.rows(first, last), 0, last - first
-            self.local.__dict__.pop("inputs", None)
         places = {word: ranges.places(word, first, last) for word in ranges.values}
         number = numpy.zeros(last - first, numpy.int64)
         if len(self.cases) > 1:
             key = self.examples.key(list(ranges.values.values()), list(places.values()))
             number = self.numbers[numpy.searchsorted([each.key for each in self.examples.rows], key)]
-        for each, case in enumerate(self.cases):
+        classes: list[_ClassRows] = self.local.__dict__.setdefault("classes", [])
+        if not classes:
+            classes += map(_ClassRows, self.cases)
+        for each, rows in enumerate(classes):
             # Where one function answers all rows, results are written in place.
             own = None if self.is_one_function else numpy.flatnonzero(number == each)
-            if case.status is not None:
-                table["status"][own] = code_of(case.status)
+            if rows.case.status is not None:
+                table["status"][own] = code_of(rows.case.status)
                 continue
-            solve: Callable[..., None] = self._solve_closed
-            size = ROWS
-            if not case.is_closed:
-                solve, size = self._solve_open if case.open_points else self._solve_several, BLOCK
-            for begin, end in Stretches(last - first if own is None else own.size, size):
+            for begin, end in Stretches(last - first if own is None else own.size, rows.most):
                 target = slice(begin, end) if own is None else own[begin:end]
                 part = {word: place[target] for word, place in places.items()}
-                solve(each, case, ranges, part, target, table)
+                rows.solve(ranges, part, target, table)
 
-    def _solve_closed(
-        self, number: int, case: CaseClass, ranges: Ranges, places: Mapping[str, Places], target: Target, table: Results
-    ) -> None:
+
+class _ClassRows:
+    """The rows of one class, and its functions, for one thread."""
+
+    def __init__(self, case: CaseClass) -> None:
+        self.case = case
+        self.ranges, self.inputs = Ranges({}, is_paired=True), dict[str, Input]()
+        """The inputs that vary, and the values that they are for."""
+        self.function: Columns | None = None
+        self.branches: BranchRows | None = None
+
+    @property
+    def most(self) -> int:
+        """How many rows are solved at once."""
+        return ROWS if self.case.is_closed else BLOCK
+
+    def solve(self, ranges: Ranges, places: Mapping[str, Places], target: Target, table: Results) -> None:
+        """Fill in the results of some rows: those at these places of the values, as `target` of a table."""
+        if isinstance(target, slice) or self.case.is_closed:
+            self._solve_closed(ranges, places, target, table)
+        elif self.case.open_points:
+            self._solve_open(ranges, places, target, table)
+        else:
+            self._solve_several(ranges, places, target, table)
+
+    def _solve_closed(self, ranges: Ranges, places: Mapping[str, Places], target: Target, table: Results) -> None:
         """The rows of a class with one function for all of them."""
         rows = next(iter(places.values())).size
-        function, names = self._function(number, case, ranges, places, rows), names_of(case)
+        function, names = self._function(ranges, places, rows), names_of(self.case)
         into = {output: table[name][target] for output, name in names.items()} if isinstance(target, slice) else {}
         out = function.evaluate(rows, into)
         if not isinstance(target, slice):
             for output, name in names.items():
                 table[name][target] = out[output]
-        verdict = Verdict(case.checks, out, rows)
-        _note(case, verdict.is_clear, verdict.status, verdict.reason, target, table)
+        verdict = Verdict(self.case.checks, out, rows)
+        self._note(verdict.is_clear, verdict.status, verdict.reason, target, table)
         again = numpy.flatnonzero(verdict.again)
         at = again + target.start if isinstance(target, slice) else target[again]
         for row, place in zip(again.tolist(), at.tolist(), strict=True):
-            fill_row(case, ranges.row(places, row), place, table)
+            fill_row(self.case, ranges.row(places, row), place, table)
 
-    def _solve_several(
-        self, number: int, case: CaseClass, ranges: Ranges, places: Mapping[str, Places], target: Places, table: Results
-    ) -> None:
+    def _solve_several(self, ranges: Ranges, places: Mapping[str, Places], target: Places, table: Results) -> None:
         """The rows of a class without one function for all of them."""
-        made = self.local.__dict__.setdefault("several", {})
-        if number not in made:
-            made[number] = BranchRows(case)
-        several: BranchRows = made[number]
-        settled = several.solve(ranges, places)
-        _note(case, settled.is_path, settled.status, settled.reason, target, table)
+        self.branches = self.branches or BranchRows(self.case)
+        settled = self.branches.solve(ranges, places)
+        self._note(settled.is_path, settled.status, settled.reason, target, table)
         shown = numpy.flatnonzero(settled.is_shown)
         for first, last in Stretches(shown.size, ROWS):
             rows = shown[first:last]
-            out, worst = several.path_of(settled, rows, ranges, places)
-            origin = case.origin(ranges, {word: place[rows] for word, place in places.items()})
+            out, worst = self.branches.path_of(settled, rows, ranges, places)
+            origin = self.case.origin(ranges, {word: place[rows] for word, place in places.items()})
             is_path = settled.is_path[rows]
-            results = {**results_of(case), **{name: (name, None) for name in asked_of(case.profile)}}
+            results = results_of(self.case) | {name: (name, None) for name in asked_of(self.case.profile)}
             for name, (output, axis) in results.items():
                 values = out[output] + (0.0 if axis is None else origin[axis])
                 is_measure = name.endswith(".room")
                 table[name][target[rows]] = values if is_measure else numpy.where(is_path, values, numpy.nan)
             table["residual"][target[rows]] = worst
 
-    def _solve_open(
-        self, number: int, case: CaseClass, ranges: Ranges, places: Mapping[str, Places], target: Places, table: Results
-    ) -> None:
+    def _solve_open(self, ranges: Ranges, places: Mapping[str, Places], target: Places, table: Results) -> None:
         """The rows of a class with choices that nothing makes: every side of every point is tried."""
-        names, plan, rows = names_of(case), case.machine.plan, target.size
-        function = self._function(number, case, ranges, places, rows)
+        names, plan, rows = names_of(self.case), self.case.machine.plan, target.size
+        function = self._function(ranges, places, rows)
         count, again = numpy.zeros(rows, numpy.int64), numpy.zeros(rows, bool)
         reason = numpy.full(rows, reason_of(RefusalKind.NO_POINT), numpy.uint8)
-        sides = [function.compiled.fixed.index(f"side:{point}") for point in case.open_points]
+        sides = [function.compiled.fixed.index(f"side:{point}") for point in self.case.open_points]
         for signs in product((1.0, -1.0), repeat=len(sides)):
             function.fix(sides, signs)
             out = function.evaluate(rows)
-            verdict = Verdict(case.checks, out, rows)
+            verdict = Verdict(self.case.checks, out, rows)
             is_path = verdict.is_clear
             again |= verdict.again | _halves(plan.steps, out, rows)
             is_first = (reason == reason_of(RefusalKind.NO_POINT)) & ~numpy.isin(verdict.reason, _NOWHERE)
@@ -193,38 +207,32 @@ class CompiledSweep:
         for name in names.values():
             table[name][several] = numpy.nan
         status = numpy.choose(numpy.minimum(count, 2), (Code.NO_SOLUTION, Code.SOLVED, Code.AMBIGUOUS))
-        _note(case, count == 1, status.astype(numpy.uint8), numpy.where(count == 0, reason, 0), target, table)
+        self._note(count == 1, status.astype(numpy.uint8), numpy.where(count == 0, reason, 0), target, table)
         if again.any():
             for name in names.values():
                 table[name][target[again]] = numpy.nan
             part = {word: place[again] for word, place in places.items()}
-            self._solve_several(number, case, ranges, part, target[again], table)
+            self._solve_several(ranges, part, target[again], table)
 
-    def _function(
-        self, number: int, case: CaseClass, ranges: Ranges, places: Mapping[str, Places], rows: int
-    ) -> Columns:
-        """The function of a class for this thread, at the values of some rows."""
-        inputs: dict[int, Mapping[str, Input]] = self.local.__dict__.setdefault("inputs", {})
-        functions: dict[int, Columns] = self.local.__dict__.setdefault("functions", {})
-        if number not in inputs:
-            inputs[number] = case.columns(ranges)
-        if number not in functions:
-            shown, varied = tuple(results_of(case).values()), frozenset(inputs[number])
-            function = functions[number] = Columns(_compile(case.system, varied, shown, bool(case.open_points)))
+    def _function(self, ranges: Ranges, places: Mapping[str, Places], rows: int) -> Columns:
+        """The function, with the values of some rows as its inputs."""
+        case = self.case
+        if self.ranges is not ranges:
+            self.ranges, self.inputs = ranges, case.columns(ranges)
+        if self.function is None:
+            shown, varied = tuple(results_of(case).values()), frozenset(self.inputs)
+            self.function = Columns(_compile(case.system, varied, shown, bool(case.open_points)))
             fixed = {f"side:{point}": 1.0 for point in case.open_points} | case.numbers()
-            function.fix(slice(None), [fixed[name] for name in function.compiled.fixed])
-        for place, name in enumerate(functions[number].compiled.varied):
-            inputs[number][name].fill(places, functions[number].inputs[place, :rows])
-        return functions[number]
+            self.function.fix(slice(None), [fixed[name] for name in self.function.compiled.fixed])
+        for place, name in enumerate(self.function.compiled.varied):
+            self.inputs[name].fill(places, self.function.inputs[place, :rows])
+        return self.function
 
-
-def _note(
-    case: CaseClass, is_path: Bits, status: NDArray[Any], reason: NDArray[Any], target: Target, table: Results
-) -> None:
-    """The status, the reason and the sides of some rows; `is_path` tells which of them have a contour."""
-    table["status"][target], table["reason"][target] = status, reason
-    for point, side in sides_of_choice(case).items():
-        table[f"branch.{point}"][target] = is_path.view(numpy.int8) * numpy.int8(side)
+    def _note(self, is_path: Bits, status: NDArray[Any], reason: NDArray[Any], target: Target, table: Results) -> None:
+        """The status, the reason and the sides of some rows; `is_path` tells which of them have a contour."""
+        table["status"][target], table["reason"][target] = status, reason
+        for point, side in sides_of_choice(self.case).items():
+            table[f"branch.{point}"][target] = is_path.view(numpy.int8) * numpy.int8(side)
 
 
 def _halves(steps: Sequence[Step], out: Results, rows: int) -> Bits:
