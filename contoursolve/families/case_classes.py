@@ -95,11 +95,9 @@ class CaseClass:
     def open_points(self) -> tuple[str, ...]:
         """The points between whose two places nothing chooses, where each place has a closed form and nothing is said
         twice; none where there are too many."""
-        system, chosen = self.system, {choice.point for choice in self.profile.choices}
-        if self.profile.is_extended or not is_closed(system) or len(system.facts) > len(system.unknowns):
-            return ()
-        found = tuple(point for point in points_with_two_solutions(system) if point not in chosen)
-        return found if len(found) <= MOST_OPEN else ()
+        found = _open_points(self.profile)
+        is_twice = len(self.system.facts) > len(self.system.unknowns)
+        return () if found is None or is_twice or len(found) > MOST_OPEN else found
 
     @property
     def machine(self) -> Machine:
@@ -319,16 +317,15 @@ def case_in(answer: Answer, words: Mapping[str, Word], values: Mapping[str, floa
             raise FamilyError(f"{typed.text} cannot vary: the contour has no value of it")
         for given in stated:
             free[given.name] = word, _factor(answer, typed, given, number)
-    is_function = True
-    if status is None:
-        system = assemble(profile)
-        chosen = {choice.point for choice in profile.choices}
-        is_function = (
-            not profile.is_extended
-            and is_closed(system)
-            and all(point in chosen for point in points_with_two_solutions(system))
-        )
-    return CaseClass(profile, status, free, is_closed=is_function)
+    return CaseClass(profile, status, free, is_closed=status is not None or _open_points(profile) == ())
+
+
+def _open_points(profile: Profile) -> tuple[str, ...] | None:
+    """The points between whose two places nothing chooses; None where some have no closed form."""
+    system, chosen = assemble(profile), {choice.point for choice in profile.choices}
+    if profile.is_extended or not is_closed(system):
+        return None
+    return tuple(point for point in points_with_two_solutions(system) if point not in chosen)
 
 
 def _factor(answer: Answer, typed: Word, given: Given, number: Decimal) -> Decimal:

@@ -511,7 +511,7 @@ class _Study:
 
     def __init__(self, template: Template, answer: Answer, point: str) -> None:
         self.template, self.answer, self.point = template, answer, point
-        at = place_of(point, answer.contour) if answer.contour is not None else None
+        at = place_of(point, answer.contour)
         if at is None:
             raise FamilyError(f"{point} is on an element of no length; name another point")
         self.place = at
@@ -549,6 +549,5 @@ class _Study:
 
     def _moved(self, word: str, value: float) -> float | None:
         """How far the point moves when a word gets another value, mm; None where there is no contour then."""
-        contour = self.template.with_words([word]).solve({word: value}).contour
-        at = place_of(self.point, contour) if contour is not None else None
+        at = place_of(self.point, self.template.with_words([word]).solve({word: value}).contour)
         return None if at is None else hypot(at[0] - self.place[0], at[1] - self.place[1])

@@ -359,27 +359,22 @@ class _TargetSearch:
         )
 
     def _hit(self, value: float, give: float) -> Hit | None:
-        contour, certificate = self._solved(value)
-        at = place_of(self.goal.point, contour) if contour is not None else None
+        answer = self.survey.solve(value)
+        at = place_of(self.goal.point, answer.contour)
         if at is None:
             return None
         away = self.goal.away(at)
         if not (self._is_least(value, away) if self.goal.is_nearest else away <= give):
             return None
         rounded, block, there = self._rounded(value)
-        reached = place_of(self.goal.point, there) if there is not None else None
-        return Hit(value, at, away, certificate, rounded, block, self.goal.away(reached) if reached else None)
+        reached = place_of(self.goal.point, there)
+        return Hit(value, at, away, answer.certificate, rounded, block, self.goal.away(reached) if reached else None)
 
     def _is_least(self, value: float, away: float) -> bool:
         """Whether the point is no nearer to the goal at values beside this one."""
         step = BESIDE * max(1.0, abs(value))
-        contours = [self._solved(value + way * step)[0] for way in (-1, 1)]
-        places = [place_of(self.goal.point, contour) for contour in contours if contour is not None]
+        places = [place_of(self.goal.point, self.survey.solve(value + way * step).contour) for way in (-1, 1)]
         return all(away <= self.goal.away(at) + ARRIVED for at in places if at is not None)
-
-    def _solved(self, value: float) -> tuple[Contour | None, Certificate | None]:
-        answer = self.survey.solve(value)
-        return answer.contour, answer.certificate
 
     def _rounded(self, value: float) -> tuple[float, str, Contour | None]:
         """The value in least increments of the control, the block with it, and its contour; rounded to the other side
@@ -388,8 +383,8 @@ class _TargetSearch:
         step = answer.claim.lexicon.numbers.step(Unit.DEGREE if survey.is_angle else Unit.MM, answer.unit)
         nearest = Decimal(repr(value)).quantize(step, ROUND_HALF_EVEN)
         numbers = [float(nearest), float(nearest + (step if nearest < Decimal(repr(value)) else -step))]
-        chosen = next((each for each in numbers if self._solved(each)[0] is not None), numbers[0])
-        return chosen, self._text(chosen, answer), self._solved(chosen)[0]
+        chosen = next((each for each in numbers if survey.is_solved(each)), numbers[0])
+        return chosen, self._text(chosen, answer), survey.solve(chosen).contour
 
     def _text(self, value: float, answer: Answer) -> str:
         """The block with a value, and the facts beside it; for a word of the start point, the words of that."""

@@ -69,8 +69,10 @@ def read_goal(text: str, plane: Plane, lexicon: Lexicon, unit: Length) -> Goal:
     return Goal(match[1], (place[0], place[1]))
 
 
-def place_of(name: str, contour: Contour) -> Point | None:
-    """Where a named point of a solved contour lies."""
+def place_of(name: str, contour: Contour | None) -> Point | None:
+    """Where a named point of a solved contour lies; None where it has no such point, or there is no contour."""
+    if contour is None:
+        return None
     if name == "end":
         return contour.end
     if name in contour.points:
