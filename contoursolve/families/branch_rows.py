@@ -40,6 +40,19 @@ from contoursolve.solving.kernel import Kernel, make_kernel
 from contoursolve.solving.verdict import Code, Verdict, code_of, reason_of
 from contoursolve.tolerance import LENGTH
 
+BLOCK = 8_192
+"""Rows that are looked at together."""
+
+STEPS = 20
+"""Newton's steps; from the middle of a proven box five or six do."""
+
+STIFF = 1e3
+"""1. Where the inverse of the derivatives is larger, doubles may be off by more than 1e-12 of the coordinates."""
+
+STANDING = 1e-12
+"""1 (share of the coordinates). A last step that is longer has not arrived."""
+
+
 BOX, SMALL_BOX = Effort(4_000, 1_500), Effort(0, 0)
 """For a box of values before it is divided; what has a closed form for one row needs a smaller box, not a search."""
 
@@ -133,18 +146,6 @@ def _box(case: CaseClass, low: Mapping[str, float], high: Mapping[str, float]) -
     }
     return BoxGround(scalars, amounts, lowest.angles, directions, lowest, highest, nearest)
 
-
-BLOCK = 8_192
-"""Rows that are looked at together."""
-
-STEPS = 20
-"""Newton's steps; from the middle of a proven box five or six do."""
-
-STIFF = 1e3
-"""1. Where the inverse of the derivatives is larger, doubles may be off by more than 1e-12 of the coordinates."""
-
-STANDING = 1e-12
-"""1 (share of the coordinates). A last step that is longer has not arrived."""
 
 Bits = NDArray[numpy.bool_]
 Scalars = Mapping[str, Array]

@@ -42,6 +42,13 @@ from contoursolve.solving.verdict import Codes, code_of, reason_of
 from contoursolve.syntax import FACT, Word
 from contoursolve.tolerance import LARGEST
 
+ORIGIN = "origin:"
+"""What the inputs for the coordinates of the start point begin with."""
+
+MOST_OPEN = 3
+"""Points of which both places are tried in columns."""
+
+
 Follows = tuple[tuple[str, Following], ...]
 """The values that follow words, by name."""
 
@@ -61,13 +68,6 @@ class Input:
         numpy.take(self.values, places[self.word], out=out, mode="clip")
         if self.start is not None:
             out[:] = difference(out, self.start[places[self.since]])
-
-
-ORIGIN = "origin:"
-"""What the inputs for the coordinates of the start point begin with."""
-
-MOST_OPEN = 3
-"""Points of which both places are tried in columns."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

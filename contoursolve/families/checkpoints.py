@@ -20,6 +20,19 @@ from contoursolve.families.compiled_sweep import CompiledSweep, Table
 from contoursolve.families.evaluate import STRETCH, solve_parts
 from contoursolve.families.spec import Stretches
 
+MOST_ROWS = 100_000_000
+"""Rows that are begun at a word: a minute or two where there is a closed form, and a file of some 20 GB. More come of a
+step that is too small more often than of a wish."""
+
+ENOUGH = 0.2
+"""Seconds. So long rows are measured, without waiting for a sweep whose rows take milliseconds each."""
+
+FEWEST = 64
+"""Rows that are measured first; the function that they need is compiled then."""
+
+NUMBER = 20
+"""Bytes of a number in CSV: 17 digits, a sign, a point and a comma."""
+
 
 @dataclass(frozen=True, slots=True)
 class Parts:
@@ -138,20 +151,6 @@ def versions() -> tuple[str, ...]:
         except PackageNotFoundError:  # it runs from its source
             found.append(package)
     return tuple(found)
-
-
-MOST_ROWS = 100_000_000
-"""Rows that are begun at a word: a minute or two where there is a closed form, and a file of some 20 GB. More come of a
-step that is too small more often than of a wish."""
-
-ENOUGH = 0.2
-"""Seconds. So long rows are measured, without waiting for a sweep whose rows take milliseconds each."""
-
-FEWEST = 64
-"""Rows that are measured first; the function that they need is compiled then."""
-
-NUMBER = 20
-"""Bytes of a number in CSV: 17 digits, a sign, a point and a comma."""
 
 
 def seconds_of(ready: CompiledSweep) -> float:

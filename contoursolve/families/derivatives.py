@@ -33,6 +33,13 @@ from contoursolve.solving.verdict import Code
 from contoursolve.syntax import Word
 from contoursolve.tolerance import RESIDUAL, TOUCHING
 
+SINGULAR = 1e-9
+"""mm for each mm or degree. A word that changes the gap between two circles by less keeps them touching."""
+
+MOST_WORDS = 10
+"""Words with a tolerance of which all combinations of limits are solved; each doubles them."""
+
+
 SINGULAR_CONDITION = 1e12
 """1. Condition of the equations, each unknown in mm, above which they are taken for singular."""
 
@@ -145,10 +152,6 @@ def _given(profile: Profile, name: str) -> float:
         if name.endswith(ending) and angle is not None and angle.unit is Unit.DEGREE:
             return direction(angle.value)[part]
     return float(profile.givens[name].value)
-
-
-SINGULAR = 1e-9
-"""mm for each mm or degree. A word that changes the gap between two circles by less keeps them touching."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -362,10 +365,6 @@ _UNSOLVED = {
     Status.UNDECIDED: "no contour was found, and that there is none is not proven",
 }
 """What the statuses say of a block."""
-
-
-MOST_WORDS = 10
-"""Words with a tolerance of which all combinations of limits are solved; each doubles them."""
 
 
 @dataclass(frozen=True, slots=True)

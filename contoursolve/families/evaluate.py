@@ -30,6 +30,13 @@ from contoursolve.families.spec import (
 from contoursolve.solving import Status
 from contoursolve.solving.verdict import REASONS, Code
 
+STRETCH = 65_536
+"""Rows that are evaluated, or written to a file, at once."""
+
+AHEAD = 8
+"""Stretches that an executor has under way at once, if `workers` does not say it."""
+
+
 Result = TypeVar("Result")
 
 THREADS = "contoursolve"
@@ -71,13 +78,6 @@ def in_order(tasks: Iterable[Callable[[], Result]], executor: Executor | None, a
     finally:
         for future in waiting:
             future.cancel()
-
-
-STRETCH = 65_536
-"""Rows that are evaluated, or written to a file, at once."""
-
-AHEAD = 8
-"""Stretches that an executor has under way at once, if `workers` does not say it."""
 
 
 def sweep(

@@ -23,6 +23,10 @@ from contoursolve.solving.checks import Check
 from contoursolve.tolerance import LARGEST, LENGTH
 from contoursolve.wording import limit_text, value_text
 
+ASIDE = (1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4)
+"""Share of an end (at least of 1). How far beside it single solves are tried, until they tell its two sides apart."""
+
+
 LEAST_GAP = 1e-4
 """mm or degrees: a tenth of the controls' least increment. What is narrower may be missed."""
 
@@ -385,9 +389,6 @@ def short(value: float, give: float = ROUNDING) -> float:
 
 
 __all__ = ["LEAST_GAP", "End", "Feasible", "Interval", "Way", "feasible"]
-
-ASIDE = (1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4)
-"""Share of an end (at least of 1). How far beside it single solves are tried, until they tell its two sides apart."""
 
 
 class Way(Enum):

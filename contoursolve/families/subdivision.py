@@ -105,9 +105,6 @@ def section(low: float, high: float, is_beyond: Callable[[Array], Bits]) -> tupl
     return low, high
 
 
-# Where all checks are passed ---------------------------------------------------------------------------------
-
-
 @dataclass(frozen=True, slots=True)
 class Stretch:
     """Part of a range: all checks are passed (True), or one fails everywhere (False), or that is not decided."""
@@ -169,9 +166,6 @@ def _joined(lows: Array, highs: Array, kinds: NDArray[numpy.int8]) -> list[Stret
         Stretch(float(lows[begin]), float(highs[end]), {1: True, 0: False}.get(int(kinds[begin])))
         for begin, end in zip(begins, ends, strict=True)
     ]
-
-
-# Where a function is zero ------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, slots=True)
