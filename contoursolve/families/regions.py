@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
+from typing import TypeVar
 
 import numpy
 from numpy.typing import NDArray
@@ -25,6 +26,7 @@ from contoursolve.tolerance import LARGEST, LENGTH
 from contoursolve.wording import value_text
 
 Point = tuple[float, float]
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, slots=True)
@@ -204,10 +206,10 @@ class _Map:
         mark = 1
         while mark < len(self.marks[axis]) - 1:
             others = range(len(self.marks[1 - axis]) - 1)
-            if all(alike(self.cases[_place(axis, mark - 1, n)], self.cases[_place(axis, mark, n)]) for n in others):
+            if all(alike(self.cases[_pair(axis, mark - 1, n)], self.cases[_pair(axis, mark, n)]) for n in others):
                 del self.marks[axis][mark]
                 self.cases = {
-                    _place(axis, each[axis] - (each[axis] >= mark), each[1 - axis]): case
+                    _pair(axis, each[axis] - (each[axis] >= mark), each[1 - axis]): case
                     for each, case in self.cases.items()
                 }
             else:
@@ -262,7 +264,7 @@ class _Map:
         """The parts of the limits of rules beyond which there is no contour."""
         for place, field in fields.items():
             for axis, way in product((0, 1), (-1, 1)):
-                other = _place(axis, place[axis] + way, place[1 - axis])
+                other = _pair(axis, place[axis] + way, place[1 - axis])
                 if other not in self.cases:
                     continue
                 value = (field.box.high if way > 0 else field.box.low)[axis]
@@ -281,13 +283,13 @@ class _Map:
     def _limit(self, axis: int, value: float, step: float, span: Point) -> Boundary:
         """A part of the limit of a rule."""
         middle = (span[0] + span[1]) / 2
-        inside, outside = (_point(axis, value + side, middle) for side in (-step, step))
+        inside, outside = (_pair(axis, value + side, middle) for side in (-step, step))
         answer = self._solve(outside)
         (failure, event), where = failure_of(answer), "above" if step > 0 else "below"
         says = f"rule {failure.code} refuses" if failure.code and event is None else "there is no contour for"
         text = f"{says} {called(self.words[axis])} {where} {value_text(value, self.units[axis])}"
         is_told = answer.contour is None and self._solve(inside).contour is not None
-        points = tuple(_point(axis, value, end) for end in span)
+        points = tuple(_pair(axis, value, end) for end in span)
         unverified = 0 if is_told else 1
         return Boundary(
             points, replace(failure, text=text), Way.RULE, inside, outside, is_gap=False, unverified=unverified
@@ -341,9 +343,6 @@ def _runs(tell: Callable[[Array], NDArray[numpy.bool_]], field: Field, axis: int
     yield from ((float(low), float(high)) for low, high in zip(lows, highs, strict=True))
 
 
-def _place(axis: int, own: int, other: int) -> tuple[int, int]:
-    return (own, other) if axis == 0 else (other, own)
-
-
-def _point(axis: int, own: float, other: float) -> Point:
+def _pair(axis: int, own: T, other: T) -> tuple[T, T]:
+    """What concerns a word and the other one, in their order."""
     return (own, other) if axis == 0 else (other, own)
