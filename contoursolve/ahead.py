@@ -4,11 +4,10 @@ from collections.abc import Iterator, Sequence
 from itertools import islice
 from typing import overload
 
-from contoursolve.moulds import Cast
 from contoursolve.reading import words_of
 from contoursolve.syntax import Block, Passage, parse_block
 
-Line = Block | Passage | Cast
+Line = Block | Passage
 """A line of a program, or several, read as far as it was needed."""
 
 
@@ -73,8 +72,6 @@ def each_block(held: Sequence[Line], index: int) -> Iterator[Block]:
         if isinstance(each, Passage):
             for number, line in enumerate(each.lines, each.line):
                 yield parse_block(line.rstrip("\r\n"), number)
-        elif isinstance(each, Cast):
-            yield parse_block(each.text, each.line)
         else:
             yield each
 
@@ -107,10 +104,8 @@ def go_on(held: list[Line], index: int, rest: int) -> tuple[list[Line], int]:
     return held, index
 
 
-def _says_something(line: Block | Cast | str) -> bool:
+def _says_something(line: Block | str) -> bool:
     """Whether a line has more than its number."""
-    if isinstance(line, Cast):
-        return True
     if isinstance(line, str):
         return bool(words_of(line))
     return bool(line.faults or line.macro) or any(word.address not in "NO" for word in line.words)

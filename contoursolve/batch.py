@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
-from decimal import Decimal
 from functools import lru_cache
 
 import numpy
@@ -10,24 +9,23 @@ from numpy.typing import NDArray
 
 from contoursolve.backends.numeric import Compiled, inverse_norms
 from contoursolve.constraints import System, assemble
-from contoursolve.contour import Contour, trace
+from contoursolve.contour import trace
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer, Policy
 from contoursolve.explain import context_of
-from contoursolve.model import Length, Line, Profile, Start, Unit
-from contoursolve.moulds import Cast, Mould, Pattern, mould_of, pattern_of
-from contoursolve.reading import Claim, Form, State, WithoutPoint
+from contoursolve.model import Length, Line, Profile
+from contoursolve.reading import Claim, Form, WithoutPoint
 from contoursolve.rules import Rule, is_refused_by_values
 from contoursolve.solving import Status
 from contoursolve.solving.certificate import Proof, up_to_one_digit
 from contoursolve.solving.certify import certify
 from contoursolve.solving.checks import Check, compile_checks
 from contoursolve.solving.compile import Machine, compile_system
-from contoursolve.solving.numbers import inputs_at, inputs_of, sizes_of, solution_at
+from contoursolve.solving.numbers import inputs_of, sizes_of, solution_at
 from contoursolve.solving.plan import LineCircleStep, TwoCirclesStep
 from contoursolve.solving.solve import ROUNDING
 from contoursolve.solving.verdict import Code, Verdict
-from contoursolve.syntax import Word, split_simply
+from contoursolve.syntax import Word
 from contoursolve.tolerance import AGREEMENT, ERROR_BOUND_WARNING, LARGEST, LENGTH, TOUCHING
 from contoursolve.unpointed import is_counted_start, without_point
 
@@ -41,9 +39,6 @@ _MADE_OF = ("begin:", "end:", "center:", "turn:")
 
 _FAR_BELOW = 0.25
 """Share of a limit up to which a value is within it, however the limit is rounded or measured."""
-
-_MOST_MOULDS = 4_096
-"""Patterns that are noted; a program has few, unless its numbers have no points."""
 
 _SMALL = 30_000
 """A number that is no larger is below the largest value in every unit."""
@@ -74,7 +69,6 @@ class Batch:
     policy: Policy
     is_proven: bool
     kinds: dict[Hashable, Kind] = field(default_factory=dict)
-    moulds: dict[Pattern, Mould] = field(default_factory=dict)
 
     @property
     def rules(self) -> tuple[Rule, ...]:
@@ -99,7 +93,6 @@ class Batch:
                 self._learn(key, answers[first])
             if rest:
                 together = self._solve(self.kinds[key], [claims[number] for number in rest])
-                self._make_mould(key, claims[rest[0]])
                 answers |= {number: answer or examine[number]() for number, answer in zip(rest, together, strict=True)}
         return [answers[number] for number in range(len(claims))]
 
@@ -112,16 +105,6 @@ class Batch:
             checked = compile_checks(system)
             kind = Kind(answer, system, machine, checked.checks, checked.tape.finish(), tuple(wanted))
             self.kinds.setdefault(key, kind)
-            self._make_mould(key, answer.claim)
-
-    def _make_mould(self, key: Hashable, claim: Claim) -> None:
-        """Note the pattern of a block of a kind."""
-        words = split_simply(claim.blocks[0].text) if claim.form.is_literal and not self.is_proven else []
-        pattern = pattern_of(words)
-        if words and pattern not in self.moulds and len(self.moulds) < _MOST_MOULDS:
-            mould = mould_of(claim, key, self.dialect)
-            if mould is not None:
-                self.moulds[pattern] = mould
 
     def _key(self, claim: Claim) -> Hashable:
         """What contours of one kind have in common; None where more than the words and their values counts."""
@@ -186,59 +169,6 @@ class Batch:
             None if row is None else self._answer(kind, claim, profile, *row)
             for claim, profile, row in zip(claims, profiles, found, strict=True)
         ]
-
-    def cast(self, mould: Mould, casts: Sequence[tuple[Cast, State]]) -> list[tuple[Start, Contour] | None]:
-        """The start points and the paths of blocks of a mould in states whose positions are known, as far as nothing
-        speaks against them."""
-        if len(casts) < FEWEST:
-            return [None] * len(casts)
-        kind, answers = self.kinds[mould.kind], list[tuple[Start, Contour] | None]()
-        like, sizes = kind.answer.profile, _sizes(kind.answer.claim.form)
-        units = [(name, unit) for name, unit, _, _ in mould.givens]
-        starts = [state.start() for _, state in casts]
-        stated = [each.values() for each, _ in casts]
-        rows = [
-            self._inputs(kind, values, start, state, sizes, units)
-            for values, start, (_, state) in zip(stated, starts, casts, strict=True)
-        ]
-        found = iter(_evaluate(kind, [row for row in rows if row is not None]))
-        for values, start, inputs in zip(stated, starts, rows, strict=True):
-            row = next(found) if inputs is not None else None
-            if row is None:
-                answers.append(None)
-                continue
-            corners = {name: float(values[name]) for name in sizes if name in values}
-            contour = trace(like, solution_at(kind.system, start, corners, row[0]))
-            answers.append(None if contour.crossing is not None else (start, contour))
-        return answers
-
-    def _inputs(
-        self,
-        kind: Kind,
-        values: Mapping[str, Decimal],
-        start: Start,
-        state: State,
-        sizes: Sequence[str],
-        units: Sequence[tuple[str, Unit]],
-    ) -> dict[str, float] | None:
-        """The inputs of a block of a mould; None where more than its values counts, or it is not known where it
-        begins."""
-        if None in start.values:
-            return None
-        for size in sizes:
-            if size in values and values[size] <= 0:
-                return None
-        for value in values.values():
-            if not -_SMALL <= value <= _SMALL:
-                return None
-        for axis in state.plane.axes:
-            position = state.axes[axis]
-            if position.is_skippable or is_counted_start(position, self.dialect.modes.lexicon):
-                return None
-        if self.policy is not Policy.OFF and is_refused_by_values(self.rules, kind.answer.claim.form.roles, values):
-            return None
-        inputs = inputs_at(kind.system, start, [(name, unit, values[name]) for name, unit in units])
-        return inputs | kind.answer.profile.increments
 
     def _answer(
         self, kind: Kind, claim: Claim, profile: Profile, out: Mapping[str, float], bound: float

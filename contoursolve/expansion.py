@@ -16,14 +16,13 @@ from contoursolve.emit import Format, Move, emit
 from contoursolve.examine import Answer, Depth, Policy
 from contoursolve.lines import Lines
 from contoursolve.model import Length
-from contoursolve.moulds import Moulded
 from contoursolve.numbering import Numberer, Numbers
 from contoursolve.offsets import Offsets
 from contoursolve.outcome import Left, Options, Summary, left_unread
 from contoursolve.pending import Step
 from contoursolve.pipeline import attach, walk
 from contoursolve.posts import Machine
-from contoursolve.reading import Claim, Effect, State, Trouble, apply_modes, codes_of, motion_of, words_of
+from contoursolve.reading import Effect, State, Trouble, apply_modes, codes_of, motion_of, words_of
 from contoursolve.reliance import STANDING_ALONE, Reliance, reliance, restate, why_unmet
 from contoursolve.solving import Point
 from contoursolve.syntax import Block, Directive, Passage, Program, Word, parse_block
@@ -62,7 +61,7 @@ def expand_lines(
     Unless the control `is_certain`, raises UnknownControlError if some block is for another one.
     """
     together = Batch(dialect, policy, is_proven=False)
-    reel = Lines(lines, dialect, facts or {}, together.moulds, is_certain=is_certain)
+    reel = Lines(lines, dialect, facts or {}, is_certain=is_certain)
     steps = walk(reel.blocks(), dialect, unit, policy, Depth.PATH, start, together)
     yield from _Expander(dialect, options, summary, reel, numbers).expand(steps)
 
@@ -124,8 +123,7 @@ class _Expander:
                 for block in step.blocks:
                     yield from self._keep(block, step.before)
                 continue
-            reason = self._obstacle(step.answer) if isinstance(step.answer, Answer) else ""
-            reason = reason or self._relying(step.answer, rest, coming)
+            reason = self._obstacle(step.answer) or self._relying(step.answer, rest, coming)
             if reason:
                 yield from self._leave(step, step.answer, reason)
             else:
@@ -210,15 +208,12 @@ class _Expander:
             return state.motion
         return self.motion
 
-    def _leave(self, step: Step, answer: Answer | Moulded, reason: str) -> Iterator[str]:
+    def _leave(self, step: Step, answer: Answer, reason: str) -> Iterator[str]:
         """A contour as it was, below a comment that says why."""
         sources = {block.line: block.text for block in step.blocks}
         lines = tuple(block.line for block in answer.claim.blocks)
         self.summary.left.append(Left(lines, reason, answer.diagnostics, sources))
-        blocks = (
-            step.blocks if isinstance(answer, Answer) else [parse_block(each.text, each.line) for each in step.blocks]
-        )
-        first, *others = blocks
+        first, *others = step.blocks
         there = self._motion_before(first, step.before)
         if self.motion is not None:
             before, first = self._restore(first, step.before)
@@ -245,7 +240,7 @@ class _Expander:
             return ""
         return f"{beside[0]} moves an axis outside the plane: move it in a block of its own"
 
-    def _relying(self, answer: Answer | Moulded, steps: Iterator[Step], coming: deque[Step]) -> str:
+    def _relying(self, answer: Answer, steps: Iterator[Step], coming: deque[Step]) -> str:
         """Why a contour has to stay because of a block behind it, for which the motion that is in force before it
         cannot be put in force again; empty if there is none. What is read to see that is added to `coming`."""
         motion = answer.claim.after.motion
@@ -256,7 +251,7 @@ class _Expander:
 
     # What is replaced
 
-    def _replace(self, step: Step, answer: Answer | Moulded) -> Iterator[str]:
+    def _replace(self, step: Step, answer: Answer) -> Iterator[str]:
         claim, state = answer.claim, step.before
         groups = _groups(answer)
         axes = answer.plane.axes
@@ -268,10 +263,8 @@ class _Expander:
             if block.line not in members:
                 yield from self._keep(block, state)
                 continue
-            is_rapid = False
-            if isinstance(answer, Answer):
-                state = apply_modes(state, block, self.modes)
-                is_rapid = state.motion == 0 and not self._is_own_motion(block)
+            state = apply_modes(state, block, self.modes)
+            is_rapid = state.motion == 0 and not self._is_own_motion(block)
             form = self._format(state if answer.plane is state.plane else replace(state, plane=answer.plane))
             moves: list[Move] = []
             for segment in groups.get(block.line, ()):
@@ -281,8 +274,7 @@ class _Expander:
                         self.summary.deviation = move.deviation
                     if move.words:
                         moves.append(move)
-            words = claim.beside_plane(block) if isinstance(claim, Claim) else []
-            beside = [self._as_written(word, form, state.unit) for word in words]
+            beside = [self._as_written(word, form, state.unit) for word in claim.beside_plane(block)]
             if beside:
                 move = moves.pop() if moves else Move(0 if is_rapid else 1, (), here, 0.0)
                 moves.append(move._replace(words=(*move.words, *beside)))
@@ -301,7 +293,7 @@ class _Expander:
         self.summary.replaced += 1
         self.summary.warn(answer.diagnostics)
 
-    def _place(self, answer: Answer | Moulded) -> Point:
+    def _place(self, answer: Answer) -> Point:
         """Where the tool is at the start of a contour, in the expanded program."""
         (first, second), (one, two) = answer.start.values, self.offsets.take(answer.plane.axes)
         return float(first or 0) + one, float(second or 0) + two
@@ -381,14 +373,14 @@ def _is_active(block: Block) -> bool:
     return bool(block.faults or block.macro) or any(word.address != "O" for word in block.words)
 
 
-def _groups(answer: Answer | Moulded) -> dict[int, list[Segment]]:
+def _groups(answer: Answer) -> dict[int, list[Segment]]:
     """The elements of a contour by the line of the block that makes them; a corner belongs to the element before it.
 
     A form has either one block, or one element a block.
     """
     claim, contour = answer.claim, answer.contour
     elements = contour.elements if contour else ()
-    if isinstance(claim, Moulded) or len(claim.blocks) == 1:
+    if len(claim.blocks) == 1:
         return {claim.blocks[0].line: list(elements)}
     owner = {each.name: block.line for each, block in zip(claim.form.path, claim.blocks, strict=True)}
     owner |= {row.name: owner[row.before] for row in claim.form.corners}

@@ -5,10 +5,9 @@ from dataclasses import replace
 
 from contoursolve.ahead import Line
 from contoursolve.dialects import DIALECTS, Dialect
-from contoursolve.moulds import Cast, Mould, Pattern, pattern_of
 from contoursolve.reading import plain_lines
 from contoursolve.recognise import several_controls, sign_of
-from contoursolve.syntax import LONGEST_BLOCK, Block, Directive, Passage, parse_block, split_simply
+from contoursolve.syntax import LONGEST_BLOCK, Block, Directive, Passage, parse_block
 
 _USUAL = "\n"
 """How a line ends of which nothing else is noted."""
@@ -26,13 +25,11 @@ class Lines:
         lines: Iterable[str],
         dialect: Dialect,
         facts: Mapping[int, tuple[Directive, ...]],
-        moulds: Mapping[Pattern, Mould],
         *,
         is_certain: bool,
     ) -> None:
         self._lines = lines
         self._facts = facts
-        self._moulds = moulds
         self._plain = plain_lines(dialect.modes).fullmatch
         self._longest = 1 if dialect.has_runs else _LONGEST
         self._others = [other for other in DIALECTS.values() if not is_certain and other.name != dialect.name]
@@ -60,13 +57,8 @@ class Lines:
         if held:
             yield Passage(number + 1 - len(held), tuple(held))
 
-    def _read(self, line: str, number: int) -> Block | Cast:
+    def _read(self, line: str, number: int) -> Block:
         text = self._put(line, number)
-        if self._moulds and number not in self._facts:
-            words = split_simply(text)
-            mould = self._moulds.get(pattern_of(words))
-            if mould is not None:
-                return Cast(number, text, tuple([each for _, each in words]), mould)
         block = parse_block(text, number)
         if number in self._facts:
             block = replace(block, directives=(*block.directives, *self._facts[number]))

@@ -11,9 +11,7 @@ from contoursolve.diagnostic import Diagnostic, Severity
 from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer
 from contoursolve.explain import Context
-from contoursolve.model import Start
-from contoursolve.moulds import Cast, Mould, Moulded
-from contoursolve.reading import Awaited, Claim, Modes, Position, State, Trouble, end_of_contour, leave
+from contoursolve.reading import Awaited, Claim, Modes, Position, State, Trouble, leave
 from contoursolve.syntax import Block, Passage
 from contoursolve.wording import join
 
@@ -28,7 +26,7 @@ class Step:
 
     blocks: tuple[Block, ...]
     before: State
-    answer: Answer | Moulded | None = None
+    answer: Answer | None = None
     findings: tuple[Diagnostic, ...] = ()
     passage: Passage | None = None
     """In place of blocks: what nobody needed to read into words."""
@@ -36,10 +34,6 @@ class Step:
 
 class Together(Protocol):
     """Solves many contours at once."""
-
-    def cast(self, mould: Mould, casts: Sequence[tuple[Cast, State]]) -> Sequence[tuple[Start, Contour] | None]:
-        """The start points and the paths of blocks of a mould in states whose positions are known; None for those that
-        are to be read."""
 
     def solve(self, claims: Sequence[Claim], examine: Sequence[Callable[[], Answer]]) -> Sequence[Answer]:
         """The answers to contours whose start is known, the same as `examine` gives to each of them."""
@@ -50,11 +44,9 @@ Previous = tuple[Sequence[Block], State]
 
 
 class Pending:
-    """A contour that is found and not solved yet: a claim, or a block of a mould, in a state, and what follows it."""
+    """A contour that is found and not solved yet, in a state, and what follows it."""
 
-    def __init__(
-        self, contour: Claim | Cast, step: Step, view: View, after: int, previous: Previous | None = None
-    ) -> None:
+    def __init__(self, contour: Claim, step: Step, view: View, after: int, previous: Previous | None = None) -> None:
         self.contour, self.step, self.view, self.after, self.previous = contour, step, view, after, previous
         self.wave = max([each.wave for each in step.before.axes.values() if isinstance(each, Awaited)], default=0)
         """How many contours in a row have to be solved before."""
@@ -71,9 +63,7 @@ class Queue:
         self.dialect, self.together, self.examine = dialect, together, examine
         self.pending: list[Pending] = []
 
-    def add(
-        self, contour: Claim | Cast, step: Step, view: View, after: int, previous: Previous | None = None
-    ) -> Pending:
+    def add(self, contour: Claim, step: Step, view: View, after: int, previous: Previous | None = None) -> Pending:
         """A contour that begins a view and ends before its block `after`; without company, it is solved at once."""
         pending = Pending(contour, step, view, after, previous)
         self.pending.append(pending)
@@ -88,13 +78,7 @@ class Queue:
             waves.setdefault(pending.wave, []).append(pending)
         self.pending = []
         for _, ready in sorted(waves.items()):
-            moulds: dict[int, list[tuple[Pending, Cast]]] = {}
-            for each in ready:
-                if isinstance(each.contour, Cast):
-                    moulds.setdefault(id(each.contour.mould), []).append((each, each.contour))
-            for casts in moulds.values():
-                self._settle_casts(casts)
-            claimed = [(each, each.contour) for each in ready if isinstance(each.contour, Claim)]
+            claimed = [(each, each.contour) for each in ready]
             examine = [partial(self.examine, claim, each) for each, claim in claimed]
             answers = (
                 [once() for once in examine]
@@ -118,35 +102,13 @@ class Queue:
         context = Context(dialect.rules, each.step.before.unit)
         return tuple(dialect.follow(form, contour, left, each.view.lines(each.after), context, dialect.modes))
 
-    def _settle_casts(self, casts: Sequence[tuple[Pending, Cast]]) -> None:
-        """Solve blocks of one mould; those that are not plainly solved are read."""
-        if self.together is None:
-            raise ValueError("only contours that are solved together are cast")
-        paths = self.together.cast(casts[0][1].mould, [(block, each.step.before) for each, block in casts])
-        for (each, block), path in zip(casts, paths, strict=True):
-            before = each.step.before
-            if path is None:
-                found = self.dialect.find(each.view, 0, before, self.dialect.modes)
-                if not isinstance(found, Claim):
-                    raise ValueError(f"line {block.line} is no contour")
-                each.contour = found
-                each.step = Step((each.view[0],), before, findings=each.step.findings)
-                continue
-            own = block.block()
-            answer = Moulded((own,), before, before, before.plane, *path)
-            each.left = partial(_behind_cast, answer)
-            answer = answer._replace(diagnostics=self._behind(each, block.mould.form, answer.contour, each.left))
-            each.step = Step((own,), before, answer, each.step.findings)
-
     def leave(self, pending: Pending) -> State:
         """The state after a contour; where it ends follows when it is solved."""
         if pending.left is not None:
             return pending.left()
         contour, addresses = pending.contour, self.dialect.modes.lexicon.addresses
-        state = contour.left if isinstance(contour, Claim) else pending.step.before
-        axes = [*(contour.after if isinstance(contour, Claim) else state).plane.axes]
-        beside = [*map(contour.beside_plane, contour.blocks)] if isinstance(contour, Claim) else []
-        for words in beside:
+        state, axes = contour.left, [*contour.after.plane.axes]
+        for words in map(contour.beside_plane, contour.blocks):
             axes += [axis for axis in (addresses[word.address].axis for word in words) if axis not in axes]
 
         def find(axis: str) -> Position:
@@ -178,9 +140,3 @@ def _awaited(claim: Claim, answer: Answer) -> Position | None:
     places = [claim.before.axes[axis] for axis in claim.before.plane.axes]
     unknown = [each for each in places if each.value is None and each.span is not None]
     return unknown[0] if unknown and errors == [Trouble.POSITION_UNKNOWN] else None
-
-
-def _behind_cast(answer: Moulded) -> State:
-    """The state that a block of a mould leaves."""
-    span, axes, end = answer.blocks[0].span, answer.plane.axes, answer.contour.end
-    return answer.after.move({axis: end_of_contour(value, span) for axis, value in zip(axes, end, strict=True)})

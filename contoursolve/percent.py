@@ -6,7 +6,6 @@ from dataclasses import replace
 
 from contoursolve.diagnostic import Basis, Diagnostic
 from contoursolve.explain import Context, report
-from contoursolve.moulds import Cast
 from contoursolve.reading import Trouble, words_of
 from contoursolve.source import Span
 from contoursolve.syntax import Block, Passage
@@ -32,7 +31,7 @@ class Marks:
         """The line of the % that ends it."""
         self.is_done = False
 
-    def look(self, line: Block | Passage | Cast) -> Iterator[Diagnostic]:
+    def look(self, line: Block | Passage) -> Iterator[Diagnostic]:
         """What the next line, or the next lines that only move, show to be outside."""
         if self.is_done:
             return
@@ -42,8 +41,6 @@ class Marks:
         span: Span | None
         if isinstance(line, Passage):
             span = _first_words(line)
-        elif isinstance(line, Cast):
-            span = Block(line.line, line.text, ()).span
         else:
             mark = next((found for found in _OUTSIDE_COMMENTS.finditer(line.text) if found["mark"]), None)
             if mark is not None:

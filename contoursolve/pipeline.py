@@ -11,7 +11,6 @@ from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.examine import Answer, Depth, Policy, examine, rank
 from contoursolve.explain import Context, report
 from contoursolve.model import Length, Plane
-from contoursolve.moulds import Cast
 from contoursolve.pending import Pending, Previous, Queue, Step, Together
 from contoursolve.percent import Marks
 from contoursolve.reading import (
@@ -299,17 +298,10 @@ class _Examiner:
                     state = advance_plainly(state, passed, dialect.modes)
                     held, index = go_on(held, index, len(passed.lines))
                     continue
-            view, item = View(held, index), held[index]
+            view = View(held, index)
             if not is_whole and not view.holds(1 + _NEAR):
                 more = list(islice(rest, _BATCH))
                 held, index, is_whole = [*held[index:], *more], 0, not more
-                continue
-            if isinstance(item, Cast) and start is None and item.mould.fits(state):
-                self.diagnostics += self.marks.look(item)
-                pending = self.queue.add(item, Step((), state, findings=self._findings()), view, 1)
-                yield pending
-                state = self.queue.leave(pending)
-                index += 1
                 continue
             block = view[0]
             found = dialect.find(view, 0, state, dialect.modes)

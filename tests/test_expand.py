@@ -672,7 +672,7 @@ def test_a_program_that_is_read_as_a_stream_has_the_same_contours(program, batch
     text = "\n".join(lines)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("contoursolve.pipeline._BATCH", batch)
-        blocks = Lines([line + "\n" for line in lines], dialect, {}, {}, is_certain=True).blocks()
+        blocks = Lines([line + "\n" for line in lines], dialect, {}, is_certain=True).blocks()
         steps = list(walk(blocks, dialect, Length.MM, Policy.ENFORCE, Depth.VERDICT))
     answers = [step.answer for step in steps if step.answer]
     expected = contoursolve.solve(text, control=control, depth="verdict").answers

@@ -34,7 +34,7 @@ FLOORS = (
     "examine",
     "dialects",
     "diagnosis",
-    "fill slips moulds project",
+    "fill slips project",
     "ahead percent recognise",
     "pending",
     "pipeline verification unfamiliar",

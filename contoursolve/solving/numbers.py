@@ -1,7 +1,6 @@
 """Numbers into a compiled system and out of it: what a profile states as inputs, the outputs as a solution."""
 
-from collections.abc import Callable, Iterable, Mapping
-from decimal import Decimal
+from collections.abc import Callable, Mapping
 from functools import lru_cache
 
 from contoursolve.backends.angle import direction
@@ -12,31 +11,23 @@ from contoursolve.solving.solution import CornerSolution, Point, Solution, Statu
 
 
 def inputs_of(profile: Profile, system: System) -> dict[str, float]:
-    """All inputs of the function of a system. Raises ValueError without a start."""
-    givens = [(given.name, given.unit, given.value) for given in profile.givens.values()]
-    inputs = inputs_at(system, profile.start, givens) | profile.increments
-    for choice in profile.choices:
-        inputs[f"side:{choice.point}"] = float(choice.side.sign)
-    return inputs
-
-
-def inputs_at(system: System, start: Start, givens: Iterable[tuple[str, Unit, Decimal]]) -> dict[str, float]:
-    """The inputs of the function of a system from givens (name, unit, value). Coordinates are counted from the start
-    point, and the difference is taken in decimals: a shifted program has the same numbers, to the last bit. Raises
-    ValueError without a start."""
-    first, second = start.values
+    """All inputs of the function of a system. Coordinates are counted from the start point, and the difference is taken
+    in decimals: a shifted program has the same numbers, to the last bit. Raises ValueError without a start."""
+    first, second = profile.start.values
     if first is None or second is None:
         raise ValueError("the start point is not known")
     inputs = {scalar(system.figure.start, axis): 0.0 for axis in (FIRST, SECOND)}
     absolute = axes_of(system)
-    for name, unit, value in givens:
-        if unit is Unit.DEGREE:
-            inputs[name + COSINE], inputs[name + SINE] = direction(value)
+    for name, given in profile.givens.items():
+        if given.unit is Unit.DEGREE:
+            inputs[name + COSINE], inputs[name + SINE] = direction(given.value)
         elif name in absolute:
-            inputs[name] = float(value - (second if absolute[name] else first))
+            inputs[name] = float(given.value - (second if absolute[name] else first))
         else:
-            inputs[name] = float(value)
-    return inputs
+            inputs[name] = float(given.value)
+    for choice in profile.choices:
+        inputs[f"side:{choice.point}"] = float(choice.side.sign)
+    return inputs | profile.increments
 
 
 @lru_cache(maxsize=4096)

@@ -6,9 +6,7 @@ from contoursolve.syntax.lexer import (
     parse,
     parse_block,
     read_directive,
-    read_simply,
     split_lines,
-    split_simply,
 )
 from contoursolve.syntax.lookalikes import (
     Lookalike,
@@ -56,10 +54,8 @@ __all__ = [
     "parse_block",
     "read_bytes",
     "read_directive",
-    "read_simply",
     "reason_of",
     "split_lines",
-    "split_simply",
     "standard_input",
     "with_digits",
 ]

@@ -98,7 +98,7 @@ def split_lines(text: str) -> list[str]:
 
 def parse_block(text: str, line: int) -> Block:
     """Read one line (without its end) into words and faults."""
-    simple = read_simply(text, line)
+    simple = _read_simply(text, line)
     if simple:
         # Most blocks; they need nothing of what follows.
         return Block(line, text, simple)
@@ -142,15 +142,9 @@ def parse_block(text: str, line: int) -> Block:
     )
 
 
-def read_simply(text: str, line: int, chosen: Container[int] | None = None) -> tuple[Word, ...]:
-    """The words of a line that is nothing but words, without blanks inside them, or some of them by their index; none
-    of another line."""
-    if not _is_simple(text):
-        return ()
-    tokens = _SIMPLE_WORDS.finditer(text)
-    if chosen is None:
-        return tuple([_simple_word(token, line) for token in tokens])
-    return tuple([_simple_word(token, line) for index, token in enumerate(tokens) if index in chosen])
+def _read_simply(text: str, line: int) -> tuple[Word, ...]:
+    """The words of a line that is nothing but words, without blanks inside them; none of another line."""
+    return tuple([_simple_word(token, line) for token in _SIMPLE_WORDS.finditer(text)]) if _is_simple(text) else ()
 
 
 def find_words(text: str, line: int, addresses: Container[str]) -> list[Word]:
@@ -159,11 +153,6 @@ def find_words(text: str, line: int, addresses: Container[str]) -> list[Word]:
         return [word for word in parse_block(text, line).words if word.address in addresses]
     tokens = _SIMPLE_WORDS.finditer(text)
     return [_simple_word(token, line) for token in tokens if token[1].upper() in addresses]
-
-
-def split_simply(text: str) -> list[tuple[str, str]]:
-    """Such words as addresses and numbers, as typed; none of another line."""
-    return _SIMPLE_WORDS.findall(text) if _is_simple(text) else []
 
 
 def _is_simple(text: str) -> bool:
