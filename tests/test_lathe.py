@@ -487,3 +487,28 @@ def test_a_word_without_a_part_in_the_contour_is_named_whatever_the_rules():
         found = solve(MANUAL + block, rules="off")
         (finding,) = (each for each in found.diagnostics if each.code == "word-unused")
         assert finding.addresses == (word,)
+
+
+# What was asked before changes nothing ------------------------------------------------------------------------
+
+
+@pytest.mark.slow
+def test_the_table_is_the_same_after_blocks_under_other_settings():
+    table = ("rules", "--control", "yasnac-lx3", "--table")
+    before = CliRunner().invoke(main, table).output
+    for bevel, words in product(
+        ("setback", "length"), ("X80. I5. K-20.", "X80. I-5. K20.", "Z-80. I5. K-20.", "Z80. I-5. K20.")
+    ):
+        solve(f"G00 X40. Z0.\nG112 {words} R30. C2.", control="yasnac-lx3", settings={"yasnac-lx3.bevel": bevel})
+    assert CliRunner().invoke(main, table).output == before
+
+
+def test_fixes_do_not_depend_on_the_values_of_a_block_before():
+    """Of G112, which words may be left out together depends on where the others put the landing line."""
+
+    def fixes(z):
+        block = f"G00 X282.952378 Z-160.976511\nG112 Z{z} R13.021413 K-6.178 I42.488466 W-31.459"
+        return [fix.replacement for finding in solve(block).diagnostics for fix in finding.fixes]
+
+    assert fixes("-190.") == []
+    assert fixes("-157.141638") == ["G112 Z-157.141638 R13.021413 K-6.178 I42.488466"]

@@ -88,9 +88,10 @@ def find_drop_sets(answer: Answer, dialect: Dialect) -> DropSets:
     if len(claim.blocks) > LARGEST_ROLE:
         alone = sorted(droppable, key=lambda name: (claim.words[name].span not in blamed, name))
         return DropSets(tuple(frozenset({name}) for name in alone), is_complete=False)
-    # An arc that stands alone is told from a full circle by its values.
-    texts = () if claim.form.is_contour else tuple(block.text for block in claim.blocks)
-    key = (dialect.find, rules, claim.form, frozenset(claim.words), claim.circumstances, texts)
+    # An arc that stands alone is told from a full circle by its values, and some forms read words by others' values.
+    is_by_values = claim.limits or not claim.form.is_contour
+    values = (*(block.text for block in claim.blocks), claim.before.start().values) if is_by_values else ()
+    key = (dialect.find, rules, claim.form, frozenset(claim.words), claim.circumstances, values)
     sets = _drop_sets(_Combination(key, claim, dialect), droppable)
     stated, roles = claim.stated(), claim.form.roles
     plain = (
@@ -104,7 +105,7 @@ def find_drop_sets(answer: Answer, dialect: Dialect) -> DropSets:
 
 @dataclass(frozen=True, slots=True)
 class _Combination:
-    """A contour, equal to others with the same words: what may be left out does not depend on their values."""
+    """A contour, equal to others with the same words, and the same values where these tell what may be left out."""
 
     key: Hashable
     claim: Claim = field(compare=False)

@@ -22,6 +22,9 @@ from click.testing import CliRunner
 FOLDER = Path(__file__).parent
 ROOT = FOLDER.parent.parent
 GROUPS = ("catalogue", "rules", "repository", "generated", "families")
+BEFORE = "before.txt"
+"""Holds what a run before a case printed."""
+
 STARTED = "{folder}"
 """Stands for the folder in which a case ran."""
 
@@ -29,7 +32,7 @@ STARTED = "{folder}"
 @dataclass(frozen=True, slots=True)
 class Case:
     """One run of the command: its arguments, what it reads, and the files beside it. `before` are runs that make files
-    for it, whose output is not kept."""
+    for it; what the last one prints is a file, too."""
 
     arguments: tuple[str, ...]
     stdin: str = ""
@@ -52,7 +55,7 @@ def run(case: Case, folder: Path) -> dict[str, object]:
     os.chdir(folder)
     try:
         for arguments in case.before:
-            runner.invoke(main, list(arguments))
+            (folder / BEFORE).write_text(runner.invoke(main, list(arguments)).stdout, encoding="utf-8")
         old |= {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()} if case.before else {}
         done = runner.invoke(main, list(case.arguments), input=case.stdin or None)
     finally:
@@ -127,7 +130,7 @@ def repository() -> Iterator[Case]:
     programs = {path.name: path.read_text(encoding="utf-8") for path in sorted(folder.glob("*.nc"))}
     for name, text in programs.items():
         yield from (Case(arguments, files={name: text}) for arguments in on_a_program(name))
-        yield Case(("verify", name, "result.json"), files={name: text}, before=(("solve", name, "--format", "json"),))
+        yield Case(("verify", name, BEFORE), files={name: text}, before=(("solve", name, "--format", "json"),))
     pairs = [("shaft.nc", "shaft_broken.nc"), ("shaft.nc", "shaft.nc"), ("plate.nc", "cover.nc")]
     for old, new in pairs:
         for more in ((), ("--format", "json"), ("--tolerance", "5"), ("--new-control", "linuxcnc")):

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import replace
 from decimal import Decimal
-from functools import lru_cache
+from functools import cache
 from itertools import chain
 from math import hypot
 from string import ascii_uppercase
@@ -25,7 +25,7 @@ _ENDS, CENTERS = (("Z", "W"), ("X", "U")), ("K", "I")
 """The words of the end and of the centre, by axis."""
 
 
-@lru_cache(maxsize=2)
+@cache
 def arc(code: int) -> Form:
     """The form of an arc with G02 or G03."""
     return Form(

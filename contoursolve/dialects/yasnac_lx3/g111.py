@@ -1,6 +1,6 @@
 """YASNAC LX3 G111, taper multiple cornering: its facts and its path."""
 
-from functools import lru_cache
+from functools import cache
 
 from contoursolve.constraints import Coordinate, Heading, Offset
 from contoursolve.dialects.yasnac_lx3.claim import after_cornering, bevel_of, claim_of
@@ -18,7 +18,7 @@ REFUSED = frozenset("MST")
 """Addresses that a rule refuses."""
 
 
-@lru_cache(maxsize=8)
+@cache
 def g111(bevel: CornerShape) -> Form:
     """The form of the block, with bevels of a shape."""
     return Form(

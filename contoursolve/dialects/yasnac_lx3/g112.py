@@ -7,7 +7,7 @@ What is said here of `along` and `across` holds for both: the axis of these line
 from collections.abc import Iterator
 from dataclasses import replace
 from decimal import Decimal
-from functools import lru_cache
+from functools import cache
 
 from contoursolve.constraints import Coordinate, Heading, Level, Offset, OnCircle, Radius
 from contoursolve.dialects.yasnac_lx3.claim import after_cornering, bevel_of, claim_of
@@ -31,7 +31,7 @@ _WAYS = {(FIRST, 1): 0, (FIRST, -1): 180, (SECOND, 1): 90, (SECOND, -1): -90}
 """Degrees, by the axis along which a line runs and the sign of its way."""
 
 
-@lru_cache(maxsize=8)
+@cache
 def g112(along: int, turn: Turn, bevel: CornerShape) -> Form:
     """The form of the block: lines along an axis, an arc that turns so, bevels of a shape."""
     across = 1 - along

@@ -3,7 +3,7 @@
 The virtual intersection V1 is the programmed point. The tool leaves it along the other axis, for as far as I or K.
 """
 
-from functools import lru_cache
+from functools import cache
 
 from contoursolve.constraints import Coordinate, Level, Offset
 from contoursolve.dialects.yasnac_lx3.claim import claim_of
@@ -23,7 +23,7 @@ _WORDS = ((("Z", "W"), "I", "X"), (("X", "U"), "K", "Z"))
 """By the axis along which a block moves: its words, the letter of its corner, and the axis that this is along."""
 
 
-@lru_cache(maxsize=8)
+@cache
 def leaving(code: int, along: int) -> Form:
     """The form of a block with or under a G code, along an axis."""
     (absolute, increment), letter, other = _WORDS[along]
