@@ -499,7 +499,9 @@ def test_the_table_is_the_same_after_blocks_under_other_settings():
     for bevel, words in product(
         ("setback", "length"), ("X80. I5. K-20.", "X80. I-5. K20.", "Z-80. I5. K-20.", "Z80. I-5. K20.")
     ):
-        solve(f"G00 X40. Z0.\nG112 {words} R30. C2.", control="yasnac-lx3", settings={"yasnac-lx3.bevel": bevel})
+        contoursolve.solve(
+            f"G00 X40. Z0.\nG112 {words} R30. C2.", control="yasnac-lx3", settings={"yasnac-lx3.bevel": bevel}
+        )
     assert CliRunner().invoke(main, table).output == before
 
 
