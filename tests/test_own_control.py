@@ -212,20 +212,18 @@ def test_the_other_commands_take_them_too(run):
 
 
 @pytest.mark.parametrize(("block", "status"), [(PAIR, "solved"), (PAIR.replace("Q-1", ",R2 ,C2"), "rejected")])
-def test_verify_says_that_it_cannot_check_forms_that_are_not_built_in(run, block, status):
+def test_verify_checks_forms_that_are_not_built_in(run, block, status):
     theirs = ("--control", "tables_of_mine:THEIRS")
     Path("p.nc").write_text(block, encoding="utf-8")
-    Path("r.json").write_text(run("solve", "p.nc", "--format", "json", *theirs)[1], encoding="utf-8")
+    result = run("solve", "p.nc", "--format", "json", *theirs)[1]
+    Path("r.json").write_text(result, encoding="utf-8")
     code, output = run("verify", "p.nc", "r.json", *theirs)
-    assert code == 2
-    assert f"p.nc:2: their own: claimed {status}: not checked (neither path nor status; " in output
-    reasons = {
-        "solved": "the path: there are formulas for the forms of the controls that are built in, and 'their own' is",
-        "rejected": "the status: what the manual of theirs refuses is known to its tables alone",
-    }
-    assert f"not checked: {reasons[status]}" in output
-    assert "asked for" not in output
-    assert output.endswith("1 contour (1 not checked); checked nothing: see above what was not checked, and why\n")
+    assert (code, f"p.nc:2: their own: claimed {status}: verified (" in output) == (0, True)
+    other = "solved" if status == "rejected" else "no-solution"
+    wrong = result.replace(f'"status": "{status}"', f'"status": "{other}"')
+    for each in (wrong, *(result.replace(f'"{name}": [\n     3', f'"{name}": [\n     4') for name in ("end", "P1"))):
+        Path("r.json").write_text(each, encoding="utf-8")
+        assert run("verify", "p.nc", "r.json", *theirs)[0] == (0 if each == result else 1)
 
 
 def test_diff_reads_new_as_the_control_named_for_old_unless_new_has_words_of_another(run):

@@ -41,10 +41,10 @@ def verify(
     """Check every element of RESULT.json against the words of PROGRAM (one of them may be -).
 
     RESULT.json is what solve printed with --format json. Each point, radius and direction, each value that was asked
-    for and each listed solution is held against the words and further facts with formulas of its own, none of the
-    solver's; so are the status and the number of solutions where there are words alone. What was not checked is named,
-    too; of a control of your own, that is every contour of a form that no built-in control has. The program is read
-    with the settings that RESULT.json names. Give --block, --start and --fact as they were given to solve.
+    for and each listed solution is held against the words and further facts without the solver. One table says what
+    each kind of fact means, for every form of every control, also of your own. The status follows from the words, and a
+    search looks for solutions that the result lacks. What was not checked is named, too. The program is read with the
+    settings that RESULT.json names. Give --block, --start and --fact as they were given to solve.
 
     Exit status: 0 what was checked is right, 1 something is wrong, 2 could not run, or nothing could be checked.
 

@@ -1,15 +1,15 @@
-"""The receipt of a verification: what was checked against what, and the verdict, as records and as JSON."""
+"""The receipt of a verification: what was checked, what was not, the verdict; as records, as JSON and as text."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from enum import Enum
+from math import isfinite
 from typing import Any
 
 from contoursolve.data import json_text
 from contoursolve.model import Length
-from contoursolve.verification.claimed import Rules
-from contoursolve.verification.document import Document
-from contoursolve.verification.ledger import Check, Omission
+from contoursolve.tolerance import AGREEMENT, RESIDUAL
+from contoursolve.verification.decode import Document
 
 SCHEMA = "contoursolve/verify/1"
 
@@ -23,6 +23,72 @@ class Verdict(Enum):
     """Something is wrong."""
     NOTHING_CHECKED = "nothing-checked"
     """Nothing is wrong, but there was no path to check, and why there is none was not worked out."""
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """One check of a claim against the words that it rests on.
+
+    `residual` says by how much the claim is off and `limit` how much is allowed, in `unit` (mm or deg); both
+    are None where the answer is yes or no. `remark` says what was found where the check failed.
+    """
+
+    name: str
+    words: tuple[str, ...]
+    passed: bool
+    residual: float | None = None
+    limit: float | None = None
+    unit: str = ""
+    remark: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Omission:
+    """Something that was not checked, and why."""
+
+    what: str
+    why: str
+
+
+_STEPS = 10
+"""Of a limit in which residuals are told."""
+
+
+@dataclass(slots=True)
+class Ledger:
+    """The checks and omissions of one contour, in the order in which they were made."""
+
+    checks: list[Check] = field(default_factory=list)
+    omissions: list[Omission] = field(default_factory=list)
+
+    def measure(self, name: str, words: Iterable[str], residual: float, limit: float, unit: str = "mm") -> bool:
+        """Write down a residual, which must not be larger than the limit; whether it is not."""
+        size = abs(residual)
+        passed = size <= limit  # false for NaN
+        if passed and limit > 0:
+            # What is far below the limit is the noise of this machine.
+            size = round(size / limit * _STEPS) * limit / _STEPS
+        self.checks.append(Check(name, tuple(words), passed, size if isfinite(size) else None, limit, unit))
+        return passed
+
+    def require(self, name: str, words: Iterable[str], passed: bool, remark: str = "") -> bool:
+        """Write down a question of yes or no; the remark is kept where the answer is no."""
+        self.checks.append(Check(name, tuple(words), passed, remark="" if passed else remark))
+        return passed
+
+    def omit(self, what: str, why: str) -> None:
+        """Write down what was not checked."""
+        self.omissions.append(Omission(what, why))
+
+    def add(self, other: "Ledger", prefix: str = "") -> None:
+        """Append what another ledger holds, its checks under a name that begins so."""
+        self.checks += [replace(check, name=prefix + check.name) for check in other.checks]
+        self.omissions += [each for each in other.omissions if each not in self.omissions]
+
+    @property
+    def failures(self) -> list[Check]:
+        """The checks that failed."""
+        return [check for check in self.checks if not check.passed]
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +108,7 @@ class ContourReceipt:
 class Receipt:
     """The verdict on a result, with the bytes that it is about; `control` is None where neither input tells.
 
-    `rules` is the policy that the result names; `start` and `facts` are what was given apart from the program.
+    `start` and `facts` are what was given apart from the program.
     """
 
     program: Document
@@ -51,7 +117,7 @@ class Receipt:
     unit: Length
     contours: tuple[ContourReceipt, ...]
     omissions: tuple[Omission, ...]
-    rules: Rules | None = None
+    rules: str = "enforce"
     start: str | None = None
     facts: tuple[str, ...] = ()
     settings: Mapping[str, str] = field(default_factory=dict)
@@ -76,7 +142,7 @@ def to_json(receipt: Receipt) -> str:
         "result": _document(receipt.result),
         "control": receipt.control,
         "units": receipt.unit.value,
-        "rules": receipt.rules.value if receipt.rules else None,
+        "rules": receipt.rules,
         "settings": dict(receipt.settings),
         "start": receipt.start,
         "facts": list(receipt.facts),
@@ -121,3 +187,83 @@ def _omission(omission: Omission) -> dict[str, str]:
 def _rounded(value: float | None) -> float | None:
     """Three digits: more would be the noise of the machine's sine."""
     return None if value is None else float(f"{value:.3g}")
+
+
+_VERDICTS = {
+    Verdict.VERIFIED: "verified",
+    Verdict.FAILED: "WRONG",
+    Verdict.NOTHING_CHECKED: "not checked",
+}
+
+
+def report_lines(receipt: Receipt) -> Iterator[str]:
+    """The lines of a receipt, in pure ASCII apart from the names of the inputs."""
+    for contour in receipt.contours:
+        yield from _contour_lines(receipt, contour)
+    for omission in receipt.omissions:
+        yield f"{receipt.program.name}: not checked: {_plain(omission.what)}: {_plain(omission.why)}"
+    for name, value in receipt.settings.items():
+        yield f"{receipt.program.name}: read with {_plain(name)}={_plain(value)}, as the result says"
+    if receipt.contours or receipt.omissions or receipt.settings:
+        yield ""
+    yield f"program {receipt.program.name}: SHA-256 {receipt.program.checksum}"
+    yield f"result {receipt.result.name}: SHA-256 {receipt.result.checksum}"
+    yield _summary(receipt)
+
+
+def _contour_lines(receipt: Receipt, contour: ContourReceipt) -> Iterator[str]:
+    claimed = f"claimed {contour.status}" if contour.status else "not in the result"
+    place = f"{receipt.program.name}:{contour.line}: {_plain(contour.form)}: {claimed}"
+    checks = _count(len(contour.checks), "check")
+    if contour.verdict is Verdict.NOTHING_CHECKED:
+        checks = f"neither path nor status; {checks} of other things passed"
+    yield f"{place}: {_VERDICTS[contour.verdict]} ({checks}{_largest(contour)})"
+    for check in contour.checks:
+        if not check.passed:
+            yield f"  wrong: {_check_text(check)}"
+    for omission in contour.omissions:
+        yield f"  not checked: {_plain(omission.what)}: {_plain(omission.why)}"
+
+
+def _largest(contour: ContourReceipt) -> str:
+    """The largest residual, if the path was checked; what the control lets differ, or a word rounds, is no error of
+    the result."""
+    measured = [check for check in contour.checks if check.limit is not None and check.limit < AGREEMENT / 10]
+    found = max((check.residual for check in measured if check.residual is not None), default=None)
+    if found is None or contour.verdict is not Verdict.VERIFIED or contour.status not in _WITH_PATH:
+        return ""
+    return f", off by at most {found:.1e} mm" if found else f", off by less than {RESIDUAL / _STEPS:.0e} mm"
+
+
+_WITH_PATH = ("solved", "overdetermined")
+
+
+def _check_text(check: Check) -> str:
+    words = f" ({' '.join(map(_plain, check.words))})" if check.words else ""
+    if check.limit is None:
+        return f"expected: {check.name}{words}; but {_plain(check.remark) or 'it is not so'}"
+    off = "not a number" if check.residual is None else f"off by {check.residual:.3g} {check.unit}"
+    return f"{check.name}{words}: {off}, allowed {check.limit:.1e} {check.unit}"
+
+
+def _summary(receipt: Receipt) -> str:
+    """How many contours got which verdict, and the verdict on all of them."""
+    verdicts = [contour.verdict for contour in receipt.contours]
+    counts = ", ".join(f"{verdicts.count(each)} {_VERDICTS[each]}" for each in Verdict if each in verdicts)
+    examined = f"{_count(len(verdicts), 'contour')} ({counts})" if verdicts else "no contour"
+    meaning = {
+        Verdict.VERIFIED: "every claim that was checked is right",
+        Verdict.FAILED: "the result is not right",
+        Verdict.NOTHING_CHECKED: "checked nothing: "
+        + ("see above what was not checked, and why" if verdicts else "there is no contour to check"),
+    }
+    return f"{examined}; {meaning[receipt.verdict]}"
+
+
+def _plain(text: str) -> str:
+    """Text of the inputs in printable ASCII."""
+    return text if text.isascii() and text.isprintable() else ascii(text)[1:-1]
+
+
+def _count(number: int, noun: str) -> str:
+    return f"{number} {noun}{'' if number == 1 else 's'}"

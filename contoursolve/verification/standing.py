@@ -1,60 +1,419 @@
-"""How a contour of words alone stands: whether they fix its points and agree, and all its solutions."""
+"""What the words of a contour say, what solutions they have, and what status that gives it."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from decimal import Decimal
+from itertools import combinations
+from math import hypot, pi
 
-from contoursolve.model import FIRST, SECOND, Turn
-from contoursolve.verification.claimed import ClaimedArc, ClaimedElement, ClaimedPath
-from contoursolve.verification.node import Coordinates
-from contoursolve.verification.path import SHORTEST
-from contoursolve.verification.quantity import Origin
+import numpy
+
+from contoursolve.constraints import Coordinate, Directed, Heading, Offset, OnCircle, Radius, TurnBetween
+from contoursolve.diagnostic import Severity
+from contoursolve.dialects import Dialect
+from contoursolve.model import (
+    FIRST,
+    INCREMENT_OF,
+    SECOND,
+    Choice,
+    Fact,
+    Profile,
+    line_scalars,
+    scalar,
+)
+from contoursolve.reading import Claim, read
+from contoursolve.rules import Rule
+from contoursolve.rules import check as check_rules
+from contoursolve.statements import apply_statements
+from contoursolve.syntax import FaultKind, Word
+from contoursolve.tolerance import AGREEMENT, LARGEST, LENGTH, REGULAR, RESIDUAL
+from contoursolve.verification import rank
+from contoursolve.verification.decode import (
+    ClaimedContour,
+)
+from contoursolve.verification.path import Path, draw, side_of
+from contoursolve.verification.residuals import Array, Sheet, norm, residual, senses, sheet_of
+
+EPSILON = 2.0**-52
+"""1. Two neighbouring doubles differ by this share of their size."""
+
+ROUNDING = 16 * EPSILON
+"""1 (share of the sizes that take part). The rounding of a handful of operations on doubles."""
+
+PRINTED = 1e-12
+"""mm. Results are written with 12 decimals: twice the half of the last one, for a distance of two points."""
+
+ORDER = (
+    *("rejected", "conflicting", "underdetermined", "overdetermined", "ambiguous", "no-solution", "undecided"),
+    "solved",
+)
+"""The statuses in the order of precedence."""
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """A contour block of the program and what the result claims of it, if anything.
+
+    `rules` is the policy that the result names. `apart` is how many facts were stated apart from the program, on lines
+    -1, -2 and so on. `start_error` (mm) is how far the position may be from the one that the result was made with: the
+    result tells the ends of earlier contours with 12 decimals. `next_end` is where the line of the next block ends, mm,
+    if that is known.
+    """
+
+    claim: Claim
+    claimed: ClaimedContour | None
+    start_error: float
+    dialect: Dialect
+    next_end: tuple[Decimal, Decimal] | None
+    rules: str
+    apart: int
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """What the words of a contour say: its profile and its table, the facts that fix its points, and those that say
+    more. `statuses` are those that reading alone gives it, each with its reason; `is_readable` tells whether there is
+    more to say."""
+
+    claim: Claim
+    profile: Profile
+    sheet: Sheet
+    basis: tuple[Fact, ...]
+    spare: tuple[Fact, ...]
+    statuses: Mapping[str, str]
+    is_readable: bool
+    start_error: float
+    apart: int
+
+    @property
+    def is_determined(self) -> bool:
+        """Whether the facts fix as many unknowns as there are, for nearly all values."""
+        return len(self.basis) == len(self.sheet.unknowns)
+
+    @property
+    def size(self) -> float:
+        """The largest number that the words state, mm."""
+        return max([1.0, *map(abs, self.sheet.amounts.values())])
+
+    def words(self, facts: Sequence[Fact]) -> list[str]:
+        """The words that state facts, as typed; a fact that only the result has is called so."""
+        return [self.label(word) for word in self.profile.words_of(facts)]
+
+    def label(self, word: Word) -> str:
+        """What checks call a word; a fact may be one that neither the program nor the command states."""
+        return f"{word.text} (stated in the result only)" if word.span.line < -self.apart else word.text
+
+    def sizes(self, values: Mapping[str, float]) -> dict[str, float]:
+        """The sizes of the corners, mm."""
+        return {
+            corner.name: values.get(f"{corner.name}.radius", self.sheet.amounts.get(corner.size, 0.0))
+            for corner in self.sheet.figure.corners
+        }
+
+    def increment(self, name: str) -> float:
+        """The least increment of a given by its name, or of a coordinate by its axis, mm or degrees."""
+        return self.profile.increments[INCREMENT_OF + name]
+
+    def scalars(self, values: Array) -> dict[str, float]:
+        """All scalars by their names."""
+        return {**self.sheet.known, **dict(zip(self.sheet.unknowns, values.tolist(), strict=True))}
+
+
+def prepare(found: Found, claim: Claim) -> Case:
+    """What the words and facts of a contour say, read with the tables of its control."""
+    statuses: dict[str, str] = {}
+    unreadable = _unreadable(claim)
+    if unreadable:
+        statuses["rejected"] = f"{', '.join(unreadable)} cannot be read"
+    variables = [word.text for word in claim.words.values() if word.number is None and not word.is_asked]
+    if variables:
+        statuses["underdetermined"] = f"{', '.join(variables)} depends on a variable"
+    is_readable = not statuses
+    is_extended = bool(claim.directives) or any(word.is_asked for word in claim.words.values())
+    ignored = set()
+    for rule in _offences(claim, found) if not any(block.faults for block in claim.blocks) else ():
+        if rule.ignores:
+            ignored.add(rule.ignores)
+        elif rule.severity is Severity.ERROR and found.rules == "enforce" and not is_extended:
+            status = "no-solution" if rule.is_about_geometry else "rejected"
+            statuses[status] = f"the rule {rule.code} refuses it"
+    profile = read(claim, frozenset(ignored))
+    extended, faults = apply_statements(profile, claim.directives, lambda: found.next_end)
+    large = [given.name for given in extended.givens.values() if abs(given.value) > LARGEST]
+    if faults or large:
+        statuses["rejected"] = "; ".join(
+            [*(fault.message for fault in faults), *(f"{name} is too large" for name in large)]
+        )
+    is_readable = is_readable and not faults and not large
+    profile = profile if faults or large else extended
+    if not profile.start.is_known:
+        statuses.setdefault("underdetermined", "the start point is not known")
+    sheet = _with_half_circles(profile, sheet_of(profile))
+    chosen = rank.independent(rank.slopes_at_random(sheet), rank.GENERIC) if is_readable else []
+    basis = tuple(profile.facts[number] for number in chosen)
+    spare = tuple(fact for number, fact in enumerate(profile.facts) if number not in chosen)
+    case = Case(claim, profile, sheet, basis, spare, statuses, is_readable, found.start_error, found.apart)
+    if is_readable and not statuses.keys() & {"rejected", "no-solution"}:
+        # What a rule refuses counts once.
+        statuses |= {status: why for status, why in _structure(case) if status not in statuses}
+    return case
+
+
+def _with_half_circles(profile: Profile, sheet: Sheet) -> Sheet:
+    """The sheet where a radius that is too small for its two points, by no more than words are exact to, is just large
+    enough."""
+    known, amounts = rank.rigid(sheet), dict(sheet.amounts)
+    on_it = [fact for fact in sheet.facts if isinstance(fact, OnCircle)]
+    for fact in (each for each in sheet.facts if isinstance(each, Radius) and profile.givens[each.given].word):
+        for one, other in combinations([each for each in on_it if each.radius == fact.radius], 2):
+            names = [scalar(each.point, axis) for each in (one, other) for axis in (FIRST, SECOND)]
+            if one.center == other.center and known.keys() >= set(names):
+                first, second = known[names[2]] - known[names[0]], known[names[3]] - known[names[1]]
+                half, steps = hypot(first, second) / 2, profile.increments
+                give = steps[INCREMENT_OF + fact.given] / 2 + RESIDUAL
+                give += sum(
+                    abs(part) * steps[f"{INCREMENT_OF}{axis}"] / (4 * max(half, LENGTH))
+                    for axis, part in enumerate((first, second))
+                )
+                if 0 < half - amounts[fact.given] <= give:
+                    amounts[fact.given] = half
+    return replace(sheet, amounts=amounts)
+
+
+def _unreadable(claim: Claim) -> list[str]:
+    """The characters and words of a contour's blocks that have no meaning, whatever the rules are."""
+    words = [word for block in claim.blocks for word in block.words]
+    faults = [fault for block in claim.blocks for fault in block.faults]
+    values = (
+        (word, claim.lexicon.value(word, claim.after.unit)) for word in words if word.address in claim.lexicon.addresses
+    )
+    large = [word.text for word, value in values if value is not None and abs(value) > LARGEST]
+    names = {row.fact.given for row in claim.form.facts} | {*claim.form.choices}
+    names |= {name for row in claim.form.corners for name in row.shapes}
+    known = [word for name, word in claim.words.items() if name in names]
+    idle = [word.text for word in words if word.is_asked and word not in known]
+    texts = [fault.text for fault in faults if fault.kind is not FaultKind.COMMENT_NOT_CLOSED]
+    return [*texts, *large, *idle, *(word.text for word in (*claim.repeated, *claim.unknown))]
+
+
+def _offences(claim: Claim, found: Found) -> Iterator[Rule]:
+    """The rules of the control that refuse or ignore words. A word that is asked for may fill a gap, but is never one
+    too many."""
+    if found.rules == "off":
+        return
+    stated = claim.stated()
+    asked = {name for name, word in claim.words.items() if word.is_asked}
+    sure = check_rules(found.dialect.rules, claim.form.roles, {k: v for k, v in stated.items() if k not in asked})
+    codes = {each.rule.code for each in sure}
+    yield from (each.rule for each in sure if each.rule.ignores)
+    offences = check_rules(found.dialect.rules, claim.form.roles, stated)
+    yield from (each.rule for each in offences if not each.rule.ignores and each.rule.code in codes)
+
+
+def _structure(case: Case) -> Iterator[tuple[str, str]]:
+    """Why the facts, whatever their values, make no single contour."""
+    if not case.is_determined:
+        free = len(case.sheet.unknowns) - len(case.basis)
+        yield "underdetermined", f"{free} of {len(case.sheet.unknowns)} numbers are free"
+    counts = Counter(corner.name for corner in case.profile.figure.corners)
+    for corner in case.profile.figure.corners:
+        given = case.profile.givens.get(corner.size)
+        if given is not None and given.value < 0:
+            yield "no-solution", f"{corner.name} has a negative size"
+        if corner.after is None and corner.lands_parallel_to is None and corner.lands_on is None:
+            yield "underdetermined", f"nothing tells where {corner.name} lands"
+        if counts[corner.name] > 1:
+            yield "conflicting", f"{corner.name} is stated twice"
+
+
+class LooseError(ValueError):
+    """The facts leave a point free at their values, although not at others."""
+
+
+# --- Solutions that are worked out here ------------------------------------------------------------
 
 
 @dataclass(frozen=True, slots=True)
 class Candidate:
-    """A solution of what the words say: its path, and the signs of the words that choose it.
+    """A solution of the facts that fix the points: its path, and which of the other facts it is against."""
 
-    Whether the control can make it is for the checks of the form to say. `path` is None where they cannot even be
-    asked: a corner that joins no two lines.
-    """
+    values: Array
+    signs: Mapping[str, int]
+    path: Path
+    conflicts: tuple[Fact, ...]
+    agreeing: tuple[Fact, ...]
+    is_chosen: bool
+    is_hidden: bool
 
-    path: ClaimedPath | None
-    signs: Mapping[str, int] = field(default_factory=dict)
-
-
-@dataclass(frozen=True, slots=True)
-class Standing:
-    """`disagrees` says which words do not agree, `is_twice` that this is so whatever their values are; `is_loose` that
-    they leave a point free, `is_over` that they say more
-    than they need to, and agree; `candidates` are all solutions, None where no closed form gives them."""
-
-    disagrees: str = ""
-    is_twice: bool = False
-    is_loose: bool = False
-    is_over: bool = False
-    candidates: tuple[Candidate, ...] | None = ()
-    is_all: bool = True
-    """Whether these are all; otherwise they are what the signs of the words choose."""
+    @property
+    def is_path(self) -> bool:
+        """Whether a control can make it."""
+        return not self.conflicts and not self.path.against
 
 
-@dataclass(frozen=True, slots=True)
-class Leg:
-    """An element of a path, from the start point; `arc` holds its centre, radius (mm) and turn."""
+def candidates(case: Case, near: Sequence[Array] = ()) -> list[Candidate]:
+    """The solutions that are found; those near claimed ones are among them."""
+    found: list[tuple[Array, dict[str, int]]] = []
+    if not case.sheet.unknowns:
+        found = [(numpy.zeros(0), {})]
+    elif rank.is_linear(case.sheet):
+        slopes = case.sheet.slopes(case.basis, numpy.zeros(len(case.sheet.unknowns)), {})
+        if len(rank.independent(slopes, REGULAR)) == len(case.sheet.unknowns):
+            off = case.sheet.residuals(case.basis, numpy.zeros(len(case.sheet.unknowns)), {})
+            found = [(numpy.linalg.solve(slopes, -off), {})]
+    else:
+        found = rank.search(case.sheet, case.basis, case.size, near)
+    kept: list[Candidate] = []
+    for each in (_candidate(case, *one) for one in found):
+        # Where several have become one, none is found to the last digit.
+        twins = [one for one in kept if one.is_hidden]
+        if each and all(abs(one.values - each.values).max() > HIDDEN * case.size for one in twins):
+            kept.append(each)
+    return kept
 
-    end: complex
-    arc: tuple[complex, float, Turn] | None = None
+
+HIDDEN = 0.05
+"""1 (share of the size). Solutions that are nearer may be several that have become one."""
 
 
-def path_of(legs: list[Leg], points: Mapping[str, complex], origin: Origin) -> ClaimedPath:
-    """A path as a result would claim it; elements of no length are left out."""
+def _candidate(case: Case, values: Array, signs: Mapping[str, int]) -> Candidate | None:
+    """A solution of the basis; None where what must be positive is not."""
+    moved = rank.correct(case.sheet, case.basis, values, signs, band(case), band(case) * FEW)
+    if moved.is_open:
+        raise LooseError
+    if len(values) and float(abs(moved.by).max()) < rank.APART * case.size:
+        values = values + moved.by
+    at, scalars = case.sheet.at(values, signs), case.scalars(values)
+    if any(sense < -AGREEMENT * RESIDUAL for fact in case.basis for sense in senses(fact, at)):
+        return None
+    for line in (*case.sheet.figure.path, *case.sheet.figure.lines):
+        cosine, sine, _ = line_scalars(line.name)
+        if cosine in scalars:
+            ends = at.way(line.tail, line.head) if line.head else (0.0, 0.0)
+            if ends[0] * scalars[cosine] + ends[1] * scalars[sine] < -LENGTH:
+                return None
+    conflicts = [fact for fact in case.spare if not agrees(case, fact, values, signs)]
+    agreeing = [fact for fact in case.spare if fact.given and fact not in conflicts]
+    steps = (case.increment(str(FIRST)), case.increment(str(SECOND)))
+    path = draw(case.sheet, scalars, case.sizes(scalars), steps)
+    agreed = {choice: is_on_side(case, scalars, choice) for choice in case.profile.choices}
+    if not all(is_right for choice, is_right in agreed.items() if not choice.given):
+        return None  # The form itself has no other place.
+    is_chosen = all(agreed.values())
+    return Candidate(values, signs, path, tuple(conflicts), tuple(agreeing), is_chosen, moved.is_hidden)
 
-    def place(at: complex) -> Coordinates:
-        return at.real + float(origin[FIRST]), at.imag + float(origin[SECOND])
 
-    elements, here = [], 0j
-    for leg in legs:
-        if abs(leg.end - here) >= SHORTEST:
-            arc = ClaimedArc(place(leg.arc[0]), leg.arc[1], leg.arc[2]) if leg.arc else None
-            elements.append(ClaimedElement(place(here), place(leg.end), arc))
-            here = leg.end
-    return ClaimedPath(place(here), {name: place(at) for name, at in points.items()}, tuple(elements))
+def is_on_side(case: Case, scalars: Mapping[str, float], choice: Choice) -> bool:
+    """Whether a point is where a choice has it, or in the one place that there is."""
+    side = side_of(case.sheet, scalars, choice)
+    return side is None or side[0] > 0 or side[1] <= FEW * band(case)
+
+
+def band(case: Case) -> float:
+    """How far apart a circle and what it touches may be as floats see it, mm."""
+    return ROUNDING * case.size
+
+
+FEW = 8.0
+"""1. How often the band of rounding may be taken differently by the solver."""
+
+
+def allowance(case: Case, fact: Fact, values: Array, signs: Mapping[str, int]) -> float:
+    """How far a fact may miss what others say, mm: coordinates and words are exact to half of their increments."""
+    if isinstance(fact, OnCircle) and not fact.given:
+        return fact.slack
+    if isinstance(fact, Coordinate | Offset):
+        own = case.increment(str(fact.axis)) * (2 if isinstance(fact, Offset) else 1)
+        return (own + case.increment(fact.given)) / 2 + RESIDUAL
+    if isinstance(fact, Heading):
+        cosine, sine = case.sheet.directions[fact.given]
+        swing = norm(case.sheet.at(values, signs).way(fact.tail, fact.head)) * pi / 180 * case.increment(fact.given)
+        across = abs(sine) * case.increment(str(FIRST)) + abs(cosine) * case.increment(str(SECOND))
+        return float(across + swing / 2 + RESIDUAL)
+    return case.increment(fact.given) + RESIDUAL if isinstance(fact, Radius) else AGREEMENT
+
+
+def agrees(case: Case, fact: Fact, values: Array, signs: Mapping[str, int]) -> bool:
+    """Whether a fact that is not needed is true of a solution."""
+    at = case.sheet.at(values, {**dict.fromkeys(fact.sides(), 1), **signs})
+    off = abs(float(residual(fact, at)))
+    open_sides = [side for side in fact.sides() if side not in signs]
+    if open_sides:
+        off = min(off, abs(float(residual(fact, case.sheet.at(values, {**signs, **dict.fromkeys(open_sides, -1)})))))
+    if isinstance(fact, TurnBetween | Directed) and any(sense < 0 for sense in senses(fact, at)):
+        return False
+    return off <= allowance(case, fact, values, signs)
+
+
+def expected(case: Case, found: Sequence[Candidate]) -> tuple[str | None, str]:
+    """The status that words and solutions give a contour, and why; None where it was not worked out."""
+    statuses = dict(case.statuses)
+    if not case.is_readable or "rejected" in statuses:
+        return _first(statuses)
+    structure = dict(_structure(case))
+    is_loose = bool(structure)
+    is_linear = rank.is_linear(case.sheet)
+    if case.profile.start.is_known and (is_loose or (is_linear and not found)):
+        if is_linear:
+            statuses |= {status: why for status, why in said_twice(case) if status not in statuses}
+        elif case.spare and "conflicting" not in statuses:
+            return None, "what is said twice of a part of a contour was not worked out"
+    if is_loose or not case.profile.start.is_known or (is_linear and not found):
+        return _first(statuses)
+    eligible = [each for each in found if each.is_chosen]
+    paths = [each for each in eligible if each.is_path]
+    selecting = {fact for each in found for fact in each.conflicts}
+    if len(paths) > 1:
+        statuses["ambiguous"] = f"{len(paths)} paths agree with the words"
+    elif not paths:
+        known = rank.rigid(case.sheet)
+        clear = [fact for fact in case.spare if not found and known.keys() >= set(fact.reads())]
+        at = numpy.array([known.get(name, 0.0) for name in case.sheet.unknowns])
+        if any(not agrees(case, fact, at, {}) for fact in clear):
+            statuses["conflicting"] = "what the words put in its place is against others"
+        fits = [each for each in eligible if not each.conflicts]
+        why = "; ".join(fits[0].path.against) if fits else "no solution was found"
+        statuses["no-solution"] = why
+        if eligible and not fits:
+            statuses["conflicting"] = (
+                f"{', '.join(case.words(eligible[0].conflicts)) or 'a circle'} is against the others"
+            )
+    for each in paths[:1] or [each for each in eligible if not each.conflicts][:1]:
+        if set(each.agreeing) - selecting and "ambiguous" not in statuses:
+            statuses["overdetermined"] = f"{', '.join(case.words(each.agreeing))} says what others say"
+    return _first(statuses)
+
+
+def _first(statuses: Mapping[str, str]) -> tuple[str, str]:
+    status = min(statuses, key=ORDER.index, default="solved")
+    return status, statuses.get(status, "one path agrees with the words")
+
+
+def said_twice(case: Case) -> Iterator[tuple[str, str]]:
+    """How facts about lines that follow from those before them compare with these, whatever else is missing."""
+    nothing = numpy.zeros(len(case.sheet.unknowns))
+    rows, off = (
+        case.sheet.slopes(case.profile.facts, nothing, {}),
+        case.sheet.residuals(case.profile.facts, nothing, {}),
+    )
+    generic, basis = rank.slopes_at_random(case.sheet), list[int]()
+    for number, fact in enumerate(case.profile.facts):
+        if _is_new(rows, basis, number):
+            basis.append(number)
+            continue
+        values = numpy.linalg.lstsq(rows[basis], -off[basis], rcond=None)[0] if basis else nothing
+        gap = abs(float(rows[number] @ values + off[number]))
+        is_tied = len(rank.independent(generic[[*basis, number]], rank.GENERIC)) == len(basis)
+        touched = rows[number] != 0
+        is_fixed = all(each for each, is_own in zip(rank.fixed(rows[basis]), touched, strict=True) if is_own)
+        names = ", ".join(case.words([fact]))
+        if is_tied and (is_fixed or not touched.any()):
+            is_right = gap <= allowance(case, fact, values, {})
+            yield ("overdetermined" if is_right else "conflicting"), f"{names} says what others say"
+        else:
+            yield ("underdetermined" if gap <= RESIDUAL else "no-solution"), f"{names} follows from others at its value"
+
+
+def _is_new(rows: Array, basis: Sequence[int], number: int) -> bool:
+    return len(rank.independent(rows[[*basis, number]], REGULAR)) > len(basis)

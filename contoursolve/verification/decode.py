@@ -1,0 +1,303 @@
+"""The two inputs of a verification: a program as blocks, and a claimed result as records of schema solve/1."""
+
+import json
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from hashlib import sha256
+from typing import Annotated, Any, Literal, NoReturn
+
+import msgspec
+from msgspec import Meta
+
+from contoursolve import syntax
+from contoursolve.syntax import STANDARD_INPUT, Program, UnreadableProgramError
+
+SCHEMA = "contoursolve/solve/1"
+
+FARTHEST = 1e12
+"""mm. The largest number read: words end at 1e6 mm, and intersections of lines 0.001 deg apart at 1e11 mm."""
+
+Number = Annotated[float, Meta(ge=-FARTHEST, le=FARTHEST)]
+Point = tuple[Number, Number]
+"""mm in the plane's axes, X of a lathe as radius."""
+LineNumber = Annotated[int, Meta(ge=0, le=int(FARTHEST))]
+
+
+class CannotVerifyError(ValueError):
+    """An input that cannot be read, or is not what it should be; the message says which and why."""
+
+
+@dataclass(frozen=True, slots=True)
+class Document:
+    """An input: what messages call it, and its bytes."""
+
+    name: str
+    data: bytes
+
+    @property
+    def checksum(self) -> str:
+        """SHA-256 of the bytes, hexadecimal."""
+        return sha256(self.data).hexdigest()
+
+
+class ClaimedLine(msgspec.Struct, frozen=True, tag="line", tag_field="kind"):
+    """A straight element."""
+
+    start: Point
+    end: Point
+
+
+class ClaimedArc(msgspec.Struct, frozen=True, tag="arc", tag_field="kind"):
+    """A circular element with the sense in which it is travelled; radius in mm."""
+
+    start: Point
+    end: Point
+    center: Point
+    radius: Number
+    turn: Literal["cw", "ccw"]
+
+
+class ClaimedDouble(msgspec.Struct, frozen=True):
+    """That two solutions have become one, and how far they are from that, mm."""
+
+    gap_mm: Number | None
+
+
+class ClaimedCertificate(msgspec.Struct, frozen=True):
+    """How well the result says its points are known: `radius` in mm, None where it names none."""
+
+    kind: str
+    radius: Number | None
+    reason: str
+    double: ClaimedDouble | None
+
+
+class ClaimedAsked(msgspec.Struct, frozen=True):
+    """A value that was asked for: mm (radius) or degrees, as `unit` says; None where nothing determines it."""
+
+    word: str
+    line: int
+    unit: Literal["mm", "deg", "sign"]
+    value: Number | None
+
+
+class ClaimedPath(msgspec.Struct, frozen=True):
+    """Where a path ends, its named points, its elements, what it answers; all empty where there is none."""
+
+    end: Point | None
+    points: dict[str, Point]
+    elements: tuple[ClaimedLine | ClaimedArc, ...]
+    certificate: ClaimedCertificate
+    asked: tuple[ClaimedAsked, ...]
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether nothing of a path is claimed."""
+        return self.end is None and not self.points and not self.elements
+
+
+class ClaimedSolution(ClaimedPath, frozen=True):
+    """One solution of the equations; its path is empty where the control cannot make it."""
+
+    name: str
+    is_chosen: bool
+    selects: tuple[str, ...]
+    is_path: bool
+    reasons: tuple[str, ...]
+
+
+class ClaimedCount(msgspec.Struct, frozen=True):
+    """How many solutions there are said to be, and how many of them are paths."""
+
+    solutions: LineNumber
+    contours: LineNumber
+    is_complete: bool
+    doubts: tuple[str, ...]
+    chosen_by: str
+
+
+class ClaimedFilled(msgspec.Struct, frozen=True):
+    """The blocks with the values that were asked for, and how far their contour is from the claimed one, mm."""
+
+    blocks: tuple[str, ...]
+    deviation_mm: Number
+
+
+class ClaimedFreedom(msgspec.Struct, frozen=True):
+    """A point that can move: along a unit vector and at an angle in degrees, or anywhere if both are None."""
+
+    point: str
+    direction: Point | None
+    angle: Number | None
+
+
+class ClaimedTie(msgspec.Struct, frozen=True):
+    """Words that say the same, by their addresses, and by how much they disagree, mm."""
+
+    addresses: tuple[str, ...]
+    off_by_mm: Number
+    is_conflict: bool
+
+
+class ClaimedDiagnosis(msgspec.Struct, frozen=True):
+    """What can still move, and which words say the same; `ties_complete` tells that all of these are named."""
+
+    freedoms: tuple[ClaimedFreedom, ...]
+    ties: tuple[ClaimedTie, ...]
+    ties_complete: bool
+
+
+class ClaimedConvention(msgspec.Struct, frozen=True):
+    """A setting, with its value, on which the contour is said to rest."""
+
+    setting: str
+    value: str
+
+
+class ClaimedContour(ClaimedPath, frozen=True):
+    """One contour of the result; the coordinates of `start` are None where the result does not know them."""
+
+    line: LineNumber
+    lines: tuple[LineNumber, ...]
+    form: str
+    status: Literal[
+        "solved",
+        "rejected",
+        "underdetermined",
+        "overdetermined",
+        "conflicting",
+        "ambiguous",
+        "no-solution",
+        "undecided",
+    ]
+    plane: tuple[str, str]
+    start: tuple[Number | None, Number | None]
+    branch: str | None
+    branches: dict[str, str]
+    conventions: tuple[ClaimedConvention, ...]
+    facts: tuple[str, ...]
+    filled: ClaimedFilled | None
+    solutions: tuple[ClaimedSolution, ...]
+    count: ClaimedCount | None
+    diagnosis: ClaimedDiagnosis | None
+
+    @property
+    def has_path(self) -> bool:
+        """Whether a path must be claimed. An overdetermined contour may have none: no-solution ranks after it."""
+        return self.status == "solved" or (self.status == "overdetermined" and not self.is_empty)
+
+
+class ClaimedResult(msgspec.Struct, frozen=True):
+    """Everything of a result that can be checked; `control` is None where it names none. `settings` go by
+    `control.name`; `diagnostics` are counted and not looked at."""
+
+    schema: str
+    control: str | None
+    rules: Literal["enforce", "warn", "off"]
+    settings: dict[str, str]
+    contours: tuple[ClaimedContour, ...]
+    diagnostics: tuple[Any, ...]
+
+
+def read_document(path: str) -> Document:
+    """The bytes of a file; `-` is standard input. Raises CannotVerifyError if there is no such file."""
+    try:
+        return Document("<standard input>" if path == STANDARD_INPUT else path, syntax.read_bytes(path))
+    except UnreadableProgramError as error:
+        raise CannotVerifyError(str(error)) from None
+
+
+def document_of_blocks(blocks: Sequence[str]) -> Document:
+    """Blocks that were given apart from any file, one a line."""
+    return Document("<block>", "\n".join(blocks).encode("utf-8", "replace"))
+
+
+def parse_program(document: Document) -> Program:
+    """The blocks of a program in UTF-8 or Latin-1. Raises CannotVerifyError if it is not text."""
+    try:
+        return syntax.parse(syntax.decode(document.data, document.name), document.name)
+    except UnreadableProgramError as error:
+        raise CannotVerifyError(str(error)) from None
+
+
+def read_result(document: Document) -> ClaimedResult:
+    """The claims of a result; fields that are not known are left alone. Raises CannotVerifyError, which names the field
+    that is missing or mistyped."""
+    data = _parse(document)
+    schema = data.get("schema", SCHEMA) if isinstance(data, dict) else SCHEMA
+    if schema != SCHEMA:
+        told = f"{_shown(schema)} where {SCHEMA!r} is read: write it by 'solve --format json'"
+        raise CannotVerifyError(f"{document.name}: schema: {told}")
+    try:
+        return msgspec.convert(data, ClaimedResult)
+    except msgspec.ValidationError as error:
+        message, _, place = str(error).partition(" - at `$")
+        place = _named(data, place.rstrip("`")).lstrip(".") or "the document"
+        plain = re.sub(r"`([a-z |]+)`", _in_words, message[:1].lower() + message[1:]).replace("`", "'")
+        told = f"{place}: {plain}".encode("ascii", "backslashreplace").decode()
+        raise CannotVerifyError(f"{document.name}: {told}") from None
+    except (RecursionError, UnicodeEncodeError):
+        raise CannotVerifyError(f"{document.name}: it is nested too deeply, or has half a character") from None
+
+
+_KINDS = {
+    "str": "a text",
+    "int": "a whole number",
+    "float": "a number",
+    "bool": "true or false",
+    "array": "a list",
+    "object": "an object",
+}
+
+
+def _in_words(kinds: re.Match[str]) -> str:
+    """Kinds of values as a user calls them; the name of a field as it is."""
+    named = [_KINDS.get(each, each) for each in kinds[1].split(" | ")]
+    return " or ".join(named) if named[0] in (*_KINDS.values(), "null") else kinds[0]
+
+
+def _parse(document: Document) -> Any:
+    try:
+        return json.loads(document.data, parse_constant=_refuse_constant, object_pairs_hook=_unambiguous)
+    except (ValueError, RecursionError) as error:
+        reason = "it is nested too deeply" if isinstance(error, RecursionError) else str(error)
+        told = f"{document.name} is not a result of 'solve --format json'"
+        raise CannotVerifyError(f"{told}: it is no JSON document ({reason})") from None
+
+
+def _refuse_constant(name: str) -> NoReturn:
+    raise ValueError(f"{name} is no number that JSON has")
+
+
+def _unambiguous(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """An object; a name that stands twice could be read either way."""
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        names = [name for name, _ in pairs]
+        twice = next(name for name in names if names.count(name) > 1)
+        raise ValueError(f"the name {_shown(twice)} stands twice in one object")
+    return found
+
+
+def _shown(value: object) -> str:
+    return ascii(value)[:60]
+
+
+_VALUES = {"points": Point, "settings": str, "branches": str}
+"""What the objects hold whose names are the document's own."""
+
+
+def _named(data: Any, place: str) -> str:
+    """A place with the name of the document's own that the decoder leaves out (`points[...]`)."""
+    before, gap, behind = place.partition("[...]")
+    if not gap:
+        return place
+    for step in re.findall(r"\w+", before):
+        data = data[int(step)] if step.isdigit() else data[step]
+    for name, value in data.items():
+        try:
+            msgspec.convert(value, _VALUES[before.rpartition(".")[2]])
+        except msgspec.ValidationError:
+            return f"{before}.{name}{behind}"
+    return place
