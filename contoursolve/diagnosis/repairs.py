@@ -247,6 +247,24 @@ def _legal_sets(
             yield from (tuple(sorted((*base, *some), key=lambda edit: edit.kind is not EditKind.DROP)) for some in sets)
     if frozenset() in changes:
         yield from ((*forced, *edits) for edits in _other_corners(claim, at_fault))
+    if whole.conflicts and all(swap and not swap & present for swap in changes):
+        # Too few words, of which some contradict each other: one of these is replaced, too.
+        yield from ((*forced, *edits) for edits in _replacing(claim, dialect, whole.conflicts, names & extra, blocks))
+
+
+def _replacing(
+    claim: Claim, dialect: Dialect, conflicts: Iterable[Circuit], extra: frozenset[str], blocks: frozenset[str]
+) -> Iterator[tuple[Edit, ...]]:
+    """Each word of a contradiction dropped, and the rest completed with other words."""
+    present = frozenset(claim.words)
+    tied = {fact.given for circuit in conflicts for fact in circuit.facts if fact.given in present}
+    for name in sorted(each for each in tied if each):
+        rest = present - {name}
+        kept = _Geometry.of(claim, rest)
+        for swap in smallest_changes(claim.form, dialect.rules, rest, extra - {name}, claim.circumstances, blocks):
+            if not swap & present:
+                added = [_additions(claim, dialect, other, (kept,)) for other in sorted(swap)]
+                yield from ((drop(claim.words[name]), *edits) for edits in product(*added))
 
 
 def _corrections(claim: Claim, dialect: Dialect) -> Iterator[tuple[str, list[Edit]]]:
