@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 
 def law(
-    *strategies: st.SearchStrategy[Any], few: int = 20, many: int = 200, derandomize: bool = True
+    *strategies: st.SearchStrategy[Any], few: int = 20, many: int = 80, derandomize: bool = True
 ) -> Callable[[Callable[..., None]], Callable[[int], None]]:
     """In the place of `given`."""
 

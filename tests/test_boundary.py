@@ -26,7 +26,7 @@ def has_contour(block, word, value, options):
 
 
 @pytest.mark.parametrize(("name", "word"), WORDS)
-@pytest.mark.parametrize("count", [10, pytest.param(120, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [10, pytest.param(60, marks=pytest.mark.slow)])
 def test_a_value_is_in_a_range_exactly_if_a_single_solve_has_a_contour(name, word, count):
     block, options, ranges = CASES[name]
     low, high = ranges.get(word, (0, 360))

@@ -77,7 +77,7 @@ print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)
 
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="asks the system for the memory of a process")
-@pytest.mark.parametrize(("arguments", "lines"), [(("check",), 60_000), (("solve", "--format", "json"), 30_000)])
+@pytest.mark.parametrize(("arguments", "lines"), [(("check",), 30_000), (("solve", "--format", "json"), 15_000)])
 def test_long_programs_take_little_memory(arguments, lines, tmp_path):
     program = tmp_path / "long.nc"
     program.write_text(long_program(lines))

@@ -142,7 +142,7 @@ def test_a_point_of_the_line_that_is_its_start_point_is_told_as_that(point, afte
     assert finding.span.line == 2
 
 
-@pytest.mark.parametrize(("seed", "count"), [(1501, 50), pytest.param(1502, 300, marks=pytest.mark.slow)])
+@pytest.mark.parametrize(("seed", "count"), [(1501, 50), pytest.param(1502, 150, marks=pytest.mark.slow)])
 def test_no_message_over_random_broken_programs_holds_what_is_no_number(seed, count):
     rng = Random(seed)
     draws = (random_pair, random_chain, random_cornered)
@@ -199,7 +199,7 @@ def draw(rng: Random) -> Drawn:
 
 
 @pytest.mark.parametrize("settings", SETTINGS)
-@pytest.mark.parametrize("count", [8, pytest.param(100, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [8, pytest.param(50, marks=pytest.mark.slow)])
 def test_programs_are_read_as_the_settings_say_and_the_check_of_results_agrees(settings, count):
     rng = Random(f"{settings}{count}")
     statuses: Counter[str] = Counter()
