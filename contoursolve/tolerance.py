@@ -6,7 +6,9 @@ least increment, and ten times the rounding error of coordinates of `LARGEST` si
 
 LENGTH = 1e-9
 """mm. Lengths up to this count as zero: an element this short is left out, a corner that lacks
-this little room still fits. It covers the rounding of a length that is zero or fits exactly."""
+this little room still fits. It covers the rounding of a length that is zero or fits exactly. It is not half an
+increment, to which words are exact: a path that fits by so much only would run backwards by as much, and a control
+may refuse it. The fix, the largest value that fits, is safe on every control."""
 
 REGULAR = 1e-12
 """1 (sine of an angle). A determinant of unit directions below this is zero: 1e-12 is 5,000 times

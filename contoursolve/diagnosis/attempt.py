@@ -20,6 +20,7 @@ from contoursolve.model import Profile
 from contoursolve.reading import Claim, State, Trouble, advance, read
 from contoursolve.solving import RemarkKind, Status
 from contoursolve.solving.affine import affine_facts
+from contoursolve.solving.plan import is_closed
 from contoursolve.source import Span
 from contoursolve.syntax import Block, parse_block
 from contoursolve.tolerance import AGREEMENT
@@ -350,25 +351,14 @@ def _extra(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], before: Befo
 
 def _largest_step(found: Claim, before: Before) -> int:
     """The number of unknowns that further facts make one step determine together; 0 for ordinary words."""
-    profile = read(found, frozenset())
-    if not profile.is_extended:
-        return 0
-    profile, is_usable = _with_facts(profile, found, before.next_place)
-    if not is_usable:
+    profile = _stated(found, before)
+    if profile is None or not profile.is_extended:
         return 0
     system = assemble(profile)
     verdict = judge(system)
     if not verdict.is_determined:
         return 0
     return max(len(group.unknowns) for group in order(system, [system.facts[index] for index in verdict.basis]))
-
-
-def _with_facts(profile: Profile, claim: Claim, next_place: tuple[Decimal, Decimal] | None) -> tuple[Profile, bool]:
-    """The profile with the further facts, and whether all of them could be used."""
-    from contoursolve.statements import apply_statements  # noqa: PLC0415 - few blocks state more than their words
-
-    extended, faults = apply_statements(profile, claim.directives, lambda: next_place)
-    return extended, not faults
 
 
 def _is_comma(edit: Edit) -> bool:
@@ -406,15 +396,18 @@ def _parted(blocks: list[Block], edits: tuple[Edit, ...]) -> tuple[list[Block], 
 
 
 def _example(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> tuple[Edit, ...] | None:
-    """The edits with a number for every placeholder that makes a contour; as they are where further facts are stated,
-    if these determine the drawing whatever the numbers are. None if nothing is found."""
+    """The edits with a number for every placeholder that makes a contour; as they are where further facts determine a
+    drawing that has no closed form. None if nothing is found."""
     found = _find(claim, dialect, sampled(edits), Before(frozenset(), None))
-    if found is None:
+    profile = _stated(found, before) if found else None
+    if found is None or profile is None:
         return None
-    profile = read(found, frozenset())
     if profile.is_extended:
-        profile, is_stated = _with_facts(profile, found, before.next_place)
-        return edits if is_stated and judge(assemble(profile)).is_determined else None
+        system = assemble(profile)
+        if not judge(system).is_determined:
+            return None
+        if not is_closed(system):
+            return edits
     affine = affine_facts(profile, profile.facts)
     if affine is not None and affine.freedoms():
         return None
@@ -430,4 +423,16 @@ def _with_ends(repair: Repair, claim: Claim, dialect: Dialect, before: Before) -
     def is_accepted(edits: tuple[Edit, ...]) -> bool:
         return _try(claim, dialect, edits, before) is not None
 
-    return replace(repair, ends=tuple(ends(found, read(found, frozenset()), repair.edits, is_accepted)))
+    profile = _stated(found, before)
+    return replace(repair, ends=tuple(ends(found, profile, repair.edits, is_accepted))) if profile else repair
+
+
+def _stated(claim: Claim, before: Before) -> Profile | None:
+    """The profile of a contour with its further facts; None if one of them cannot be used."""
+    from contoursolve.statements import apply_statements  # noqa: PLC0415 - few blocks state more than their words
+
+    profile = read(claim, frozenset())
+    if not profile.is_extended:
+        return profile
+    profile, faults = apply_statements(profile, claim.directives, lambda: before.next_place)
+    return None if faults else profile
