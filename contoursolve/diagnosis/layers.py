@@ -68,7 +68,7 @@ def _equations(answer: Answer, profile: Profile, system: System) -> list[Layer]:
     elif any(each.basis is Basis.STRUCTURAL for each in answer.diagnostics):
         blocked = "a corner or a choice is not determined"
     numerical = [each for each in answer.diagnostics if each.basis is Basis.NUMERICAL]
-    about_values = [each for each in numerical if each.about in _AT_VALUES]
+    about_values = [each for each in numerical if each.about in _ABOUT_VALUES]
     found_any = _layer("values", bool(about_values), "regular at these values, and words agree")
     if blocked:
         values = found_any if about_values else Layer("values", Verdict.NOT_RUN, blocked)
@@ -82,7 +82,7 @@ def _equations(answer: Answer, profile: Profile, system: System) -> list[Layer]:
     return [*layers, _layer("geometry", found, "intersections exist, direction of travel, room for corners")]
 
 
-_AT_VALUES = (
+_ABOUT_VALUES = (
     RefusalKind.LINES_PARALLEL,
     RefusalKind.NOT_FIXED,
     RefusalKind.POINT_IS_START,

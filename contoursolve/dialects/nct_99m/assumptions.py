@@ -9,10 +9,10 @@ from contoursolve.dialects.nct_99m.element import (
     FOLLOWED,
     LINE,
     NEGATIVE_RADIUS,
+    ON_PARALLEL_AXES,
     ONE_CENTER,
     OVER_CIRCLE,
     OVER_LINE,
-    PARALLEL,
     ROUNDING,
 )
 from contoursolve.dialects.nct_99m.lexicon import MANUAL
@@ -54,7 +54,7 @@ ASSUMPTIONS = (
         "U, V or W beside ,A stands for the axis of the plane to which it is parallel, where that has no word",
         "16.2, p. 120: X, Y, Z or their parallel axes",
         (LINE,),
-        some(PARALLEL),
+        some(ON_PARALLEL_AXES),
     ),
     _row(
         "increment-beside-angle",

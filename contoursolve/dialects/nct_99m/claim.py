@@ -16,11 +16,11 @@ from contoursolve.dialects.nct_99m.element import (
     LAST,
     LINE_LINE,
     NEGATIVE_RADIUS,
+    ON_PARALLEL_AXES,
     ONE_CENTER,
     ONLY,
     ORDINARY,
     OTHER_PLANE,
-    PARALLEL,
     POINT,
     RAPID,
     UNCOMPENSATED,
@@ -205,7 +205,7 @@ def _circumstances(member: Member, first: State, *, is_only: bool) -> Iterator[s
         FOLLOWED: member.element.is_followed,
         LAST: member.is_last,
         ONLY: is_only,
-        PARALLEL: not {*member.here.plane.axes} <= {*PARALLEL_TO},
+        ON_PARALLEL_AXES: not {*member.here.plane.axes} <= {*PARALLEL_TO},
         ORDINARY: is_only and member.element.turn is not None,
     }
     return (name for name, is_true in holds.items() if is_true)

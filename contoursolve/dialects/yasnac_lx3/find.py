@@ -10,8 +10,10 @@ from contoursolve.dialects.yasnac_lx3.leaving import claim_leaving
 from contoursolve.reading import Claim, Code, Modes, State, codes_of
 from contoursolve.syntax import Block
 
-_AXES = frozenset("XUZW")
-_BEVELLING, _ROUNDING, _LINE, _ARCS = 11, 12, 1, (2, 3)
+AXIS_WORDS = frozenset("XUZW")
+"""Words that move an axis."""
+
+_BEVELLING, _ROUNDING, _LINE, _ARC_CODES = 11, 12, 1, (2, 3)
 
 
 def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> Claim | None:
@@ -27,14 +29,14 @@ def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> Cla
     # A word that cannot be read still shows what the block was meant to be.
     addresses = {word.address.lstrip(",") for word in block.words} | {fault.address for fault in block.faults}
     corner = next((code for code in own if code in (_BEVELLING, _ROUNDING)), None)
-    if corner and addresses & {*_AXES, "I", "K"}:
+    if corner and addresses & {*AXIS_WORDS, "I", "K"}:
         return claim_leaving(block, corner, state, modes)
     if len(codes) > len(known) or len(own) > 1:
         return None
     motion = own[0] if own else state.motion
-    if motion in (_BEVELLING, _ROUNDING) and addresses & {*_AXES, "I", "K"}:
+    if motion in (_BEVELLING, _ROUNDING) and addresses & {*AXIS_WORDS, "I", "K"}:
         return claim_leaving(block, motion, state, modes)
-    if motion == _LINE and addresses & _AXES and addresses & {"I", "K"}:
+    if motion == _LINE and addresses & AXIS_WORDS and addresses & {"I", "K"}:
         # p. 31-32: the bevel of G11 in another form.
         return claim_leaving(block, _LINE, state, modes)
-    return claim_arc(block, motion, state, modes) if motion in _ARCS else None
+    return claim_arc(block, motion, state, modes) if motion in _ARC_CODES else None

@@ -12,7 +12,7 @@ from math import asin, atan2, cos, degrees, hypot, pi, radians, sin
 from contoursolve.contour import Contour
 from contoursolve.diagnostic import Applicability, Basis, Diagnostic, Fix, Severity
 from contoursolve.dialects.yasnac_lx3.claim import AXIS_EFFECTS
-from contoursolve.dialects.yasnac_lx3.find import find
+from contoursolve.dialects.yasnac_lx3.find import AXIS_WORDS, find
 from contoursolve.dialects.yasnac_lx3.g112 import WAY
 from contoursolve.examine import Policy, examine
 from contoursolve.explain import Context, report
@@ -30,7 +30,6 @@ MOST = 8
 CORNERING = {"G111": 111, "G112": 112}
 """The forms that are not modal, and their codes."""
 
-_AXES = frozenset("XUZW")
 _OWN = frozenset("AIKBCPDQR")
 """Addresses that mean something in multiple cornering beside the ends."""
 
@@ -71,7 +70,7 @@ def follow(
         state = state or leave()
         codes = codes_of(block, modes)
         own = [code.number for code in codes if isinstance(code, Code) and code.effect in AXIS_EFFECTS]
-        if addresses & _AXES or (addresses & _OWN and not own):
+        if addresses & AXIS_WORDS or (addresses & _OWN and not own):
             yield from _look(name, contour, state, block, own, context, modes)
             return
         if any(not isinstance(code, Code) or code.effect not in _PASSING for code in codes):
@@ -111,7 +110,7 @@ def _left_alone(block: Block, motion: int | None) -> list[Word]:
     addresses = {word.address for word in block.words}
     found = addresses & _OWN
     if not found & {"A", "B"}:
-        has_bevel = motion == 1 and bool(addresses & _AXES) and found <= {"I", "K"}
+        has_bevel = motion == 1 and bool(addresses & AXIS_WORDS) and found <= {"I", "K"}
         if has_bevel or motion not in (_RAPID, 1, None):
             return []
     return [word for word in block.words if word.address in found]
@@ -136,7 +135,7 @@ def _forgotten(name: str, alone: list[Word], block: Block, state: State, context
 
 def _rapid(name: str, block: Block, context: Context) -> Diagnostic:
     """Axis words alone, under a G00 that was in force before the contour."""
-    words = [word for word in block.words if word.address in _AXES]
+    words = [word for word in block.words if word.address in AXIS_WORDS]
     have = "have" if len(words) > 1 else "has"
     finding = report(context, context.row(Trouble.RAPID_BEHIND), Basis.RULE, words, code=name, have=have)
     fix = Fix("write G01 if this is a cut", restate(block, 1).text, Applicability.CHANGES_CONTOUR)
@@ -158,7 +157,7 @@ def _leaving(contour: Contour, state: State, block: Block, context: Context, mod
     if ahead > 0 and abs(aside) <= AGREEMENT:
         return
     turn = abs(degrees(atan2(aside, ahead)))
-    words = [word for word in block.words if word.address in _AXES]
+    words = [word for word in block.words if word.address in AXIS_WORDS]
     is_along_z = abs(along[FIRST]) > abs(along[SECOND])
     place = f"X{length_text(2 * end[SECOND], state.unit)}" if is_along_z else f"Z{length_text(end[FIRST], state.unit)}"
     leave = "leave" if len(words) > 1 else "leaves"
@@ -181,7 +180,7 @@ def _way(state: State, block: Block, end: Point, modes: Modes) -> Point | None:
         angle = values.get("A", values.get(WAY))
         return None if angle is None else (cos(radians(angle)), sin(radians(angle)))
     after = apply_modes(state, block, modes)
-    words = [word for word in block.words if word.address in _AXES]
+    words = [word for word in block.words if word.address in AXIS_WORDS]
     found = positions(after, words, modes, is_skippable=False)
     there = [found[axis].value if axis in found else after.axes[axis].value for axis in after.plane.axes]
     first, second = there

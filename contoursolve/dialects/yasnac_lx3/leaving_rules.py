@@ -16,7 +16,7 @@ _START = "G00 X30. Z0.\n"
 _BEVEL = _START + "G11 Z-20. I8. F30."
 _GOOD = _BEVEL + "\nX80. K-7."
 _ROUND = _START + "G12 Z-20. I8. F30.\nX80. K-7."
-_LINE = _START + "G01 Z-20. I8. F30.\nX80. K-7."
+_BY_G01 = _START + "G01 Z-20. I8. F30.\nX80. K-7."
 
 _PAGE = manual("p. 31-32")
 _BOTH_AXES = Alarm("050", Evidence.PRINTED)
@@ -30,7 +30,7 @@ LEAVING_RULES = (
         alarm=_BOTH_AXES,
         roles=(_ROLE,),
         when=all_of(_X, _Z),
-        accepted=(_GOOD, _ROUND, _LINE),
+        accepted=(_GOOD, _ROUND, _BY_G01),
         rejected=(_START + "G11 X80. Z-20. I8.", _START + "G12 U50. W-20. K8."),
     ),
     Rule(
