@@ -1,11 +1,9 @@
 """What a control is: a record of tables, and how its contours are found among the blocks."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from contoursolve.contour import Contour
 from contoursolve.diagnostic import Diagnostic
-from contoursolve.explain import Context
 from contoursolve.model import Length, Plane
 from contoursolve.reading import Assumption, Claim, Form, Modes, Position, Setting, State
 from contoursolve.rules import Rule
@@ -15,11 +13,9 @@ Finder = Callable[[Sequence[Block], int, State, Modes], Claim | None]
 """(blocks, index, state before the block, modes) to the contour that begins at this block, if any."""
 
 
-Follower = Callable[
-    [str, Contour | None, Callable[[], State], Iterable[tuple[int, str]], Context, Modes], Iterator[Diagnostic]
-]
-"""(name of the form, path, what gives the state behind it, lines behind it with their numbers, context, modes) to the
-findings about the block behind a contour."""
+Follower = Callable[..., Iterator[Diagnostic]]
+"""(name of the form, path or None, what gives the state behind it, lines behind it with their numbers, context of
+messages, modes) to the findings about the block behind a contour."""
 
 
 @dataclass(frozen=True, slots=True)
