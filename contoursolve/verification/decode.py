@@ -2,7 +2,7 @@
 
 import json
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from hashlib import sha256
 from typing import Annotated, Any, Literal, NoReturn
@@ -17,6 +17,9 @@ SCHEMA = "contoursolve/solve/1"
 
 FARTHEST = 1e12
 """mm. The largest number read: words end at 1e6 mm, and intersections of lines 0.001 deg apart at 1e11 mm."""
+
+PRINTED = 1e-12
+"""mm. Results are written with 12 decimals: twice the half of the last one, for a distance of two points."""
 
 Number = Annotated[float, Meta(ge=-FARTHEST, le=FARTHEST)]
 Point = tuple[Number, Number]
@@ -95,6 +98,13 @@ class ClaimedPath(msgspec.Struct, frozen=True):
     def is_empty(self) -> bool:
         """Whether nothing of a path is claimed."""
         return self.end is None and not self.points and not self.elements
+
+    def numbers(self) -> Iterator[float]:
+        """Every number of its points and elements, in one order."""
+        for name in sorted(self.points):
+            yield from self.points[name]
+        for each in self.elements:
+            yield from (*each.start, *each.end, *((*each.center, each.radius) if isinstance(each, ClaimedArc) else ()))
 
 
 class ClaimedSolution(ClaimedPath, frozen=True):

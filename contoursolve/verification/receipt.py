@@ -1,7 +1,7 @@
 """The receipt of a verification: what was checked, what was not, the verdict; as records, as JSON and as text."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
 from enum import Enum
 from math import isfinite
 from typing import Any
@@ -29,16 +29,16 @@ class Verdict(Enum):
 class Check:
     """One check of a claim against the words that it rests on.
 
-    `residual` says by how much the claim is off and `limit` how much is allowed, in `unit` (mm or deg); both
+    `residual` says by how much the claim is off and `limit` how much is allowed, in `unit` (mm or deg); all three
     are None where the answer is yes or no. `remark` says what was found where the check failed.
     """
 
     name: str
     words: tuple[str, ...]
+    residual: float | None
+    limit: float | None
+    unit: str | None
     passed: bool
-    residual: float | None = None
-    limit: float | None = None
-    unit: str = ""
     remark: str = ""
 
 
@@ -68,12 +68,12 @@ class Ledger:
         if passed and limit > 0:
             # What is far below the limit is the noise of this machine.
             size = round(size / limit * _STEPS) * limit / _STEPS
-        self.checks.append(Check(name, tuple(words), passed, size if isfinite(size) else None, limit, unit))
+        self.checks.append(Check(name, tuple(words), size if isfinite(size) else None, limit, unit, passed))
         return passed
 
     def require(self, name: str, words: Iterable[str], passed: bool, remark: str = "") -> bool:
         """Write down a question of yes or no; the remark is kept where the answer is no."""
-        self.checks.append(Check(name, tuple(words), passed, remark="" if passed else remark))
+        self.checks.append(Check(name, tuple(words), None, None, None, passed, "" if passed else remark))
         return passed
 
     def omit(self, what: str, why: str) -> None:
@@ -135,58 +135,31 @@ class Receipt:
 
 def to_json(receipt: Receipt) -> str:
     """The receipt as JSON: the same bytes for the same inputs."""
-    document = {
-        "schema": SCHEMA,
-        "verdict": receipt.verdict.value,
-        "program": _document(receipt.program),
-        "result": _document(receipt.result),
-        "control": receipt.control,
-        "units": receipt.unit.value,
-        "rules": receipt.rules,
-        "settings": dict(receipt.settings),
-        "start": receipt.start,
-        "facts": list(receipt.facts),
-        "contours": [_contour(each) for each in receipt.contours],
-        "not_checked": [_omission(each) for each in receipt.omissions],
-    }
-    return json_text(document)
-
-
-def _document(document: Document) -> dict[str, str]:
-    return {"name": document.name, "sha256": document.checksum}
+    documents = {"program": receipt.program, "result": receipt.result}
+    return json_text(
+        {
+            "schema": SCHEMA,
+            "verdict": receipt.verdict.value,
+            **{key: {"name": each.name, "sha256": each.checksum} for key, each in documents.items()},
+            "control": receipt.control,
+            "units": receipt.unit.value,
+            "rules": receipt.rules,
+            "settings": dict(receipt.settings),
+            "start": receipt.start,
+            "facts": receipt.facts,
+            "contours": [_contour(each) for each in receipt.contours],
+            "not_checked": [asdict(each) for each in receipt.omissions],
+        }
+    )
 
 
 def _contour(contour: ContourReceipt) -> dict[str, Any]:
-    return {
-        "line": contour.line,
-        "lines": list(contour.lines),
-        "form": contour.form,
-        "status": contour.status,
-        "verdict": contour.verdict.value,
-        "checks": [_check(each) for each in contour.checks],
-        "not_checked": [_omission(each) for each in contour.omissions],
-    }
-
-
-def _check(check: Check) -> dict[str, Any]:
-    return {
-        "name": check.name,
-        "words": list(check.words),
-        "residual": _rounded(check.residual),
-        "limit": _rounded(check.limit),
-        "unit": check.unit or None,
-        "passed": check.passed,
-        "remark": check.remark,
-    }
-
-
-def _omission(omission: Omission) -> dict[str, str]:
-    return {"what": omission.what, "why": omission.why}
-
-
-def _rounded(value: float | None) -> float | None:
-    """Three digits: more would be the noise of the machine's sine."""
-    return None if value is None else float(f"{value:.3g}")
+    found = {**asdict(contour), "verdict": contour.verdict.value}
+    omissions = found.pop("omissions")
+    for check in found["checks"]:
+        # More than three digits would be the noise of the machine's sine.
+        check |= {key: float(f"{check[key]:.3g}") for key in ("residual", "limit") if check[key] is not None}
+    return {**found, "not_checked": omissions}
 
 
 _VERDICTS = {

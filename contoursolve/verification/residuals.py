@@ -7,7 +7,9 @@ points come from, and has no branch that depends on them. Coordinates count from
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
-from math import atan2, cos, degrees, radians, sin
+from enum import Enum
+from functools import partial
+from math import atan2, cos, degrees, radians, sin, tau
 from typing import Any
 
 import numpy
@@ -21,7 +23,7 @@ Array = NDArray[Any]
 
 
 @dataclass(frozen=True, slots=True)
-class Sheet:
+class ResidualSystem:
     """The unknown scalars of a figure and everything that is known about it; `headed` are the lines whose direction is
     stated, each with the given that states it and with a point of the line."""
 
@@ -39,25 +41,33 @@ class Sheet:
         """The names of the sides on which nothing states where two elements touch."""
         return tuple(dict.fromkeys(side for fact in self.facts for side in fact.sides()))
 
+    @property
+    def zero(self) -> Array:
+        """All unknowns at 0."""
+        return numpy.zeros(len(self.unknowns))
+
     def at(self, values: Array, signs: Mapping[str, Any]) -> "Place":
-        """The sheet at values of its unknowns, which are the last axis; `signs` are those of the sides."""
+        """The figure at values of its unknowns, which are the last axis; `signs` are those of the sides."""
         columns = {name: values[..., number] for number, name in enumerate(self.unknowns)}
         return Place(self, {**self.known, **columns}, signs)
 
     def residuals(self, facts: Sequence[Fact], values: Array, signs: Mapping[str, Any]) -> Array:
         """How far facts are from being true, mm, one a column."""
         at = self.at(values, signs)
-        shape = values.shape[:-1]
-        found = numpy.empty((*shape, len(facts)), values.dtype)
+        found = numpy.empty((*values.shape[:-1], len(facts)), values.dtype)
         for number, fact in enumerate(facts):
             found[..., number] = residual(fact, at)
         return found
 
-    def slopes(self, facts: Sequence[Fact], values: Array, signs: Mapping[str, Any]) -> Array:
+    def jacobian(self, facts: Sequence[Fact], values: Array, signs: Mapping[str, Any]) -> Array:
         """The derivatives of facts (rows) by the unknowns (columns), by complex steps: exact but for rounding."""
         steps = values[..., None, :] + _STEP * 1j * numpy.eye(len(self.unknowns))
         signs = {name: sign[..., None] if isinstance(sign, numpy.ndarray) else sign for name, sign in signs.items()}
         return numpy.swapaxes(self.residuals(facts, steps, signs).imag / _STEP, -1, -2)
+
+    def linearised(self, facts: Sequence[Fact]) -> tuple[Array, Array]:
+        """The derivatives and the residuals of facts at zero, which are all there is to facts about lines."""
+        return self.jacobian(facts, self.zero, {}), self.residuals(facts, self.zero, {})
 
 
 _STEP = 1e-30
@@ -67,7 +77,7 @@ _STEP = 1e-30
 class Place:
     """Points, radii and directions by their names, at some values."""
 
-    sheet: Sheet
+    system: ResidualSystem
     scalars: Mapping[str, Any]
     signs: Mapping[str, Any]
 
@@ -83,15 +93,15 @@ class Place:
 
     def along(self, line: str) -> Vector:
         """The direction of a line."""
-        if line in self.sheet.headed:
-            return self.sheet.directions[self.sheet.headed[line][0]]
+        if line in self.system.headed:
+            return self.system.directions[self.system.headed[line][0]]
         cosine, sine, _ = line_scalars(line)
         return self.scalars[cosine], self.scalars[sine]
 
     def left(self, line: str, point: str) -> Any:
         """How far to the left of a line a point lies, mm."""
-        if line in self.sheet.headed:
-            return cross(self.along(line), self.way(self.sheet.headed[line][1], point))
+        if line in self.system.headed:
+            return cross(self.along(line), self.way(self.system.headed[line][1], point))
         return cross(self.along(line), self.point(point)) - self.scalars[line_scalars(line)[2]]
 
     def side(self, side: str | int) -> Any:
@@ -103,6 +113,31 @@ class Place:
             return self.along(of.line)
         first, second = unit(self.way(of.center, of.point))
         return -of.turn.sign * second, of.turn.sign * first
+
+    def arc_end(self, fact: Any) -> Vector:
+        """The spoke at which an arc of a stated length ends."""
+        angle = self.system.amounts[fact.given] / self.size(fact.radius)
+        return turned(self.way(fact.center, fact.tail), (numpy.cos(angle), fact.turn.sign * numpy.sin(angle)))
+
+    def inside(self, fact: Any) -> Any:
+        """How far the centre of a rounding lies from that of the arc that it touches; negative where beyond it."""
+        return self.size(fact.arc[1]) - fact.turn.sign * self.side(fact.side) * self.size(fact.radius)
+
+    def stated(self, fact: Any) -> Vector:
+        """The direction that a fact states."""
+        return self.system.directions[fact.given]
+
+    def advance(self, fact: Any) -> Any:
+        """How a path advances along an axis: by the lines between which it is, or else by the first of its parts that
+        moves along it at all."""
+        if getattr(fact, "between", ()):
+            return sum(self.along(line)[fact.axis] for line in fact.between)
+        parts = [self.way(*each) if len(each) > 1 else self.along(each[0]) for each in fact.advance]
+        return next((each[fact.axis] for each in parts if abs(each[fact.axis]) > _NO_ADVANCE), 0.0)
+
+
+_NO_ADVANCE = 1e-9
+"""mm."""
 
 
 def dot(a: Vector, b: Vector) -> Any:
@@ -131,147 +166,169 @@ def turned(a: Vector, by: Vector) -> Vector:
     return a[0] * by[0] - a[1] * by[1], a[0] * by[1] + a[1] * by[0]
 
 
-def _arc_end(fact: Any, at: Place, length: Any) -> Vector:
-    """The spoke at which an arc of a length ends."""
-    angle = length / at.size(fact.radius)
-    return turned(at.way(fact.center, fact.tail), (numpy.cos(angle), fact.turn.sign * numpy.sin(angle)))
-
-
-def _swept(fact: Any, at: Place) -> float:
-    begin, end = at.way(fact.center, fact.tail), at.way(fact.center, fact.head)
-    return float(at.size(fact.radius) * (atan2(fact.turn.sign * cross(begin, end), dot(begin, end)) % (2 * numpy.pi)))
-
-
 def _touching(fact: Any, at: Place) -> Any:
     """Circles that touch: from outside (+1), or one inside the other."""
     (center, radius), (other, size) = fact.first, fact.second
-    distance, outside = norm(at.way(center, other)), at.side(fact.side)
-    one, two = at.size(radius), at.size(size)
+    outside, one, two = at.side(fact.side), at.size(radius), at.size(size)
     # The larger radius less the smaller one, without a branch: the root of a square.
-    return distance - (1 + outside) / 2 * (one + two) - (1 - outside) / 2 * numpy.sqrt((one - two) ** 2)
+    inner = numpy.sqrt((one - two) ** 2)
+    return norm(at.way(center, other)) - (1 + outside) / 2 * (one + two) - (1 - outside) / 2 * inner
 
 
-def _inside(fact: Any, at: Place) -> Any:
-    """How far the centre of a rounding must lie from that of the arc that it touches; negative where beyond it."""
-    return at.size(fact.arc[1]) - fact.turn.sign * at.side(fact.side) * at.size(fact.radius)
+class States(Enum):
+    """What a word states with a constraint."""
+
+    NOTHING = "nothing"
+    LENGTH = "length"
+    ANGLE = "angle"
 
 
 Formula = Callable[[Any, Place], Any]
 
-MEASURED: Mapping[type, Formula] = {
-    kinds.Coordinate: lambda fact, at: at.point(fact.point)[fact.axis],
-    kinds.Offset: lambda fact, at: at.way(fact.origin, fact.point)[fact.axis],
-    kinds.Radius: lambda fact, at: at.size(fact.radius),
-    kinds.Distance: lambda fact, at: norm(at.way(fact.tail, fact.head)),
-    kinds.Extent: lambda fact, at: dot(at.along(fact.line), at.way(fact.tail, fact.head)),
-}
-"""Facts that state a length or a coordinate: what they would have to state, mm."""
 
-HEADED: Mapping[type, Callable[[Any, Place], tuple[Vector, Vector]]] = {
-    kinds.Heading: lambda fact, at: ((1.0, 0.0), at.way(fact.tail, fact.head)),
-    kinds.Directed: lambda fact, at: ((1.0, 0.0), at.along(fact.line)),
-    kinds.TurnBetween: lambda fact, at: (at.travel(fact.first), at.travel(fact.second)),
-}
-"""Facts that state an angle: between which vectors."""
+@dataclass(frozen=True, slots=True)
+class Meaning:
+    """What one kind of constraint says; `name` is what checks call it.
 
-OTHERS: Mapping[type, Formula] = {
-    kinds.Level: lambda fact, at: at.way(fact.origin, fact.point)[fact.axis],
-    kinds.Collinear: lambda fact, at: cross(unit(at.way(fact.tail, fact.through)), at.way(fact.tail, fact.point)),
-    kinds.OnCircle: lambda fact, at: norm(at.way(fact.center, fact.point)) - at.size(fact.radius),
-    kinds.EqualRadii: lambda fact, at: at.size(fact.first) - at.size(fact.second),
-    kinds.EqualDistances: lambda fact, at: norm(at.way(*fact.first)) - norm(at.way(*fact.second)),
-    kinds.TangentCircles: _touching,
-    kinds.Contact: lambda fact, at: cross(unit(at.way(fact.first, fact.second)), at.way(fact.first, fact.point)),
-    kinds.ArcLength: lambda fact, at: (
-        cross(_arc_end(fact, at, at.sheet.amounts[fact.given]), at.way(fact.center, fact.head)) / at.size(fact.radius)
+    `formula` is how far it is from being true, mm (1 for a direction). Where a word states a length, it is what the
+    word would have to be, mm; where one states an angle, the two vectors between which that is. `positive` must not be
+    negative besides, because the formula alone is true of the opposite as well.
+    """
+
+    name: str
+    formula: Formula
+    positive: Callable[[Any, Place], tuple[Any, ...]] = lambda *_: ()
+    states: States = States.NOTHING
+
+
+LENGTH, ANGLE = partial(Meaning, states=States.LENGTH), partial(Meaning, states=States.ANGLE)
+
+MEANINGS: Mapping[type, Meaning] = {
+    kinds.Coordinate: LENGTH("{axis} of {point}", lambda own, at: at.point(own.point)[own.axis]),
+    kinds.Offset: LENGTH("{axis} from {origin} to {point}", lambda own, at: at.way(own.origin, own.point)[own.axis]),
+    kinds.Radius: LENGTH("radius {radius}", lambda own, at: at.size(own.radius)),
+    kinds.Distance: LENGTH("distance from {tail} to {head}", lambda own, at: norm(at.way(own.tail, own.head))),
+    kinds.Extent: LENGTH(
+        "length of {line} from {tail} to {head}", lambda own, at: dot(at.along(own.line), at.way(own.tail, own.head))
     ),
-    kinds.TangentArc: lambda fact, at: (
+    kinds.Heading: ANGLE(
+        "direction of the line from {tail} to {head}", lambda own, at: ((1.0, 0.0), at.way(own.tail, own.head))
+    ),
+    kinds.Directed: ANGLE(
+        "direction of {line}",
+        lambda own, at: ((1.0, 0.0), at.along(own.line)),
+        lambda own, at: (dot(at.stated(own), at.along(own.line)),),
+    ),
+    kinds.TurnBetween: ANGLE(
+        "the angle between both elements",
+        lambda own, at: (at.travel(own.first), at.travel(own.second)),
+        lambda own, at: (dot(turned(at.travel(own.first), at.stated(own)), at.travel(own.second)),),
+    ),
+    kinds.ArcLength: Meaning(
+        "length of the arc from {tail} to {head}",
+        lambda own, at: cross(at.arc_end(own), at.way(own.center, own.head)) / at.size(own.radius),
+        lambda own, at: (
+            dot(at.arc_end(own), at.way(own.center, own.head)),
+            tau * at.size(own.radius) - at.system.amounts[own.given],
+        ),
+    ),
+    kinds.Level: Meaning(
+        "{axis} of {point} is that of {origin}", lambda own, at: at.way(own.origin, own.point)[own.axis]
+    ),
+    kinds.Collinear: Meaning(
+        "{point} is on the line from {tail} through {through}",
+        lambda own, at: cross(unit(at.way(own.tail, own.through)), at.way(own.tail, own.point)),
+    ),
+    kinds.OnCircle: Meaning(
+        "{point} is on the circle about {center}",
+        lambda own, at: norm(at.way(own.center, own.point)) - at.size(own.radius),
+    ),
+    kinds.EqualRadii: Meaning("{first} is {second}", lambda own, at: at.size(own.first) - at.size(own.second)),
+    kinds.EqualDistances: Meaning(
+        "both lines are equally long", lambda own, at: norm(at.way(*own.first)) - norm(at.way(*own.second))
+    ),
+    kinds.TangentCircles: Meaning("both circles touch", _touching),
+    kinds.Contact: Meaning(
+        "{point} is in line with {first} and {second}",
+        lambda own, at: cross(unit(at.way(own.first, own.second)), at.way(own.first, own.point)),
+        lambda own, at: (own.side * dot(at.way(own.first, own.point), at.way(own.point, own.second)),),
+    ),
+    kinds.TangentArc: Meaning(
+        "the rounding about {center} touches the arc",
         # Also where the rounding is larger than the arc, whose centre it then has beyond its own.
-        norm(at.way(fact.arc[0], fact.center)) - numpy.sqrt(_inside(fact, at) ** 2)
+        lambda own, at: norm(at.way(own.arc[0], own.center)) - numpy.sqrt(at.inside(own) ** 2),
     ),
-    kinds.ArcContact: lambda fact, at: cross(unit(at.way(fact.arc[0], fact.point)), at.way(fact.arc[0], fact.center)),
-    kinds.Setback: lambda fact, at: (
-        fact.way * dot(at.along(fact.line), at.way(fact.point, fact.corner)) - at.size(fact.size)
+    kinds.ArcContact: Meaning(
+        "{point} is where the rounding touches the arc",
+        lambda own, at: cross(unit(at.way(own.arc[0], own.point)), at.way(own.arc[0], own.center)),
+        lambda own, at: (
+            at.inside(own) * dot(at.way(own.arc[0], own.point), at.way(own.arc[0], own.center)),
+            own.way * own.turn.sign * cross(at.way(own.arc[0], own.point), at.way(own.arc[0], own.corner)),
+        ),
     ),
-    kinds.ChordSetback: lambda fact, at: norm(at.way(fact.point, fact.corner)) - at.size(fact.size),
-    kinds.UnitDirection: lambda fact, at: norm(at.along(fact.line)) - 1,
-    kinds.Through: lambda fact, at: at.left(fact.line, fact.point),
-    kinds.Foot: lambda fact, at: dot(at.along(fact.line), at.way(fact.center, fact.point)),
-    kinds.Parallel: lambda fact, at: at.along(fact.line)[1 - fact.axis],
-    kinds.TangentLine: lambda fact, at: at.left(fact.line, fact.center) - at.side(fact.side) * at.size(fact.radius),
-    kinds.ChamferLeg: lambda fact, at: (
-        at.way(fact.begin, fact.end)[fact.axis] - fact.share * at.side(fact.side) * at.size(fact.size)
+    kinds.Setback: Meaning(
+        "{point} is its size away from {corner}",
+        lambda own, at: own.way * dot(at.along(own.line), at.way(own.point, own.corner)) - at.size(own.size),
     ),
-}
-"""Facts without a value of their own: how far they are from being true, mm (1 for a direction)."""
-
-SENSES: Mapping[type, Callable[[Any, Place], tuple[Any, ...]]] = {
-    kinds.Directed: lambda fact, at: (dot(at.sheet.directions[fact.given], at.along(fact.line)),),
-    kinds.TurnBetween: lambda fact, at: (
-        dot(turned(at.travel(fact.first), at.sheet.directions[fact.given]), at.travel(fact.second)),
+    kinds.ChordSetback: Meaning(
+        "{point} is its size away from {corner}",
+        lambda own, at: norm(at.way(own.point, own.corner)) - at.size(own.size),
+        lambda own, at: (own.way * own.turn.sign * cross(*(at.way(own.center, to) for to in (own.point, own.corner))),),
     ),
-    kinds.Contact: lambda fact, at: (fact.side * dot(at.way(fact.first, fact.point), at.way(fact.point, fact.second)),),
-    kinds.ArcLength: lambda fact, at: (
-        dot(_arc_end(fact, at, at.sheet.amounts[fact.given]), at.way(fact.center, fact.head)),
-        2 * numpy.pi * at.size(fact.radius) - at.sheet.amounts[fact.given],
+    kinds.UnitDirection: Meaning("{line} has one direction", lambda own, at: norm(at.along(own.line)) - 1),
+    kinds.Through: Meaning("{line} passes through {point}", lambda own, at: at.left(own.line, own.point)),
+    kinds.Foot: Meaning(
+        "{point} is where {line} is touched",
+        lambda own, at: dot(at.along(own.line), at.way(own.center, own.point)),
+        lambda own, at: (own.way * dot(at.along(own.line), at.way(own.point, own.corner)),) if own.corner else (),
     ),
-    kinds.ArcContact: lambda fact, at: (
-        _inside(fact, at) * dot(at.way(fact.arc[0], fact.point), at.way(fact.arc[0], fact.center)),
-        fact.way * fact.turn.sign * cross(at.way(fact.arc[0], fact.point), at.way(fact.arc[0], fact.corner)),
+    kinds.Parallel: Meaning(
+        "{line} is parallel to {axis}",
+        lambda own, at: at.along(own.line)[1 - own.axis],
+        lambda own, at: (at.along(own.line)[own.axis] * at.advance(own),),
     ),
-    kinds.ChordSetback: lambda fact, at: (
-        fact.way * fact.turn.sign * cross(at.way(fact.center, fact.point), at.way(fact.center, fact.corner)),
+    kinds.TangentLine: Meaning(
+        "{line} touches the circle about {center}",
+        lambda own, at: at.left(own.line, own.center) - at.side(own.side) * at.size(own.radius),
     ),
-    kinds.Foot: lambda fact, at: (
-        (fact.way * dot(at.along(fact.line), at.way(fact.point, fact.corner)),) if fact.corner else ()
-    ),
-    kinds.Parallel: lambda fact, at: (at.along(fact.line)[fact.axis] * _advance(fact, at),),
-    kinds.ChamferLeg: lambda fact, at: (
-        at.side(fact.side)
-        * (sum(at.along(line)[fact.axis] for line in fact.between) if fact.between else _advance(fact, at)),
+    kinds.ChamferLeg: Meaning(
+        "extent of the bevel from {begin} to {end} along {axis}",
+        lambda own, at: at.way(own.begin, own.end)[own.axis] - own.share * at.side(own.side) * at.size(own.size),
+        lambda own, at: (at.side(own.side) * at.advance(own),),
     ),
 }
-"""What must not be negative besides, because the formula alone is true of the opposite as well."""
-
-
-def _advance(fact: Any, at: Place) -> Any:
-    """How a path advances along an axis, by the first of its parts that moves along it at all."""
-    parts = [at.way(*each) if len(each) > 1 else at.along(each[0]) for each in fact.advance]
-    return next((each[fact.axis] for each in parts if abs(each[fact.axis]) > _NO_ADVANCE), 0.0)
-
-
-_NO_ADVANCE = 1e-9
-"""mm."""
 
 
 def residual(fact: Fact, at: Place) -> Any:
     """How far a fact is from being true, mm (1 for a direction). Raises KeyError for a kind that the table lacks."""
-    kind = type(fact)
-    if kind in MEASURED:
-        return MEASURED[kind](fact, at) - at.sheet.amounts[fact.given]
-    if kind in HEADED:
-        first, second = HEADED[kind](fact, at)
-        return cross(turned(first, at.sheet.directions[fact.given]), second)
-    return OTHERS[kind](fact, at)
+    meaning = MEANINGS[type(fact)]
+    found = meaning.formula(fact, at)
+    if meaning.states is States.LENGTH:
+        return found - at.system.amounts[fact.given]
+    if meaning.states is States.ANGLE:
+        return cross(turned(found[0], at.system.directions[fact.given]), found[1])
+    return found
 
 
 def senses(fact: Fact, at: Place) -> tuple[float, ...]:
     """What must not be negative where a fact holds."""
-    own = SENSES.get(type(fact))
-    return tuple(float(each) for each in own(fact, at)) if own else ()
+    return tuple(map(float, MEANINGS[type(fact)].positive(fact, at)))
 
 
 def measured(fact: Fact, at: Place) -> tuple[float, bool, float]:
     """What a fact would have to state, in mm (of a coordinate the program's own) or degrees; whether it is an angle;
     over what length (mm) that is known."""
-    kind = type(fact)
-    if kind in HEADED:
-        first, second = HEADED[kind](fact, at)
-        reach = float(norm(second)) if kind is kinds.Heading else 1.0
-        return degrees(atan2(cross(first, second), dot(first, second))), True, reach
-    value = _swept(fact, at) if kind is kinds.ArcLength else float(MEASURED[kind](fact, at))
-    shift = at.sheet.origin[fact.axis] if isinstance(fact, kinds.Coordinate) else Decimal(0)
-    return float(Decimal(value) + shift), False, 0.0
+    if isinstance(fact, kinds.ArcLength):
+        begin, end = at.way(fact.center, fact.tail), at.way(fact.center, fact.head)
+        swept = atan2(fact.turn.sign * cross(begin, end), dot(begin, end)) % tau
+        return float(at.size(fact.radius) * swept), False, 0.0
+    meaning = MEANINGS[type(fact)]
+    found = meaning.formula(fact, at)
+    if meaning.states is States.ANGLE:
+        reach = float(norm(found[1])) if isinstance(fact, kinds.Heading) else 1.0
+        return degrees(atan2(cross(*found), dot(*found))), True, reach
+    shift = at.system.origin[fact.axis] if isinstance(fact, kinds.Coordinate) else Decimal(0)
+    return float(Decimal(float(found)) + shift), False, 0.0
 
 
 def direction(angle: Decimal) -> Vector:
@@ -281,10 +338,11 @@ def direction(angle: Decimal) -> Vector:
     return turned(found, ((1, 0), (0, 1), (-1, 0), (0, -1))[int(quarters) % 4])
 
 
-def sheet_of(profile: Profile) -> Sheet:
-    """The sheet of a profile, counted from its start point, or from zero where that is not known."""
+def system_of(profile: Profile) -> ResidualSystem:
+    """The system of a profile, counted from its start point, or from zero where that is not known."""
     figure, origin = profile.figure, tuple(value or Decimal(0) for value in profile.start.values)
-    absolute = {fact.given: fact.axis for fact in _coordinates(profile)}
+    facts = (*profile.facts, *profile.ignored, *(question.fact for question in profile.questions))
+    absolute = {fact.given: fact.axis for fact in facts if isinstance(fact, kinds.Coordinate)}
     absolute |= {scalar(place, axis): axis for place in figure.places for axis in (FIRST, SECOND)}
     amounts, directions = {}, {}
     for name, given in profile.givens.items():
@@ -299,9 +357,6 @@ def sheet_of(profile: Profile) -> Sheet:
     known |= {name: amounts[name] for name in figure.known_radii}
     lines = [each for each in (*figure.path, *figure.lines) if isinstance(each, Line) and each.heading]
     headed = {line.name: (line.heading or "", line.tail) for line in lines if line.name not in figure.carriers}
-    return Sheet(figure, profile.facts, tuple(names), known, amounts, directions, headed, (origin[0], origin[1]))
-
-
-def _coordinates(profile: Profile) -> list[kinds.Coordinate]:
-    facts = (*profile.facts, *profile.ignored, *(question.fact for question in profile.questions))
-    return [fact for fact in facts if isinstance(fact, kinds.Coordinate)]
+    return ResidualSystem(
+        figure, profile.facts, tuple(names), known, amounts, directions, headed, (origin[0], origin[1])
+    )

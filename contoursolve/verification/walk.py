@@ -1,7 +1,6 @@
 """The order of a verification: read both inputs, follow the program from contour to contour as the control does, check
 every contour that either of them has; after each, the claimed end is the position."""
 
-from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
@@ -10,8 +9,9 @@ from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.model import Length
 from contoursolve.reading import advance, leave, next_place
 from contoursolve.syntax import Block, Directive, Program
-from contoursolve.verification.contour import check_contour
+from contoursolve.verification.contour_checks import check_contour
 from contoursolve.verification.decode import (
+    PRINTED,
     CannotVerifyError,
     ClaimedContour,
     ClaimedResult,
@@ -20,7 +20,7 @@ from contoursolve.verification.decode import (
     read_result,
 )
 from contoursolve.verification.receipt import ContourReceipt, Ledger, Omission, Receipt, Verdict
-from contoursolve.verification.standing import PRINTED, Found
+from contoursolve.verification.status import Found
 
 _FINDINGS = Omission(
     "the findings", "their words and values, the repairs that they offer, and the layers of a diagnosis"
@@ -54,26 +54,22 @@ def verify(
     dialect = _configured(_dialect(blocks, claims, control), claims)
     if dialect and facts:
         blocks = with_facts(blocks, dialect, unit, beginning, facts)
-    contours: list[ContourReceipt] = []
-    omissions: list[Omission] = []
-    lines: set[int] = set()
-    by_line = {contour.line: contour for contour in claims.contours}
+    contours, by_line = list[ContourReceipt](), {contour.line: contour for contour in claims.contours}
     for found in follow(blocks, dialect, unit, by_line, claims.rules, beginning) if dialect else ():
-        lines.add(found.claim.blocks[0].line)
-        contours.append(_examined(found))
-    contours += _surplus(claims, lines)
-    contours.sort(key=lambda each: each.line)
-    if claims.diagnostics:
-        omissions.append(_FINDINGS)
-    name, rules = dialect.name if dialect else None, claims.rules
+        lines, claimed = tuple(block.line for block in found.claim.blocks), found.claimed
+        ledger, is_checked = check_contour(found, claimed) if claimed else (Ledger(), False)
+        if claimed is None:
+            ledger.require("the result mentions this contour", (), False, "it has none on this line")
+        contours.append(_receipt(lines, found.claim.form.name, claimed, ledger, is_checked=is_checked))
+    contours += _surplus(claims, {each.line for each in contours})
     return Receipt(
         program,
         result,
-        name,
+        dialect.name if dialect else None,
         unit,
-        tuple(contours),
-        tuple(omissions),
-        rules,
+        tuple(sorted(contours, key=lambda each: each.line)),
+        (_FINDINGS,) if claims.diagnostics else (),
+        claims.rules,
         start,
         tuple(facts),
         claims.settings,
@@ -110,43 +106,26 @@ def _configured(dialect: Dialect | None, claims: ClaimedResult) -> Dialect | Non
         raise CannotVerifyError(f"the result has a setting that is none: {ascii(str(error))[1:-1]}") from None
 
 
-def _examined(found: Found) -> ContourReceipt:
-    """A contour block of the program; that the result does not mention it is a fault of the result."""
-    claim, claimed = found.claim, found.claimed
-    lines = tuple(block.line for block in claim.blocks)
-    if claimed is None:
-        ledger, has_path = Ledger(), False
-        ledger.require("the result mentions this contour", (), False, "it has none on this line")
-    else:
-        ledger, has_path = check_contour(found, claimed)
-    return _receipt(lines, claim.form.name, claimed, ledger, has_path)
-
-
 def _surplus(claims: ClaimedResult, lines: set[int]) -> Iterator[ContourReceipt]:
     """Contours of the result where the program has none, or that the result has twice."""
-    times = Counter(contour.line for contour in claims.contours)
+    own = [contour.line for contour in claims.contours]
     for contour in {contour.line: contour for contour in claims.contours}.values():
-        ledger = Ledger()
+        ledger, times = Ledger(), own.count(contour.line)
         if contour.line not in lines:
-            remark = f"line {contour.line} begins none"
-            if not lines:
-                remark = "no line of the program begins one"
+            remark = f"line {contour.line} begins none" if lines else "no line of the program begins one"
             ledger.require("the program has a contour block here", (), False, remark)
-        elif times[contour.line] > 1:
-            ledger.require("the result has this contour once", (), False, f"it has it {times[contour.line]} times")
-        else:
-            continue
-        yield _receipt(contour.lines, contour.form, contour, ledger, has_path=False)
+        elif times > 1:
+            ledger.require("the result has this contour once", (), False, f"it has it {times} times")
+        if ledger.failures:
+            yield _receipt(contour.lines, contour.form, contour, ledger, is_checked=False)
 
 
 def _receipt(
-    lines: tuple[int, ...], form: str, claimed: ClaimedContour | None, ledger: Ledger, has_path: bool
+    lines: tuple[int, ...], form: str, claimed: ClaimedContour | None, ledger: Ledger, *, is_checked: bool
 ) -> ContourReceipt:
-    verdict = Verdict.VERIFIED if has_path else Verdict.NOTHING_CHECKED
-    if ledger.failures:
-        verdict = Verdict.FAILED
-    status = claimed.status if claimed else None
-    line = claimed.line if claimed else lines[0]
+    verdict = Verdict.VERIFIED if is_checked else Verdict.NOTHING_CHECKED
+    verdict = Verdict.FAILED if ledger.failures else verdict
+    line, status = (claimed.line, claimed.status) if claimed else (lines[0], None)
     return ContourReceipt(line, lines, form, status, verdict, tuple(ledger.checks), tuple(ledger.omissions))
 
 
@@ -163,30 +142,20 @@ def follow(
     `start` are blocks that state the start point apart from the program. Facts that only the result states are taken
     as stated in the last block of their contour.
     """
-    blocks, state, start_error = _with_facts(tuple(program.blocks), claims), dialect.initial_state(unit), 0.0
+    blocks, state, start_error = _with_claimed_facts(program.blocks, claims), dialect.initial_state(unit), 0.0
     for block in start.blocks if start else ():
         state = advance(state, block, dialect.modes)
-    apart = sum(each.span.line < 0 for block in program.blocks for each in block.directives)
-    index = 0
+    apart, index = sum(each.span.line < 0 for block in program.blocks for each in block.directives), 0
     while index < len(blocks):
         found = dialect.find(blocks, index, state, dialect.modes)
         if found is not None and found.form.is_contour:
             claimed = claims.get(blocks[index].line)
-            after = index + found.blocks[-1].line - blocks[index].line
-            yield Found(
-                found,
-                claimed,
-                start_error,
-                dialect,
-                next_place(blocks[after + 1 :], found, dialect.modes),
-                rules,
-                apart,
-            )
+            index += found.blocks[-1].line - blocks[index].line
+            behind = next_place(blocks[index + 1 :], found, dialect.modes)
+            yield Found(found, claimed, start_error, dialect, behind, rules, apart)
             end = claimed.end if claimed and claimed.has_path else None
             state = leave(found, end, dialect.modes, "the contour before has no path")
-            if claimed and claimed.end is not None:
-                start_error = PRINTED
-            index = after
+            start_error = PRINTED if claimed and claimed.end is not None else start_error
         else:
             state = advance(state, blocks[index], dialect.modes)
         index += 1
@@ -197,36 +166,37 @@ def with_facts(
 ) -> Program:
     """The program with facts that were stated apart from it, in the last block of its only contour, or else its last
     block: there they may make a contour. Raises CannotVerifyError if there are several contours."""
-    found = [each for each in follow(program, dialect, unit, {}, start=start) if isinstance(each, Found)]
+    found = [each.claim.blocks for each in follow(program, dialect, unit, {}, start=start)]
     if len(found) > 1:
-        lines = ", ".join(str(each.claim.blocks[0].line) for each in found)
+        lines = ", ".join(str(each[0].line) for each in found)
         raise CannotVerifyError(f"a fact is about the only contour, and the program has {len(found)} (lines {lines})")
-    directives = tuple(syntax.read_directive(text, -number) for number, text in enumerate(facts, 1))
-    own = found[0].claim.blocks if found else [block for block in program.blocks if block.words]
+    directives = [syntax.read_directive(text, -number) for number, text in enumerate(facts, 1)]
+    own = found[0] if found else [block for block in program.blocks if block.words]
     last = max((block.line for block in own), default=0)
-    blocks = tuple(
-        replace(block, directives=(*block.directives, *directives)) if block.line == last else block
-        for block in program.blocks
-    )
-    return replace(program, blocks=blocks)
+    return replace(program, blocks=_attach(program.blocks, {last: directives}))
 
 
-def _with_facts(blocks: tuple[Block, ...], claims: Mapping[int, ClaimedContour]) -> tuple[Block, ...]:
+def _with_claimed_facts(blocks: Sequence[Block], claims: Mapping[int, ClaimedContour]) -> tuple[Block, ...]:
     """The blocks with the facts that only the result states, on lines below zero as they were given."""
-    added: dict[int, tuple[Directive, ...]] = {}
+    added: dict[int, list[Directive]] = {}
     own = {block.line: [each.text for each in block.directives] for block in blocks}
     given = sum(each.span.line < 0 for block in blocks for each in block.directives)
     for claimed in claims.values():
         known = [text for line in claimed.lines for text in own.get(line, ())]
         rest: list[Directive] = []
-        for text in claimed.facts or ():
+        for text in claimed.facts:
             if text in known:
                 known.remove(text)
             else:
                 rest.append(syntax.read_directive(text, -given - len(rest) - 1))
-        if rest and claimed.lines:
-            added[claimed.lines[-1]] = tuple(rest)
+        if claimed.lines:
+            added[claimed.lines[-1]] = rest
+    return _attach(blocks, added)
+
+
+def _attach(blocks: Sequence[Block], added: Mapping[int, Sequence[Directive]]) -> tuple[Block, ...]:
+    """The blocks with further facts, by line."""
     return tuple(
-        replace(block, directives=(*block.directives, *added[block.line])) if block.line in added else block
+        replace(block, directives=(*block.directives, *added[block.line])) if added.get(block.line) else block
         for block in blocks
     )

@@ -12,16 +12,7 @@ import numpy
 from contoursolve.constraints import Coordinate, Directed, Heading, Offset, OnCircle, Radius, TurnBetween
 from contoursolve.diagnostic import Severity
 from contoursolve.dialects import Dialect
-from contoursolve.model import (
-    FIRST,
-    INCREMENT_OF,
-    SECOND,
-    Choice,
-    Fact,
-    Profile,
-    line_scalars,
-    scalar,
-)
+from contoursolve.model import FIRST, INCREMENT_OF, SECOND, Choice, Fact, Profile, line_scalars, scalar
 from contoursolve.reading import Claim, read
 from contoursolve.rules import Rule
 from contoursolve.rules import check as check_rules
@@ -29,11 +20,9 @@ from contoursolve.statements import apply_statements
 from contoursolve.syntax import FaultKind, Word
 from contoursolve.tolerance import AGREEMENT, LARGEST, LENGTH, REGULAR, RESIDUAL
 from contoursolve.verification import rank
-from contoursolve.verification.decode import (
-    ClaimedContour,
-)
-from contoursolve.verification.path import Path, draw, side_of
-from contoursolve.verification.residuals import Array, Sheet, norm, residual, senses, sheet_of
+from contoursolve.verification.decode import ClaimedContour
+from contoursolve.verification.drawing import Path, draw, side_of
+from contoursolve.verification.residuals import Array, ResidualSystem, norm, residual, senses, system_of
 
 EPSILON = 2.0**-52
 """1. Two neighbouring doubles differ by this share of their size."""
@@ -41,8 +30,11 @@ EPSILON = 2.0**-52
 ROUNDING = 16 * EPSILON
 """1 (share of the sizes that take part). The rounding of a handful of operations on doubles."""
 
-PRINTED = 1e-12
-"""mm. Results are written with 12 decimals: twice the half of the last one, for a distance of two points."""
+FEW = 8.0
+"""1. How often the band of rounding may be taken differently by the solver."""
+
+HIDDEN = 0.05
+"""1 (share of the size). Solutions that are nearer may be several that have become one."""
 
 ORDER = (
     *("rejected", "conflicting", "underdetermined", "overdetermined", "ambiguous", "no-solution", "undecided"),
@@ -72,29 +64,46 @@ class Found:
 
 @dataclass(frozen=True, slots=True)
 class Case:
-    """What the words of a contour say: its profile and its table, the facts that fix its points, and those that say
-    more. `statuses` are those that reading alone gives it, each with its reason; `is_readable` tells whether there is
-    more to say."""
+    """What the words of a contour say: its profile and its residuals, the facts that fix its points, and those that say
+    more.
 
-    claim: Claim
+    `statuses` are those that reading alone gives it, each with its reason; `loose` are those of its structure, whatever
+    the values. `is_readable` tells whether there is more to say.
+    """
+
+    found: Found
     profile: Profile
-    sheet: Sheet
+    system: ResidualSystem
     basis: tuple[Fact, ...]
     spare: tuple[Fact, ...]
     statuses: Mapping[str, str]
+    loose: Mapping[str, str]
     is_readable: bool
-    start_error: float
-    apart: int
+
+    @property
+    def claim(self) -> Claim:
+        """The contour block."""
+        return self.found.claim
 
     @property
     def is_determined(self) -> bool:
         """Whether the facts fix as many unknowns as there are, for nearly all values."""
-        return len(self.basis) == len(self.sheet.unknowns)
+        return len(self.basis) == len(self.system.unknowns)
 
     @property
     def size(self) -> float:
         """The largest number that the words state, mm."""
-        return max([1.0, *map(abs, self.sheet.amounts.values())])
+        return max([1.0, *map(abs, self.system.amounts.values())])
+
+    @property
+    def reach(self) -> float:
+        """The largest number that takes part, mm."""
+        return self.size + float(max(map(abs, self.system.origin)))
+
+    @property
+    def band(self) -> float:
+        """How far apart a circle and what it touches may be as floats see it, mm."""
+        return ROUNDING * self.size
 
     def words(self, facts: Sequence[Fact]) -> list[str]:
         """The words that state facts, as typed; a fact that only the result has is called so."""
@@ -102,14 +111,7 @@ class Case:
 
     def label(self, word: Word) -> str:
         """What checks call a word; a fact may be one that neither the program nor the command states."""
-        return f"{word.text} (stated in the result only)" if word.span.line < -self.apart else word.text
-
-    def sizes(self, values: Mapping[str, float]) -> dict[str, float]:
-        """The sizes of the corners, mm."""
-        return {
-            corner.name: values.get(f"{corner.name}.radius", self.sheet.amounts.get(corner.size, 0.0))
-            for corner in self.sheet.figure.corners
-        }
+        return f"{word.text} (stated in the result only)" if word.span.line < -self.found.apart else word.text
 
     def increment(self, name: str) -> float:
         """The least increment of a given by its name, or of a coordinate by its axis, mm or degrees."""
@@ -117,12 +119,24 @@ class Case:
 
     def scalars(self, values: Array) -> dict[str, float]:
         """All scalars by their names."""
-        return {**self.sheet.known, **dict(zip(self.sheet.unknowns, values.tolist(), strict=True))}
+        return {**self.system.known, **dict(zip(self.system.unknowns, values.tolist(), strict=True))}
+
+    def draw(self, scalars: Mapping[str, float]) -> Path:
+        """The path at values of all scalars."""
+        sizes = {
+            corner.name: scalars.get(f"{corner.name}.radius", self.system.amounts.get(corner.size, 0.0))
+            for corner in self.system.figure.corners
+        }
+        return draw(self.system, scalars, sizes, (self.increment(str(FIRST)), self.increment(str(SECOND))))
+
+    def missed_by(self, fact: Fact, values: Array, signs: Mapping[str, int]) -> float:
+        """How far a fact is from being true, mm; it is to the left or outside of what it touches on an open side."""
+        return float(residual(fact, self.system.at(values, {**dict.fromkeys(fact.sides(), 1), **signs})))
 
 
-def prepare(found: Found, claim: Claim) -> Case:
+def prepare(found: Found) -> Case:
     """What the words and facts of a contour say, read with the tables of its control."""
-    statuses: dict[str, str] = {}
+    claim, statuses, ignored = found.claim, dict[str, str](), set[str]()
     unreadable = _unreadable(claim)
     if unreadable:
         statuses["rejected"] = f"{', '.join(unreadable)} cannot be read"
@@ -131,63 +145,54 @@ def prepare(found: Found, claim: Claim) -> Case:
         statuses["underdetermined"] = f"{', '.join(variables)} depends on a variable"
     is_readable = not statuses
     is_extended = bool(claim.directives) or any(word.is_asked for word in claim.words.values())
-    ignored = set()
     for rule in _offences(claim, found) if not any(block.faults for block in claim.blocks) else ():
         if rule.ignores:
             ignored.add(rule.ignores)
         elif rule.severity is Severity.ERROR and found.rules == "enforce" and not is_extended:
-            status = "no-solution" if rule.is_about_geometry else "rejected"
-            statuses[status] = f"the rule {rule.code} refuses it"
-    profile = read(claim, frozenset(ignored))
-    extended, faults = apply_statements(profile, claim.directives, lambda: found.next_end)
-    large = [given.name for given in extended.givens.values() if abs(given.value) > LARGEST]
-    if faults or large:
-        statuses["rejected"] = "; ".join(
-            [*(fault.message for fault in faults), *(f"{name} is too large" for name in large)]
-        )
-    is_readable = is_readable and not faults and not large
-    profile = profile if faults or large else extended
+            statuses["no-solution" if rule.is_about_geometry else "rejected"] = f"the rule {rule.code} refuses it"
+    plain = read(claim, frozenset(ignored))
+    profile, faults = apply_statements(plain, claim.directives, lambda: found.next_end)
+    wrong = [fault.message for fault in faults]
+    wrong += [f"{given.name} is too large" for given in profile.givens.values() if abs(given.value) > LARGEST]
+    if wrong:
+        profile, is_readable, statuses["rejected"] = plain, False, "; ".join(wrong)
     if not profile.start.is_known:
         statuses.setdefault("underdetermined", "the start point is not known")
-    sheet = _with_half_circles(profile, sheet_of(profile))
-    chosen = rank.independent(rank.slopes_at_random(sheet), rank.GENERIC) if is_readable else []
+    system = _with_half_circles(profile, system_of(profile))
+    chosen = rank.independent(rank.jacobian_at_random(system), rank.GENERIC) if is_readable else []
     basis = tuple(profile.facts[number] for number in chosen)
     spare = tuple(fact for number, fact in enumerate(profile.facts) if number not in chosen)
-    case = Case(claim, profile, sheet, basis, spare, statuses, is_readable, found.start_error, found.apart)
+    loose = dict(_structure(profile, free=len(system.unknowns) - len(basis), unknowns=len(system.unknowns)))
     if is_readable and not statuses.keys() & {"rejected", "no-solution"}:
-        # What a rule refuses counts once.
-        statuses |= {status: why for status, why in _structure(case) if status not in statuses}
-    return case
+        statuses = {**loose, **statuses}  # What a rule refuses counts once.
+    return Case(found, profile, system, basis, spare, statuses, loose, is_readable)
 
 
-def _with_half_circles(profile: Profile, sheet: Sheet) -> Sheet:
-    """The sheet where a radius that is too small for its two points, by no more than words are exact to, is just large
+def _with_half_circles(profile: Profile, system: ResidualSystem) -> ResidualSystem:
+    """The system where a radius that is too small for its two points, by no more than words are exact to, is just large
     enough."""
-    known, amounts = rank.rigid(sheet), dict(sheet.amounts)
-    on_it = [fact for fact in sheet.facts if isinstance(fact, OnCircle)]
-    for fact in (each for each in sheet.facts if isinstance(each, Radius) and profile.givens[each.given].word):
+    known, amounts, steps = rank.rigid(system), dict(system.amounts), profile.increments
+    on_it = [fact for fact in system.facts if isinstance(fact, OnCircle)]
+    for fact in (each for each in system.facts if isinstance(each, Radius) and profile.givens[each.given].word):
         for one, other in combinations([each for each in on_it if each.radius == fact.radius], 2):
             names = [scalar(each.point, axis) for each in (one, other) for axis in (FIRST, SECOND)]
             if one.center == other.center and known.keys() >= set(names):
-                first, second = known[names[2]] - known[names[0]], known[names[3]] - known[names[1]]
-                half, steps = hypot(first, second) / 2, profile.increments
-                give = steps[INCREMENT_OF + fact.given] / 2 + RESIDUAL
-                give += sum(
-                    abs(part) * steps[f"{INCREMENT_OF}{axis}"] / (4 * max(half, LENGTH))
-                    for axis, part in enumerate((first, second))
-                )
+                chord = known[names[2]] - known[names[0]], known[names[3]] - known[names[1]]
+                half, give = hypot(*chord) / 2, steps[INCREMENT_OF + fact.given] / 2 + RESIDUAL
+                for axis, part in enumerate(chord):
+                    give += abs(part) * steps[f"{INCREMENT_OF}{axis}"] / (4 * max(half, LENGTH))
                 if 0 < half - amounts[fact.given] <= give:
                     amounts[fact.given] = half
-    return replace(sheet, amounts=amounts)
+    return replace(system, amounts=amounts)
 
 
 def _unreadable(claim: Claim) -> list[str]:
     """The characters and words of a contour's blocks that have no meaning, whatever the rules are."""
     words = [word for block in claim.blocks for word in block.words]
     faults = [fault for block in claim.blocks for fault in block.faults]
-    values = (
+    values = [
         (word, claim.lexicon.value(word, claim.after.unit)) for word in words if word.address in claim.lexicon.addresses
-    )
+    ]
     large = [word.text for word, value in values if value is not None and abs(value) > LARGEST]
     names = {row.fact.given for row in claim.form.facts} | {*claim.form.choices}
     names |= {name for row in claim.form.corners for name in row.shapes}
@@ -202,23 +207,22 @@ def _offences(claim: Claim, found: Found) -> Iterator[Rule]:
     too many."""
     if found.rules == "off":
         return
-    stated = claim.stated()
-    asked = {name for name, word in claim.words.items() if word.is_asked}
-    sure = check_rules(found.dialect.rules, claim.form.roles, {k: v for k, v in stated.items() if k not in asked})
-    codes = {each.rule.code for each in sure}
-    yield from (each.rule for each in sure if each.rule.ignores)
-    offences = check_rules(found.dialect.rules, claim.form.roles, stated)
-    yield from (each.rule for each in offences if not each.rule.ignores and each.rule.code in codes)
+    stated, rules, roles = claim.stated(), found.dialect.rules, claim.form.roles
+    sure = {name: value for name, value in stated.items() if name not in claim.words or not claim.words[name].is_asked}
+    offences = [each.rule for each in check_rules(rules, roles, sure)]
+    codes = {rule.code for rule in offences}
+    yield from (rule for rule in offences if rule.ignores)
+    others = (each.rule for each in check_rules(rules, roles, stated))
+    yield from (rule for rule in others if not rule.ignores and rule.code in codes)
 
 
-def _structure(case: Case) -> Iterator[tuple[str, str]]:
+def _structure(profile: Profile, free: int, unknowns: int) -> Iterator[tuple[str, str]]:
     """Why the facts, whatever their values, make no single contour."""
-    if not case.is_determined:
-        free = len(case.sheet.unknowns) - len(case.basis)
-        yield "underdetermined", f"{free} of {len(case.sheet.unknowns)} numbers are free"
-    counts = Counter(corner.name for corner in case.profile.figure.corners)
-    for corner in case.profile.figure.corners:
-        given = case.profile.givens.get(corner.size)
+    if free:
+        yield "underdetermined", f"{free} of {unknowns} numbers are free"
+    counts = Counter(corner.name for corner in profile.figure.corners)
+    for corner in profile.figure.corners:
+        given = profile.givens.get(corner.size)
         if given is not None and given.value < 0:
             yield "no-solution", f"{corner.name} has a negative size"
         if corner.after is None and corner.lands_parallel_to is None and corner.lands_on is None:
@@ -227,11 +231,11 @@ def _structure(case: Case) -> Iterator[tuple[str, str]]:
             yield "conflicting", f"{corner.name} is stated twice"
 
 
+# --- Solutions that are worked out here ------------------------------------------------------------
+
+
 class LooseError(ValueError):
     """The facts leave a point free at their values, although not at others."""
-
-
-# --- Solutions that are worked out here ------------------------------------------------------------
 
 
 @dataclass(frozen=True, slots=True)
@@ -253,17 +257,16 @@ class Candidate:
 
 
 def candidates(case: Case, near: Sequence[Array] = ()) -> list[Candidate]:
-    """The solutions that are found; those near claimed ones are among them."""
-    found: list[tuple[Array, dict[str, int]]] = []
-    if not case.sheet.unknowns:
-        found = [(numpy.zeros(0), {})]
-    elif rank.is_linear(case.sheet):
-        slopes = case.sheet.slopes(case.basis, numpy.zeros(len(case.sheet.unknowns)), {})
-        if len(rank.independent(slopes, REGULAR)) == len(case.sheet.unknowns):
-            off = case.sheet.residuals(case.basis, numpy.zeros(len(case.sheet.unknowns)), {})
-            found = [(numpy.linalg.solve(slopes, -off), {})]
+    """The solutions that are found; those near claimed ones are among them. Raises LooseError."""
+    system, found = case.system, list[tuple[Array, dict[str, int]]]()
+    if not system.unknowns:
+        found = [(system.zero, {})]
+    elif not rank.is_linear(system):
+        found = rank.search(system, case.basis, case.size, near)
     else:
-        found = rank.search(case.sheet, case.basis, case.size, near)
+        rows, off = system.linearised(case.basis)
+        if len(rank.independent(rows, REGULAR)) == len(system.unknowns):
+            found = [(numpy.linalg.solve(rows, -off), {})]
     kept: list[Candidate] = []
     for each in (_candidate(case, *one) for one in found):
         # Where several have become one, none is found to the last digit.
@@ -273,50 +276,35 @@ def candidates(case: Case, near: Sequence[Array] = ()) -> list[Candidate]:
     return kept
 
 
-HIDDEN = 0.05
-"""1 (share of the size). Solutions that are nearer may be several that have become one."""
-
-
 def _candidate(case: Case, values: Array, signs: Mapping[str, int]) -> Candidate | None:
     """A solution of the basis; None where what must be positive is not."""
-    moved = rank.correct(case.sheet, case.basis, values, signs, band(case), band(case) * FEW)
+    moved = rank.correct(case.system, case.basis, values, signs, case.band, case.band * FEW)
     if moved.is_open:
         raise LooseError
-    if len(values) and float(abs(moved.by).max()) < rank.APART * case.size:
+    if float(abs(moved.by).max(initial=0.0)) < rank.APART * case.size:
         values = values + moved.by
-    at, scalars = case.sheet.at(values, signs), case.scalars(values)
+    at, scalars = case.system.at(values, signs), case.scalars(values)
     if any(sense < -AGREEMENT * RESIDUAL for fact in case.basis for sense in senses(fact, at)):
         return None
-    for line in (*case.sheet.figure.path, *case.sheet.figure.lines):
+    for line in (*case.system.figure.path, *case.system.figure.lines):
         cosine, sine, _ = line_scalars(line.name)
-        if cosine in scalars:
-            ends = at.way(line.tail, line.head) if line.head else (0.0, 0.0)
+        if cosine in scalars and line.head:
+            ends = at.way(line.tail, line.head)
             if ends[0] * scalars[cosine] + ends[1] * scalars[sine] < -LENGTH:
                 return None
-    conflicts = [fact for fact in case.spare if not agrees(case, fact, values, signs)]
-    agreeing = [fact for fact in case.spare if fact.given and fact not in conflicts]
-    steps = (case.increment(str(FIRST)), case.increment(str(SECOND)))
-    path = draw(case.sheet, scalars, case.sizes(scalars), steps)
+    conflicts = tuple(fact for fact in case.spare if not agrees(case, fact, values, signs))
+    agreeing = tuple(fact for fact in case.spare if fact.given and fact not in conflicts)
     agreed = {choice: is_on_side(case, scalars, choice) for choice in case.profile.choices}
     if not all(is_right for choice, is_right in agreed.items() if not choice.given):
         return None  # The form itself has no other place.
-    is_chosen = all(agreed.values())
-    return Candidate(values, signs, path, tuple(conflicts), tuple(agreeing), is_chosen, moved.is_hidden)
+    path = case.draw(scalars)
+    return Candidate(values, signs, path, conflicts, agreeing, all(agreed.values()), moved.is_hidden)
 
 
 def is_on_side(case: Case, scalars: Mapping[str, float], choice: Choice) -> bool:
     """Whether a point is where a choice has it, or in the one place that there is."""
-    side = side_of(case.sheet, scalars, choice)
-    return side is None or side[0] > 0 or side[1] <= FEW * band(case)
-
-
-def band(case: Case) -> float:
-    """How far apart a circle and what it touches may be as floats see it, mm."""
-    return ROUNDING * case.size
-
-
-FEW = 8.0
-"""1. How often the band of rounding may be taken differently by the solver."""
+    side = side_of(case.system, scalars, choice)
+    return side is None or side[0] > 0 or side[1] <= FEW * case.band
 
 
 def allowance(case: Case, fact: Fact, values: Array, signs: Mapping[str, int]) -> float:
@@ -327,8 +315,8 @@ def allowance(case: Case, fact: Fact, values: Array, signs: Mapping[str, int]) -
         own = case.increment(str(fact.axis)) * (2 if isinstance(fact, Offset) else 1)
         return (own + case.increment(fact.given)) / 2 + RESIDUAL
     if isinstance(fact, Heading):
-        cosine, sine = case.sheet.directions[fact.given]
-        swing = norm(case.sheet.at(values, signs).way(fact.tail, fact.head)) * pi / 180 * case.increment(fact.given)
+        cosine, sine = case.system.directions[fact.given]
+        swing = norm(case.system.at(values, signs).way(fact.tail, fact.head)) * pi / 180 * case.increment(fact.given)
         across = abs(sine) * case.increment(str(FIRST)) + abs(cosine) * case.increment(str(SECOND))
         return float(across + swing / 2 + RESIDUAL)
     return case.increment(fact.given) + RESIDUAL if isinstance(fact, Radius) else AGREEMENT
@@ -336,50 +324,45 @@ def allowance(case: Case, fact: Fact, values: Array, signs: Mapping[str, int]) -
 
 def agrees(case: Case, fact: Fact, values: Array, signs: Mapping[str, int]) -> bool:
     """Whether a fact that is not needed is true of a solution."""
-    at = case.sheet.at(values, {**dict.fromkeys(fact.sides(), 1), **signs})
-    off = abs(float(residual(fact, at)))
-    open_sides = [side for side in fact.sides() if side not in signs]
-    if open_sides:
-        off = min(off, abs(float(residual(fact, case.sheet.at(values, {**signs, **dict.fromkeys(open_sides, -1)})))))
-    if isinstance(fact, TurnBetween | Directed) and any(sense < 0 for sense in senses(fact, at)):
+    off = abs(case.missed_by(fact, values, signs))
+    opposite = {side: -1 for side in fact.sides() if side not in signs}
+    if opposite:
+        off = min(off, abs(case.missed_by(fact, values, {**signs, **opposite})))
+    if isinstance(fact, TurnBetween | Directed) and min(senses(fact, case.system.at(values, signs))) < 0:
         return False
     return off <= allowance(case, fact, values, signs)
 
 
+# --- The status ------------------------------------------------------------------------------------
+
+
 def expected(case: Case, found: Sequence[Candidate]) -> tuple[str | None, str]:
     """The status that words and solutions give a contour, and why; None where it was not worked out."""
-    statuses = dict(case.statuses)
+    statuses, is_linear = dict(case.statuses), rank.is_linear(case.system)
     if not case.is_readable or "rejected" in statuses:
         return _first(statuses)
-    structure = dict(_structure(case))
-    is_loose = bool(structure)
-    is_linear = rank.is_linear(case.sheet)
-    if case.profile.start.is_known and (is_loose or (is_linear and not found)):
-        if is_linear:
-            statuses |= {status: why for status, why in said_twice(case) if status not in statuses}
-        elif case.spare and "conflicting" not in statuses:
+    if case.loose or not case.profile.start.is_known or (is_linear and not found):
+        if case.profile.start.is_known and is_linear:
+            statuses = {**dict(said_twice(case)), **statuses}
+        elif case.profile.start.is_known and case.spare and "conflicting" not in statuses:
             return None, "what is said twice of a part of a contour was not worked out"
-    if is_loose or not case.profile.start.is_known or (is_linear and not found):
         return _first(statuses)
     eligible = [each for each in found if each.is_chosen]
-    paths = [each for each in eligible if each.is_path]
+    paths, fits = [each for each in eligible if each.is_path], [each for each in eligible if not each.conflicts]
     selecting = {fact for each in found for fact in each.conflicts}
     if len(paths) > 1:
         statuses["ambiguous"] = f"{len(paths)} paths agree with the words"
     elif not paths:
-        known = rank.rigid(case.sheet)
+        known = rank.rigid(case.system)
         clear = [fact for fact in case.spare if not found and known.keys() >= set(fact.reads())]
-        at = numpy.array([known.get(name, 0.0) for name in case.sheet.unknowns])
+        at = numpy.array([known.get(name, 0.0) for name in case.system.unknowns])
         if any(not agrees(case, fact, at, {}) for fact in clear):
             statuses["conflicting"] = "what the words put in its place is against others"
-        fits = [each for each in eligible if not each.conflicts]
-        why = "; ".join(fits[0].path.against) if fits else "no solution was found"
-        statuses["no-solution"] = why
+        statuses["no-solution"] = "; ".join(fits[0].path.against) if fits else "no solution was found"
         if eligible and not fits:
-            statuses["conflicting"] = (
-                f"{', '.join(case.words(eligible[0].conflicts)) or 'a circle'} is against the others"
-            )
-    for each in paths[:1] or [each for each in eligible if not each.conflicts][:1]:
+            words = ", ".join(case.words(eligible[0].conflicts)) or "a circle"
+            statuses["conflicting"] = f"{words} is against the others"
+    for each in paths[:1] or fits[:1]:
         if set(each.agreeing) - selecting and "ambiguous" not in statuses:
             statuses["overdetermined"] = f"{', '.join(case.words(each.agreeing))} says what others say"
     return _first(statuses)
@@ -392,28 +375,17 @@ def _first(statuses: Mapping[str, str]) -> tuple[str, str]:
 
 def said_twice(case: Case) -> Iterator[tuple[str, str]]:
     """How facts about lines that follow from those before them compare with these, whatever else is missing."""
-    nothing = numpy.zeros(len(case.sheet.unknowns))
-    rows, off = (
-        case.sheet.slopes(case.profile.facts, nothing, {}),
-        case.sheet.residuals(case.profile.facts, nothing, {}),
-    )
-    generic, basis = rank.slopes_at_random(case.sheet), list[int]()
+    rows, off = case.system.linearised(case.profile.facts)
+    generic, basis = rank.jacobian_at_random(case.system), list[int]()
     for number, fact in enumerate(case.profile.facts):
-        if _is_new(rows, basis, number):
+        if len(rank.independent(rows[[*basis, number]], REGULAR)) > len(basis):
             basis.append(number)
             continue
-        values = numpy.linalg.lstsq(rows[basis], -off[basis], rcond=None)[0] if basis else nothing
-        gap = abs(float(rows[number] @ values + off[number]))
+        gap, values, is_fixed = rank.compare(rows, off, basis, number)
         is_tied = len(rank.independent(generic[[*basis, number]], rank.GENERIC)) == len(basis)
-        touched = rows[number] != 0
-        is_fixed = all(each for each, is_own in zip(rank.fixed(rows[basis]), touched, strict=True) if is_own)
         names = ", ".join(case.words([fact]))
-        if is_tied and (is_fixed or not touched.any()):
+        if is_tied and is_fixed:
             is_right = gap <= allowance(case, fact, values, {})
             yield ("overdetermined" if is_right else "conflicting"), f"{names} says what others say"
         else:
             yield ("underdetermined" if gap <= RESIDUAL else "no-solution"), f"{names} follows from others at its value"
-
-
-def _is_new(rows: Array, basis: Sequence[int], number: int) -> bool:
-    return len(rank.independent(rows[[*basis, number]], REGULAR)) > len(basis)
