@@ -21,7 +21,7 @@ from contoursolve.statements.statement import (
     TurnIs,
 )
 
-_OF = {
+_OF: dict[type, tuple[str, str]] = {
     LengthIs: ("length of", "element"),
     StraightIs: ("straight part of", "line"),
     DirectionIs: ("direction of", "line"),
