@@ -510,3 +510,28 @@ def test_the_end_where_a_second_contour_begins_says_so():
     # From there on the one that runs down would run against B120.
     assert rest.low.value == pytest.approx(-((35**2 - 30**2) ** 0.5), abs=1e-9)
     assert "2 contours" in found.refusal
+
+
+@pytest.mark.parametrize(
+    ("units", "start", "block"), [("mm", START, "X100. A? K-30."), ("inch", "X1.6 Z0.", "X4. A? K-1.2")]
+)
+def test_a_coordinate_of_zero_is_looked_at_as_far_as_any_other(units, start, block):
+    told = [
+        feasible(f"G111 {block} B120.", "X of V1", start=start, units=units, facts=[f"X of V1 = {value}"])
+        for value in (0, 1)
+    ]
+    assert told[0].within == told[1].within
+    assert told[0].intervals == told[1].intervals
+
+
+def test_a_coordinate_and_the_start_point_that_it_counts_from_bound_a_region_together():
+    within = (60, 140), (10, 70)
+    found = region(BLOCK, ("X", "start.X"), within, start=START)
+    assert found.is_complete
+    # The first line reaches 30 mm; on the second, P and Q of 5 mm need tan(30) of it each.
+    least = 4 * 5 * tan(radians(30)) * sin(radians(120))
+    (line,) = found.boundaries
+    assert {round(end - start, 6) for end, start in line.points} == {round(least, 6)}
+    rows = family(BLOCK, vary={"X": np.linspace(*within[0], 9), "start.X": np.linspace(*within[1], 7)}, start=START)
+    ends, starts = np.meshgrid(*rows.ranges.values.values(), indexing="ij")
+    assert np.array_equal(rows["status"] == Code.SOLVED, ends - starts >= least)

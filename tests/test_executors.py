@@ -1,5 +1,6 @@
 """A family is the same, byte for byte, wherever its rows are solved; and a sweep that was killed goes on."""
 
+import gc
 import json
 import multiprocessing
 import os
@@ -95,6 +96,17 @@ def start(*arguments, cwd):
     return subprocess.Popen(
         command, cwd=cwd, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     )
+
+
+def test_a_part_that_is_cut_off_is_solved_again_and_leaves_no_file_open(tmp_path):
+    ready = sweep(BLOCK, vary={"P": np.linspace(0, 60, 100)}, start="X40. Z0.")
+    parts = parts_of(tmp_path / "rows.csv", ready)
+    (first,) = parts.tables()
+    (kept,) = parts.folder.glob("*.npz")
+    kept.write_bytes(kept.read_bytes()[:-1000])
+    (again,) = parts.tables()
+    gc.collect()  # would warn of a file that is open
+    assert all(np.array_equal(first[name], again[name], equal_nan=True) for name in first)
 
 
 @pytest.mark.slow

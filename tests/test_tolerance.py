@@ -1,6 +1,7 @@
 """Which word moves a point most: derivatives, tolerances and rounding, held against solving again."""
 
 import json
+from math import radians, tan
 
 import numpy as np
 import pytest
@@ -196,6 +197,14 @@ def test_a_number_without_a_point_means_what_the_control_reads():
         )
         assert one.slope == pytest.approx(other.slope)
     assert least.limits == same.limits
+
+
+def test_a_zero_without_a_point_moves_the_point_as_one_with_a_point():
+    slopes = []
+    for zero in ("I0", "I0."):
+        found = tolerances(f"G111 X100. A180. K-30. B120. {zero}", start="X40. Z0.")
+        slopes += [each.slope[0] for each in found.effects if each.word == "I"]
+    assert slopes == pytest.approx([tan(radians(30))] * 2)
 
 
 def test_a_half_circle_has_no_derivative_by_its_radius():

@@ -3,7 +3,9 @@ hold for whole ranges of values."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import reduce
 from math import pi
+from operator import add
 from typing import Any
 
 import casadi
@@ -22,10 +24,10 @@ NO_ROOT = -1e-10
 
 @dataclass(frozen=True, slots=True)
 class Following:
-    """A value that follows a word: the word's number, and mm or degrees for each unit of the word."""
+    """A value that follows words, and is linear in each: the words' numbers, with the mm or degrees for each unit of
+    them. Of an angle there is one."""
 
-    word: int
-    factor: float
+    words: tuple[tuple[int, float], ...]
     is_angle: bool
 
 
@@ -161,11 +163,13 @@ class Chart:
         added, inputs = dict[str, Any](), dict[str, Any]()
         for given, each in follows.items():
             if each.is_angle:
-                turned = symbols[each.word] * (each.factor * pi / 180)
+                ((word, factor),) = each.words
+                turned = symbols[word] * (factor * pi / 180)
                 inputs |= {given + COSINE: cosine(turned), given + SINE: sine(turned)}
             else:
                 added[given] = symbol(given)
-                inputs[given] = symbols[each.word] * each.factor + added[given]
+                parts = [symbols[word] * factor for word, factor in each.words]
+                inputs[given] = reduce(add, parts) + added[given]
         stay, expressions = tape.replaced(inputs, outputs)
         self.outputs = tuple(outputs)
         self.fixed = (*added, *(name for name in tape.inputs if name not in inputs))

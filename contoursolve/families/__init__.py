@@ -2,22 +2,14 @@
 
 from contoursolve.families.checkpoints import MOST_ROWS, Parts, others, parts_of, room_of, seconds_of
 from contoursolve.families.compiled_sweep import CompiledSweep
-from contoursolve.families.derivatives import (
-    Effect,
-    Limits,
-    Missing,
-    Sensitivity,
-    Spread,
-    Tolerances,
-    sensitivity,
-    tolerances,
-)
 from contoursolve.families.evaluate import THREADS, Tally, Telling, family, pieces, sweep, telling_of
-from contoursolve.families.export import Family, Measure, csv_lines, summary_of, write_parquet
+from contoursolve.families.export import Family, Measure, csv_lines, summary_of, units_of, write_parquet
 from contoursolve.families.feasible_ranges import End, Feasible, Interval, Way, feasible
 from contoursolve.families.inverse import Found, Hit, find_word
 from contoursolve.families.limit_reasons import Reason
-from contoursolve.families.regions import Boundary, Region, region, region_of, units_of
+from contoursolve.families.point_tolerances import Effect, Limits, Missing, Tolerances, tolerances
+from contoursolve.families.regions import Boundary, Region, region, region_of
+from contoursolve.families.sensitivities import Sensitivity, Spread, sensitivity
 from contoursolve.families.spec import FamilyError, RefusedError, name_of
 from contoursolve.families.targets import Goal
 from contoursolve.solving.verdict import REASONS, Code

@@ -237,8 +237,7 @@ class BranchRows:
         for name, given in case.profile.givens.items():
             value = numpy.array([float(given.value)])
             if name in case.free:
-                word, factor = case.free[name]
-                value = ranges.values[word][places[word]] * float(factor)
+                value = case.free[name].column({word: column[places[word]] for word, column in ranges.values.items()})
             if given.unit is Unit.DEGREE:
                 found[name + COSINE], found[name + SINE] = directions(value)
             else:
@@ -251,7 +250,7 @@ class BranchRows:
     def _cells(self, values: Mapping[str, Array]) -> Iterator[Cell]:
         """The rows in cells, in an order that follows from the values alone."""
         case = self.case
-        words = sorted({word for word, _ in case.free.values()} | {word for word, _, _ in case.moves.values()})
+        words = sorted({each.word for each in (*case.free.values(), *case.moves.values())})
         columns = numpy.array([values[word] for word in words])
         spread = numpy.ptp(columns, axis=1)
         spread[spread == 0] = 1.0

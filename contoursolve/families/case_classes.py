@@ -1,12 +1,11 @@
-"""Rows that the rules treat alike, which have one system, one choice of branches, one function: which classes of rows a
-case has, and what they have for results.
+"""Rows that the rules treat alike, which have one system, one choice of branches, one function: how its inputs follow
+the free words, and what its results are.
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from decimal import Decimal
-from itertools import pairwise, product
-from math import isfinite, nan, prod
+from math import isfinite, nan
 from typing import Any
 
 import numpy
@@ -19,28 +18,19 @@ from contoursolve.backends.inputs import COSINE, SINE
 from contoursolve.constraints import System, assemble
 from contoursolve.diagnostic import Basis
 from contoursolve.examine import MOST_CHOICES, Answer, count_choices
-from contoursolve.families.spec import (
-    FamilyError,
-    Places,
-    Ranges,
-    RefusedError,
-    Template,
-    errors_of,
-    first_error,
-    is_same,
-    unit_word,
-)
-from contoursolve.model import FIRST, SECOND, CornerShape, Given, Profile, Question, Start, Unit, scalar
+from contoursolve.families.free_words import factor_of, kind_of, limits_of, stated_by, value_of
+from contoursolve.families.spec import FamilyError, Places, Ranges, Template, errors_of, read_limits
+from contoursolve.model import FIRST, SECOND, CornerShape, Profile, Question, Start, Unit, scalar
 from contoursolve.reading import Trouble
-from contoursolve.rules import Rule, Value
 from contoursolve.solving import RemarkKind, Solution, Status, is_closed, points_with_two_solutions
 from contoursolve.solving.checks import Check, compile_checks
 from contoursolve.solving.compile import Machine, compile_system
 from contoursolve.solving.numbers import axes_of, inputs_of
+from contoursolve.solving.plan import TwoCirclesStep
 from contoursolve.solving.solve import solve
-from contoursolve.solving.verdict import Codes, code_of, reason_of
-from contoursolve.syntax import FACT, Word
-from contoursolve.tolerance import LARGEST
+from contoursolve.solving.verdict import code_of, reason_of
+from contoursolve.syntax import Word
+from contoursolve.tolerance import LARGEST, TOUCHING
 
 ORIGIN = "origin:"
 """What the inputs for the coordinates of the start point begin with."""
@@ -48,15 +38,33 @@ ORIGIN = "origin:"
 MOST_OPEN = 3
 """Points of which both places are tried in columns."""
 
-
 Follows = tuple[tuple[str, Following], ...]
 """The values that follow words, by name."""
 
 
+@dataclass(frozen=True, slots=True)
+class Linear:
+    """A value that follows a word: the mm or degrees for each unit of the word, and the value for 0."""
+
+    word: str
+    factor: Decimal
+    base: Decimal = Decimal(0)
+
+    def at(self, values: Mapping[str, float]) -> Decimal:
+        """The value in one row."""
+        found = Decimal(repr(values[self.word])) * self.factor
+        return found + self.base if self.base else found
+
+    def column(self, values: Mapping[str, Array]) -> Array:
+        """The values at all values of the word."""
+        found = values[self.word] * float(self.factor)
+        return found + float(self.base) if self.base else found
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Input:
-    """An input of a function that varies: the values, and the word whose places they have; less those of a word of the
-    start point, where it counts from there."""
+    """An input of a function that varies: the values, and the word whose places they have; less those of the start
+    point where it counts from there, and the word that this follows."""
 
     word: str
     values: Array
@@ -74,16 +82,15 @@ class Input:
 class CaseClass:
     """Rows that share a profile but for the values of the free words.
 
-    `status` is the verdict where it does not depend on the values. `free` has, by the name of each value that follows
-    from a free word, the name of the word, and the mm or degrees for each unit of it. `moves` has, by axis, the word
-    that the start point follows, with the mm for each unit of it and where it is for 0. `is_closed` tells that there is
-    one function for all rows; without it, every row may have several solutions.
+    `status` is the verdict where it does not depend on the values. `free` has the values that follow a free word, by
+    name; `moves` has the coordinates of the start point that do, by axis. `is_closed` tells that there is one function
+    for all rows; without it, every row may have several solutions.
     """
 
     profile: Profile
     status: Status | None
-    free: Mapping[str, tuple[str, Decimal]]
-    moves: Mapping[int, tuple[str, Decimal, Decimal]] = field(default_factory=dict)
+    free: Mapping[str, Linear]
+    moves: Mapping[int, Linear] = field(default_factory=dict)
     is_closed: bool = True
 
     @property
@@ -111,82 +118,76 @@ class CaseClass:
 
     def numbers(self) -> dict[str, float]:
         """The inputs of the function that stay."""
-        start = {f"{ORIGIN}{axis}": float(value or 0) for axis, value in enumerate(self.profile.start.values)}
+        start = {f"{ORIGIN}{axis}": self.start(axis) for axis in (FIRST, SECOND)}
         return inputs_of(self.profile, self.system) | start
 
-    @property
-    def _counted(self) -> Mapping[str, int]:
-        """The axis of each value that is stated as a coordinate, which counts from the start point inside."""
-        return axes_of(self.system)
+    def start(self, axis: int) -> float:
+        """A coordinate of the start point as it stands in the profile, mm."""
+        return float(self.profile.start.values[axis] or 0)
+
+    def _varying(self) -> Iterator[tuple[str, Linear | None, Linear | Decimal | None]]:
+        """The inputs that vary, by name: what each follows, and for a coordinate where the start point is, from which
+        it counts inside. One that is stated varies with a start point that does."""
+        start = [self.moves.get(axis, value or Decimal(0)) for axis, value in enumerate(self.profile.start.values)]
+        axes = axes_of(self.system)
+        yield from ((name, own, start[axes[name]] if name in axes else None) for name, own in self.free.items())
+        yield from (
+            (name, None, start[axis]) for name, axis in axes.items() if axis in self.moves and name not in self.free
+        )
 
     def columns(self, ranges: Ranges) -> dict[str, Input]:
         """The inputs of the function that vary."""
-        found: dict[str, Input] = {}
-        counted = self._counted
-        for given, (word, factor) in self.free.items():
-            values = ranges.values[word] * float(factor)
-            if self.profile.givens[given].unit is Unit.DEGREE:
-                for name, part in zip((COSINE, SINE), directions(values), strict=True):
-                    found[given + name] = Input(word, part)
-            elif given not in counted:
-                found[given] = Input(word, values)
-            elif counted[given] in self.moves:
-                found[given] = Input(word, values, self.moves[counted[given]][0], self.begins(counted[given], ranges))
-            else:
-                found[given] = Input(word, difference(values, float(self.profile.start.values[counted[given]] or 0)))
-        for given, axis in counted.items():
-            if axis in self.moves and given not in self.free:
-                value = float(self.profile.givens[given].value)
-                found[given] = Input(self.moves[axis][0], difference(value, self.begins(axis, ranges)))
-        moves = {f"{ORIGIN}{axis}": Input(move[0], self.begins(axis, ranges)) for axis, move in self.moves.items()}
-        return found | moves
+        values = ranges.values
+        found = {f"{ORIGIN}{axis}": Input(each.word, each.column(values)) for axis, each in self.moves.items()}
+        for name, own, start in self._varying():
+            given = self.profile.givens[name]
+            if isinstance(start, Linear):
+                begins = start.column(values)
+                if own is None:
+                    found[name] = Input(start.word, difference(float(given.value), begins))
+                else:
+                    found[name] = Input(own.word, own.column(values), start.word, begins)
+            elif own is not None and given.unit is Unit.DEGREE:
+                for part, column in zip((COSINE, SINE), directions(own.column(values)), strict=True):
+                    found[name + part] = Input(own.word, column)
+            elif own is not None:
+                column = own.column(values)
+                found[name] = Input(own.word, column if start is None else difference(column, float(start)))
+        return found
 
     def follows(self, words: Sequence[str]) -> Follows:
-        """The values that follow the free words, and those that count from a start point that does."""
-        found = {
-            given: Following(words.index(word), float(factor), self.profile.givens[given].unit is Unit.DEGREE)
-            for given, (word, factor) in self.free.items()
-        }
-        for given, axis in self._counted.items():
-            if axis in self.moves and given not in self.free:
-                word, factor, _ = self.moves[axis]
-                found[given] = Following(words.index(word), -float(factor), is_angle=False)
+        """How the inputs that vary follow the free words."""
+        found: dict[str, Following] = {}
+        for name, own, start in self._varying():
+            parts = [(words.index(own.word), float(own.factor))] if own is not None else []
+            parts += [(words.index(start.word), -float(start.factor))] if isinstance(start, Linear) else []
+            is_angle = own is not None and self.profile.givens[name].unit is Unit.DEGREE
+            found[name] = Following(tuple(parts), is_angle)
         return tuple(found.items())
 
     def fixed(self, names: Iterable[str], signs: Mapping[str, float] | None = None) -> list[float]:
         """What a chart of the free words needs besides them, by name; of a value that follows a word, what is added.
         `signs` are inputs that choose a branch."""
-        numbers, counted = {**self.numbers(), **(signs or {})}, self._counted
-        for given in (*self.free, *counted):
-            value = Decimal(0) if given in self.free else self.profile.givens[given].value
-            if given in counted:
-                start = self.profile.start.values[counted[given]] or Decimal(0)
-                value -= self.moves[counted[given]][2] if counted[given] in self.moves else start
-            numbers[given] = float(value)
+        numbers = {**self.numbers(), **(signs or {})}
+        for name, own, start in self._varying():
+            value = self.profile.givens[name].value if own is None else own.base
+            value -= start.base if isinstance(start, Linear) else start or Decimal(0)
+            numbers[name] = float(value)
         return [numbers[name] for name in names]
-
-    def begins(self, axis: int, ranges: Ranges) -> Array:
-        """The coordinates of the start point at the values of its word, mm."""
-        word, factor, base = self.moves[axis]
-        return ranges.values[word] * float(factor) + float(base)
 
     def origin(self, ranges: Ranges, places: Mapping[str, Places]) -> list[Array | float]:
         """The coordinates of the start point in some rows."""
-        start = [float(value or 0) for value in self.profile.start.values]
-        return [
-            self.begins(axis, ranges)[places[self.moves[axis][0]]] if axis in self.moves else start[axis]
-            for axis in (0, 1)
-        ]
+        begins = {axis: each.column(ranges.values)[places[each.word]] for axis, each in self.moves.items()}
+        return [begins[axis] if axis in begins else self.start(axis) for axis in (FIRST, SECOND)]
 
     def at(self, values: Mapping[str, float]) -> Profile:
         """The profile of one row."""
-        givens = dict(self.profile.givens)
-        for name, (word, factor) in self.free.items():
-            givens[name] = replace(givens[name], value=Decimal(repr(values[word])) * factor)
-        start = list(self.profile.start.values)
-        for axis, (word, factor, base) in self.moves.items():
-            start[axis] = Decimal(repr(values[word])) * factor + base
-        return replace(self.profile, givens=givens, start=Start((start[0], start[1])))
+        givens = {name: replace(self.profile.givens[name], value=each.at(values)) for name, each in self.free.items()}
+        first, second = (
+            self.moves[axis].at(values) if axis in self.moves else value
+            for axis, value in enumerate(self.profile.start.values)
+        )
+        return replace(self.profile, givens={**self.profile.givens, **givens}, start=Start((first, second)))
 
     def solve(self, values: Mapping[str, float]) -> Solution:
         """A single solve of one row, as `examine` does it, without a proof."""
@@ -201,122 +202,68 @@ class CaseClass:
             return solution
         return settle(profile).solution
 
-
-def value_of(word: Word, answer: Answer) -> float:
-    """The value of a word as it would be written with a decimal point."""
-    lexicon = answer.claim.lexicon
-    if word.address not in lexicon.addresses:
-        return float(word.number or 0)
-    one = lexicon.value(unit_word(word, has_point=True), answer.unit) or Decimal(1)
-    return float((lexicon.value(word, answer.unit) or Decimal(0)) / one)
-
-
-def unit_of(word: Word, answer: Answer) -> Unit:
-    """What a word of a block or of the start point, or a fact, states. Raises FamilyError where nothing tells, or a
-    fact cannot be read."""
-    unread = next((each for each in answer.diagnostics if each.about is Trouble.FACT_UNREADABLE), None)
-    if unread is not None:
-        raise FamilyError(unread.message)
-    row = answer.claim.lexicon.addresses.get(word.address)
-    given = next((each for each in answer.profile.givens.values() if each.word and is_same(word, each.word)), None)
-    if row is None and given is None:
-        raise FamilyError(first_error(answer) or f"{word.text} states no value")
-    return row.unit if row is not None else given.unit if given is not None else Unit.MM
-
-
-def limits_of(template: Template, values: Mapping[str, float]) -> tuple[list[float], list[tuple[float, ...]]]:
-    """For each free word, the mm or degrees for each unit of it, and the limits of the rules, between which its values
-    are treated alike. Raises FamilyError where the limits of two words depend on each other."""
-    answer = template.solve(values)
-    claim, tied = answer.claim, list[str]()
-    scales: list[float] = []
-    bounds: list[tuple[float, ...]] = []
-    for name, word in template.words.items():
-        limits = {Decimal(0), -Decimal(LARGEST), Decimal(LARGEST)}
-        stated = list(_stated_by(word, answer.profile))
-        one: Decimal | None = None
-        if word.address in claim.lexicon.addresses:
-            limits |= {*_limits(template.dialect.rules)}
-            one = claim.lexicon.value(unit_word(word, has_point=True), answer.unit)
-        elif word.address != FACT:
-            raise FamilyError(f"{word.text} is no word of the contour")
-        elif stated:
-            one = _factor(answer, word, stated[0], Decimal(repr(values[name])))
-        for given in stated:
-            if given.name in claim.limits:
-                limits.add(claim.limits[given.name])
-                tied.append(word.text)
-        if not stated and claim.limits and word.address != FACT:
-            tied.append(name)
-        scales.append(float(one or 1))
-        bounds.append(tuple(sorted(map(float, limits))))
-    if len(tied) > 1:
-        raise FamilyError(
-            f"{' and '.join(tied)} are read together, for on which side of its centre the arc ends depends on both: "
-            "vary one of them at a time"
+    def is_like(self, other: "CaseClass") -> bool:
+        """Whether rows of two classes can be evaluated together."""
+        if self.status is not None or other.status is not None:
+            return self.status is other.status
+        starts = zip(self.profile.start.values, other.profile.start.values, strict=True)
+        return (
+            self._drawing == other._drawing
+            and self.profile.choices == other.profile.choices
+            and (self.free, self.moves, self._stays) == (other.free, other.moves, other._stays)
+            and all(axis in self.moves or one == two for axis, (one, two) in enumerate(starts))
         )
-    return scales, bounds
 
+    @property
+    def _drawing(self) -> object:
+        """What is drawn and stated; profiles with further facts have layouts of their own."""
+        return self.system if self.profile.is_extended else self.profile.layout
 
-def _intervals_of(values: Array, bounds: tuple[float, ...]) -> Codes:
-    """The number of the interval between two bounds in which each value lies; a bound is an interval of its own."""
-    limits = numpy.array(bounds)
-    places = numpy.searchsorted(limits, values, "left") + numpy.searchsorted(limits, values, "right")
-    return places.astype(numpy.uint8)
-
-
-def _limits(rules: Iterable[Rule]) -> Iterable[Decimal]:
-    for rule in rules:
-        if isinstance(rule.when, Value):
-            for limit in (rule.when.least, rule.when.most, rule.when.excluding):
-                if limit is not None and limit.is_finite():
-                    yield limit
+    @property
+    def _stays(self) -> dict[str, Decimal]:
+        return {name: given.value for name, given in self.profile.givens.items() if name not in self.free}
 
 
 def case_of(template: Template, values: Mapping[str, float], answer: Answer | None = None) -> CaseClass:
     """The class of the row with these values; `answer` is its single solve. Raises FamilyError where a word cannot
     vary."""
     answer = answer or template.solve(values)
-    moving = [name for name, word in template.words.items() if not list(_stated_by(word, answer.profile))]
+    moving = [name for name, word in template.words.items() if not stated_by(word, answer.profile)]
     words = {name: word for name, word in template.words.items() if name not in moving}
     case = case_in(answer, words, values)
     if case.status is not None:
         # What is refused may not even state the value.
         return case
     moves = {axis: move for name in moving for axis, move in _moves(template, values, name, answer)}
-    idle = [template.words[name].text for name in moving if name not in [word for word, _, _ in moves.values()]]
-    if idle:
-        raise FamilyError(f"{idle[0]} cannot vary: the contour has no value of it")
+    still = [template.words[name].text for name in moving if name not in [move.word for move in moves.values()]]
+    if still:
+        raise FamilyError(f"{still[0]} cannot vary: the contour has no value of it")
     return replace(case, moves=moves)
 
 
-def _moves(
-    template: Template, values: Mapping[str, float], name: str, answer: Answer
-) -> Iterable[tuple[int, tuple[str, Decimal, Decimal]]]:
+def _moves(template: Template, values: Mapping[str, float], name: str, answer: Answer) -> Iterator[tuple[int, Linear]]:
     """How the start point follows a word, by axis. Raises FamilyError where other values follow it, too."""
     other = template.solve({**values, name: values[name] + 1})
-    if {given.name: given.value for given in other.profile.givens.values()} != {
-        given.name: given.value for given in answer.profile.givens.values()
-    }:
+    one, two = ({each.name: each.value for each in it.profile.givens.values()} for it in (answer, other))
+    if one != two:
         raise FamilyError(f"{name} cannot vary: words that count from it change, too")
-    pairs = zip(answer.start.values, other.start.values, strict=True)
-    for axis, (value, changed) in enumerate(pairs):
+    for axis, (value, changed) in enumerate(zip(answer.start.values, other.start.values, strict=True)):
         if value is not None and changed is not None and value != changed:
             factor = changed - value
-            yield axis, (name, factor, value - factor * Decimal(repr(values[name])))
+            yield axis, Linear(name, factor, value - factor * Decimal(repr(values[name])))
 
 
 def case_in(answer: Answer, words: Mapping[str, Word], values: Mapping[str, float]) -> CaseClass:
     """The class of a contour that was solved at these values of its free words. Raises FamilyError as `case_of`."""
     profile = answer.profile
     status = _verdict(answer)
-    free: dict[str, tuple[str, Decimal]] = {}
+    free: dict[str, Linear] = {}
     for word, typed in words.items():
-        number, stated = Decimal(repr(values[word])), list(_stated_by(typed, profile))
+        stated = stated_by(typed, profile)
         if not stated and status is None:
             raise FamilyError(f"{typed.text} cannot vary: the contour has no value of it")
-        for given in stated:
-            free[given.name] = word, _factor(answer, typed, given, number)
+        number = Decimal(repr(values[word]))
+        free |= {given.name: Linear(word, factor_of(answer, typed, given, number)) for given in stated}
     return CaseClass(profile, status, free, is_closed=status is not None or _open_points(profile) == ())
 
 
@@ -326,46 +273,6 @@ def _open_points(profile: Profile) -> tuple[str, ...] | None:
     if profile.is_extended or not is_closed(system):
         return None
     return tuple(point for point in points_with_two_solutions(system) if point not in chosen)
-
-
-def _factor(answer: Answer, typed: Word, given: Given, number: Decimal) -> Decimal:
-    """The mm or degrees of a value for each unit of the word that states it."""
-    if number:
-        return given.value / number
-    if typed.address == FACT:
-        return answer.unit.in_mm if given.unit is Unit.MM and not given.is_diameter else Decimal(1)
-    one = unit_word(typed, has_point=given.word is None or given.word.has_point)
-    return answer.claim.lexicon.value(one, answer.unit) or Decimal(1)
-
-
-def _stated_by(typed: Word, profile: Profile) -> Iterable[Given]:
-    """The values that follow from a word, wherever it now stands in its line."""
-    for given in profile.givens.values():
-        if given.word is not None and is_same(typed, given.word):
-            yield given
-
-
-def alike(one: CaseClass, other: CaseClass) -> bool:
-    """Whether rows of two classes can be evaluated together."""
-    if one.status is not None or other.status is not None:
-        return one.status is other.status
-    return (
-        _drawing(one) == _drawing(other)
-        and one.profile.choices == other.profile.choices
-        and (one.free, one.moves, _fixed(one)) == (other.free, other.moves, _fixed(other))
-        and all(
-            axis in one.moves or one.profile.start.values[axis] == other.profile.start.values[axis] for axis in (0, 1)
-        )
-    )
-
-
-def _drawing(case: CaseClass) -> object:
-    """What is drawn and stated; profiles with further facts have layouts of their own."""
-    return case.system if case.profile.is_extended else case.profile.layout
-
-
-def _fixed(case: CaseClass) -> dict[str, Decimal]:
-    return {name: given.value for name, given in case.profile.givens.items() if name not in case.free}
 
 
 def _verdict(answer: Answer) -> Status | None:
@@ -383,6 +290,55 @@ def _verdict(answer: Answer) -> Status | None:
         return answer.status
     raise FamilyError(f"{errors[0].message}; leave out what is said twice, or apply no rules")
 
+
+class FreeWords:
+    """The free words of one block: what they are written in, the limits of the rules between which their values are
+    treated alike, and single solves at any values of them."""
+
+    def __init__(self, template: Template) -> None:
+        self.template, self.names = template, tuple(template.words)
+        self.answer = template.solve({})
+        """Of the block as it stands."""
+        words = template.words.values()
+        self.values = tuple(value_of(word, self.answer) for word in words)
+        scales, bounds = limits_of(template, dict(zip(self.names, self.values, strict=True)))
+        self.scales = [abs(scale) for scale in scales]
+        """mm or degrees for each unit of the words."""
+        self._limits = [[bound / scale for bound in own] for own, scale in zip(bounds, scales, strict=True)]
+        self.kinds = [kind_of(word, self.answer)[0] for word in words]
+        self.units = ["deg" if kind is Unit.DEGREE else self.answer.unit.value for kind in self.kinds]
+        self._answers = {self.values: self.answer}
+        self.doubts: list[str] = []
+        """What is not proven, and why; empty if everything is."""
+
+    def at(self, values: Sequence[float]) -> dict[str, float]:
+        """Values by the names of the words."""
+        return dict(zip(self.names, map(float, values), strict=True))
+
+    def answer_at(self, *values: float) -> Answer:
+        """The single solve at these values."""
+        if values not in self._answers:
+            self._answers[values] = self.template.solve(self.at(values))
+        return self._answers[values]
+
+    def is_solved(self, *values: float) -> bool:
+        """Whether the single solve at these values has a contour."""
+        return self.answer_at(*values).contour is not None
+
+    def case_at(self, *values: float) -> CaseClass:
+        """How the words are read at these values."""
+        return case_of(self.template, self.at(values), self.answer_at(*values))
+
+    def limits_within(self, number: int, within: tuple[float, float]) -> tuple[float, float]:
+        """The range in which a word is looked at. Raises FamilyError for one that is none."""
+        return read_limits(self.names[number], within, LARGEST / self.scales[number], self.units[number])
+
+    def marks(self, number: int, low: float, high: float) -> list[float]:
+        """The ends of a range of a word, and the limits of the rules in it."""
+        return [low, *(each for each in self._limits[number] if low < each < high), high]
+
+
+# Results ---------------------------------------------------------------------------------------------------------
 
 Results = Mapping[str, NDArray[Any]]
 """Columns by name."""
@@ -408,10 +364,10 @@ def sides_of_choice(case: CaseClass) -> dict[str, int]:
 
 
 def results_of(case: CaseClass) -> dict[str, Behind]:
-    """The output behind each result, and the axis of a coordinate: inside they count from the start point."""
+    """What is behind each result."""
     figure = case.system.figure
     axes = list(zip((FIRST, SECOND), case.profile.plane.axes, strict=True))
-    found: dict[str, tuple[str, int | None]] = {}
+    found: dict[str, Behind] = {}
     for point in figure.points:
         found |= {f"{point}.{letter}": (scalar(point, axis), axis) for axis, letter in axes}
     found |= {f"{radius}": (radius, None) for radius in figure.radii}
@@ -457,135 +413,9 @@ def fill_row(case: CaseClass, values: Mapping[str, float], row: int, table: Resu
         table[f"branch.{point}"][row] = 0 if point in touching else side
 
 
-@dataclass(frozen=True, slots=True)
-class Example:
-    """A row of a class that the rules may tell apart: its key, its values, and how many rows have this key."""
-
-    key: int
-    values: tuple[float, ...]
-    count: int
-
-
-@dataclass(frozen=True, slots=True)
-class Examples:
-    """One row of each class that the rules may tell apart, in the order of their keys, as plain data.
-
-    Each word has a scale and bounds: its values, scaled, lie between two bounds or on one, which gives a number; the
-    numbers of all words make the key.
-    """
-
-    scales: tuple[float, ...]
-    bounds: tuple[tuple[float, ...], ...]
-    rows: tuple[Example, ...]
-
-    def key(self, values: Sequence[Array], places: Sequence[Places]) -> NDArray[numpy.int64]:
-        """The keys of some rows."""
-        words = zip(values, places, self.scales, self.bounds, strict=True)
-        return _key_of((_intervals_of(each * scale, bounds)[at] for each, at, scale, bounds in words), self.bounds)
-
-
-def examples_of(template: Template, ranges: Ranges) -> Examples:
-    """A row for each set of intervals in which the values lie. Raises FamilyError."""
-    scales, bounds = limits_of(template, {name: float(values[0]) for name, values in ranges.values.items()})
-    if prod(2 * len(limits) + 1 for limits in bounds) >= 2**63:
-        raise FamilyError(f"{len(bounds)} words are too many to vary at once")
-    words = list(ranges.values.values())
-    parts = [_intervals_of(values * scale, limits) for values, scale, limits in zip(words, scales, bounds, strict=True)]
-    columns = [_key_of(parts, bounds)] if ranges.is_paired else parts
-    rows: list[Example] = []
-    for choice in product(*(zip(*_unique(each), strict=True) for each in columns)):
-        numbers, firsts, counts = zip(*choice, strict=True)
-        places = firsts * len(words) if ranges.is_paired else firsts
-        key = numbers[0] if ranges.is_paired else int(_key_of(numbers, bounds)[0])
-        rows.append(Example(key, tuple(float(each[at]) for each, at in zip(words, places, strict=True)), prod(counts)))
-    return Examples(tuple(scales), tuple(bounds), tuple(rows))
-
-
-def _key_of(numbers: Iterable[NDArray[Any] | int], bounds: Sequence[tuple[float, ...]]) -> NDArray[numpy.int64]:
-    """The numbers of the intervals of all words as one, row by row."""
-    key = numpy.zeros(1, numpy.int64)
-    for each, limits in zip(numbers, bounds, strict=True):
-        key = key * (2 * len(limits) + 1) + each
-    return key
-
-
-def _unique(numbers: NDArray[Any]) -> tuple[list[int], list[int], list[int]]:
-    """Numbers in order, each once, with the first place and the count of each."""
-    found, firsts, counts = numpy.unique(numbers, return_index=True, return_counts=True)
-    return found.tolist(), firsts.tolist(), counts.tolist()
-
-
-def cases_of(template: Template, examples: Examples) -> tuple[tuple[CaseClass, ...], NDArray[numpy.int64]]:
-    """The classes of the example rows, each once, and the number of the class of each example. Raises FamilyError."""
-    items: list[CaseClass] = []
-    numbers: list[int] = []
-    for row in examples.rows:
-        case = case_of(template, dict(zip(template.words, row.values, strict=True)))
-        numbers.append(next((number for number, each in enumerate(items) if alike(each, case)), len(items)))
-        items += [case] if numbers[-1] == len(items) else []
-    return tuple(items), numpy.array(numbers, numpy.int64)
-
-
-Refusals = frozenset[tuple[str, int, tuple[str, ...]]]
-"""Findings by code, line and words."""
-
-
-def check_block(template: Template, values: Mapping[str, float] | None = None) -> None:
-    """Raise RefusedError where a block is refused whatever the values of its free words; `values` are those of one row,
-    without it those that the words have in the block.
-
-    Rules treat the values between two of their limits alike. Word by word, the value with the fewest refusals is
-    taken; what then is left does not depend on the values.
-    """
-    answer = template.solve(values or {})
-    left = _refusals(answer)
-    if not left:
-        return
-    chosen = dict(values or {name: value_of(word, answer) for name, word in template.words.items()})
-    limits = zip(chosen, *limits_of(template, chosen), strict=True) if chosen else ()
-    for name, scale, bounds in limits:
-        for value in _probes(bounds):
-            tried = {**chosen, name: value / scale}
-            try:
-                found = _refusals(template.solve(tried))
-            except FamilyError:  # with this value it is no single contour
-                continue
-            if _weight(found) < _weight(left):
-                left, chosen = found, tried
-            if not left:
-                return
-    raise RefusedError(template.examined())
-
-
-def _refusals(answer: Answer) -> Refusals:
-    """What refuses a block by its text, its words or the structure of its equations."""
-    if answer.status not in _REFUSED:
-        return frozenset()
-    return frozenset(
-        (each.code, each.span.line, each.addresses)
-        for each in errors_of(answer)
-        if each.basis is not Basis.NUMERICAL or each.about in _USELESS
-    )
-
-
-_REFUSED = (Status.REJECTED, Status.CONFLICTING, Status.UNDERDETERMINED)
-"""What a block may be without its values."""
-
-
-def _weight(refusals: Refusals) -> tuple[int, int]:
-    """How much is refused: findings, and the words that they name."""
-    return len(refusals), sum(len(words) for _, _, words in refusals)
-
-
-_USELESS = (Trouble.FACT_UNREADABLE, Trouble.FACT_IMPOSSIBLE)
-"""Findings about facts that cannot be used, whatever they rest on."""
-
-
-def _probes(bounds: tuple[float, ...]) -> Iterator[float]:
-    """A value on each limit of the rules and between each two, as far as values are read."""
-    inner = [each for each in bounds if abs(each) < LARGEST]
-    yield from inner
-    # Near the least of them, for what is large may fit nowhere.
-    for low, high in pairwise((-LARGEST, *inner, LARGEST)):
-        step = min(1.0, (high - low) / 2)
-        yield low + step if low >= 0 else high - step
+def half_circles(case: CaseClass, out: Mapping[str, Any]) -> Iterator[tuple[int, Any]]:
+    """The steps whose two centres of a half circle may be one, and where they are; `out` are outputs."""
+    for number, step in enumerate(case.machine.plan.steps):
+        if isinstance(step, TwoCirclesStep):
+            gap = abs(out[f"radius:{number}"] - abs(out[f"offset:{number}"]))
+            yield number, gap <= TOUCHING * out[f"scale:{number}"]

@@ -90,8 +90,9 @@ class Parts:
     def _load(self, number: int, part: tuple[int, int]) -> Table | None:
         """A part that was finished; None where there is none, or a damaged one."""
         try:
-            with numpy.load(self._file(number)) as file:
-                table = {name: file[name] for name in file.files}
+            # A damaged file that NumPy opens itself stays open.
+            with self._file(number).open("rb") as file, numpy.load(file) as parts:
+                table = {name: parts[name] for name in parts.files}
         except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
             return None
         kinds = self.ready.columns()

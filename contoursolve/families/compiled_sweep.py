@@ -1,7 +1,7 @@
 """A case that is ready to be evaluated, any stretch of its rows at a time."""
 
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import product
@@ -19,23 +19,23 @@ from contoursolve.families.case_classes import (
     ORIGIN,
     Behind,
     CaseClass,
-    Examples,
     Input,
     Results,
     asked_of,
+    case_of,
     fill_row,
+    half_circles,
     names_of,
     results_of,
     shown_as,
     sides_of_choice,
 )
 from contoursolve.families.export import Measure, measures_of
+from contoursolve.families.free_words import Examples
 from contoursolve.families.spec import Places, Ranges, Stretches, SweepSpec, Template
 from contoursolve.solving import RefusalKind
 from contoursolve.solving.checks import NO_PLACE, compile_checks
-from contoursolve.solving.plan import Step, TwoCirclesStep
 from contoursolve.solving.verdict import Code, Verdict, code_of, reason_of
-from contoursolve.tolerance import TOUCHING
 
 Table = dict[str, NDArray[Any]]
 Target = slice | Places
@@ -186,7 +186,7 @@ class _ClassRows:
 
     def _solve_open(self, ranges: Ranges, places: Mapping[str, Places], target: Places, table: Results) -> None:
         """The rows of a class with choices that nothing makes: every side of every point is tried."""
-        names, plan, rows = names_of(self.case), self.case.machine.plan, target.size
+        names, rows = names_of(self.case), target.size
         function = self._function(ranges, places, rows)
         count, again = numpy.zeros(rows, numpy.int64), numpy.zeros(rows, bool)
         reason = numpy.full(rows, reason_of(RefusalKind.NO_POINT), numpy.uint8)
@@ -196,7 +196,9 @@ class _ClassRows:
             out = function.evaluate(rows)
             verdict = Verdict(self.case.checks, out, rows)
             is_path = verdict.is_clear
-            again |= verdict.again | _halves(plan.steps, out, rows)
+            again |= verdict.again
+            for _, is_one in half_circles(self.case, out):
+                again |= is_one
             is_first = (reason == reason_of(RefusalKind.NO_POINT)) & ~numpy.isin(verdict.reason, _NOWHERE)
             reason = numpy.where(is_first, verdict.reason, reason)
             shown = numpy.flatnonzero(is_path & (count == 0))
@@ -235,16 +237,6 @@ class _ClassRows:
             table[f"branch.{point}"][target] = is_path.view(numpy.int8) * numpy.int8(side)
 
 
-def _halves(steps: Sequence[Step], out: Results, rows: int) -> Bits:
-    """Where the two places of the centre of a half circle are one."""
-    found = numpy.zeros(rows, bool)
-    for number, step in enumerate(steps):
-        if isinstance(step, TwoCirclesStep):
-            gap = numpy.abs(numpy.abs(out[f"offset:{number}"]) - out[f"radius:{number}"])
-            found |= gap <= TOUCHING * out[f"scale:{number}"]
-    return found
-
-
 @lru_cache(maxsize=64)
 def _compile(system: System, varied: frozenset[str], shown: tuple[Behind, ...], is_open: bool) -> ColumnFunction:
     """The function of a system for columns: what the verdict reads, and the results as they are shown."""
@@ -258,3 +250,14 @@ def _compile(system: System, varied: frozenset[str], shown: tuple[Behind, ...], 
             value += gap if axis is None else kept.input(f"{ORIGIN}{axis}") + gap
         kept.output(shown_as(output), value)
     return compile_columns(kept, varied)
+
+
+def cases_of(template: Template, examples: Examples) -> tuple[tuple[CaseClass, ...], NDArray[numpy.int64]]:
+    """The classes of the example rows, each once, and the number of the class of each example. Raises FamilyError."""
+    items: list[CaseClass] = []
+    numbers: list[int] = []
+    for row in examples.rows:
+        case = case_of(template, dict(zip(template.words, row.values, strict=True)))
+        numbers.append(next((number for number, each in enumerate(items) if case.is_like(each)), len(items)))
+        items += [case] if numbers[-1] == len(items) else []
+    return tuple(items), numpy.array(numbers, numpy.int64)

@@ -7,17 +7,18 @@ from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import lru_cache, partial
-from typing import TypeVar
+from typing import TypeVar, Unpack
 
 import numpy
 from numpy.typing import ArrayLike, NDArray
 
 from contoursolve.backends.columns import Array
 from contoursolve.dialects import Dialect
-from contoursolve.families.case_classes import Examples, cases_of, check_block, examples_of
-from contoursolve.families.compiled_sweep import CompiledSweep, Table
+from contoursolve.families.compiled_sweep import CompiledSweep, Table, cases_of
 from contoursolve.families.export import Family
+from contoursolve.families.free_words import Examples, check_block, examples_of
 from contoursolve.families.spec import (
+    BlockOptions,
     FamilyError,
     Ranges,
     Stretches,
@@ -84,18 +85,12 @@ def sweep(
     block: str,
     *,
     vary: Mapping[str, ArrayLike],
-    start: str | None = None,
-    control: str | Dialect | None = None,
-    facts: Iterable[str] = (),
     paired: bool = False,
-    units: str = "mm",
-    rules: str = "enforce",
-    settings: Mapping[str, str] | None = None,
+    **options: Unpack[BlockOptions],
 ) -> CompiledSweep:
     """A family that is ready to be evaluated; arguments and errors as for `family`."""
     ranges = ranges_of(vary, is_paired=paired)
-    spec = spec_of(block, start=start, control=control, facts=facts, units=units, rules=rules, settings=settings)
-    return compile_sweep(spec, ranges)
+    return compile_sweep(spec_of(block, **options), ranges)
 
 
 def compile_sweep(spec: SweepSpec, ranges: Ranges) -> CompiledSweep:

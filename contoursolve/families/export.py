@@ -2,7 +2,7 @@
 of others; the packages for these are needed only here.
 """
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, BinaryIO
@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 
 from contoursolve.examine import Answer
 from contoursolve.extras import need
-from contoursolve.families.case_classes import asked_of, unit_of
-from contoursolve.families.spec import FamilyError, Ranges, SweepSpec, Template, is_same
+from contoursolve.families.case_classes import asked_of
+from contoursolve.families.free_words import kind_of
+from contoursolve.families.spec import FamilyError, Ranges, SweepSpec, Template
 from contoursolve.model import Unit
 from contoursolve.shown import Shown
 from contoursolve.solving import Status
@@ -60,14 +61,11 @@ def measure_of_word(word: Word, answer: Answer) -> Measure:
     """What a word of a block or of the start point, or a fact, is written in; no unit for one that only chooses between
     two places, and where nothing tells."""
     try:
-        kind = unit_of(word, answer)
+        kind, is_diameter = kind_of(word, answer)
     except FamilyError:
         return Measure("")
     if kind is not Unit.MM:
         return Measure("deg" if kind is Unit.DEGREE else "")
-    row = answer.claim.lexicon.addresses.get(word.address)
-    given = next((each for each in answer.profile.givens.values() if each.word and is_same(word, each.word)), None)
-    is_diameter = row.is_diameter if row is not None else given is not None and given.is_diameter
     return Measure(answer.unit.value, "diameter" if is_diameter else "")
 
 
@@ -145,6 +143,14 @@ class Family(Shown):
         attribute, `status` and `reason` the meanings of their numbers. Raises MissingExtraError without xarray."""
         arrays = {name: self[name] for name in self.columns}
         return to_xarray(dict(self.ranges.values), arrays, self.measures(), is_paired=self.ranges.is_paired)
+
+
+def units_of(family: Family, words: Sequence[str]) -> tuple[str, ...]:
+    """What words of a family are written in (mm, inch or deg); empty for one that only chooses between two places, and
+    where nothing tells."""
+    template = family.spec.template()
+    answer = template.solve({})
+    return tuple(measure_of_word(template.words[word], answer).unit for word in words)
 
 
 def summary_of(counts: NDArray[Any]) -> dict[Status, int]:

@@ -1,9 +1,10 @@
 """The inverse question: which value of a word brings a point to a place, or as near to it as it gets."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from decimal import ROUND_HALF_EVEN, Decimal
 from math import ceil, floor, isfinite
+from typing import Unpack
 
 import numpy
 
@@ -12,13 +13,13 @@ from contoursolve.backends.intervals import Intervals
 from contoursolve.constraints import assemble
 from contoursolve.contour import Contour
 from contoursolve.diagnosis.edits import write_word
-from contoursolve.dialects import Dialect
 from contoursolve.examine import Answer
-from contoursolve.families.case_classes import check_block, results_of
-from contoursolve.families.derivatives import slopes_of
-from contoursolve.families.feasible_ranges import LEAST_GAP, RangePiece, Survey, short
-from contoursolve.families.inverse_by_constraint import asked_values
+from contoursolve.families.case_classes import results_of
+from contoursolve.families.free_words import check_block
+from contoursolve.families.range_pieces import LEAST_GAP, RangePiece, Survey, short
+from contoursolve.families.sensitivities import slopes_of
 from contoursolve.families.spec import (
+    BlockOptions,
     FamilyError,
     NotClosedError,
     NotMovedError,
@@ -29,7 +30,7 @@ from contoursolve.families.spec import (
     write,
 )
 from contoursolve.families.subdivision import Zero, find_zeros
-from contoursolve.families.targets import CONSTANT, Goal, TargetCurve, end_name, place_of, read_goal
+from contoursolve.families.targets import CONSTANT, Goal, TargetCurve, asked_values, end_name, place_of, read_goal
 from contoursolve.model import FIRST, SECOND, Length, Plane, Unit
 from contoursolve.shown import Shown
 from contoursolve.solving import Point, Status
@@ -101,13 +102,8 @@ def find_word(
     word: str,
     goal: str,
     *,
-    start: str | None = None,
     within: tuple[float, float] | None = None,
-    control: str | Dialect | None = None,
-    facts: Iterable[str] = (),
-    units: str = "mm",
-    rules: str = "enforce",
-    settings: Mapping[str, str] | None = None,
+    **options: Unpack[BlockOptions],
 ) -> Found:
     """Every value of a word, as it is written, with which a point of the contour lies where it is wanted.
 
@@ -118,7 +114,7 @@ def find_word(
         goal: a point and where it is wanted, in words as the control reads them: `end Z-50.`, `V1 X44.`,
             `corner 1.center Z-30.`. With both coordinates, such as `end Z-50. X100.`, the values are found at which it
             is nearest to there.
-        within: and all others as for `feasible`, with the same errors; also raises FamilyError for a point that the
+        within: and the options as for `feasible`, with the same errors; also raises FamilyError for a point that the
             contour does not have. Of a point that does not depend on the word there is no value, and `remark` names the
             words that move it; if it is there already, the value that the word has.
 
@@ -130,24 +126,21 @@ def find_word(
     >>> [(round(each.value, 4), each.block) for each in found.hits]
     [(119.6749, 'G111 X100. A180. K-30. B119.675 P5. Q5.')]
     """
-    template = spec_of(
-        block, (word,), start=start, control=control, facts=facts, units=units, rules=rules, settings=settings
-    ).template()
+    template = spec_of(block, (word,), **options).template()
     check_block(template)
-    name = next(iter(template.words))
     answer = template.solve({})
     wanted = read_goal(goal, answer.plane, answer.claim.lexicon, answer.unit)
     _check_open(answer)
-    survey = Survey(template, name)
+    survey = Survey(template)
     low, high = survey.range_of(within)
     search = _TargetSearch(survey, wanted)
-    about = (name, survey.unit, survey.stated, wanted, answer.plane, answer.unit, (low, high))
+    about = (survey.word, survey.unit, survey.stated, wanted, answer.plane, answer.unit, (low, high))
     remark = first_error(answer)
     remark = f"as it stands, the block has no contour: {remark}" if remark else ""
     try:
         hits = search.hits(survey.pieces(low, high))
     except NotClosedError:
-        if template.words[name].span.line not in _lines(template):
+        if template.words[survey.word].span.line not in _lines(template):
             raise
         try:
             hits = search.hits_by_asking(answer, (low, high))
@@ -344,12 +337,12 @@ class _TargetSearch:
         if any(f"{point}.{axes[axis]}" not in results for axis in wanted):
             return None
         # Coordinates count from the start point inside, which may follow the word.
-        starts = [case.moves.get(axis, ("", 0, case.profile.start.values[axis] or 0)) for axis in wanted]
-        place = [
-            (self.goal.place[axis] or 0.0) - float(base) for axis, (_, _, base) in zip(wanted, starts, strict=True)
-        ]
+        starts = [case.moves.get(axis) for axis in wanted]
+        bases = [case.start(axis) if at is None else float(at.base) for axis, at in zip(wanted, starts, strict=True)]
+        place = [(self.goal.place[axis] or 0.0) - base for axis, base in zip(wanted, bases, strict=True)]
+        drift = [0.0 if at is None else float(at.factor) for at in starts]
         names = tuple(results[f"{point}.{axes[axis]}"][0] for axis in wanted)
-        return TargetCurve(branch, names, place, [float(each) for _, each, _ in starts], (piece.low, piece.high))
+        return TargetCurve(branch, names, place, drift, (piece.low, piece.high))
 
     def hit(self, value: float, give: float = ARRIVED) -> Hit | None:
         """What becomes of a value by its single solve, as a shorter number where rounding alone parts the two; None if
@@ -359,7 +352,7 @@ class _TargetSearch:
         )
 
     def _hit(self, value: float, give: float) -> Hit | None:
-        answer = self.survey.solve(value)
+        answer = self.survey.answer_at(value)
         at = place_of(self.goal.point, answer.contour)
         if at is None:
             return None
@@ -373,18 +366,18 @@ class _TargetSearch:
     def _is_least(self, value: float, away: float) -> bool:
         """Whether the point is no nearer to the goal at values beside this one."""
         step = BESIDE * max(1.0, abs(value))
-        places = [place_of(self.goal.point, self.survey.solve(value + way * step).contour) for way in (-1, 1)]
+        places = [place_of(self.goal.point, self.survey.answer_at(value + way * step).contour) for way in (-1, 1)]
         return all(away <= self.goal.away(at) + ARRIVED for at in places if at is not None)
 
     def _rounded(self, value: float) -> tuple[float, str, Contour | None]:
         """The value in least increments of the control, the block with it, and its contour; rounded to the other side
         if only that has one."""
-        survey, answer = self.survey, self.survey.solve(self.survey.stated)
+        survey, answer = self.survey, self.survey.answer_at(self.survey.stated)
         step = answer.claim.lexicon.numbers.step(Unit.DEGREE if survey.is_angle else Unit.MM, answer.unit)
         nearest = Decimal(repr(value)).quantize(step, ROUND_HALF_EVEN)
         numbers = [float(nearest), float(nearest + (step if nearest < Decimal(repr(value)) else -step))]
         chosen = next((each for each in numbers if survey.is_solved(each)), numbers[0])
-        return chosen, self._text(chosen, answer), survey.solve(chosen).contour
+        return chosen, self._text(chosen, answer), survey.answer_at(chosen).contour
 
     def _text(self, value: float, answer: Answer) -> str:
         """The block with a value, and the facts beside it; for a word of the start point, the words of that."""

@@ -1,28 +1,27 @@
 """Where a contour exists in two words: the lines that bound the region, each with what fails beyond it."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
-from typing import TypeVar
+from typing import TypeVar, Unpack
 
 import numpy
 from numpy.typing import NDArray
 
 from contoursolve.backends.intervals import Array
-from contoursolve.dialects import Dialect
-from contoursolve.examine import Answer
 from contoursolve.families.boundary_tracing import BISECTIONS, NODES, BoundaryTrace, Field, WordBox, edge_of, gaps_of
 from contoursolve.families.branches import branches_of
-from contoursolve.families.case_classes import CaseClass, alike, case_of, check_block, limits_of, unit_of, value_of
-from contoursolve.families.export import Family, measure_of_word
+from contoursolve.families.case_classes import CaseClass, FreeWords
+from contoursolve.families.export import Family
 from contoursolve.families.feasible_ranges import ASIDE, Way
-from contoursolve.families.limit_reasons import NO_FAILURE, Reason, about_of, called, failure_of, phrase, same
-from contoursolve.families.spec import FamilyError, Template, read_limits, spec_of
+from contoursolve.families.free_words import check_block
+from contoursolve.families.limit_reasons import NO_FAILURE, Reason, called, failure_of, phrase, same
+from contoursolve.families.spec import BlockOptions, FamilyError, Template, spec_of
 from contoursolve.families.subdivision import bisect
 from contoursolve.model import Unit
 from contoursolve.shown import Shown
 from contoursolve.solving import RefusalKind, RemarkKind
-from contoursolve.tolerance import LARGEST, LENGTH
+from contoursolve.tolerance import LENGTH
 from contoursolve.wording import value_text
 
 Point = tuple[float, float]
@@ -77,13 +76,7 @@ def region(
     block: str,
     words: tuple[str, str],
     within: tuple[Point, Point],
-    *,
-    start: str | None = None,
-    control: str | Dialect | None = None,
-    facts: Iterable[str] = (),
-    units: str = "mm",
-    rules: str = "enforce",
-    settings: Mapping[str, str] | None = None,
+    **options: Unpack[BlockOptions],
 ) -> Region:
     """The region of two words' values, as they are written, in which the contour is solved.
 
@@ -91,7 +84,7 @@ def region(
         block: the block, or the blocks of one contour.
         words: the two words, words of the start point, or facts, as for `feasible`.
         within: the range of each, lower value first.
-        start: and all others as for `feasible`, with the same errors.
+        options: as for `feasible`, with the same errors.
 
     A grid is laid over the box, and its lines are searched for where the contour begins to fail; cell by cell these
     points are joined, and each is brought onto the zero of what fails. Interval arithmetic proves of every other cell
@@ -103,10 +96,9 @@ def region(
     """
     if isinstance(words, str) or len(words) != 2 or len(within) != 2:  # noqa: PLR2004 - axes of a map
         raise FamilyError("name two words, and a range for each of them")
-    spec = spec_of(block, words, start=start, control=control, facts=facts, units=units, rules=rules, settings=settings)
-    template = spec.template()
+    template = spec_of(block, words, **options).template()
     check_block(template)
-    return _Map(template, (spec.names[0], spec.names[1]), within).run()
+    return _Map(template, within).run()
 
 
 def region_of(family: Family, words: tuple[str, str]) -> Region:
@@ -122,49 +114,28 @@ def region_of(family: Family, words: tuple[str, str]) -> Region:
     filled = family.spec.template().filled({name: float(column[0]) for name, column in others.items()})
     template = filled.with_words(words)
     first, second = ((float(values[word].min()), float(values[word].max())) for word in words)
-    return _Map(template, words, (first, second)).run()
+    return _Map(template, (first, second)).run()
 
 
-def units_of(family: Family, words: Sequence[str]) -> tuple[str, ...]:
-    """What words of a family are written in (mm, inch or deg); empty for one that only chooses between two places, and
-    where nothing tells."""
-    template = family.spec.template()
-    answer = template.solve({})
-    return tuple(measure_of_word(template.words[word], answer).unit for word in words)
-
-
-class _Map:
+class _Map(FreeWords):
     """Two words of one block."""
 
-    def __init__(self, template: Template, words: tuple[str, str], within: tuple[Point, Point]) -> None:
-        self.template, self.words = template, words
-        if words[0] == words[1]:
-            raise FamilyError(f"{words[0]} is named twice")
-        answer = template.solve({})
-        self.stated = tuple(value_of(template.words[word], answer) for word in words)
-        values = dict(zip(words, self.stated, strict=True))
-        kinds = [unit_of(template.words[word], answer) for word in words]
-        for word, kind in zip(words, kinds, strict=True):
+    def __init__(self, template: Template, within: Sequence[tuple[float, float]]) -> None:
+        super().__init__(template)
+        if len(self.names) == 1:
+            raise FamilyError(f"{self.names[0]} is named twice")
+        for word, kind in zip(self.names, self.kinds, strict=True):
             if kind is Unit.SIGN:
                 raise FamilyError(f"{template.words[word].text} has no range; name words that state lengths or angles")
-        self.units = tuple("deg" if kind is Unit.DEGREE else answer.unit.value for kind in kinds)
-        scales, bounds = limits_of(template, values)
-        self.within = tuple(
-            read_limits(word, each, LARGEST / abs(scale), unit)
-            for word, each, scale, unit in zip(words, within, scales, self.units, strict=True)
-        )
-        self.marks = [
-            [low, *(each for limit in bounds[axis] if low < (each := limit / scales[axis]) < high), high]
-            for axis, (low, high) in enumerate(self.within)
-        ]
+        self.within = [self.limits_within(axis, each) for axis, each in enumerate(within)]
+        self.ticks = [self.marks(axis, *each) for axis, each in enumerate(self.within)]
         self.cases: dict[tuple[int, int], CaseClass] = {}
-        self.doubts: list[str] = []
 
     def run(self) -> Region:
         """The region."""
-        for place in product(*(range(len(marks) - 1) for marks in self.marks)):
-            middle = [(self.marks[axis][place[axis]] + self.marks[axis][place[axis] + 1]) / 2 for axis in (0, 1)]
-            self.cases[place[0], place[1]] = self._case(middle)
+        for place in product(*(range(len(marks) - 1) for marks in self.ticks)):
+            middle = [(self.ticks[axis][place[axis]] + self.ticks[axis][place[axis] + 1]) / 2 for axis in (0, 1)]
+            self.cases[place[0], place[1]] = self.case_at(*middle)
         for axis in (0, 1):
             self._merge(axis)
         boundaries: list[Boundary] = []
@@ -178,36 +149,34 @@ class _Map:
             cells = [*edge.cells]
             for lines in gaps:
                 for trace in lines.traces():
-                    if _is_zero(field, trace):
+                    margins = numpy.abs(field.values(trace.points)[trace.check])
+                    if _is_zero(margins):
                         boundaries.append(self._boundary(field, case, trace, is_gap=True))
-                    elif not _jumps(field, trace):
+                    elif not margins.min() > LENGTH:  # nor does it jump there
                         self.doubts.append("there may be a line on which something is zero that must not be")
                 cells += lines.cells
             if not field.is_proven(cells):
                 self.doubts.append("some part could not be proven to be alike, however finely it was divided")
-        boundaries += self._limits(fields)
-        size = tuple((high - low) / (NODES - 1) for low, high in self.within)
+        boundaries += self._limit_lines(fields)
+        first, second = ((high - low) / (NODES - 1) for low, high in self.within)
         return Region(
-            words=self.words,
-            units=(self.units[0], self.units[1]),
-            stated=(self.stated[0], self.stated[1]),
-            within=(self.within[0], self.within[1]),
+            words=_two(self.names),
+            units=_two(self.units),
+            stated=_two(self.values),
+            within=_two(self.within),
             boundaries=tuple(boundaries),
-            cell=(size[0], size[1]),
+            cell=(first, second),
             doubts=tuple(dict.fromkeys(self.doubts)),
             exists=any(field.is_inside.any() for field in fields.values()),
         )
 
-    def _case(self, at: Sequence[float]) -> CaseClass:
-        return case_of(self.template, dict(zip(self.words, map(float, at), strict=True)))
-
     def _merge(self, axis: int) -> None:
         """Leave out the limits of rules that change nothing for these words."""
         mark = 1
-        while mark < len(self.marks[axis]) - 1:
-            others = range(len(self.marks[1 - axis]) - 1)
-            if all(alike(self.cases[_pair(axis, mark - 1, n)], self.cases[_pair(axis, mark, n)]) for n in others):
-                del self.marks[axis][mark]
+        while mark < len(self.ticks[axis]) - 1:
+            others = range(len(self.ticks[1 - axis]) - 1)
+            if all(self.cases[_pair(axis, mark - 1, n)].is_like(self.cases[_pair(axis, mark, n)]) for n in others):
+                del self.ticks[axis][mark]
                 self.cases = {
                     _pair(axis, each[axis] - (each[axis] >= mark), each[1 - axis]): case
                     for each, case in self.cases.items()
@@ -216,8 +185,8 @@ class _Map:
                 mark += 1
 
     def _field(self, place: tuple[int, int], case: CaseClass) -> Field:
-        low, high = ([self.marks[axis][place[axis] + side] for axis in (0, 1)] for side in (0, 1))
-        branches = branches_of(case, self.words, low, high)
+        low, high = ([self.ticks[axis][place[axis] + side] for axis in (0, 1)] for side in (0, 1))
+        branches = branches_of(case, self.names, low, high)
         return Field(branches, WordBox((low[0], low[1]), (high[0], high[1])))
 
     def _boundary(self, field: Field, case: CaseClass, trace: BoundaryTrace, *, is_gap: bool) -> Boundary:
@@ -236,31 +205,26 @@ class _Map:
         """Values close to a point on both sides of its line, with and without the contour."""
         for share in ASIDE:
             sides = [(float(each[0]), float(each[1])) for each in (point + share * way, point - share * way)]
-            states = [self._is_solved(case, side) for side in sides]
+            states = [bool(case.solve(self.at(side)).points) for side in sides]
             if is_gap and all(states):
                 return sides[0], sides[1]
             if not is_gap and states[0] is not states[1]:
                 return (sides[0], sides[1]) if states[0] else (sides[1], sides[0])
         return None, None
 
-    def _is_solved(self, case: CaseClass, at: Point) -> bool:
-        return bool(case.solve(dict(zip(self.words, at, strict=True))).points)
-
     def _reason(self, field: Field, case: CaseClass, number: int, there: Point, *, is_gap: bool) -> Reason:
         """What fails beyond a line, at values there."""
-        failure, event = failure_of(self._solve(there))
-        if event is RemarkKind.SEVERAL and not is_gap:
+        failure, event = failure_of(self.answer_at(*there)) if not is_gap else NO_FAILURE
+        if event is RemarkKind.SEVERAL:
             return failure
-        if event is RefusalKind.NOT_VERIFIED or is_gap:
-            failure, event = NO_FAILURE
         check, checks, refusal = field.checks[number], field.checks, event if isinstance(event, RefusalKind) else None
         if refusal is not None and not same(check.kind, refusal):
             fails = field.fails(numpy.array([there]))[:, 0]
             check = next((checks[each] for each in numpy.flatnonzero(fails) if same(checks[each].kind, refusal)), check)
-        text = phrase(check, refusal or check.kind, about_of(case.free, case.profile))
+        text = phrase(check, refusal or check.kind, case)
         return replace(failure, text=text)
 
-    def _limits(self, fields: Mapping[tuple[int, int], Field]) -> Iterator[Boundary]:
+    def _limit_lines(self, fields: Mapping[tuple[int, int], Field]) -> Iterator[Boundary]:
         """The parts of the limits of rules beyond which there is no contour."""
         for place, field in fields.items():
             for axis, way in product((0, 1), (-1, 1)):
@@ -284,19 +248,16 @@ class _Map:
         """A part of the limit of a rule."""
         middle = (span[0] + span[1]) / 2
         inside, outside = (_pair(axis, value + side, middle) for side in (-step, step))
-        answer = self._solve(outside)
+        answer = self.answer_at(*outside)
         (failure, event), where = failure_of(answer), "above" if step > 0 else "below"
         says = f"rule {failure.code} refuses" if failure.code and event is None else "there is no contour for"
-        text = f"{says} {called(self.words[axis])} {where} {value_text(value, self.units[axis])}"
-        is_told = answer.contour is None and self._solve(inside).contour is not None
+        text = f"{says} {called(self.names[axis])} {where} {value_text(value, self.units[axis])}"
+        is_told = answer.contour is None and self.is_solved(*inside)
         points = tuple(_pair(axis, value, end) for end in span)
         unverified = 0 if is_told else 1
         return Boundary(
             points, replace(failure, text=text), Way.RULE, inside, outside, is_gap=False, unverified=unverified
         )
-
-    def _solve(self, at: Point) -> Answer:
-        return self.template.solve(dict(zip(self.words, at, strict=True)))
 
 
 def _has_extent(field: Field, trace: BoundaryTrace) -> bool:
@@ -316,14 +277,9 @@ def _normals(points: Array) -> Array:
     return found
 
 
-def _is_zero(field: Field, trace: BoundaryTrace) -> bool:
-    """Whether a margin is zero on a line, and does not jump there."""
-    return bool(numpy.max(numpy.abs(field.values(trace.points)[trace.check])) <= LENGTH)
-
-
-def _jumps(field: Field, trace: BoundaryTrace) -> bool:
-    """Whether a margin is zero nowhere on a line, on which it changes its sign all the same."""
-    return bool(numpy.min(numpy.abs(field.values(trace.points)[trace.check])) > LENGTH)
+def _is_zero(margins: Array) -> bool:
+    """Whether margins are zero on a line, and do not jump there."""
+    return bool(margins.max() <= LENGTH)
 
 
 def _runs(tell: Callable[[Array], NDArray[numpy.bool_]], field: Field, axis: int, value: float) -> Iterator[Point]:
@@ -341,6 +297,12 @@ def _runs(tell: Callable[[Array], NDArray[numpy.bool_]], field: Field, axis: int
     lows = [*([along[0]] if states[0] else []), *begins[~before]]
     highs = [*ends[before], *([along[-1]] if states[-1] else [])]
     yield from ((float(low), float(high)) for low, high in zip(lows, highs, strict=True))
+
+
+def _two(values: Sequence[T]) -> tuple[T, T]:
+    """What concerns the two words."""
+    first, second = values
+    return first, second
 
 
 def _pair(axis: int, own: T, other: T) -> tuple[T, T]:

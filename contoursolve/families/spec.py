@@ -7,6 +7,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal, InvalidOperation
 from math import isfinite
+from typing import TypedDict
 
 import numpy
 from numpy.typing import ArrayLike, NDArray
@@ -386,16 +387,27 @@ class SweepSpec:
         return template.with_words(self.names)
 
 
+class BlockOptions(TypedDict, total=False):
+    """How a block is read: what every question about it takes besides (see `family`)."""
+
+    start: str | None
+    control: str | Dialect | None
+    facts: Iterable[str]
+    units: str
+    rules: str
+    settings: Mapping[str, str] | None
+
+
 def spec_of(
     block: str,
     names: Iterable[str] = (),
     *,
-    start: str | None,
-    control: str | Dialect | None,
+    start: str | None = None,
+    control: str | Dialect | None = None,
     facts: Iterable[str] = (),
-    units: str,
-    rules: str,
-    settings: Mapping[str, str] | None,
+    units: str = "mm",
+    rules: str = "enforce",
+    settings: Mapping[str, str] | None = None,
 ) -> SweepSpec:
     """The spec of a block with the words of these names free; a text alone is one fact."""
     stated = (facts,) if isinstance(facts, str) else tuple(facts)

@@ -2,7 +2,7 @@
 function is zero.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import isfinite
 
@@ -10,7 +10,6 @@ import numpy
 from numpy.typing import NDArray
 
 from contoursolve.backends.intervals import Array, Intervals
-from contoursolve.families.branches import Branch
 from contoursolve.families.targets import TargetCurve
 
 Bits = NDArray[numpy.bool_]
@@ -41,12 +40,6 @@ FEW = 12
 
 FEW_PARTS = 64
 """Of no more parts that are not decided it is worth while to divide each by itself."""
-
-DEPTH = 1
-"""How often what is left is tried by itself."""
-
-WIDE = 2_000.0
-"""A range wider than this is divided by decades about zero."""
 
 BISECTIONS = 64
 """From any part to neighbouring numbers."""
@@ -103,69 +96,6 @@ def section(low: float, high: float, is_beyond: Callable[[Array], Bits]) -> tupl
         if high - low <= 4 * numpy.spacing(max(abs(low), abs(high))):
             break
     return low, high
-
-
-@dataclass(frozen=True, slots=True)
-class Stretch:
-    """Part of a range: all checks are passed (True), or one fails everywhere (False), or that is not decided."""
-
-    low: float
-    high: float
-    is_passed: bool | None
-
-
-def find_stretches(
-    branch: Branch, low: float, high: float, *, near: Sequence[float] = (), depth: int = 0
-) -> list[Stretch]:
-    """Stretches from `low` to `high` in order, neighbours of one kind joined. Those that are not decided are narrow,
-    unless the search was given up. `near` are values at which to divide first."""
-    edges, is_level = _first(low, high, near), branch.find_level([low], [high])
-    done: list[tuple[Array, Array, NDArray[numpy.int8]]] = []
-
-    def decide(cells: Intervals) -> Intervals:
-        passes, fails = branch.verdicts([cells], is_level, FEW)
-        for mask, kind in ((passes, 1), (fails & ~passes, 0)):
-            done.append((cells.low[mask], cells.high[mask], numpy.full(mask.sum(), kind, numpy.int8)))
-        return cells[~(passes | fails)]
-
-    left = subdivide(Intervals(edges[:-1], edges[1:]), decide, STRETCHES)
-    done.append((left.low, left.high, numpy.full(left.low.size, -1, numpy.int8)))
-    found = _joined(*(numpy.concatenate(each) for each in zip(*done, strict=True)))
-    if depth == DEPTH or len(found) == 1:
-        return found
-    # What is zero everywhere may be so on a part only.
-    return [
-        part
-        for each in found
-        for part in (
-            find_stretches(branch, each.low, each.high, depth=depth + 1)
-            if each.is_passed is None and each.high - each.low > (high - low) / STRETCHES_FIRST
-            else [each]
-        )
-    ]
-
-
-def _first(low: float, high: float, near: Sequence[float]) -> Array:
-    """Where a range is divided first."""
-    if high - low <= WIDE:
-        cells = numpy.linspace(low, high, STRETCHES_FIRST + 1)
-    else:
-        decades = numpy.logspace(-2, 6, STRETCHES_FIRST + 1)
-        cells = numpy.concatenate([-decades[::-1], [0.0], decades])
-    cells = numpy.concatenate([cells, near])
-    inner = cells[(cells > low) & (cells < high)]
-    return numpy.unique(numpy.concatenate([[low], inner, [high]]))
-
-
-def _joined(lows: Array, highs: Array, kinds: NDArray[numpy.int8]) -> list[Stretch]:
-    order = numpy.argsort(lows, kind="stable")
-    lows, highs, kinds = lows[order], highs[order], kinds[order]
-    begins = numpy.flatnonzero(numpy.concatenate([[True], kinds[1:] != kinds[:-1]]))
-    ends = numpy.append(begins[1:], kinds.size) - 1
-    return [
-        Stretch(float(lows[begin]), float(highs[end]), {1: True, 0: False}.get(int(kinds[begin])))
-        for begin, end in zip(begins, ends, strict=True)
-    ]
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,8 +1,10 @@
-"""Where a point of a contour is wanted."""
+"""Where a point of a contour is wanted: as a function of one word whose zeros are sought, and where there is no closed
+form as a fact, with the word asked for.
+"""
 
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from decimal import Decimal, InvalidOperation
 from math import hypot
 
@@ -11,14 +13,16 @@ from numpy.typing import NDArray
 
 from contoursolve.backends.intervals import Array, Intervals, constant
 from contoursolve.contour import Contour
+from contoursolve.examine import Answer, Depth, answer_question, count_choices, list_alternatives
 from contoursolve.families.branches import PLACES, Branch
-from contoursolve.families.spec import FamilyError
+from contoursolve.families.spec import FamilyError, NotMovedError, Template, first_error, is_same, with_value, write
 from contoursolve.model import Figure, Length, Plane, Unit
-from contoursolve.reading import Lexicon, WithoutPoint
-from contoursolve.solving import Point
+from contoursolve.reading import Lexicon, Trouble, WithoutPoint
+from contoursolve.solving import Point, Status
 from contoursolve.source import Span
-from contoursolve.syntax import Word
+from contoursolve.syntax import Word, read_directive
 from contoursolve.unpointed import counts_few, readings
+from contoursolve.wording import unknowns_text
 
 CONSTANT = 1e-10
 """mm for each unit of the word. A coordinate whose rate is less at places drawn at random never changes."""
@@ -168,3 +172,76 @@ class TargetCurve:
         bounds = self.chart.slopes_between([cells], self.fixed[0])
         rows = zip(bounds.low, bounds.high, self.drift, strict=True)
         return [Intervals(low, high) + constant(rate) for low, high, rate in rows]
+
+
+def asked_values(template: Template, word: str, goal: Goal, answer: Answer) -> tuple[list[float], list[str]]:
+    """Every value of a word or a fact, as written, with which a point has one coordinate, and why these are not proven
+    to be all; nothing if they are. `answer` is that of the block as it is. Raises NotMovedError, FamilyError."""
+    typed = template.words[word]
+    asking = template.typed({word: with_value(typed, "?")})
+    facts = (*asking.facts, read_directive(_stated(goal, answer), -len(asking.facts) - 1))
+    result = replace(asking, facts=facts).examined(Depth.VERDICT)
+    unread = [each.message for each in result.diagnostics if each.about in _UNREAD]
+    if unread:
+        raise FamilyError(unread[0])
+    if len(result.answers) != 1:
+        raise FamilyError(first_error(result) or "the block is no single contour")
+    status = result.answers[0].status
+    if status is Status.UNDERDETERMINED and answer.contour is not None:
+        # The goal says nothing of the word, which is open without its value.
+        raise NotMovedError(f"{word} does not move {goal.point} in this direction")
+    if status in (Status.UNDERDETERMINED, Status.REJECTED):
+        raise FamilyError(first_error(result))
+    return list(_values(result.answers[0], typed)), list(_doubts(result.answers[0]))
+
+
+_UNREAD = (Trouble.FACT_UNREADABLE, Trouble.FACT_IMPOSSIBLE)
+
+
+def _values(found: Answer, typed: Word) -> Iterator[float]:
+    """The values in all solutions that the control could make."""
+    question = next((each for each in found.profile.questions if is_same(typed, each.word)), None)
+    if question is None:
+        raise FamilyError(f"{typed.text} cannot be asked for here")
+    scale = 1.0
+    if question.unit is Unit.MM:
+        scale = (2.0 if question.is_diameter else 1.0) / float(found.unit.in_mm)
+    alternatives = list_alternatives(found)
+    if alternatives is None:
+        values = [each.value for each in found.answers if each.question is question]
+    else:
+        values = [answer_question(question, found.profile, item.solution).value for item in alternatives.paths]
+    yield from (value * scale for value in values if value is not None)
+
+
+def _doubts(found: Answer) -> Iterator[str]:
+    """Why the solutions are not proven to be all."""
+    alternatives = list_alternatives(found)
+    if alternatives is not None:
+        for doubt in alternatives.doubts:
+            yield f"{unknowns_text(doubt.unknowns, found.profile) or 'the equations'}: {doubt.obstacle.value}"
+        if alternatives.reach is not None:
+            yield f"there is no closed form; it was searched within {alternatives.reach:.0f} mm of the start point"
+    elif found.contour is not None and (choices := count_choices(found.profile)):
+        yield f"the other sides of {choices} points: too many to go through"
+    elif found.contour is None and found.status is Status.UNDECIDED:
+        yield "no value was found, and that there is none is not proven"
+
+
+def _stated(goal: Goal, answer: Answer) -> str:
+    """A goal of one coordinate as a fact."""
+    axis = 0 if goal.place[0] is not None else 1
+    value, plane = goal.place[axis], answer.plane
+    if value is None or goal.is_nearest:
+        raise FamilyError("without a closed form, name one coordinate to bring the point to")
+    shown = value * (2 if plane.diameters[axis] else 1) / float(answer.unit.in_mm)
+    return f"{plane.axes[axis]} of {_point(goal.point, answer.profile.figure)} = {write(shown)}"
+
+
+def _point(name: str, figure: Figure) -> str:
+    """A point as facts call it."""
+    element, _, part = name.rpartition(".")
+    if name == "end":
+        landing, _, _ = end_name(figure).rpartition(".")
+        element, part = landing or figure.path[-1].name, "end"
+    return f"{part} of {element}" if element else name

@@ -1,0 +1,238 @@
+"""The free words of a block: what they are written in, the limits of the rules between which their values are treated
+alike, and one row of each class that the rules may tell apart.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from decimal import Decimal
+from itertools import pairwise, product
+from math import prod
+from typing import Any
+
+import numpy
+from numpy.typing import NDArray
+
+from contoursolve.backends.columns import Array
+from contoursolve.diagnostic import Basis
+from contoursolve.examine import Answer
+from contoursolve.families.spec import (
+    FamilyError,
+    Places,
+    Ranges,
+    RefusedError,
+    Template,
+    errors_of,
+    first_error,
+    is_same,
+    unit_word,
+)
+from contoursolve.model import Given, Profile, Unit
+from contoursolve.reading import Trouble
+from contoursolve.rules import Value
+from contoursolve.solving import Status
+from contoursolve.solving.verdict import Codes
+from contoursolve.syntax import FACT, Word
+from contoursolve.tolerance import LARGEST
+
+
+def value_of(word: Word, answer: Answer) -> float:
+    """The value of a word as it would be written with a decimal point."""
+    lexicon = answer.claim.lexicon
+    if word.address not in lexicon.addresses:
+        return float(word.number or 0)
+    one = lexicon.value(unit_word(word, has_point=True), answer.unit) or Decimal(1)
+    return float((lexicon.value(word, answer.unit) or Decimal(0)) / one)
+
+
+def kind_of(word: Word, answer: Answer) -> tuple[Unit, bool]:
+    """What a word of a block or of the start point, or a fact, states, and whether it is a diameter. Raises FamilyError
+    where nothing tells, or a fact cannot be read."""
+    unread = next((each for each in answer.diagnostics if each.about is Trouble.FACT_UNREADABLE), None)
+    if unread is not None:
+        raise FamilyError(unread.message)
+    row = answer.claim.lexicon.addresses.get(word.address) or next(iter(stated_by(word, answer.profile)), None)
+    if row is None:
+        raise FamilyError(first_error(answer) or f"{word.text} states no value")
+    return row.unit, row.is_diameter
+
+
+def stated_by(typed: Word, profile: Profile) -> list[Given]:
+    """The values that follow from a word, wherever it now stands in its line."""
+    return [each for each in profile.givens.values() if each.word is not None and is_same(typed, each.word)]
+
+
+def factor_of(answer: Answer, typed: Word, given: Given, number: Decimal) -> Decimal:
+    """The mm or degrees of a value for each unit of the word that states it with this number."""
+    if number:
+        return given.value / number
+    if typed.address == FACT:
+        half = Decimal("0.5") if given.is_diameter else Decimal(1)
+        return half * answer.unit.in_mm if given.unit is Unit.MM else Decimal(1)
+    one = unit_word(typed, has_point=given.word is None or given.word.has_point)
+    return answer.claim.lexicon.value(one, answer.unit) or Decimal(1)
+
+
+def limits_of(template: Template, values: Mapping[str, float]) -> tuple[list[float], list[tuple[float, ...]]]:
+    """For each free word, the mm or degrees for each unit of it, and the limits of the rules, between which its values
+    are treated alike. Raises FamilyError where the limits of two words depend on each other."""
+    answer = template.solve(values)
+    claim, tied = answer.claim, list[str]()
+    scales: list[float] = []
+    bounds: list[tuple[float, ...]] = []
+    for name, word in template.words.items():
+        limits = {Decimal(0), -Decimal(LARGEST), Decimal(LARGEST)}
+        stated = stated_by(word, answer.profile)
+        one: Decimal | None = None
+        if word.address in claim.lexicon.addresses:
+            tests = (rule.when for rule in template.dialect.rules if isinstance(rule.when, Value))
+            ends = (end for test in tests for end in (test.least, test.most, test.excluding))
+            limits |= {end for end in ends if end is not None and end.is_finite()}
+            one = claim.lexicon.value(unit_word(word, has_point=True), answer.unit)
+        elif word.address != FACT:
+            raise FamilyError(f"{word.text} is no word of the contour")
+        elif stated:
+            one = factor_of(answer, word, stated[0], Decimal(repr(values[name])))
+        for given in stated:
+            if given.name in claim.limits:
+                limits.add(claim.limits[given.name])
+                tied.append(word.text)
+        if not stated and claim.limits and word.address != FACT:
+            tied.append(name)
+        scales.append(float(one or 1))
+        bounds.append(tuple(sorted(map(float, limits))))
+    if len(tied) > 1:
+        raise FamilyError(
+            f"{' and '.join(tied)} are read together, for on which side of its centre the arc ends depends on both: "
+            "vary one of them at a time"
+        )
+    return scales, bounds
+
+
+def _intervals_of(values: Array, bounds: tuple[float, ...]) -> Codes:
+    """The number of the interval between two bounds in which each value lies; a bound is an interval of its own."""
+    limits = numpy.array(bounds)
+    places = numpy.searchsorted(limits, values, "left") + numpy.searchsorted(limits, values, "right")
+    return places.astype(numpy.uint8)
+
+
+@dataclass(frozen=True, slots=True)
+class Example:
+    """A row of a class that the rules may tell apart: its key, its values, and how many rows have this key."""
+
+    key: int
+    values: tuple[float, ...]
+    count: int
+
+
+@dataclass(frozen=True, slots=True)
+class Examples:
+    """One row of each class that the rules may tell apart, in the order of their keys, as plain data.
+
+    Each word has a scale and bounds: its values, scaled, lie between two bounds or on one, which gives a number; the
+    numbers of all words make the key.
+    """
+
+    scales: tuple[float, ...]
+    bounds: tuple[tuple[float, ...], ...]
+    rows: tuple[Example, ...]
+
+    def key(self, values: Sequence[Array], places: Sequence[Places]) -> NDArray[numpy.int64]:
+        """The keys of some rows."""
+        words = zip(values, places, self.scales, self.bounds, strict=True)
+        return _key_of((_intervals_of(each * scale, bounds)[at] for each, at, scale, bounds in words), self.bounds)
+
+
+def examples_of(template: Template, ranges: Ranges) -> Examples:
+    """A row for each set of intervals in which the values lie. Raises FamilyError."""
+    scales, bounds = limits_of(template, {name: float(values[0]) for name, values in ranges.values.items()})
+    if prod(2 * len(limits) + 1 for limits in bounds) >= 2**63:
+        raise FamilyError(f"{len(bounds)} words are too many to vary at once")
+    words = list(ranges.values.values())
+    parts = [_intervals_of(values * scale, limits) for values, scale, limits in zip(words, scales, bounds, strict=True)]
+    columns = [_key_of(parts, bounds)] if ranges.is_paired else parts
+    rows: list[Example] = []
+    for choice in product(*(zip(*_unique(each), strict=True) for each in columns)):
+        numbers, firsts, counts = zip(*choice, strict=True)
+        places = firsts * len(words) if ranges.is_paired else firsts
+        key = numbers[0] if ranges.is_paired else int(_key_of(numbers, bounds)[0])
+        rows.append(Example(key, tuple(float(each[at]) for each, at in zip(words, places, strict=True)), prod(counts)))
+    return Examples(tuple(scales), tuple(bounds), tuple(rows))
+
+
+def _key_of(numbers: Iterable[NDArray[Any] | int], bounds: Sequence[tuple[float, ...]]) -> NDArray[numpy.int64]:
+    """The numbers of the intervals of all words as one, row by row."""
+    key = numpy.zeros(1, numpy.int64)
+    for each, limits in zip(numbers, bounds, strict=True):
+        key = key * (2 * len(limits) + 1) + each
+    return key
+
+
+def _unique(numbers: NDArray[Any]) -> tuple[list[int], list[int], list[int]]:
+    """Numbers in order, each once, with the first place and the count of each."""
+    found, firsts, counts = numpy.unique(numbers, return_index=True, return_counts=True)
+    return found.tolist(), firsts.tolist(), counts.tolist()
+
+
+Refusals = frozenset[tuple[str, int, tuple[str, ...]]]
+"""Findings by code, line and words."""
+
+
+def check_block(template: Template, values: Mapping[str, float] | None = None) -> None:
+    """Raise RefusedError where a block is refused whatever the values of its free words; `values` are those of one row,
+    without it those that the words have in the block.
+
+    Rules treat the values between two of their limits alike. Word by word, the value with the fewest refusals is
+    taken; what then is left does not depend on the values.
+    """
+    answer = template.solve(values or {})
+    left = _refusals(answer)
+    if not left:
+        return
+    chosen = dict(values or {name: value_of(word, answer) for name, word in template.words.items()})
+    limits = zip(chosen, *limits_of(template, chosen), strict=True) if chosen else ()
+    for name, scale, bounds in limits:
+        for value in _probes(bounds):
+            tried = {**chosen, name: value / scale}
+            try:
+                found = _refusals(template.solve(tried))
+            except FamilyError:  # with this value it is no single contour
+                continue
+            if _weight(found) < _weight(left):
+                left, chosen = found, tried
+            if not left:
+                return
+    raise RefusedError(template.examined())
+
+
+def _refusals(answer: Answer) -> Refusals:
+    """What refuses a block by its text, its words or the structure of its equations."""
+    if answer.status not in _REFUSED:
+        return frozenset()
+    return frozenset(
+        (each.code, each.span.line, each.addresses)
+        for each in errors_of(answer)
+        if each.basis is not Basis.NUMERICAL or each.about in _USELESS
+    )
+
+
+_REFUSED = (Status.REJECTED, Status.CONFLICTING, Status.UNDERDETERMINED)
+"""What a block may be without its values."""
+
+
+def _weight(refusals: Refusals) -> tuple[int, int]:
+    """How much is refused: findings, and the words that they name."""
+    return len(refusals), sum(len(words) for _, _, words in refusals)
+
+
+_USELESS = (Trouble.FACT_UNREADABLE, Trouble.FACT_IMPOSSIBLE)
+"""Findings about facts that cannot be used, whatever they rest on."""
+
+
+def _probes(bounds: tuple[float, ...]) -> Iterator[float]:
+    """A value on each limit of the rules and between each two, as far as values are read."""
+    inner = [each for each in bounds if abs(each) < LARGEST]
+    yield from inner
+    # Near the least of them, for what is large may fit nowhere.
+    for low, high in pairwise((-LARGEST, *inner, LARGEST)):
+        step = min(1.0, (high - low) / 2)
+        yield low + step if low >= 0 else high - step

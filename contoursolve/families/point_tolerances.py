@@ -1,0 +1,218 @@
+"""Which word moves a point of a contour most, and what tolerances come to: to first order and solved again."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from decimal import ROUND_HALF_EVEN, Decimal
+from math import hypot, isnan, nan
+from typing import Unpack
+
+import numpy
+
+from contoursolve.backends.intervals import Array
+from contoursolve.examine import Answer
+from contoursolve.families.evaluate import compile_sweep, solve_sweep
+from contoursolve.families.export import Family
+from contoursolve.families.free_words import check_block, kind_of, value_of
+from contoursolve.families.sensitivities import Spread, read_tolerances, slopes_of, stated_words
+from contoursolve.families.spec import (
+    BlockOptions,
+    FamilyError,
+    Template,
+    find_words,
+    first_error,
+    ranges_of,
+    spec_of,
+    unit_word,
+)
+from contoursolve.families.targets import end_name, place_of
+from contoursolve.model import Length, Plane, Unit
+from contoursolve.shown import Shown
+from contoursolve.solving import Point
+from contoursolve.solving.verdict import Code
+
+MOST_WORDS = 10
+"""Words with a tolerance of which all combinations of limits are solved; each doubles them."""
+
+
+@dataclass(frozen=True, slots=True)
+class Effect:
+    """What one word or fact does to the point.
+
+    `slope` is by how much it moves on each axis, mm (X as radius) for each unit of the word as written, in `unit` (mm,
+    inch or deg); NaN where two places have become one. `tolerance` is what the word may be off by,
+    None where nothing was said, and `moves` how far that moves the point to first order, mm. `increment` is the
+    control's least increment of the word (None for a fact), and `by_half` how far half of it moves the point at most,
+    solved again, None where that has no contour. `rounded` is the value rounded to least increments, and `by_rounding`
+    how far that moves the point, solved again, beside `by_rounding_linear` from the derivatives; None where it has no
+    contour.
+    """
+
+    word: str
+    unit: str
+    stated: float
+    slope: Point
+    tolerance: float | None
+    moves: float
+    increment: float | None
+    by_half: float | None
+    rounded: float | None
+    by_rounding: float | None
+    by_rounding_linear: float
+
+
+@dataclass(frozen=True, slots=True)
+class Missing:
+    """Combinations of the limits without a contour for one reason: how many, the values of one of them as written, and
+    what `solve` says of that one."""
+
+    count: int
+    values: Mapping[str, float]
+    message: str
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """Where the point lies on each axis at most and at least, mm, at all combinations of the limits of the tolerances,
+    each solved; `without` counts those that have no contour, `missing` says which and why."""
+
+    low: Point
+    high: Point
+    count: int
+    without: int
+    missing: tuple[Missing, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Tolerances(Shown):
+    """How words move a point of a contour: the words, the one that moves it most first; how far it may be off on each
+    axis to first order; and where it lies at the limits, None without tolerances or with too many of them."""
+
+    point: str
+    place: Point
+    plane: Plane
+    length: Length
+    effects: tuple[Effect, ...]
+    spread: tuple[Spread, Spread]
+    limits: Limits | None
+
+
+def tolerances(
+    block: str,
+    allowed: Mapping[str, float] | None = None,
+    *,
+    point: str = "end",
+    **options: Unpack[BlockOptions],
+) -> Tolerances:
+    """What each word does to a point, and what tolerances come to: at worst, in the root of the sum of squares, and at
+    all combinations of their limits.
+
+    Args:
+        block: the block, or the blocks of one contour.
+        allowed: how far words may be off, as written, by name (`{"P": 0.05}`); of a fact by what it gives the value of.
+        point: a point as a `Family` names it (`V2`, `corner 1.center`), or `end`.
+        options: as for `sensitivity`, with the same errors; also raises FamilyError for a word or a point
+            that is not there, and a tolerance below 0.
+
+    >>> found = tolerances("G111 X100. A180. K-30. B120. P5. Q5.", {"A": 0.1, "K": 0.02}, start="X40. Z0.")
+    >>> [(each.word, round(each.moves, 4)) for each in found.effects[:2]]
+    [('A', 0.0302), ('K', 0.02)]
+    """
+    spec = spec_of(block, **options)
+    template = spec.template()
+    check_block(template)
+    answer = template.solve({})
+    slopes, axes = slopes_of(answer).slopes, answer.plane.axes
+    name = end_name(answer.profile.figure) if point == "end" else point
+    if answer.contour is None or any(f"{name}.{axis}" not in slopes for axis in axes):
+        points = dict.fromkeys(each.removesuffix(f".{axes[0]}") for each in slopes if each.endswith(f".{axes[0]}"))
+        raise FamilyError(f"the contour has no point {point}; there are {', '.join(('end', *points))}")
+    first, second = (slopes[f"{name}.{axis}"] for axis in axes)
+    study = _Study(template, answer, point)
+    by_word = {word: (first[word] * study.unit(word), second[word] * study.unit(word)) for word in first}
+    allowed = read_tolerances({} if allowed is None else allowed, by_word)
+    effects = [study.effect(word, slope, allowed.get(word)) for word, slope in by_word.items()]
+    effects.sort(key=lambda each: (not isnan(each.moves), -each.moves, -(each.by_half or 0.0)))
+    parts = [[abs(by_word[word][axis]) * value for word, value in allowed.items()] for axis in (0, 1)]
+    limits = None
+    if allowed and len(allowed) <= MOST_WORDS:
+        values = {word: study.value(word) for word in allowed}
+        vary = {word: [values[word] - off, values[word] + off] for word, off in allowed.items()}
+        found = solve_sweep(compile_sweep(spec, ranges_of(vary, is_paired=False)))
+        # A family without any contour has no points.
+        none = numpy.full(len(found), nan)
+        limits = _limits(*(found.columns.get(f"{name}.{axis}", none) for axis in axes))
+        limits = replace(limits, missing=tuple(_missing(template, found)))
+    spread = Spread(sum(parts[0]), hypot(*parts[0])), Spread(sum(parts[1]), hypot(*parts[1]))
+    return Tolerances(point, study.place, answer.plane, answer.unit, tuple(effects), spread, limits)
+
+
+def _missing(template: Template, found: Family) -> Iterator[Missing]:
+    """The rows without a contour, each reason once, the most frequent first."""
+    free = template.with_words(list(found.ranges.values))
+    kinds = numpy.stack([found.columns["status"], found.columns["reason"]], axis=1)
+    reasons, firsts, counts = numpy.unique(kinds, axis=0, return_index=True, return_counts=True)
+    for number in numpy.argsort(-counts, kind="stable").tolist():
+        if reasons[number, 0] > Code.OVERDETERMINED:
+            values = {word: float(found[word].reshape(-1)[firsts[number]]) for word in found.ranges.values}
+            yield Missing(int(counts[number]), values, first_error(free.solve(values)))
+
+
+def _limits(first: Array, second: Array) -> Limits:
+    """Where a point lies at all combinations, NaN where it does not."""
+    has = ~numpy.isnan(first)
+    count = int(has.sum())
+    if not count:
+        return Limits((nan, nan), (nan, nan), first.size, first.size)
+    low, high = ((float(each(first[has])), float(each(second[has]))) for each in (numpy.min, numpy.max))
+    return Limits(low, high, first.size, first.size - count)
+
+
+class _Study:
+    """One point of one contour, and where it is when a word changes."""
+
+    def __init__(self, template: Template, answer: Answer, point: str) -> None:
+        self.template, self.answer, self.point = template, answer, point
+        at = place_of(point, answer.contour)
+        if at is None:
+            raise FamilyError(f"{point} is on an element of no length; name another point")
+        self.place = at
+        self.words = stated_words(answer)
+
+    def value(self, word: str) -> float:
+        """The value of a word or a fact, as it would be written with a decimal point."""
+        return value_of(find_words(self.template, [word])[word], self.answer)
+
+    def unit(self, word: str) -> float:
+        """By how many units of a word as written its value changes, for one of it with a decimal point."""
+        if word not in self.words:
+            return 1.0
+        typed = self.words[word]
+        if typed.number:
+            return float(typed.number) / self.value(word)
+        return 1.0 / value_of(unit_word(typed, has_point=typed.has_point), self.answer)
+
+    def effect(self, word: str, slope: Point, tolerance: float | None) -> Effect:
+        """What a word does."""
+        moves, typed = hypot(*slope) * tolerance if tolerance else 0.0, self.words.get(word)
+        lexicon, value = self.answer.claim.lexicon, self.value(word)
+        stated = kind_of(find_words(self.template, [word])[word], self.answer)[0]
+        unit = "deg" if stated is Unit.DEGREE else self.answer.unit.value
+        effect = Effect(word, unit, value, slope, tolerance, moves, None, None, None, None, 0.0)
+        if typed is None:
+            return effect
+        exact, step = Decimal(repr(value)), lexicon.numbers.step(stated, self.answer.unit)
+        halves = [self._moved(word, float(exact + way * step / 2)) for way in (-1, 1)]
+        rounded = exact.quantize(step, ROUND_HALF_EVEN)
+        return replace(
+            effect,
+            increment=float(step),
+            by_half=None if None in halves else max(each for each in halves if each is not None),
+            rounded=float(rounded),
+            by_rounding=self._moved(word, float(rounded)) if rounded != exact else 0.0,
+            by_rounding_linear=hypot(*slope) * float(abs(rounded - exact)),
+        )
+
+    def _moved(self, word: str, value: float) -> float | None:
+        """How far the point moves when a word gets another value, mm; None where there is no contour then."""
+        at = place_of(self.point, self.template.with_words([word]).solve({word: value}).contour)
+        return None if at is None else hypot(at[0] - self.place[0], at[1] - self.place[1])

@@ -1,0 +1,425 @@
+"""In which parts of one word's range a block is solved: what intervals prove, what samples tell of the rest, and the
+values at which one part ends.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import groupby, pairwise
+from math import copysign, inf, isfinite, sqrt
+
+import numpy
+from numpy.typing import NDArray
+
+from contoursolve.backends.intervals import Array, Intervals
+from contoursolve.families.branches import INSTEAD, Branch, branches_of
+from contoursolve.families.case_classes import CaseClass, FreeWords
+from contoursolve.families.spec import FamilyError, NotClosedError, Template
+from contoursolve.families.subdivision import FEW, SAMPLES, STRETCHES, STRETCHES_FIRST, section, subdivide
+from contoursolve.model import Unit
+from contoursolve.solving.checks import Check
+from contoursolve.tolerance import LENGTH
+from contoursolve.wording import value_text
+
+LEAST_GAP = 1e-4
+"""mm or degrees: a tenth of the controls' least increment. What is narrower may be missed."""
+
+REACH = 1_000.0
+"""mm. How far a length is looked at where no range is given: as far as most machines travel. Twice the value that
+a word has, if that is more."""
+
+NARROW = 1e-7
+"""Share of a value (at least of 1). What lies between two stretches with a contour and is no wider is one value."""
+
+ROUNDING, REGULAR_ROUNDING = 1e-12, 1e-10
+"""By how much a value may differ from a shorter number that it means; the second where what must not be zero is taken
+for zero a little earlier."""
+
+CLOSE = 1e-6
+"""Share of a value (at least of 1) within which the zero of a margin lies from where the check begins to fail."""
+
+
+DEPTH = 1
+"""How often what is left is tried by itself."""
+
+WIDE = 2_000.0
+"""A range wider than this is divided by decades about zero."""
+
+TRIED = 0.382
+"""Share of a piece at which a single solve must agree with the solutions in closed form."""
+
+SMALL = 1e-4
+"""Share of a value (at least of 1). In a piece that is no wider rounding may be too large."""
+
+TOGETHER = 1e-9
+"""Share of a value (at least of 1). Values this close at which two branches change are one."""
+
+
+@dataclass(frozen=True, slots=True)
+class Stretch:
+    """Part of a range: all checks are passed (True), or one fails everywhere (False), or that is not decided."""
+
+    low: float
+    high: float
+    is_passed: bool | None
+
+
+def find_stretches(
+    branch: Branch, low: float, high: float, *, near: Sequence[float] = (), depth: int = 0
+) -> list[Stretch]:
+    """Stretches from `low` to `high` in order, neighbours of one kind joined. Those that are not decided are narrow,
+    unless the search was given up. `near` are values at which to divide first."""
+    edges, is_level = _first(low, high, near), branch.find_level([low], [high])
+    done: list[tuple[Array, Array, NDArray[numpy.int8]]] = []
+
+    def decide(cells: Intervals) -> Intervals:
+        passes, fails = branch.verdicts([cells], is_level, FEW)
+        for mask, kind in ((passes, 1), (fails & ~passes, 0)):
+            done.append((cells.low[mask], cells.high[mask], numpy.full(mask.sum(), kind, numpy.int8)))
+        return cells[~(passes | fails)]
+
+    left = subdivide(Intervals(edges[:-1], edges[1:]), decide, STRETCHES)
+    done.append((left.low, left.high, numpy.full(left.low.size, -1, numpy.int8)))
+    found = _joined(*(numpy.concatenate(each) for each in zip(*done, strict=True)))
+    if depth == DEPTH or len(found) == 1:
+        return found
+    # What is zero everywhere may be so on a part only.
+    return [
+        part
+        for each in found
+        for part in (
+            find_stretches(branch, each.low, each.high, depth=depth + 1)
+            if each.is_passed is None and each.high - each.low > (high - low) / STRETCHES_FIRST
+            else [each]
+        )
+    ]
+
+
+def _first(low: float, high: float, near: Sequence[float]) -> Array:
+    """Where a range is divided first."""
+    if high - low <= WIDE:
+        cells = numpy.linspace(low, high, STRETCHES_FIRST + 1)
+    else:
+        decades = numpy.logspace(-2, 6, STRETCHES_FIRST + 1)
+        cells = numpy.concatenate([-decades[::-1], [0.0], decades])
+    cells = numpy.concatenate([cells, near])
+    inner = cells[(cells > low) & (cells < high)]
+    return numpy.unique(numpy.concatenate([[low], inner, [high]]))
+
+
+def _joined(lows: Array, highs: Array, kinds: NDArray[numpy.int8]) -> list[Stretch]:
+    order = numpy.argsort(lows, kind="stable")
+    lows, highs, kinds = lows[order], highs[order], kinds[order]
+    begins = numpy.flatnonzero(numpy.concatenate([[True], kinds[1:] != kinds[:-1]]))
+    ends = numpy.append(begins[1:], kinds.size) - 1
+    return [
+        Stretch(float(lows[begin]), float(highs[end]), {1: True, 0: False}.get(int(kinds[begin])))
+        for begin, end in zip(begins, ends, strict=True)
+    ]
+
+
+@dataclass(frozen=True, slots=True)
+class RangePiece:
+    """Values from `low` to `high` without these two, or one value: whether the contour is solved there. `case` is how
+    the words are read; None for one value. `branch` is the only solution that is a contour there, if there is one."""
+
+    low: float
+    high: float
+    is_solved: bool
+    case: CaseClass | None
+    branch: Branch | None = None
+
+    @property
+    def is_value(self) -> bool:
+        """Whether it is one value."""
+        return self.case is None
+
+
+@dataclass(frozen=True, slots=True)
+class Onset:
+    """Where a check begins to fail: the check, the solution that it is about, and whether the value is a zero in closed
+    form."""
+
+    check: Check
+    branch: Branch
+    is_closed: bool
+
+    @property
+    def case(self) -> CaseClass:
+        """How the words are read."""
+        return self.branch.case
+
+
+@dataclass(frozen=True, slots=True)
+class _Passing:
+    """Part of a range, and which of several solutions pass their checks there."""
+
+    low: float
+    high: float
+    passing: tuple[int, ...]
+
+    @property
+    def is_solved(self) -> bool:
+        """Whether one solution alone passes."""
+        return len(self.passing) == 1
+
+
+def _passing(lines: Sequence[Sequence[Stretch]]) -> list[_Passing]:
+    """The parts in order, from those of each solution."""
+    low, high = lines[0][0].low, lines[0][-1].high
+    changes = {one.high for parts in lines for one, other in pairwise(parts) if one.is_passed is not other.is_passed}
+    cuts = [low]
+    for value in sorted(changes):
+        if value - cuts[-1] > TOGETHER * max(1.0, abs(value)):
+            cuts.append(value)
+    found: list[_Passing] = []
+    for begin, end in pairwise([*cuts, high]):
+        middle = (begin + end) / 2
+        passing = tuple(
+            number
+            for number, parts in enumerate(lines)
+            if any(part.low <= middle <= part.high and part.is_passed for part in parts)
+        )
+        if found and found[-1].passing == passing:
+            found[-1] = replace(found[-1], high=end)
+        else:
+            found.append(_Passing(begin, end, passing))
+    return found
+
+
+class Survey(FreeWords):
+    """One word of one block."""
+
+    def __init__(self, template: Template) -> None:
+        super().__init__(template)
+        (self.word,), (self.stated,), (self.unit,), (self.scale,) = self.names, self.values, self.units, self.scales
+        if Unit.SIGN in self.kinds:
+            raise FamilyError(f"{template.words[self.word].text} chooses between two places; it has no range")
+        self.is_angle = Unit.DEGREE in self.kinds
+        self.onsets: dict[float, Onset] = {}
+        """What fails beyond the ends of the pieces, by their values."""
+
+    def doubt(self, low: float, high: float, why: str) -> None:
+        """Remember that between two values something is not proven."""
+        ends = [value_text(value, self.unit) for value in (low, high)]
+        where = f"at {ends[0]}" if ends[0] == ends[1] else f"from {ends[0]} to {ends[1]}"
+        self.doubts.append(f"{self.word} {where}: {why}")
+
+    def range_of(self, within: tuple[float, float] | None) -> tuple[float, float]:
+        """The range to look at; where none is given an angle turns once. Raises FamilyError for one that is none."""
+        if within is not None:
+            return self.limits_within(0, within)
+        if self.is_angle:
+            return (0.0, 360.0) if self.stated >= 0 else (-360.0, 0.0)
+        reach = max(REACH / self.scale, 2 * abs(self.stated))
+        return -reach, reach
+
+    def pieces(self, low: float, high: float) -> list[RangePiece]:
+        """The range in order: stretches, with the value between two of them wherever it may differ from both."""
+        marks = self.marks(0, low, high)
+        cases = [self.case_at(self.stated if a < self.stated < b else (a + b) / 2) for a, b in pairwise(marks)]
+        found = [self._value(low)]
+        begin = low
+        for case, after, mark in zip(cases, [*cases[1:], None], marks[1:], strict=True):
+            if after is not None and case.is_like(after) and case.is_like(self.case_at(mark)):
+                continue  # the limit of a rule that changes nothing for this word
+            found += [*self._stretches(case, begin, mark), self._value(mark)]
+            begin = mark
+        return list(self._closed(found))
+
+    def _value(self, value: float) -> RangePiece:
+        return RangePiece(value, value, self.is_solved(value), None)
+
+    def _closed(self, pieces: Sequence[RangePiece]) -> Iterator[RangePiece]:
+        """The pieces, with what is narrow and has no contour between others that do as one value."""
+        number = 0
+        while number < len(pieces):
+            last = number
+            while last + 1 < len(pieces) and not (pieces[number].is_solved or pieces[last + 1].is_solved):
+                last += 1
+            piece, width = pieces[number], pieces[last].high - pieces[number].low
+            is_between = number > 0 and last + 1 < len(pieces) and not piece.is_solved
+            if is_between and width <= NARROW * max(1.0, abs(piece.low)):
+                value = short((piece.low + pieces[last].high) / 2, width)
+                yield RangePiece(value, value, is_solved=False, case=None)
+                number = last
+            else:
+                yield piece
+            number += 1
+
+    def _stretches(self, case: CaseClass, low: float, high: float) -> Iterator[RangePiece]:
+        if case.status is not None:
+            yield RangePiece(low, high, is_solved=False, case=case)
+            return
+        branches = branches_of(case, [self.word], [low], [high])
+        lines = [self._parts(branch, low, high) for branch in branches]
+        if case.is_closed:
+            ((parts, holes),) = lines
+            for is_passed, group in groupby(parts, key=lambda part: part.is_passed):
+                own = list(group)
+                branch = branches[0] if is_passed else None
+                piece = RangePiece(own[0].low, own[-1].high, branch is not None, case, branch)
+                yield from self._parted(piece, holes)
+            return
+        for piece in self._together(case, branches, lines):
+            at = piece.low + TRIED * (piece.high - piece.low)
+            if self.is_solved(at) is piece.is_solved:
+                yield piece
+                continue
+            if piece.high - piece.low > SMALL * max(1.0, abs(at)):
+                raise NotClosedError(f"at {self.word} {value_text(at, self.unit)} the closed form fails; {INSTEAD}")
+            # So close to a singular value rounding alone keeps the closed form from telling.
+            self.doubt(piece.low, piece.high, "rounding is too large for the closed form")
+            yield RangePiece(piece.low, piece.high, not piece.is_solved, case)
+
+    def _parts(self, branch: Branch, low: float, high: float) -> tuple[list[Stretch], list[float]]:
+        """Where the checks of one solution are passed, and single values that may differ from the parts."""
+        parts: list[Stretch] = []
+        holes: list[float] = []
+        near = [self.stated] if low < self.stated < high else []
+        stretches = find_stretches(branch, low, high, near=near)
+        for before, stretch, after in zip([None, *stretches], stretches, [*stretches[1:], None], strict=False):
+            more, between = [stretch], list[float]()
+            if stretch.is_passed is None:
+                more, between = _Undecided(self, branch).decide(stretch, before, after)
+            parts += more
+            holes += between
+        return parts, holes
+
+    def _parted(self, piece: RangePiece, holes: Sequence[float]) -> Iterator[RangePiece]:
+        """A piece, parted by the single values in it that differ from it."""
+        begin = piece.low
+        for hole in holes:
+            if begin < hole < piece.high and piece.is_solved is not self.is_solved(hole):
+                yield replace(piece, low=begin, high=hole)
+                yield self._value(hole)
+                begin = hole
+        yield replace(piece, low=begin)
+
+    def _together(
+        self, case: CaseClass, branches: Sequence[Branch], lines: Sequence[tuple[Sequence[Stretch], Sequence[float]]]
+    ) -> Iterator[RangePiece]:
+        """Pieces of several solutions: there is a contour where one of them alone passes its checks."""
+        holes = sorted({hole for _, own in lines for hole in own})
+        found = self._without_slivers(_passing([parts for parts, _ in lines]))
+        begin = found[0].low
+        for part, after in zip(found, [*found[1:], None], strict=False):
+            branch, end = branches[part.passing[0]] if part.is_solved else None, part.high
+            # Where solutions part, they may be one; where another one takes over, there may be none, or both.
+            is_alike = after is not None and part.is_solved is after.is_solved
+            if is_alike:
+                end = self._least_increment(end, is_solved=part.is_solved)
+            yield from self._parted(RangePiece(begin, end, part.is_solved, case, branch), holes)
+            if is_alike:
+                yield self._value(end)
+            begin = end
+
+    def _without_slivers(self, parts: Sequence[_Passing]) -> list[_Passing]:
+        """The parts without those that rounding alone has made of a single value in thousandths."""
+        left: list[_Passing] = []
+        for number, part in enumerate(parts):
+            if 0 < number < len(parts) - 1 and part.high - part.low <= LEAST_GAP:
+                value = self._least_increment((part.low + part.high) / 2, is_solved=not part.is_solved)
+                is_alone = part.is_solved not in (parts[number - 1].is_solved, parts[number + 1].is_solved)
+                if is_alone and value == round(value, 3):
+                    self.doubt(part.low, part.high, "rounding keeps two solutions from being told apart")
+                    left[-1] = replace(left[-1], high=value)
+                    continue
+            left.append(part)
+        return left
+
+    def _least_increment(self, value: float, *, is_solved: bool) -> float:
+        """The value in thousandths close to one at which two solutions change, if that differs from what is beside."""
+        near = round(value, 3) + 0.0
+        return near if abs(near - value) <= LEAST_GAP and self.is_solved(near) is not is_solved else value
+
+    def failing(self, branch: Branch, value: float) -> list[Check]:
+        """The checks that fail at a value, in their order."""
+        values = branch.at([numpy.array([value])])
+        return [branch.margins.checks[number] for number in branch.margins.failing(values)[:, 0].nonzero()[0]]
+
+
+class _Undecided:
+    """A narrow stretch in which intervals cannot tell whether all checks are passed: there they begin to fail, or one
+    is passed by rounding alone."""
+
+    def __init__(self, survey: Survey, branch: Branch) -> None:
+        self.survey, self.branch, self.margins = survey, branch, branch.margins
+
+    def decide(
+        self, stretch: Stretch, before: Stretch | None, after: Stretch | None
+    ) -> tuple[list[Stretch], list[float]]:
+        """Its parts, as far as samples tell, and single values that may differ from them."""
+        if stretch.high - stretch.low > LEAST_GAP:
+            self.survey.doubt(stretch.low, stretch.high, "the search for a proof was given up")
+        places = numpy.linspace(stretch.low, stretch.high, SAMPLES)
+        values = self.branch.at([places])
+        states = (self.margins.first_failing(values) < 0).tolist()
+        if before is not None:
+            states[0] = before.is_passed
+        if after is not None:
+            states[-1] = after.is_passed
+        parts: list[Stretch] = []
+        begin = stretch.low
+        for number in range(1, SAMPLES):
+            if states[number] is not states[number - 1]:
+                end = self._crossing(float(places[number - 1]), float(places[number]), states[number - 1])
+                parts.append(Stretch(begin, end, states[number - 1]))
+                begin = end
+        parts.append(Stretch(begin, stretch.high, states[-1]))
+        if len(parts) > 1:
+            return parts, []
+        if not states[0]:
+            half = (stretch.high - stretch.low) / 2
+            return parts, [short(stretch.low + half, half)]
+        rows = numpy.flatnonzero(self.margins.is_apart[:, 0]).tolist()
+        zeros = [self._zero(places, values[row], row) for row in rows]
+        return parts, sorted({short(each, REGULAR_ROUNDING) for each in zeros if each is not None})
+
+    def _crossing(self, low: float, high: float, state: bool) -> float:
+        """Where the verdict changes."""
+        low, high = section(
+            low, high, lambda places: (self.margins.first_failing(self.branch.at([places])) < 0) != state
+        )
+        outside = high if state else low
+        number = int(self.margins.first_failing(self.branch.at([numpy.array([outside])]))[0])
+        value, is_closed = self._exact(number, outside)
+        value = short(value, REGULAR_ROUNDING if self.margins.is_apart[number, 0] else ROUNDING)
+        if abs(round(value, 3) - value) <= 2 * LENGTH * max(1.0, abs(value)):
+            # A length that counts as zero is not quite.
+            value = round(value, 3) + 0.0
+        self.survey.onsets[value] = Onset(self.margins.checks[number], self.branch, is_closed)
+        return value
+
+    def _exact(self, number: int, value: float) -> tuple[float, bool]:
+        """The zero of a margin near a value, and whether it has a closed form: with that, about the value itself."""
+        is_closed = self.margins.chart.is_quadratic[number]
+        found = value
+        for _ in range(1 if is_closed else 3):
+            places = [numpy.array([found, found + 1.0])]
+            at = float(self.branch.at(places)[number, 0])
+            slope, next_slope = map(float, self.branch.slopes_at(places)[0, number])
+            square = slope * slope - 2 * at * (next_slope - slope) if is_closed else slope * slope
+            divisor = slope + copysign(sqrt(max(square, 0.0)), slope) if isfinite(square) else 0.0
+            step = -2 * at / divisor if divisor else inf
+            if not abs(step) <= CLOSE * max(1.0, abs(value)):  # true for NaN
+                return value, False
+            found += step
+        return found, is_closed
+
+    def _zero(self, places: Array, values: Array, row: int) -> float | None:
+        """Where a margin that must not be zero changes its sign, by bisection; None where it does not."""
+        changes = numpy.flatnonzero(numpy.sign(values[1:]) != numpy.sign(values[:-1]))
+        if not changes.size:
+            return None
+        low, high = float(places[changes[0]]), float(places[changes[0] + 1])
+        sign = numpy.sign(values[changes[0]])
+        return section(low, high, lambda finer: numpy.sign(self.branch.at([finer])[row]) != sign)[1]
+
+
+def short(value: float, give: float = ROUNDING) -> float:
+    """The shortest decimal that a value means, if rounding alone may part them; else the value."""
+    for decimals in range(13):
+        rounded = round(value, decimals)
+        if abs(rounded - value) <= give:
+            return rounded + 0.0
+    return value

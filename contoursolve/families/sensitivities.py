@@ -1,0 +1,320 @@
+"""By how much each word of a block moves each coordinate of its contour: from a closed form by CasADi, or from the
+equations at its points by the implicit function theorem.
+"""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from decimal import Decimal
+from functools import lru_cache
+from itertools import product
+from math import hypot, inf, nan, pi
+from typing import Unpack
+
+import numpy
+
+from contoursolve.analysis import judge
+from contoursolve.backends.angle import direction
+from contoursolve.backends.inputs import COSINE, SIDE, SINE, lookup
+from contoursolve.backends.intervals import Array
+from contoursolve.backends.numeric import Compiled, Tape
+from contoursolve.constraints import System, assemble
+from contoursolve.examine import Answer
+from contoursolve.families.case_classes import CaseClass, case_in, half_circles, results_of
+from contoursolve.families.free_words import check_block, factor_of
+from contoursolve.families.spec import BlockOptions, FamilyError, call, first_error, spec_of
+from contoursolve.model import Given, Profile, Unit
+from contoursolve.shown import Shown
+from contoursolve.solving import RemarkKind, Solution, Status
+from contoursolve.solving.compile import compile_path
+from contoursolve.syntax import Word
+from contoursolve.tolerance import RESIDUAL
+
+SINGULAR = 1e-9
+"""mm for each mm or degree. A word that changes the gap between two circles by less keeps them touching."""
+
+SINGULAR_CONDITION = 1e12
+"""1. Condition of the equations, each unknown in mm, above which they are taken for singular."""
+
+Rates = Mapping[str, Mapping[str, float]]
+"""The derivatives of outputs by inputs."""
+
+
+@dataclass(frozen=True, slots=True)
+class Spread:
+    """How far a coordinate moves, mm, to first order: if all words are off in the worst way, and if they are off
+    independently of each other (root of the sum of squares)."""
+
+    worst: float
+    typical: float
+
+
+@dataclass(frozen=True, slots=True)
+class Sensitivity(Shown):
+    """The derivatives of a contour: `slopes[result][word]` in mm for each unit of the word as it is written, so that a
+    diameter counts as such; NaN where a word parts two places that have become one, as in a half circle. The results
+    have the names that they have in a `Family`."""
+
+    slopes: Mapping[str, Mapping[str, float]]
+
+    def spread(self, tolerances: Mapping[str, float]) -> dict[str, Spread]:
+        """How far each result moves when the words are off by up to these tolerances, as written. Raises FamilyError
+        for a word that is not there, and a tolerance below 0."""
+        tolerances = read_tolerances(tolerances, next(iter(self.slopes.values())))
+        found: dict[str, Spread] = {}
+        for result, slopes in self.slopes.items():
+            parts = [abs(slopes[word] * tolerance) for word, tolerance in tolerances.items()]
+            found[result] = Spread(sum(parts), hypot(*parts))
+        return found
+
+
+def read_tolerances(allowed: Mapping[str, float], known: Iterable[str]) -> dict[str, float]:
+    """Tolerances by the names of the words. Raises FamilyError."""
+    if not isinstance(allowed, Mapping):
+        raise TypeError(f"tolerances are a mapping of words to numbers, such as {{'A': 0.1}}, not {allowed!r}")
+    found: dict[str, float] = {}
+    for word, value in allowed.items():
+        name = _named(word, known)
+        if name in found:
+            raise FamilyError(f"{name} has two tolerances; name it once")
+        try:
+            found[name] = float(value)
+        except (TypeError, ValueError):
+            raise FamilyError(f"the tolerance of {name} is a number, not {value!r}") from None
+        if not 0 <= found[name] < inf:
+            told = "it is a finite number, not below 0"
+            if -inf < found[name] < 0:
+                told = f"a tolerance is positive: {-found[name]:g} means +-{-found[name]:g}"
+            raise FamilyError(f"the tolerance of {name} is {value}; {told}")
+    return found
+
+
+def _named(word: str, known: Iterable[str]) -> str:
+    """The name of a word among those that there are. Raises FamilyError."""
+    names = {name.lower(): name for name in known}
+    found = names.get(" ".join(word.lower().split()))
+    if found is None:
+        raise FamilyError(f"no word {word}; there are {', '.join(names.values())}")
+    return found
+
+
+def sensitivity(block: str, **options: Unpack[BlockOptions]) -> Sensitivity:
+    """The derivatives of a contour by all words that it follows from: by CasADi's differentiation of its closed form,
+    or where it has facts, `?` or no closed form, by the implicit function theorem from the equations at its points.
+
+    Arguments and errors as for `family`; a fact goes by what it gives the value of (`length of line 1`). Also raises
+    FamilyError if the block has no contour, says something twice, or has a line that touches its circle, where no
+    derivative exists.
+
+    >>> slopes = sensitivity("G111 X100. A180. K-30. B120. P5. Q5.", start="X40. Z0.").slopes
+    >>> {word: f"{slope:.3f}" for word, slope in slopes["V2.Z"].items()}
+    {'X': '-0.289', 'A': '-0.302', 'K': '1.000', 'B': '-0.698', 'P': '0.000', 'Q': '0.000'}
+    """
+    template = spec_of(block, **options).template()
+    check_block(template)
+    return slopes_of(template.solve({}))
+
+
+def slopes_of(answer: Answer) -> Sensitivity:
+    """The derivatives of a contour that was solved; errors as for `sensitivity`."""
+    words = stated_words(answer)
+    values = {name: float(word.number or 0) for name, word in words.items()}
+    case = case_in(answer, words, values)
+    if not case.is_closed or case.profile.is_extended:
+        return Sensitivity(_implicit(answer, words))
+    _check(case.solve(values) if case.status is None else None, answer)
+    inputs = {name: value for name, value in case.numbers().items() if name in case.machine.tape.inputs}
+    outputs, singular = results_of(case), _singular(case, inputs)
+    rates = _slopes(case.machine.tape, [output for output, _ in outputs.values()], inputs)
+    stated = [
+        (case.profile.givens[name], each.word, nan if each.word in singular else float(each.factor))
+        for name, each in case.free.items()
+    ]
+    return Sensitivity({result: _by_word(rates[output], stated, words) for result, (output, _) in outputs.items()})
+
+
+def _slopes(tape: Tape, outputs: Sequence[str], inputs: Mapping[str, float]) -> Rates:
+    """The derivatives of some outputs of a tape, where it has these inputs."""
+    at = tape.slopes(outputs, list(inputs))(inputs)
+    return {output: {name: at.get(f"{output} by {name}", 0.0) for name in inputs} for output in outputs}
+
+
+def _by_word(
+    rates: Mapping[str, float], stated: Iterable[tuple[Given, str, float]], words: Iterable[str]
+) -> dict[str, float]:
+    """The derivatives by words from those by inputs; `stated` are values, the word that states each, and the mm or
+    degrees for each unit of it."""
+    found = dict.fromkeys(words, 0.0)
+    for given, word, factor in stated:
+        found[word] = found.get(word, 0.0) + _by_given(given, rates) * factor
+    return found
+
+
+def _by_given(given: Given, rates: Mapping[str, float]) -> float:
+    """The derivative by a value, mm or degrees, from those by the inputs that follow from it."""
+    if given.unit is not Unit.DEGREE:
+        return rates.get(given.name, 0.0)
+    cosine, sine = direction(given.value)
+    by_cosine, by_sine = rates.get(given.name + COSINE, 0.0), rates.get(given.name + SINE, 0.0)
+    return (by_sine * cosine - by_cosine * sine) * pi / 180
+
+
+def _singular(case: CaseClass, inputs: Mapping[str, float]) -> frozenset[str]:
+    """The words by which there is no derivative: they would part the two places of a centre that have become one, as
+    in a half circle."""
+    found = set[str]()
+    for number, is_one in half_circles(case, case.machine.function(inputs)):
+        if is_one:
+            rates = _slopes(case.machine.tape, [f"radius:{number}", f"offset:{number}"], inputs)
+            for name, each in case.free.items():
+                radius, offset = (_by_given(case.profile.givens[name], own) for own in rates.values())
+                found |= {each.word} if abs(radius - offset) > SINGULAR else set()
+    return frozenset(found)
+
+
+def stated_words(answer: Answer) -> dict[str, Word]:
+    """The words of a block that state a value of its contour, by their names."""
+    typed = [word for each in answer.claim.blocks for word in each.words]
+    stating = [given.word for given in answer.profile.givens.values() if given.word and given.unit is not Unit.SIGN]
+    return {call(word, typed): word for word in typed if word in stating}
+
+
+def _implicit(answer: Answer, words: Mapping[str, Word]) -> dict[str, dict[str, float]]:
+    """The derivatives where there is no closed form, or more is stated than words."""
+    from contoursolve.settling import settle  # noqa: PLC0415 - few blocks need it
+
+    solution = settle(answer.profile).solution if answer.contour is not None else None
+    _check(solution, answer)
+    if solution is None:
+        raise FamilyError("the block is not solved")
+    profile = answer.profile
+    results = results_of(CaseClass(profile, None, {}, is_closed=False))
+    outputs = {name: output for name, (output, _) in results.items() if not name.endswith(".room")}
+    rates = _implicit_rates(profile, solution, outputs.values())
+    names = {id(word): name for name, word in words.items()}
+    stated = [
+        (
+            given,
+            names.get(id(given.word)) or _fact_name(given, given.word, profile),
+            float(factor_of(answer, given.word, given, given.word.number or Decimal(0))),
+        )
+        for given in profile.givens.values()
+        if given.word is not None and given.unit is not Unit.SIGN
+    ]
+    return {name: _by_word(rates[output], stated, ()) for name, output in outputs.items()}
+
+
+def _fact_name(given: Given, word: Word, profile: Profile) -> str:
+    """What a fact gives the value of; of a place, with the axis."""
+    axis = given.name.rpartition(".")[2]
+    name = " ".join(word.text.partition("=")[0].split()).lower()
+    return f"{name} [{profile.plane.axes[int(axis)]}]" if "=" not in word.text and axis.isdigit() else name
+
+
+def _implicit_rates(profile: Profile, solution: Solution, outputs: Iterable[str]) -> Rates:
+    """The derivatives of some outputs by all that is stated: of unknowns, and of what follows from them on the path."""
+    system, path = assemble(profile), compile_path(assemble(profile)).tape
+    equations, slopes = _compile(system)
+    inputs = [name for name in equations.inputs if name not in system.unknowns]
+    known = {name: _given(profile, name) for name in inputs if not name.startswith(SIDE)}
+    known |= solution.scalars
+    rows = _unknown_rates(system, inputs, _on_their_sides(known, equations, slopes))
+    corners = {each.size: f"{each.name}.radius" for each in profile.figure.corners if f"{each.name}.radius" in rows}
+    unknown = {name: each for name in path.inputs if (each := corners.get(name, name)) in rows}
+    wanted = [name for name in outputs if name not in rows]
+    values = {name: _on_path(profile, name, known.get(unknown.get(name, name))) for name in path.inputs}
+    rates = _slopes(path, wanted, values) if wanted else {}
+    found: dict[str, dict[str, float]] = {}
+    for name in outputs:
+        if name in rows:
+            found[name] = dict(zip(inputs, rows[name].tolist(), strict=True))
+            continue
+        total, own = numpy.zeros(len(inputs)), dict.fromkeys(inputs, 0.0)
+        for each, slope in rates[name].items():
+            if each not in unknown:
+                own[each] = slope
+            elif slope:
+                total = total + slope * rows[unknown[each]]
+        by = dict(zip(inputs, total.tolist(), strict=True))
+        found[name] = {each: by.get(each, 0.0) + slope for each, slope in own.items()}
+    return found
+
+
+def _unknown_rates(system: System, inputs: Sequence[str], slopes: Mapping[str, float]) -> dict[str, Array]:
+    """The derivatives of the unknowns by the inputs: the Jacobian's inverse times the derivatives by the inputs."""
+    names, size = system.unknowns, len(system.unknowns)
+    matrix, right = (
+        numpy.array([[slopes[f"{row} by {name}"] for name in by] for row in range(size)]).reshape(size, len(by))
+        for by in (names, inputs)
+    )
+    if not numpy.linalg.cond(matrix) < SINGULAR_CONDITION:  # true for NaN
+        raise FamilyError("two solutions have become one, so that no derivative exists")
+    return dict(zip(names, -numpy.linalg.solve(matrix, right), strict=True))
+
+
+def _on_their_sides(known: Mapping[str, float], equations: Tape, slopes: Compiled) -> dict[str, float]:
+    """The derivatives of the equations on the sides on which they hold."""
+    sides, outputs = [name for name in equations.inputs if name.startswith(SIDE)], equations.finish()
+    for signs in product((1.0, -1.0), repeat=len(sides)):
+        values = {**known, **dict(zip(sides, signs, strict=True))}
+        if all(abs(residual) <= 10 * RESIDUAL for residual in outputs(values).values()):
+            return slopes(values)
+    raise FamilyError("the equations do not hold at the points of the contour to nine decimals")
+
+
+@lru_cache(maxsize=256)
+def _compile(system: System) -> tuple[Tape, Compiled]:
+    """The equations of a system, and their derivatives by the unknowns and everything that is stated."""
+    tape = Tape()
+    for name in system.unknowns:
+        tape.input(name)
+    at = lookup(system, tape, {})
+    basis = [system.facts[index] for index in judge(system).basis]
+    for row, fact in enumerate(basis):
+        tape.output(f"{row}", fact.residual(at))
+    return tape, tape.slopes([f"{row}" for row in range(len(basis))], tape.inputs)
+
+
+def _given(profile: Profile, name: str) -> float:
+    """The value of what is stated, mm, or the cosine or sine of an angle."""
+    point, _, axis = name.rpartition(".")
+    if point == profile.figure.start:
+        return float(profile.start.values[int(axis)] or 0)
+    for ending, part in ((COSINE, 0), (SINE, 1)):
+        angle = profile.givens.get(name.removesuffix(ending))
+        if name.endswith(ending) and angle is not None and angle.unit is Unit.DEGREE:
+            return direction(angle.value)[part]
+    return float(profile.givens[name].value)
+
+
+def _on_path(profile: Profile, name: str, value: float | None) -> float:
+    """An input of the path, in which coordinates count from the start point."""
+    point, _, axis = name.rpartition(".")
+    figure = profile.figure
+    if point == figure.start:
+        return 0.0
+    value = _given(profile, name) if value is None else value
+    is_counted = point in (*figure.points, *figure.places)
+    return value - float(profile.start.values[int(axis)] or 0) if is_counted else value
+
+
+def _check(solution: Solution | None, answer: Answer) -> None:
+    status = solution.status if solution is not None else answer.status
+    if solution is None or status is not Status.SOLVED:
+        error = first_error(answer)
+        raise FamilyError(
+            f"{_UNSOLVED[status]}{f': {error}' if error else ''}; only a contour that is solved has derivatives"
+        )
+    if any(remark.kind in (RemarkKind.TOUCHES, RemarkKind.DOUBLE) for remark in solution.remarks):
+        raise FamilyError("two solutions have become one, so that no derivative exists")
+
+
+_UNSOLVED = {
+    Status.REJECTED: "the control refuses the block",
+    Status.CONFLICTING: "the words of the block disagree",
+    Status.UNDERDETERMINED: "the block lacks words",
+    Status.OVERDETERMINED: "the block says something twice",
+    Status.AMBIGUOUS: "several contours satisfy the block",
+    Status.NO_SOLUTION: "the block has no contour",
+    Status.UNDECIDED: "no contour was found, and that there is none is not proven",
+}
+"""What the statuses say of a block."""
