@@ -1,7 +1,7 @@
 """A whole result as text: contours with their findings in the order of the program, and what was examined in all."""
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from heapq import heappop, heappush
 from typing import Any, TypeVar
@@ -141,12 +141,16 @@ class Tally:
 
     def line(self, programs: int) -> str:
         """What was examined in some programs, and what was found."""
-        total, statuses = self.statuses.total(), self.statuses
-        solved = ", ".join(f"{statuses[status]} {status.value}" for status in reversed(Status) if statuses[status])
+        total, solved = self.statuses.total(), statuses_text(self.statuses)
         found = ", ".join(count(self.severities[each], each.value) for each in Severity if self.severities[each])
         examined = f"{count(total, 'contour')} ({solved})" if total else "no contour examined"
         several = f"{count(programs, 'program')}, " if programs > 1 else ""
         return f"{several}{examined}; {found or 'nothing found'}"
+
+
+def statuses_text(statuses: Mapping[Status, int]) -> str:
+    """How many contours have each status, the best first."""
+    return ", ".join(f"{statuses[each]} {each.value}" for each in reversed(Status) if statuses.get(each))
 
 
 def _tally(results: Sequence[Result]) -> Tally:

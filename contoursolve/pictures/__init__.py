@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from contoursolve.examine import Answer
-from contoursolve.pictures.compose import compose
-from contoursolve.pictures.describe import describe, describe_result
-from contoursolve.pictures.layout import lay_out, stack_sheets
-from contoursolve.pictures.picture import Picture, finish
+from contoursolve.pictures.compose import compose, describe
+from contoursolve.pictures.layout import lay_out
+from contoursolve.pictures.page import stack_sheets
+from contoursolve.pictures.svg import Picture, finish
 from contoursolve.pictures.theme import Theme
 from contoursolve.pipeline import Result
 
@@ -43,12 +43,12 @@ def draw_answer(answer: Answer, *, theme: Theme = Theme.LIGHT, title: str | None
 
 def draw_result(result: Result, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
     """The picture of a whole program: its only contour, or all of them in one drawing for each plane."""
-    from contoursolve.pictures.overview import compose_overview  # noqa: PLC0415 - see `draw_answer`
+    from contoursolve.pictures.overview import compose_overview, describe_overview  # noqa: PLC0415 - not needed for one contour
 
     if len(result.answers) == 1:
         return draw_answer(result.answers[0], theme=theme, title=title)
     scenes = compose_overview(result, title)
-    return finish(stack_sheets([lay_out(scene) for scene in scenes]), theme, scenes[0].title, describe_result(result))
+    return finish(stack_sheets([lay_out(scene) for scene in scenes]), theme, scenes[0].title, describe_overview(result))
 
 
 def draw_family_fan(
@@ -63,7 +63,7 @@ def draw_family_fan(
 
     Raises ValueError for no contour, or for more than can be told apart.
     """
-    from contoursolve.pictures.family_fan import compose_fan  # noqa: PLC0415 - numpy is not needed for a contour
+    from contoursolve.pictures.overview import compose_fan  # noqa: PLC0415 - not needed for one contour
 
     scene = compose_fan(word, values, answers, title)
     return finish(lay_out(scene), theme, scene.title, scene.title)
@@ -78,7 +78,7 @@ def draw_family_map(
     `words` go to the right and up; without them, the two words of the family. Raises ValueError where these are not
     two words of a grid.
     """
-    from contoursolve.pictures.family_map import lay_out_map, map_title  # noqa: PLC0415 - numpy
+    from contoursolve.pictures.maps import lay_out_map, map_title  # noqa: PLC0415 - numpy
 
     several = [word for word, values in family.ranges.values.items() if values.size > 1]
     chosen = words if words is not None else tuple(several or family.ranges.values)[:2]
@@ -88,7 +88,7 @@ def draw_family_map(
 
 def draw_range(found: Feasible, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
     """The picture of the values of a word with which a block has a contour: a bar with what ends each range."""
-    from contoursolve.pictures.family_range import lay_out_range, range_title  # noqa: PLC0415 - as above
+    from contoursolve.pictures.chart import lay_out_range, range_title  # noqa: PLC0415 - as above
 
     told = title if title is not None else range_title(found)
     return finish(lay_out_range(found, told), theme, told, told)
@@ -97,7 +97,7 @@ def draw_range(found: Feasible, *, theme: Theme = Theme.LIGHT, title: str | None
 def draw_region(region: Region, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
     """The picture of the values of two words with which a block has a contour: the lines that bound them, each with
     what fails beyond it."""
-    from contoursolve.pictures.family_region import lay_out_region, region_title  # noqa: PLC0415 - as above
+    from contoursolve.pictures.curves import lay_out_region, region_title  # noqa: PLC0415 - as above
 
     told = title if title is not None else region_title(region)
     return finish(lay_out_region(region, told), theme, told, told)
@@ -108,7 +108,7 @@ def draw_sweep(ready: CompiledSweep, *, theme: Theme = Theme.LIGHT, title: str |
 
     Solves what it shows, and no more. Raises FamilyError for paired words, and where none or more than two vary.
     """
-    from contoursolve.pictures.family_sweep import solve_shown  # noqa: PLC0415 - as above
+    from contoursolve.pictures.maps import solve_shown  # noqa: PLC0415 - as above
 
     shown = solve_shown(ready)
     if isinstance(shown, tuple):

@@ -1,12 +1,14 @@
 """What stands in the drawing itself: angles, radii, gaps, points with their names, and what can still slide."""
 
+from collections.abc import Iterator, Mapping
 from math import cos, fmod, hypot, pi, radians, sin
 
-from contoursolve.pictures.arrows import arc, cross, direction, head, line
-from contoursolve.pictures.canvas import FAINT_WEIGHT, Canvas
-from contoursolve.pictures.scene import Aligned, Angle, Kind, Leader, Mark, Slide
-from contoursolve.pictures.sheet import Box, Dot, Run, Spot
+from contoursolve.contour import ArcSegment
+from contoursolve.pictures.labels import FAINT_WEIGHT, Canvas
+from contoursolve.pictures.page import THIN, Box, Dot, Run, Spot, Stroke, arc, head, line
+from contoursolve.pictures.scene import Aligned, Angle, Kind, Leader, Linear, Mark, Scene, Slide, Thin, Trail
 from contoursolve.pictures.theme import Role
+from contoursolve.pictures.vectors import along, direction, distance, minus, unit
 
 _RADIUS, _STEP = 34.0, 13.0
 """Pixels. Radius of the arc of an angle, and how much more each further one at the same place has."""
@@ -21,9 +23,41 @@ _BESIDE = 20.0
 _SHORT = 22.0
 
 
-def draw_angle(canvas: Canvas, angle: Angle, number: int) -> tuple[Spot, Spot]:
+def draw_callouts(canvas: Canvas, scene: Scene) -> None:
+    """Everything that has a label in the drawing: first all lines, then the labels, those of words first."""
+    wanted: list[tuple[Spot, Run, Spot]] = []
+    counts: dict[Spot, int] = {}
+    for slide in scene.each(Slide):
+        _draw_slide(canvas, slide)
+    for mark in scene.each(Mark):
+        _draw_point(canvas, mark)
+    for dimension in scene.dimensions:
+        if isinstance(dimension, Angle):
+            at = canvas.view.place(dimension.at)
+            number = counts.get(at, 0)
+            counts[at] = number + 1
+            spot, away = _draw_angle(canvas, dimension, at, number)
+        elif isinstance(dimension, Aligned):
+            spot, away = _draw_aligned(canvas, dimension)
+        elif isinstance(dimension, Linear) and not dimension.length:
+            spot, away = canvas.view.place(dimension.start), (0.7, -0.7)
+        else:
+            continue
+        wanted.append((spot, Run(dimension.text, dimension.role), away))
+    for spot, run, away in wanted:
+        canvas.label(spot, [(run,)], away, run.role)
+    for leader in scene.each(Leader):
+        _draw_leader(canvas, leader)
+    ways = _ways(canvas, scene)
+    for mark in scene.each(Mark):
+        if mark.label:
+            at = canvas.view.place(mark.at)
+            away = _away_from(ways.get((round(at[0]), round(at[1])), []))
+            canvas.label(at, [mark.label, mark.short], away, Role.MUTED)
+
+
+def _draw_angle(canvas: Canvas, angle: Angle, at: Spot, number: int) -> tuple[Spot, Spot]:
     """The arc from the reference line to the direction; where its label belongs, and to which side."""
-    at = canvas.view.place(angle.at)
     radius = _RADIUS + number * _STEP
     turn = fmod(angle.degrees, 360.0)
     reference = at[0] + radius + 14.0, at[1]
@@ -31,40 +65,34 @@ def draw_angle(canvas: Canvas, angle: Angle, number: int) -> tuple[Spot, Spot]:
     if abs(turn) < _SMALL:
         return (at[0] + radius, at[1]), (0.4, -0.9)
     sweep = -radians(turn)
-    canvas.draw(arc(at, radius, 0.0, sweep, angle.role))
-    tip = at[0] + radius * cos(sweep), at[1] + radius * sin(sweep)
+    canvas.draw(arc(at, radius, sweep, angle.role))
     sign = 1.0 if sweep > 0 else -1.0
     # The head is a chord of the arc, so that it does not stand off it.
     lean = sweep - sign * 4.0 / radius
+    tip = along(at, (cos(sweep), sin(sweep)), radius)
     canvas.fill(head(tip, (-sin(lean) * sign, cos(lean) * sign), angle.role))
-    middle = sweep / 2
-    return (at[0] + radius * cos(middle), at[1] + radius * sin(middle)), (cos(middle), sin(middle))
+    middle = cos(sweep / 2), sin(sweep / 2)
+    return along(at, middle, radius), middle
 
 
-def draw_aligned(canvas: Canvas, aligned: Aligned) -> tuple[Spot, Spot]:
+def _draw_aligned(canvas: Canvas, aligned: Aligned) -> tuple[Spot, Spot]:
     """A distance straight between two points; where its label belongs, and to which side."""
     a, b = canvas.view.place(aligned.start), canvas.view.place(aligned.end)
-    way = direction(a, b)
-    length = hypot(b[0] - a[0], b[1] - a[1])
+    way, role, is_short = direction(a, b), aligned.role, distance(a, b) < _SHORT
+    back = -way[0], -way[1]
     side = (-way[1], way[0]) if way[0] < 0 or (way[0] == 0 and way[1] > 0) else (way[1], -way[0])
     if aligned.is_beside:
-        beside = _emptier(canvas, a, b, side)
-        side = beside
-        ends = [(at[0] + beside[0] * _BESIDE, at[1] + beside[1] * _BESIDE) for at in (a, b)]
+        side = _emptier(canvas, a, b, side)
+        ends = [along(at, side, _BESIDE) for at in (a, b)]
         for at, end in zip((a, b), ends, strict=True):
-            begin = at[0] + beside[0] * 4.0, at[1] + beside[1] * 4.0
-            stop = end[0] + beside[0] * 4.0, end[1] + beside[1] * 4.0
-            canvas.draw(line(begin, stop, Role.MUTED, 0.7, is_dashed=False), FAINT_WEIGHT)
+            extension = line(along(at, side, 4.0), along(end, side, 4.0), Role.MUTED, 0.7, is_dashed=False)
+            canvas.draw(extension, FAINT_WEIGHT)
         a, b = ends
-    canvas.draw(line(a, b, aligned.role, 1.3))
-    if length >= _SHORT:
-        canvas.fill(head(a, (-way[0], -way[1]), aligned.role))
-        canvas.fill(head(b, way, aligned.role))
-    else:
-        for tip, sign in ((a, 1.0), (b, -1.0)):
-            tail = tip[0] - sign * way[0] * 16.0, tip[1] - sign * way[1] * 16.0
-            canvas.draw(line(tail, tip, aligned.role, 1.3, is_dashed=False))
-            canvas.fill(head(tip, (way[0] * sign, way[1] * sign), aligned.role))
+    canvas.draw(line(a, b, role, 1.3))
+    for tip, to in ((a, way if is_short else back), (b, back if is_short else way)):
+        if is_short:
+            canvas.draw(line(along(tip, to, -16.0), tip, role, 1.3, is_dashed=False))
+        canvas.fill(head(tip, to, role))
     return ((a[0] + b[0]) / 2, (a[1] + b[1]) / 2), side
 
 
@@ -72,18 +100,14 @@ def _emptier(canvas: Canvas, a: Spot, b: Spot, side: Spot) -> Spot:
     """The side of a line on which less is drawn."""
 
     def cost(way: Spot) -> float:
-        shares = (0.1, 0.3, 0.5, 0.7, 0.9)
-        places = (
-            (a[0] + (b[0] - a[0]) * share + way[0] * _BESIDE, a[1] + (b[1] - a[1]) * share + way[1] * _BESIDE)
-            for share in shares
-        )
+        places = (along(along(a, minus(b, a), share), way, _BESIDE) for share in (0.1, 0.3, 0.5, 0.7, 0.9))
         return sum(canvas.grid.cost(Box(x - 3.0, y - 3.0, x + 3.0, y + 3.0)) for x, y in places)
 
     other = -side[0], -side[1]
     return side if cost(side) <= cost(other) else other
 
 
-def draw_leader(canvas: Canvas, leader: Leader) -> None:
+def _draw_leader(canvas: Canvas, leader: Leader) -> None:
     """A word that points at a place, with an arrowhead there."""
     at = canvas.view.place(leader.at)
     away = leader.away[0], -leader.away[1]
@@ -93,46 +117,70 @@ def draw_leader(canvas: Canvas, leader: Leader) -> None:
         canvas.fill(head(at, direction(middle, at), leader.role, 7.0, 2.3))
 
 
-def draw_point(canvas: Canvas, mark: Mark) -> None:
+_DOTS: Mapping[Kind, tuple[float, bool]] = {
+    Kind.START: (4.2, False),
+    Kind.OTHER: (3.2, False),
+    Kind.END: (4.0, True),
+    Kind.PLACE: (2.8, True),
+}
+"""Pixels of the radius of a point's sign, and whether it is filled; the others are crosses."""
+
+
+def _draw_point(canvas: Canvas, mark: Mark) -> None:
     """The sign of a point."""
-    at, role = canvas.view.place(mark.at), mark.role
-    if mark.kind is Kind.START:
-        canvas.thick.append(Dot(at, 4.2, role, is_filled=False))
-    elif mark.kind is Kind.OTHER:
-        canvas.thick.append(Dot(at, 3.2, role, is_filled=False))
-    elif mark.kind is Kind.END:
-        canvas.thick.append(Dot(at, 4.0, role))
-    elif mark.kind is Kind.PLACE:
-        canvas.thick.append(Dot(at, 2.8, role))
-    else:
-        for stroke in cross(at, 5.0, Role.MUTED):
-            canvas.thick.append(stroke)
+    at = canvas.view.place(mark.at)
+    if mark.kind in _DOTS:
+        radius, is_filled = _DOTS[mark.kind]
+        canvas.thick.append(Dot(at, radius, mark.role, is_filled=is_filled))
+        return
+    (x, y), size = at, 5.0
+    canvas.thick.append(Stroke((x - size, y), ((x + size, y),), Role.MUTED, THIN))
+    canvas.thick.append(Stroke((x, y - size), ((x, y + size),), Role.MUTED, THIN))
 
 
-def draw_slide(canvas: Canvas, slide: Slide) -> None:
+def _draw_slide(canvas: Canvas, slide: Slide) -> None:
     """Arrows both ways along what is free; four ways where everything is."""
-    x, y = canvas.view.place(slide.at)
-    ways = [slide.direction] if slide.direction is not None else [(1.0, 0.0), (0.0, 1.0)]
-    for way in ways:
+    at = canvas.view.place(slide.at)
+    for way in [slide.direction] if slide.direction is not None else [(1.0, 0.0), (0.0, 1.0)]:
         for sign in (1.0, -1.0):
             step = way[0] * sign, -way[1] * sign
-            begin, tip = (
-                (x + step[0] * 8.0, y + step[1] * 8.0),
-                (x + step[0] * _SLIDE, y + step[1] * _SLIDE),
-            )
-            canvas.draw(line(begin, tip, Role.FREE, 2.0, is_dashed=False))
+            tip = along(at, step, _SLIDE)
+            canvas.draw(line(along(at, step, 8.0), tip, Role.FREE, 2.0, is_dashed=False))
             canvas.fill(head(tip, step, Role.FREE, 10.0, 4.5))
 
 
-def away_from(directions: list[Spot]) -> Spot:
+def _away_from(ways: list[Spot]) -> Spot:
     """The direction that is farthest from the lines that meet here."""
-    if not directions:
+    if not ways:
         return 0.7, -0.7
     return max(
         ((cos(number * pi / 8), sin(number * pi / 8)) for number in range(16)),
         key=lambda way: (
-            round(min(1.0 - (way[0] * each[0] + way[1] * each[1]) for each in directions), 6),
+            round(min(1.0 - (way[0] * each[0] + way[1] * each[1]) for each in ways), 6),
             -round(way[1], 6),
             round(way[0], 6),
         ),
     )
+
+
+def _ways(canvas: Canvas, scene: Scene) -> dict[tuple[int, int], list[Spot]]:
+    """By place on the page, the directions in which lines leave it."""
+    found: dict[tuple[int, int], list[Spot]] = {}
+    for at, step in _steps(canvas, scene):
+        if hypot(*step) > 0:
+            found.setdefault((round(at[0]), round(at[1])), []).append(unit(step))
+    return found
+
+
+def _steps(canvas: Canvas, scene: Scene) -> Iterator[tuple[Spot, Spot]]:
+    """The ends of all lines and arcs, each with a step along what begins there."""
+    segments = (segment for trail in scene.each(Trail) for segment in trail.segments)
+    for item in (*segments, *scene.each(Thin)):
+        a, b = canvas.view.place(item.start), canvas.view.place(item.end)
+        if isinstance(item, ArcSegment):
+            sign = item.turn.sign
+            for at, other, way in ((a, item.start, sign), (b, item.end, -sign)):
+                spoke = minus(other, item.center)
+                yield at, minus((at[0] - spoke[1] * way, at[1] - spoke[0] * way), at)
+        else:
+            yield from ((a, minus(b, a)), (b, minus(a, b)))

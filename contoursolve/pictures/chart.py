@@ -1,24 +1,41 @@
-"""The plane of two words: its frame with values of both, and where each value is on the page."""
+"""Values of words on a page: the plane of two words, and the bar of one with the ranges in which a contour exists."""
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import floor, log10
 
 import numpy
 
 from contoursolve.backends.columns import Array
-from contoursolve.pictures.arrows import line
-from contoursolve.pictures.metrics import shorten, width_of
-from contoursolve.pictures.sheet import Anchor, Box, Item, Run, Stroke, Text
+from contoursolve.families import End, Feasible, Way
+from contoursolve.output.layout import written
+from contoursolve.pictures.page import (
+    PAD,
+    SIZE,
+    TITLE,
+    WIDTH,
+    Anchor,
+    Box,
+    Dot,
+    Item,
+    Run,
+    Sheet,
+    Stroke,
+    Text,
+    heading,
+    line,
+    shorten,
+    visible,
+    width_of,
+)
 from contoursolve.pictures.theme import Role
-from contoursolve.pictures.wording import visible
 
-WIDTH, WIDE, HIGH = 760.0, 610.0, 400.0
-"""Pixels of the page, and of the plane itself."""
+WIDE, HIGH = 610.0, 400.0
+"""Pixels of a plane."""
 
 LEFT, TOP, BELOW = 92.0, 56.0, 56.0
 """Pixels beside the plane: before it, above it with the title, below it with the values."""
 
-SIZE, TITLE = 12.0, 14.0
 _TICKS = 6
 _NARROW = 36.0
 """Pixels for the name of the second word; a longer one is turned."""
@@ -54,6 +71,14 @@ def over_range(low: float, high: float) -> Scale:
     return Scale(numpy.array([low, high]), numpy.array([0.0, 1.0]))
 
 
+def _values_across(scale: Scale, bottom: float) -> Iterator[Item]:
+    """The values of a scale under what is drawn."""
+    for value, share in scale.ticks():
+        x = LEFT + share * WIDE
+        yield line((x, bottom), (x, bottom + 5.0), Role.INK)
+        yield Text((x, bottom + 19.0), (Run(f"{value:g}", Role.INK),), SIZE, Anchor.MIDDLE)
+
+
 @dataclass(frozen=True, slots=True)
 class Chart:
     """A plane: what its two words are called, and their scales."""
@@ -79,10 +104,7 @@ class Chart:
         right, bottom = LEFT + WIDE, TOP + HIGH
         corners = ((right, TOP), (right, bottom), (LEFT, bottom), (LEFT, TOP))
         items: list[Item] = [Stroke((LEFT, TOP), corners, Role.INK, 1.2)]
-        for value, share in self.across.ticks():
-            x = LEFT + share * WIDE
-            items.append(line((x, bottom), (x, bottom + 5.0), Role.INK))
-            items.append(Text((x, bottom + 19.0), (Run(f"{value:g}", Role.INK),), SIZE, Anchor.MIDDLE))
+        items += _values_across(self.across, bottom)
         for value, share in self.up.ticks():
             y = bottom - share * HIGH
             items.append(line((LEFT - 5.0, y), (LEFT, y), Role.INK))
@@ -95,7 +117,94 @@ class Chart:
         return items
 
 
-def heading(title: str) -> Text:
-    """The title of a page, as much of it as fits."""
-    told = shorten(visible(title), WIDTH - 36.0, TITLE, is_bold=True)
-    return Text((18.0, 26.0), (Run(told, Role.INK),), TITLE, is_bold=True)
+def axis_text(word: str, unit: str) -> str:
+    """The name of an axis on which the values of a word stand, with the unit in which it is written, if it has one."""
+    return visible(f"{word} [{'in' if unit == 'inch' else unit}]" if unit else word)
+
+
+def with_remarks(items: Sequence[Item], remarks: Sequence[tuple[str, Role]], height: float, lead: float = 0.0) -> Sheet:
+    """The page whose drawing ends at a height, with lines of text below it, the first one farther down by `lead`."""
+    texts = [
+        Text((PAD, height + lead + _HIGHER * number), (Run(told, role),), SIZE)
+        for number, (told, role) in enumerate(remarks)
+    ]
+    height += _HIGHER * len(texts)
+    return Sheet(WIDTH, height, Box(0.0, 0.0, WIDTH, height), (*items, *texts))
+
+
+_HIGHER = 17.0
+"""Pixels from one line of text to the next."""
+
+# The ranges of one word --------------------------------------------------------------------------------------
+
+_BAR_TOP, _BAR_HIGH = 52.0, 26.0
+"""Pixels above the bar, and of the bar."""
+
+_MARGIN = 0.15
+"""Share of what is shown that lies beyond the outermost ends."""
+
+_MOST = 12
+"""Ends that are told in words."""
+
+
+def range_title(found: Feasible) -> str:
+    """What a bar shows."""
+    proof = "" if found.is_complete else " (that these are all is not proven)"
+    return f"{found.word}: where the contour exists{proof}"
+
+
+def lay_out_range(found: Feasible, title: str) -> Sheet:
+    """The page of the ranges of a word: where the contour exists, what ends it, and which value the block has."""
+    low, high = _shown(found)
+    bottom = _BAR_TOP + _BAR_HIGH
+
+    def x_of(value: float) -> float:
+        return LEFT + WIDE * (min(max(value, low), high) - low) / (high - low)
+
+    items: list[Item] = [heading(title), Box(LEFT, _BAR_TOP, LEFT + WIDE, bottom).filled(Role.REFUSED_FIELD)]
+    for interval in found.intervals:
+        begin = x_of(interval.low.value)
+        end = max(x_of(interval.high.value), begin + 1.5)
+        items.append(Box(begin, _BAR_TOP, end, bottom).filled(Role.SOLVED_FIELD))
+    for each, _ in _ends(found):
+        x = x_of(each.value)
+        items.append(line((x, _BAR_TOP - 5.0), (x, bottom + 5.0), Role.INK, 1.6))
+    items.append(line((LEFT, bottom), (LEFT + WIDE, bottom), Role.INK))
+    items += _values_across(over_range(low, high), bottom)
+    name = (Run(axis_text(found.word, found.unit), Role.INK),)
+    items.append(Text((LEFT + WIDE / 2, bottom + 38.0), name, TITLE, Anchor.MIDDLE, is_bold=True))
+    items.append(Dot((x_of(found.stated), _BAR_TOP + _BAR_HIGH / 2), 4.0, Role.GIVEN))
+    remarks = [(shorten(told, WIDTH - 2 * PAD, SIZE), role) for told, role in _remarks(found)]
+    return with_remarks(items, remarks, bottom + 62.0)
+
+
+def _ends(found: Feasible) -> Iterator[tuple[End, str]]:
+    """Where the contour begins or ceases to exist, with which of both."""
+    for each in found.intervals:
+        if each.low.way is not Way.RANGE:
+            yield each.low, "from"
+        if each.high.way is not Way.RANGE:
+            yield each.high, "to"
+
+
+def _shown(found: Feasible) -> tuple[float, float]:
+    """What is shown: all ends and the value that the block has, as far as they were looked at, and a margin."""
+    values = [end.value for end, _ in _ends(found)] or list(found.within)
+    low, high = min(*values, found.stated), max(*values, found.stated)
+    margin = _MARGIN * (high - low) or max(1.0, abs(low))
+    return max(low - margin, min(found.within[0], low)), min(high + margin, max(found.within[1], high))
+
+
+def _remarks(found: Feasible) -> Iterator[tuple[str, Role]]:
+    """The value that the block has, and what fails beyond each end."""
+    yield f"the block has {written(found.stated, found.unit)}", Role.GIVEN
+    ends = list(_ends(found))
+    for end, way in ends[:_MOST]:
+        reason = f": {visible(end.reason.text)}" if end.reason is not None else ""
+        yield f"{way} {written(end.value, found.unit)}{reason}", Role.INK
+    if len(ends) > _MOST:
+        yield f"and {len(ends) - _MOST} more ends", Role.MUTED
+    if not found.intervals:
+        yield "there is a contour for no value", Role.INK
+    elif not ends:
+        yield "there is a contour for every value that was looked at", Role.INK

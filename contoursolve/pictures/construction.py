@@ -1,77 +1,274 @@
-"""The thin lines of a drawing, from which its points come: virtual intersections, whole circles, what can slide."""
+"""What stands around the path of a contour: the lines and circles from which its points come, the places through which
+facts lead it, what can slide, and what is wrong."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 
-from contoursolve.contour import Segment
-from contoursolve.examine import Answer
-from contoursolve.model import Arc, Line, Profile
-from contoursolve.pictures.known import Known, place_of
-from contoursolve.pictures.scene import Ring, Slide, Thin
+from contoursolve.constraints import Collinear, Coordinate, Heading, Offset, OnCircle, TangentLine, Through
+from contoursolve.model import Arc, Fact, Line, Unit
+from contoursolve.pictures.known import place_of
+from contoursolve.pictures.scene import Aligned, Kind, Leader, Mark, Part, Ring, Slide, Thin, number
+from contoursolve.pictures.subject import Subject
 from contoursolve.pictures.theme import Role
-from contoursolve.pictures.vectors import SAME, distance, foot, minus, unit
+from contoursolve.pictures.vectors import (
+    ALONG_AXIS,
+    SAME,
+    along,
+    direction,
+    distance,
+    foot,
+    toward,
+    with_coordinate,
+)
+from contoursolve.solving import Point, Refusal, RefusalKind
 from contoursolve.solving.affine import affine_facts
 
+Ray = tuple[Point, Point]
+"""A place on a line and its unit direction."""
 
-def list_construction(profile: Profile, known: Known, elements: Mapping[str, Segment]) -> Iterator[Thin]:
+
+def list_construction(subject: Subject) -> Iterator[Part]:
+    """Everything, in the order in which it is drawn."""
+    yield from _cut_off(subject)
+    yield from _tangents(subject)
+    faults = [*_faults(subject)]
+    broken = [(each.center, each.radius) for each in faults if isinstance(each, Ring)]
+    yield from (ring for ring in _rings(subject) if (ring.center, ring.radius) not in broken)
+    yield from faults
+    yield from _places(subject)
+    yield from _slides(subject)
+
+
+def _cut_off(subject: Subject) -> Iterator[Thin]:
     """From the path to the virtual intersections that its corners cut off."""
-    lines = {element.name for element in (*profile.figure.path, *profile.figure.lines) if isinstance(element, Line)}
-    for corner in profile.figure.corners:
-        built, at = known.corners.get(corner.name), known.points.get(corner.at)
+    figure, elements = subject.profile.figure, subject.elements
+    lines = {element.name for element in (*figure.path, *figure.lines) if isinstance(element, Line)}
+    for corner in figure.corners:
+        built, at = subject.known.corners.get(corner.name), subject.at(corner.at)
         if built is None or at is None or corner.name not in elements:
             continue
         if corner.before in lines:
             yield Thin(built.begin, at, Role.MUTED)
         if corner.after is None or corner.after in lines:
             yield Thin(at, built.end, Role.MUTED)
-    if profile.is_extended:
-        yield from _tangents(profile, known)
 
 
-def _tangents(profile: Profile, known: Known) -> Iterator[Thin]:
+def _tangents(subject: Subject) -> Iterator[Thin]:
     """From where a line of the path ends to where it touches a circle beyond."""
-    from contoursolve.constraints import TangentLine  # noqa: PLC0415 - see `constraints`
-
-    for fact in profile.facts:
-        if not isinstance(fact, TangentLine):
-            continue
-        line = next((each for each in profile.figure.path if each.name == fact.line), None)
-        if line is None or not {line.tail, line.head} <= known.points.keys():
-            continue
-        tail, head = known.points[line.tail], known.points[line.head]
-        center = known.points.get(fact.center, place_of(profile, fact.center))
-        if center is None or distance(tail, head) <= SAME:
-            continue
-        there = foot(center, tail, unit(minus(head, tail)))
-        near = min((tail, head), key=lambda end: distance(end, there))
-        if max(distance(tail, there), distance(head, there)) > distance(tail, head) + SAME:
-            yield Thin(near, there, Role.MUTED)
+    for fact in subject.profile.facts if subject.profile.is_extended else ():
+        if isinstance(fact, TangentLine) and (ends := subject.ends(fact)) is not None:
+            center = subject.known.points.get(fact.center, place_of(subject.profile, fact.center))
+            if center is not None:
+                yield from _extension(ends, foot(center, ends[0], direction(*ends)))
 
 
-def list_rings(answer: Answer, known: Known) -> Iterator[Ring]:
-    """The whole circles of arcs on which an intersection lies."""
-    profile = answer.profile
+def _extension(ends: Ray, there: Point) -> Iterator[Thin]:
+    """From the nearer end of a line to a place on it that lies beyond."""
+    if max(distance(end, there) for end in ends) > distance(*ends) + SAME:
+        yield Thin(min(ends, key=lambda end: distance(end, there)), there, Role.MUTED)
+
+
+def _rings(subject: Subject) -> Iterator[Ring]:
+    """The whole circles of arcs on which an intersection lies, and those that facts give."""
+    profile = subject.profile
     chosen = {choice.point for choice in profile.choices if choice.given}
     for element in profile.figure.path:
-        if not isinstance(element, Arc):
-            continue
-        center, radius = known.points.get(element.center), known.radii.get(element.radius)
-        is_wanted = chosen & {element.tail, element.head} or answer.contour is None
-        if center is not None and radius is not None and is_wanted:
-            yield Ring(center, radius, Role.MUTED)
-    for circle in profile.figure.circles:
-        center, size = place_of(profile, circle.center), profile.givens.get(circle.radius)
-        if center is not None and size is not None:
-            yield Ring(center, float(size.value), Role.GIVEN)
+        circle = subject.circle(element.center, element.radius) if isinstance(element, Arc) else None
+        if circle is not None and (chosen & {element.tail, element.head} or subject.answer.contour is None):
+            yield Ring(*circle, Role.MUTED)
+    for each in profile.figure.circles:
+        center = place_of(profile, each.center)
+        if center is not None and each.radius in profile.givens:
+            yield Ring(center, subject.value(each.radius), Role.GIVEN)
 
 
-def list_slides(answer: Answer, known: Known) -> Iterator[Slide]:
+def _slides(subject: Subject) -> Iterator[Slide]:
     """What can still move, and how."""
-    profile = answer.profile
-    if answer.contour is not None or not known.placed:
+    profile, known = subject.profile, subject.known
+    if subject.answer.contour is not None or not known.placed:
         return
     affine = affine_facts(profile, profile.facts)
     ways = {freedom.point: freedom.direction for freedom in (affine.freedoms() if affine is not None else ())}
     shown = {*profile.intersections, *(point for each in profile.figure.path for point in (each.tail, each.head))}
-    for name, at in known.points.items():
-        if name in known.placed & shown:
-            yield Slide(at, ways.get(name))
+    yield from (Slide(at, ways.get(name)) for name, at in known.points.items() if name in known.placed & shown)
+
+
+def _places(subject: Subject) -> Iterator[Part]:
+    """Each place with its fact, the line or circle as far as that, and the gap where they miss each other."""
+    for fact in subject.profile.facts:
+        if not isinstance(fact, Through | OnCircle) or fact.point not in subject.profile.figure.places:
+            continue
+        text, at = subject.word(fact.given), place_of(subject.profile, fact.point)
+        if text is None or at is None:
+            continue
+        role, there = subject.role(fact.given), None
+        yield Mark(at, Kind.CENTER)
+        yield Leader(at, (1.0, 1.0), text, role)
+        if isinstance(fact, OnCircle):
+            circle = subject.circle(fact.center, fact.radius)
+            there = _on_circle(*circle, at) if circle is not None and distance(at, circle[0]) > SAME else None
+        elif (ends := subject.ends(fact)) is not None:
+            there = foot(at, ends[0], direction(*ends))
+            yield from _extension(ends, there)
+        if there is not None and role is Role.CONFLICTING:
+            yield from _gap(subject, there, at)
+
+
+# Faults ------------------------------------------------------------------------------------------------------
+
+
+def _faults(subject: Subject) -> Iterator[Part]:
+    """What speaks against a contour, and what words say that are ignored."""
+    for refusal in subject.known.refusals:
+        if refusal.kind in _OF_REFUSALS:
+            yield from _OF_REFUSALS[refusal.kind](subject, refusal)
+    for fact in subject.profile.ignored:
+        yield from _both_places(subject, fact, Role.IGNORED)
+
+
+def _gap(
+    subject: Subject, one: Point, other: Point, role: Role = Role.CONFLICTING, told: str = "off"
+) -> Iterator[Aligned]:
+    """How far apart two places are, if they are not one."""
+    if distance(one, other) > SAME:
+        yield Aligned(one, other, f"{number(distance(one, other), subject.profile.unit)} {told}", role)
+
+
+def _endless(on: Point, way: Point, role: Role = Role.CONFLICTING) -> Thin:
+    return Thin(on, along(on, way, 1.0), role, is_endless=True)
+
+
+def _on_circle(center: Point, radius: float, near: Point) -> Point:
+    """The place of a circle that is nearest to another one."""
+    return along(center, direction(center, near), radius)
+
+
+def _disagreeing(subject: Subject, refusal: Refusal) -> Iterator[Part]:
+    by_given = {fact.given: fact for fact in subject.profile.facts if fact.given}
+    if refusal.subject in by_given:
+        yield from _both_places(subject, by_given[refusal.subject], Role.CONFLICTING)
+
+
+def _both_places(subject: Subject, fact: Fact, role: Role) -> Iterator[Part]:
+    """Where the other words put a point, where this one puts it, and the gap."""
+    given = subject.profile.givens[fact.given]
+    if given.word is None:
+        return
+    if isinstance(fact, Heading):
+        tail, head = subject.at(fact.tail), subject.at(fact.head)
+        if tail is not None and head is not None and distance(tail, head) > SAME:
+            way = toward(float(given.value))
+            there = foot(head, tail, way)
+            yield Thin(tail, along(tail, way, distance(tail, head) * 1.15), role)
+            yield from _gap(subject, there, head, role)
+            yield Mark(there, Kind.OTHER, role=role)
+    elif isinstance(fact, Coordinate | Offset) and given.unit is Unit.MM:
+        at, origin = subject.at(fact.point), (0.0, 0.0) if isinstance(fact, Coordinate) else subject.at(fact.origin)
+        if at is None or origin is None:
+            return
+        there = with_coordinate(at, fact.axis, float(given.value) + origin[fact.axis])
+        yield _endless(there, ALONG_AXIS[1 - fact.axis], role)
+        yield from _gap(subject, there, at, role)
+        if distance(there, at) > SAME:
+            yield Mark(there, Kind.OTHER, role=role)
+
+
+def _missed(subject: Subject, refusal: Refusal) -> Iterator[Part]:
+    """A circle, and the line that misses it."""
+    ray, circles = _line_through(subject, refusal.subject), subject.circles_through(refusal.subject)
+    if ray is None or not circles:
+        return
+    near = foot(circles[0][0], *ray)
+    yield Ring(*circles[0], Role.CONFLICTING)
+    yield _endless(*ray)
+    yield from _gap(subject, _on_circle(*circles[0], near), near)
+
+
+def _line_through(subject: Subject, point: str) -> Ray | None:
+    """The line of known place and direction on which a point must lie."""
+    for fact in subject.profile.facts:
+        if isinstance(fact, Heading) and point in (fact.tail, fact.head):
+            other = subject.at(fact.head if fact.tail == point else fact.tail)
+            if other is not None:
+                return other, toward(subject.value(fact.given))
+        if isinstance(fact, Collinear) and point == fact.point:
+            tail, through = subject.at(fact.tail), subject.at(fact.through)
+            if tail is not None and through is not None and distance(tail, through) > 0:
+                return tail, direction(tail, through)
+    return None
+
+
+def _apart(subject: Subject, refusal: Refusal) -> Iterator[Part]:
+    """Circles that do not meet."""
+    circles = subject.circles_through(refusal.subject)
+    yield from (Ring(*circle, Role.CONFLICTING) for circle in circles)
+    if len(circles) > 1:
+        (one, first), (other, second) = circles[:2]
+        way, is_outside = direction(one, other), distance(one, other) >= max(first, second)
+        near = along(one, way, first if is_outside or first >= second else -first)
+        far = along(other, way, second if not is_outside and first >= second else -second)
+        yield from _gap(subject, near, far)
+
+
+def _parallel(subject: Subject, refusal: Refusal) -> Iterator[Part]:
+    """The lines that words make, and how far apart they are."""
+    shown: list[Ray] = []
+    for fact in (fact for fact in subject.profile.facts if fact.given in set(refusal.givens)):
+        if isinstance(fact, Heading):
+            at, way = subject.known.points.get(fact.tail, subject.at(fact.head)), toward(subject.value(fact.given))
+        elif isinstance(fact, Coordinate):
+            start = subject.known.points[subject.profile.figure.start]
+            at, way = with_coordinate(start, fact.axis, subject.value(fact.given)), ALONG_AXIS[1 - fact.axis]
+        else:
+            continue
+        if at is None:
+            continue
+        for other, direct in shown:
+            there = foot(at, other, direct)
+            if abs(way[0] * direct[1] - way[1] * direct[0]) < SAME and distance(at, there) > SAME:
+                yield _endless(other, direct)
+                yield _endless(at, way)
+                yield from _gap(subject, there, at, told="apart")
+                return
+        shown.append((at, way))
+
+
+def _off_circle(subject: Subject, refusal: Refusal) -> Iterator[Part]:
+    """A point beside the circle on which it must lie."""
+    at = subject.at(refusal.subject)
+    for center, radius in subject.circles_through(refusal.subject)[:1]:
+        yield Ring(center, radius, Role.CONFLICTING)
+        if at is not None and distance(at, center) > SAME:
+            yield from _gap(subject, _on_circle(center, radius, at), at)
+
+
+def _too_small(subject: Subject, refusal: Refusal) -> Iterator[Part]:
+    """The chord that is longer than the diameter."""
+    facts = (fact for fact in subject.profile.facts if isinstance(fact, OnCircle) and fact.center == refusal.subject)
+    places = [at for name in dict.fromkeys(fact.point for fact in facts) if (at := subject.at(name)) is not None]
+    if len(places) > 1:
+        limit = number(2 * refusal.values.get("actual", 0.0), subject.profile.unit)
+        chord = number(distance(places[0], places[1]), subject.profile.unit)
+        yield Aligned(places[0], places[1], f"{chord}, the diameter is {limit}", Role.CONFLICTING)
+
+
+def _reversed(subject: Subject, refusal: Refusal) -> Iterator[Part]:
+    """The way in which a line should run."""
+    for element in subject.profile.figure.path:
+        heading = element.heading if isinstance(element, Line) else None
+        if element.name == refusal.subject and heading is not None and heading in subject.profile.givens:
+            tail, head = subject.at(element.tail), subject.at(element.head)
+            if tail is not None and head is not None:
+                way = toward(subject.value(heading))
+                yield Thin(tail, along(tail, way, 0.4 * distance(tail, head)), Role.CONFLICTING)
+
+
+_OF_REFUSALS: Mapping[RefusalKind, Callable[[Subject, Refusal], Iterator[Part]]] = {
+    RefusalKind.WORDS_DISAGREE: _disagreeing,
+    RefusalKind.CIRCLE_MISSED: _missed,
+    RefusalKind.CIRCLES_APART: _apart,
+    RefusalKind.LINES_PARALLEL: _parallel,
+    RefusalKind.RADIUS_DIFFERENCE: _off_circle,
+    RefusalKind.RADIUS_TOO_SMALL: _too_small,
+    RefusalKind.LINE_REVERSED: _reversed,
+}
+"""How each refusal is drawn; the others have nothing to be shown."""

@@ -1,171 +1,273 @@
-"""Every word as a dimension where it belongs on the drawing."""
+"""The words of a contour where they belong on its drawing: as dimensions, and beside the points that they state."""
 
-from collections.abc import Iterator, Mapping
-from math import atan2, degrees, inf
+from collections.abc import Iterator, Mapping, Sequence
+from math import inf
 
-from contoursolve.constraints import Coordinate, Heading, Offset, Radius
+from contoursolve.constraints import Coordinate, Directed, Extent, Heading, Offset, Radius
 from contoursolve.contour import ArcSegment, Segment
-from contoursolve.examine import Answer
-from contoursolve.model import FIRST, SECOND, Arc, CornerShape, Fact, Profile, Unit
-from contoursolve.pictures.known import Known
-from contoursolve.pictures.scene import Aligned, Angle, Dimension, Leader, Linear, Ordinate
+from contoursolve.model import Arc, CornerShape, Fact, Unit
+from contoursolve.pictures.page import Run
+from contoursolve.pictures.scene import (
+    Aligned,
+    Angle,
+    Dimension,
+    Kind,
+    Leader,
+    Linear,
+    Mark,
+    Ordinate,
+    coordinates,
+    number,
+    word_text,
+)
+from contoursolve.pictures.subject import Subject
 from contoursolve.pictures.theme import Role
-from contoursolve.pictures.vectors import along, distance, middle, minus, on_arc, unit
-from contoursolve.pictures.wording import number, word_text
+from contoursolve.pictures.vectors import SAME, along, direction, distance, middle, on_arc, with_coordinate
+from contoursolve.solving import Point
 from contoursolve.source import Span
 from contoursolve.wording import length_limit
 
 _BESIDE_ARROW = 0.36
 """Of an arc, from its start: where its radius is written, off the arrow in its middle."""
 
+Noted = Mapping[str, Sequence[str]]
+"""By the name of a point, the givens whose words state it in full and stand beside it."""
 
-def list_dimensions(
-    answer: Answer, known: Known, roles: Mapping[str, Role], elements: Mapping[str, Segment], noted: frozenset[str]
-) -> Iterator[Dimension]:
+
+def list_dimensions(subject: Subject, noted: Noted) -> Iterator[Dimension]:
     """The dimensions of all words, and of the values that were asked for; without the coordinates that stand beside
-    their points (`noted`)."""
-    profile = answer.profile
-    seen: set[tuple[str, type]] = set()
+    their points."""
+    profile, elements = subject.profile, subject.elements
+    beside = {given for givens in noted.values() for given in givens}
+    done: set[tuple[str, type]] = set()
     measured: set[Span] = set()
     for fact in (*profile.facts, *profile.ignored):
         given = profile.givens.get(fact.given)
-        if given is None or given.word is None or fact.given in noted or (fact.given, type(fact)) in seen:
+        if given is None or given.word is None or fact.given in beside or (fact.given, type(fact)) in done:
             continue
         text = word_text(given.word.text) + (" dia" if given.is_diameter else "")
-        drawn = dimension_of(fact, profile, known, elements, text, roles.get(fact.given, Role.GIVEN))
+        drawn = _dimension(subject, elements, fact, text, subject.role(fact.given), float(given.value))
         if drawn is not None:
-            seen.add((fact.given, type(fact)))
+            done.add((fact.given, type(fact)))
             measured.add(given.word.span)
             yield drawn
-    yield from _corners(profile, known, roles, elements, measured)
-    for asked in answer.answers:
+    yield from _corners(subject, elements, measured)
+    for asked in subject.answer.answers:
         question = asked.question
         if asked.value is None:
             continue
         value = asked.value * (2 if question.is_diameter else 1)
-        shown = f"{value:.3f}".rstrip("0").rstrip(".") if question.unit is Unit.DEGREE else number(value, answer.unit)
+        is_angle = question.unit is Unit.DEGREE
+        shown = f"{value:.3f}".rstrip("0").rstrip(".") if is_angle else number(value, subject.answer.unit)
         text = f"{word_text(question.word.text).rstrip(' =?')} = {shown}"
-        drawn = dimension_of(question.fact, profile, known, elements, text, Role.DERIVED, asked.value)
+        drawn = _dimension(subject, elements, question.fact, text, Role.DERIVED, asked.value)
         if drawn is not None:
             yield drawn
 
 
-def dimension_of(
-    fact: Fact,
-    profile: Profile,
-    known: Known,
-    elements: Mapping[str, Segment],
-    text: str,
-    role: Role,
-    value: float | None = None,
+def _dimension(
+    subject: Subject, elements: Mapping[str, Segment], fact: Fact, text: str, role: Role, value: float
 ) -> Dimension | None:
-    """How a fact stands on a drawing; None where its points are not known, or where it has no such form."""
-    points = known.points
+    """How a fact with a value stands on a drawing; None where its points are not known, or it has no such form."""
+    from contoursolve.constraints import Distance  # noqa: PLC0415 - see `constraints`
+
+    known, figure = subject.known, subject.profile.figure
+    start = subject.at(figure.start)
     if isinstance(fact, Coordinate):
-        at = known.coordinate(fact.point, fact.axis)
-        if fact.point in points:
-            return Ordinate(points[fact.point], fact.axis, text, role)
-        start = points.get(profile.figure.start)
-        if at is None or start is None:
-            return None
-        return Ordinate((at, start[SECOND]) if fact.axis == FIRST else (start[FIRST], at), fact.axis, text, role)
+        at, coordinate = subject.at(fact.point), known.coordinate(fact.point, fact.axis)
+        if at is None and coordinate is not None and start is not None:
+            at = with_coordinate(start, fact.axis, coordinate)
+        return Ordinate(at, fact.axis, text, role) if at is not None else None
     if isinstance(fact, Offset):
-        origin, end = points.get(fact.origin), points.get(fact.point)
+        origin, end = subject.at(fact.origin), subject.at(fact.point)
         coordinate = known.coordinate(fact.point, fact.axis)
         if origin is not None and end is None and coordinate is not None:
-            end = (coordinate, origin[SECOND]) if fact.axis == FIRST else (origin[FIRST], coordinate)
+            end = with_coordinate(origin, fact.axis, coordinate)
         return Linear(origin, end, fact.axis, text, role) if origin is not None and end is not None else None
     if isinstance(fact, Heading):
-        at_point = points.get(fact.tail, points.get(fact.head))
-        angle = float(profile.givens[fact.given].value) if fact.given in profile.givens else value
-        return Angle(at_point, angle, text, role) if at_point is not None and angle is not None else None
+        at = known.points.get(fact.tail, subject.at(fact.head))
+        return Angle(at, value, text, role) if at is not None else None
     if isinstance(fact, Radius):
-        return _radius(fact.radius, profile, known, elements, text, role)
-    return _further(fact, profile, known, text, role, value)
+        return _radius(subject, elements, fact.radius, text, role)
+    if isinstance(fact, Distance | Extent):
+        tail, head = subject.at(fact.tail), subject.at(fact.head)
+        return Aligned(tail, head, text, role, is_beside=True) if tail is not None and head is not None else None
+    if isinstance(fact, Directed):
+        lines = (each for each in (*figure.path, *figure.lines) if each.name == fact.line)
+        at = next((subject.at(line.tail) for line in lines), None)
+        return Angle(at, value, text, role) if at is not None else None
+    return None
 
 
-def _radius(
-    name: str, profile: Profile, known: Known, elements: Mapping[str, Segment], text: str, role: Role
-) -> Dimension | None:
+def _radius(subject: Subject, elements: Mapping[str, Segment], name: str, text: str, role: Role) -> Dimension | None:
     """The radius of an arc of the path, or of a rounding."""
-    for element in profile.figure.path:
+    for element in subject.profile.figure.path:
         if isinstance(element, Arc) and element.radius == name:
-            drawn = elements.get(element.name)
+            drawn, circle = elements.get(element.name), subject.circle(element.center, name)
             if isinstance(drawn, ArcSegment):
-                return pointing_at(drawn, text, role)
-            center, radius = known.points.get(element.center), known.radii.get(name)
-            if center is not None and radius is not None:
-                way = unit(minus(known.points.get(element.tail, (center[0] + 1, center[1] + 1)), center))
-                return Leader(along(center, way, radius), way, text, role)
+                return _pointing(drawn, text, role)
+            if circle is not None:
+                tail = subject.at(element.tail)
+                way = direction(circle[0], tail if tail is not None else along(circle[0], (1, 1), 1))
+                return Leader(along(circle[0], way, circle[1]), way, text, role)
     corner = elements.get(name.rpartition(".")[0])
-    return pointing_at(corner, text, role) if corner is not None else None
+    return _pointing(corner, text, role) if corner is not None else None
 
 
-def pointing_at(segment: Segment, text: str, role: Role) -> Leader:
+def _pointing(segment: Segment, text: str, role: Role) -> Leader:
     """A word that points at the middle of an element; at an arc from outside."""
     at, way = middle(segment)
-    if isinstance(segment, ArcSegment):
-        if not segment.name.startswith("corner"):
-            at, way = on_arc(segment, _BESIDE_ARROW)
-        return Leader(at, unit(minus(at, segment.center)), text, role)
-    return Leader(at, (-way[1], way[0]), text, role)
+    if not isinstance(segment, ArcSegment):
+        return Leader(at, (-way[1], way[0]), text, role)
+    if not segment.name.startswith("corner"):
+        at, way = on_arc(segment, _BESIDE_ARROW)
+    return Leader(at, direction(segment.center, at), text, role)
 
 
-def _corners(
-    profile: Profile, known: Known, roles: Mapping[str, Role], elements: Mapping[str, Segment], shown: set[Span]
-) -> Iterator[Dimension]:
+def _corners(subject: Subject, elements: Mapping[str, Segment], measured: set[Span]) -> Iterator[Dimension]:
     """The sizes of corners, but for those that a distance shows."""
+    profile = subject.profile
     for corner in profile.figure.corners:
         given = profile.givens.get(corner.size)
-        if given is None or given.word is None or given.word.span in shown:
+        if given is None or given.word is None or given.word.span in measured:
             continue
         text = word_text(given.word.text)
         text += " x 45°" if corner.shape is CornerShape.CHAMFER_AXIS_45 else ""
-        role = roles.get(corner.size, Role.GIVEN)
-        limit = _limit(known, corner.name)
-        if limit is not None:
+        role = subject.role(corner.size)
+        limits = [
+            refusal.values.get("limit", 0) for refusal in subject.known.refusals if refusal.subject == corner.name
+        ]
+        for limit in [limit for limit in limits if 0 < limit < inf][:1]:
             largest = length_limit(limit, profile.unit)
             text += f" (max {number(float(largest * profile.unit.in_mm), profile.unit)})"
-        drawn, at = elements.get(corner.name), known.points.get(corner.at)
+        drawn, at = elements.get(corner.name), subject.at(corner.at)
         if drawn is not None:
-            pointed = pointing_at(drawn, text, role)
+            pointed = _pointing(drawn, text, role)
             if at is not None and not isinstance(drawn, ArcSegment):
                 # From the side of the virtual intersection.
-                pointed = Leader(pointed.at, unit(minus(at, pointed.at)), text, role)
+                pointed = Leader(pointed.at, direction(pointed.at, at), text, role)
             yield pointed
         elif at is not None:
             yield Leader(at, (1.0, 1.0), text, role)
 
 
-def _limit(known: Known, corner: str) -> float | None:
-    """The largest size of a corner that is too large."""
-    for refusal in known.refusals:
-        if refusal.subject == corner and 0 < refusal.values.get("limit", 0) < inf:
-            return refusal.values["limit"]
-    return None
+# Points ------------------------------------------------------------------------------------------------------
+
+BETWEEN = "  "
+"""What parts the pieces of a label."""
+
+Others = Mapping[str, Sequence[tuple[Point, str]]]
+"""By the name of a point, where it is in other solutions, with the words that select each."""
 
 
-def _further(
-    fact: Fact, profile: Profile, known: Known, text: str, role: Role, value: float | None
-) -> Dimension | None:
-    """Facts that no word of a control states."""
-    from contoursolve.constraints import Directed, Distance, Extent  # noqa: PLC0415 - see `constraints`
+def noted_points(subject: Subject) -> Noted:
+    """The points of which words state both coordinates, first axis first."""
+    profile = subject.profile
+    found: dict[str, dict[int, str]] = {}
+    for fact in (*profile.facts, *profile.ignored):
+        if isinstance(fact, Coordinate) and subject.word(fact.given) is not None:
+            found.setdefault(fact.point, {}).setdefault(fact.axis, fact.given)
+    return {
+        point: tuple(given for _, given in sorted(givens.items()))
+        for point, givens in found.items()
+        if len(givens) > 1 and subject.at(point) is not None
+    }
 
-    points = known.points
-    if isinstance(fact, Distance | Extent):
-        tail, head = points.get(fact.tail), points.get(fact.head)
-        return Aligned(tail, head, text, role, is_beside=True) if tail is not None and head is not None else None
-    if isinstance(fact, Directed):
-        try:
-            line = profile.figure.line(fact.line)
-        except KeyError:
-            return None
-        tail, head = points.get(line.tail), points.get(line.head)
-        if tail is None:
-            return None
-        given = profile.givens.get(fact.given)
-        angle = float(given.value) if given else value
-        if angle is None and head is not None and distance(tail, head) > 0:
-            angle = degrees(atan2(head[1] - tail[1], head[0] - tail[0]))
-        return Angle(tail, angle, text, role) if angle is not None else None
-    return None
+
+def list_marks(subject: Subject, noted: Noted, others: Others) -> Iterator[Mark]:
+    """The start, the end, the named points, the points that words state in full (`noted`), and centres."""
+    start, end = subject.at(subject.profile.figure.start), _end(subject)
+    if start is None:
+        return
+    ranks = {"start": start, **({"end": end} if end is not None else {})}
+
+    def rank(at: Point) -> str:
+        return next((name for name, there in ranks.items() if distance(at, there) <= SAME), "")
+
+    spots = _spots(subject)
+    if end is not None and all(distance(at, end) > SAME for at, _ in spots):
+        spots.append((end, ()))
+    for at, names in sorted(spots, key=lambda spot: ("start", "end", "").index(rank(spot[0]))):
+        yield from _mark(subject, noted, others, at, names, rank(at))
+    for name, places in others.items():
+        for at, selects in places:
+            if all(distance(at, there) > SAME for there, _ in spots):
+                runs = [Run(name, Role.GHOST), *([Run(selects, Role.GHOST)] if selects else [])]
+                yield Mark(at, Kind.PLACE, _joined([*runs, _computed(subject, at)]), _joined(runs), Role.GHOST)
+
+
+def _end(subject: Subject) -> Point | None:
+    """Where the path ends, if it is drawn as far as that, with the corner at its end."""
+    figure, known = subject.profile.figure, subject.known
+    if not subject.trails:
+        return None
+    last, final = subject.trails[-1].segments[-1], figure.path[-1]
+    if subject.answer.contour is not None:
+        return last.end
+    corners, head = {corner.name for corner in figure.corners if corner.at == final.head}, subject.at(final.head)
+    is_whole = last.name in {final.name, *corners} or (head is not None and distance(last.end, head) <= SAME)
+    has_corner = known.refusals or corners <= known.corners.keys()
+    return last.end if is_whole and has_corner else None
+
+
+def _spots(subject: Subject) -> list[tuple[Point, tuple[str, ...]]]:
+    """Every place with the names of all points there."""
+    found: list[tuple[Point, tuple[str, ...]]] = []
+    for name, at in subject.known.points.items():
+        index = next((n for n, (there, _) in enumerate(found) if distance(there, at) <= SAME), None)
+        if index is None:
+            found.append((at, (name,)))
+        else:
+            found[index] = found[index][0], (*found[index][1], name)
+    return found
+
+
+def _mark(subject: Subject, noted: Noted, others: Others, at: Point, spot: Sequence[str], rank: str) -> Iterator[Mark]:
+    """The mark of one place, if anything is to be said of it."""
+    profile, known = subject.profile, subject.known
+    shown = [name for name in spot if name in profile.intersections]
+    centers = {element.center for element in profile.figure.path if isinstance(element, Arc)}
+    is_center = not centers.isdisjoint(spot) and not shown
+    givens = [given for name in spot for given in noted.get(name, ())]
+    words = [Run(subject.word(given) or "", subject.role(given)) for given in givens]
+    if not (rank or shown or words):
+        if is_center:
+            yield Mark(at, Kind.CENTER)
+        return
+    is_end_free = rank == "end" and subject.trails[-1].role is Role.FREE
+    is_free = not known.placed.isdisjoint(spot) or is_end_free
+    # Where the path ends at a virtual intersection, it is the end that counts.
+    names = [*([rank] if rank else []), *(name for name in shown if not rank or not name.startswith("V"))]
+    if is_free and rank == "end":
+        names[0] = "end (free)"
+    short = [Run(name, Role.FREE if is_free else Role.INK) for name in names]
+    short += _choosing(subject, others, at, spot)
+    about = words
+    if rank == "start" and not words:
+        about = [Run(coordinates(at, subject.answer.plane, subject.answer.unit), Role.MUTED)]
+    elif names and not words and not is_free:
+        about = [_computed(subject, at)]
+    is_cut = not {corner.at for corner in profile.figure.corners}.isdisjoint(spot)
+    kind = Kind(rank) if rank else Kind.CENTER if is_center else Kind.VIRTUAL if is_cut else Kind.PLACE
+    yield Mark(at, kind, _joined([*short, *about]), _joined(short), Role.FREE if is_free else Role.INK)
+
+
+def _choosing(subject: Subject, others: Others, at: Point, spot: Sequence[str]) -> Iterator[Run]:
+    """The words that choose this place, or would."""
+    for choice in subject.profile.choices:
+        word = subject.word(choice.given)
+        # The sign of a radius chooses a centre, and is shown with the radius.
+        if choice.point in spot and choice.point in subject.profile.intersections and word is not None:
+            yield Run(word, subject.role(choice.given))
+    for name in spot:
+        texts = (text for there, text in others.get(name, ()) if distance(there, at) <= SAME)
+        yield from [Run(text, Role.GIVEN) for text in texts if text][:1]
+
+
+def _computed(subject: Subject, at: Point) -> Run:
+    return Run(coordinates(at, subject.answer.plane, subject.answer.unit), Role.DERIVED)
+
+
+def _joined(runs: Sequence[Run]) -> tuple[Run, ...]:
+    """Runs with what parts them."""
+    return tuple(Run((BETWEEN if number else "") + run.text, run.role) for number, run in enumerate(runs))

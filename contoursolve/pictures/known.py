@@ -1,17 +1,38 @@
-"""What can be known of a contour without solving it: points, and the circles about known centres through them."""
+"""What can be drawn of a contour without its solution: what its words say one after the other, and completions.
 
-from collections.abc import Mapping
+A contour whose words leave something free is completed: that is put somewhere, and the rest solved as any other block.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from decimal import Decimal
+from itertools import product
 from math import hypot, isfinite
 
 from contoursolve.analysis import judge
 from contoursolve.analysis.identities import is_affine
 from contoursolve.constraints import Coordinate, Level, Offset, OnCircle, Radius, assemble
-from contoursolve.model import FIRST, SECOND, Fact, Layout, Profile, scalar
-from contoursolve.solving import Point, Refusal, Solution
+from contoursolve.model import FIRST, SECOND, Fact, Given, Layout, Profile, Unit, scalar
+from contoursolve.pictures.vectors import distance
+from contoursolve.solving import Point, Refusal, Solution, Status, is_closed, points_with_two_solutions, solve
 from contoursolve.solving.affine import affine_facts
 from contoursolve.solving.solution import CornerSolution
 from contoursolve.tolerance import LARGEST
+
+MOST_FREE = 6
+"""Free coordinates that are put somewhere; of a contour with more, only what is known is drawn."""
+
+MOST_TRIED = 24
+"""Places that are tried for what is free, each a solve of well under a millisecond."""
+
+MOST_GHOSTS = 3
+"""Completions that are shown."""
+
+_STEPS = (0.6, 1.0, 0.35, 1.5, -0.6, -1.0, -0.35, -1.5)
+"""Where a free coordinate is put, from where the line begins, in lengths of the drawing."""
+
+_TURNED = (0.6, -0.6, 1.0, -1.0)
+"""The same, with backwards as likely as onwards: a line at 180 deg leads to lower Z."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,9 +51,7 @@ class Known:
 
     def coordinate(self, point: str, axis: int) -> float | None:
         """One coordinate of a point, mm."""
-        if point in self.points:
-            return self.points[point][axis]
-        return self.scalars.get(scalar(point, axis))
+        return self.points[point][axis] if point in self.points else self.scalars.get(scalar(point, axis))
 
 
 def known_of(solution: Solution) -> Known:
@@ -47,70 +66,197 @@ def place_of(profile: Profile, name: str) -> Point | None:
     return (values[0], values[1]) if len(values) == len(given) else None
 
 
+def start_of(profile: Profile) -> Point:
+    """Where a contour begins; 0 for what is not known."""
+    first, second = (float(value or 0) for value in profile.start.values)
+    return first, second
+
+
+def with_facts(profile: Profile, facts: Iterable[Fact]) -> Profile:
+    """The profile with these facts only."""
+    return replace(profile, layout=Layout(profile.figure, tuple(facts)))
+
+
 def is_usable(value: float) -> bool:
     """Whether a number is a coordinate that can be drawn."""
     return isfinite(value) and abs(value) <= 10 * LARGEST
+
+
+def is_chosen(profile: Profile) -> bool:
+    """Whether every point that may lie in two places has a choice."""
+    chosen = {choice.point for choice in profile.choices}
+    return chosen.issuperset(points_with_two_solutions(assemble(profile)))
+
+
+def by_point(names: Iterable[str], values: Mapping[str, float]) -> tuple[dict[str, Point], dict[str, float]]:
+    """The points of which both coordinates are known, and the coordinates of the others."""
+    points: dict[str, Point] = {}
+    rest: dict[str, float] = {}
+    for name in names:
+        first, second = (values.get(scalar(name, axis)) for axis in (FIRST, SECOND))
+        if first is not None and second is not None:
+            points[name] = first, second
+        else:
+            rest |= {scalar(name, axis): each for axis, each in enumerate((first, second)) if each is not None}
+    return points, rest
+
+
+# One after the other -----------------------------------------------------------------------------------------
 
 
 def in_part(profile: Profile) -> Known:
     """What the facts say one after the other, without solving anything: coordinates, and the circles about known
     centres through known points."""
     system = assemble(profile)
+    figure = system.figure
     basis = [system.facts[index] for index in judge(system).basis]
     plain = [fact for fact in basis if is_affine([fact])]
-    values = _fixed(profile, plain)
+    affine = affine_facts(with_facts(profile, plain), plain) if plain else None
+    values = {name: value for name, value in affine.fixed_by(plain).items() if is_usable(value)} if affine else {}
+    start = {scalar(figure.start, axis): value for axis, value in enumerate(start_of(profile))}
+    places = [scalar(name, axis) for name in figure.places for axis in (FIRST, SECOND)]
+    stated = {**{name: float(profile.givens[name].value) for name in places if name in profile.givens}, **start}
     for _ in basis:
         before = len(values)
         for fact in basis:
-            _derive(fact, profile, values)
+            _derive(fact, profile, stated, values)
         if len(values) == before:
             break
-    start = {scalar(system.figure.start, axis): float(v or 0) for axis, v in enumerate(profile.start.values)}
-    everything = {**values, **start}
-    points: dict[str, Point] = {}
-    rest: dict[str, float] = {}
-    for name in (system.figure.start, *system.figure.points, *system.figure.places):
-        pair = [everything.get(scalar(name, axis)) for axis in (FIRST, SECOND)]
-        if pair[0] is not None and pair[1] is not None:
-            points[name] = pair[0], pair[1]
-        else:
-            rest |= {scalar(name, axis): value for axis, value in enumerate(pair) if value is not None}
-    radii = {name: values[name] for name in system.figure.radii if name in values}
-    return Known(points, radii, scalars=rest)
+    points, rest = by_point((figure.start, *figure.points, *figure.places), {**values, **start})
+    return Known(points, {name: values[name] for name in figure.radii if name in values}, scalars=rest)
 
 
-def _fixed(profile: Profile, facts: list[Fact]) -> dict[str, float]:
-    """The coordinates that plain facts fix."""
-    part = replace(profile, layout=Layout(profile.figure, tuple(facts)))
-    affine = affine_facts(part, facts) if facts else None
-    return {name: value for name, value in affine.fixed_by(facts).items() if is_usable(value)} if affine else {}
-
-
-def _derive(fact: Fact, profile: Profile, values: dict[str, float]) -> None:
-    """What one fact adds to the values that are known."""
-    figure, amounts = profile.figure, profile.givens
+def _derive(fact: Fact, profile: Profile, stated: Mapping[str, float], values: dict[str, float]) -> None:
+    """What one fact adds to the values that are known, besides those of the start and of places."""
 
     def get(point: str, axis: int) -> float | None:
-        if point == figure.start:
-            return float(profile.start.values[axis] or 0)
-        if point in figure.places:
-            return float(amounts[scalar(point, axis)].value)
-        return values.get(scalar(point, axis))
+        name = scalar(point, axis)
+        return stated.get(name, values.get(name))
 
     if isinstance(fact, Radius):
-        values.setdefault(fact.radius, abs(float(amounts[fact.given].value)))
+        values.setdefault(fact.radius, abs(float(profile.givens[fact.given].value)))
     elif isinstance(fact, Coordinate):
-        values.setdefault(scalar(fact.point, fact.axis), float(amounts[fact.given].value))
-    elif isinstance(fact, Offset):
+        values.setdefault(scalar(fact.point, fact.axis), float(profile.givens[fact.given].value))
+    elif isinstance(fact, Offset | Level):
         origin = get(fact.origin, fact.axis)
-        if origin is not None and fact.point != figure.start:
-            values.setdefault(scalar(fact.point, fact.axis), origin + float(amounts[fact.given].value))
-    elif isinstance(fact, Level):
-        level = get(fact.origin, fact.axis)
-        if level is not None and fact.point != figure.start:
-            values.setdefault(scalar(fact.point, fact.axis), level)
+        if origin is not None:
+            step = float(profile.givens[fact.given].value) if isinstance(fact, Offset) else 0.0
+            values.setdefault(scalar(fact.point, fact.axis), origin + step)
     elif isinstance(fact, OnCircle) and fact.radius not in values:
         pairs = [(get(fact.point, axis), get(fact.center, axis)) for axis in (FIRST, SECOND)]
         steps = [at - center for at, center in pairs if at is not None and center is not None]
         if len(steps) == len(pairs) and hypot(*steps) > 0:
             values[fact.radius] = hypot(*steps)
+
+
+# Completions -------------------------------------------------------------------------------------------------
+
+
+def complete(profile: Profile, singular: Sequence[str] = ()) -> Known:
+    """A contour with what its words leave free put somewhere, so that the control would make it if that can be;
+    `singular` is what they leave free at their values only."""
+    known = in_part(profile)
+    free = judge(assemble(profile)).free
+    if len(free) > MOST_FREE:
+        return known
+    size = _drawing_size(profile)
+    found: list[Solution] = []
+    placed: frozenset[str] = frozenset()
+    # All onwards first; the ways in which some turn back only where that gives no contour.
+    for full, names in (
+        each for steps in (_STEPS, _TURNED) if not found for each in _completions(profile, known, size, singular, steps)
+    ):
+        if len(found) > MOST_GHOSTS:
+            break
+        placed = names
+        if is_closed(assemble(full)) and is_chosen(full):
+            solution = solve(full, is_proven=False)
+            if solution.status in (Status.SOLVED, Status.OVERDETERMINED) and solution.points:
+                found.append(solution)
+    if not found:
+        return known
+    first, *others = found
+    open_ = {point for point, _, axis in (name.rpartition(".") for name in free) if axis.isdigit()}
+    apart = size / 1_000_000
+    moved = {n for n, at in first.points.items() for other in others if distance(at, other.points[n]) > apart}
+    return replace(known_of(first), placed=placed | open_ | moved, others=tuple(others))
+
+
+def _completions(
+    profile: Profile, known: Known, size: float, singular: Sequence[str], steps: Sequence[float]
+) -> Iterator[tuple[Profile, frozenset[str]]]:
+    """The profile with further facts that determine it, and the points that these are about."""
+    names = [name for name in singular if _is_placeable(name, profile)]
+    extended, moves = _with(profile, dict.fromkeys(names, 0.0)), _moves(profile)
+    while free := judge(assemble(extended)).free:
+        open_ = [
+            name for name in free if name not in names and name not in known.scalars and _is_placeable(name, profile)
+        ]
+        if not open_ or len(names) >= MOST_FREE:
+            return
+        names.append(max(open_, key=lambda name: round(moves.get(name, 1.0), 6)))
+        extended = _with(profile, dict.fromkeys(names, 0.0))
+    points = frozenset(name.rpartition(".")[0] for name in names if name not in profile.figure.radii)
+    tried = sorted(product(steps, repeat=len(names)), key=lambda each: sum(map(steps.index, each)))[:MOST_TRIED]
+    for lengths in tried:
+        values: dict[str, float] = {}
+        for name, step in zip(names, lengths, strict=True):
+            if name in profile.figure.radii:
+                values[name] = abs(step) * size
+                continue
+            point, _, axis = name.rpartition(".")
+            base, lead = _lead(profile, known, values, point, int(axis))
+            values[name] = base + lead * step * size
+        yield _with(profile, values), points
+
+
+def _is_placeable(name: str, profile: Profile) -> bool:
+    return name in profile.figure.radii or name.rpartition(".")[2] in (str(FIRST), str(SECOND))
+
+
+def _moves(profile: Profile) -> dict[str, float]:
+    """How much each coordinate changes when what is free moves by 1; 1 for what is not known."""
+    affine = affine_facts(profile, profile.facts)
+    freedoms = affine.freedoms() if affine is not None else ()
+    return {
+        scalar(freedom.point, axis): abs(freedom.direction[axis])
+        for freedom in freedoms
+        if freedom.direction is not None
+        for axis in (FIRST, SECOND)
+    }
+
+
+def _lead(profile: Profile, known: Known, values: Mapping[str, float], point: str, axis: int) -> tuple[float, float]:
+    """Where the element to a point comes from, on an axis, and the way (+1 or -1) in which the path leads on."""
+
+    def get(name: str) -> float | None:
+        return values.get(scalar(name, axis), known.coordinate(name, axis))
+
+    comes = {element.head: element.tail for element in profile.figure.path}
+    before = comes.get(point, profile.figure.start)
+    base = get(before)
+    earlier = get(comes[before]) if before in comes else None
+    if base is None:
+        return start_of(profile)[axis], 1.0
+    return base, -1.0 if earlier is not None and base < earlier else 1.0
+
+
+def _with(profile: Profile, values: Mapping[str, float]) -> Profile:
+    """The profile with unknowns at values."""
+    givens, facts = dict(profile.givens), list(profile.facts)
+    for name, value in values.items():
+        given = f"put {name}"
+        point, _, axis = name.rpartition(".")
+        givens[given] = Given(given, Decimal(repr(round(value, 6))), Unit.MM, None)
+        facts.append(Coordinate(given, point, int(axis)) if axis.isdigit() else Radius(given, name))
+    return replace(with_facts(profile, facts), givens=givens)
+
+
+def _drawing_size(profile: Profile) -> float:
+    """How large a drawing is, by its words alone, mm."""
+    start, sizes = start_of(profile), []
+    for fact in profile.facts:
+        if isinstance(fact, Coordinate | Offset | Radius):
+            origin = start[fact.axis] if isinstance(fact, Coordinate) else 0.0
+            sizes.append(abs(float(profile.givens[fact.given].value) - origin))
+    return max((size for size in sizes if size > 0), default=10.0)

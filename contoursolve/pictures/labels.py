@@ -1,9 +1,33 @@
-"""Where labels find room: off the path, off other labels, near what they belong to."""
+"""A page while it is filled: what is on it, and where labels find room: off the path, off other labels, near what
+they belong to."""
 
 from collections.abc import Iterable, Sequence
 from math import ceil, cos, hypot, inf, pi, sin
 
-from contoursolve.pictures.sheet import Box, Spot
+from contoursolve.pictures.page import (
+    ASCENT,
+    DESCENT,
+    SIZE,
+    Anchor,
+    Box,
+    Item,
+    Run,
+    Shape,
+    Spot,
+    Stroke,
+    Sweep,
+    Text,
+    line,
+    width_of,
+)
+from contoursolve.pictures.theme import Role
+from contoursolve.pictures.vectors import along, distance, minus
+from contoursolve.pictures.view import View
+
+PATH_WEIGHT, THIN_WEIGHT, FAINT_WEIGHT = 40.0, 4.0, 1.5
+"""How little a label likes to stand on a path, on a thin line of a word, and on a line of construction."""
+
+_PIECES = 10
 
 CELL = 6.0
 """Pixels of a side of a cell in which what is drawn is counted."""
@@ -35,24 +59,22 @@ class Grid:
         self.cells = [0.0] * (self.columns * self.rows)
         self.taken: list[Box] = []
 
+    def _cell(self, at: Spot, step: Spot, share: float) -> int:
+        """The number of the cell after a share of a step from a place."""
+        column = int((at[0] + step[0] * share - self.page.left) / CELL)
+        return int((at[1] + step[1] * share - self.page.top) / CELL) * self.columns + column
+
     def mark(self, a: Spot, b: Spot, weight: float) -> None:
         """A line is drawn."""
         clipped = clip(a, b, self.page)
         if clipped is None:
             return
-        (x, y), (u, v) = clipped
-        steps = max(1, ceil(hypot(u - x, v - y) / (CELL * 0.7)))
+        step = minus(clipped[1], clipped[0])
+        steps = max(1, ceil(hypot(*step) / (CELL * 0.7)))
         for number in range(steps + 1):
-            share = number / steps
-            column = int((x + (u - x) * share - self.page.left) / CELL)
-            row = int((y + (v - y) * share - self.page.top) / CELL)
-            place = row * self.columns + column
+            place = self._cell(clipped[0], step, number / steps)
             if 0 <= place < len(self.cells):
                 self.cells[place] = max(self.cells[place], weight)
-
-    def take(self, box: Box) -> None:
-        """A text is here."""
-        self.taken.append(box)
 
     def cost(self, box: Box) -> float:
         """How much a text would cover; infinite where another text is, or outside the page."""
@@ -69,14 +91,10 @@ class Grid:
 
     def crossings(self, a: Spot, b: Spot) -> float:
         """What a line to a place `b` runs over, without what is right there."""
-        length = hypot(b[0] - a[0], b[1] - a[1])
-        steps = int((length - CELL * 1.5) / CELL)
+        length, step = distance(b, a), minus(b, a)
         total = 0.0
-        for number in range(steps):
-            share = number * CELL / length
-            column = int((a[0] + (b[0] - a[0]) * share - self.page.left) / CELL)
-            row = int((a[1] + (b[1] - a[1]) * share - self.page.top) / CELL)
-            place = row * self.columns + column
+        for number in range(int((length - CELL * 1.5) / CELL)):
+            place = self._cell(a, step, number * CELL / length)
             total += self.cells[place] if 0 <= place < len(self.cells) else 0.0
         return total
 
@@ -93,25 +111,20 @@ class Grid:
 def clip(a: Spot, b: Spot, box: Box) -> tuple[Spot, Spot] | None:
     """The part of a line inside a box (Liang and Barsky 1984); None if it is outside."""
     low, high = 0.0, 1.0
-    for start, step, least, most in (
-        (a[0], b[0] - a[0], box.left, box.right),
-        (a[1], b[1] - a[1], box.top, box.bottom),
-    ):
-        if step == 0:
+    step = minus(b, a)
+    for start, way, least, most in zip(a, step, (box.left, box.top), (box.right, box.bottom), strict=True):
+        if way == 0:
             if not least <= start <= most:
                 return None
             continue
-        near, far = sorted(((least - start) / step, (most - start) / step))
+        near, far = sorted(((least - start) / way, (most - start) / way))
         low, high = max(low, near), min(high, far)
     if low > high:
         return None
-    return (
-        (a[0] + (b[0] - a[0]) * low, a[1] + (b[1] - a[1]) * low),
-        (a[0] + (b[0] - a[0]) * high, a[1] + (b[1] - a[1]) * high),
-    )
+    return along(a, step, low), along(a, step, high)
 
 
-def boxes_around(at: Spot, width: float, height: float, away: Spot) -> Iterable[tuple[Box, float, float]]:
+def _boxes_around(at: Spot, width: float, height: float, away: Spot) -> Iterable[tuple[Box, float, float]]:
     """Boxes of a size near a place with their distance and how far they are turned from the wanted direction
     (radians), nearest first."""
     ways = [
@@ -130,14 +143,14 @@ def boxes_around(at: Spot, width: float, height: float, away: Spot) -> Iterable[
                 yield Box(x - width / 2, y - height / 2, x + width / 2, y + height / 2), far, turned
 
 
-def place_label(
+def _place_label(
     grid: Grid, at: Spot, sizes: Sequence[tuple[float, float]], away: Spot, leads: bool
 ) -> tuple[int, Box] | None:
     """Where a label of one of these sizes stands best near a place, the first size if there is any room; None if there
     is none. `leads` for a label that always has a leader."""
     for index, (width, height) in enumerate(sizes):
         best: tuple[float, Box] | None = None
-        for box, far, turned in boxes_around(at, width, height, away):
+        for box, far, turned in _boxes_around(at, width, height, away):
             if leads and far < _TOUCHING:
                 continue
             if best is not None and far * _PER_PIXEL >= best[0]:
@@ -146,10 +159,10 @@ def place_label(
             if best is not None and own >= best[0]:
                 continue
             cost = own + grid.cost(box.grow(1.5))
-            if cost == inf or (far > _TOUCHING and grid.is_crossed(at, nearest(box, at))):
+            if cost == inf or (far > _TOUCHING and grid.is_crossed(at, _nearest(box, at))):
                 continue
             if far > _TOUCHING:
-                cost += grid.crossings(nearest(box, at), at)
+                cost += grid.crossings(_nearest(box, at), at)
             if best is None or cost < best[0]:
                 best = cost, box
         if best is not None:
@@ -157,7 +170,7 @@ def place_label(
     return None
 
 
-def nearest(box: Box, at: Spot) -> Spot:
+def _nearest(box: Box, at: Spot) -> Spot:
     """The point of a box where a leader from a place ends: the middle of a side, or a point of the nearer side."""
     x = min(max(at[0], box.left), box.right)
     y = min(max(at[1], box.top), box.bottom)
@@ -166,7 +179,77 @@ def nearest(box: Box, at: Spot) -> Spot:
     return x, y
 
 
-def needs_leader(box: Box, at: Spot) -> bool:
+def _needs_leader(box: Box, at: Spot) -> bool:
     """Whether a label is so far from its place that a line must join them."""
-    x, y = nearest(box, at)
-    return hypot(x - at[0], y - at[1]) > _TOUCHING
+    return distance(_nearest(box, at), at) > _TOUCHING
+
+
+class Canvas:
+    """Items in the order in which they are painted: thin lines, paper behind labels, the path, labels."""
+
+    def __init__(self, view: View, frame: Box) -> None:
+        self.view, self.frame = view, frame
+        self.grid = Grid(frame)
+        self.thin: list[Item] = []
+        self.papers: list[Item] = []
+        self.thick: list[Item] = []
+        self.texts: list[Text] = []
+        self.homeless: list[str] = []
+        """Labels for which there was no room."""
+
+    def draw(self, item: Stroke, weight: float = THIN_WEIGHT) -> None:
+        """A stroke, with what it weighs against labels; what weighs most is painted over the paper of labels."""
+        (self.thick if weight >= PATH_WEIGHT else self.thin).append(item)
+        here = item.start
+        for step in item.steps:
+            spots = step.spots(here, _PIECES) if isinstance(step, Sweep) else [step]
+            for spot in spots:
+                self.grid.mark(here, spot, weight)
+                here = spot
+
+    def fill(self, shape: Shape) -> None:
+        """An arrowhead."""
+        self.thick.append(shape)
+        first = shape.corners[0]
+        for corner in shape.corners[1:]:
+            self.grid.mark(first, corner, THIN_WEIGHT)
+
+    def write(self, text: Text) -> bool:
+        """A text where it is wanted, if nothing is there yet; tells whether it stands."""
+        box = text.box.grow(1.0)
+        if not self.frame.holds(box) or any(box.meets(other) for other in self.grid.taken):
+            return False
+        self._add(text, box)
+        return True
+
+    def _add(self, text: Text, box: Box) -> None:
+        """A text on paper, so that thin lines stop at it."""
+        self.texts.append(text)
+        self.papers.append(box.filled(Role.PAPER))
+        self.grid.taken.append(box)
+
+    @property
+    def items(self) -> tuple[Item, ...]:
+        """Everything, in the order in which it is painted."""
+        return (*self.thin, *self.papers, *self.thick, *self.texts)
+
+    def label(
+        self, at: Spot, choices: Sequence[tuple[Run, ...]], away: Spot, role: Role, *, leads: bool = False
+    ) -> Box | None:
+        """A label near a place, in the first of these wordings that finds room; with a leader where it is far, or
+        always if it `leads`. The box where it stands; None if there is no room."""
+        wordings = [runs for runs in choices if runs]
+        if not wordings:
+            return None
+        high = SIZE * (ASCENT + DESCENT) + 2.0
+        sizes = [(width_of("".join(run.text for run in runs), SIZE) + 4.0, high) for runs in wordings]
+        found = _place_label(self.grid, at, sizes, away, leads)
+        if found is None:
+            self.homeless.append("".join(run.text for run in wordings[0]))
+            return None
+        index, box = found
+        if leads or _needs_leader(box, at):
+            self.draw(line(_nearest(box, at), at, role, 0.9, is_dashed=leads))
+        at = (box.left + box.right) / 2, box.bottom - 1.0 - DESCENT * SIZE
+        self._add(Text(at, wordings[index], SIZE, Anchor.MIDDLE), box)
+        return box

@@ -1,30 +1,40 @@
 """Lays a scene out on a page: how large it is drawn, what stands in its margins, head and foot."""
 
-from collections.abc import Iterable, Iterator
+import re
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from math import hypot
+from math import tau
 
-from contoursolve.contour import ArcSegment, LineSegment, Segment
-from contoursolve.pictures.arrows import THICK, arc, head, line
-from contoursolve.pictures.callouts import (
-    away_from,
-    draw_aligned,
-    draw_angle,
-    draw_leader,
-    draw_point,
-    draw_slide,
-)
-from contoursolve.pictures.canvas import FAINT_WEIGHT, PATH_WEIGHT, THIN_WEIGHT, Canvas
-from contoursolve.pictures.frame import WIDTH, foot_of, head_of
-from contoursolve.pictures.labels import clip
+from contoursolve.contour import ArcSegment, Segment
+from contoursolve.model import FIRST, SECOND
+from contoursolve.pictures.callouts import draw_callouts
+from contoursolve.pictures.labels import FAINT_WEIGHT, PATH_WEIGHT, THIN_WEIGHT, Canvas, clip
 from contoursolve.pictures.margins import arrange, draw_margins
-from contoursolve.pictures.rows import (
-    is_nothing,
+from contoursolve.pictures.page import (
+    MONO,
+    PAD,
+    SIZE,
+    THICK,
+    WIDTH,
+    Box,
+    Item,
+    Run,
+    Sheet,
+    Spot,
+    Stroke,
+    Sweep,
+    Text,
+    arc,
+    head,
+    heading,
+    line,
+    shorten,
+    width_of,
+    wrap,
 )
-from contoursolve.pictures.scene import Aligned, Angle, Leader, Linear, Scene, Thin, Trail, Weight
-from contoursolve.pictures.sheet import Box, Item, Run, Sheet, Spot, Stroke, Sweep, Text, shift
-from contoursolve.pictures.theme import DASHES, Role
-from contoursolve.pictures.vectors import middle, sweep_of
+from contoursolve.pictures.scene import Dimension, Mark, Ring, Scene, Slide, Thin, Trail, Weight
+from contoursolve.pictures.theme import DASHES, MEANINGS, Role
+from contoursolve.pictures.vectors import along, direction, distance, middle, sweep_of
 from contoursolve.pictures.view import View
 
 _ARROWED = 34.0
@@ -44,66 +54,57 @@ _CORNER = 130.0
 def lay_out(scene: Scene) -> Sheet:
     """The page of one scene."""
     scene = _thinned(scene)
-    top = list(head_of(scene))
-    start = max((item.box.bottom for item in top), default=0.0) + 6.0
-    plan = arrange(scene, start)
-    canvas = Canvas(plan.view, plan.frame)
+    top = list(_head_of(scene))
+    margins = arrange(scene, max(item.box.bottom for item in top) + 6.0)
+    frame, canvas = margins.frame, Canvas(margins.view, margins.frame)
     _draw_path(canvas, scene)
-    draw_margins(canvas, plan)
-    _draw_labels(canvas, scene)
+    draw_margins(canvas, margins)
+    draw_callouts(canvas, scene)
     # The axes stand beside the drawing's lower end where nothing else is.
-    is_free = canvas.grid.cost(Box(plan.frame.left, plan.frame.bottom - 34.0, _CORNER, plan.frame.bottom)) == 0.0
-    foot = list(foot_of(scene, canvas.homeless, plan.frame.bottom - (26.0 if is_free else -4.0)))
-    height = max((_bottom(item) for item in foot), default=plan.frame.bottom) + 12.0
-    return Sheet(WIDTH, round(height, 1), plan.frame, canvas.items, (*top, *foot))
+    is_free = canvas.grid.cost(Box(frame.left, frame.bottom - 34.0, _CORNER, frame.bottom)) == 0.0
+    foot = list(_foot_of(scene, canvas.homeless, frame.bottom - (26.0 if is_free else -4.0)))
+    height = max((item.box.bottom for item in foot if isinstance(item, Text)), default=frame.bottom) + 12.0
+    return Sheet(WIDTH, round(height, 1), frame, canvas.items, (*top, *foot))
 
 
 def _thinned(scene: Scene) -> Scene:
     """The scene as far as it can be read: of a crowded one, words that are not simply given, and names."""
-    if len(scene.dimensions) + sum(bool(mark.label) for mark in scene.marks) <= _MOST_LABELS:
+    dimensions, marks = scene.dimensions, scene.each(Mark)
+    if len(dimensions) + sum(bool(mark.label) for mark in marks) <= _MOST_LABELS:
         return scene
-    special = tuple(each for each in scene.dimensions if each.role is not Role.GIVEN)[:_MOST_LABELS]
+    special = [each for each in dimensions if each.role is not Role.GIVEN][:_MOST_LABELS]
     left = max(_MOST_LABELS - len(special), 2)
-    marks = tuple(
-        replace(mark, label=mark.short if number < left else (), short=()) for number, mark in enumerate(scene.marks)
-    )
-    told = f"{len(scene.dimensions) - len(special)} words are not drawn: there is no room for so many"
-    return replace(scene, dimensions=special, marks=marks, remarks=(*scene.remarks, (Run(told, Role.MUTED),)))
-
-
-def _bottom(item: Item) -> float:
-    return item.box.bottom if isinstance(item, Text) else 0.0
+    short = (replace(m, label=m.short if number < left else (), short=()) for number, m in enumerate(marks))
+    others = (part for part in scene.parts if not isinstance(part, Dimension | Mark))
+    told = f"{len(dimensions) - len(special)} words are not drawn: there is no room for so many"
+    remarks = (*scene.remarks, (Run(told, Role.MUTED),))
+    return replace(scene, parts=(*others, *short, *special), remarks=remarks)
 
 
 def _draw_path(canvas: Canvas, scene: Scene) -> None:
     """Construction, other contours, and the path over them."""
-    view = canvas.view
-    if scene.has_turning_axis and scene.trails:
+    view, trails = canvas.view, scene.each(Trail)
+    if scene.has_turning_axis and trails:
         y = view.place((0.0, 0.0))[1]
         if canvas.frame.top + 4.0 < y < canvas.frame.bottom - 4.0:
             canvas.draw(line((canvas.frame.left, y), (canvas.frame.right, y), Role.MUTED, 0.9), FAINT_WEIGHT)
-    for ring in scene.rings:
+    for ring in scene.each(Ring):
         radius = ring.radius * view.scale
         if radius < 20 * WIDTH:
-            stroke = arc(view.place(ring.center), radius, 0.0, 6.283185307179586, ring.role)
+            stroke = arc(view.place(ring.center), radius, tau, ring.role)
             canvas.draw(stroke, FAINT_WEIGHT if ring.role is Role.MUTED else THIN_WEIGHT)
-    for thin in scene.thins:
+    for thin in scene.each(Thin):
         ends = _ends_of(canvas, thin)
         if ends is not None:
             canvas.draw(line(*ends, thin.role, 1.0 if thin.role is Role.MUTED else 1.4))
-    for trail in sorted(scene.trails, key=lambda each: each.weight is Weight.MAIN):
-        is_main = trail.weight is Weight.MAIN
-        width = (THICK if trail.role is Role.INK else THICK - 0.4) if is_main else 1.4
-        dash = () if trail.role is Role.INK else DASHES.get(trail.role, ())
-        for stroke in _strokes(canvas, trail, width, dash):
-            canvas.draw(stroke, PATH_WEIGHT if is_main else THIN_WEIGHT)
-    for trail in scene.trails:
-        if trail.weight is Weight.MAIN:
-            for segment in _pointed(trail.segments, view):
-                at, way = middle(segment)
-                tip, step = view.place(at), (way[0], -way[1])
-                ahead = tip[0] + step[0] * 5.0, tip[1] + step[1] * 5.0
-                canvas.fill(head(ahead, step, trail.role, 11.0, 4.6))
+    for trail in sorted(trails, key=lambda each: each.weight is Weight.MAIN):
+        for stroke in _strokes(view, trail):
+            canvas.draw(stroke, PATH_WEIGHT if trail.weight is Weight.MAIN else THIN_WEIGHT)
+    for trail in (trail for trail in trails if trail.weight is Weight.MAIN):
+        for segment in _pointed(trail.segments, view):
+            at, way = middle(segment)
+            step = way[0], -way[1]
+            canvas.fill(head(along(view.place(at), step, 5.0), step, trail.role, 11.0, 4.6))
 
 
 def _pointed(segments: tuple[Segment, ...], view: View) -> list[Segment]:
@@ -114,116 +115,129 @@ def _pointed(segments: tuple[Segment, ...], view: View) -> list[Segment]:
 
 
 def _ends_of(canvas: Canvas, thin: Thin) -> tuple[Spot, Spot] | None:
+    """Where a line begins and ends on the page, if it is there at all."""
     a, b = canvas.view.place(thin.start), canvas.view.place(thin.end)
     if not thin.is_endless:
         return a, b
-    length = hypot(b[0] - a[0], b[1] - a[1])
-    if length == 0:
-        return None
-    way, reach = ((b[0] - a[0]) / length, (b[1] - a[1]) / length), 4 * WIDTH
-    return clip(
-        (a[0] - way[0] * reach, a[1] - way[1] * reach), (a[0] + way[0] * reach, a[1] + way[1] * reach), canvas.frame
-    )
+    way, reach = direction(a, b), 4 * WIDTH
+    return clip(along(a, way, -reach), along(a, way, reach), canvas.frame) if distance(a, b) > 0 else None
 
 
-def _strokes(canvas: Canvas, trail: Trail, width: float, dash: tuple[float, ...]) -> Iterator[Stroke]:
+def _strokes(view: View, trail: Trail) -> Iterator[Stroke]:
     """A path as strokes; one where it has no gap."""
-    view = canvas.view
+    is_ink = trail.role is Role.INK
+    width = (THICK if is_ink else THICK - 0.4) if trail.weight is Weight.MAIN else 1.4
+    dash = () if is_ink else DASHES.get(trail.role, ())
     steps: list[Spot | Sweep] = []
-    begin: Spot | None = None
-    last = None
+    begin = last = view.place(trail.segments[0].start)
     for segment in trail.segments:
-        start = view.place(segment.start)
-        if begin is None or (last is not None and hypot(start[0] - last[0], start[1] - last[1]) > _GAP):
-            if begin is not None and steps:
+        start, end = view.place(segment.start), view.place(segment.end)
+        if distance(start, last) > _GAP:
+            if steps:
                 yield Stroke(begin, tuple(steps), trail.role, width, dash)
             begin, steps = start, []
-        end = view.place(segment.end)
         last = end
-        here = steps[-1].end if steps and isinstance(steps[-1], Sweep) else steps[-1] if steps else begin
-        if isinstance(here, Sweep):
-            here = here.end
-        is_small = segment.length * view.scale < _LEAST and segment is not trail.segments[-1]
-        if is_small:
-            continue
-        steps.append(_step(view, segment, end))
-    if begin is not None and steps:
+        if segment.length * view.scale >= _LEAST or segment is trail.segments[-1]:
+            steps.append(_step(view, segment, end))
+    if steps:
         yield Stroke(begin, tuple(steps), trail.role, width, dash)
 
 
 def _step(view: View, segment: Segment, end: Spot) -> Spot | Sweep:
-    if isinstance(segment, LineSegment):
+    if not isinstance(segment, ArcSegment):
         return end
     return Sweep(view.place(segment.center), segment.radius * view.scale, end, -sweep_of(segment))
 
 
-def _draw_labels(canvas: Canvas, scene: Scene) -> None:
-    """Everything that has a label in the drawing: first all lines, then the labels, those of words first."""
-    wanted: list[tuple[Spot, list[tuple[Run, ...]], Spot, Role]] = []
-    counts: dict[Spot, int] = {}
-    for slide in scene.slides:
-        draw_slide(canvas, slide)
-    for mark in scene.marks:
-        draw_point(canvas, mark)
-    for dimension in scene.dimensions:
-        if isinstance(dimension, Angle):
-            at = canvas.view.place(dimension.at)
-            counts[at] = counts.get(at, -1) + 1
-            spot, away = draw_angle(canvas, dimension, counts[at])
-        elif isinstance(dimension, Aligned):
-            spot, away = draw_aligned(canvas, dimension)
-        elif isinstance(dimension, Linear) and is_nothing(dimension):
-            spot, away = canvas.view.place(dimension.start), (0.7, -0.7)
+# Head and foot -----------------------------------------------------------------------------------------------
+
+_LINE, _SMALL = 17.0, 11.0
+"""Pixels from one line of the program to the next, and of the font of legends."""
+
+_MOST_ROWS = 3
+"""Rows that a line of a program takes."""
+
+
+def _head_of(scene: Scene) -> Iterator[Text]:
+    """The title and the program's lines."""
+    y = PAD + 6.0
+    yield heading(scene.title, y)
+    y += 3.0
+    for runs in scene.lines:
+        for row, shown in enumerate(_rows(runs)):
+            y += _LINE
+            yield Text((PAD + (14.0 if row else 0.0), y), shown, SIZE, is_mono=True)
+
+
+def _rows(runs: tuple[Run, ...]) -> list[tuple[Run, ...]]:
+    """A line of a program in as many rows as it takes, up to `_MOST_ROWS`."""
+    most = (WIDTH - 2 * PAD - 14.0) / (MONO * SIZE)
+    rows: list[list[Run]] = [[]]
+    used = 0.0
+    for run in runs:
+        # Broken before a word where it does not fit, or anywhere where it is longer than a row.
+        for piece in re.split(r"(?<=\s)(?=\S)", run.text):
+            wide = width_of(piece, 1.0, is_mono=True) / MONO
+            if used and used + wide > most:
+                rows.append([])
+                used = 0.0
+            rows[-1].append(Run(shorten(piece, most * MONO, 1.0, is_mono=True), run.role))
+            used += wide
+    kept = [row for row in rows if row][:_MOST_ROWS]
+    if len(rows) > _MOST_ROWS:
+        kept[-1] = [*kept[-1][:-1], Run("…", Role.MUTED)]
+    return [_merged(row) for row in kept]
+
+
+def _merged(row: list[Run]) -> tuple[Run, ...]:
+    """Neighbours in one role as one run."""
+    found: list[Run] = []
+    for run in row:
+        if found and found[-1].role is run.role:
+            found[-1] = Run(found[-1].text + run.text, run.role)
         else:
-            continue
-        wanted.append((spot, [(Run(dimension.text, dimension.role),)], away, dimension.role))
-    for spot, runs, away, role in wanted:
-        canvas.label(spot, runs, away, role)
-    for dimension in scene.dimensions:
-        if isinstance(dimension, Leader):
-            draw_leader(canvas, dimension)
-    directions = _directions(canvas, scene)
-    for mark in scene.marks:
-        if mark.label:
-            at = canvas.view.place(mark.at)
-            away = away_from(directions.get((round(at[0]), round(at[1])), []))
-            canvas.label(at, [mark.label, mark.short], away, Role.MUTED)
+            found.append(run)
+    return tuple(found)
 
 
-def _directions(canvas: Canvas, scene: Scene) -> dict[tuple[int, int], list[Spot]]:
-    """By place on the page, the directions in which lines leave it."""
-    found: dict[tuple[int, int], list[Spot]] = {}
+def _foot_of(scene: Scene, homeless: Sequence[str], top: float) -> Iterator[Item]:
+    """The axes, the legend, and remarks."""
+    corner = PAD + 12.0, top + 34.0
+    ways = (((1.0, 0.0), scene.axes[FIRST]), ((0.0, -1.0), scene.axes[SECOND])) if any(scene.axes) else ()
+    for way, name in ways:
+        tip = corner[0] + way[0] * 30.0, corner[1] + way[1] * 30.0
+        yield line(corner, tip, Role.INK, 1.2)
+        yield head(tip, way, Role.INK)
+        at = (tip[0] + 5.0, tip[1] + 4.0) if way[0] else (tip[0] + 7.0, tip[1] + 8.0)
+        yield Text(at, (Run(name, Role.INK),), _SMALL)
+    x = corner[0] + 30.0 + 5.0 + max(width_of(name, _SMALL) for name in scene.axes) + 26.0
+    y = corner[1] + 4.0
+    begin = x
+    for role in _legend(scene):
+        text = scene.meanings.get(role, MEANINGS[role])
+        wide = 34.0 + width_of(text, _SMALL) + 18.0
+        if x + wide > WIDTH - PAD and x > begin:
+            x, y = begin, y + 16.0
+        yield line((x, y - 4.0), (x + 28.0, y - 4.0), role, 1.6)
+        yield Text((x + 34.0, y), (Run(text, role),), _SMALL)
+        x += wide
+    y += 20.0
+    remarks = list(scene.remarks)
+    if homeless:
+        remarks.append((Run("no room for: " + ", ".join(homeless), Role.MUTED),))
+    for runs in remarks:
+        for text in wrap("".join(run.text for run in runs), WIDTH - 2 * PAD, SIZE, 2):
+            yield Text((PAD, y), (Run(text, runs[0].role),), SIZE)
+            y += 16.0
 
-    def note(a: Spot, b: Spot) -> None:
-        length = hypot(b[0] - a[0], b[1] - a[1])
-        if length > 0:
-            found.setdefault((round(a[0]), round(a[1])), []).append(((b[0] - a[0]) / length, (b[1] - a[1]) / length))
 
-    pairs: Iterable[tuple[Segment | Thin, bool]] = (
-        *((segment, True) for trail in scene.trails for segment in trail.segments),
-        *((thin, False) for thin in scene.thins),
-    )
-    for item, _ in pairs:
-        a, b = canvas.view.place(item.start), canvas.view.place(item.end)
-        if isinstance(item, ArcSegment):
-            sign = item.turn.sign
-            for at, other, way in ((a, item.start, sign), (b, item.end, -sign)):
-                spoke = other[0] - item.center[0], other[1] - item.center[1]
-                note(at, (at[0] - spoke[1] * way, at[1] - spoke[0] * way))
-        else:
-            note(a, b)
-            note(b, a)
-    return found
+_STATES = (Role.GIVEN, Role.DERIVED, Role.IGNORED, Role.CONFLICTING, Role.FREE, Role.GHOST)
 
 
-def stack_sheets(sheets: list[Sheet]) -> Sheet:
-    """Pages under each other as one."""
-    drawing: list[Item] = []
-    around: list[Item] = []
-    height = 0.0
-    for sheet in sheets:
-        drawing += [shift(item, height) for item in sheet.drawing]
-        around += [shift(item, height) for item in sheet.around]
-        height += sheet.height
-    frame = Box(4.0, sheets[0].frame.top, WIDTH - 4.0, height)
-    return sheets[0] if len(sheets) == 1 else Sheet(WIDTH, round(height, 1), frame, tuple(drawing), tuple(around))
+def _legend(scene: Scene) -> list[Role]:
+    """The states that are used."""
+    used = {part.role for part in scene.parts if not isinstance(part, Mark | Slide)}
+    used |= {run.role for mark in scene.each(Mark) for run in mark.label}
+    used |= {run.role for runs in scene.lines for run in runs}
+    used |= {Role.FREE} if scene.each(Slide) else set()
+    return [role for role in _STATES if role in used]

@@ -4,28 +4,21 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from contoursolve.model import FIRST, SECOND
-from contoursolve.pictures.canvas import SIZE, Canvas
-from contoursolve.pictures.frame import WIDTH
-from contoursolve.pictures.metrics import width_of
-from contoursolve.pictures.rows import (
-    FIRST_ROW,
-    PITCH,
-    Side,
-    draw_coordinates,
-    draw_distances,
-    is_nothing,
-    side_of,
-    stack,
-)
-from contoursolve.pictures.scene import Linear, Ordinate, Scene
-from contoursolve.pictures.sheet import Box
-from contoursolve.pictures.view import Span, View, span_of
+from contoursolve.pictures.labels import Canvas
+from contoursolve.pictures.page import SIZE, WIDTH, Anchor, Box, Run, Spot, Text, head, line, width_of
+from contoursolve.pictures.scene import Linear, Ordinate, Scene, Trail
+from contoursolve.pictures.theme import Role
+from contoursolve.pictures.vectors import along, direction, distance
+from contoursolve.pictures.view import Bounds, View, bounds_of
 
 _TALLEST, _LOWEST = 350.0, 110.0
 """Pixels of the drawing itself, without what stands in its margins."""
 
 _MARGIN_X, _MARGIN_Y = 84.0, 40.0
 """Pixels around the drawing for labels of points."""
+
+_FIRST_ROW, _PITCH = 33.0, 25.0
+"""Pixels from the drawing to the first row, and from one row to the next."""
 
 _COORDINATES = 18.0
 """Pixels that coordinates take beyond the rows."""
@@ -36,13 +29,39 @@ _NEAR = 22.0
 _UNDER_AXIS = 16.0
 """Pixels under the axis about which the work turns, where all else stands above it."""
 
-_SIDES = (Side(FIRST, -1), Side(FIRST, 1), Side(SECOND, -1), Side(SECOND, 1))
+_GAP, _BEYOND = 4.0, 4.0
+"""Pixels that an extension line keeps from its point, and goes past the dimension line."""
 
-Stacked = Mapping[Side, Sequence[tuple[Linear, int]]]
+_SHORT = 22.0
+"""Pixels. In a shorter distance the arrowheads stand outside."""
 
 
 @dataclass(frozen=True, slots=True)
-class Plan:
+class Side:
+    """An edge of the drawing: the axis that runs along it, and whether it is the lower or left one (`sign` -1) or the
+    upper or right one (+1), in mm."""
+
+    axis: int
+    sign: int
+
+    @property
+    def outward(self) -> int:
+        """The way out on the page, where up is less."""
+        return self.sign if self.axis != FIRST else -self.sign
+
+    def spot(self, level: float, place: float) -> Spot:
+        """What is so far out, and at a place along the edge, both on the page."""
+        return (place, level) if self.axis == FIRST else (level, place)
+
+
+_SIDES = (Side(FIRST, -1), Side(FIRST, 1), Side(SECOND, -1), Side(SECOND, 1))
+
+Row = tuple[Linear, int]
+"""A distance and the number of its row, from the drawing outwards."""
+
+
+@dataclass(frozen=True, slots=True)
+class Margins:
     """Where the drawing is, its rows of distances, and its coordinates with the edges at which they are written.
 
     `outer` is where each edge of the drawing is on the page.
@@ -50,72 +69,50 @@ class Plan:
 
     view: View
     frame: Box
-    stacked: Stacked
+    rows: Mapping[Side, Sequence[Row]]
     coordinates: Mapping[Side, Sequence[Ordinate]]
     outer: Mapping[Side, float]
 
-    def rows(self, side: Side) -> int:
-        """How many rows stand along an edge."""
-        return _count(self.stacked, side)
 
-
-def arrange(scene: Scene, top: float) -> Plan:
-    """The plan of a drawing that begins at `top` on its page."""
-    own = span_of(scene)
+def arrange(scene: Scene, top: float) -> Margins:
+    """The margins of a drawing that begins at `top` on its page."""
+    own = bounds_of(scene)
     span = _with_turning_axis(scene, own)
-    linear = [each for each in scene.dimensions if isinstance(each, Linear) and not is_nothing(each)]
-    by_side = {side: [each for each in linear if side_of(each, own) == side] for side in _SIDES}
-    coordinates = _edges([each for each in scene.dimensions if isinstance(each, Ordinate)], by_side, own)
-    wide = {sign: _wide(by_side, coordinates, Side(SECOND, sign)) for sign in (-1, 1)}
-    room = WIDTH - wide[-1] - wide[1]
-    scale = min(
-        room / span.size[FIRST] if span.size[FIRST] > 0 else float("inf"),
-        _TALLEST / span.size[SECOND] if span.size[SECOND] > 0 else float("inf"),
-    )
-    scale = scale if scale < float("inf") else 1.0
-    flat = View((0.0, 0.0), scale, (0.0, 0.0))
-    stacked = {side: stack(each, flat) for side, each in by_side.items()}
-    high = {sign: _high(stacked, coordinates, Side(FIRST, sign)) for sign in (-1, 1)}
+    linear = [each for each in scene.each(Linear) if each.length]
+    by_side = {side: [each for each in linear if _side_of(each, own) == side] for side in _SIDES}
+    coordinates = _edges(scene.each(Ordinate), by_side, own)
+    before, after = (_wide(by_side[side], coordinates[side]) for side in _SIDES if side.axis == SECOND)
+    room = WIDTH - before - after
+    sizes = zip((room, _TALLEST), span.size, strict=True)
+    scale = min((most / size for most, size in sizes if size > 0), default=1.0)
+    rows = {side: _stack(each, scale) for side, each in by_side.items()}
+    under, over = (_high(rows[side], coordinates[side]) for side in _SIDES if side.axis == FIRST)
     # Above the axis there may be room for the rows below the path.
-    is_above = (own.low[SECOND] - span.low[SECOND]) * scale >= high[-1]
+    is_above = (own.low[SECOND] - span.low[SECOND]) * scale >= under
     low = own.low[SECOND] if is_above else span.low[SECOND]
-    below = _UNDER_AXIS if is_above else high[-1]
-    tall = max(span.size[SECOND] * scale, _LOWEST) if scene.trails or scene.dimensions else 0.0
-    view = View(span.middle, scale, (wide[-1] + room / 2, top + high[1] + tall / 2))
+    tall = max(span.size[SECOND] * scale, _LOWEST) if scene.each(Trail) or scene.dimensions else 0.0
+    view = View(span.middle, scale, (before + room / 2, top + over + tall / 2))
     left, bottom = view.place((span.low[FIRST], low))
     right, upper = view.place(span.high)
-    return Plan(
-        view,
-        Box(4.0, top, WIDTH - 4.0, top + high[1] + tall + below),
-        stacked,
-        coordinates,
-        {Side(FIRST, 1): upper, Side(FIRST, -1): bottom, Side(SECOND, -1): left, Side(SECOND, 1): right},
-    )
+    frame = Box(4.0, top, WIDTH - 4.0, top + over + tall + (_UNDER_AXIS if is_above else under))
+    return Margins(view, frame, rows, coordinates, dict(zip(_SIDES, (bottom, upper, left, right), strict=True)))
 
 
-def draw_margins(canvas: Canvas, plan: Plan) -> None:
-    """Distances and coordinates along all edges."""
-    for side in _SIDES:
-        draw_distances(canvas, plan.stacked[side], side, plan.outer[side])
-    for side in _SIDES:
-        # Up on the page is less.
-        outward = side.sign if side.axis != FIRST else -side.sign
-        rows = plan.rows(side)
-        level = plan.outer[side] + outward * _edge(rows)
-        draw_coordinates(canvas, plan.coordinates[side], side.axis, side.sign, level)
-
-
-def _with_turning_axis(scene: Scene, span: Span) -> Span:
+def _with_turning_axis(scene: Scene, span: Bounds) -> Bounds:
     """The rectangle with the axis about which the work turns, where that is near."""
-    low = span.low[SECOND]
-    reach = max(*span.size, 1e-9) * 0.3
-    if scene.has_turning_axis and 0 < low <= reach:
-        return Span((span.low[FIRST], 0.0), span.high)
-    return span
+    is_near = 0 < span.low[SECOND] <= max(*span.size, 1e-9) * 0.3
+    return Bounds((span.low[FIRST], 0.0), span.high) if scene.has_turning_axis and is_near else span
+
+
+def _side_of(dimension: Linear, span: Bounds) -> Side:
+    """The edge that is nearer to the points of a distance."""
+    across = 1 - dimension.axis
+    mean = (dimension.start[across] + dimension.end[across]) / 2
+    return Side(dimension.axis, 1 if mean > span.middle[across] else -1)
 
 
 def _edges(
-    ordinates: Sequence[Ordinate], by_side: Mapping[Side, Sequence[Linear]], span: Span
+    ordinates: Sequence[Ordinate], by_side: Mapping[Side, Sequence[Linear]], span: Bounds
 ) -> dict[Side, list[Ordinate]]:
     """Coordinates by the edge at which they are written: where there are fewer distances, else where the points are."""
     found: dict[Side, list[Ordinate]] = {side: [] for side in _SIDES}
@@ -128,26 +125,143 @@ def _edges(
     return found
 
 
-def _wide(
-    by_side: Mapping[Side, Sequence[Linear]], coordinates: Mapping[Side, Sequence[Ordinate]], side: Side
-) -> float:
+def _wide(distances: Sequence[Linear], coordinates: Sequence[Ordinate]) -> float:
     """Pixels to the left or right of a drawing."""
-    columns = PITCH * len(by_side[side])
-    texts = [width_of(each.text, SIZE) for each in coordinates[side]]
-    beyond = max(texts, default=0.0) + 10.0 + _edge(len(by_side[side]))
+    columns = _PITCH * len(distances)
+    texts = [width_of(each.text, SIZE) for each in coordinates]
+    beyond = max(texts, default=0.0) + 10.0 + _edge(len(distances))
     return max(_MARGIN_X + (columns + 16.0 if columns else 0.0), beyond)
 
 
 def _edge(rows: int) -> float:
     """Pixels from a drawing to the coordinates at its edge."""
-    return FIRST_ROW + PITCH * rows if rows else _NEAR
+    return _FIRST_ROW + _PITCH * rows if rows else _NEAR
 
 
-def _high(stacked: Stacked, coordinates: Mapping[Side, Sequence[Ordinate]], side: Side) -> float:
+def _high(rows: Sequence[Row], coordinates: Sequence[Ordinate]) -> float:
     """Pixels above or below a drawing."""
-    high = max(_MARGIN_Y, FIRST_ROW + PITCH * _count(stacked, side) + 4.0)
-    return high + (_COORDINATES if coordinates[side] else 0.0)
+    high = max(_MARGIN_Y, _FIRST_ROW + _PITCH * _count(rows) + 4.0)
+    return high + (_COORDINATES if coordinates else 0.0)
 
 
-def _count(stacked: Stacked, side: Side) -> int:
-    return max((row for _, row in stacked[side]), default=-1) + 1
+def _count(rows: Sequence[Row]) -> int:
+    return max((row for _, row in rows), default=-1) + 1
+
+
+def _stack(dimensions: Sequence[Linear], scale: float) -> list[Row]:
+    """Distances along one edge, each with its row: shorter ones nearer to the drawing, none over another."""
+    rows: list[list[tuple[float, float]]] = []
+    found = []
+    for dimension in sorted(dimensions, key=lambda each: (each.length, each.text)):
+        ends = sorted(at[dimension.axis] * scale for at in (dimension.start, dimension.end))
+        middle, half = sum(ends) / 2, width_of(dimension.text, SIZE) / 2 + 10.0
+        low, high = min(ends[0] - 12.0, middle - half), max(ends[1] + 12.0, middle + half)
+        row = next((n for n, taken in enumerate(rows) if all(high < a or b < low for a, b in taken)), len(rows))
+        if row == len(rows):
+            rows.append([])
+        rows[row].append((low, high))
+        found.append((dimension, row))
+    return found
+
+
+# Distances ---------------------------------------------------------------------------------------------------
+
+
+def draw_margins(canvas: Canvas, margins: Margins) -> None:
+    """Distances and coordinates along all edges."""
+    for side in _SIDES:
+        _draw_distances(canvas, margins.rows[side], side, margins.outer[side])
+    for side in _SIDES:
+        level = margins.outer[side] + side.outward * _edge(_count(margins.rows[side]))
+        _draw_coordinates(canvas, margins.coordinates[side], side, level)
+
+
+def _draw_distances(canvas: Canvas, rows: Sequence[Row], side: Side, edge: float) -> None:
+    """Distances along one edge, which is at `edge` on the page; lines first, and then their texts."""
+    texts: list[tuple[Linear, Spot, Spot]] = []
+    for dimension, row in rows:
+        a, b = canvas.view.place(dimension.start), canvas.view.place(dimension.end)
+        level = edge + side.outward * (_FIRST_ROW + row * _PITCH)
+        c, d = side.spot(level, a[side.axis]), side.spot(level, b[side.axis])
+        for at, end in ((a, c), (b, d)):
+            if distance(at, end) > _GAP:
+                way = direction(at, end)
+                extension = line(along(at, way, _GAP), along(end, way, _BEYOND), Role.MUTED, 0.7, is_dashed=False)
+                canvas.draw(extension, 0.6)
+        _measure(canvas, c, d, dimension.role)
+        texts.append((dimension, c, d))
+    for dimension, c, d in texts:
+        _write(canvas, dimension, ((c[0] + d[0]) / 2, (c[1] + d[1]) / 2))
+
+
+def _measure(canvas: Canvas, c: Spot, d: Spot, role: Role) -> None:
+    """A dimension line with its arrowheads."""
+    way = direction(c, d)
+    back = -way[0], -way[1]
+    is_short = distance(c, d) < _SHORT
+    if is_short:
+        canvas.draw(line(along(c, way, -16.0), c, role))
+        canvas.draw(line(d, along(d, way, 16.0), role))
+    canvas.draw(line(c, d, role))
+    canvas.fill(head(c, way if is_short else back, role))
+    canvas.fill(head(d, back if is_short else way, role))
+
+
+def _write(canvas: Canvas, dimension: Linear, middle: Spot) -> None:
+    """The text over the middle of its line, or where there is room."""
+    runs = (Run(dimension.text, dimension.role),)
+    is_turned = dimension.axis != FIRST
+    half = width_of(dimension.text, SIZE) / 2
+    for shift in (0.0, half + 14.0, -half - 14.0, 2 * half + 20.0, -2 * half - 20.0):
+        at = (middle[0] - 4.0, middle[1] - shift) if is_turned else (middle[0] + shift, middle[1] - 4.0)
+        if canvas.write(Text(at, runs, SIZE, Anchor.MIDDLE, is_turned=is_turned)):
+            return
+    canvas.label(middle, [runs], (-1.0, 0.0) if is_turned else (0.0, -1.0), dimension.role)
+
+
+# Coordinates -------------------------------------------------------------------------------------------------
+
+
+def _draw_coordinates(canvas: Canvas, ordinates: Sequence[Ordinate], side: Side, edge: float) -> None:
+    """Coordinates on an axis, written at the edge on which their lines end; moved apart where they are close."""
+    entries = sorted(ordinates, key=lambda each: (canvas.view.place(each.at)[side.axis], each.text))
+    wanted = [canvas.view.place(each.at)[side.axis] for each in entries]
+    sizes = [width_of(each.text, SIZE) + 10.0 if side.axis == FIRST else SIZE + 5.0 for each in entries]
+    places = _apart(wanted, sizes)
+    for ordinate, at, place in zip(entries, wanted, places, strict=True):
+        _coordinate(canvas, ordinate, side, edge, at, place)
+
+
+def _coordinate(canvas: Canvas, ordinate: Ordinate, side: Side, edge: float, at: float, place: float) -> None:
+    """A coordinate, its line from its point at `at` along the edge, and its text at `place`."""
+    role, outward = ordinate.role, side.outward
+    begin, knee = canvas.view.place(ordinate.at)[1 - side.axis] + outward * _GAP, edge - outward * 8.0
+    if (knee - begin) * outward > 0:
+        canvas.draw(line(side.spot(begin, at), side.spot(knee, at), role, 0.8), 0.6)
+    canvas.draw(line(side.spot(knee, at), side.spot(edge, place), role, 0.8, is_dashed=False), 0.6)
+    runs = (Run(ordinate.text, role),)
+    if side.axis == FIRST:
+        text = Text((place, edge + (13.0 if outward > 0 else -5.0)), runs, SIZE, Anchor.MIDDLE)
+    else:
+        anchor = Anchor.START if outward > 0 else Anchor.END
+        text = Text((edge + outward * 4.0, place + 4.2), runs, SIZE, anchor)
+    if not canvas.write(text):
+        canvas.label(side.spot(edge, place), [runs], side.spot(float(outward), 0.0), role)
+
+
+def _apart(wanted: Sequence[float], sizes: Sequence[float]) -> list[float]:
+    """Places near the wanted ones, in their order, each as far from the next as both are large."""
+    groups: list[tuple[list[float], float]] = []
+    for size, at in zip(sizes, wanted, strict=True):
+        groups.append(([size], at))
+        while len(groups) > 1 and groups[-2][1] + sum(groups[-2][0]) / 2 > groups[-1][1] - sum(groups[-1][0]) / 2:
+            (second, there), (first, here) = groups.pop(), groups.pop()
+            middle = (here * len(first) + there * len(second)) / (len(first) + len(second))
+            groups.append(([*first, *second], middle))
+    places: list[float] = []
+    for members, middle in groups:
+        place = middle - sum(members) / 2
+        for size in members:
+            places.append(place + size / 2)
+            place += size
+    return places

@@ -6,9 +6,11 @@ Nothing here knows how large the picture is, or where a label finds room.
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import Enum
+from typing import TypeVar
 
 from contoursolve.contour import Segment
-from contoursolve.pictures.sheet import Run
+from contoursolve.model import FIRST, SECOND, Length, Plane
+from contoursolve.pictures.page import Run, visible
 from contoursolve.pictures.theme import Role
 from contoursolve.solving import Point
 
@@ -86,6 +88,11 @@ class Linear:
     text: str
     role: Role
 
+    @property
+    def length(self) -> float:
+        """mm; a distance of 0 has no two ends."""
+        return abs(self.end[self.axis] - self.start[self.axis])
+
 
 @dataclass(frozen=True, slots=True)
 class Aligned:
@@ -137,6 +144,10 @@ class Slide:
 
 
 Dimension = Linear | Aligned | Ordinate | Angle | Leader
+Part = Trail | Thin | Ring | Mark | Slide | Dimension
+"""What a drawing is made of."""
+
+_Kind = TypeVar("_Kind", bound=Part)
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,15 +157,59 @@ class Scene:
     title: str
     axes: tuple[str, str]
     """The names of the axes to the right and up."""
-    trails: tuple[Trail, ...] = ()
-    thins: tuple[Thin, ...] = ()
-    rings: tuple[Ring, ...] = ()
-    marks: tuple[Mark, ...] = ()
-    dimensions: tuple[Dimension, ...] = ()
-    slides: tuple[Slide, ...] = ()
+    parts: tuple[Part, ...] = ()
+    """Of one kind, each is drawn over those before it."""
     lines: tuple[tuple[Run, ...], ...] = ()
     remarks: tuple[tuple[Run, ...], ...] = ()
     meanings: Mapping[Role, str] = field(default_factory=dict)
     """What the legend says of a role, where that is not what it says of a contour's words."""
     has_turning_axis: bool = False
     """Whether the second axis begins at the axis about which the work turns."""
+
+    def each(self, kind: type[_Kind]) -> list[_Kind]:
+        """The parts of one kind."""
+        return [part for part in self.parts if isinstance(part, kind)]
+
+    @property
+    def dimensions(self) -> list[Dimension]:
+        """The parts that are dimensions."""
+        return [part for part in self.parts if isinstance(part, Dimension)]
+
+
+# Words and numbers as a picture shows them ------------------------------------------------------------------
+
+LONGEST = 28
+"""Characters of a word on a drawing."""
+
+_DECIMALS = {Length.MM: 3, Length.INCH: 4}
+
+
+def number(mm: float, unit: Length) -> str:
+    """A length in the unit of a program, to the least increment; without zeros at its end, or a negative zero.
+
+    >>> number(-47.32051, Length.MM), number(30.0, Length.MM), number(-0.0001, Length.MM)
+    ('-47.321', '30', '0')
+    """
+    text = f"{mm / float(unit.in_mm):.{_DECIMALS[unit]}f}".rstrip("0").rstrip(".")
+    return "0" if text in ("-0", "") else text
+
+
+def coordinates(at: Point, plane: Plane, unit: Length) -> str:
+    """Both coordinates as words, a diameter as one."""
+    return " ".join(
+        plane.axes[axis] + number(at[axis] * (2 if plane.diameters[axis] else 1), unit) for axis in (FIRST, SECOND)
+    )
+
+
+def word_text(text: str) -> str:
+    """A word as it is shown: without blanks around, not too long, and with nothing that cannot be seen."""
+    shown = visible(" ".join(text.split()))
+    return shown if len(shown) <= LONGEST else shown[: LONGEST - 1] + "…"
+
+
+def axis_names(plane: Plane, unit: Length = Length.MM) -> tuple[str, str]:
+    """The axes as a drawing names them; a drawing that says no unit is in mm."""
+    more = ["inch"] if unit is Length.INCH else []
+    notes = [[*(["diameter"] if is_diameter else []), *more] for is_diameter in plane.diameters]
+    first, second = (f"{axis} ({', '.join(n)})" if n else axis for axis, n in zip(plane.axes, notes, strict=True))
+    return first, second

@@ -1,24 +1,93 @@
-"""A page as SVG: a few hundred short elements, the same bytes for the same page, with a title and a description.
+"""A page as SVG and as PNG: a few hundred short elements, the same bytes for the same page.
 
 Texts stay texts, so that they can be found and read aloud. Colours are attributes that every viewer knows; for a page
 of HTML a style sheet overrules them, under an identity that is made of the picture itself.
 """
 
+import struct
 from collections.abc import Iterator
+from dataclasses import dataclass, field
+from functools import cache
 from hashlib import sha256
-from math import cos, pi, sin
+from math import pi, tau
 from xml.sax.saxutils import escape
+from zlib import crc32
 
-from contoursolve.pictures.sheet import FULL_TURN, Dot, Item, Shape, Sheet, Spot, Stroke, Sweep, Text
+from contoursolve.extras import MissingExtraError, importing
+from contoursolve.pictures.page import Dot, Item, Shape, Sheet, Spot, Stroke, Sweep, Text
 from contoursolve.pictures.theme import DARK_COLORS, LIGHT_COLORS, Role, Theme
 
 SANS = "'DejaVu Sans', Verdana, 'Liberation Sans', Arial, sans-serif"
 MONO = "'DejaVu Sans Mono', Menlo, Consolas, 'Liberation Mono', monospace"
 
+PIXELS, DPI = 96.0, 144.0
+"""Pixels in an inch: of a page, as in CSS, and of a PNG."""
+
+_LARGEST = 12_000
+"""Pixels of a side; a larger picture is no use to anybody and fills the memory."""
+
 _FLAT = 3_000.0
 """Pixels. Viewers round large numbers: an arc of a larger radius is drawn in straight pieces."""
 
 _PIECES = 48
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """A drawing; `width` and `height` are in pixels of CSS. `svg` is one element without an XML declaration."""
+
+    svg: str = field(repr=False)
+    title: str
+    description: str
+    width: float
+    height: float
+    sheet: Sheet = field(repr=False)
+    theme: Theme = Theme.LIGHT
+
+    def _repr_svg_(self) -> str:
+        """The drawing, as a notebook asks for it."""
+        return self.svg
+
+    def png(self, dpi: float = DPI) -> bytes:
+        """The drawing as PNG, light for a page. Raises MissingExtraError without resvg or without a font for it,
+        ValueError for a resolution out of range."""
+        if not 1 <= dpi <= _LARGEST * PIXELS / max(self.width, self.height):
+            raise ValueError(
+                f"a picture of {self.width:.0f} x {self.height:.0f} pixels cannot be painted at {dpi:g} dpi"
+            )
+        is_page = self.theme is Theme.PAGE
+        svg = write_svg(self.sheet, Theme.LIGHT, self.title, self.description) if is_page else self.svg
+        if not _has_fonts():
+            raise MissingExtraError("a PNG picture needs a font for its texts, such as DejaVu Sans; none is installed")
+        png, meter = _painted(svg, dpi / PIXELS), round(dpi / 0.0254)
+        # Behind the 33 bytes of signature and header: the resolution, and the title (PNG, third edition, 11.3).
+        size = _chunk(b"pHYs", struct.pack(">IIB", meter, meter, 1))
+        return png[:33] + size + _chunk(b"iTXt", b"Title\0\0\0\0\0" + _known(self.title).encode()) + png[33:]
+
+
+def _painted(svg: str, zoom: float = 1.0) -> bytes:
+    with importing("picture", "a PNG picture"):
+        from resvg_py import svg_to_bytes  # noqa: PLC0415 - an extra
+    return bytes(svg_to_bytes(svg_string=svg, zoom=zoom))
+
+
+@cache
+def _has_fonts() -> bool:
+    """Whether texts are painted in both of our fonts: without one, resvg leaves them out and says nothing."""
+    frame = '<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9">{}</svg>'
+    texts = (frame.format(f'<text y="9" font-family="{family}">X</text>') for family in (SANS, MONO))
+    return all(_painted(text) != _painted(frame.format("")) for text in texts)
+
+
+def _chunk(kind: bytes, data: bytes) -> bytes:
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", crc32(kind + data))
+
+
+def finish(sheet: Sheet, theme: Theme, title: str, description: str) -> Picture:
+    """The picture of a page."""
+    return Picture(
+        write_svg(sheet, theme, title, description), title, description, sheet.width, sheet.height, sheet, theme
+    )
 
 
 def write_svg(sheet: Sheet, theme: Theme, title: str, description: str) -> str:
@@ -118,29 +187,17 @@ def _steps(stroke: Stroke) -> Iterator[str]:
 
 def _arc(here: Spot, sweep: Sweep) -> Iterator[str]:
     if sweep.radius > _FLAT:
-        yield from (f"L{_place(spot)}" for spot in points_on(here, sweep, _PIECES))
+        yield from (f"L{_place(spot)}" for spot in sweep.spots(here, _PIECES))
         return
     flag = 1 if sweep.angle > 0 else 0
     radius = _number(sweep.radius)
-    if abs(sweep.angle) > FULL_TURN * 0.99:
+    if abs(sweep.angle) > tau * 0.99:
         # The end of an arc command may not be its beginning.
         middle = 2 * sweep.center[0] - here[0], 2 * sweep.center[1] - here[1]
         yield f"A{radius} {radius} 0 0 {flag} {_place(middle)}A{radius} {radius} 0 0 {flag} {_place(sweep.end)}"
         return
     large = 1 if abs(sweep.angle) > pi else 0
     yield f"A{radius} {radius} 0 {large} {flag} {_place(sweep.end)}"
-
-
-def points_on(here: Spot, sweep: Sweep, pieces: int) -> Iterator[Spot]:
-    """Places on an arc that starts here, its end the last."""
-    first, second = here[0] - sweep.center[0], here[1] - sweep.center[1]
-    for number in range(1, pieces):
-        turned = sweep.angle * number / pieces
-        yield (
-            sweep.center[0] + first * cos(turned) - second * sin(turned),
-            sweep.center[1] + first * sin(turned) + second * cos(turned),
-        )
-    yield sweep.end
 
 
 def _place(spot: Spot, between: str = ",") -> str:
@@ -154,8 +211,13 @@ def _number(value: float) -> str:
 
 
 def _clean(text: str) -> str:
-    """A text as XML holds it: escaped, and without the characters that XML does not know."""
-    return escape("".join(each if _is_character(ord(each)) else "�" for each in text))
+    """A text as XML holds it."""
+    return escape(_known(text))
+
+
+def _known(text: str) -> str:
+    """A text without the characters that XML does not know."""
+    return "".join(each if _is_character(ord(each)) else "�" for each in text)
 
 
 def _is_character(code: int) -> bool:

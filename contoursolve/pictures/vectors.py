@@ -1,4 +1,4 @@
-"""Plane geometry of a drawing, in mm: directions, feet of perpendiculars, how far arcs reach."""
+"""Plane geometry of drawings and pages: directions, feet of perpendiculars, how far arcs reach."""
 
 from math import atan2, cos, hypot, pi, sin, tau
 
@@ -7,6 +7,9 @@ from contoursolve.solving import Point
 
 SAME = 1e-6
 """mm. Points nearer to each other are one on a drawing."""
+
+ALONG_AXIS = ((1.0, 0.0), (0.0, 1.0))
+"""The directions of both axes."""
 
 
 def minus(a: Point, b: Point) -> Point:
@@ -30,6 +33,11 @@ def unit(vector: Point) -> Point:
     return (vector[0] / length, vector[1] / length) if length > 0 else (1.0, 0.0)
 
 
+def direction(a: Point, b: Point) -> Point:
+    """The unit direction from one place to another; to the right if they are one."""
+    return unit(minus(b, a))
+
+
 def toward(degrees_: float) -> Point:
     """The direction at an angle from the first axis."""
     return cos(degrees_ * pi / 180), sin(degrees_ * pi / 180)
@@ -41,25 +49,32 @@ def foot(at: Point, on: Point, way: Point) -> Point:
     return along(on, way, step[0] * way[0] + step[1] * way[1])
 
 
+def with_coordinate(at: Point, axis: int, value: float) -> Point:
+    """A place with another coordinate on one axis."""
+    return (value, at[1]) if axis == 0 else (at[0], value)
+
+
+def _begin(arc: ArcSegment) -> float:
+    return atan2(arc.start[1] - arc.center[1], arc.start[0] - arc.center[0])
+
+
 def sweep_of(arc: ArcSegment) -> float:
     """The angle travelled, radians, positive counter-clockwise; a whole turn where it ends as it begins."""
-    begin = atan2(arc.start[1] - arc.center[1], arc.start[0] - arc.center[0])
     end = atan2(arc.end[1] - arc.center[1], arc.end[0] - arc.center[0])
-    return (((end - begin) * arc.turn.sign) % tau or tau) * arc.turn.sign
+    return (((end - _begin(arc)) * arc.turn.sign) % tau or tau) * arc.turn.sign
 
 
 def middle(segment: Segment) -> tuple[Point, Point]:
     """The place halfway along an element, and the direction of travel there."""
-    if not isinstance(segment, ArcSegment):
-        between = minus(segment.end, segment.start)
-        return along(segment.start, between, 0.5), unit(between)
-    return on_arc(segment, 0.5)
+    if isinstance(segment, ArcSegment):
+        return on_arc(segment, 0.5)
+    between = minus(segment.end, segment.start)
+    return along(segment.start, between, 0.5), unit(between)
 
 
 def on_arc(arc: ArcSegment, share: float) -> tuple[Point, Point]:
     """The place after a share of an arc, and the direction of travel there."""
-    begin = atan2(arc.start[1] - arc.center[1], arc.start[0] - arc.center[0])
-    angle = begin + sweep_of(arc) * share
+    angle = _begin(arc) + sweep_of(arc) * share
     spoke = cos(angle), sin(angle)
     return along(arc.center, spoke, arc.radius), (-spoke[1] * arc.turn.sign, spoke[0] * arc.turn.sign)
 
@@ -68,8 +83,7 @@ def extent(segment: Segment) -> list[Point]:
     """Points that span the same upright rectangle as an element."""
     found = [segment.start, segment.end]
     if isinstance(segment, ArcSegment):
-        begin = atan2(segment.start[1] - segment.center[1], segment.start[0] - segment.center[0])
-        sweep = sweep_of(segment)
+        begin, sweep = _begin(segment), sweep_of(segment)
         for quarter in range(4):
             angle = quarter * pi / 2
             if ((angle - begin) * segment.turn.sign) % tau < abs(sweep):

@@ -2,12 +2,11 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from math import inf
 
-from contoursolve.pictures.scene import Aligned, Angle, Kind, Leader, Linear, Ordinate, Scene, Weight
-from contoursolve.pictures.sheet import Spot
+from contoursolve.pictures.page import Spot
+from contoursolve.pictures.scene import Aligned, Kind, Linear, Mark, Ring, Scene, Slide, Thin, Trail, Weight
 from contoursolve.pictures.theme import Role
-from contoursolve.pictures.vectors import extent
+from contoursolve.pictures.vectors import ALONG_AXIS, along, extent
 from contoursolve.solving import Point
 
 MOST_TIMES = 3.0
@@ -36,7 +35,7 @@ class View:
 
 
 @dataclass(frozen=True, slots=True)
-class Span:
+class Bounds:
     """An upright rectangle in mm."""
 
     low: Point
@@ -53,52 +52,39 @@ class Span:
         return (self.low[0] + self.high[0]) / 2, (self.low[1] + self.high[1]) / 2
 
 
-def span_of(scene: Scene) -> Span:
+def bounds_of(scene: Scene) -> Bounds:
     """What a picture must show: the path and its points, and as much else as does not make the path small."""
     must: list[Point] = []
-    for trail in scene.trails:
-        if trail.weight is not Weight.GHOST:
-            must += [at for segment in trail.segments for at in extent(segment)]
-    must += [mark.at for mark in scene.marks if mark.kind not in (Kind.CENTER, Kind.OTHER)]
-    more: list[Point] = [mark.at for mark in scene.marks]
+    more: list[Point] = []
     wrong: list[Point] = []
-    for dimension in scene.dimensions:
-        if isinstance(dimension, Aligned | Linear):
-            more += [dimension.start, dimension.end]
-        elif isinstance(dimension, Ordinate | Angle | Leader):
-            more.append(dimension.at)
-        if isinstance(dimension, Aligned) and dimension.role is Role.CONFLICTING:
-            wrong += [dimension.start, dimension.end]
-    for thin in scene.thins:
-        more += [thin.start] if thin.is_endless else [thin.start, thin.end]
-    for trail in scene.trails:
-        more += [at for segment in trail.segments for at in extent(segment)]
-    for ring in scene.rings:
-        (wrong if ring.role is Role.CONFLICTING else more).extend(
-            (ring.center[0] + ring.radius * x, ring.center[1] + ring.radius * y)
-            for x, y in ((1, 0), (-1, 0), (0, 1), (0, -1))
-        )
-    own = _around(must or more or wrong or [(0.0, 0.0)])
-    reach = max(*own.size, 1e-9)
-    if max(own.size) <= 0:
-        reach = max(*_around([*must, *more, *wrong]).size, 1e-9)
+    for part in scene.parts:
+        if isinstance(part, Trail):
+            points = [at for segment in part.segments for at in extent(segment)]
+            (more if part.weight is Weight.GHOST else must).extend(points)
+        elif isinstance(part, Mark):
+            (more if part.kind in (Kind.CENTER, Kind.OTHER) else must).append(part.at)
+        elif isinstance(part, Ring):
+            ends = (along(part.center, way, sign * part.radius) for way in ALONG_AXIS for sign in (1, -1))
+            (wrong if part.role is Role.CONFLICTING else more).extend(ends)
+        elif isinstance(part, Thin | Linear | Aligned):
+            more += [part.start] if isinstance(part, Thin) and part.is_endless else [part.start, part.end]
+            if isinstance(part, Aligned) and part.role is Role.CONFLICTING:
+                wrong += [part.start, part.end]
+        elif not isinstance(part, Slide):
+            more.append(part.at)
+    everything = [*must, *more, *wrong] or [(0.0, 0.0)]
+    own = _around(must or more or everything)
+    reach = max(*(own if max(own.size) > 0 else _around(everything)).size, 1e-9)
     near = [*_near(more, own, reach, MOST_TIMES), *_near(wrong, own, reach, MOST_TIMES_WRONG)]
-    return _around([*(must or more[:1] or wrong[:1] or [(0.0, 0.0)]), *near])
+    return _around([*must, *near] or [(0.0, 0.0)])
 
 
-def _near(points: Iterable[Point], own: Span, reach: float, times: float) -> list[Point]:
+def _near(points: Iterable[Point], own: Bounds, reach: float, times: float) -> list[Point]:
     """The points in a rectangle that is so many times as large."""
     room = reach * (times - 1) / 2 * _ROUNDING
-    return [
-        at
-        for at in points
-        if own.low[0] - room <= at[0] <= own.high[0] + room and own.low[1] - room <= at[1] <= own.high[1] + room
-    ]
+    return [at for at in points if all(own.low[n] - room <= at[n] <= own.high[n] + room for n in (0, 1))]
 
 
-def _around(points: Iterable[Point]) -> Span:
-    low, high = [inf, inf], [-inf, -inf]
-    for at in points:
-        for axis in (0, 1):
-            low[axis], high[axis] = min(low[axis], at[axis]), max(high[axis], at[axis])
-    return Span((low[0], low[1]), (high[0], high[1]))
+def _around(points: Iterable[Point]) -> Bounds:
+    across, up = zip(*points, strict=True)
+    return Bounds((min(across), min(up)), (max(across), max(up)))

@@ -1,4 +1,4 @@
-"""The exact lines that bound a region of two words, each named by what fails beyond it."""
+"""The exact lines that bound a region of two words, each named by what fails beyond it, and the picture of a region."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -9,11 +9,26 @@ from numpy.typing import NDArray
 
 from contoursolve.backends.columns import Array
 from contoursolve.families import Boundary, Region
-from contoursolve.pictures.chart import HIGH, LEFT, SIZE, TOP, WIDE, Chart
-from contoursolve.pictures.metrics import width_of, wrap
-from contoursolve.pictures.sheet import Anchor, Box, Run, Spot, Stroke, Text
+from contoursolve.pictures.chart import BELOW, HIGH, LEFT, TOP, WIDE, Chart, axis_text, over_range, with_remarks
+from contoursolve.pictures.page import (
+    PAD,
+    SIZE,
+    WIDTH,
+    Anchor,
+    Box,
+    Dot,
+    Item,
+    Run,
+    Sheet,
+    Spot,
+    Stroke,
+    Text,
+    heading,
+    visible,
+    width_of,
+    wrap,
+)
 from contoursolve.pictures.theme import Role
-from contoursolve.pictures.wording import visible
 
 _GAP = (3.0, 3.0)
 """Pixels on and off of a line on which alone there is no contour."""
@@ -43,11 +58,6 @@ class Curve:
     points: Array
     spots: Array
     ways: Array
-
-    @property
-    def is_gap(self) -> bool:
-        """Whether there is no contour on it alone."""
-        return self.boundary.is_gap
 
     @property
     def length(self) -> float:
@@ -86,16 +96,22 @@ def _curve(boundary: Boundary, chart: Chart) -> Curve:
 def strokes(curves: Sequence[Curve], width: float) -> list[Stroke]:
     """The lines, so many pixels wide."""
     return [
-        Stroke(_spot(each.points[0]), tuple(map(_spot, each.points[1:])), Role.INK, width, _GAP if each.is_gap else ())
+        Stroke(
+            _spot(each.points[0]),
+            tuple(map(_spot, each.points[1:])),
+            Role.INK,
+            width,
+            _GAP if each.boundary.is_gap else (),
+        )
         for each in curves
     ]
 
 
-def teeth(curves: Sequence[Curve]) -> list[Stroke]:
+def _teeth(curves: Sequence[Curve]) -> list[Stroke]:
     """Short strokes on the side of each line on which there is no contour, where nothing else tells it."""
     items = []
     for curve in curves:
-        count = 0 if curve.is_gap or curve.boundary.outside is None else max(1, round(curve.length / _TEETH))
+        count = 0 if curve.boundary.is_gap or curve.boundary.outside is None else max(1, round(curve.length / _TEETH))
         for number in range(count):
             place = int((number + 0.5) / count * (len(curve.spots) - 1))
             end = curve.spots[place] + _TOOTH * curve.ways[place]
@@ -108,7 +124,7 @@ def names_of(
 ) -> tuple[list[Text], list[str]]:
     """The names of lines beside them, where there is room, clear of texts that are there, and if it goes of other
     strokes; and the names that are nowhere."""
-    everywhere = spots_of(curves)
+    everywhere = _spots_of(curves)
     crowded = numpy.concatenate([everywhere, *map(_along, others)])
     texts: list[Text] = []
     boxes = list(taken)
@@ -121,7 +137,7 @@ def names_of(
             each
             for spots in (crowded, everywhere)
             for each in _places(curve, name)
-            if is_free(each, chart, boxes, spots)
+            if _is_free(each, chart, boxes, spots)
         )
         found = next(tried, None)
         if found is None:
@@ -132,7 +148,7 @@ def names_of(
     return texts, list(dict.fromkeys(missing))
 
 
-def spots_of(curves: Sequence[Curve]) -> Array:
+def _spots_of(curves: Sequence[Curve]) -> Array:
     """Places a pixel apart on all lines."""
     return numpy.concatenate([numpy.empty((0, 2)), *(curve.spots for curve in curves)])
 
@@ -152,7 +168,7 @@ def _places(curve: Curve, name: str) -> Iterator[list[Text]]:
     # Both sides of a gap are alike, so that there the middle comes first.
     orders = [(side, share) for share in _ALONG for side in (1.0, -1.0)]
     for lines, farther, (side, share) in sorted(
-        product(([name], halves), (0.0, _HIGHER), orders), key=lambda each: not curve.is_gap and each[2][0] < 0
+        product(([name], halves), (0.0, _HIGHER), orders), key=lambda each: not curve.boundary.is_gap and each[2][0] < 0
     ):
         wide = max(width_of(each, SIZE) for each in lines)
         high = _HIGHER * len(lines)
@@ -166,7 +182,7 @@ def _places(curve: Curve, name: str) -> Iterator[list[Text]]:
         ]
 
 
-def is_free(texts: Sequence[Text], chart: Chart, boxes: Sequence[Box], spots: Array) -> bool:
+def _is_free(texts: Sequence[Text], chart: Chart, boxes: Sequence[Box], spots: Array) -> bool:
     """Whether texts lie in the plane, clear of other texts and of every line."""
     for box in (each.box.grow(2.0) for each in texts):
         if not chart.box.holds(box) or any(box.meets(other) for other in boxes):
@@ -190,3 +206,53 @@ def near(curves: Sequence[Curve], rows: int, columns: int) -> NDArray[numpy.bool
 
 def _spot(place: Array) -> Spot:
     return float(place[0]), float(place[1])
+
+
+# Regions -----------------------------------------------------------------------------------------------------
+
+_LINE = 2.0
+"""Pixels of a line that bounds the region."""
+
+
+def region_title(region: Region) -> str:
+    """What a region shows."""
+    words = " and ".join(region.words)
+    if not region.boundaries:
+        return f"{words}: {'a' if region.exists else 'no'} contour everywhere"
+    proof = "" if region.is_complete else " (that these are all lines is not proven)"
+    return f"{words}: where the contour exists{proof}"
+
+
+def lay_out_region(region: Region, title: str) -> Sheet:
+    """The page of a region."""
+    first, second = map(axis_text, region.words, region.units)
+    chart = Chart((first, second), *(over_range(low, high) for low, high in region.within))
+    curves = curves_of(region, chart)
+    rough = _teeth(curves)
+    stated = _stated(region, chart, curves)
+    names, missing = names_of(curves, chart, [each.box for each in stated if isinstance(each, Text)], rough)
+    items: list[Item] = [heading(title), *strokes(curves, _LINE), *rough, *chart.axes(), *stated, *names]
+    remarks = ["teeth: there is no contour on this side"] if any(not e.boundary.is_gap for e in curves) else []
+    if any(each.boundary.is_gap for each in curves):
+        remarks.append("dotted: there is none on the line alone")
+    if missing:
+        remarks.append(f"lines without room for a name: {', '.join(missing)}")
+    told = [(each, Role.MUTED) for each in wrap("; ".join(remarks), WIDTH - 2 * PAD, SIZE, 3)]
+    return with_remarks(items, told, TOP + HIGH + BELOW, 4.0)
+
+
+def _stated(region: Region, chart: Chart, curves: Sequence[Curve]) -> list[Item]:
+    """The values that the block has, where they are in the plane."""
+    if not all(low <= value <= high for value, (low, high) in zip(region.stated, region.within, strict=True)):
+        return []
+    ((x, y),) = chart.spots(numpy.array([region.stated])).tolist()
+    words = " ".join(f"{word}{value:g}" for word, value in zip(region.words, region.stated, strict=True))
+    told = (Run(visible(words), Role.GIVEN),)
+    places = [
+        Text((x + side, y + down), told, SIZE, anchor)
+        for down in (-7.0, 16.0)
+        for side, anchor in ((7.0, Anchor.START), (-7.0, Anchor.END))
+    ]
+    spots = _spots_of(curves)
+    label = next((each for each in places if _is_free([each], chart, (), spots)), places[0])
+    return [Dot((x, y), 4.0, Role.GIVEN), label]

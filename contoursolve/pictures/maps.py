@@ -1,19 +1,36 @@
-"""The map of a family over two words: a field for each outcome with its name in it, and the boundaries between them."""
+"""The map of a family over two words: a field for each outcome with its name in it, and the boundaries between them;
+and what a picture of a sweep shows of all its values."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from math import floor
 
 import numpy
 from numpy.typing import NDArray
 
-from contoursolve.families import REASONS, Code, Family, FamilyError, region_of, units_of
-from contoursolve.pictures.chart import BELOW, HIGH, LEFT, SIZE, TOP, WIDE, WIDTH, Chart, heading, over_cells
-from contoursolve.pictures.family_curves import Curve, curves_of, names_of, near, strokes
-from contoursolve.pictures.metrics import wrap
-from contoursolve.pictures.sheet import Anchor, Box, Item, Run, Shape, Sheet, Spot, Stroke, Text
+from contoursolve.backends.columns import Array
+from contoursolve.examine import Answer
+from contoursolve.families import REASONS, Code, CompiledSweep, Family, FamilyError, region_of, units_of
+from contoursolve.families.evaluate import compile_sweep, solve_sweep
+from contoursolve.families.spec import Ranges
+from contoursolve.pictures.chart import BELOW, HIGH, LEFT, TOP, WIDE, Chart, axis_text, over_cells, with_remarks
+from contoursolve.pictures.curves import Curve, curves_of, names_of, near, strokes
+from contoursolve.pictures.page import (
+    PAD,
+    SIZE,
+    WIDTH,
+    Anchor,
+    Box,
+    Item,
+    Run,
+    Sheet,
+    Spot,
+    Stroke,
+    Text,
+    heading,
+    wrap,
+)
 from contoursolve.pictures.theme import Role
-from contoursolve.pictures.wording import axis_text
 
 COLUMNS, ROWS = 305, 200
 """Cells of a map; of more values, the one nearest to the middle of each cell is shown."""
@@ -58,12 +75,12 @@ def lay_out_map(family: Family, words: tuple[str, ...], title: str) -> Sheet:
     lines, unnamed = names_of(curves, chart, [each.box for each in fields], borders)
     items: list[Item] = [heading(title), *_fields(shown), *borders]
     items += [*strokes(curves, _LINE), *chart.axes(), *fields, *lines]
-    height = TOP + HIGH + BELOW
-    for start, several in (("too narrow to be named", others), ("lines without room for a name", unnamed)):
-        for told in wrap(f"{start}: {'; '.join(several)}", WIDTH - 36.0, SIZE, 3) if several else ():
-            items.append(Text((18.0, height + 4.0), (Run(told, Role.MUTED),), SIZE))
-            height += 17.0
-    return Sheet(WIDTH, height, Box(0.0, 0.0, WIDTH, height), tuple(items))
+    remarks = [
+        (told, Role.MUTED)
+        for start, several in (("too narrow to be named", others), ("lines without room for a name", unnamed))
+        for told in (wrap(f"{start}: {'; '.join(several)}", WIDTH - 2 * PAD, SIZE, 3) if several else ())
+    ]
+    return with_remarks(items, remarks, TOP + HIGH + BELOW, 4.0)
 
 
 def _curves(family: Family, words: tuple[str, str], chart: Chart) -> list[Curve]:
@@ -102,7 +119,7 @@ def _fields(shown: Outcomes) -> list[Item]:
         for first, last in pairwise(cuts):
             role = _field(int(shown[begin, first]))
             left, right = LEFT + first * wide, min(LEFT + last * wide + _OVER, LEFT + WIDE)
-            items.append(Shape(((left, top), (right, top), (right, bottom), (left, bottom)), role))
+            items.append(Box(left, top, right, bottom).filled(role))
         begin = row
     return items
 
@@ -121,30 +138,22 @@ def _boundaries(shown: Outcomes, curves: Sequence[Curve]) -> list[Stroke]:
     has_contour = numpy.isin(shown, [each for each in numpy.unique(shown) if _field(int(each)) is Role.SOLVED_FIELD])
     role, width = (Role.MUTED, 1.0) if curves else (Role.INK, 1.4)
     items: list[Stroke] = []
-    edges = (shown[1:] != shown[:-1]) & ~((close[1:] | close[:-1]) & (has_contour[1:] != has_contour[:-1]))
-    for row, column in zip(*_starts(edges), strict=True):
-        y, right = TOP + (row + 1) * high, LEFT + (column + _run(edges[row, column:])) * wide
-        items.append(Stroke((LEFT + column * wide, y), ((right, y),), role, width))
-    sides = has_contour[:, 1:] != has_contour[:, :-1]
-    edges = ((shown[:, 1:] != shown[:, :-1]) & ~((close[:, 1:] | close[:, :-1]) & sides)).T
-    for column, row in zip(*_starts(edges), strict=True):
-        x, bottom = LEFT + (column + 1) * wide, TOP + (row + _run(edges[column, row:])) * high
-        items.append(Stroke((x, TOP + row * high), ((x, bottom),), role, width))
+    for row, first, last in _edges(shown, close, has_contour):
+        y = TOP + (row + 1) * high
+        items.append(Stroke((LEFT + first * wide, y), ((LEFT + last * wide, y),), role, width))
+    for column, first, last in _edges(shown.T, close.T, has_contour.T):
+        x = LEFT + (column + 1) * wide
+        items.append(Stroke((x, TOP + first * high), ((x, TOP + last * high),), role, width))
     return items[:_MOST_RUNS]
 
 
-def _starts(mask: NDArray[numpy.bool_]) -> tuple[list[int], list[int]]:
-    """Where runs of true values begin, row by row."""
-    before = numpy.zeros_like(mask)
-    before[:, 1:] = mask[:, :-1]
-    rows, columns = numpy.nonzero(mask & ~before)
-    return rows.tolist(), columns.tolist()
-
-
-def _run(values: NDArray[numpy.bool_]) -> int:
-    """How many values are true before the first that is not."""
-    stops = numpy.flatnonzero(~values)
-    return int(stops[0]) if stops.size else int(values.size)
+def _edges(shown: Outcomes, close: Mask, has_contour: Mask) -> Iterator[tuple[int, int, int]]:
+    """Between each row of cells and the next one, from where to where they differ and no exact line is close that parts
+    cells with a contour from others."""
+    is_exact = (close[1:] | close[:-1]) & (has_contour[1:] != has_contour[:-1])
+    for row, edges in enumerate((shown[1:] != shown[:-1]) & ~is_exact):
+        ends = numpy.flatnonzero(numpy.diff(edges.astype(numpy.int8), prepend=0, append=0)).tolist()
+        yield from ((row, first, last) for first, last in zip(ends[::2], ends[1::2], strict=True))
 
 
 def _names(shown: Outcomes) -> tuple[list[Text], list[str]]:
@@ -207,3 +216,44 @@ def _deepest(mask: Mask, shape: tuple[int, int], wide: float, high: float) -> Sp
     rows, columns = numpy.nonzero(last)
     pick = len(rows) // 2
     return LEFT + (int(columns[pick]) + 0.5) * wide, TOP + (int(rows[pick]) + 0.5) * high
+
+
+# Sweeps ------------------------------------------------------------------------------------------------------
+
+MOST_VALUES = 21
+"""Values of one word whose contours are drawn."""
+
+Fan = tuple[str, Sequence[float], Sequence[Answer]]
+"""A word, some of its values, and the answer for each."""
+
+
+def solve_shown(ready: CompiledSweep) -> Fan | Family:
+    """What is drawn of a sweep, solved: no more values than there is room for, evenly chosen.
+
+    Raises FamilyError where not one word or two vary, or where they are paired.
+    """
+    ranges = ready.ranges
+    varying = [name for name, values in ranges.values.items() if values.size > 1]
+    if ranges.is_paired or not 1 <= len(varying) <= 2:  # noqa: PLR2004 - a line or a plane
+        told = "paired words" if ranges.is_paired else f"{len(varying)} words with several values"
+        raise FamilyError(
+            f"a picture shows one word or two, every value of one with every value of the other; not {told}"
+        )
+    if len(varying) == 1:
+        (word,) = varying
+        values = [float(value) for value in _chosen(ranges.values[word], MOST_VALUES)]
+        fixed = {name: float(column[0]) for name, column in ranges.values.items()}
+        return word, values, [ready.template.solve({**fixed, word: value}) for value in values]
+    alone = {name: column for name, column in ranges.values.items() if name not in varying}
+    shown = {name: _chosen(ranges.values[name], most) for name, most in zip(varying, (COLUMNS, ROWS), strict=True)}
+    return solve_sweep(compile_sweep(ready.spec, Ranges({**alone, **shown}, is_paired=False)))
+
+
+def _chosen(values: Array, most: int) -> Array:
+    """At most so many of the values in rising order, the first and the last among them."""
+    rising = numpy.unique(values)
+    if rising.size <= most:
+        return rising
+    places = numpy.linspace(0, rising.size - 1, most).round().astype(numpy.int64)
+    chosen: Array = rising[places]
+    return chosen

@@ -1,0 +1,291 @@
+"""A page in pixels with Y down: strokes, shapes and texts, how wide texts are, arrowheads and lines."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from enum import Enum
+from math import cos, sin
+from typing import NamedTuple
+
+from contoursolve.pictures.theme import DASHES, Role
+from contoursolve.pictures.vectors import along
+
+Spot = tuple[float, float]
+"""A place on the page, pixels from its top left corner."""
+
+THIN, THICK = 1.0, 2.6
+"""Pixels of thin lines, and of the path."""
+
+SIZE, TITLE = 12.0, 14.0
+"""Pixels. Font sizes of labels, and of titles."""
+
+WIDTH, PAD = 760.0, 18.0
+"""Pixels of a page, and between its edge and its texts."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sweep:
+    """An arc of a circle from where a stroke is; `angle` is travelled (radians, positive clockwise on the page)."""
+
+    center: Spot
+    radius: float
+    end: Spot
+    angle: float
+
+    def spots(self, here: Spot, pieces: int) -> Iterator[Spot]:
+        """Places on the arc that starts here, its end the last."""
+        first, second = here[0] - self.center[0], here[1] - self.center[1]
+        for number in range(1, pieces):
+            turned = self.angle * number / pieces
+            yield (
+                self.center[0] + first * cos(turned) - second * sin(turned),
+                self.center[1] + first * sin(turned) + second * cos(turned),
+            )
+        yield self.end
+
+
+@dataclass(frozen=True, slots=True)
+class Stroke:
+    """A line that is drawn: from `start` through places and arcs."""
+
+    start: Spot
+    steps: tuple[Spot | Sweep, ...]
+    role: Role
+    width: float
+    dash: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Shape:
+    """A filled polygon."""
+
+    corners: tuple[Spot, ...]
+    role: Role
+
+
+@dataclass(frozen=True, slots=True)
+class Dot:
+    """A disc, filled with its role or with paper."""
+
+    at: Spot
+    radius: float
+    role: Role
+    is_filled: bool = True
+
+
+class Anchor(Enum):
+    """Which place of a text its position is; the values are those of SVG."""
+
+    START = "start"
+    MIDDLE = "middle"
+    END = "end"
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """A stretch of a text in one role."""
+
+    text: str
+    role: Role
+
+
+class Box(NamedTuple):
+    """An upright rectangle; thousands are tried for each label."""
+
+    left: float
+    top: float
+    right: float
+    bottom: float
+
+    def meets(self, other: "Box") -> bool:
+        """Whether two boxes have more than an edge in common."""
+        return (
+            self.left < other.right and other.left < self.right and self.top < other.bottom and other.top < self.bottom
+        )
+
+    def holds(self, other: "Box") -> bool:
+        """Whether another box lies in this one."""
+        return (
+            self.left <= other.left
+            and self.top <= other.top
+            and self.right >= other.right
+            and self.bottom >= other.bottom
+        )
+
+    def grow(self, by: float) -> "Box":
+        """The box with a margin, pixels."""
+        return Box(self.left - by, self.top - by, self.right + by, self.bottom + by)
+
+    def filled(self, role: Role) -> Shape:
+        """The box as a shape."""
+        left, top, right, bottom = self
+        return Shape(((left, top), (right, top), (right, bottom), (left, bottom)), role)
+
+
+@dataclass(frozen=True, slots=True)
+class Text:
+    """A text in one line; `at` is on its base line. A text that is turned reads from the right."""
+
+    at: Spot
+    runs: tuple[Run, ...]
+    size: float = SIZE
+    anchor: Anchor = Anchor.START
+    is_bold: bool = False
+    is_mono: bool = False
+    is_turned: bool = False
+
+    @property
+    def words(self) -> str:
+        """The text without its roles."""
+        return "".join(run.text for run in self.runs)
+
+    @property
+    def box(self) -> Box:
+        """What it covers."""
+        wide = width_of(self.words, self.size, is_bold=self.is_bold, is_mono=self.is_mono)
+        before = {Anchor.START: 0.0, Anchor.MIDDLE: wide / 2, Anchor.END: wide}[self.anchor]
+        up, down = ASCENT * self.size, DESCENT * self.size
+        x, y = self.at
+        if self.is_turned:
+            return Box(x - up, y - (wide - before), x + down, y + before)
+        return Box(x - before, y - up, x + wide - before, y + down)
+
+
+Item = Stroke | Shape | Dot | Text
+
+
+@dataclass(frozen=True, slots=True)
+class Sheet:
+    """A page: the drawing, which ends at its frame, and what stands around it, each as it is painted."""
+
+    width: float
+    height: float
+    frame: Box
+    drawing: tuple[Item, ...] = field(repr=False)
+    around: tuple[Item, ...] = field(default=(), repr=False)
+
+    @property
+    def texts(self) -> tuple[Text, ...]:
+        """All texts."""
+        return tuple(item for item in (*self.drawing, *self.around) if isinstance(item, Text))
+
+
+def stack_sheets(sheets: list[Sheet]) -> Sheet:
+    """Pages under each other as one."""
+    if len(sheets) == 1:
+        return sheets[0]
+    drawing: list[Item] = []
+    around: list[Item] = []
+    height = 0.0
+    for sheet in sheets:
+        drawing += [_shift(item, height) for item in sheet.drawing]
+        around += [_shift(item, height) for item in sheet.around]
+        height += sheet.height
+    frame = Box(4.0, sheets[0].frame.top, WIDTH - 4.0, height)
+    return Sheet(WIDTH, round(height, 1), frame, tuple(drawing), tuple(around))
+
+
+def _shift(item: Item, by: float) -> Item:
+    """An item farther down the page."""
+
+    def down(spot: Spot) -> Spot:
+        return spot[0], spot[1] + by
+
+    if isinstance(item, Shape):
+        return replace(item, corners=tuple(map(down, item.corners)))
+    if isinstance(item, Stroke):
+        steps = (
+            replace(step, center=down(step.center), end=down(step.end)) if isinstance(step, Sweep) else down(step)
+            for step in item.steps
+        )
+        return replace(item, start=down(item.start), steps=tuple(steps))
+    return replace(item, at=down(item.at))
+
+
+# Lines and arrowheads ----------------------------------------------------------------------------------------
+
+
+def line(a: Spot, b: Spot, role: Role, width: float = THIN, *, is_dashed: bool = True) -> Stroke:
+    """A thin line in the dash of its role."""
+    return Stroke(a, (b,), role, width, DASHES.get(role, ()) if is_dashed else ())
+
+
+def arc(center: Spot, radius: float, sweep: float, role: Role) -> Stroke:
+    """An arc from the right of its centre (radians, clockwise on the page)."""
+    end = center[0] + radius * cos(sweep), center[1] + radius * sin(sweep)
+    steps = (Sweep(center, radius, end, sweep),)
+    return Stroke((center[0] + radius, center[1]), steps, role, THIN, DASHES.get(role, ()))
+
+
+def head(tip: Spot, way: Spot, role: Role, length: float = 8.0, half: float = 2.5) -> Shape:
+    """An arrowhead whose tip is here, pointing along a unit direction."""
+    back, across = along(tip, way, -length), (-way[1], way[0])
+    return Shape((tip, along(back, across, half), along(back, across, -half)), role)
+
+
+# Texts -------------------------------------------------------------------------------------------------------
+
+ASCENT, DESCENT = 0.78, 0.22
+"""1 (share of the font size). What a line of capitals, digits and lower case letters takes above and below its base."""
+
+MONO = 0.602
+"""1 (share of the font size). Width of every character of DejaVu Sans Mono."""
+
+# fmt: off
+_WIDTHS = (
+    318, 401, 460, 838, 636, 950, 780, 275, 390, 390, 500, 838, 318, 361, 318, 337, 636, 636, 636, 636, 636, 636, 636,
+    636, 636, 636, 337, 337, 838, 838, 838, 531, 1000, 684, 686, 698, 770, 632, 575, 775, 752, 295, 295, 656, 557, 863,
+    748, 787, 603, 787, 695, 635, 611, 732, 684, 989, 685, 611, 685, 390, 337, 390, 838, 500, 500, 613, 635, 550, 635,
+    615, 352, 635, 634, 278, 278, 579, 278, 974, 634, 612, 635, 635, 411, 521, 392, 634, 592, 818, 592, 592, 525, 636,
+    337, 636, 838,
+)
+# fmt: on
+"""Advance widths of DejaVu Sans from the blank to the tilde, thousandths of the font size. Most other fonts are
+narrower, so that texts fit there."""
+
+_FIRST, _OTHER, _BOLD = 32, 1000, 1.11
+
+
+def width_of(text: str, size: float, *, is_bold: bool = False, is_mono: bool = False) -> float:
+    """The width of a text, pixels; characters outside ASCII count as the widest."""
+    if is_mono:
+        return sum(MONO if ord(each) < 0x2E80 else 1.0 for each in text) * size  # noqa: PLR2004 - East Asian ones begin here
+    total = sum(_width(ord(each) - _FIRST) for each in text)
+    return total / 1000 * size * (_BOLD if is_bold else 1.0)
+
+
+def _width(place: int) -> int:
+    return _WIDTHS[place] if 0 <= place < len(_WIDTHS) else _OTHER
+
+
+def shorten(text: str, width: float, size: float, *, is_bold: bool = False, is_mono: bool = False) -> str:
+    """The text, or as much of its beginning as fits the width (pixels), with an ellipsis."""
+    if width_of(text, size, is_bold=is_bold, is_mono=is_mono) <= width:
+        return text
+    kept = text
+    while kept and width_of(kept + "…", size, is_bold=is_bold, is_mono=is_mono) > width:
+        kept = kept[: max(len(kept) * 9 // 10, len(kept) - 8, 0)] if len(kept) > 80 else kept[:-1]  # noqa: PLR2004
+    return kept.rstrip() + "…"
+
+
+def wrap(text: str, width: float, size: float, lines: int) -> list[str]:
+    """The text in at most so many lines of this width; the last one is shortened."""
+    found: list[str] = []
+    rest = text.split()
+    while rest and len(found) < lines - 1:
+        count = 1
+        while count < len(rest) and width_of(" ".join(rest[: count + 1]), size) <= width:
+            count += 1
+        found.append(shorten(" ".join(rest[:count]), width, size))
+        rest = rest[count:]
+    return [*found, shorten(" ".join(rest), width, size)] if rest else found
+
+
+def heading(title: str, y: float = 26.0) -> Text:
+    """The title of a page, as much of it as fits."""
+    told = shorten(visible(title), WIDTH - 2 * PAD, TITLE, is_bold=True)
+    return Text((PAD, y), (Run(told, Role.INK),), TITLE, is_bold=True)
+
+
+def visible(text: str) -> str:
+    """The text with what cannot be seen as dots, tabs as blanks: one character each."""
+    return "".join(each if each.isprintable() else (" " if each == "\t" else "·") for each in text)

@@ -1,0 +1,291 @@
+"""What a picture is about: an answer with all that can be drawn of it, its path, and what became of each word.
+
+A contour that is solved has all its points. One that is refused is worked out as far as its equations go, for a
+corner that does not fit has a place as well. What words leave free is put somewhere, and is said to be so.
+"""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from math import inf, isfinite
+
+from contoursolve.analysis import judge
+from contoursolve.constraints import OnCircle, TangentLine, Through, assemble
+from contoursolve.contour import ArcSegment, LineSegment, Segment
+from contoursolve.diagnostic import Diagnostic, Severity
+from contoursolve.examine import MOST_CHOICES, Answer, count_choices
+from contoursolve.model import FIRST, SECOND, Arc, Corner, Line, Profile, Turn, scalar
+from contoursolve.pictures.known import (
+    Known,
+    by_point,
+    complete,
+    in_part,
+    is_chosen,
+    is_usable,
+    known_of,
+    start_of,
+    with_facts,
+)
+from contoursolve.pictures.scene import Trail, word_text
+from contoursolve.pictures.theme import Role
+from contoursolve.pictures.vectors import SAME, distance
+from contoursolve.reading import Trouble
+from contoursolve.settling import said_twice
+from contoursolve.solving import Point, Refusal, RefusalKind, RemarkKind, is_closed, points_with_two_solutions, solve
+from contoursolve.solving.compile import compile_system
+from contoursolve.solving.numbers import corner_of, inputs_of
+from contoursolve.solving.solution import CornerSolution
+from contoursolve.source import Span
+from contoursolve.syntax import FACT
+from contoursolve.tolerance import LENGTH
+
+_CORNERS = (
+    RefusalKind.CORNER_TOO_LARGE,
+    RefusalKind.CORNERS_OVERLAP,
+    RefusalKind.CORNER_STRAIGHT,
+    RefusalKind.CORNER_REVERSES,
+    RefusalKind.BEVEL_OUTSIDE,
+    RefusalKind.BEVEL_IN_BAND,
+    RefusalKind.LANDING_UNKNOWN,
+)
+"""Refusals after which the lines of the path are as they should be, without their corners."""
+
+
+@dataclass(frozen=True, slots=True)
+class Subject:
+    """An answer, what is known of it, its path, and the role of each given whose word is drawn."""
+
+    answer: Answer
+    known: Known
+    trails: tuple[Trail, ...]
+    roles: Mapping[str, Role]
+    blamed: frozenset[Span]
+    """The words and facts that errors are about."""
+
+    @property
+    def profile(self) -> Profile:
+        """The contour as it was read."""
+        return self.answer.profile
+
+    @property
+    def elements(self) -> dict[str, Segment]:
+        """What is drawn of the path, by name."""
+        return {segment.name: segment for trail in self.trails for segment in trail.segments}
+
+    def at(self, point: str) -> Point | None:
+        """Where a point is."""
+        return self.known.points.get(point)
+
+    def value(self, given: str) -> float:
+        """What a given states, mm or degrees."""
+        return float(self.profile.givens[given].value)
+
+    def role(self, given: str) -> Role:
+        """What became of a word."""
+        return self.roles.get(given, Role.GIVEN)
+
+    def word(self, given: str) -> str | None:
+        """The text of the word of a given; None without a word."""
+        found = self.profile.givens.get(given)
+        return word_text(found.word.text) if found is not None and found.word is not None else None
+
+    def ends(self, fact: Through | TangentLine) -> tuple[Point, Point] | None:
+        """Where the line of a fact begins and ends, if it has a length."""
+        line = next((each for each in self.profile.figure.path if each.name == fact.line), None)
+        tail, head = (self.at(line.tail), self.at(line.head)) if isinstance(line, Line) else (None, None)
+        return (tail, head) if tail is not None and head is not None and distance(tail, head) > SAME else None
+
+    def circle(self, center: str, radius: str) -> tuple[Point, float] | None:
+        """A circle of which both centre and radius are known."""
+        at, size = self.at(center), self.known.radii.get(radius)
+        return (at, size) if at is not None and size is not None else None
+
+    def circles_through(self, point: str) -> list[tuple[Point, float]]:
+        """The known circles on which a point must lie."""
+        facts = (fact for fact in self.profile.facts if isinstance(fact, OnCircle) and fact.point == point)
+        found = (self.circle(fact.center, fact.radius) for fact in facts)
+        return list(dict.fromkeys(circle for circle in found if circle is not None))
+
+
+def subject_of(answer: Answer) -> Subject:
+    """All that a picture of a contour shows."""
+    known, blamed = find_known(answer), frozenset(_blamed(answer))
+    return Subject(answer, known, tuple(list_trails(answer, known)), _roles(answer, blamed), blamed)
+
+
+# Words -------------------------------------------------------------------------------------------------------
+
+
+def _roles(answer: Answer, blamed: frozenset[Span]) -> dict[str, Role]:
+    """What became of each word, by the given that it states."""
+    ignored = {fact.given for fact in answer.profile.ignored}
+    roles: dict[str, Role] = {}
+    for name, given in answer.profile.givens.items():
+        if given.word is not None:
+            is_blamed = given.word.span in blamed
+            roles[name] = Role.IGNORED if name in ignored else Role.CONFLICTING if is_blamed else Role.GIVEN
+    for asked in answer.answers:
+        roles[asked.question.name] = Role.FREE if asked.value is None else Role.DERIVED
+    return roles
+
+
+def _blamed(answer: Answer) -> Iterator[Span]:
+    """The words and facts that errors are about; not those beside which a word is missing."""
+    is_short = any(finding.about is Trouble.UNDERDETERMINED for finding in answer.diagnostics)
+    claim = answer.claim
+    words = {word.span: word.address for word in (*claim.words.values(), *claim.unknown, *claim.repeated)}
+    words |= {directive.span: FACT for directive in claim.directives}
+    for finding in answer.diagnostics:
+        is_refusal = isinstance(finding.about, RefusalKind)
+        if finding.severity is not Severity.ERROR or isinstance(finding.about, RemarkKind):
+            continue
+        if is_refusal or not (is_short and _misses_words(finding, answer)):
+            spans = (label.span for label in finding.labels if label.span in words)
+            yield from (span for span in spans if is_refusal or words[span] in finding.addresses)
+
+
+def _misses_words(finding: Diagnostic, answer: Answer) -> bool:
+    """Whether a finding is mended by words beside all those that are there."""
+    texts = [word.text for block in answer.claim.blocks for word in block.words]
+    return any(all(text in fix.replacement for text in texts) for fix in finding.fixes)
+
+
+# Points ------------------------------------------------------------------------------------------------------
+
+
+def find_known(answer: Answer) -> Known:
+    """All that can be drawn of a contour; nothing if its start is not known."""
+    profile = answer.profile
+    if not answer.start.is_known:
+        return Known()
+    system = assemble(profile)
+    items = answer.alternatives.items if answer.alternatives is not None else ()
+    if answer.contour is not None:
+        if answer.alternatives is not None:
+            from contoursolve.solving.alternatives import choose  # noqa: PLC0415 - most contours need no choice
+
+            solution = next((i.solution for i in choose(answer.alternatives, profile.choices) if i.is_path), None)
+        else:
+            solution = solve(profile, is_proven=False) if is_closed(system) else None
+        if solution is not None and solution.points:
+            return known_of(solution)
+    verdict = judge(system)
+    if profile.is_extended:
+        # Of several solutions, among which nothing chooses, the first.
+        first = next((item.solution for item in items if item.is_path), None)
+        if first is not None:
+            return known_of(first)
+        is_asked = not verdict.is_determined and not answer.claim.directives  # and nothing gives what is asked for
+        return complete(profile) if is_asked else in_part(profile)
+    if verdict.is_determined:
+        return _worked_out(profile) if is_closed(system) else in_part(profile)
+    return _completed(profile)
+
+
+def _completed(profile: Profile) -> Known:
+    """A contour of which words leave something free, without those of them that contradict the others."""
+    refusals = tuple(each for each in said_twice(profile) if isinstance(each, Refusal))
+    against = {each.subject for each in refusals if each.kind is RefusalKind.WORDS_DISAGREE}
+    part = with_facts(profile, (fact for fact in profile.facts if fact.given not in against)) if against else profile
+    return replace(complete(part), refusals=refusals)
+
+
+def _worked_out(profile: Profile) -> Known:
+    """The points of a determined contour that is refused, as far as they exist, with its corners as large as stated."""
+    system = assemble(profile)
+    figure = system.figure
+    # One of two places where nothing chooses.
+    sides = {f"side:{point}": 1.0 for point in points_with_two_solutions(system)}
+    out = dict(compile_system(system).function({**sides, **inputs_of(profile, system)}))
+    origin = start_of(profile)
+
+    def absolute(at: Point) -> Point:
+        return origin[FIRST] + at[FIRST], origin[SECOND] + at[SECOND]
+
+    values = {scalar(figure.start, axis): origin[axis] for axis in (FIRST, SECOND)}
+    for name, axis in ((name, axis) for name in figure.points for axis in (FIRST, SECOND)):
+        if is_usable(out.get(scalar(name, axis), inf)):
+            values[scalar(name, axis)] = origin[axis] + out[scalar(name, axis)]
+    points, rest = by_point((figure.start, *figure.points), values)
+    radii = {name: out[name] for name in figure.radii if is_usable(out.get(name, inf)) and out[name] > 0}
+    corners = {}
+    for corner in figure.corners:
+        if corner.size in profile.givens and profile.givens[corner.size].value > 0:
+            built = corner_of(corner, float(profile.givens[corner.size].value), out, absolute)
+            places = (built.begin, built.end, *([built.center] if built.center else []))
+            if all(is_usable(value) for place in places for value in place) and isfinite(built.turn):
+                corners[corner.name] = built
+    is_solvable = count_choices(profile) <= MOST_CHOICES and is_chosen(profile)
+    refusals = solve(profile, is_proven=False).refusals if is_solvable else ()
+    singular = next((refusal.subject for refusal in refusals if refusal.kind is RefusalKind.NOT_FIXED), "")
+    if singular:
+        found = complete(profile, singular.split(","))
+        if found.placed:
+            return found
+    if len(points) < len(figure.points) + 1:
+        part = in_part(profile)
+        points, radii, rest = {**part.points, **points}, {**part.radii, **radii}, {**part.scalars, **rest}
+    return Known(points, radii, corners, refusals, scalars=rest)
+
+
+# The path ----------------------------------------------------------------------------------------------------
+
+
+def list_trails(answer: Answer, known: Known) -> Iterator[Trail]:
+    """The path; in several roles where a part of it is refused or free."""
+    if answer.contour is not None:
+        yield from [Trail(answer.contour.elements, Role.INK)] if answer.contour.elements else []
+        return
+    trail: Trail | None = None
+    for segment, role in trace_known(answer.profile, known):
+        if trail is not None and trail.role is role and trail.segments[-1].end == segment.start:
+            trail = replace(trail, segments=(*trail.segments, segment))
+            continue
+        yield from [trail] if trail is not None else []
+        trail = Trail((segment,), role)
+    yield from [trail] if trail is not None else []
+
+
+def trace_known(profile: Profile, known: Known) -> Iterator[tuple[Segment, Role]]:
+    """The elements between known points, each as stated (`INK`), refused or still free. Corners that do not fit are not
+    cut: they stand beside the path, refused."""
+    corners = {corner.at: corner for corner in profile.figure.corners}
+    refused = {refusal.subject for refusal in known.refusals}
+    is_uncut = any(refusal.kind in _CORNERS for refusal in known.refusals)
+    here: Point | None = known.points.get(profile.figure.start)
+    for element in profile.figure.path:
+        corner = corners.get(element.head)
+        built = known.corners.get(corner.name) if corner else None
+        is_cut = built is not None and not is_uncut and not known.refusals
+        tail, head = here, known.points.get(element.head)
+        end = built.begin if built is not None and is_cut else head
+        segment = _segment(element, tail, end, known) if tail is not None and end is not None else None
+        if segment is not None:
+            is_free = known.placed & {element.head, element.tail}
+            yield segment, Role.CONFLICTING if element.name in refused else Role.FREE if is_free else Role.INK
+        here = head
+        if corner is not None and built is not None:
+            cut = _corner(corner, built)
+            if is_cut:
+                yield cut, Role.FREE if element.head in known.placed else Role.INK
+                here = built.end
+            elif is_uncut and (corner.name in refused or element.name in refused or corner.after in refused):
+                yield cut, Role.CONFLICTING
+
+
+def _segment(element: Line | Arc, tail: Point, head: Point, known: Known) -> Segment | None:
+    if distance(head, tail) <= LENGTH:
+        return None
+    if isinstance(element, Line):
+        return LineSegment(element.name, tail, head)
+    center, radius = known.points.get(element.center), known.radii.get(element.radius)
+    if center is None or radius is None:
+        return None
+    return ArcSegment(element.name, tail, head, center, radius, element.turn)
+
+
+def _corner(corner: Corner, built: CornerSolution) -> Segment:
+    """A corner as an element of a path."""
+    if built.center is None:
+        return LineSegment(corner.name, built.begin, built.end)
+    turn = Turn.CCW if built.turn > 0 else Turn.CW
+    return ArcSegment(corner.name, built.begin, built.end, built.center, built.radius, turn)
