@@ -9,7 +9,6 @@ from itertools import chain
 from contoursolve.batch import Batch
 from contoursolve.carried import carried, frame_of
 from contoursolve.comments import LEFT_MARK, comment_out, own_comments, remark
-from contoursolve.contour import Segment
 from contoursolve.diagnostic import Severity
 from contoursolve.dialects import Dialect
 from contoursolve.emit import Format, Move, emit
@@ -22,7 +21,7 @@ from contoursolve.outcome import Left, Options, Summary, left_unread
 from contoursolve.pending import Step
 from contoursolve.pipeline import attach, walk
 from contoursolve.posts import Machine
-from contoursolve.reading import Effect, State, Trouble, apply_modes, codes_of, motion_of, words_of
+from contoursolve.reading import State, Trouble, apply_modes, blocks_of, motion_of, words_of
 from contoursolve.reliance import STANDING_ALONE, Reliance, reliance, restate, why_unmet
 from contoursolve.solving import Point
 from contoursolve.syntax import Block, Directive, Passage, Program, Word, parse_block
@@ -253,22 +252,22 @@ class _Expander:
 
     def _replace(self, step: Step, answer: Answer) -> Iterator[str]:
         claim, state = answer.claim, step.before
-        groups = _groups(answer)
+        elements = answer.contour.elements if answer.contour else ()
+        parts = {each.block.line: each for each in blocks_of(claim, state, self.modes)}
         axes = answer.plane.axes
         here = self._place(answer)
-        members = {block.line for block in claim.blocks}
         had_ended = self.motion is not None
         motion = self.motion if had_ended else state.motion
         for block in step.blocks:
-            if block.line not in members:
+            part = parts.get(block.line)
+            if part is None:
                 yield from self._keep(block, state)
                 continue
-            state = apply_modes(state, block, self.modes)
-            is_rapid = state.motion == 0 and not self._is_own_motion(block)
+            state = part.state
             form = self._format(state if answer.plane is state.plane else replace(state, plane=answer.plane))
             moves: list[Move] = []
-            for segment in groups.get(block.line, ()):
-                for move in emit(segment, here, form, is_rapid=is_rapid):
+            for segment in (each for each in elements if part.makes(each.name)):
+                for move in emit(segment, here, form, is_rapid=part.is_rapid):
                     here = move.end
                     if move.deviation > self.summary.deviation:
                         self.summary.deviation = move.deviation
@@ -276,7 +275,7 @@ class _Expander:
                         moves.append(move)
             beside = [self._as_written(word, form, state.unit) for word in claim.beside_plane(block)]
             if beside:
-                move = moves.pop() if moves else Move(0 if is_rapid else 1, (), here, 0.0)
+                move = moves.pop() if moves else Move(0 if part.is_rapid else 1, (), here, 0.0)
                 moves.append(move._replace(words=(*move.words, *beside)))
             end = self.lines.take_end(block.line)
             text = self._write(block, moves, end, state)
@@ -320,11 +319,6 @@ class _Expander:
         exponent = value.normalize().as_tuple().exponent
         places = max(form.decimals, -exponent if isinstance(exponent, int) else 0)
         return word.address + form.number(float(value), f"%.{places}f")
-
-    def _is_own_motion(self, block: Block) -> bool:
-        """Whether a code of the block itself makes it a contour, so that the motion in force has no part in it."""
-        own = (Effect.CONTOUR,)
-        return any(not isinstance(code, Word) and code.effect in own for code in codes_of(block, self.modes))
 
     def _write(self, block: Block, moves: list[Move], end: str, state: State) -> str:
         """The lines in place of a block. Its number and what it sets stand in the first, what ends it in the last."""
@@ -371,20 +365,3 @@ def _blocks_of(step: Step) -> Iterable[Block]:
 def _is_active(block: Block) -> bool:
     """Whether a block is more than the name of the program."""
     return bool(block.faults or block.macro) or any(word.address != "O" for word in block.words)
-
-
-def _groups(answer: Answer) -> dict[int, list[Segment]]:
-    """The elements of a contour by the line of the block that makes them; a corner belongs to the element before it.
-
-    A form has either one block, or one element a block.
-    """
-    claim, contour = answer.claim, answer.contour
-    elements = contour.elements if contour else ()
-    if len(claim.blocks) == 1:
-        return {claim.blocks[0].line: list(elements)}
-    owner = {each.name: block.line for each, block in zip(claim.form.path, claim.blocks, strict=True)}
-    owner |= {row.name: owner[row.before] for row in claim.form.corners}
-    groups: dict[int, list[Segment]] = {}
-    for element in elements:
-        groups.setdefault(owner[element.name], []).append(element)
-    return groups

@@ -11,9 +11,21 @@ from contoursolve.contour import ArcSegment, Segment
 from contoursolve.dialects import Dialect
 from contoursolve.dialects.plain import SWITCHES, Centers, Switch
 from contoursolve.examine import Answer
-from contoursolve.model import Length, Turn
+from contoursolve.model import Length, Plane, Turn
 from contoursolve.pipeline import Result
-from contoursolve.reading import Code, Effect, Lexicon, State, WithoutPoint, advance, apply_modes, codes_of, leave
+from contoursolve.reading import (
+    Code,
+    ContourBlock,
+    Effect,
+    Lexicon,
+    State,
+    WithoutPoint,
+    advance,
+    apply_modes,
+    blocks_of,
+    codes_of,
+    leave,
+)
 from contoursolve.reliance import MOTIONS, Reliance, reliance
 from contoursolve.syntax import Block, Macro, Program, Word
 from contoursolve.tolerance import LENGTH
@@ -72,43 +84,26 @@ class _Follower:
 
     def _contour(self, answer: Answer) -> Iterator[Step]:
         """The elements of a contour, each with the block that makes it: a form has one block, or one an element."""
-        claim, here = answer.claim, self.state
-        states: dict[int, tuple[Block, State]] = {}
-        for block in claim.blocks:
-            here = apply_modes(here, block, self.modes)
-            states[block.line] = block, replace(here, plane=answer.plane)
-        owner = {claim.form.path[0].name: claim.blocks[0].line}
-        if len(claim.blocks) > 1:
-            owner = {each.name: block.line for each, block in zip(claim.form.path, claim.blocks, strict=True)}
-            owner |= {row.name: owner[row.before] for row in claim.form.corners}
+        claim, parts = answer.claim, list(blocks_of(answer.claim, self.state, self.modes))
         reason = "the contour is not solved"
         left = leave(claim, answer.contour.end if answer.contour else None, self.modes, reason)
         elements = answer.contour.elements if answer.contour else ()
         for element in elements:
-            block, state = states[owner.get(element.name, claim.blocks[0].line)]
-            is_rapid = state.motion == 0 and not self._is_own_motion(block)
-            motion = Motion.RAPID if is_rapid else Motion.FEED
+            part = next((each for each in parts if each.makes(element.name)), parts[0])
             # Axes outside the plane move along.
             ends = self.state, left if element is elements[-1] else self.state
-            yield self._segment(block, state, element, motion, ends)
+            yield self._segment(part, answer.plane, element, ends)
         if answer.contour is None:
             yield self._unfollowed(claim.blocks[0], reason)
         elif not elements and any(map(claim.beside_plane, claim.blocks)):
-            block, state = states[claim.blocks[0].line]
-            motion = Motion.RAPID if state.motion == 0 else Motion.FEED
-            yield self._travel(block, state, motion, (self._place(self.state), self._place(left)), None)
+            motion = Motion.RAPID if parts[0].state.motion == 0 else Motion.FEED
+            ways = self._place(self.state), self._place(left)
+            yield self._travel(claim.blocks[0], parts[0].state, motion, ways, None)
         self.state = left
 
-    def _is_own_motion(self, block: Block) -> bool:
-        """Whether a code of the block itself makes it a contour, so that the motion in force has no part in it."""
-        codes = codes_of(block, self.modes)
-        return any(not isinstance(code, Word) and code.effect is Effect.CONTOUR for code in codes)
-
-    def _segment(
-        self, block: Block, state: State, segment: Segment, motion: Motion, states: tuple[State, State]
-    ) -> Travel:
+    def _segment(self, part: ContourBlock, plane: Plane, segment: Segment, states: tuple[State, State]) -> Travel:
         """An element of a contour in space, where the other axes are as in the states before and after it."""
-        first, second = (self.axes.index(axis) for axis in state.plane.axes)
+        first, second = (self.axes.index(axis) for axis in plane.axes)
         places: list[Place] = []
         for at, where in zip((segment.start, segment.end), states, strict=True):
             place = list(self._place(where))
@@ -117,7 +112,8 @@ class _Follower:
         bend = None
         if isinstance(segment, ArcSegment):
             bend = _bend((first, second), segment.center, segment.start, segment.end, segment.turn)
-        return self._travel(block, state, motion, (places[0], places[1]), bend)
+        motion = Motion.RAPID if part.is_rapid else Motion.FEED
+        return self._travel(part.block, part.state, motion, (places[0], places[1]), bend)
 
     def _switch(self, block: Block) -> Block:
         """A block without the codes that change how its words are read, which are in force now."""
