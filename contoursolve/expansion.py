@@ -21,7 +21,8 @@ from contoursolve.outcome import Left, Options, Summary, left_unread
 from contoursolve.pending import Step
 from contoursolve.pipeline import attach, walk
 from contoursolve.posts import Machine
-from contoursolve.reading import State, Trouble, apply_modes, blocks_of, motion_of, words_of
+from contoursolve.reading import State, Trouble, apply_modes, motion_of, words_of
+from contoursolve.reading.follow import blocks_of
 from contoursolve.reliance import STANDING_ALONE, Reliance, reliance, restate, why_unmet
 from contoursolve.solving import Point
 from contoursolve.syntax import Block, Directive, Passage, Program, Word, parse_block

@@ -22,6 +22,7 @@ from contoursolve.reading import (
     is_plain,
     next_place,
 )
+from contoursolve.reading.follow import contours_of, state_facts
 from contoursolve.recognise import what_shows
 from contoursolve.shown import Shown
 from contoursolve.source import Span
@@ -93,24 +94,17 @@ def attach(
 ) -> tuple[Program, tuple[Directive, ...]]:
     """The program with further facts in the last block of its only contour, or else of its last block; and the facts,
     those that are no texts in words. Raises FactPlaceError if there are several contours."""
-    steps = walk(program.blocks, dialect, unit, Policy.OFF, Depth.VERDICT, start)
-    answers = [step.answer for step in steps if isinstance(step.answer, Answer)]
-    if len(answers) > 1:
-        lines = ", ".join(str(answer.lines[0]) for answer in answers)
-        raise FactPlaceError(
-            f"the program has {len(answers)} contours (lines {lines}); write the fact into the block that it is about, "
-            "as a comment (contoursolve: ...)"
-        )
     before = dialect.initial_state(unit)
-    plane, length = (answers[0].plane, answers[0].unit) if answers else (before.plane, before.unit)
-    worded = tuple(_in_words(fact, plane, length) for fact in facts)
-    lines_with_words = [block.line for block in program.blocks if block.words]
-    last = answers[0].lines[-1] if answers else max(lines_with_words, default=0)
-    blocks = tuple(
-        replace(block, directives=(*block.directives, *worded)) if block.line == last else block
-        for block in program.blocks
-    )
-    return replace(program, blocks=blocks), worded
+    contours = [each for each, _ in contours_of(program.blocks, dialect.find, dialect.modes, before, start)]
+    if len(contours) > 1:
+        lines = ", ".join(str(each.blocks[0].line) for each in contours)
+        raise FactPlaceError(
+            f"the program has {len(contours)} contours (lines {lines}); write the fact into the block that it is "
+            "about, as a comment (contoursolve: ...)"
+        )
+    state, own = (contours[0].after, contours[0].blocks) if contours else (before, ())
+    worded = tuple(_in_words(fact, state.plane, state.unit) for fact in facts)
+    return state_facts(program, own, worded), worded
 
 
 def _in_words(fact: Directive, plane: Plane, unit: Length) -> Directive:

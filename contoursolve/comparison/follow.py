@@ -15,17 +15,16 @@ from contoursolve.model import Length, Plane, Turn
 from contoursolve.pipeline import Result
 from contoursolve.reading import (
     Code,
-    ContourBlock,
     Effect,
     Lexicon,
     State,
     WithoutPoint,
     advance,
     apply_modes,
-    blocks_of,
     codes_of,
     leave,
 )
+from contoursolve.reading.follow import ContourBlock, blocks_of
 from contoursolve.reliance import MOTIONS, Reliance, reliance
 from contoursolve.syntax import Block, Macro, Program, Word
 from contoursolve.tolerance import LENGTH

@@ -1,7 +1,7 @@
 """Modal state, and the way from blocks to profiles."""
 
 from contoursolve.reading.advance import Modes, advance, apply_modes, codes_of, positions
-from contoursolve.reading.beyond import ContourBlock, blocks_of, end_of_contour, leave, next_place
+from contoursolve.reading.beyond import end_of_contour, leave, next_place
 from contoursolve.reading.claim import Claim, Selector, Trouble, read, unused_words
 from contoursolve.reading.codes import Code, Effect
 from contoursolve.reading.form import CornerRow, FactRow, Form, Sample, lay_out, stated_sets
@@ -17,7 +17,6 @@ __all__ = [
     "Awaited",
     "Claim",
     "Code",
-    "ContourBlock",
     "Convention",
     "CornerRow",
     "Effect",
@@ -36,7 +35,6 @@ __all__ = [
     "advance",
     "advance_plainly",
     "apply_modes",
-    "blocks_of",
     "codes_of",
     "end_of_contour",
     "is_plain",

@@ -1,12 +1,11 @@
-"""A contour's blocks one by one, and what lies behind it: where it leaves the tool, where the next line ends."""
+"""What lies behind a contour: where it leaves the tool, and where the line of the next block ends."""
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import replace
 from decimal import Decimal
 
-from contoursolve.reading.advance import Modes, apply_modes, codes_of, positions
+from contoursolve.reading.advance import Modes, apply_modes, positions
 from contoursolve.reading.claim import Claim
-from contoursolve.reading.codes import Effect
 from contoursolve.reading.state import Position, State
 from contoursolve.source import Span
 from contoursolve.syntax import Block, Word
@@ -46,34 +45,6 @@ def _move_beside(state: State, claim: Claim, modes: Modes) -> State:
         here = apply_modes(here.move(state.axes), block, modes)
         state = state.move(positions(here, words, modes, block.is_skippable)) if words else state
     return state
-
-
-@dataclass(frozen=True, slots=True)
-class ContourBlock:
-    """One block of a contour: the state in which its words are read, whether it moves in rapid, and the names of the
-    elements and corners that it makes, None for all of them. A contour has one block, or one for each element."""
-
-    block: Block
-    state: State
-    is_rapid: bool
-    names: frozenset[str] | None
-
-    def makes(self, element: str) -> bool:
-        """Whether it makes the element of this name."""
-        return self.names is None or element in self.names
-
-
-def blocks_of(claim: Claim, before: State, modes: Modes) -> Iterator[ContourBlock]:
-    """The blocks of a contour that begins in a state."""
-    for number, block in enumerate(claim.blocks):
-        before, names = apply_modes(before, block, modes), None
-        if len(claim.blocks) > 1:
-            own = claim.form.path[number].name
-            names = frozenset([own, *(row.name for row in claim.form.corners if row.before == own)])
-        codes = codes_of(block, modes)
-        # A code of the block itself may make it a contour, so that the motion in force has no part in it.
-        is_own = any(not isinstance(code, Word) and code.effect is Effect.CONTOUR for code in codes)
-        yield ContourBlock(block, before, before.motion == 0 and not is_own, names)
 
 
 def end_of_contour(value: float, span: Span, *, is_skippable: bool = False) -> Position:

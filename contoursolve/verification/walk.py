@@ -7,7 +7,8 @@ from dataclasses import replace
 from contoursolve import syntax
 from contoursolve.dialects import DIALECTS, Dialect
 from contoursolve.model import Length
-from contoursolve.reading import advance, leave, next_place
+from contoursolve.reading import Claim, next_place
+from contoursolve.reading.follow import contours_of, state_facts
 from contoursolve.syntax import Block, Directive, Program
 from contoursolve.verification.contour_checks import check_contour
 from contoursolve.verification.decode import (
@@ -142,38 +143,30 @@ def follow(
     `start` are blocks that state the start point apart from the program. Facts that only the result states are taken
     as stated in the last block of their contour.
     """
-    blocks, state, start_error = _with_claimed_facts(program.blocks, claims), dialect.initial_state(unit), 0.0
-    for block in start.blocks if start else ():
-        state = advance(state, block, dialect.modes)
-    apart, index = sum(each.span.line < 0 for block in program.blocks for each in block.directives), 0
-    while index < len(blocks):
-        found = dialect.find(blocks, index, state, dialect.modes)
-        if found is not None and found.form.is_contour:
-            claimed = claims.get(blocks[index].line)
-            index += found.blocks[-1].line - blocks[index].line
-            behind = next_place(blocks[index + 1 :], found, dialect.modes)
-            yield Found(found, claimed, start_error, dialect, behind, rules, apart)
-            end = claimed.end if claimed and claimed.has_path else None
-            state = leave(found, end, dialect.modes, "the contour before has no path")
-            start_error = PRINTED if claimed and claimed.end is not None else start_error
-        else:
-            state = advance(state, blocks[index], dialect.modes)
-        index += 1
+    blocks, start_error = _with_claimed_facts(program.blocks, claims), 0.0
+    apart = sum(each.span.line < 0 for block in program.blocks for each in block.directives)
+
+    def end_of(claim: Claim) -> tuple[float, float] | None:
+        claimed = claims.get(claim.blocks[0].line)
+        return claimed.end if claimed and claimed.has_path else None
+
+    state, modes = dialect.initial_state(unit), dialect.modes
+    for found, behind in contours_of(blocks, dialect.find, modes, state, start, end_of):
+        claimed = claims.get(found.blocks[0].line)
+        yield Found(found, claimed, start_error, dialect, next_place(blocks[behind:], found, modes), rules, apart)
+        start_error = PRINTED if claimed and claimed.end is not None else start_error
 
 
 def with_facts(
     program: Program, dialect: Dialect, unit: Length, start: Program | None, facts: Sequence[str]
 ) -> Program:
-    """The program with facts that were stated apart from it, in the last block of its only contour, or else its last
-    block: there they may make a contour. Raises CannotVerifyError if there are several contours."""
+    """The program with facts that were stated apart from it. Raises CannotVerifyError if there are several contours."""
     found = [each.claim.blocks for each in follow(program, dialect, unit, {}, start=start)]
     if len(found) > 1:
         lines = ", ".join(str(each[0].line) for each in found)
         raise CannotVerifyError(f"a fact is about the only contour, and the program has {len(found)} (lines {lines})")
     directives = [syntax.read_directive(text, -number) for number, text in enumerate(facts, 1)]
-    own = found[0] if found else [block for block in program.blocks if block.words]
-    last = max((block.line for block in own), default=0)
-    return replace(program, blocks=_attach(program.blocks, {last: directives}))
+    return state_facts(program, found[0] if found else (), directives)
 
 
 def _with_claimed_facts(blocks: Sequence[Block], claims: Mapping[int, ClaimedContour]) -> tuple[Block, ...]:
@@ -191,11 +184,6 @@ def _with_claimed_facts(blocks: Sequence[Block], claims: Mapping[int, ClaimedCon
                 rest.append(syntax.read_directive(text, -given - len(rest) - 1))
         if claimed.lines:
             added[claimed.lines[-1]] = rest
-    return _attach(blocks, added)
-
-
-def _attach(blocks: Sequence[Block], added: Mapping[int, Sequence[Directive]]) -> tuple[Block, ...]:
-    """The blocks with further facts, by line."""
     return tuple(
         replace(block, directives=(*block.directives, *added[block.line])) if added.get(block.line) else block
         for block in blocks

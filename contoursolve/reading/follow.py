@@ -1,0 +1,82 @@
+"""Following a program through its contours, one after the other, and a contour through its blocks."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from contoursolve.reading.advance import Modes, advance, apply_modes, codes_of
+from contoursolve.reading.beyond import leave
+from contoursolve.reading.claim import Claim
+from contoursolve.reading.codes import Effect
+from contoursolve.reading.state import State
+from contoursolve.syntax import Block, Directive, Program, Word
+
+Finder = Callable[[Sequence[Block], int, State, Modes], Claim | None]
+"""(blocks, index, state before the block, modes) to the contour that begins at this block, if any."""
+
+End = tuple[float, float] | None
+"""Where a contour ends, mm, if that is known."""
+
+
+def contours_of(
+    blocks: Sequence[Block],
+    find: Finder,
+    modes: Modes,
+    state: State,
+    start: Program | None = None,
+    end_of: Callable[[Claim], End] = lambda _: None,
+) -> Iterator[tuple[Claim, int]]:
+    """Every contour of a program in order, with the index of the block behind it; the next one begins where `end_of` says.
+
+    `start` are blocks that state the start point apart from the program.
+    """
+    for block in start.blocks if start else ():
+        state = advance(state, block, modes)
+    index = 0
+    while index < len(blocks):
+        found = find(blocks, index, state, modes)
+        if found is not None and found.form.is_contour:
+            index += found.blocks[-1].line - blocks[index].line + 1
+            yield found, index
+            state = leave(found, end_of(found), modes, "the contour before has no path")
+        else:
+            state = advance(state, blocks[index], modes)
+            index += 1
+
+
+def state_facts(program: Program, contour: Sequence[Block], facts: Sequence[Directive]) -> Program:
+    """The program with further facts in the last block of its only contour, or else in its last block with words: there
+    they may make a contour."""
+    last = max((block.line for block in contour or [block for block in program.blocks if block.words]), default=0)
+    blocks = tuple(
+        replace(block, directives=(*block.directives, *facts)) if block.line == last else block
+        for block in program.blocks
+    )
+    return replace(program, blocks=blocks)
+
+
+@dataclass(frozen=True, slots=True)
+class ContourBlock:
+    """One block of a contour: the state in which its words are read, whether it moves in rapid, and the names of the
+    elements and corners that it makes, None for all of them. A contour has one block, or one for each element."""
+
+    block: Block
+    state: State
+    is_rapid: bool
+    names: frozenset[str] | None
+
+    def makes(self, element: str) -> bool:
+        """Whether it makes the element of this name."""
+        return self.names is None or element in self.names
+
+
+def blocks_of(claim: Claim, before: State, modes: Modes) -> Iterator[ContourBlock]:
+    """The blocks of a contour that begins in a state."""
+    for number, block in enumerate(claim.blocks):
+        before, names = apply_modes(before, block, modes), None
+        if len(claim.blocks) > 1:
+            own = claim.form.path[number].name
+            names = frozenset([own, *(row.name for row in claim.form.corners if row.before == own)])
+        codes = codes_of(block, modes)
+        # A code of the block itself may make it a contour, so that the motion in force has no part in it.
+        is_own = any(not isinstance(code, Word) and code.effect is Effect.CONTOUR for code in codes)
+        yield ContourBlock(block, before, before.motion == 0 and not is_own, names)
