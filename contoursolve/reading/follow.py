@@ -25,7 +25,7 @@ def contours_of(
     start: Program | None = None,
     end_of: Callable[[Claim], End] = lambda _: None,
 ) -> Iterator[tuple[Claim, int]]:
-    """Every contour of a program in order, with the index of the block behind it; the next one begins where `end_of` says.
+    """Every contour of a program, with the index of the block behind it; the next one begins where `end_of` says.
 
     `start` are blocks that state the start point apart from the program.
     """
