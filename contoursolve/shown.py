@@ -19,7 +19,7 @@ class Shown:
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
         """Text, HTML and SVG of this record, as IPython asks for them; what cannot be drawn is text."""
         try:
-            bundle: dict[str, str] = import_module("contoursolve.notebook.bundle").bundle(self)
+            bundle: dict[str, str] = import_module("contoursolve.notebook.text").bundle(self)
         except Exception:  # a notebook must go on, whatever is missing or broken
             return {"text/plain": repr(self)}
         wanted = set(include or bundle) - set(exclude or ())

@@ -1,9 +1,10 @@
 """Values, places and names as messages say them: in the program's unit, with the axes of its plane."""
 
-from collections.abc import Callable, Sequence
-from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
+from collections.abc import Callable, Mapping, Sequence
+from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Decimal
 
-from contoursolve.model import CornerShape, Length, Profile
+from contoursolve.model import CornerShape, Length, Plane, Profile
+from contoursolve.solving import Status
 
 SHOWN = 60
 """Characters of a word or a list of words in a message; the listing shows the rest."""
@@ -102,3 +103,69 @@ def _number(value: float, decimals: int) -> str:
     smallest = 0.5 * 10.0**-decimals
     value += 0.0  # -0.0 is 0
     return f"{value:.{decimals}f}" if abs(value) >= smallest or value == 0 else f"{value:.1e}"
+
+
+# As listings show them, with a decimal more than messages ----------------------------------------------------
+
+_INCH = float(Length.INCH.in_mm)
+
+
+def length_of(mm: float, unit: Length) -> str:
+    """A length in the unit of a program: four decimals of a millimetre, five of an inch; no negative zero."""
+    return f"{mm:z.4f}" if unit is Length.MM else f"{mm / _INCH:z.5f}"
+
+
+def length_in(mm: float, unit: Length) -> str:
+    """A length in the unit of a program, with that unit."""
+    return f"{length_of(mm, unit)} {short_name(unit.value)}"
+
+
+def written(value: float, unit: str, way: int = 0) -> str:
+    """A value as its word has it, with its unit (mm, inch or deg); decimals as for lengths. An upper (`way` 1) or a
+    lower limit (-1) is rounded into its range."""
+    decimals = 5 if unit == "inch" else 4
+    rounding = {1: ROUND_FLOOR, -1: ROUND_CEILING}.get(way, ROUND_HALF_EVEN)
+    shown = Decimal(repr(value)).quantize(Decimal(1).scaleb(-decimals), rounding) if way else value
+    return f"{shown:z.{decimals}f} {short_name(unit)}"
+
+
+def coordinate_texts(place: Sequence[float], plane: Plane, unit: Length) -> list[str]:
+    """Coordinates (mm, X of a lathe as radius) as numbers of the program, one for each axis."""
+    return [
+        length_of(value * (2 if is_diameter else 1), unit)
+        for value, is_diameter in zip(place, plane.diameters, strict=True)
+    ]
+
+
+def coordinates(place: Sequence[float | None], plane: Plane, unit: Length) -> str:
+    """Coordinates (mm, X of a lathe as radius) as the control writes them; of a place with one coordinate, that one."""
+    texts = coordinate_texts([value or 0.0 for value in place], plane, unit)
+    shown = zip(plane.axes, place, texts, strict=True)
+    return " ".join(f"{letter}{text}" for letter, value, text in shown if value is not None)
+
+
+def measured(place: Sequence[float | None], plane: Plane, unit: Length) -> str:
+    """Coordinates as the control writes them, with their unit."""
+    return f"{coordinates(place, plane, unit)} {short_name(unit.value)}"
+
+
+def axis_labels(plane: Plane, what: str = "dia") -> list[str]:
+    """The axes, with what is said of one that is programmed as a diameter."""
+    return [
+        f"{axis} {what}" if is_diameter else axis for axis, is_diameter in zip(plane.axes, plane.diameters, strict=True)
+    ]
+
+
+def short_name(unit: str) -> str:
+    """A unit as it stands behind a number."""
+    return "in" if unit == "inch" else unit
+
+
+def count(number: int, noun: str) -> str:
+    """A number with its noun: `1 error`, `2 errors`."""
+    return f"{number} {noun}{'' if number == 1 else 's'}"
+
+
+def statuses_text(statuses: Mapping[Status, int]) -> str:
+    """How many contours have each status, the best first."""
+    return ", ".join(f"{statuses[each]} {each.value}" for each in reversed(Status) if statuses.get(each))

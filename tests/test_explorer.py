@@ -16,8 +16,7 @@ import pytest
 import contoursolve
 from contoursolve import Status
 from contoursolve.notebook import exploration as explore
-from contoursolve.notebook.reach import range_of
-from contoursolve.notebook.view import view_of
+from contoursolve.notebook.view import range_of, view_of
 
 WHOLE = "G111 X100. A180. K-30. B120. P5. Q5."
 START = {"start": "X40. Z0."}
@@ -293,7 +292,7 @@ def test_without_a_kernel_the_picture_is_there(widget):
 
 
 def test_without_a_picture_the_tables_are_there(widget, monkeypatch):
-    monkeypatch.setattr("contoursolve.markup.picture.draw_answer", None)
+    monkeypatch.setattr("contoursolve.pictures.draw_answer", None)
     data, _ = widget._repr_mimebundle_()
     assert "text/html" in data
     assert "image/svg+xml" not in data

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from contoursolve import solve
 from contoursolve.cli import main
 from contoursolve.model import Length, Plane
-from contoursolve.output.vocabulary import vocabulary_lines
+from contoursolve.output.catalogue import vocabulary_lines
 from contoursolve.statements import GrammarError, Vocabulary, read_statement
 
 LATHE = Vocabulary(

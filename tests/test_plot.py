@@ -16,7 +16,7 @@ import contoursolve
 from contoursolve.cli import main
 from contoursolve.contour import ArcSegment
 from contoursolve.model import Turn
-from contoursolve.output.drawing_dxf import CONSTRUCTION, layer_name, to_dxf
+from contoursolve.output.dxf import CONSTRUCTION, layer_name, to_dxf
 
 PROGRAMS = Path(__file__).parent.parent / "notebooks" / "programs"
 CIRCLE = "G17 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q-1"
@@ -158,7 +158,7 @@ def test_a_target_that_makes_no_sense_is_named(tmp_path, output, said):
 
 def test_without_ezdxf_the_message_says_what_to_install(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "ezdxf", None)
-    monkeypatch.delitem(sys.modules, "contoursolve.output.drawing_dxf")
+    monkeypatch.delitem(sys.modules, "contoursolve.output.dxf")
     status, output = plot(PROGRAMS / "shaft.nc", "-o", tmp_path / "part.dxf")
     assert status == 2
     assert f'{sys.executable} -m pip install "contoursolve[dxf]"' in output

@@ -12,8 +12,8 @@ from click.testing import CliRunner
 
 import contoursolve
 from contoursolve.cli import main
-from contoursolve.output.contours import path_rows
-from contoursolve.report import report_page
+from contoursolve.output.contours import path_table
+from contoursolve.output.report import report_page
 
 PROGRAMS = sorted((Path(__file__).parent.parent / "notebooks" / "programs").glob("*.nc"))
 BROKEN = next(path for path in PROGRAMS if path.stem == "shaft_broken")
@@ -78,7 +78,7 @@ def test_the_page_holds_every_number_every_finding_and_every_line(path):
         assert str(finding.source.place) in shown
         assert all(note in shown for note in finding.notes)
     for answer in result.answers:
-        assert all(cell in shown for row in path_rows(answer) for cell in row)
+        assert all(cell in shown for row in path_table(answer).rows for cell in row)
     assert len(page.all("article")) == len(result.answers) > 1
     assert len(page.all("svg")) == len(page.all("figure")) == len(result.answers) + 1  # one of the whole program
     assert len(page.all("table")) >= 2 * len(result.answers)

@@ -15,8 +15,8 @@ import contoursolve
 from contoursolve import Status
 from contoursolve.contour import ArcSegment
 from contoursolve.dialects import DIALECTS
-from contoursolve.markup import style
-from contoursolve.notebook import bundle as bundles
+from contoursolve.notebook import text as bundles
+from contoursolve.output import html as style
 from contoursolve.solving.enumerate import Effort
 
 BLOCKS = int(os.environ.get("CONTOURSOLVE_RICH", "14"))
@@ -307,17 +307,16 @@ def test_a_large_program_stays_small():
 def test_what_cannot_be_drawn_is_told_and_what_cannot_be_made_is_left_out(monkeypatch):
     answer = contoursolve.solve(WHOLE, start="X40. Z0.").answers[0]
 
-    def fail(*_):
+    def fail(*_, **__):
         raise RuntimeError("no")
 
-    monkeypatch.setattr("contoursolve.markup.figure.picture_of", fail)
-    monkeypatch.setattr("contoursolve.markup.picture.draw_answer", fail)
+    monkeypatch.setattr("contoursolve.pictures.draw_answer", fail)
     data = answer._repr_mimebundle_()
     assert SVG not in data
     assert "cannot be drawn" in "".join(Page(data[HTML]).words)
     monkeypatch.setattr("contoursolve.notebook.html.html_of", fail)
     assert list(answer._repr_mimebundle_()) == [TEXT]
-    monkeypatch.setattr("contoursolve.notebook.bundle.text_of", fail)
+    monkeypatch.setattr("contoursolve.notebook.text.text_of", fail)
     assert answer._repr_mimebundle_() == {TEXT: repr(answer)}
 
 

@@ -28,8 +28,8 @@ from contoursolve.backends import ball
 from contoursolve.cli import main
 from contoursolve.constraints import assemble
 from contoursolve.examine import list_alternatives
-from contoursolve.output.solutions import DECIMALS, printed_certificate
 from contoursolve.sketch import Drawings, Drawn
+from contoursolve.solutions import DECIMALS, printed_certificate
 from contoursolve.solving.certificate import Proof
 from contoursolve.solving.enumerate import enumerate_solutions
 from contoursolve.solving.ground import ground_of

@@ -37,7 +37,7 @@ def _chosen(control: str | Dialect | None) -> list[Dialect]:
 @click.command(short_help="List the further facts that can be stated about a contour.")
 def facts() -> None:
     """List the further facts that can be stated about a contour, with --fact or in a comment (contoursolve: ...)."""
-    from contoursolve.output.vocabulary import vocabulary_lines  # noqa: PLC0415 - only here
+    from contoursolve.output.catalogue import vocabulary_lines  # noqa: PLC0415 - only here
 
     print_lines(vocabulary_lines())
 

@@ -30,13 +30,13 @@ from contoursolve.files import CannotWriteError, Tape, check_target, open_tape, 
 from contoursolve.model import Length
 from contoursolve.outcome import Options, Summary
 from contoursolve.output.findings import Style, finding_lines, plain
-from contoursolve.output.layout import count
 from contoursolve.pipeline import FactPlaceError
 from contoursolve.posts import POSTS, Arcs, Numbering, Post, Risk
 from contoursolve.project import SettingError
 from contoursolve.recognise import UnknownControlError
 from contoursolve.rewrite import Rewritten, rewrite
 from contoursolve.syntax import UnreadableProgramError
+from contoursolve.wording import count
 
 _BY_HAND = "write by hand what is meant there"
 

@@ -16,7 +16,7 @@ from contoursolve.cli.blocks import (
 from contoursolve.cli.options import FOUND_ERRORS
 from contoursolve.cli.printing import print_lines
 from contoursolve.families import find_word
-from contoursolve.output.inverse import found_data, found_lines
+from contoursolve.output.families import found_data, found_lines
 
 
 @click.command("find", short_help="Find the value of a word that brings a point where it is wanted.")

@@ -17,10 +17,10 @@ from contoursolve.cli.printing import print_lines, say, style_of_output
 from contoursolve.examine import Answer
 from contoursolve.extras import MissingExtraError, importing
 from contoursolve.files import CannotWriteError, check_target, write_whole
-from contoursolve.output.layout import count
 from contoursolve.output.listing import lines_of_findings, summary_line
 from contoursolve.pictures import Theme, draw_answer, draw_result
 from contoursolve.pipeline import Result
+from contoursolve.wording import count
 
 _DXF = ".dxf"
 
@@ -139,7 +139,7 @@ def _at(answers: Sequence[Answer], line: int) -> Answer:
 def _drawings_for_cad(result: Result, target: Path) -> list[Written]:
     """The DXF drawing, if anything is solved."""
     with importing("dxf", "a DXF drawing"):
-        from contoursolve.output.drawing_dxf import to_dxf  # noqa: PLC0415 - needs an extra
+        from contoursolve.output.dxf import to_dxf  # noqa: PLC0415 - needs an extra
     contours = [answer.contour for answer in result.answers if answer.contour]
     if not contours:
         return []

@@ -16,7 +16,7 @@ from contoursolve.cli.blocks import (
 from contoursolve.cli.options import FOUND_ERRORS
 from contoursolve.cli.printing import print_lines
 from contoursolve.families import feasible, region
-from contoursolve.output.ranges import range_data, range_lines, region_data, region_lines
+from contoursolve.output.families import range_data, range_lines, region_data, region_lines
 
 
 @click.command("range", short_help="Tell for which values of a word, or of two, a contour exists.")

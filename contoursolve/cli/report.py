@@ -54,7 +54,7 @@ def report(
         raise CouldNotRunError(f"{target}: pages end in .html")
     try:
         with importing("report", "a report"):
-            from contoursolve.report import report_page  # noqa: PLC0415 - needs an extra
+            from contoursolve.output.report import report_page  # noqa: PLC0415 - needs an extra
         check_target(target, Path(program) if program else None, is_forced=is_forced)
         result = examine(loader(), start, assignments, options)
         if not result.answers:

@@ -8,7 +8,7 @@ import click
 from contoursolve.cli.blocks import block_options, fact_option, format_option, print_json, read_options, usage
 from contoursolve.cli.printing import print_lines
 from contoursolve.families import tolerances
-from contoursolve.output.tolerances import tolerances_data, tolerances_lines
+from contoursolve.output.families import tolerances_data, tolerances_lines
 
 
 @click.command("sensitivity", short_help="Tell which word moves a point most, and what tolerances come to.")

@@ -124,7 +124,7 @@ def check(
             else:
                 results.append(only_findings(run.collect()))
                 for finding in results[-1].diagnostics:
-                    tally.add(finding)
+                    tally.count(finding)
     if failed and not done:
         context.exit(COULD_NOT_RUN)
     match format_:

@@ -1,5 +1,36 @@
 """Notebooks: how records show themselves, and a contour to move."""
 
-from contoursolve.notebook.entrance import explore
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING
+
+from contoursolve.dialects import Dialect
+from contoursolve.extras import importing
+from contoursolve.notebook.exploration import begin
+
+if TYPE_CHECKING:
+    from contoursolve.notebook.explorer import Explorer
 
 __all__ = ["explore"]
+
+
+def explore(
+    block: str,
+    *,
+    start: str | None = None,
+    control: str | Dialect | None = None,
+    units: str = "mm",
+    rules: str = "enforce",
+    facts: Iterable[str] = (),
+    settings: Mapping[str, str] | None = None,
+) -> "Explorer":
+    """A contour to move, in a notebook: a slider for each word, the picture, the findings and their fixes.
+
+    Arguments and errors as for `solve`; `block` may be several lines, with one contour. The widget's `text` is the
+    block as it is now, `result` what it comes to. Without a kernel the notebook shows the picture as it last was.
+
+    Raises MissingExtraError without the packages of `contoursolve[notebook]`, ValueError for several contours.
+    """
+    with importing("notebook", "exploring a contour"):
+        from contoursolve.notebook.explorer import Explorer  # noqa: PLC0415 - needs an extra
+    options = {"start": start, "control": control, "units": units, "rules": rules, "settings": settings}
+    return Explorer(begin(block, facts, **options))

@@ -14,8 +14,8 @@ from contoursolve.examine import Answer
 from contoursolve.families.spec import call
 from contoursolve.fill import FARTHEST
 from contoursolve.model import Unit
-from contoursolve.output.solutions import Listed, list_solutions
 from contoursolve.pipeline import Result
+from contoursolve.solutions import Listed, list_solutions
 from contoursolve.solving import Status
 from contoursolve.syntax import FACT, Word, parse
 

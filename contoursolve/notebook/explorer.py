@@ -7,12 +7,11 @@ from typing import Any
 import anywidget
 import traitlets
 
-from contoursolve.markup.style import notebook_style
 from contoursolve.notebook import exploration as explorations
-from contoursolve.notebook.bundle import bundle
 from contoursolve.notebook.exploration import Exploration
-from contoursolve.notebook.reach import frames_of, range_of
-from contoursolve.notebook.view import view_of
+from contoursolve.notebook.text import bundle
+from contoursolve.notebook.view import frames_of, range_of, view_of
+from contoursolve.output.html import notebook_style
 from contoursolve.pipeline import Result
 
 _HOUSE = files("contoursolve.notebook")

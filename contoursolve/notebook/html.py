@@ -1,6 +1,7 @@
 """Records as HTML for an output of a notebook, in the notebook's theme and without anything from a network."""
 
 from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
 from typing import Any
 
 import htpy as h
@@ -9,38 +10,56 @@ from markupsafe import Markup
 from contoursolve.contour import Contour
 from contoursolve.diagnostic import Diagnosis, Diagnostic
 from contoursolve.examine import Answer
-from contoursolve.markup.answers import (
+from contoursolve.families import Family, Feasible, Found, Region, Sensitivity, Tolerances
+from contoursolve.notebook.text import (
+    bounded,
+    contour_table,
+    controls_of,
+    diagnosis_tables,
+    family_tables,
+    result_of,
+    slope_table,
+    text_of,
+    word_table,
+)
+from contoursolve.output.contours import check_table, form_text
+from contoursolve.output.families import (
+    effect_table,
+    found_table,
+    found_title,
+    range_notes,
+    range_table,
+    range_title,
+    region_table,
+    region_title,
+    spread_lines,
+    tolerances_title,
+)
+from contoursolve.output.html import (
     checks_table,
-    cut,
-    path_table,
+    figure,
+    finding_element,
+    notebook_style,
+    path_element,
     remarks,
+    short,
     solutions_table,
+    table,
+    table_of,
     words_table,
 )
-from contoursolve.markup.figure import figure
-from contoursolve.markup.findings import finding_element
-from contoursolve.markup.style import notebook_style
-from contoursolve.markup.tables import short, table
-from contoursolve.notebook.families import FAMILY_PARTS
-from contoursolve.notebook.text import (
-    contour_rows,
-    controls_of,
-    freedom_rows,
-    result_of,
-    text_of,
-    tie_rows,
-    word_rows,
-)
-from contoursolve.output.contours import check_rows
-from contoursolve.output.layout import count
 from contoursolve.output.listing import listed, sources_of, summary_line
 from contoursolve.pipeline import Result
 from contoursolve.rules import Rule
 from contoursolve.shown import Shown
 from contoursolve.syntax import Block
+from contoursolve.wording import count
 
 MOST_ITEMS = 20
 """Contours and findings that one output shows."""
+
+MAP_WORDS = 2
+"""Free words of a family that a map shows."""
 
 
 def html_of(record: Shown) -> str:
@@ -50,8 +69,6 @@ def html_of(record: Shown) -> str:
 
 
 def _text(record: Shown) -> Iterator[h.Node]:
-    from contoursolve.notebook.bundle import bounded  # noqa: PLC0415 - it calls this module by name
-
     yield h.pre[bounded(text_of(record))]
 
 
@@ -76,10 +93,9 @@ def _answer(answer: Answer) -> Iterator[h.Node]:
 
 def _contour_of(answer: Answer, result: Result) -> Iterator[h.Node]:
     """The picture, the path, what was given, and the findings of one contour."""
-    form = answer.claim.form
-    yield h.h3[short(f"{result.program.name}:{answer.lines[0]}: {form.name} ({form.title}): {answer.status.value}")]
+    yield h.h3[short(f"{result.program.name}:{answer.lines[0]}: {form_text(answer)}: {answer.status.value}")]
     yield figure(answer)
-    yield path_table(answer)
+    yield path_element(answer)
     yield from remarks(answer, result.control or "")
     for finding in answer.diagnostics[:MOST_ITEMS]:
         yield finding_element(finding, result.program.name, sources_of(result, finding))
@@ -97,22 +113,17 @@ def _finding(finding: Diagnostic) -> h.Node:
 
 
 def _diagnosis(diagnosis: Diagnosis) -> Iterator[h.Node]:
-    header, *rows = check_rows(diagnosis)
-    yield table("Checks", header, rows)
-    if diagnosis.freedoms:
-        yield table("What can still move", ("point", "how"), cut(freedom_rows(diagnosis)))
-    if diagnosis.ties:
-        yield table("What says the same", ("words", "formula", "disagreement"), cut(tie_rows(diagnosis)))
+    yield table_of(check_table(diagnosis))
+    yield from map(table_of, diagnosis_tables(diagnosis))
 
 
 def _contour(contour: Contour) -> h.Node:
-    header, *rows = contour_rows(contour)
-    return table("The path", header, cut(rows), numbers=range(2, len(header)))
+    return table_of(contour_table(contour))
 
 
 def _block(block: Block) -> Iterator[h.Node]:
     yield h.pre[short(block.text)]
-    yield table("Words", ("column", "word", "value"), word_rows(block), numbers=(0, 2))
+    yield table_of(word_table(block))
 
 
 def _rule(rule: Rule) -> Iterator[h.Node]:
@@ -135,6 +146,51 @@ def _examples(title: str, examples: Iterable[str]) -> Iterator[h.Node]:
         yield h.pre["\n".join(map(short, example.split("\n")))]
 
 
+# Families ----------------------------------------------------------------------------------------------------
+
+
+def _family(family: Family) -> Iterator[h.Node]:
+    if not family.ranges.is_paired and len(family.ranges.values) == MAP_WORDS:
+        yield figure(family)
+    yield from map(table_of, family_tables(family))
+    title = f"{count(len(family.names), 'array')} of shape {' x '.join(map(str, family.shape))}"
+    yield h.details[h.summary[title], ", ".join(family.names)]
+
+
+def _range(found: Feasible) -> Iterator[h.Node]:
+    yield figure(found)
+    yield h.p[short(range_title(found))]
+    if found.intervals:
+        yield table_of(range_table(found))
+    yield from (h.p[short(note)] for note in range_notes(found))
+
+
+def _region(found: Region) -> Iterator[h.Node]:
+    yield figure(found)
+    yield h.p[short(region_title(found))]
+    if found.boundaries:
+        yield table_of(region_table(found))
+
+
+def _found(found: Found) -> Iterator[h.Node]:
+    yield h.p[short(found_title(found))]
+    if found.remark:
+        yield h.p[short(f"{found.remark}.")]
+    if found.hits:
+        yield table_of(found_table(found))
+
+
+def _tolerances(found: Tolerances) -> Iterator[h.Node]:
+    yield h.p[short(tolerances_title(found))]
+    yield table_of(effect_table(found))
+    yield from (h.p[short(f"{line}.")] for line in spread_lines(found))
+
+
+def _sensitivity(found: Sensitivity) -> h.Node:
+    slopes = slope_table(found)
+    return table_of(replace(slopes, caption=slopes.caption.capitalize()))
+
+
 _PARTS: dict[type, Callable[[Any], h.Node]] = {
     Result: _result,
     Answer: _answer,
@@ -143,5 +199,10 @@ _PARTS: dict[type, Callable[[Any], h.Node]] = {
     Contour: _contour,
     Block: _block,
     Rule: _rule,
-    **FAMILY_PARTS,
+    Family: _family,
+    Feasible: _range,
+    Region: _region,
+    Found: _found,
+    Tolerances: _tolerances,
+    Sensitivity: _sensitivity,
 }

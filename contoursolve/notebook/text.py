@@ -1,6 +1,8 @@
-"""Records as the terminal prints them."""
+"""Records as a notebook shows them: the terminal's text always, HTML and a picture where they can be made."""
 
+import sys
 from collections.abc import Callable, Iterable, Iterator
+from importlib import import_module
 from itertools import islice
 from math import isnan
 from typing import Any
@@ -11,20 +13,77 @@ from contoursolve.dialects import DIALECTS
 from contoursolve.examine import Answer
 from contoursolve.families import Family, Feasible, Found, Region, Sensitivity, Tolerances
 from contoursolve.output.catalogue import rule_lines
-from contoursolve.output.contours import check_rows
+from contoursolve.output.contours import check_table
+from contoursolve.output.families import found_lines, range_lines, region_lines, tolerances_lines
 from contoursolve.output.findings import finding_lines, plain
-from contoursolve.output.inverse import found_lines
-from contoursolve.output.layout import columns, count, printable
+from contoursolve.output.layout import Table, printable
 from contoursolve.output.listing import closing_lines, listing_lines
-from contoursolve.output.ranges import range_lines, region_lines
-from contoursolve.output.tolerances import tolerances_lines
+from contoursolve.pictures import Drawable, Theme, draw
 from contoursolve.pipeline import Result
 from contoursolve.rules import Rule
 from contoursolve.shown import Shown
 from contoursolve.syntax import Block, Program, Word
+from contoursolve.wording import axis_labels, count
 
 MOST_ROWS = 200
 """Rows of a table."""
+
+MOST_LINES, WIDEST = 400, 400
+"""Lines of text, and characters of a line."""
+
+MOST_CHARACTERS = 2_000_000
+"""Of HTML or SVG; what is larger stays text."""
+
+
+def bundle(record: Shown) -> dict[str, str]:
+    """A record by the types of data that a notebook knows. What cannot be made is left out."""
+    shown = {"text/plain": bounded(text_of(record))}
+    if _is_terminal():
+        return shown
+    if isinstance(record, Answer | Result | Family | Feasible | Region) and (
+        not isinstance(record, Result) or record.answers
+    ):
+        shown["image/svg+xml"] = _made(_svg, record)
+    shown["text/html"] = _made(_html, record)
+    return {kind: text for kind, text in shown.items() if kind == "text/plain" or 0 < len(text) <= MOST_CHARACTERS}
+
+
+def bounded(lines: Iterable[str]) -> str:
+    """Lines as one text of a bounded size."""
+    first = list(islice(lines, MOST_LINES + 1))
+    shown = [line if len(line) <= WIDEST else f"{line[:WIDEST]} ..." for line in first[:MOST_LINES]]
+    if len(first) > MOST_LINES:
+        shown.append("...")
+    return "\n".join(shown).rstrip()
+
+
+def _made(make: Callable[[Any], str], record: object) -> str:
+    """What a function makes of a record; nothing where a package is missing or the record cannot be drawn."""
+    try:
+        return make(record)
+    except Exception:  # the text says the same
+        return ""
+
+
+def _svg(record: Drawable) -> str:
+    return draw(record, theme=Theme.PAGE).svg
+
+
+def _html(record: Shown) -> str:
+    from contoursolve.notebook.html import html_of  # noqa: PLC0415 - needs an extra
+
+    return html_of(record)
+
+
+def _is_terminal() -> bool:
+    """Whether IPython runs in a terminal, which shows text only."""
+    if "IPython" not in sys.modules:
+        return False
+    shell = import_module("IPython").get_ipython()
+    return shell is not None and shell.display_formatter.active_types == ["text/plain"]
+
+
+# Text --------------------------------------------------------------------------------------------------------
 
 
 def text_of(record: Shown) -> Iterable[str]:
@@ -62,39 +121,35 @@ def _finding(finding: Diagnostic) -> list[str]:
 
 
 def _diagnosis(diagnosis: Diagnosis) -> Iterator[str]:
-    yield from columns(check_rows(diagnosis), left=(0, 1, 2), indent="")
-    for title, rows in (("what can still move", freedom_rows(diagnosis)), ("what says the same", tie_rows(diagnosis))):
-        if rows:
-            yield from ("", f"{title}:", *columns(rows, left=(0, 1, 2)))
+    yield from check_table(diagnosis).lines("")
+    for table in diagnosis_tables(diagnosis):
+        yield from ("", f"{table.caption[0].lower()}{table.caption[1:]}:", *table.lines(is_headed=False))
 
 
-def freedom_rows(diagnosis: Diagnosis) -> list[tuple[str, str]]:
-    """Each point that is not fixed, and how it can move."""
-    return [
+def diagnosis_tables(diagnosis: Diagnosis) -> Iterator[Table]:
+    """Each point that is not fixed, and how it can move; each set of words that say the same, the formula that ties
+    them, and by how much they disagree."""
+    freedoms = [
         (each.point, "lies anywhere" if each.angle is None else f"slides along {each.angle:.4f} deg")
         for each in diagnosis.freedoms
     ]
-
-
-def tie_rows(diagnosis: Diagnosis) -> list[tuple[str, str, str]]:
-    """Each set of words that say the same, the formula that ties them, and by how much they disagree."""
-    return [
+    ties = [
         (" ".join(tie.addresses), tie.identity, f"{tie.off_by_mm:.4f} mm apart" if tie.is_conflict else "they agree")
         for tie in diagnosis.ties
     ]
+    if freedoms:
+        yield Table("What can still move", ("point", "how"), freedoms, left=(0, 1, 2))
+    if ties:
+        yield Table("What says the same", ("words", "formula", "disagreement"), ties, left=(0, 1, 2))
 
 
 def _contour(contour: Contour) -> list[str]:
-    header, *rows = contour_rows(contour)
-    return columns([header, *rows], left=(0, 1), indent="")
+    return contour_table(contour).lines("")
 
 
-def contour_rows(contour: Contour) -> list[tuple[str, ...]]:
-    """A header, the named points and the elements with their end points, in mm, X of a lathe as radius."""
-    names = [
-        f"{axis} radius" if is_diameter else axis
-        for axis, is_diameter in zip(contour.plane.axes, contour.plane.diameters, strict=True)
-    ]
+def contour_table(contour: Contour) -> Table:
+    """The named points and the elements with their end points, in mm, X of a lathe as radius."""
+    names = axis_labels(contour.plane, "radius")
     header = ("element", "kind", *(f"{name} [mm]" for name in names), *(f"center {name}" for name in names), "radius")
 
     def row(name: str, kind: str, *values: float) -> tuple[str, ...]:
@@ -107,19 +162,20 @@ def contour_rows(contour: Contour) -> list[tuple[str, ...]]:
             rows.append(row(each.name, f"arc {each.turn.value}", *each.end, *each.center, each.radius))
         else:
             rows.append(row(each.name, "line", *each.end))
-    return [header, *rows]
+    return Table("The path", header, rows, left=(0, 1))
 
 
 def _block(block: Block) -> Iterator[str]:
     yield printable(block.text)
-    yield from columns([("column", "word", "value"), *word_rows(block)], left=(1,))
+    yield from word_table(block).lines()
 
 
-def word_rows(block: Block) -> list[tuple[str, str, str]]:
+def word_table(block: Block) -> Table:
     """Each word and each stretch that is none, where it stands, and its value."""
     rows = [(each.span.column, printable(each.text), "?" if each.is_asked else _number(each)) for each in block.words]
     rows += [(each.span.column, printable(each.text), each.kind.value) for each in block.faults]
-    return [(str(column), text, value) for column, text, value in sorted(rows)[:MOST_ROWS]]
+    shown = [(str(column), text, value) for column, text, value in sorted(rows)[:MOST_ROWS]]
+    return Table("Words", ("column", "word", "value"), shown, left=(1,))
 
 
 def _number(word: Word) -> str:
@@ -143,44 +199,40 @@ def controls_of(rule: Rule) -> list[str]:
 
 def _family(family: Family) -> Iterator[str]:
     yield f"{count(len(family), 'contour')}, shape {' x '.join(map(str, family.shape))}"
-    for rows in (family_rows(family), status_rows(family)):
-        yield from ("", *columns(rows, left=(0,)))
+    for table in family_tables(family):
+        yield from ("", *table.lines())
     yield ""
     yield f"  arrays: {', '.join(family.names)}"
 
 
-def family_rows(family: Family) -> list[tuple[str, ...]]:
-    """A header, and for each free word how many values it has and how far they go."""
-    rows: list[tuple[str, ...]] = [("word", "values", "least", "largest")]
+def family_tables(family: Family) -> tuple[Table, Table]:
+    """How many values each free word has and how far they go, and how many contours have each status."""
+    words = []
     for word, values in family.ranges.values.items():
         ends = (f"{values.min():.6g}", f"{values.max():.6g}") if values.size else ("", "")
-        rows.append((word, f"{values.size:,}", *ends))
-    return rows
-
-
-def status_rows(family: Family) -> list[tuple[str, ...]]:
-    """A header, and how many contours have each status."""
+        words.append((word, f"{values.size:,}", *ends))
     counts = family.summary()
-    rows = [(status.value, f"{number:,}", f"{number / len(family):.1%}") for status, number in counts.items()]
-    return [("status", "contours", "share"), *rows]
+    statuses = [(status.value, f"{number:,}", f"{number / len(family):.1%}") for status, number in counts.items()]
+    return (
+        Table("Free words", ("word", "values", "least", "largest"), words),
+        Table("What becomes of them", ("status", "contours", "share"), statuses),
+    )
 
 
 def _sensitivity(found: Sensitivity) -> Iterator[str]:
-    yield SLOPES
-    yield from columns(slope_rows(found))
+    table = slope_table(found)
+    yield table.caption
+    yield from table.lines()
 
 
-SLOPES = "how far each result moves, mm for each unit of a word as it is written"
-
-
-def slope_rows(found: Sensitivity) -> list[tuple[str, ...]]:
-    """A header, and by how much each word moves each result; `none` where no derivative exists."""
+def slope_table(found: Sensitivity) -> Table:
+    """By how much each word moves each result; `none` where no derivative exists."""
     words = next(iter(found.slopes.values()), {})
     rows = [
         (result, *("none" if isnan(slope) else f"{slope + 0.0:.4f}" for slope in slopes.values()))
         for result, slopes in islice(found.slopes.items(), MOST_ROWS)
     ]
-    return [("result", *words), *rows]
+    return Table("how far each result moves, mm for each unit of a word as it is written", ("result", *words), rows)
 
 
 _LINES: dict[type, Callable[[Any], Iterable[str]]] = {

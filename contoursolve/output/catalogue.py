@@ -1,4 +1,4 @@
-"""The catalogue of rules as text."""
+"""The catalogue as text: the rules of each control, and the further facts that can be stated about a contour."""
 
 from collections.abc import Iterable, Iterator
 
@@ -77,3 +77,42 @@ def rule_lines(rule: Rule, controls: Iterable[str]) -> list[str]:
 
 def _short(line: str) -> str:
     return line if len(line) <= 100 else line[:96] + " ..."  # noqa: PLR2004 - a terminal's width
+
+
+# Facts -------------------------------------------------------------------------------------------------------
+
+_FACTS = (
+    ("length of line 1 = 30", "the length of a line between its virtual intersections; of an arc"),
+    ("straight part of line 2 = 12.5", "what the corners at its ends leave of a line"),
+    ("direction of line 2 = 135", "the direction of travel, as an angle word states it"),
+    ("angle from line 1 to line 2 = -60", "the change of direction of travel, counter-clockwise positive"),
+    ("line 2 passes through (Z-40. X80.)", "a place on the whole line, or on the whole circle of an arc or a rounding"),
+    ("Z of end of corner 2 = -50.2", "a coordinate of where an element begins or ends, or of its center"),
+    ("X of V1 = 44", "a coordinate of a point"),
+    ("radius of corner 1 = 5", "the radius of an arc or a rounding, the size of a chamfer"),
+    ("line tangent to arc", "neighbours go on smoothly; others touch"),
+    ("line 2 tangent to circle (Z-40. X120. R10.)", "an element touches a given circle"),
+    ("corner 1 tangent to line (Z0. X30. A180.)", "an arc or a rounding touches a given line, by a place and an angle"),
+    ("length of line 1 = length of line 2", "two lines are equally long"),
+    ("radius of corner 1 = radius of corner 2", "two arcs or corners have the same radius"),
+    ("corner 2 meets next line", "the last corner joins the line to where the next block ends"),
+    ("corner 2 meets line to (Z-60. X130.)", "or a line to a place"),
+    ("corner 2 meets line at 135", "or a line at an angle"),
+    ("length of line 1 = ?", "asks for a value instead of stating it; so does ? in a word: P?"),
+)
+
+
+def vocabulary_lines() -> Iterator[str]:
+    """Every kind of fact, with an example."""
+    yield "Facts about a contour, stated with --fact, or in the program as a comment that controls ignore:"
+    yield "  G111 X100. A180. K-30. B120. P? (contoursolve: straight part of line 2 = 30)"
+    yield ""
+    yield from columns(_FACTS, left=(0, 1))
+    yield ""
+    yield "Elements: G111 has line 1, line 2, corner 1, corner 2 and the points S, V1, V2; an NCT circular-linear"
+    yield "pair has arc, line and the points S, C (center), N1 (point on the circle), P1 (intersection), N2 (end)."
+    yield "A line begins and ends at its virtual intersections; where corners cut it off, it is the corner that begins"
+    yield "or ends: `end of line 1` is V1, and `begin of corner 1` is where the rounding leaves line 1."
+    yield "Numbers are in the unit of the program and mean what they say, with or without a decimal point; X is a"
+    yield "diameter on a lathe. Capitals do not matter. Inside a comment write places with [ ], because the first )"
+    yield "ends the comment, and separate facts by semicolons."

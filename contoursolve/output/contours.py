@@ -1,18 +1,18 @@
-"""A solved contour as text: what was given, the virtual intersections, every element of the path."""
+"""A contour as text and as tables: what was given, every element of the path, all solutions, what was checked."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator
 from dataclasses import replace
 
 from contoursolve.contour import ArcSegment
 from contoursolve.diagnostic import Diagnosis, Verdict
 from contoursolve.examine import Answer, AskedValue, list_alternatives
 from contoursolve.model import Length, Turn, Unit
-from contoursolve.output.layout import columns, count, length_of, printable
-from contoursolve.output.solutions import Listed, Listing, list_solutions, printed_certificate
+from contoursolve.output.layout import Table, columns, printable
 from contoursolve.pipeline import Result
-from contoursolve.reading import Convention, Form, Lexicon
-from contoursolve.solving import Point
+from contoursolve.reading import Convention, Form
+from contoursolve.solutions import Listed, Listing, list_solutions, printed_certificate
 from contoursolve.syntax import FACT, Word
+from contoursolve.wording import axis_labels, coordinate_texts, coordinates, count, length_of, short_name
 
 _VERDICT = {Verdict.PASSED: "passed", Verdict.FOUND: "see finding", Verdict.NOT_RUN: "not run"}
 
@@ -26,10 +26,9 @@ def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False)
     if alternatives is not answer.alternatives:
         # Found here once, for the construction and for the list.
         answer = replace(answer, alternatives=alternatives)
-    form = answer.claim.form
-    lines = [f"{printable(result.program.name)}:{answer.lines[0]}: {form.name} ({form.title}): {answer.status.value}"]
+    lines = [f"{printable(result.program.name)}:{answer.lines[0]}: {form_text(answer)}: {answer.status.value}"]
     lines += [f"  {printable(block.text.strip())[:160]}" for block in answer.profile.blocks]
-    lines += ["", *columns(given_rows(answer), left=(0, 3))]
+    lines += ["", *columns(given_table(answer).rows, left=(0, 3))]
     if is_explained:
         from contoursolve.output.construction import construction_lines  # noqa: PLC0415 - only on demand
 
@@ -37,43 +36,45 @@ def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False)
         if answer.contour and answer.profile.figure.corners and answer.claim.form.corner_note:
             lines.append(f"    {answer.claim.form.corner_note}")
     if answer.contour:
-        lines += ["", *columns(path_rows(answer), left=(0, 1))]
-    if answer.contour:
-        lines += [
-            line
-            for each in answer.claim.conventions
-            for line in ("", f"  {convention_text(each, result.control or '')}")
-        ]
-        lines += [line for text in assumptions_text(answer) for line in ("", f"  {text}")]
+        path = path_table(answer)
+        lines += ["", *columns([("", "", *path.header[2:]), *path.rows], path.left)]
+        lines += [line for text in resting_texts(answer, result.control or "") for line in ("", f"  {text}")]
     if answer.filled:
         lines += ["", f"  filled in (the contour moves by {small(answer.filled.deviation)}):"]
         lines += [f"    {printable(text.strip())}" for text in answer.filled.blocks]
     lines += _solution_lines(answer)
     if answer.contour is None and answer.diagnosis:
-        lines += ["", *columns(check_rows(answer.diagnosis), left=(0, 1, 2))]
+        lines += ["", *check_table(answer.diagnosis).lines()]
     return [*lines, ""]
 
 
-def convention_text(convention: Convention, control: str) -> str:
-    """What the manual does not say and a contour rests on."""
+def form_text(answer: Answer) -> str:
+    """What kind of contour it is, in the control's words."""
+    return f"{answer.claim.form.name} ({answer.claim.form.title})"
+
+
+def resting_texts(answer: Answer, control: str) -> Iterator[str]:
+    """What the manual does not say and a contour rests on, each in a line; what the control is taken to accept, in one
+    line, if there is anything."""
+    yield from (_convention_text(each, control) for each in answer.claim.conventions)
+    by_grade: dict[str, list[str]] = {}
+    for each in answer.assumptions:
+        by_grade.setdefault(each.source.evidence.value, []).append(each.meaning)
+    if by_grade:
+        told = (f"{'; '.join(meanings)} ({grade})" for grade, meanings in by_grade.items())
+        yield f"rests on: {'; '.join(told)}"
+
+
+def _convention_text(convention: Convention, control: str) -> str:
     setting = convention.setting
     name = f"{control}.{setting.name}" if control else setting.name
     return f"{convention.evidence.value}: {convention.meaning} (--set {name}={convention.value})"
 
 
-def assumptions_text(answer: Answer) -> list[str]:
-    """What the control is taken to accept and a contour rests on, in one line, if there is anything."""
-    by_grade: dict[str, list[str]] = {}
-    for each in answer.assumptions:
-        by_grade.setdefault(each.source.evidence.value, []).append(each.meaning)
-    told = [f"{'; '.join(meanings)} ({grade})" for grade, meanings in by_grade.items()]
-    return [f"rests on: {'; '.join(told)}"] if told else []
-
-
-def check_rows(diagnosis: Diagnosis) -> list[tuple[str, str, str]]:
-    """A header, and the checks that a contour went through."""
+def check_table(diagnosis: Diagnosis) -> Table:
+    """The checks that a contour went through."""
     rows = [(layer.name, _VERDICT[layer.verdict], layer.remark) for layer in diagnosis.layers]
-    return [("check", "verdict", "what was checked"), *rows]
+    return Table("Checks", ("check", "verdict", "what was checked"), rows, left=(0, 1, 2))
 
 
 def small(mm: float) -> str:
@@ -81,12 +82,15 @@ def small(mm: float) -> str:
     return "less than 0.0001 mm" if mm < SMALLEST else f"{mm:.4f} mm"
 
 
+# Solutions ---------------------------------------------------------------------------------------------------
+
+
 def _solution_lines(answer: Answer) -> list[str]:
-    """The certificate, and where there are several solutions, all of them."""
+    """The certificate of the only solution, or all solutions with what selects each."""
     listing = list_solutions(answer)
     if listing is None:
         return []
-    if len(listing.solutions) == 1 and listing.is_complete:
+    if listing.is_single:
         return ["", f"  certificate: {printed_certificate(answer.certificate)}"] if answer.contour else []
     lines = ["", f"  {count_text(listing)}"]
     lines += [f"  not decided: {doubt}" for doubt in listing.doubts]
@@ -114,7 +118,8 @@ def solution_rows(answer: Answer, listing: Listing) -> list[tuple[Listed, tuple[
     for each in listing.solutions:
         where = ", ".join(each.reasons)
         if each.contour:
-            places = (f"{point} {place_text(answer, each.contour.points[point])}" for point in differing)
+            at = each.contour.points
+            places = (f"{point} {coordinates(at[point], answer.plane, answer.unit)}" for point in differing)
             where = "  ".join((*places, *(_asked_text(asked, answer) for asked in each.asked)))
         label = "" if each.contour else "no contour:"
         row = (each.name or "only solution", label, where, " ".join(each.selects), str(each.certificate))
@@ -122,33 +127,16 @@ def solution_rows(answer: Answer, listing: Listing) -> list[tuple[Listed, tuple[
     return rows
 
 
-def _asked_text(asked: AskedValue, answer: Answer) -> str:
-    """A value that was asked for, in one solution."""
-    question, name = asked.question, asked.question.word.text.rstrip(" =?")
-    if asked.value is None:
-        return ""
-    if question.unit is Unit.DEGREE:
-        return f"{name} = {asked.value:.4f}"
-    return f"{name} = {length_of(asked.value * (2 if question.is_diameter else 1), answer.unit)}"
+# What was given ----------------------------------------------------------------------------------------------
 
 
-def place_text(answer: Answer, at: Point) -> str:
-    """A place as words, in the unit and the axes of the program."""
-    plane = answer.plane
-    return " ".join(
-        f"{axis}{length_of(value * (2 if is_diameter else 1), answer.unit)}"
-        for axis, value, is_diameter in zip(plane.axes, at, plane.diameters, strict=True)
-    )
-
-
-def given_rows(answer: Answer) -> list[tuple[str, str, str, str]]:
+def given_table(answer: Answer) -> Table:
     """Word, value, unit and meaning of everything that was given."""
-    form, rows = answer.claim.form, []
-    for axis, value, is_diameter in zip(answer.plane.axes, answer.start.values, answer.plane.diameters, strict=True):
-        shown = "unknown" if value is None else length_of(float(value) * (2 if is_diameter else 1), answer.unit)
-        rows.append(
-            ("start " + axis, shown, _unit(answer.unit) if value is not None else "", _axis_meaning(is_diameter))
-        )
+    form, plane, unit, rows = answer.claim.form, answer.plane, short_name(answer.unit.value), []
+    starts = coordinate_texts([float(value or 0) for value in answer.start.values], plane, answer.unit)
+    for axis, value, text, is_diameter in zip(plane.axes, answer.start.values, starts, plane.diameters, strict=True):
+        shown = ("unknown", "") if value is None else (text, unit)
+        rows.append((f"start {axis}", *shown, "where the contour begins" + (" (diameter)" if is_diameter else "")))
     ignored = {fact.given for fact in answer.profile.ignored}
     words = {given.name: given.word for given in answer.profile.givens.values() if given.word}
     seen: set[int] = set()
@@ -156,83 +144,78 @@ def given_rows(answer: Answer) -> list[tuple[str, str, str, str]]:
         if id(word) in seen:
             continue
         seen.add(id(word))
-        row = answer.claim.lexicon.addresses.get(word.address)
-        meaning = form.meanings.get(name) or (row.meaning if row else "")
-        meaning += " - ignored" if name in ignored else ""
+        meaning = _meaning(name, word, answer, form) + (" - ignored" if name in ignored else "")
         if word.address == FACT:
             rows.append((printable(word.text), "", "", "further fact"))
         else:
-            rows.append((word.text, *_value(word, answer.claim.lexicon, answer.unit), meaning))
-    rows += [_asked_row(each, answer, form) for each in answer.answers]
+            rows.append((word.text, *_value(word, answer), meaning))
+    for asked in answer.answers:
+        question = asked.question
+        meaning = f"asked: {_meaning(question.name, question.word, answer, form)}".strip(": ")
+        number = ("?", "") if asked.value is None else _asked_value(asked, answer.unit)
+        rows.append((printable(question.word.text), *number, meaning))
     by_point = {choice.point: words[choice.given].text for choice in answer.profile.choices if choice.given in words}
     for point, side in answer.sides.items():
         rows.append((f"choice {point}", side.value, "", f"of two intersections, by {by_point[point]}"))
-    return rows
+    return Table("What was given", ("word", "value", "unit", "meaning"), rows, left=(0, 2, 3))
 
 
-def _asked_row(asked: AskedValue, answer: Answer, form: Form) -> tuple[str, str, str, str]:
-    """A value that was asked for."""
+def _meaning(name: str, word: Word, answer: Answer, form: Form) -> str:
+    row = answer.claim.lexicon.addresses.get(word.address)
+    return form.meanings.get(name) or (row.meaning if row else "")
+
+
+def _asked_value(asked: AskedValue, unit: Length) -> tuple[str, str]:
+    """The value of a word that was asked for, as it is written, and its unit; nothing without a value."""
     question = asked.question
-    row = answer.claim.lexicon.addresses.get(question.word.address)
-    meaning = form.meanings.get(question.name) or (row.meaning if row else "")
-    text = printable(question.word.text)
     if asked.value is None:
-        return text, "?", "", f"asked: {meaning}".strip(": ")
+        return "", ""
     if question.unit is Unit.DEGREE:
-        return text, f"{asked.value:.4f}", "deg", f"asked: {meaning}".strip(": ")
-    shown = length_of(asked.value * (2 if question.is_diameter else 1), answer.unit)
-    return text, shown, _unit(answer.unit), f"asked: {meaning}".strip(": ")
+        return f"{asked.value:.4f}", "deg"
+    return length_of(asked.value * (2 if question.is_diameter else 1), unit), short_name(unit.value)
 
 
-def _value(word: Word, lexicon: Lexicon, unit: Length) -> tuple[str, str]:
+def _asked_text(asked: AskedValue, answer: Answer) -> str:
+    """A value that was asked for, in one solution."""
+    value, name = _asked_value(asked, answer.unit)[0], asked.question.word.text.rstrip(" =?")
+    return f"{name} = {value}" if value else ""
+
+
+def _value(word: Word, answer: Answer) -> tuple[str, str]:
     """What a word states, in the terms in which it is written, and its unit."""
+    lexicon, unit = answer.claim.lexicon, answer.unit
     value, row = float(lexicon.value(word, unit) or 0), lexicon.addresses[word.address]
     if row.unit is Unit.DEGREE:
         return f"{value:.4f}", "deg"
     if row.unit is Unit.SIGN:
         return f"{value:+g}", ""
-    return length_of(value * (2 if row.is_diameter else 1), unit), _unit(unit)
+    return length_of(value * (2 if row.is_diameter else 1), unit), short_name(unit.value)
 
 
-def _axis_meaning(is_diameter: bool) -> str:
-    return "where the contour begins" + (" (diameter)" if is_diameter else "")
+# The path ----------------------------------------------------------------------------------------------------
 
 
-def path_rows(answer: Answer) -> list[tuple[str, ...]]:
-    """A header, the named points, and the elements with their end points, in the unit and the axes of the program."""
-    contour = answer.contour
-    if contour is None:
-        return []
-    unit = _unit(answer.unit)
-    names = [
-        f"{axis} dia" if is_diameter else axis
-        for axis, is_diameter in zip(answer.plane.axes, answer.plane.diameters, strict=True)
-    ]
-    arcs = [element for element in contour.elements if isinstance(element, ArcSegment)]
-    heads = [f"{name} [{unit}]" for name in names]
-    if arcs:
-        heads += [f"center {name} [{unit}]" for name in names] + [f"radius [{unit}]"]
-    header = ("", "", *heads)
+def path_table(answer: Answer) -> Table:
+    """The named points, and the elements with their end points, in the unit and the axes of the program."""
+    contour, plane, unit = answer.contour, answer.plane, short_name(answer.unit.value)
+    elements = contour.elements if contour is not None else ()
+    has_arc = any(isinstance(element, ArcSegment) for element in elements)
+    names = [f"{label} [{unit}]" for label in axis_labels(plane)]
+    heads = [*names, *([*(f"center {name}" for name in names), f"radius [{unit}]"] if has_arc else [])]
     blank = [""] * (len(heads) - 2)
 
-    def point(at: Point) -> list[str]:
-        return [
-            length_of(value * (2 if is_diameter else 1), answer.unit)
-            for value, is_diameter in zip(at, answer.plane.diameters, strict=True)
-        ]
+    def point(at: tuple[float, float]) -> list[str]:
+        return coordinate_texts(at, plane, answer.unit)
 
-    rows: list[Sequence[str]] = [header]
-    rows += [(name, "point", *point(at), *blank) for name, at in contour.points.items()]
-    rows.append(("start", "", *point(contour.start), *blank))
-    for element in contour.elements:
+    rows: list[tuple[str, ...]] = []
+    if contour is not None:
+        rows += [(name, "point", *point(at), *blank) for name, at in contour.points.items()]
+        rows.append(("start", "", *point(contour.start), *blank))
+    for element in elements:
         if isinstance(element, ArcSegment):
             code = "G02" if element.turn is Turn.CW else "G03"
             arc = [*point(element.center), length_of(element.radius, answer.unit)]
             rows.append((element.name, code, *point(element.end), *arc))
         else:
             rows.append((element.name, "G01", *point(element.end), *blank))
-    return [tuple(row) for row in rows]
-
-
-def _unit(unit: Length) -> str:
-    return "in" if unit is Length.INCH else "mm"
+    return Table("The path", ("element", "move", *heads), rows, left=(0, 1))

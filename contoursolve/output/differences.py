@@ -10,8 +10,9 @@ from contoursolve.comparison import Comparison, Path, Place, Step, Travel, Unfol
 from contoursolve.data import json_text
 from contoursolve.model import Length
 from contoursolve.output.document import finding_data
-from contoursolve.output.layout import count, length_of, printable
+from contoursolve.output.layout import printable
 from contoursolve.pipeline import Result
+from contoursolve.wording import count, length_of
 
 SCHEMA = "contoursolve/diff/1"
 

@@ -8,9 +8,9 @@ from contoursolve.contour import ArcSegment, Contour, Segment
 from contoursolve.data import json_text
 from contoursolve.diagnostic import Diagnosis, Diagnostic
 from contoursolve.examine import Answer, AskedValue, rank
-from contoursolve.output.listing import Tally
-from contoursolve.output.solutions import DECIMALS, decimals_of, list_solutions, printed_certificate
+from contoursolve.output.listing import Tally, findings_of
 from contoursolve.pipeline import Result, Run, without_contour
+from contoursolve.solutions import DECIMALS, decimals_of, list_solutions, printed_certificate
 from contoursolve.solving import Point
 from contoursolve.solving.certificate import Certificate, Proof
 from contoursolve.source import Source, Span
@@ -38,8 +38,7 @@ def stream_json(run: Run, tally: Tally) -> Iterator[str]:
     if run.frame.start or run.frame.facts:
         # What is stated apart is shown at the only contour, which is known at the end; such programs are short.
         result = run.collect()
-        for finding in result.diagnostics:
-            tally.add(finding)
+        tally.severities.update(finding.severity for finding in result.diagnostics)
         yield to_json(result)
         return
     with Shelf() as shelf:
@@ -56,14 +55,12 @@ def _shelving(
 ) -> Iterator[Answer]:
     """The contours of a run, whose findings go to a shelf."""
     for item in run:
-        is_contour = isinstance(item, Answer)
-        for finding in item.diagnostics if isinstance(item, Answer) else (item,):
+        tally.count(item, is_check=is_check)
+        for finding in findings_of(item):
             shown = without_contour(finding) if is_check else finding
-            tally.add(shown)
             text = _indented({**about, **finding_data(shown, run.frame)}, 2)
-            shelf.put((number, rank(finding), is_contour), text)
+            shelf.put((number, rank(finding), isinstance(item, Answer)), text)
         if isinstance(item, Answer):
-            tally.statuses[item.status] += 1
             yield item
 
 
@@ -110,7 +107,7 @@ class Findings:
             result = run.collect()
             contours = len(result.answers)
             for place, finding in enumerate(map(without_contour, result.diagnostics)):
-                tally.add(finding)
+                tally.count(finding)
                 self.shelf.put((number, place), _indented({**about, **finding_data(finding, result)}, 2))
         else:
             contours = sum(1 for _ in _shelving(run, tally, self.shelf, number, about, is_check=True))

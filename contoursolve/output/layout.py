@@ -3,11 +3,7 @@
 import re
 import unicodedata
 from collections.abc import Sequence
-from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Decimal
-
-from contoursolve.model import Length, Plane
-
-_INCH = float(Length.INCH.in_mm)
+from dataclasses import dataclass
 
 
 def columns(rows: Sequence[Sequence[str]], left: Sequence[int] = (0,), indent: str = "  ") -> list[str]:
@@ -45,44 +41,21 @@ def harmless(text: str) -> str:
 _COMMAND = re.compile(r"^(?P<blank>[^\S\n]*+)::", re.MULTILINE)
 
 
-def length_of(mm: float, unit: Length) -> str:
-    """A length in the unit of a program: four decimals of a millimetre, five of an inch; no negative zero."""
-    return f"{mm:z.4f}" if unit is Length.MM else f"{mm / _INCH:z.5f}"
+@dataclass(frozen=True, slots=True)
+class Table:
+    """Rows under a caption, as every format shows them; the columns named in `left` are texts, the others numbers."""
 
+    caption: str
+    header: Sequence[str]
+    rows: Sequence[Sequence[str]]
+    left: Sequence[int] = (0,)
 
-def written(value: float, unit: str, way: int = 0) -> str:
-    """A value as its word has it, with its unit (mm, inch or deg); decimals as for lengths. An upper (`way` 1) or a
-    lower limit (-1) is rounded into its range."""
-    decimals = 5 if unit == "inch" else 4
-    rounding = {1: ROUND_FLOOR, -1: ROUND_CEILING}.get(way, ROUND_HALF_EVEN)
-    shown = Decimal(repr(value)).quantize(Decimal(1).scaleb(-decimals), rounding) if way else value
-    return f"{shown:z.{decimals}f} {short_name(unit)}"
+    def lines(self, indent: str = "  ", *, is_headed: bool = True) -> list[str]:
+        """The rows as lines, below the header unless they explain themselves; nothing for no row."""
+        rows = [self.header, *self.rows] if is_headed else self.rows
+        return columns(rows, self.left, indent) if rows else []
 
-
-def coordinates(place: Sequence[float | None], plane: Plane, unit: Length) -> str:
-    """Coordinates (mm, X of a lathe as radius) as the control writes them; of a place with one coordinate, that one."""
-    return " ".join(
-        f"{letter}{length_of(value * (2 if is_diameter else 1), unit)}"
-        for letter, value, is_diameter in zip(plane.axes, place, plane.diameters, strict=True)
-        if value is not None
-    )
-
-
-def measured(place: Sequence[float | None], plane: Plane, unit: Length) -> str:
-    """Coordinates as the control writes them, with their unit."""
-    return f"{coordinates(place, plane, unit)} {short_name(unit.value)}"
-
-
-def length_in(mm: float, unit: Length) -> str:
-    """A length in the unit of a program, with that unit."""
-    return f"{length_of(mm, unit)} {short_name(unit.value)}"
-
-
-def short_name(unit: str) -> str:
-    """A unit as it stands behind a number."""
-    return "in" if unit == "inch" else unit
-
-
-def count(number: int, noun: str) -> str:
-    """A number with its noun: `1 error`, `2 errors`."""
-    return f"{number} {noun}{'' if number == 1 else 's'}"
+    @property
+    def numbers(self) -> list[int]:
+        """The columns that are numbers."""
+        return [place for place in range(len(self.header)) if place not in self.left]

@@ -1,7 +1,7 @@
 """A whole result as text: contours with their findings in the order of the program, and what was examined in all."""
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from heapq import heappop, heappush
 from typing import Any, TypeVar
@@ -11,10 +11,10 @@ from contoursolve.dialects import DIALECTS
 from contoursolve.examine import Answer, rank
 from contoursolve.output.contours import contour_lines
 from contoursolve.output.findings import Style, finding_lines
-from contoursolve.output.layout import count
 from contoursolve.pipeline import Result, Run, without_contour
 from contoursolve.recognise import what_shows
 from contoursolve.solving import Status
+from contoursolve.wording import count, statuses_text
 
 
 def listed(result: Result) -> list[Diagnostic | Answer]:
@@ -33,18 +33,11 @@ def listing_lines(result: Result, style: Style, *, is_explained: bool = False) -
 def stream_listing(run: Run, tally: "Tally", style: Style, *, is_explained: bool = False) -> Iterator[str]:
     """The same of a stream."""
 
-    def items() -> Iterator[tuple[Any, Answer | Diagnostic]]:
-        for item in run:
-            if isinstance(item, Answer):
-                tally.statuses[item.status] += 1
-                for finding in item.diagnostics:
-                    tally.add(finding)
-                yield (item.lines[0], True), item
-            else:
-                tally.add(item)
-                yield (item.span.line, False, rank(item)), item
+    def key(item: Answer | Diagnostic) -> Any:
+        tally.count(item)
+        return (item.lines[0], True) if isinstance(item, Answer) else (item.span.line, False, rank(item))
 
-    return _listing_lines(_in_order(items()), run.frame, style, is_explained=is_explained)
+    return _listing_lines(_in_order((key(item), item) for item in run), run.frame, style, is_explained=is_explained)
 
 
 def stream_findings(run: Run, tally: "Tally", style: Style) -> Iterator[str]:
@@ -52,15 +45,16 @@ def stream_findings(run: Run, tally: "Tally", style: Style) -> Iterator[str]:
 
     def items() -> Iterator[tuple[Any, Diagnostic]]:
         for item in run:
-            is_contour = isinstance(item, Answer)
-            if isinstance(item, Answer):
-                tally.statuses[item.status] += 1
-            for finding in item.diagnostics if isinstance(item, Answer) else (item,):
-                shown = without_contour(finding)
-                tally.add(shown)
-                yield (rank(finding), is_contour), shown
+            tally.count(item, is_check=True)
+            for finding in findings_of(item):
+                yield (rank(finding), isinstance(item, Answer)), without_contour(finding)
 
     return lines_of_findings(run.frame, _in_order(items()), style)
+
+
+def findings_of(item: Answer | Diagnostic) -> tuple[Diagnostic, ...]:
+    """The findings about a contour; a finding itself."""
+    return item.diagnostics if isinstance(item, Answer) else (item,)
 
 
 _Item = TypeVar("_Item")
@@ -86,9 +80,7 @@ def _listing_lines(
     for item in items:
         if isinstance(item, Answer):
             yield from contour_lines(item, result, is_explained=is_explained)
-            yield from lines_of_findings(result, item.diagnostics, style)
-        else:
-            yield from lines_of_findings(result, [item], style)
+        yield from lines_of_findings(result, findings_of(item), style)
 
 
 def lines_of_findings(result: Result, findings: Iterable[Diagnostic], style: Style) -> Iterator[str]:
@@ -135,9 +127,11 @@ class Tally:
     statuses: Counter[Status] = field(default_factory=Counter)
     severities: Counter[Severity] = field(default_factory=Counter)
 
-    def add(self, finding: Diagnostic) -> None:
-        """Count a finding."""
-        self.severities[finding.severity] += 1
+    def count(self, item: Answer | Diagnostic, *, is_check: bool = False) -> None:
+        """Count a contour with its findings, or a finding, for `check` as it reports them."""
+        if isinstance(item, Answer):
+            self.statuses[item.status] += 1
+        self.severities.update((without_contour(f) if is_check else f).severity for f in findings_of(item))
 
     def line(self, programs: int) -> str:
         """What was examined in some programs, and what was found."""
@@ -146,11 +140,6 @@ class Tally:
         examined = f"{count(total, 'contour')} ({solved})" if total else "no contour examined"
         several = f"{count(programs, 'program')}, " if programs > 1 else ""
         return f"{several}{examined}; {found or 'nothing found'}"
-
-
-def statuses_text(statuses: Mapping[Status, int]) -> str:
-    """How many contours have each status, the best first."""
-    return ", ".join(f"{statuses[each]} {each.value}" for each in reversed(Status) if statuses.get(each))
 
 
 def _tally(results: Sequence[Result]) -> Tally:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from contoursolve.examine import Answer
 from contoursolve.pictures.compose import compose, describe
@@ -16,9 +16,14 @@ from contoursolve.pipeline import Result
 if TYPE_CHECKING:
     from contoursolve.families import CompiledSweep, Family, Feasible, Region
 
+Drawable: TypeAlias = "Answer | Result | Family | Feasible | Region"
+"""What has a picture."""
+
 __all__ = [
+    "Drawable",
     "Picture",
     "Theme",
+    "draw",
     "draw_answer",
     "draw_family_fan",
     "draw_family_map",
@@ -27,6 +32,22 @@ __all__ = [
     "draw_result",
     "draw_sweep",
 ]
+
+
+def draw(record: Drawable, *, theme: Theme = Theme.LIGHT) -> Picture:
+    """The picture of a contour, of all contours of a program, or of where a block has one by one or two of its words.
+
+    Raises ValueError for a family that is no grid of two words.
+    """
+    from contoursolve.families import Family, Feasible, Region  # noqa: PLC0415 - not needed for one contour
+
+    if isinstance(record, Result):
+        return draw_result(record, theme=theme)
+    if isinstance(record, Family):
+        return draw_family_map(record, theme=theme)
+    if isinstance(record, Feasible):
+        return draw_range(record, theme=theme)
+    return draw_region(record, theme=theme) if isinstance(record, Region) else draw_answer(record, theme=theme)
 
 
 def draw_answer(answer: Answer, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:

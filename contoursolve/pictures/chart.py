@@ -8,7 +8,6 @@ import numpy
 
 from contoursolve.backends.columns import Array
 from contoursolve.families import End, Feasible, Way
-from contoursolve.output.layout import written
 from contoursolve.pictures.page import (
     PAD,
     SIZE,
@@ -29,6 +28,7 @@ from contoursolve.pictures.page import (
     width_of,
 )
 from contoursolve.pictures.theme import Role
+from contoursolve.wording import written
 
 WIDE, HIGH = 610.0, 400.0
 """Pixels of a plane."""

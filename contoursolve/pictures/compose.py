@@ -6,7 +6,6 @@ from contoursolve.contour import ArcSegment, Contour, trace
 from contoursolve.diagnostic import Diagnostic, Severity
 from contoursolve.examine import Answer
 from contoursolve.model import SECOND, Turn
-from contoursolve.output.solutions import list_solutions
 from contoursolve.pictures.construction import list_construction
 from contoursolve.pictures.dimensions import Others, list_dimensions, list_marks, noted_points
 from contoursolve.pictures.page import Run, visible
@@ -14,6 +13,7 @@ from contoursolve.pictures.scene import Scene, Trail, Weight, axis_names, coordi
 from contoursolve.pictures.subject import Subject, subject_of, trace_known
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import SAME, distance
+from contoursolve.solutions import list_solutions
 from contoursolve.solving import Point
 from contoursolve.syntax import FACT
 

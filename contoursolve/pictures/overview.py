@@ -10,7 +10,6 @@ from contoursolve.contour import ArcSegment, LineSegment, Segment
 from contoursolve.dialects import DIALECTS
 from contoursolve.examine import Answer
 from contoursolve.model import SECOND, Turn
-from contoursolve.output.listing import statuses_text
 from contoursolve.pictures.compose import MOST_ELEMENTS, remarks_of
 from contoursolve.pictures.page import Run
 from contoursolve.pictures.scene import Kind, Mark, Part, Scene, Trail, Weight, axis_names
@@ -20,6 +19,7 @@ from contoursolve.pictures.vectors import distance
 from contoursolve.pipeline import Result
 from contoursolve.solving import Point
 from contoursolve.tolerance import LENGTH
+from contoursolve.wording import statuses_text
 
 MOST_CONTOURS = 400
 """Contours that are drawn; a picture of more says how many it leaves out."""

@@ -45,6 +45,11 @@ class Listing:
     doubts: tuple[str, ...]
     chosen_by: str
 
+    @property
+    def is_single(self) -> bool:
+        """Whether there is one solution, and no other one can be."""
+        return len(self.solutions) == 1 and self.is_complete
+
 
 def list_solutions(answer: Answer) -> Listing | None:
     """The solutions of a contour; None if nothing was solved."""

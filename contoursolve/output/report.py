@@ -1,35 +1,38 @@
-"""The page: a summary, every contour, what was found elsewhere, the program, and the sources. It loads nothing and
-runs no script, so that it opens anywhere and says the same in ten years."""
+"""A report: one page of HTML about a whole program, for a screen or for paper. It loads nothing and runs no script, so
+that it opens anywhere and says the same in ten years."""
 
 from collections import Counter
-from collections.abc import Callable, Iterator
-from importlib.resources import files
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field
 from pathlib import PurePath
 
 import htpy as h
 from markupsafe import Markup
 
-from contoursolve.diagnostic import Diagnostic, Severity
+from contoursolve.diagnostic import Diagnostic, Label, Severity
 from contoursolve.dialects import DIALECTS
 from contoursolve.examine import Answer, Policy
-from contoursolve.markup.answers import (
+from contoursolve.output.contours import form_text
+from contoursolve.output.html import (
     checks_table,
-    path_table,
+    figure,
+    finding_element,
+    page_style,
+    path_element,
     remarks,
+    short,
     solutions_table,
+    style_rules,
+    table,
     words_table,
+    worst_of,
 )
-from contoursolve.markup.figure import figure
-from contoursolve.markup.findings import finding_element
-from contoursolve.markup.style import page_style
-from contoursolve.markup.tables import short, table
-from contoursolve.output.contours import place_text
-from contoursolve.output.layout import count
+from contoursolve.output.layout import printable
 from contoursolve.output.listing import sources_of, summary_line
 from contoursolve.pipeline import Result
-from contoursolve.report.places import Places, contour_name, find_places
-from contoursolve.report.program import program_element
 from contoursolve.source import Evidence
+from contoursolve.syntax import Block
+from contoursolve.wording import coordinates, count
 
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'"
 """Tells the browser to load and to run nothing."""
@@ -43,6 +46,50 @@ _GRADES = {
 Progress = Callable[[], object]
 
 
+@dataclass(frozen=True, slots=True)
+class Marked:
+    """A stretch of a line that a finding marks."""
+
+    label: Label
+    finding: Diagnostic
+    target: str
+
+
+@dataclass(frozen=True, slots=True)
+class Places:
+    """The addresses on the page."""
+
+    lines: frozenset[int]
+    contour_at: dict[int, int] = field(default_factory=dict)
+    """The number of the contour that a line belongs to, from 1."""
+    number_of: dict[int, int] = field(default_factory=dict)
+    """The number of each finding by its identity."""
+    marks: dict[int, list[Marked]] = field(default_factory=dict)
+    """What findings mark, by line."""
+
+    def line(self, number: int) -> str | None:
+        """The address of a line; None for what was stated apart from the program."""
+        return f"#line-{number}" if number in self.lines else None
+
+    def finding(self, finding: Diagnostic) -> str:
+        """The name of a finding."""
+        return f"finding-{self.number_of[id(finding)]}"
+
+
+def _find_places(result: Result) -> Places:
+    """The places of everything that a result holds."""
+    places = Places(frozenset(block.line for block in result.program.blocks))
+    for number, answer in enumerate(result.answers, 1):
+        for line in answer.lines:
+            places.contour_at.setdefault(line, number)
+    for number, finding in enumerate(result.diagnostics, 1):
+        places.number_of[id(finding)] = number
+        for label in finding.labels:
+            marked = Marked(label, finding, f"#finding-{number}")
+            places.marks.setdefault(label.span.line, []).append(marked)
+    return places
+
+
 def report_page(result: Result, version: str, progress: Progress = lambda: None) -> Iterator[str]:
     """The page in pieces; `progress` is called after each contour."""
     yield from _page(result, version, progress).iter_chunks()
@@ -50,7 +97,7 @@ def report_page(result: Result, version: str, progress: Progress = lambda: None)
 
 
 def _page(result: Result, version: str, progress: Progress) -> h.Element:
-    places = find_places(result)
+    places = _find_places(result)
     name = short(PurePath(result.program.name).name)
     return h.html(lang="en")[
         h.head[
@@ -60,7 +107,7 @@ def _page(result: Result, version: str, progress: Progress) -> h.Element:
             h.meta(name="color-scheme", content="light dark"),
             h.meta(name="generator", content=f"contoursolve {version}"),
             h.title[f"{name}: contours"],
-            h.style[Markup(page_style() + _own_style())],  # our own files
+            h.style[Markup(page_style() + style_rules("report.css"))],  # our own files
         ],
         h.body(".contoursolve")[
             h.header[h.h1[name], h.p(".lead")[summary_line([result])], _conditions(result)],
@@ -77,10 +124,6 @@ def _page(result: Result, version: str, progress: Progress) -> h.Element:
             ],
         ],
     ]
-
-
-def _own_style() -> str:
-    return files("contoursolve.report").joinpath("report.css").read_text(encoding="utf-8")
 
 
 def _conditions(result: Result) -> h.Element:
@@ -105,9 +148,9 @@ def _contours(result: Result, places: Places, progress: Progress) -> h.Element |
         (
             h.a(href=f"#contour-{number}")[f"contour {number}"],
             _line_link(answer.lines[0], places),
-            short(f"{answer.claim.form.name} ({answer.claim.form.title})"),
+            short(form_text(answer)),
             _status(answer),
-            h.span(".place")[place_text(answer, answer.contour.end)] if answer.contour else "",
+            h.span(".place")[coordinates(answer.contour.end, answer.plane, answer.unit)] if answer.contour else "",
             _found(answer.diagnostics),
         )
         for number, answer in enumerate(result.answers, 1)
@@ -122,9 +165,9 @@ def _contours(result: Result, places: Places, progress: Progress) -> h.Element |
 
 def _contour(answer: Answer, number: int, result: Result, places: Places, progress: Progress) -> h.Element:
     found = [_finding(each, result, places) for each in answer.diagnostics]
-    path, words = path_table(answer), words_table(answer)
+    path, words = path_element(answer), words_table(answer)
     element = h.article(id=f"contour-{number}")[
-        h.h3[short(contour_name(answer, number)), ": ", _status(answer)],
+        h.h3[short(f"Contour {number}, line {answer.lines[0]}: {form_text(answer)}"), ": ", _status(answer)],
         h.div(".blocks")[
             (
                 h.p[_line_link(block.line, places), " ", h.code[short(block.text.strip())]]
@@ -141,15 +184,14 @@ def _contour(answer: Answer, number: int, result: Result, places: Places, progre
     return element
 
 
-def _finding(finding: Diagnostic, result: Result, places: Places) -> h.Element:
-    sources = sources_of(result, finding)
-    return finding_element(finding, result.program.name, sources, anchor=places.line, identity=places.finding(finding))
+def _finding(finding: Diagnostic, result: Result, places: Places, heading: h.Element = h.h4) -> h.Element:
+    name, sources, identity = result.program.name, sources_of(result, finding), places.finding(finding)
+    return finding_element(finding, name, sources, anchor=places.line, identity=identity, heading=heading)
 
 
 def _status(answer: Answer) -> h.Element:
     """The status, in the colour of its worst finding."""
-    worst = next((each for each in Severity if each in {found.severity for found in answer.diagnostics}), None)
-    return h.span(class_=f"status {worst.value if worst else 'fine'}")[answer.status.value]
+    return h.span(class_=f"status {worst_of(answer.diagnostics)}")[answer.status.value]
 
 
 def _found(findings: tuple[Diagnostic, ...]) -> str:
@@ -170,17 +212,7 @@ def _others(result: Result, places: Places) -> h.Element | None:
         return None
     return h.section(id="others")[
         h.h2["Findings outside contours"],
-        (
-            finding_element(
-                each,
-                result.program.name,
-                sources_of(result, each),
-                anchor=places.line,
-                identity=places.finding(each),
-                heading=h.h3,
-            )
-            for each in others
-        ),
+        (_finding(each, result, places, h.h3) for each in others),
     ]
 
 
@@ -188,7 +220,9 @@ def _program(result: Result, places: Places) -> h.Element:
     return h.section(id="program")[
         h.h2["Program"],
         h.p["The number of a line leads to its contour, a marked word to the finding about it."],
-        program_element(result.program, places),
+        h.div(".listing", tabindex="0", role="region", aria_label="Program text")[
+            (_line(block, places) for block in result.program.blocks)
+        ],
     ]
 
 
@@ -212,3 +246,48 @@ def _sources(result: Result) -> h.Element:
         table("What the findings rest on", ("manual", "place", "grade", "for"), rows) if rows else None,
         h.dl[([h.dt[grade.value], h.dd[meaning]] for grade, meaning in _GRADES.items())],
     ]
+
+
+# The program -------------------------------------------------------------------------------------------------
+
+
+def _line(block: Block, places: Places) -> h.Element:
+    contour = places.contour_at.get(block.line)
+    number: h.Node = str(block.line)
+    if contour is not None:
+        number = h.a(href=f"#contour-{contour}", title=f"contour {contour}")[number]
+    kind = "contour" if contour is not None else None
+    return h.div(id=f"line-{block.line}", class_=kind)[
+        h.span(".line")[number], h.code[_text(block, places)], _findings(block, places)
+    ]
+
+
+def _findings(block: Block, places: Places) -> Iterator[h.Node]:
+    """Links to the findings at a line."""
+    found = {marked.target: marked.finding for marked in places.marks.get(block.line, ())}
+    for target, finding in found.items():
+        if finding.span.line == block.line:
+            yield h.a(class_=f"code {finding.severity.value}", href=target)[finding.code]
+
+
+def _text(block: Block, places: Places) -> Iterator[h.Node]:
+    """The text with the marked words as links to their findings."""
+    text, here = printable(block.text), 0
+    for begin, end, marked in _apart(places.marks.get(block.line, ()), len(text)):
+        severity, message = marked.finding.severity.value, marked.finding.message
+        yield text[here:begin]
+        yield h.a(class_=f"mark {severity}", href=marked.target, title=short(message))[text[begin:end]]
+        here = end
+    yield text[here:]
+
+
+def _apart(marks: Iterable[Marked], width: int) -> list[tuple[int, int, Marked]]:
+    """Marks that do not overlap, from left to right; of those that do, the worst and then the shortest stays."""
+    stretches = [(each.label.span.column - 1, min(each.label.span.end_column - 1, width), each) for each in marks]
+    severities = list(Severity)
+    stretches.sort(key=lambda each: (severities.index(each[2].finding.severity), each[1] - each[0], each[0]))
+    chosen: list[tuple[int, int, Marked]] = []
+    for begin, end, each in stretches:
+        if begin < end and all(end <= other[0] or begin >= other[1] for other in chosen):
+            chosen.append((begin, end, each))
+    return sorted(chosen, key=lambda each: each[0])

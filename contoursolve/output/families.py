@@ -1,0 +1,344 @@
+"""What is asked about a family, as text and as plain data: ranges, regions, values that reach a goal, tolerances."""
+
+from collections.abc import Iterator
+from math import isnan
+from typing import Any
+
+from contoursolve.families import Boundary, Effect, End, Feasible, Found, Hit, Reason, Region, Tolerances
+from contoursolve.model import Length
+from contoursolve.output.layout import Table
+from contoursolve.solutions import printed_certificate
+from contoursolve.wording import axis_labels, count, length_in, measured, short_name, written
+
+# Ranges of a word --------------------------------------------------------------------------------------------
+
+
+def range_lines(found: Feasible) -> Iterator[str]:
+    """The ranges of a word, each with what ends it."""
+    yield range_title(found)
+    yield from range_table(found).lines(is_headed=False)
+    yield from (f"  {note}" for note in range_notes(found))
+
+
+def range_notes(found: Feasible) -> Iterator[str]:
+    """What is not proven, and why the block has no contour as it stands, if it has none."""
+    yield from (f"not proven: {each}" for each in found.doubts)
+    if found.refusal:
+        yield f"as it stands, the block has none: {found.refusal}"
+
+
+def range_title(found: Feasible) -> str:
+    """What was looked at, and how many ranges there are."""
+    low, high = (written(value, found.unit) for value in found.within)
+    number, proof = count(len(found.intervals), "range"), _proof(is_complete=found.is_complete)
+    if not found.intervals:
+        number, proof = "no range", "proven" if found.is_complete else "none was found, which is no proof"
+    stated = written(found.stated, found.unit)
+    return f"{found.word}, now {stated}, from {low} to {high}: {number} with a contour ({proof})"
+
+
+def _proof(*, is_complete: bool) -> str:
+    return "proven to be all" if is_complete else "at least; that these are all is not proven"
+
+
+def range_table(found: Feasible) -> Table:
+    """Two rows for each range: its number, which end, the value, and what ends it there."""
+    rows = []
+    for place, each in enumerate(found.intervals, 1):
+        rows.append((f"{place}.", "from", *_end_cells(each.low, found.unit, -1)))
+        rows.append(("", "to", *_end_cells(each.high, found.unit, 1)))
+    return Table("Where the contour exists", ("range", "end", "value", "what ends it"), rows, left=(0, 1, 3))
+
+
+def _end_cells(end: End, unit: str, way: int) -> tuple[str, str]:
+    if end.reason is None:
+        return written(end.value, unit, way), "the range that was looked at"
+    text = end.reason.text if end.is_verified else f"{end.reason.text} (not confirmed on both sides)"
+    return written(end.value, unit, way), text if end.is_included else f"{text}; this value itself has none"
+
+
+def range_data(found: Feasible) -> dict[str, Any]:
+    """The ranges of a word as plain data: schema contoursolve/range/1. Values are as the word is written."""
+    return {
+        "schema": "contoursolve/range/1",
+        "word": found.word,
+        "unit": found.unit,
+        "stated": found.stated,
+        "within": list(found.within),
+        "complete": found.is_complete,
+        "doubts": list(found.doubts),
+        "refusal": found.refusal or None,
+        "ranges": [{"low": _end_data(each.low), "high": _end_data(each.high)} for each in found.intervals],
+    }
+
+
+def _end_data(end: End) -> dict[str, Any]:
+    return {
+        "value": end.value,
+        "included": end.is_included,
+        "found_by": end.way.value,
+        "inside": end.inside,
+        "outside": end.outside,
+        "reason": _reason_data(end.reason) if end.reason else None,
+    }
+
+
+def _reason_data(reason: Reason) -> dict[str, str | None]:
+    return {"text": reason.text, "code": reason.code or None, "message": reason.message or None}
+
+
+# Regions of two words ----------------------------------------------------------------------------------------
+
+
+def region_lines(found: Region) -> Iterator[str]:
+    """The lines that bound the region of two words."""
+    yield region_title(found)
+    yield from region_table(found).lines(is_headed=False)
+    yield from (f"  not proven: {each}" for each in found.doubts)
+
+
+def region_title(found: Region) -> str:
+    """What was looked at, and how many lines there are."""
+    spans = zip(found.words, found.within, found.units, strict=True)
+    box = ", ".join(f"{word} from {written(low, unit)} to {written(high, unit)}" for word, (low, high), unit in spans)
+    number = count(len(found.boundaries), "line") if found.boundaries else "no line"
+    whole = "" if found.boundaries else f"; there is {'a' if found.exists else 'no'} contour everywhere"
+    proof = _proof(is_complete=found.is_complete)
+    return f"{box}: {number} between where the contour exists and where not ({proof}){whole}"
+
+
+def region_table(found: Region) -> Table:
+    """A row for each line: its number, its ends, how many points it has, and what fails beyond it."""
+    rows = []
+    for place, each in enumerate(found.boundaries, 1):
+        first, last = (_pair(point, found) for point in (each.points[0], each.points[-1]))
+        where = "on it" if each.is_gap else "beyond it"
+        doubt = f"; {each.unverified} points not confirmed on both sides" if each.unverified else ""
+        points = f"{len(each.points)} points"
+        rows.append((f"{place}.", f"{first} to {last}", points, f"{where}: {each.reason.text}{doubt}"))
+    header = ("line", "from and to", "points", "where there is no contour")
+    return Table("The lines that bound it", header, rows, left=(0, 1, 3))
+
+
+def _pair(point: tuple[float, float], found: Region) -> str:
+    pairs = zip(found.words, point, found.units, strict=True)
+    return " ".join(f"{word} {written(value, unit)}" for word, value, unit in pairs)
+
+
+def region_data(found: Region) -> dict[str, Any]:
+    """The region of two words as plain data: schema contoursolve/region/1. Values are as the words are written."""
+    return {
+        "schema": "contoursolve/region/1",
+        "words": list(found.words),
+        "units": list(found.units),
+        "stated": list(found.stated),
+        "within": [list(each) for each in found.within],
+        "exists": found.exists,
+        "complete": found.is_complete,
+        "doubts": list(found.doubts),
+        "cell": list(found.cell),
+        "boundaries": [_boundary_data(each) for each in found.boundaries],
+    }
+
+
+def _boundary_data(each: Boundary) -> dict[str, Any]:
+    return {
+        "reason": _reason_data(each.reason),
+        "found_by": each.way.value,
+        "gap": each.is_gap,
+        "inside": list(each.inside) if each.inside else None,
+        "outside": list(each.outside) if each.outside else None,
+        "unverified": each.unverified,
+        "points": [list(point) for point in each.points],
+    }
+
+
+# Values that bring a point where it is wanted ----------------------------------------------------------------
+
+
+def found_lines(found: Found) -> Iterator[str]:
+    """The values, each with where the point is then, and the block to write."""
+    yield found_title(found)
+    if found.remark:
+        yield f"  {found.remark}"
+    yield from (f"  not proven: {each}" for each in found.doubts)
+    for place, (value, point, certificate, block, rounding) in enumerate(found_table(found).rows, 1):
+        yield f"  {place}. {found.word} {value}: {point}"
+        yield from (f"     {line}" for line in (*filter(None, [certificate]), *block.split("\n"), rounding))
+
+
+def found_title(found: Found) -> str:
+    """What was asked, and how many values there are."""
+    low, high = (written(value, found.unit) for value in found.within)
+    number = count(len(found.hits), "value") if found.hits else "no value"
+    aim = "nearest to" if found.goal.is_nearest else "at"
+    goal, proof = measured(found.goal.place, found.plane, found.length), _proof(is_complete=found.is_complete)
+    return f"{found.goal.point} {aim} {goal}, by {found.word} from {low} to {high}: {number} ({proof})"
+
+
+def found_table(found: Found) -> Table:
+    """Each value, where the point is then, the certificate (may be empty), the block, and what rounding does."""
+    header = (found.word, "the point is then at", "certificate", "the block", "what rounding does")
+    return Table("Values", header, [_hit_cells(hit, found) for hit in found.hits], left=(1, 2, 3, 4))
+
+
+def _hit_cells(hit: Hit, found: Found) -> tuple[str, str, str, str, str]:
+    away = f", {length_in(hit.away, found.length)} away" if found.goal.is_nearest else ""
+    at = f"{measured(hit.point, found.plane, found.length)}{away}"
+    rounding = "rounded like this, the block has no contour"
+    if hit.rounded_away is not None:
+        off = "away" if found.goal.is_nearest else "off"
+        rounding = f"rounded like this, the point is {length_in(hit.rounded_away, found.length)} {off}"
+    return written(hit.value, found.unit), at, str(printed_certificate(hit.certificate) or ""), hit.block, rounding
+
+
+def found_data(found: Found) -> dict[str, Any]:
+    """The values as plain data: schema contoursolve/find/1. Points are in mm, X of a lathe as radius."""
+    return {
+        "schema": "contoursolve/find/1",
+        "word": found.word,
+        "unit": found.unit,
+        "stated": found.stated,
+        "within": list(found.within),
+        "plane": list(found.plane.axes),
+        "point": found.goal.point,
+        "goal": list(found.goal.place),
+        "aim": "nearest" if found.goal.is_nearest else "reach",
+        "complete": found.is_complete,
+        "doubts": list(found.doubts),
+        "remark": found.remark or None,
+        "values": [_hit_data(hit) for hit in found.hits],
+    }
+
+
+def _hit_data(hit: Hit) -> dict[str, Any]:
+    certificate = printed_certificate(hit.certificate)
+    return {
+        "value": hit.value,
+        "at": list(hit.point),
+        "away_mm": hit.away,
+        "certificate": {"kind": certificate.proof.value, "radius": certificate.radius} if certificate else None,
+        "rounded": hit.rounded,
+        "block": hit.block,
+        "rounded_away_mm": hit.rounded_away,
+    }
+
+
+# Which word moves a point most -------------------------------------------------------------------------------
+
+
+def tolerances_lines(found: Tolerances) -> Iterator[str]:
+    """The words, the one that moves the point most first, and what their tolerances come to."""
+    yield tolerances_title(found)
+    yield from effect_table(found).lines()
+    yield from (f"  {line}" for line in spread_lines(found))
+
+
+def tolerances_title(found: Tolerances) -> str:
+    """The point, and where it is."""
+    return f"{found.point}: {measured(found.place, found.plane, found.length)}; moved by each word, the most first"
+
+
+def effect_table(found: Tolerances) -> Table:
+    """What each word does; all lengths in the unit of the program."""
+    has_tolerances = _has_tolerances(found)
+    head = ["word", "value", *(f"{label} per unit" for label in axis_labels(found.plane))]
+    head += ["tolerance", "moves it by"] if has_tolerances else []
+    rows = [_effect_cells(each, found, has_tolerances) for each in found.effects]
+    return Table("What each word does", [*head, "half an increment"], rows)
+
+
+def spread_lines(found: Tolerances) -> Iterator[str]:
+    """What the tolerances come to, and what rounding does; first of all at which limits there is no contour."""
+    limits, unit = found.limits, found.length
+    for missing in limits.missing if limits is not None else ():
+        place = ", ".join(f"{word} {value:g}" for word, value in missing.values.items())
+        which = f"such as {place}" if missing.count > 1 else f"at {place}"
+        many = f"{missing.count} of {count(limits.count, 'combination')}" if limits is not None else ""
+        yield f"no contour at {many} of the limits, {which}: {missing.message}"
+    if _has_tolerances(found):
+        pairs = zip(axis_labels(found.plane), found.spread, found.plane.diameters, strict=True)
+        spreads = [(label, each, 2 if is_diameter else 1) for label, each, is_diameter in pairs]
+        worst = ", ".join(f"{label} {length_in(each.worst * times, unit)}" for label, each, times in spreads)
+        typical = ", ".join(f"{label} {length_in(each.typical * times, unit)}" for label, each, times in spreads)
+        yield f"off by at worst {worst}; in the root of the sum of squares {typical}"
+    if limits is not None and not isnan(limits.low[0]):
+        lowest, highest = (measured(at, found.plane, unit) for at in (limits.low, limits.high))
+        solved = f"{limits.count - limits.without} of {limits.count}" if limits.without else f"all {limits.count}"
+        yield f"solved at {solved} combinations of the limits: from {lowest} to {highest}"
+    for each in found.effects:
+        if each.rounded is not None and each.rounded != each.stated:
+            by = "" if each.by_rounding is None else length_in(each.by_rounding, unit)
+            moved = f"moves it by {by}" if by else "leaves no contour"
+            linear = f"{length_in(each.by_rounding_linear, unit)} by the derivatives"
+            yield f"{each.word} rounded to {written(each.rounded, each.unit)} {moved} ({linear})"
+
+
+def _has_tolerances(found: Tolerances) -> bool:
+    return found.limits is not None or any(each.tolerance is not None for each in found.effects)
+
+
+def _effect_cells(each: Effect, found: Tolerances, has_tolerances: bool) -> list[str]:
+    slopes = [
+        _length(slope * (2 if is_diameter else 1), found.length)
+        for slope, is_diameter in zip(each.slope, found.plane.diameters, strict=True)
+    ]
+    slopes = [slope if slope == _NONE else f"{slope}/{short_name(each.unit)}" for slope in slopes]
+    row = [each.word, written(each.stated, each.unit), *slopes]
+    if has_tolerances and each.tolerance is not None:
+        row += [f"{each.tolerance:g} {short_name(each.unit)}", _length(each.moves, found.length)]
+    elif has_tolerances:
+        row += ["", ""]
+    half = "no contour" if each.by_half is None else _length(each.by_half, found.length)
+    return [*row, "" if each.increment is None else half]
+
+
+def _length(value: float, unit: Length) -> str:
+    return _NONE if isnan(value) else length_in(value, unit)
+
+
+_NONE = "none"
+"""What stands where no derivative exists."""
+
+
+def tolerances_data(found: Tolerances) -> dict[str, Any]:
+    """The same as plain data: schema contoursolve/sensitivity/1. Points are in mm, X of a lathe as radius; slopes in mm
+    for each unit of the word as written."""
+    limits = found.limits
+    is_placed = limits is not None and not isnan(limits.low[0])
+    return {
+        "schema": "contoursolve/sensitivity/1",
+        "point": found.point,
+        "plane": list(found.plane.axes),
+        "at": list(found.place),
+        "words": [
+            {
+                "word": each.word,
+                "unit": each.unit or None,
+                "value": each.stated,
+                "slope": None if isnan(each.slope[0]) else list(each.slope),
+                "tolerance": each.tolerance,
+                "moves_mm": None if isnan(each.moves) else each.moves,
+                "increment": each.increment,
+                "half_increment_mm": each.by_half,
+                "rounded": each.rounded,
+                "rounding_mm": each.by_rounding,
+                "rounding_linear_mm": None if isnan(each.by_rounding_linear) else each.by_rounding_linear,
+            }
+            for each in found.effects
+        ],
+        "spread": [
+            None if isnan(each.worst) else {"worst": each.worst, "typical": each.typical} for each in found.spread
+        ],
+        "limits": {
+            "low": list(limits.low) if is_placed else None,
+            "high": list(limits.high) if is_placed else None,
+            "combinations": limits.count,
+            "without_contour": limits.without,
+            "missing": [
+                {"count": each.count, "values": dict(each.values), "message": each.message} for each in limits.missing
+            ],
+        }
+        if limits is not None
+        else None,
+    }

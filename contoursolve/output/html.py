@@ -1,0 +1,236 @@
+"""HTML of contours, findings and tables, escaped by htpy, with its style sheet: for notebooks and the report alike."""
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import lru_cache
+from importlib.resources import files
+
+import htpy as h
+from markupsafe import Markup
+
+from contoursolve.diagnostic import Diagnostic, Severity
+from contoursolve.examine import Answer
+from contoursolve.output.contours import (
+    check_table,
+    count_text,
+    given_table,
+    path_table,
+    resting_texts,
+    small,
+    solution_rows,
+)
+from contoursolve.output.findings import Piece, finding_pieces
+from contoursolve.output.layout import Table, printable
+from contoursolve.pictures import Drawable, Theme, draw
+from contoursolve.pictures.theme import DARK_COLORS, LIGHT_COLORS, Role
+from contoursolve.solutions import list_solutions, printed_certificate
+
+WIDEST, LONGEST = 200, 400
+"""Characters of a cell, and of a line."""
+
+MOST_ROWS = 200
+"""Rows of a table on a page."""
+
+# Tables ------------------------------------------------------------------------------------------------------
+
+
+def table_of(rows: Table) -> h.Element:
+    """A table as every format shows it, with as many rows as a page holds."""
+    return table(rows.caption, rows.header, _cut(rows.rows), numbers=rows.numbers)
+
+
+def table(
+    caption: str, header: Sequence[str], rows: Sequence[Sequence[h.Node]], *, numbers: Sequence[int] = ()
+) -> h.Element:
+    """A table whose first column heads its rows; the columns named in `numbers` are aligned right."""
+    kinds = ["number" if place in numbers else None for place in range(len(header))]
+    return h.div(".scroll", tabindex="0", role="region", aria_label=caption)[
+        h.table[
+            h.caption[caption],
+            h.thead[h.tr[(h.th(scope="col", class_=kind)[text] for kind, text in zip(kinds, header, strict=True))]],
+            h.tbody[
+                (
+                    h.tr[
+                        h.th(scope="row", class_=kinds[0])[_cell(row[0])],
+                        (h.td(class_=kind)[_cell(text)] for kind, text in zip(kinds[1:], row[1:], strict=True)),
+                    ]
+                    for row in rows
+                )
+            ],
+        ]
+    ]
+
+
+def _cell(content: h.Node) -> h.Node:
+    """A text as it can be printed and not too long; elements stay."""
+    return short(content) if isinstance(content, str) and not hasattr(content, "__html__") else content
+
+
+def _cut(rows: Sequence[Sequence[str]]) -> Sequence[Sequence[str]]:
+    """The rows that a page holds, and in the last one how many more there are."""
+    if len(rows) <= MOST_ROWS:
+        return rows
+    return [*rows[:MOST_ROWS], (f"and {len(rows) - MOST_ROWS} more", *[""] * (len(rows[0]) - 1))]
+
+
+def short(text: str) -> str:
+    """A text without control characters, cut where it is too long for a cell."""
+    shown = printable(text)
+    return shown if len(shown) <= WIDEST else f"{shown[: WIDEST - 4]} ..."
+
+
+def figure(record: Drawable) -> h.Element:
+    """The picture; where it cannot be drawn the page says so, and its tables say the same."""
+    try:
+        return h.figure[Markup(draw(record, theme=Theme.PAGE).svg)]  # our own painter escapes
+    except Exception as error:  # numbers that nobody draws must not keep the rest from the reader
+        return h.p[f"This cannot be drawn ({type(error).__name__})."]
+
+
+# Contours ----------------------------------------------------------------------------------------------------
+
+
+def words_table(answer: Answer) -> h.Element:
+    """What was given, as many words as there are."""
+    given = given_table(answer)
+    return table(given.caption, given.header, given.rows, numbers=given.numbers)
+
+
+def path_element(answer: Answer) -> h.Element | None:
+    """Every named point and every element of the path, in the unit and the axes of the program."""
+    return table_of(path_table(answer)) if answer.contour is not None else None
+
+
+def solutions_table(answer: Answer) -> Iterator[h.Node]:
+    """All solutions and what selects each, where there are several or may be more."""
+    listing = list_solutions(answer)
+    if listing is None or listing.is_single:
+        return
+    header = ("solution", "chosen", "where it differs", "what selects it", "certificate")
+    rows = [
+        (name, "yes" if each.is_chosen else "", f"{label} {where}".strip(), selects, certificate)
+        for each, (name, label, where, selects, certificate) in solution_rows(answer, listing)
+    ]
+    yield table_of(Table("All solutions", header, rows, left=range(len(header))))
+    yield h.p[short(f"{count_text(listing)}.")]
+    yield from (h.p[short(f"Not decided: {doubt}.")] for doubt in listing.doubts)
+
+
+def checks_table(answer: Answer) -> h.Element | None:
+    """The checks that a contour without a path went through."""
+    is_shown = answer.diagnosis is not None and answer.contour is None
+    return table_of(check_table(answer.diagnosis)) if is_shown and answer.diagnosis is not None else None
+
+
+def remarks(answer: Answer, control: str) -> Iterator[h.Element]:
+    """What is proven of the path, what it rests on, and the block with what it asked for filled in."""
+    if answer.filled:
+        yield h.p[f"Filled in (the contour moves by {small(answer.filled.deviation)}):"]
+        yield h.pre["\n".join(short(text.strip()) for text in answer.filled.blocks)]
+    if answer.contour is not None:
+        yield h.p[short(f"Certificate: {printed_certificate(answer.certificate)}.")]
+        yield from (h.p[short(text)] for text in resting_texts(answer, control))
+
+
+# Findings ----------------------------------------------------------------------------------------------------
+
+Anchor = Callable[[int], str | None]
+"""The address of a line of the program on the page, if it has one."""
+
+
+def finding_element(
+    finding: Diagnostic,
+    name: str,
+    sources: Mapping[int, str],
+    *,
+    anchor: Anchor | None = None,
+    identity: str = "",
+    heading: h.Element = h.h4,
+) -> h.Element:
+    """One finding in the layout of the terminal: its title, and below it everything else, its place as a link."""
+    title, *rest = finding_pieces(finding, name, sources)
+    target = anchor(finding.span.line) if anchor else None
+    return h.section(class_=f"finding {finding.severity.value}", id=identity or None)[
+        heading[(_piece(piece, None) for piece in bounded(title))],
+        h.pre(tabindex="0")[([*(_piece(piece, target) for piece in bounded(line)), "\n"] for line in rest if line)],
+    ]
+
+
+def bounded(line: Sequence[Piece]) -> list[Piece]:
+    """The pieces of a line as far as it is not too long."""
+    shown: list[Piece] = []
+    room = LONGEST
+    for text, role in line:
+        shown.append((text if len(text) <= room else f"{text[:room]} ...", role))
+        room -= len(text)
+        if room <= 0:
+            break
+    return shown
+
+
+def _piece(piece: Piece, target: str | None) -> h.Node:
+    text, role = piece
+    if role == "place" and target:
+        return h.a(href=target)[text]
+    return h.span(class_=role)[text] if role else text
+
+
+def worst_of(findings: Iterable[Diagnostic]) -> str:
+    """The worst severity of findings; `fine` without any."""
+    found = {each.severity for each in findings}
+    return next((each.value for each in Severity if each in found), "fine")
+
+
+# The style sheet ---------------------------------------------------------------------------------------------
+
+_SURFACES = {"light": {"shade": "#f3f4f6", "line": "#cbd0d8"}, "dark": {"shade": "#1b2230", "line": "#3a4454"}}
+"""Colours that no picture has: behind texts, and of thin lines between rows."""
+
+LIGHT: Mapping[str, str] = {role.value: color for role, color in LIGHT_COLORS.items()} | _SURFACES["light"]
+DARK: Mapping[str, str] = {role.value: color for role, color in DARK_COLORS.items()} | _SURFACES["dark"]
+
+_NOTEBOOK_COLORS = {
+    Role.INK.value: "--jp-content-font-color1, var(--vscode-editor-foreground, {})",
+    Role.PAPER.value: "--jp-layout-color0, var(--vscode-editor-background, {})",
+}
+"""What JupyterLab and VS Code call the colours of their themes."""
+
+_LIGHT_PAGES = ('[data-jp-theme-light="true"]', ".vscode-light", '[data-theme="light"]')
+_DARK_PAGES = ('[data-jp-theme-light="false"]', ".vscode-dark", '[data-theme="dark"]', ".dark")
+"""How notebooks mark the theme that they show, whatever the reader's system prefers."""
+
+
+@lru_cache
+def style_rules(name: str = "style.css") -> str:
+    """What everything inside an element of the class `contoursolve` looks like."""
+    return files("contoursolve.output").joinpath(name).read_text(encoding="utf-8")
+
+
+@lru_cache
+def notebook_style() -> str:
+    """The style sheet for an output of a notebook, in the notebook's own theme."""
+    light, dark = (_declarations(colors, _NOTEBOOK_COLORS) for colors in (LIGHT, DARK))
+    themed = "".join(
+        f"{', '.join(f'{page} .contoursolve' for page in pages)} {{ {declared} }}\n"
+        for pages, declared in ((_LIGHT_PAGES, light), (_DARK_PAGES, dark))
+    )
+    return (
+        f".contoursolve {{ {light} }}\n@media (prefers-color-scheme: dark) {{ .contoursolve {{ {dark} }} }}\n"
+        f"{themed}{style_rules()}"
+    )
+
+
+@lru_cache
+def page_style() -> str:
+    """The style sheet for a page of its own: as the reader prefers, and light on paper."""
+    light, dark = _declarations(LIGHT), _declarations(DARK)
+    return (
+        f":root {{ color-scheme: light dark; {light} }}\n"
+        f"@media screen and (prefers-color-scheme: dark) {{ :root {{ {dark} }} }}\n{style_rules()}"
+    )
+
+
+def _declarations(colors: Mapping[str, str], page: Mapping[str, str] | None = None) -> str:
+    values = {
+        name: f"var({page[name].format(color)})" if page and name in page else color for name, color in colors.items()
+    }
+    return " ".join(f"--cs-{name}: {value};" for name, value in values.items())
