@@ -1,9 +1,34 @@
 """Plain data as JSON."""
 
 import json
+from collections.abc import Mapping
+from dataclasses import fields, is_dataclass
+from enum import Enum
+from math import isfinite
 from typing import Any
 
 
 def json_text(data: Any) -> str:
     """One document: ASCII, which every console prints; a number that JSON does not know raises ValueError."""
     return json.dumps(data, indent=1, ensure_ascii=True, allow_nan=False)
+
+
+def members(record: object, names: str) -> dict[str, Any]:
+    """Fields of a record as members of an object: each name is one of both, or `member=field`."""
+    pairs = (name.partition("=") for name in names.split())
+    return {member: plain(getattr(record, attribute or member)) for member, _, attribute in pairs}
+
+
+def plain(value: Any) -> Any:
+    """A value as JSON holds it: enums by their values, records with all their fields, null for what is not finite."""
+    if isinstance(value, Enum):
+        return value.value
+    if isinstance(value, float):
+        return value if isfinite(value) else None
+    if isinstance(value, list | tuple):
+        return [plain(each) for each in value]
+    if isinstance(value, Mapping):
+        return {name: plain(each) for name, each in value.items()}
+    if is_dataclass(value):
+        return {each.name: plain(getattr(value, each.name)) for each in fields(value)}
+    return value

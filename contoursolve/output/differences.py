@@ -7,7 +7,7 @@ from math import degrees, isfinite
 from typing import Any
 
 from contoursolve.comparison import Comparison, Path, Place, Step, Travel, Unfollowed
-from contoursolve.data import json_text
+from contoursolve.data import json_text, members
 from contoursolve.model import Length
 from contoursolve.output.document import finding_data
 from contoursolve.output.layout import printable
@@ -197,8 +197,7 @@ def _step(step: Step | None) -> dict[str, Any] | None:
         "motion": step.motion.value,
         "start": [_number(value) for value in step.start],
         "end": [_number(value) for value in step.end],
-        "compensation": step.compensation,
-        "is_skippable": step.is_skippable,
+        **members(step, "compensation is_skippable"),
     }
     if step.bend:
         data |= {

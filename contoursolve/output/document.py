@@ -5,7 +5,7 @@ from tempfile import SpooledTemporaryFile
 from typing import Any
 
 from contoursolve.contour import ArcSegment, Contour, Segment
-from contoursolve.data import json_text
+from contoursolve.data import json_text, members, plain
 from contoursolve.diagnostic import Diagnosis, Diagnostic
 from contoursolve.examine import Answer, AskedValue, rank
 from contoursolve.output.listing import Tally, findings_of
@@ -13,7 +13,7 @@ from contoursolve.pipeline import Result, Run, without_contour
 from contoursolve.solutions import DECIMALS, decimals_of, list_solutions, printed_certificate
 from contoursolve.solving import Point
 from contoursolve.solving.certificate import Certificate, Proof
-from contoursolve.source import Source, Span
+from contoursolve.source import Span
 
 
 def to_json(result: Result) -> str:
@@ -143,31 +143,13 @@ def finding_data(finding: Diagnostic, result: Result) -> dict[str, Any]:
     """One finding as plain data. What is about a fact or a start point stated apart stands at the block, with the place
     in the fact or the start point."""
     return {
-        "code": finding.code,
-        "severity": finding.severity.value,
+        **members(finding, "code severity"),
         **_place(finding.span, result),
-        "message": finding.message,
-        "help": finding.help,
-        "notes": list(finding.notes),
+        **members(finding, "message help notes"),
         "labels": [{**_place(label.span, result), "text": label.text} for label in finding.labels],
-        "addresses": list(finding.addresses),
-        "basis": finding.basis.value,
-        "source": _source(finding.source),
-        "alarm": {"number": finding.alarm.number, "evidence": finding.alarm.evidence.value} if finding.alarm else None,
-        "values": {name: _finite(value) for name, value in finding.values.items()},
-        "fixes": [
-            {
-                "description": fix.description,
-                "replacement": fix.replacement,
-                "applicability": fix.applicability.value,
-            }
-            for fix in finding.fixes
-        ],
+        **members(finding, "addresses basis source alarm values"),
+        "fixes": [members(fix, "description replacement applicability") for fix in finding.fixes],
     }
-
-
-def _source(source: Source) -> dict[str, str]:
-    return {"manual": source.manual, "place": source.place, "evidence": source.evidence.value}
 
 
 def _place(span: Span, result: Result) -> dict[str, Any]:
@@ -190,20 +172,13 @@ def _contour(answer: Answer) -> dict[str, Any]:
         "start": [None if value is None else _number(float(value)) for value in answer.start.values],
         **_path(contour, decimals),
         "branch": ", ".join(side.value for side in answer.sides.values()) or None,
-        "branches": {point: side.value for point, side in answer.sides.items()},
+        "branches": plain(answer.sides),
         "certificate": _certificate(certificate),
         "conventions": [
-            {
-                "setting": each.setting.name,
-                "value": each.value,
-                "meaning": each.meaning,
-                "evidence": each.evidence.value,
-            }
+            {"setting": each.setting.name, **members(each, "value meaning evidence")}
             for each in answer.claim.conventions
         ],
-        "assumptions": [
-            {"name": each.name, "meaning": each.meaning, "source": _source(each.source)} for each in answer.assumptions
-        ],
+        "assumptions": [members(each, "name meaning source") for each in answer.assumptions],
         "facts": [directive.text for directive in answer.claim.directives],
         "asked": [_asked(each, answer) for each in answer.answers],
         "filled": {"blocks": list(answer.filled.blocks), "deviation_mm": _number(answer.filled.deviation)}
@@ -227,10 +202,8 @@ def _certificate(certificate: Certificate | None) -> dict[str, Any]:
     if printed is None:
         return {"kind": Proof.UNKNOWN.value, "radius": None, "reason": "there is no contour", "double": None}
     return {
-        "kind": printed.proof.value,
-        "radius": _finite(printed.radius),
-        "reason": printed.reason,
-        "double": {"gap_mm": _finite(printed.gap)} if printed.gap is not None else None,
+        **members(printed, "kind=proof radius reason"),
+        "double": members(printed, "gap_mm=gap") if printed.gap is not None else None,
     }
 
 
@@ -252,11 +225,9 @@ def _solutions(answer: Answer) -> dict[str, Any]:
         return {"solutions": [], "count": None}
     solutions = [
         {
-            "name": each.name,
-            "is_chosen": each.is_chosen,
-            "selects": list(each.selects),
+            **members(each, "name is_chosen selects"),
             "is_path": each.contour is not None,
-            "reasons": list(each.reasons),
+            **members(each, "reasons"),
             "asked": [_asked(value, answer) for value in each.asked],
             **_path(each.contour, decimals_of(each.certificate)),
             "certificate": _certificate(each.certificate),
@@ -266,34 +237,17 @@ def _solutions(answer: Answer) -> dict[str, Any]:
     count = {
         "solutions": len(solutions),
         "contours": sum(each.contour is not None for each in listing.solutions),
-        "is_complete": listing.is_complete,
-        "method": listing.method,
-        "doubts": list(listing.doubts),
-        "chosen_by": listing.chosen_by,
+        **members(listing, "is_complete method doubts chosen_by"),
     }
     return {"solutions": solutions, "count": count}
 
 
 def _diagnosis(diagnosis: Diagnosis) -> dict[str, Any]:
+    freedoms = [members(each, "point direction angle") for each in diagnosis.freedoms]
     return {
-        "layers": [
-            {"name": layer.name, "verdict": layer.verdict.value, "remark": layer.remark} for layer in diagnosis.layers
-        ],
-        "freedoms": [
-            {"point": each.point, "direction": list(each.direction) if each.direction else None, "angle": each.angle}
-            for each in diagnosis.freedoms
-        ],
-        "ties": [
-            {
-                "addresses": list(tie.addresses),
-                "identity": tie.identity,
-                "off_by_mm": tie.off_by_mm,
-                "is_conflict": tie.is_conflict,
-            }
-            for tie in diagnosis.ties
-        ],
-        "ties_complete": diagnosis.ties_complete,
-        "repairs_complete": diagnosis.repairs_complete,
+        **members(diagnosis, "layers"),
+        "freedoms": freedoms,
+        **members(diagnosis, "ties ties_complete repairs_complete"),
     }
 
 
@@ -314,8 +268,3 @@ def _point(at: Point, decimals: int) -> list[float]:
 
 def _number(value: float, decimals: int = DECIMALS) -> float:
     return round(value, decimals) + 0.0
-
-
-def _finite(value: float) -> float | None:
-    """Infinity, which JSON cannot hold, as null."""
-    return value if abs(value) < float("inf") else None

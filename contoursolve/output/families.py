@@ -4,7 +4,8 @@ from collections.abc import Iterator
 from math import isnan
 from typing import Any
 
-from contoursolve.families import Boundary, Effect, End, Feasible, Found, Hit, Reason, Region, Tolerances
+from contoursolve.data import members
+from contoursolve.families import Effect, End, Feasible, Found, Hit, Reason, Region, Tolerances
 from contoursolve.model import Length
 from contoursolve.output.layout import Table
 from contoursolve.solutions import printed_certificate
@@ -61,26 +62,15 @@ def range_data(found: Feasible) -> dict[str, Any]:
     """The ranges of a word as plain data: schema contoursolve/range/1. Values are as the word is written."""
     return {
         "schema": "contoursolve/range/1",
-        "word": found.word,
-        "unit": found.unit,
-        "stated": found.stated,
-        "within": list(found.within),
-        "complete": found.is_complete,
-        "doubts": list(found.doubts),
+        **members(found, "word unit stated within complete=is_complete doubts"),
         "refusal": found.refusal or None,
         "ranges": [{"low": _end_data(each.low), "high": _end_data(each.high)} for each in found.intervals],
     }
 
 
 def _end_data(end: End) -> dict[str, Any]:
-    return {
-        "value": end.value,
-        "included": end.is_included,
-        "found_by": end.way.value,
-        "inside": end.inside,
-        "outside": end.outside,
-        "reason": _reason_data(end.reason) if end.reason else None,
-    }
+    reason = _reason_data(end.reason) if end.reason else None
+    return {**members(end, "value included=is_included found_by=way inside outside"), "reason": reason}
 
 
 def _reason_data(reason: Reason) -> dict[str, str | None]:
@@ -127,29 +117,11 @@ def _pair(point: tuple[float, float], found: Region) -> str:
 
 def region_data(found: Region) -> dict[str, Any]:
     """The region of two words as plain data: schema contoursolve/region/1. Values are as the words are written."""
+    names = "found_by=way gap=is_gap inside outside unverified points"
     return {
         "schema": "contoursolve/region/1",
-        "words": list(found.words),
-        "units": list(found.units),
-        "stated": list(found.stated),
-        "within": [list(each) for each in found.within],
-        "exists": found.exists,
-        "complete": found.is_complete,
-        "doubts": list(found.doubts),
-        "cell": list(found.cell),
-        "boundaries": [_boundary_data(each) for each in found.boundaries],
-    }
-
-
-def _boundary_data(each: Boundary) -> dict[str, Any]:
-    return {
-        "reason": _reason_data(each.reason),
-        "found_by": each.way.value,
-        "gap": each.is_gap,
-        "inside": list(each.inside) if each.inside else None,
-        "outside": list(each.outside) if each.outside else None,
-        "unverified": each.unverified,
-        "points": [list(point) for point in each.points],
+        **members(found, "words units stated within exists complete=is_complete doubts cell"),
+        "boundaries": [{"reason": _reason_data(each.reason), **members(each, names)} for each in found.boundaries],
     }
 
 
@@ -196,16 +168,11 @@ def found_data(found: Found) -> dict[str, Any]:
     """The values as plain data: schema contoursolve/find/1. Points are in mm, X of a lathe as radius."""
     return {
         "schema": "contoursolve/find/1",
-        "word": found.word,
-        "unit": found.unit,
-        "stated": found.stated,
-        "within": list(found.within),
-        "plane": list(found.plane.axes),
-        "point": found.goal.point,
-        "goal": list(found.goal.place),
+        **members(found, "word unit stated within"),
+        **members(found.plane, "plane=axes"),
+        **members(found.goal, "point goal=place"),
         "aim": "nearest" if found.goal.is_nearest else "reach",
-        "complete": found.is_complete,
-        "doubts": list(found.doubts),
+        **members(found, "complete=is_complete doubts"),
         "remark": found.remark or None,
         "values": [_hit_data(hit) for hit in found.hits],
     }
@@ -214,13 +181,9 @@ def found_data(found: Found) -> dict[str, Any]:
 def _hit_data(hit: Hit) -> dict[str, Any]:
     certificate = printed_certificate(hit.certificate)
     return {
-        "value": hit.value,
-        "at": list(hit.point),
-        "away_mm": hit.away,
-        "certificate": {"kind": certificate.proof.value, "radius": certificate.radius} if certificate else None,
-        "rounded": hit.rounded,
-        "block": hit.block,
-        "rounded_away_mm": hit.rounded_away,
+        **members(hit, "value at=point away_mm=away"),
+        "certificate": members(certificate, "kind=proof radius") if certificate else None,
+        **members(hit, "rounded block rounded_away_mm=rounded_away"),
     }
 
 
@@ -305,40 +268,28 @@ def tolerances_data(found: Tolerances) -> dict[str, Any]:
     """The same as plain data: schema contoursolve/sensitivity/1. Points are in mm, X of a lathe as radius; slopes in mm
     for each unit of the word as written."""
     limits = found.limits
-    is_placed = limits is not None and not isnan(limits.low[0])
     return {
         "schema": "contoursolve/sensitivity/1",
         "point": found.point,
         "plane": list(found.plane.axes),
         "at": list(found.place),
-        "words": [
-            {
-                "word": each.word,
-                "unit": each.unit or None,
-                "value": each.stated,
-                "slope": None if isnan(each.slope[0]) else list(each.slope),
-                "tolerance": each.tolerance,
-                "moves_mm": None if isnan(each.moves) else each.moves,
-                "increment": each.increment,
-                "half_increment_mm": each.by_half,
-                "rounded": each.rounded,
-                "rounding_mm": each.by_rounding,
-                "rounding_linear_mm": None if isnan(each.by_rounding_linear) else each.by_rounding_linear,
-            }
-            for each in found.effects
-        ],
-        "spread": [
-            None if isnan(each.worst) else {"worst": each.worst, "typical": each.typical} for each in found.spread
-        ],
+        "words": [_effect_data(each) for each in found.effects],
+        "spread": [None if isnan(each.worst) else members(each, "worst typical") for each in found.spread],
         "limits": {
-            "low": list(limits.low) if is_placed else None,
-            "high": list(limits.high) if is_placed else None,
-            "combinations": limits.count,
-            "without_contour": limits.without,
-            "missing": [
-                {"count": each.count, "values": dict(each.values), "message": each.message} for each in limits.missing
-            ],
+            **({"low": None, "high": None} if isnan(limits.low[0]) else members(limits, "low high")),
+            **members(limits, "combinations=count without_contour=without missing"),
         }
         if limits is not None
         else None,
+    }
+
+
+def _effect_data(each: Effect) -> dict[str, Any]:
+    rounding = "half_increment_mm=by_half rounded rounding_mm=by_rounding rounding_linear_mm=by_rounding_linear"
+    return {
+        "word": each.word,
+        "unit": each.unit or None,
+        "value": each.stated,
+        "slope": None if isnan(each.slope[0]) else list(each.slope),
+        **members(each, f"tolerance moves_mm=moves increment {rounding}"),
     }
