@@ -203,7 +203,10 @@ _FAULTS_OF_NO_CONSEQUENCE = (FaultKind.STRAY_CHARACTER,)
 """Faults that are only worth a warning in a block that is not a contour."""
 
 _NEAR = 8
-"""Blocks after a contour of which a repair may make a part of it."""
+"""Blocks at a place that are looked at together for what may have been meant there."""
+
+_BEHIND = 32
+"""Blocks after a contour of which a repair may make a part of it: the rest of a chain that a comma joins."""
 
 _BATCH = 1_000
 """Blocks that are read at once."""
@@ -302,7 +305,7 @@ class _Examiner:
             after = 1
             if isinstance(found, Claim):
                 after += found.blocks[-1].line - block.line
-            if not is_whole and not (view.says_something(after) and view.holds(after + _NEAR)):
+            if not is_whole and not (view.says_something(after) and view.holds(after + _BEHIND)):
                 # Whether a contour goes on is known at the next block that says something.
                 more = list(islice(rest, _BATCH))
                 held, index, is_whole = [*held[index:], *more], 0, not more
@@ -397,7 +400,7 @@ class _Examiner:
             # Most programs need no diagnosis, and none should wait for its import.
             from contoursolve.diagnosis import diagnose  # noqa: PLC0415
 
-            answer = diagnose(answer, dialect, self.policy, blocks[after : after + _NEAR], pending.previous)
+            answer = diagnose(answer, dialect, self.policy, blocks[after : after + _BEHIND], pending.previous)
         elif self.depth is not Depth.VERDICT and any(
             each.about is Trouble.POINT_MISSING for each in answer.diagnostics
         ):

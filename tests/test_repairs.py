@@ -294,12 +294,24 @@ def trials(monkeypatch: pytest.MonkeyPatch) -> list[int]:
         (OUTLINE, "write ,R29.313 for ,R30"),
         (zigzag(30, line_15="G1 X300 Y10 ,R100"), "write ,R42.721 for ,R100"),
         (zigzag(30, line_15="G1 X300 Y10 ,R-2"), "write ,R2 for ,R-2"),
+        (zigzag(30, line_15="G1 X-300 Y10 ,R2"), "write X300 for X-300 (a minus sign too many)"),
+        (zigzag(30, line_15="G1 X300 Y10 R2"), "write ,R2 for R2"),
         pytest.param(zigzag(30, line_15="G1 X300 Y10 ,R2 ,C3"), "delete ,C3", marks=pytest.mark.slow),
         pytest.param(zigzag(30, line_15="G1 X300 Y10 ,A30. ,R2"), "delete ,A30.", marks=pytest.mark.slow),
         (zigzag(30, line_15="G1 ,A30. ,R2"), "add X?"),
         pytest.param(zigzag(30, line_15="G2 X300 Y10 ,R2"), "add R?", marks=pytest.mark.slow),
     ],
-    ids=["outline", "too large", "sign", "two corners", "direction twice", "place missing", "circle undefined"],
+    ids=[
+        "outline",
+        "too large",
+        "sign",
+        "sign of an end",
+        "comma",
+        "two corners",
+        "direction twice",
+        "place missing",
+        "circle undefined",
+    ],
 )
 def test_one_mistake_in_a_long_chain_is_repaired_near_it(text, fix, trials, decompositions):
     result = solve(text, control="nct-99m")
@@ -307,6 +319,12 @@ def test_one_mistake_in_a_long_chain_is_repaired_near_it(text, fix, trials, deco
     assert any(each.startswith(fix) for each in fixes), fixes
     assert len(trials) <= 14
     assert len(decompositions) <= 900
+
+
+def test_many_mistakes_in_a_long_chain_are_not_tried_in_every_combination():
+    """Each of 40 lines lacks a word, and three would do: 3**40 combinations, all of them too many changes."""
+    result = solve("\n".join(["G17 G90 G41 D0 G0 X0 Y0", *["G1 ,A30 ,R1", "G1 ,A-30 ,R1"] * 20]), control="nct-99m")
+    assert not any(finding.fixes for finding in result.diagnostics)
 
 
 def test_a_corner_far_from_the_mistake_is_not_touched():

@@ -11,7 +11,17 @@ from contoursolve.constraints import assemble
 from contoursolve.contour import Contour
 from contoursolve.diagnosis.edits import Edit, EditKind, Side, Why, apply_edits, edit_facts
 from contoursolve.diagnosis.examples import ends, propose, sampled
-from contoursolve.diagnosis.slips import FEW, NEIGHBOUR, POINT_LOST, ROUND, SLIPS, Slip, recognise
+from contoursolve.diagnosis.slips import (
+    FEW,
+    NEIGHBOUR,
+    POINT_LOST,
+    ROUND,
+    SIGN_ADDED,
+    SIGN_LOST,
+    SLIPS,
+    Slip,
+    recognise,
+)
 from contoursolve.diagnosis.subsets import LARGEST_ROLE
 from contoursolve.diagnostic import Applicability, Diagnostic, Severity
 from contoursolve.dialects import Dialect
@@ -160,6 +170,8 @@ def _order(repair: Repair) -> tuple[object, ...]:
     """What a colleague would name first: what a slip of typing explains, then what agrees with the other words, what
     fits, what is missing, what is one too many; among equals the smallest change."""
     slip = max((min(SLIPS.index(each), len(FEW) + 1) for each in repair.slips if each), default=0)
+    # Of signs that may be lost or too many, the one with which the contour does not go to and fro.
+    is_sign = repair.contour is not None and {*repair.slips} <= {SIGN_LOST, SIGN_ADDED}
     is_other = repair.applicability is not Applicability.SAFE
     size = _size(repair.contour) if repair.contour else 0.0
     # A lost point is looked for at the end of a number first; in a long one, before the last three digits.
@@ -173,7 +185,8 @@ def _order(repair: Repair) -> tuple[object, ...]:
         repair.reason,
         not repair.is_exact,
         repair.reason is Why.SLIP and not _has_round_points(repair),
-        slip if repair.reason is Why.SLIP else 0,
+        (SLIPS.index(SIGN_LOST) if is_sign else slip) if repair.reason is Why.SLIP else 0,
+        round(size, 6) if is_sign else 0.0,
         sum(decimals),
         not repair.is_blamed,
         sum(_change(edit) for edit in repair.edits) if is_of_digits else 0,

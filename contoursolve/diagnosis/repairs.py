@@ -28,6 +28,8 @@ from contoursolve.diagnosis.edits import AT_LEAST, PLACEHOLDER, Edit, EditKind, 
 from contoursolve.diagnosis.slips import (
     FEW,
     OF_DIGITS,
+    SIGN_ADDED,
+    SIGN_LOST,
     blamed_spans,
     explained,
     other_codes,
@@ -143,12 +145,26 @@ def _slips_of(
     blamed = blamed_spans(answer)
     is_missed = any(each.about is RefusalKind.CIRCLE_MISSED for each in answer.diagnostics)
     sizes = {row.fact.given for row in claim.form.facts if isinstance(row.fact, Radius)}
-    yield chain(_of_circles(answer, dialect, before), slips(answer, FEW, words))
-    if len(claim.blocks) > MOST_BLOCKS:
-        return
     near = [word for word in words if word.span in blamed]
+    if len(claim.blocks) > MOST_BLOCKS:
+        signs = slips(answer, (SIGN_LOST, SIGN_ADDED), _against_neighbours(words, claim))
+        yield chain(_of_circles(answer, dialect, before), signs, slips(answer, FEW, near))
+        return
+    yield chain(_of_circles(answer, dialect, before), slips(answer, FEW, words))
     yield slips(answer, OF_DIGITS, near or words[:1])
     yield slips(answer, OF_DIGITS, [claim.words[name] for name in claim.words if name in sizes and is_missed])
+
+
+def _against_neighbours(words: Iterable[Word], claim: Claim) -> Iterator[Word]:
+    """Words of another sign than those of the same address in the lines right before and behind."""
+    lines = [block.line for block in claim.blocks]
+    values = {(word.address, lines.index(word.span.line)): word.number for word in claim.words.values() if word.number}
+    for word in words:
+        place = lines.index(word.span.line)
+        beside = [values.get((word.address, place + step)) for step in (-1, 1)]
+        own = values.get((word.address, place))
+        if own and all(other and (other > 0) is not (own > 0) for other in beside):
+            yield word
 
 
 def _agreeing(claim: Claim, name: str) -> Iterator[tuple[Edit, ...]]:
@@ -349,7 +365,7 @@ def smallest_changes(
     if not _is_chain(form):
         return _smallest(form.roles, rules, present, present | extra, circumstances)
     # What one block of a chain says is legal or not whatever blocks far from it say.
-    parts = []
+    unions: tuple[frozenset[str], ...] = (frozenset(),)
     for prefixes in _offending(form.roles, rules, present | circumstances):
         roles = tuple(role for role in form.roles if prefixes & set(role.prefixes))
         near = {prefix for role in roles for prefix in role.prefixes}
@@ -357,9 +373,11 @@ def smallest_changes(
             frozenset(name for name in present | extra | circumstances if block_of(name) in within)
             for within in (prefixes, near)
         )
-        parts.append(_smallest(roles, rules, present & around, own & (present | extra), circumstances & around))
-    unions = (frozenset().union(*choice) for choice in product(*parts))
-    return tuple(change for change in unions if len(change) <= MOST_EDITS and change)
+        part = _smallest(roles, rules, present & around, own & (present | extra), circumstances & around)
+        # Too many changes stay too many: there are few others, however many blocks are at fault.
+        joined = dict.fromkeys(union | change for union in unions for change in part)
+        unions = tuple(union for union in joined if len(union) <= MOST_EDITS)
+    return tuple(union for union in unions if union)
 
 
 def _is_chain(form: Form) -> bool:

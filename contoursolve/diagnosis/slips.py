@@ -22,8 +22,6 @@ _DECIMALS = 3
 _ABOUT, _NEARLY = 0.01, 0.003
 """mm or degrees: by so much the value that agrees with rounded words may miss the one that was meant; the second where
 many values may be meant."""
-_LONG_CHAIN = 6
-"""Blocks beyond which only the words are looked at that findings are about."""
 _WHOLE = 2
 """Blocks of a contour that is looked at as a whole."""
 _LONG = 4
@@ -171,15 +169,17 @@ def _mended(typed: Typed) -> Iterator[str]:
 UNREADABLE = Slip("", _mended)
 """Letters for digits, commas for points, two points or signs: told by the finding itself."""
 POINT_LOST = Slip("", _point_lost)
+SIGN_LOST = Slip("a lost minus sign", _sign_lost, is_of_digits=False)
+SIGN_ADDED = Slip("a minus sign too many", _sign_added, is_of_digits=False)
 NEIGHBOUR = Slip("the word of another corner", _neighbour, is_of_digits=False, is_of_numbers=False)
 
 FEW = (
     UNREADABLE,
     POINT_LOST,
     Slip("", _comma_of_address, is_of_digits=False, is_of_numbers=False),
-    Slip("a lost minus sign", _sign_lost, is_of_digits=False),
+    SIGN_LOST,
     NEIGHBOUR,
-    Slip("a minus sign too many", _sign_added, is_of_digits=False),
+    SIGN_ADDED,
     Slip("the other sign", _sign_of_choice, is_of_digits=False),
     Slip("a lost decimal point", _point_lost_in_few),
     Slip("a digit typed twice", _typed_twice),
@@ -277,8 +277,6 @@ def suspects(answer: Answer, tied: Collection[str]) -> list[Word]:
         # Nobody writes 08.4: that is where the slip is.
         return torn
     contradicting = {claim.words[name].span for name in tied if name in claim.words}
-    if len(claim.blocks) > _LONG_CHAIN:
-        return [word for word in words if word.span in blamed | contradicting]
     if len(claim.blocks) > _WHOLE:
         near = {span.line for span in blamed | contradicting}
         numbers = [at for at, block in enumerate(claim.blocks) if block.line in near]
