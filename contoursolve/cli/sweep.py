@@ -21,15 +21,15 @@ from contoursolve.families import (
     REASONS,
     Code,
     CompiledSweep,
+    FailureSummary,
     Parts,
     Tally,
-    Telling,
     csv_lines,
+    failure_summary,
     others,
     parts_of,
     pieces,
     sweep,
-    telling_of,
     write_parquet,
 )
 from contoursolve.files import CannotWriteError, check_target, open_whole, write_whole
@@ -120,15 +120,15 @@ def sweep_(
                 _run(_tables(ready, parts, (workers, executor), tally, advance), parts, target, is_forced=is_forced)
             if picture is not None:
                 write_whole(picture, [drawn], keeps_backup=False)
-            telling = telling_of(ready, tally)
+            failures = failure_summary(ready, tally)
     except KeyboardInterrupt:
         say(_stopped(parts, tally), err=True)
         leave_threads(STOPPED)
         context.exit(STOPPED)
     if format_ == "json":
-        print_json(_summary_data(tally.counts, telling))
+        print_json(_summary_data(tally.counts, failures))
     else:
-        say("\n".join(_summary(tally.counts, telling)))
+        say("\n".join(_summary(tally.counts, failures)))
     for path in filter(None, (target, picture)):
         say(f"{path} written", err=True)
 
@@ -233,26 +233,26 @@ def _kept(parts: Parts) -> str:
     return f"; {rows} are kept in {parts.folder}: the same command goes on there, or delete it"
 
 
-def _summary(counts: Any, telling: Telling | None) -> list[str]:
+def _summary(counts: Any, failures: FailureSummary | None) -> list[str]:
     """How many contours have each status, and why."""
     rows = [(f"{counts.sum():,}", "contour" if counts.sum() == 1 else "contours")]
     for status, count, reasons in _counted(counts):
         rows.append((f"{count:,}", status))
         rows += [(f"{many:,}", f"  {reason}") for reason, many in reasons.items()]
     lines = columns(rows, left=(1,), indent="")
-    if telling is not None:
-        values = ", ".join(f"{word}={value!r}" for word, value in telling.values.items())
-        lines.append(f"{telling.count:,} of them, such as {values}: {telling.message}")
+    if failures is not None:
+        values = ", ".join(f"{word}={value!r}" for word, value in failures.values.items())
+        lines.append(f"{failures.count:,} of them, such as {values}: {failures.message}")
     return lines
 
 
-def _summary_data(counts: Any, telling: Telling | None) -> dict[str, Any]:
+def _summary_data(counts: Any, failures: FailureSummary | None) -> dict[str, Any]:
     """The same for JSON."""
     statuses = [{"status": each, "count": count, "reasons": reasons} for each, count, reasons in _counted(counts)]
     example = None
-    if telling is not None:
-        about = {"count": telling.count, "values": dict(telling.values)}
-        example = {**about, "code": telling.code or None, "message": telling.message or None}
+    if failures is not None:
+        about = {"count": failures.count, "values": dict(failures.values)}
+        example = {**about, "code": failures.code or None, "message": failures.message or None}
     return {
         "schema": "contoursolve/sweep/1",
         "contours": int(counts.sum()),

@@ -2,11 +2,10 @@
 
 from contoursolve.families.checkpoints import MOST_ROWS, Parts, others, parts_of, room_of, seconds_of
 from contoursolve.families.compiled_sweep import CompiledSweep
-from contoursolve.families.evaluate import THREADS, Tally, Telling, family, pieces, sweep, telling_of
+from contoursolve.families.evaluate import THREADS, FailureSummary, Tally, failure_summary, family, pieces, sweep
 from contoursolve.families.export import Family, Measure, csv_lines, summary_of, units_of, write_parquet
-from contoursolve.families.feasible_ranges import End, Feasible, Interval, Way, feasible
+from contoursolve.families.feasible_ranges import End, Feasible, Interval, Reason, Way, feasible
 from contoursolve.families.inverse import Found, Hit, find_word
-from contoursolve.families.limit_reasons import Reason
 from contoursolve.families.point_tolerances import Effect, Limits, Missing, Tolerances, tolerances
 from contoursolve.families.regions import Boundary, Region, region, region_of
 from contoursolve.families.sensitivities import Sensitivity, Spread, sensitivity
@@ -26,6 +25,7 @@ __all__ = [
     "CompiledSweep",
     "Effect",
     "End",
+    "FailureSummary",
     "Family",
     "FamilyError",
     "Feasible",
@@ -44,10 +44,10 @@ __all__ = [
     "Spread",
     "Sweep",
     "Tally",
-    "Telling",
     "Tolerances",
     "Way",
     "csv_lines",
+    "failure_summary",
     "family",
     "feasible",
     "find_word",
@@ -62,7 +62,6 @@ __all__ = [
     "sensitivity",
     "summary_of",
     "sweep",
-    "telling_of",
     "tolerances",
     "units_of",
     "write_parquet",

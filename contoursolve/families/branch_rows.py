@@ -1,28 +1,21 @@
-"""Rows of which each may have several solutions: boxes that hold one each, and Newton's method from there.
+"""Rows of which each may have several solutions: Newton's method from the boxes that hold one each, and a verdict."""
 
-The boxes are found for whole ranges of values at once, by the search of a single solve on ground that is a range. What
-it proves there holds for every row whose values lie in it: so many solutions, each alone in a box of its own and on the
-same side for all of them. A range in which something remains undecided is divided.
-"""
-
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy
 from numpy.typing import NDArray
 
-from contoursolve.analysis import Group, judge, order
-from contoursolve.backends import ball
-from contoursolve.backends.ball import Number
+from contoursolve.analysis import judge
 from contoursolve.backends.columns import ROWS, Array, Columns, columns_of, compile_columns, directions
 from contoursolve.backends.inputs import COSINE, SIDE, SINE, lookup
 from contoursolve.backends.numeric import Tape, largest
 from contoursolve.constraints import Coordinate, Radius, System, Values
 from contoursolve.families.case_classes import CaseClass, asked_of
-from contoursolve.families.spec import Places, Ranges
+from contoursolve.families.row_boxes import Place, RowBoxes
+from contoursolve.families.spec import Places, Stretches
 from contoursolve.model import FIRST, SECOND, Fact, Unit, scalar
-from contoursolve.solving import RefusalKind, Solution
-from contoursolve.solving.alternatives import BOTH, sides_of
+from contoursolve.solving import RefusalKind
 from contoursolve.solving.checks import (
     Source,
     add_checks,
@@ -33,9 +26,6 @@ from contoursolve.solving.checks import (
     check_residuals,
 )
 from contoursolve.solving.compile import PathMachine, compile_path
-from contoursolve.solving.elimination import Close
-from contoursolve.solving.enumerate import DRAWING, Effort, Enumeration, Found, enumerate_many
-from contoursolve.solving.ground import BALLS, Ground, ground_of
 from contoursolve.solving.kernel import Kernel, make_kernel
 from contoursolve.solving.verdict import Code, Verdict, code_of, reason_of
 from contoursolve.tolerance import LENGTH
@@ -53,102 +43,7 @@ STANDING = 1e-12
 """1 (share of the coordinates). A last step that is longer has not arrived."""
 
 
-BOX, SMALL_BOX = Effort(4_000, 1_500), Effort(0, 0)
-"""For a box of values before it is divided; what has a closed form for one row needs a smaller box, not a search."""
-
-ROW = replace(DRAWING, is_guessing=False)
-"""For one row; a row for which it does not suffice is solved by itself."""
-
-FEW, FEW_SEARCHED = 2, 64
-"""Rows that are solved one by one sooner than in a box; and where a step has no closed form, so that a box of values
-costs several times as much as one row if it remains undecided."""
-
-
-def _vanishes(value: Number) -> bool:
-    sign = ball.sign(value)
-    if sign is None:
-        raise ArithmeticError("for some rows it may be zero, for others not")
-    return sign == 0
-
-
-BOXES = replace(BALLS, vanishes=_vanishes)
-"""The functions of balls that stand for a whole box."""
-
-
-@dataclass(frozen=True, slots=True)
-class BoxGround(Ground):
-    """The ground for all rows of a box. `nearest` is the ground for the value of each that is nearest to zero."""
-
-    directions: Mapping[str, tuple[Number, Number]]
-    lowest: Ground
-    highest: Ground
-    nearest: Ground
-
-    def values(self, scalars: Mapping[str, Number], signs: Mapping[str, int], system: System) -> Values:
-        return Values({**self.scalars, **scalars}, self.amounts, self.directions, system.headed, signs, BOXES)
-
-    def reach(self, system: System) -> dict[str, tuple[float, float]]:
-        ranges = self.lowest.reach(system), self.highest.reach(system)
-        return {name: (min(r[name][0] for r in ranges), max(r[name][1] for r in ranges)) for name in ranges[0]}
-
-    def number(self, name: str, scalars: Mapping[str, Number], signs: Mapping[str, int]) -> Number:
-        given, _, part = name.rpartition(":")
-        if given in self.directions and name not in scalars:
-            return self.directions[given][0 if f":{part}" == COSINE else 1]
-        # A frozen class with slots is made anew, which `super` alone does not know.
-        return Ground.number(self, name, scalars, signs)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Place:
-    """Where a solution lies, alone: the bounds of every unknown, and the sides at which elements touch; and whether it
-    lies on the sides that the words choose."""
-
-    bounds: Mapping[str, tuple[float, float]]
-    signs: Mapping[str, int]
-    is_chosen: bool
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Cell:
-    """Rows with the same solutions, each proven to be alone in its box; None where a single solve must decide.
-    `is_lost` tells that there is none because a search found none."""
-
-    rows: Places
-    solutions: tuple[Place, ...] | None = None
-    is_lost: bool = False
-
-
-def _is_near(found: Found, box: BoxGround, system: System) -> bool:
-    """Whether a solution lies within the reach of the search of every single row."""
-    reach = box.nearest.reach(system)
-    bounds = {name: ball.bounds(value) for name, value in found.scalars.items()}
-    return all(reach[name][0] <= low and high <= reach[name][1] for name, (low, high) in bounds.items())
-
-
-def _box(case: CaseClass, low: Mapping[str, float], high: Mapping[str, float]) -> BoxGround:
-    """The ground of all rows whose words lie between two values."""
-    ends = case.at(low), case.at(high)
-    closest = case.at({word: min(max(0.0, low[word]), high[word]) for word in low})
-    lowest, highest, nearest = (ground_of(profile) for profile in (*ends, closest))
-    amounts, directions = {}, {}
-    for name, given in ends[0].givens.items():
-        one, other = sorted((given.value, ends[1].givens[name].value))
-        if given.unit is Unit.DEGREE:
-            directions[name] = ball.directions(one, other)
-        else:
-            amounts[name] = ball.hull(one, other)
-    starts = zip((FIRST, SECOND), ends[0].start.values, ends[1].start.values, strict=True)
-    scalars = {
-        scalar(case.profile.figure.start, axis): ball.hull(*sorted((one, other)))
-        for axis, one, other in starts
-        if one is not None and other is not None
-    }
-    return BoxGround(scalars, amounts, lowest.angles, directions, lowest, highest, nearest)
-
-
 Bits = NDArray[numpy.bool_]
-Scalars = Mapping[str, Array]
 
 
 @dataclass(slots=True, eq=False)
@@ -186,8 +81,8 @@ class BranchRows:
         verdict = judge(self.system)
         self.basis = tuple(self.system.facts[index] for index in verdict.basis)
         checks = tuple(fact for index, fact in enumerate(self.system.facts) if index not in verdict.basis)
-        self.groups: tuple[Group, ...] = order(self.system, self.basis)
-        self.steps = [_step(make_kernel(self.system, group)) for group in self.groups]
+        self.boxes = RowBoxes(case)
+        self.steps = [_step(make_kernel(self.system, group)) for group in self.boxes.groups]
         tape = Tape()
         at = lookup(self.system, tape, {})
         for number, fact in enumerate((*self.basis, *checks)):
@@ -210,11 +105,9 @@ class BranchRows:
         """The number of checks that do not concern the path."""
         self.checks = tuple(check for check, _ in (*facts, *path))
 
-    def solve(self, ranges: Ranges, places: Mapping[str, Places]) -> Settled:
-        """What becomes of some rows."""
-        values = {word: ranges.values[word][place] for word, place in places.items()}
-        rows = next(iter(places.values())).size
-        given = self._given(ranges, places)
+    def solve(self, values: Mapping[str, Array]) -> Settled:
+        """What becomes of rows with these values of the words."""
+        rows = next(iter(values.values())).size
         settled = Settled(
             numpy.zeros(rows, numpy.uint8),
             numpy.zeros(rows, numpy.uint8),
@@ -226,115 +119,29 @@ class BranchRows:
         )
         pairs = self._pairs(values, settled)
         if pairs.rows.size:
-            self._decide(pairs, given, settled)
+            self._decide(pairs, self._given(values), settled)
         for row in numpy.flatnonzero(settled.again).tolist():
-            self._solve_alone({word: float(each[row]) for word, each in values.items()}, [row], settled)
+            self._solve_alone(values, row, [row], settled)
         return settled
 
-    def _given(self, ranges: Ranges, places: Mapping[str, Places]) -> dict[str, Array]:
+    def _given(self, values: Mapping[str, Array]) -> dict[str, Array]:
         """All that is known, row by row or as one number, by the names of the inputs."""
         case, found = self.case, dict[str, Array]()
         for name, given in case.profile.givens.items():
-            value = numpy.array([float(given.value)])
-            if name in case.free:
-                value = case.free[name].column({word: column[places[word]] for word, column in ranges.values.items()})
+            value = case.free[name].column(values) if name in case.free else numpy.array([float(given.value)])
             if given.unit is Unit.DEGREE:
                 found[name + COSINE], found[name + SINE] = directions(value)
             else:
                 found[name] = value
-        for axis, origin in enumerate(case.origin(ranges, places)):
+        for axis, origin in enumerate(case.origin(values)):
             found[scalar(self.system.figure.start, axis)] = numpy.atleast_1d(origin)
         found |= {name: numpy.array([value]) for name, value in case.profile.increments.items()}
         return found
 
-    def _cells(self, values: Mapping[str, Array]) -> Iterator[Cell]:
-        """The rows in cells, in an order that follows from the values alone."""
-        case = self.case
-        words = sorted({each.word for each in (*case.free.values(), *case.moves.values())})
-        columns = numpy.array([values[word] for word in words])
-        spread = numpy.ptp(columns, axis=1)
-        spread[spread == 0] = 1.0
-
-        def named(column: Array) -> dict[str, float]:
-            return dict(zip(words, column.tolist(), strict=True))
-
-        is_searched = self._is_searched(named(columns[:, 0]))
-        few = FEW_SEARCHED if is_searched else FEW
-        pending, apart = [numpy.arange(columns.shape[1])], list[Places]()
-        while pending:
-            rows = pending.pop()
-            own = columns[:, rows]
-            low, high = own.min(axis=1), own.max(axis=1)
-            cell = Cell(rows)
-            if rows.size > few:
-                cell = self._solve_box(rows, named(low), named(high), BOX if is_searched else SMALL_BOX)
-            if cell.solutions is not None:
-                yield cell
-            elif rows.size <= few or (high == low).all():
-                apart.append(rows)
-            else:
-                widest = int(((high - low) / spread).argmax())
-                order = numpy.sort(own[widest])
-                middle = order[order.size // 2] if order[order.size // 2] > order[0] else order[order > order[0]][0]
-                is_low = own[widest] < middle
-                pending += [rows[~is_low], rows[is_low]]
-        if apart:
-            rows = numpy.concatenate(apart)
-            yield from self._solve_each(rows, [named(each) for each in columns[:, rows].T])
-
-    def _solve_each(self, rows: Places, values: Sequence[Mapping[str, float]]) -> list[Cell]:
-        """A cell for each row; all rows are searched together."""
-        with ball.precision(ball.WORKING):
-            grounds = [ground_of(self.case.at(each)) for each in values]
-            enumerations = enumerate_many(grounds, self.system, self.groups, Close.REFUSE, ROW)
-            return [
-                self._cell(row, ground, each) if isinstance(each, Enumeration) else Cell(row)
-                for row, ground, each in zip(rows[:, None], grounds, enumerations, strict=True)
-            ]
-
-    def _is_searched(self, values: Mapping[str, float]) -> bool:
-        """Whether the row of these values has a step without a closed form, or cannot be told to have none."""
-        with ball.precision(ball.WORKING):
-            ground = ground_of(self.case.at(values))
-            (found,) = enumerate_many([ground], self.system, self.groups, Close.DOUBLE, BOX)
-            return not isinstance(found, Enumeration) or found.is_searched
-
-    def _solve_box(self, rows: Places, low: Mapping[str, float], high: Mapping[str, float], effort: Effort) -> Cell:
-        """The cell of all rows whose words lie between two values."""
-        with ball.precision(ball.WORKING):
-            box = _box(self.case, low, high)
-            (found,) = enumerate_many([box], self.system, self.groups, Close.REFUSE, effort)
-            if not isinstance(found, Enumeration):
-                return Cell(rows)
-            if found.is_searched and not all(_is_near(each, box, self.system) for each in found.found):
-                return Cell(rows)
-            return self._cell(rows, box, found)
-
-    def _cell(self, rows: Places, ground: Ground, enumeration: Enumeration) -> Cell:
-        """The cell of rows for all of which a search on a ground holds."""
-        choices = self.case.profile.choices
-        points = {choice.point for choice in choices}
-        if not enumeration.is_complete or any(each.doubles for each in enumeration.found):
-            return Cell(rows)
-        items: list[Place] = []
-        for each in enumeration.found:
-            try:
-                sides = sides_of(self.system, ground.values(each.scalars, each.signs, self.system), points)
-            except (ArithmeticError, ValueError):
-                return Cell(rows)
-            if any(sides.get(point) == BOTH for point in points):
-                return Cell(rows)
-            fits = {choice: sides.get(choice.point) in (choice.side.value, None) for choice in choices}
-            # What the form chooses by itself is no alternative.
-            if all(fits[choice] for choice in choices if not choice.given):
-                bounds = {name: ball.bounds(value) for name, value in each.scalars.items()}
-                items.append(Place(bounds, each.signs, all(fits.values())))
-        return Cell(rows, tuple(items), enumeration.is_lost)
-
     def _pairs(self, values: Mapping[str, Array], settled: Settled) -> Pairs:
         """Every row with each of its solutions; rows without any are settled."""
         found: list[tuple[Places, Place]] = []
-        for cell in self._cells(values):
+        for cell in self.boxes.cells(values):
             if cell.solutions is None:
                 settled.again[cell.rows] = True
                 continue
@@ -344,8 +151,7 @@ class BranchRows:
                 continue
             if not any(place.is_chosen for place in cell.solutions):
                 # Why there is none is the same for all of them.
-                middle = cell.rows[cell.rows.size // 2]
-                self._solve_alone({word: float(each[middle]) for word, each in values.items()}, cell.rows, settled)
+                self._solve_alone(values, int(cell.rows[cell.rows.size // 2]), cell.rows, settled)
                 continue
             found += [(cell.rows, place) for place in cell.solutions]
         places = [place for _, place in found]
@@ -366,63 +172,50 @@ class BranchRows:
 
     def _decide(self, pairs: Pairs, given: Mapping[str, Array], settled: Settled) -> None:
         """Which of the solutions of each row is the contour."""
-        size, rows = pairs.rows.size, settled.status.size
-        status, reason = numpy.zeros(size, numpy.uint8), numpy.zeros(size, numpy.uint8)
-        is_bad, scalars = numpy.zeros(size, bool), {name: numpy.zeros(size) for name in self.system.unknowns}
-        agreeing, differing = dict[str, Bits](), dict[str, Bits]()
-        for first in range(0, size, ROWS):
-            part = slice(first, min(first + ROWS, size))
-            here = {name: each if each.size == 1 else each[pairs.rows[part]] for name, each in given.items()}
-            here |= {name: each[part] for name, each in pairs.signs.items()}
-            is_bad[part] = self._follow(pairs, part, here, scalars)
-            verdict = self._judge(here, {name: each[part] for name, each in scalars.items()}, part.stop - part.start)
-            status[part], reason[part] = verdict.status, verdict.reason
-            is_bad[part] |= verdict.again | (verdict.reason == reason_of(RefusalKind.NOT_VERIFIED))
-            for masks, found in ((agreeing, verdict.agreeing), (differing, verdict.differing)):
-                for name, mask in found.items():
-                    masks.setdefault(name, numpy.zeros(size, bool))[part] = mask
+        rows = settled.status.size
+
+        def count(which: Bits) -> Places:
+            """How many of these pairs each row has."""
+            return numpy.bincount(pairs.rows[which], minlength=rows)
+
+        known = {name: each if each.size == 1 else each[pairs.rows] for name, each in given.items()} | {**pairs.signs}
+        scalars, is_bad = self._follow(pairs, known)
+        verdict = self._judge({**known, **scalars}, pairs.rows.size)
+        status, reason = verdict.status, verdict.reason
+        settled.again |= count(is_bad | verdict.again | (reason == reason_of(RefusalKind.NOT_VERIFIED))) > 0
         status[(status == Code.OVERDETERMINED) & (reason != 0)] = Code.NO_SOLUTION
         is_path = (reason == 0) & (status <= Code.OVERDETERMINED) & pairs.is_chosen
         # A word that tells a solution from another one is needed after all.
-        agrees = numpy.zeros(size, bool)
-        for name, mask in agreeing.items():
-            selects = numpy.bincount(pairs.rows[differing[name]], minlength=rows) > 0
-            agrees |= mask & ~selects[pairs.rows]
+        agrees = numpy.zeros(pairs.rows.size, bool)
+        for name, mask in verdict.agreeing.items():
+            agrees |= mask & (count(verdict.differing[name]) == 0)[pairs.rows]
         status[is_path] = numpy.where(agrees[is_path], Code.OVERDETERMINED, Code.SOLVED)
-        paths = numpy.bincount(pairs.rows[is_path], minlength=rows)
-        chosen = numpy.bincount(pairs.rows[pairs.is_chosen], minlength=rows)
-        settled.again |= numpy.bincount(pairs.rows[is_bad], minlength=rows) > 0
         # Later pairs first, so that the first of several counts.
         for mask in (pairs.is_chosen, is_path):
             at = numpy.flatnonzero(mask)[::-1]
             settled.status[pairs.rows[at]], settled.reason[pairs.rows[at]] = status[at], reason[at]
-        differ = numpy.zeros(rows, bool)
-        at = numpy.flatnonzero(pairs.is_chosen)
-        differ[pairs.rows[at]] = status[at] != settled.status[pairs.rows[at]]
-        numpy.logical_or.at(differ, pairs.rows[at], status[at] != settled.status[pairs.rows[at]])
-        settled.again |= differ & (paths == 0)
+        paths, chosen = count(is_path), count(pairs.is_chosen)
+        differs = count(pairs.is_chosen & (status != settled.status[pairs.rows])) > 0
+        settled.again |= differs & (paths == 0)
         settled.status[paths > 1] = Code.AMBIGUOUS
         settled.reason[paths > 1] = 0
         is_only = (paths == 1) | ((paths == 0) & (chosen == 1))
         shown = is_path | (pairs.is_chosen & (paths[pairs.rows] == 0))
         at = numpy.flatnonzero(shown & is_only[pairs.rows])
-        for name, values in scalars.items():
-            settled.scalars[name][pairs.rows[at]] = values[at]
-        for name, values in pairs.signs.items():
-            settled.signs[name][pairs.rows[at]] = values[at]
+        for into, columns in ((settled.scalars, scalars), (settled.signs, pairs.signs)):
+            for name, column in columns.items():
+                into[name][pairs.rows[at]] = column[at]
         settled.is_shown[pairs.rows[at]] = True
         settled.is_path[pairs.rows[at]] = is_path[at]
 
-    def _follow(self, pairs: Pairs, part: slice, here: Mapping[str, Array], scalars: Scalars) -> Bits:
-        """The solutions of some pairs, step by step; where they did not end in their boxes, or may be inexact."""
-        rows = part.stop - part.start
-        known = dict(here)
-        is_bad = numpy.zeros(rows, bool)
+    def _follow(self, pairs: Pairs, given: Mapping[str, Array]) -> tuple[dict[str, Array], Bits]:
+        """The solutions of all pairs, step by step; and where they did not end in their boxes, or may be inexact."""
+        rows = pairs.rows.size
+        known, is_bad = dict(given), numpy.zeros(rows, bool)
         with numpy.errstate(all="ignore"):
             for kernel, function in self.steps:
                 size = len(kernel.unknowns)
-                at = numpy.stack([pairs.middles[name][part] for name in kernel.unknowns], axis=1)
-                step, inverse = numpy.zeros((rows, size)), numpy.zeros((rows, size, size))
+                at = numpy.stack([pairs.middles[name] for name in kernel.unknowns], axis=1)
                 for _ in range(STEPS):
                     known |= {name: at[:, column] for column, name in enumerate(kernel.unknowns)}
                     out = _run(function, known, rows)
@@ -434,18 +227,15 @@ class BranchRows:
                     largest = numpy.maximum(1.0, numpy.abs(at).max(axis=1))
                     if not (numpy.abs(step).max(axis=1) > STANDING / 8 * largest).any():
                         break
-                known |= {name: at[:, column] for column, name in enumerate(kernel.unknowns)}
                 is_bad |= ~(numpy.abs(step).max(axis=1) <= STANDING * largest)
                 is_bad |= ~(numpy.abs(inverse).sum(axis=2).max(axis=1) <= STIFF)
                 for column, name in enumerate(kernel.unknowns):
-                    away = numpy.abs(at[:, column] - pairs.middles[name][part])
-                    is_bad |= ~(away <= pairs.radii[name][part] + LENGTH)
-                    scalars[name][part] = at[:, column]
-        return is_bad
+                    known[name] = at[:, column]
+                    is_bad |= ~(numpy.abs(known[name] - pairs.middles[name]) <= pairs.radii[name] + LENGTH)
+        return {name: known[name] for name in self.system.unknowns}, is_bad
 
-    def _judge(self, here: Mapping[str, Array], scalars: Scalars, rows: int) -> Verdict:
+    def _judge(self, known: Mapping[str, Array], rows: int) -> Verdict:
         """What speaks against each of some solutions."""
-        known = {**here, **scalars}
         relative = self._relative(known)
         out = {**relative, **_run(self.path, relative, rows)}
         found = _run(self.residuals, known, rows)
@@ -466,9 +256,11 @@ class BranchRows:
                 found[corner.size] = known[f"{corner.name}.radius"]
         return found
 
-    def _solve_alone(self, values: Mapping[str, float], rows: Sequence[int] | Places, settled: Settled) -> None:
-        """What a single solve says, for all of some rows."""
-        solution: Solution = self.case.solve(values)
+    def _solve_alone(
+        self, values: Mapping[str, Array], row: int, rows: Sequence[int] | Places, settled: Settled
+    ) -> None:
+        """What a single solve of one row says, for all of some rows."""
+        solution = self.case.solve({word: float(each[row]) for word, each in values.items()})
         settled.status[rows] = code_of(solution.status)
         settled.reason[rows] = reason_of(solution.refusals[0].kind if solution.refusals else None)
         settled.is_path[rows] = settled.is_shown[rows] = bool(solution.scalars)
@@ -477,15 +269,12 @@ class BranchRows:
         for sides in settled.signs.values():
             sides[rows] = 0.0
 
-    def path_of(
-        self, settled: Settled, rows: Places, ranges: Ranges, places: Mapping[str, Places]
-    ) -> tuple[dict[str, Array], Array]:
-        """The path of the solutions that some rows show, in coordinates counted from the start, and their largest
-        residuals."""
-        given = self._given(ranges, {word: place[rows] for word, place in places.items()})
-        known = {**given, **{name: each[rows] for name, each in settled.scalars.items()}}
+    def path_of(self, settled: Settled, rows: Places, values: Mapping[str, Array]) -> tuple[dict[str, Array], Array]:
+        """The path of the solutions that some rows show, whose words have these values, in coordinates counted from the
+        start point, and their largest residuals."""
+        known = {**self._given(values), **{name: each[rows] for name, each in settled.scalars.items()}}
         relative = self._relative(known)
-        found = {**relative, **_run_apart(self.path, relative, rows.size)}
+        found = {**relative, **_run(self.path, relative, rows.size)}
         found |= {
             name: self._ask(question.fact, known, rows.size) for name, question in asked_of(self.case.profile).items()
         }
@@ -493,13 +282,13 @@ class BranchRows:
             [numpy.zeros(rows.size), *(numpy.abs(found[name]) for name in self.machine.corner_residuals)]
         )
         # A side that is not known is the one on which the equation is true.
-        both = [
-            {name: numpy.where(each[rows] == 0, sign, each[rows]) for name, each in settled.signs.items()}
-            for sign in (1.0, -1.0)
-        ]
-        tried = [_run_apart(self.residuals, {**known, **signs}, rows.size) for signs in both]
-        for name in self.solved:
-            numpy.maximum(worst, numpy.minimum(*(numpy.abs(out[name]) for out in tried)), out=worst)
+        tried = []
+        for sign in (1.0, -1.0):
+            signs = {name: numpy.where(each[rows] == 0, sign, each[rows]) for name, each in settled.signs.items()}
+            out = _run(self.residuals, {**known, **signs}, rows.size)
+            tried.append([numpy.abs(out[name]) for name in self.solved])
+        for one, other in zip(*tried, strict=True):
+            numpy.maximum(worst, numpy.minimum(one, other), out=worst)
         return found, worst
 
     def _ask(self, fact: Fact, known: Mapping[str, Array], rows: int) -> Array:
@@ -525,14 +314,19 @@ def _step(kernel: Kernel) -> tuple[Kernel, Columns]:
 
 
 def _run(function: Columns, values: Mapping[str, Array], rows: int) -> dict[str, Array]:
-    """The outputs at these columns."""
-    for place, name in enumerate(function.compiled.varied):
-        function.inputs[place, :rows] = values[name]
-    return {name: numpy.broadcast_to(each, rows) for name, each in function.evaluate(rows).items()}
-
-
-def _run_apart(function: Columns, values: Mapping[str, Array], rows: int) -> dict[str, Array]:
-    return {name: each.copy() for name, each in _run(function, values, rows).items()}
+    """The outputs at these columns; true until the next call where one call is enough."""
+    parts: list[dict[str, Array]] = []
+    for first, last in Stretches(rows, ROWS):
+        for place, name in enumerate(function.compiled.varied):
+            column = values[name]
+            function.inputs[place, : last - first] = column if column.size == 1 else column[first:last]
+        found = function.evaluate(last - first)
+        parts.append({name: numpy.broadcast_to(each, last - first) for name, each in found.items()})
+        if rows > ROWS:
+            parts[-1] = {name: each.copy() for name, each in parts[-1].items()}
+    return (
+        parts[0] if len(parts) == 1 else {name: numpy.concatenate([each[name] for each in parts]) for name in parts[0]}
+    )
 
 
 def _inverse(matrices: Array) -> Array:

@@ -15,7 +15,6 @@ from contoursolve.backends.inputs import lookup
 from contoursolve.backends.intervals import Array, Intervals
 from contoursolve.constraints import System
 from contoursolve.families.case_classes import CaseClass, Follows
-from contoursolve.families.limit_reasons import words_of
 from contoursolve.families.spec import NotClosedError
 from contoursolve.model import Choice, Fact
 from contoursolve.settling import orders_of, settled_by
@@ -206,7 +205,7 @@ def _distinct(branches: Sequence[Branch], low: Sequence[float], high: Sequence[f
 
 def _texts(case: CaseClass, givens: Sequence[str]) -> str:
     """The words and facts that state values, and those that ask."""
-    stated = words_of(case, givens)
+    stated = case.words(givens)
     asked = join(list(dict.fromkeys(question.word.text for question in case.profile.questions)))
     return f"{stated} with {asked}" if stated and asked else stated or asked
 

@@ -19,7 +19,7 @@ from contoursolve.constraints import System, assemble
 from contoursolve.diagnostic import Basis
 from contoursolve.examine import MOST_CHOICES, Answer, count_choices
 from contoursolve.families.free_words import factor_of, kind_of, limits_of, stated_by, value_of
-from contoursolve.families.spec import FamilyError, Places, Ranges, Template, errors_of, read_limits
+from contoursolve.families.spec import FamilyError, Places, Ranges, Template, called, errors_of, read_limits
 from contoursolve.model import FIRST, SECOND, CornerShape, Profile, Question, Start, Unit, scalar
 from contoursolve.reading import Trouble
 from contoursolve.solving import RemarkKind, Solution, Status, is_closed, points_with_two_solutions
@@ -31,6 +31,7 @@ from contoursolve.solving.solve import solve
 from contoursolve.solving.verdict import code_of, reason_of
 from contoursolve.syntax import Word
 from contoursolve.tolerance import LARGEST, TOUCHING
+from contoursolve.wording import join
 
 ORIGIN = "origin:"
 """What the inputs for the coordinates of the start point begin with."""
@@ -175,10 +176,9 @@ class CaseClass:
             numbers[name] = float(value)
         return [numbers[name] for name in names]
 
-    def origin(self, ranges: Ranges, places: Mapping[str, Places]) -> list[Array | float]:
-        """The coordinates of the start point in some rows."""
-        begins = {axis: each.column(ranges.values)[places[each.word]] for axis, each in self.moves.items()}
-        return [begins[axis] if axis in begins else self.start(axis) for axis in (FIRST, SECOND)]
+    def origin(self, values: Mapping[str, Array]) -> list[Array | float]:
+        """The coordinates of the start point in rows of these values."""
+        return [self.moves[axis].column(values) if axis in self.moves else self.start(axis) for axis in (FIRST, SECOND)]
 
     def at(self, values: Mapping[str, float]) -> Profile:
         """The profile of one row."""
@@ -201,6 +201,17 @@ class CaseClass:
         if not touches or count_choices(profile) > MOST_CHOICES:
             return solution
         return settle(profile).solution
+
+    def words(self, givens: Iterable[str]) -> str:
+        """The words that state values, the free ones without their numbers."""
+        texts = []
+        for name in givens:
+            given = self.profile.givens.get(name)
+            if name in self.free:
+                texts.append(called(self.free[name].word))
+            elif given is not None and given.word is not None:
+                texts.append(given.word.text)
+        return join(list(dict.fromkeys(texts)))
 
     def is_like(self, other: "CaseClass") -> bool:
         """Whether rows of two classes can be evaluated together."""

@@ -73,7 +73,7 @@ class Parts:
                 missing.add(number)
             if number in missing:
                 self._save(number, table)
-            yield {**self.ready.words(*part), **table}
+            yield {**self.ready.ranges.rows(*part).values, **table}
 
     def temporary(self, name: str) -> Path:
         """A file in the folder that no other process writes to."""

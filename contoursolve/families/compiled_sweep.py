@@ -93,10 +93,6 @@ class CompiledSweep:
         found = dict(zip(numbers, block, strict=True))
         return {name: found[name] if name in found else numpy.zeros(rows, kind) for name, kind in kinds.items()}
 
-    def words(self, first: int, last: int) -> dict[str, Array]:
-        """The values of the free words in these rows."""
-        return {word: values[self.ranges.places(word, first, last)] for word, values in self.ranges.values.items()}
-
     def measures(self) -> dict[str, Measure]:
         """What the words and the results are measured in."""
         return measures_of(self.template, self.ranges, self.columns())
@@ -135,11 +131,8 @@ class _ClassRows:
         """The inputs that vary, and the values that they are for."""
         self.function: Columns | None = None
         self.branches: BranchRows | None = None
-
-    @property
-    def most(self) -> int:
+        self.most = ROWS if case.is_closed else BLOCK
         """How many rows are solved at once."""
-        return ROWS if self.case.is_closed else BLOCK
 
     def solve(self, ranges: Ranges, places: Mapping[str, Places], target: Target, table: Results) -> None:
         """Fill in the results of some rows: those at these places of the values, as `target` of a table."""
@@ -148,7 +141,7 @@ class _ClassRows:
         elif self.case.open_points:
             self._solve_open(ranges, places, target, table)
         else:
-            self._solve_several(ranges, places, target, table)
+            self._solve_several(ranges.at(places), target, table)
 
     def _solve_closed(self, ranges: Ranges, places: Mapping[str, Places], target: Target, table: Results) -> None:
         """The rows of a class with one function for all of them."""
@@ -166,23 +159,23 @@ class _ClassRows:
         for row, place in zip(again.tolist(), at.tolist(), strict=True):
             fill_row(self.case, ranges.row(places, row), place, table)
 
-    def _solve_several(self, ranges: Ranges, places: Mapping[str, Places], target: Places, table: Results) -> None:
+    def _solve_several(self, values: Mapping[str, Array], target: Places, table: Results) -> None:
         """The rows of a class without one function for all of them."""
         self.branches = self.branches or BranchRows(self.case)
-        settled = self.branches.solve(ranges, places)
+        settled = self.branches.solve(values)
         self._note(settled.is_path, settled.status, settled.reason, target, table)
-        shown = numpy.flatnonzero(settled.is_shown)
-        for first, last in Stretches(shown.size, ROWS):
-            rows = shown[first:last]
-            out, worst = self.branches.path_of(settled, rows, ranges, places)
-            origin = self.case.origin(ranges, {word: place[rows] for word, place in places.items()})
-            is_path = settled.is_path[rows]
-            results = results_of(self.case) | {name: (name, None) for name in asked_of(self.case.profile)}
-            for name, (output, axis) in results.items():
-                values = out[output] + (0.0 if axis is None else origin[axis])
-                is_measure = name.endswith(".room")
-                table[name][target[rows]] = values if is_measure else numpy.where(is_path, values, numpy.nan)
-            table["residual"][target[rows]] = worst
+        results = results_of(self.case) | {name: (name, None) for name in asked_of(self.case.profile)}
+        rows = numpy.flatnonzero(settled.is_shown)
+        if not rows.size:
+            return
+        own = {word: column[rows] for word, column in values.items()}
+        out, worst = self.branches.path_of(settled, rows, own)
+        origin, is_path = self.case.origin(own), settled.is_path[rows]
+        for name, (output, axis) in results.items():
+            column = out[output] + (0.0 if axis is None else origin[axis])
+            is_measure = name.endswith(".room")
+            table[name][target[rows]] = column if is_measure else numpy.where(is_path, column, numpy.nan)
+        table["residual"][target[rows]] = worst
 
     def _solve_open(self, ranges: Ranges, places: Mapping[str, Places], target: Places, table: Results) -> None:
         """The rows of a class with choices that nothing makes: every side of every point is tried."""
@@ -213,8 +206,8 @@ class _ClassRows:
         if again.any():
             for name in names.values():
                 table[name][target[again]] = numpy.nan
-            part = {word: place[again] for word, place in places.items()}
-            self._solve_several(ranges, part, target[again], table)
+            values = ranges.at({word: place[again] for word, place in places.items()})
+            self._solve_several(values, target[again], table)
 
     def _function(self, ranges: Ranges, places: Mapping[str, Places], rows: int) -> Columns:
         """The function, with the values of some rows as its inputs."""

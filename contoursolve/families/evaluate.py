@@ -201,7 +201,7 @@ def pieces(ready: CompiledSweep, workers: int | None = None, executor: Executor 
     memory than a few of these. Raises FamilyError for less than one worker."""
     parts = Stretches(ready.ranges.count, STRETCH)
     for (first, last), part in zip(parts, solve_parts(ready, parts, workers, executor), strict=True):
-        yield {**ready.words(first, last), **part}
+        yield {**ready.ranges.rows(first, last).values, **part}
 
 
 def solve_parts(
@@ -257,7 +257,7 @@ def _check_workers(workers: int | None) -> int:
 
 
 @dataclass(frozen=True, slots=True)
-class Telling:
+class FailureSummary:
     """The reason that most rows have: how many, the values of one of them as written, and the first error that `solve`
     finds in that one."""
 
@@ -285,7 +285,7 @@ class Tally:
             self.firsts[code, number] = {word: float(table[word][row]) for word in self.words}
 
 
-def telling_of(ready: CompiledSweep, tally: Tally) -> Telling | None:
+def failure_summary(ready: CompiledSweep, tally: Tally) -> FailureSummary | None:
     """Why no row has a contour; None where rows have different statuses, or a contour."""
     totals = tally.counts.sum(axis=1)
     code = int(totals.argmax())
@@ -295,10 +295,10 @@ def telling_of(ready: CompiledSweep, tally: Tally) -> Telling | None:
         return _by_kinds(ready)
     number = int(tally.counts[code].argmax())
     values = tally.firsts[code, number]
-    return Telling(int(tally.counts[code, number]), values, *_error(ready, values))
+    return FailureSummary(int(tally.counts[code, number]), values, *_error(ready, values))
 
 
-def _by_kinds(ready: CompiledSweep) -> Telling:
+def _by_kinds(ready: CompiledSweep) -> FailureSummary:
     """The same where rules tell of all rows: `reason` does not say which."""
     counts, firsts = dict[str, int](), dict[str, tuple[dict[str, float], str]]()
     for row in ready.examples.rows:
@@ -307,7 +307,7 @@ def _by_kinds(ready: CompiledSweep) -> Telling:
         counts[code] = counts.get(code, 0) + row.count
         firsts.setdefault(code, (values, message))
     most = max(counts, key=lambda code: counts[code])
-    return Telling(counts[most], firsts[most][0], most, firsts[most][1])
+    return FailureSummary(counts[most], firsts[most][0], most, firsts[most][1])
 
 
 def _error(ready: CompiledSweep, values: Mapping[str, float]) -> tuple[str, str]:

@@ -1,21 +1,49 @@
 """Where a contour exists: every range of one word's values in which it is solved, and what ends each."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
 from itertools import groupby
 from typing import Unpack
 
+from contoursolve.examine import Answer
+from contoursolve.families.case_classes import CaseClass
 from contoursolve.families.free_words import check_block
-from contoursolve.families.limit_reasons import Reason, called, failure_of, phrase, same
 from contoursolve.families.range_pieces import Onset, RangePiece, Survey
-from contoursolve.families.spec import BlockOptions, first_error, spec_of
+from contoursolve.families.spec import BlockOptions, called, errors_of, first_error, spec_of
+from contoursolve.model import Line
 from contoursolve.shown import Shown
 from contoursolve.solving import RefusalKind, RemarkKind
-from contoursolve.wording import limit_text, value_text
+from contoursolve.solving.checks import Check
+from contoursolve.wording import join, limit_text, unknowns_text, value_text
 
 ASIDE = (1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4)
 """Share of an end (at least of 1). How far beside it single solves are tried, until they tell its two sides apart."""
+
+
+@dataclass(frozen=True, slots=True)
+class Reason:
+    """Why a contour does not exist beyond an end.
+
+    `text` says it about the word, such as "P too large for line 2: 6.340 mm at most"; `code` and `message` are those
+    of the finding about a block just beyond the end (empty where that finding is only about rounding).
+    """
+
+    text: str
+    code: str
+    message: str
+
+
+NO_FAILURE: tuple[Reason, Enum | None] = Reason("", "", ""), None
+
+
+def failure_of(answer: Answer) -> tuple[Reason, Enum | None]:
+    """The first error that a single solve finds, in its own words, and the event that it is about."""
+    error = next(iter(errors_of(answer)), None)
+    # Close to a singular case rounding alone keeps the equations from holding.
+    if error is None or error.about is RefusalKind.NOT_VERIFIED:
+        return NO_FAILURE
+    return Reason(error.message, error.code, error.message), error.about
 
 
 class Way(Enum):
@@ -199,3 +227,94 @@ def _reason(
         text, limit = f"{phrase(onset.check, onset.check.kind, read_as)}: {limit}", f"beyond it {text}"
         return replace(failure, text=f"{text}; {limit}"), False
     return replace(failure, text=f"{text}: {limit}"), onset is None and not near[0].is_value
+
+
+def phrase(check: Check, kind: RefusalKind, case: CaseClass) -> str:
+    """What fails where a check does not pass, without values."""
+    return _PHRASES[kind](check, case)
+
+
+def _parallel(check: Check, case: CaseClass) -> str:
+    figure = case.profile.figure
+    lines = [each.name for each in figure.path if isinstance(each, Line) and each.heading in check.givens]
+    if len(lines) > 1:
+        return f"{join(lines)} are parallel"
+    if lines:
+        others = tuple(name for name in check.givens if name != figure.line(lines[0]).heading)
+        if others:
+            return f"{lines[0]} is parallel to what {case.words(others)} states"
+        point, _, axis = check.subject.partition(".")
+        if not axis.isdigit():
+            return f"{lines[0]} is parallel to the line that it must meet"
+        letter = case.profile.plane.axes[int(axis)]
+        return f"{lines[0]} runs along {letter}, so that nothing fixes {letter} of {point}"
+    free = unknowns_text(check.subject.split(","), case.profile)
+    return f"{case.words(check.givens) or 'the words'} leave {free} open"
+
+
+def _too_large(check: Check, case: CaseClass) -> str:
+    """Of one corner, or of all on an element."""
+    sizes = [
+        corner.size
+        for corner in case.profile.figure.corners
+        if check.subject in (corner.name, corner.before, corner.after, corner.lands_on)
+    ]
+    where = check.element or "its lines"
+    # Of several corners on an element, the free ones are those to change.
+    words = case.words([size for size in sizes if size in case.free] or sizes)
+    return f"{words} too large for {where}" if words else f"{check.subject} does not fit on {where}"
+
+
+def _reversed(check: Check, case: CaseClass) -> str:
+    angle = case.words(tuple(filter(None, (case.profile.figure.line(check.element).heading,))))
+    return f"{check.element} would run against {angle or 'its direction'}"
+
+
+def _disagrees(check: Check, case: CaseClass) -> str:
+    return f"{case.words((check.subject,))} disagrees with the other words"
+
+
+def _apart(check: Check, case: CaseClass) -> str:
+    words = case.words(check.givens) or "the words"
+    return f"{words} {'cannot hold together' if len(check.givens) > 1 else 'does not hold'}"
+
+
+def _always(text: str) -> Callable[[Check, CaseClass], str]:
+    return lambda check, _: text.format(subject=check.subject)
+
+
+_PHRASES: Mapping[RefusalKind, Callable[[Check, CaseClass], str]] = {
+    RefusalKind.LINES_PARALLEL: _parallel,
+    RefusalKind.NOT_FIXED: _parallel,
+    RefusalKind.POINT_IS_START: _always("the point of the line is its start point"),
+    RefusalKind.CIRCLE_MISSED: _always("the line misses the circle"),
+    RefusalKind.RADIUS_TOO_SMALL: _always("the radius is smaller than half the way between its two points"),
+    RefusalKind.CIRCLES_APART: _always("the circles do not meet"),
+    RefusalKind.CIRCLE_UNDEFINED: _always("the circle has no radius"),
+    RefusalKind.WORDS_DISAGREE: _disagrees,
+    RefusalKind.FACT_DISAGREES: _always("the words disagree about {subject}"),
+    RefusalKind.RADIUS_DIFFERENCE: _always("the points of the circle differ in radius"),
+    RefusalKind.LINE_REVERSED: _reversed,
+    RefusalKind.LINE_BACKWARDS: _always("{subject} would run backwards"),
+    RefusalKind.CORNER_TOO_LARGE: _too_large,
+    RefusalKind.CORNERS_OVERLAP: _too_large,
+    RefusalKind.CORNER_STRAIGHT: _always("{subject} joins two lines of one direction"),
+    RefusalKind.CORNER_REVERSES: _always("{subject} turns back by 180 deg"),
+    RefusalKind.BEVEL_OUTSIDE: _always("the bevel of {subject} lies outside the rectangle of its lines"),
+    RefusalKind.BEVEL_IN_BAND: _always("no 45 deg bevel joins the lines of {subject}"),
+    RefusalKind.LANDING_UNKNOWN: _always("no line advances along the line that {subject} lands on"),
+    RefusalKind.NO_POINT: _apart,
+    RefusalKind.ARC_EMPTY: _always("{subject} ends where it begins"),
+    RefusalKind.OUT_OF_RANGE: _always("a point lies farther away than words reach"),
+}
+
+
+def same(one: RefusalKind, other: RefusalKind) -> bool:
+    """Whether two kinds are told by one check."""
+    return one is other or any({one, other} <= kinds for kinds in _TOGETHER)
+
+
+_TOGETHER = (
+    {RefusalKind.CORNER_STRAIGHT, RefusalKind.CORNER_REVERSES},
+    {RefusalKind.LINES_PARALLEL, RefusalKind.NOT_FIXED},
+)

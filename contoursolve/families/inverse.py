@@ -29,8 +29,17 @@ from contoursolve.families.spec import (
     with_value,
     write,
 )
-from contoursolve.families.subdivision import Zero, find_zeros
-from contoursolve.families.targets import CONSTANT, Goal, TargetCurve, asked_values, end_name, place_of, read_goal
+from contoursolve.families.targets import (
+    CONSTANT,
+    Goal,
+    TargetCurve,
+    Zero,
+    asked_values,
+    end_name,
+    find_zeros,
+    place_of,
+    read_goal,
+)
 from contoursolve.model import FIRST, SECOND, Length, Plane, Unit
 from contoursolve.shown import Shown
 from contoursolve.solving import Point, Status

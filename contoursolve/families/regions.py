@@ -13,10 +13,9 @@ from contoursolve.families.boundary_tracing import BISECTIONS, NODES, BoundaryTr
 from contoursolve.families.branches import branches_of
 from contoursolve.families.case_classes import CaseClass, FreeWords
 from contoursolve.families.export import Family
-from contoursolve.families.feasible_ranges import ASIDE, Way
+from contoursolve.families.feasible_ranges import ASIDE, NO_FAILURE, Reason, Way, failure_of, phrase, same
 from contoursolve.families.free_words import check_block
-from contoursolve.families.limit_reasons import NO_FAILURE, Reason, called, failure_of, phrase, same
-from contoursolve.families.spec import BlockOptions, FamilyError, Template, spec_of
+from contoursolve.families.spec import BlockOptions, FamilyError, Template, called, spec_of
 from contoursolve.families.subdivision import bisect
 from contoursolve.model import Unit
 from contoursolve.shown import Shown

@@ -81,9 +81,13 @@ class Ranges:
         skipped = first % stride
         return numpy.repeat(wholes, stride)[skipped : skipped + last - first]
 
+    def at(self, places: Mapping[str, Places]) -> dict[str, Array]:
+        """The values at some places."""
+        return {word: values[places[word]] for word, values in self.values.items()}
+
     def rows(self, first: int, last: int) -> "Ranges":
         """The rows from `first` to before `last` as columns."""
-        return Ranges({word: values[self.places(word, first, last)] for word, values in self.values.items()}, True)
+        return Ranges(self.at({word: self.places(word, first, last) for word in self.values}), True)
 
     def row(self, places: Mapping[str, Places], number: int) -> dict[str, float]:
         """The values of one row, from where those of some rows are."""
@@ -351,6 +355,12 @@ def call(word: Word, words: Sequence[Word]) -> str:
     """The name of a word among all: its letter, with its line where several have it."""
     is_alone = sum(each.address == word.address for each in words) == 1
     return word.address if is_alone else f"{word.span.line}:{word.address}"
+
+
+def called(word: str) -> str:
+    """The name of a word in a sentence."""
+    line, _, address = word.rpartition(":")
+    return f"{address} of block {line}" if line else address
 
 
 @dataclass(frozen=True, slots=True)

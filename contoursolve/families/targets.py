@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal, InvalidOperation
-from math import hypot
+from math import hypot, isfinite
 
 import numpy
 from numpy.typing import NDArray
@@ -16,6 +16,7 @@ from contoursolve.contour import Contour
 from contoursolve.examine import Answer, Depth, answer_question, count_choices, list_alternatives
 from contoursolve.families.branches import PLACES, Branch
 from contoursolve.families.spec import FamilyError, NotMovedError, Template, first_error, is_same, with_value, write
+from contoursolve.families.subdivision import SAMPLES, SECTIONS, Fineness, bisect, subdivide
 from contoursolve.model import Figure, Length, Plane, Unit
 from contoursolve.reading import Lexicon, Trouble, WithoutPoint
 from contoursolve.solving import Point, Status
@@ -26,6 +27,18 @@ from contoursolve.wording import unknowns_text
 
 CONSTANT = 1e-10
 """mm for each unit of the word. A coordinate whose rate is less at places drawn at random never changes."""
+
+ZEROS, FINEST, ZEROS_FIRST = Fineness(16, 24, 1e-9), Fineness(4, 24, 1e-13), 32
+"""For zeros: those that are closer than the first tells apart count as one; what is not decided in a part so narrow is
+divided by itself, as the second says. Into how many parts a range is divided first."""
+
+FEW_PARTS = 64
+"""Of no more parts that are not decided it is worth while to divide each by itself."""
+
+BISECTIONS = 64
+"""From any part to neighbouring numbers."""
+
+Bits = NDArray[numpy.bool_]
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,7 +133,7 @@ class TargetCurve:
         places = numpy.random.default_rng(PLACES).uniform(*self.within, PLACES)
         return bool((numpy.abs(self._slopes_at(places)) <= CONSTANT).all())
 
-    def is_void(self, cells: Intervals) -> NDArray[numpy.bool_]:
+    def is_void(self, cells: Intervals) -> Bits:
         """Where there is no contour for certain, so that no zero counts."""
         low, high = self.within
         # Bounds as they are: what is not decided by them is divided.
@@ -140,7 +153,7 @@ class TargetCurve:
         found: Array = self.chart.slopes_at([places], self.fixed[0])[0] + numpy.array(self.drift)[:, None]
         return found
 
-    def between(self, cells: Intervals) -> tuple[Intervals, NDArray[numpy.bool_]]:
+    def between(self, cells: Intervals) -> tuple[Intervals, Bits]:
         """What the values lie between, and where nothing jumps."""
         away, is_smooth = self._away(cells)
         if not self.is_nearest:
@@ -161,7 +174,7 @@ class TargetCurve:
         ]
         return parts[0] + parts[1]
 
-    def _away(self, cells: Intervals) -> tuple[list[Intervals], NDArray[numpy.bool_]]:
+    def _away(self, cells: Intervals) -> tuple[list[Intervals], Bits]:
         bounds = self.chart.between([cells], self.fixed[0])
         bounds = self.chart.narrowed(bounds, [cells], self.fixed[0])
         rows = zip(bounds.low, bounds.high, self.place, self.drift, strict=True)
@@ -172,6 +185,99 @@ class TargetCurve:
         bounds = self.chart.slopes_between([cells], self.fixed[0])
         rows = zip(bounds.low, bounds.high, self.drift, strict=True)
         return [Intervals(low, high) + constant(rate) for low, high, rate in rows]
+
+
+@dataclass(frozen=True, slots=True)
+class Zero:
+    """A zero, and whether the function rises there (1) or falls (-1); both are proven.
+
+    With 0, nothing is proven: it is the best value of a part of this width in which the function may cross or touch
+    zero, or jumps, or does neither.
+    """
+
+    value: float
+    way: int
+    width: float = 0.0
+
+
+def find_zeros(curve: TargetCurve, low: float, high: float) -> list[Zero]:
+    """The zeros between two values in order, each to the last digit of a double, and one for each part that could not
+    be decided: there is no other."""
+    edges, found = numpy.linspace(low, high, ZEROS_FIRST + 1), list[Zero]()
+    with numpy.errstate(all="ignore"):
+        left = _without_zeros(curve, Intervals(edges[:-1], edges[1:]), ZEROS, found)
+        parts = _clusters(left)
+        for begin, end in parts:
+            rest = Intervals(numpy.array([begin]), numpy.array([end]))
+            if len(parts) <= FEW_PARTS:
+                rest = _without_zeros(curve, rest, FINEST, found)
+            found += [Zero(_best(curve, *part), 0, part[1] - part[0]) for part in _clusters(rest)]
+    return sorted(found, key=lambda each: each.value)
+
+
+def _without_zeros(curve: TargetCurve, cells: Intervals, fineness: Fineness, found: list[Zero]) -> Intervals:
+    """The narrow parts of cells that cannot be decided; the zeros in the others are `found`."""
+
+    def decide(cells: Intervals) -> Intervals:
+        values, is_smooth = curve.between(cells)
+        may = ~((values.low > 0) | (values.high < 0))
+        cells, is_smooth = cells[may], is_smooth[may]
+        if not cells.low.size:
+            return cells
+        slopes = curve.slopes(cells)
+        ways = numpy.where(is_smooth, numpy.where(slopes.low > 0, 1, numpy.where(slopes.high < 0, -1, 0)), 0)
+        zeros, is_done = _crossings(curve, cells, ways)
+        found.extend(zeros)
+        if fineness is FINEST:
+            is_done |= curve.is_void(cells)
+        return cells[~is_done]
+
+    return subdivide(cells, decide, fineness)
+
+
+def _crossings(curve: TargetCurve, cells: Intervals, ways: NDArray[numpy.int64]) -> tuple[list[Zero], Bits]:
+    """The zeros in cells in which the function only rises (1) or only falls (-1), by bisection of all of them at once;
+    and which cells are decided. One without a value at an end is not."""
+    first, last = ways * curve.at(cells.low), ways * curve.at(cells.high)
+    is_done = (ways != 0) & numpy.isfinite(first) & numpy.isfinite(last)
+    # A zero on the edge of two parts belongs to the left one, where both see it.
+    has = is_done & ((first < 0) & (last >= 0) | (first == 0))
+    ways = ways[has]
+    low, high = bisect(cells.low[has], cells.high[has], lambda places: ways * curve.at(places) < 0, BISECTIONS)
+    if low.size:
+        high = numpy.where(numpy.abs(curve.at(low)) < numpy.abs(curve.at(high)), low, high)
+    return [Zero(float(value), int(way)) for value, way in zip(high, ways, strict=True)], is_done
+
+
+def _clusters(cells: Intervals) -> list[tuple[float, float]]:
+    """Cells that touch, as one part."""
+    parts: list[tuple[float, float]] = []
+    for low, high in sorted(zip(cells.low.tolist(), cells.high.tolist(), strict=True)):
+        if parts and low <= parts[-1][1]:
+            parts[-1] = parts[-1][0], max(parts[-1][1], high)
+        else:
+            parts.append((low, high))
+    return parts
+
+
+def _best(curve: TargetCurve, low: float, high: float) -> float:
+    """Where the function changes its sign between two values, or else is nearest to zero; the middle where it has no
+    value."""
+    found = (low + high) / 2
+    for _ in range(SECTIONS):
+        places = numpy.linspace(low, high, SAMPLES)
+        values = curve.at(places)
+        if not numpy.isfinite(values).any():
+            break
+        signs = numpy.sign(values)
+        changes = numpy.flatnonzero(signs[1:] * signs[:-1] < 0)
+        least = int(numpy.nanargmin(numpy.where(numpy.isfinite(values), numpy.abs(values), numpy.nan)))
+        found = float(places[least])
+        around = (changes[0], changes[0] + 1) if changes.size else (max(least - 1, 0), min(least + 1, SAMPLES - 1))
+        low, high = float(places[around[0]]), float(places[around[1]])
+        if not isfinite(high - low) or high <= low:
+            break
+    return found
 
 
 def asked_values(template: Template, word: str, goal: Goal, answer: Answer) -> tuple[list[float], list[str]]:
