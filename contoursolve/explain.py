@@ -291,7 +291,7 @@ def explain_result(
     if event.kind is RefusalKind.CORNERS_OVERLAP:
         rooms = _rooms(event, values, words, profile)
         labels = [label for _, label in rooms]
-        told = [advice for advice, _ in rooms]
+        told = [advice for advice, _ in rooms if advice]
         if rooms and not any(advice.startswith("write") for advice in told):
             told += _for_both(values, profile.unit)
         fields["smaller"] = ", or ".join(told) or f"make the corners smaller by {fields['off']} of it in all"
@@ -354,18 +354,20 @@ def _rooms(
     event: Refusal | Remark, values: dict[str, float], words: Sequence[Word], profile: Profile
 ) -> list[tuple[str, str]]:
     """For either of two words for corners that overlap, in the order of the words, which the values then have, too:
-    what to write if the other one stays, and its label."""
+    what to write if the other one stays, and its label; for one of them if the other one cannot stay."""
     known = {name: values.pop(key) for name, key in zip(event.givens, BESIDE, strict=False) if key in values}
     sizes = {given.word: known[name] for name in known if (given := profile.givens.get(name)) and given.word}
     own = sorted(words, key=lambda word: word.span)
-    if len(own) != len(BESIDE) or sizes.keys() != {*own}:
+    if len(own) != len(BESIDE) or not sizes:
         return []
-    values |= {key: sizes[word] for key, word in zip(BESIDE, own, strict=True)}
+    values |= {key: sizes[word] for key, word in zip(BESIDE, own, strict=True) if word in sizes}
     names = [_named_in(word, profile) for word in own]
     rooms = []
     for word, name, other in zip(own, names, reversed(names), strict=True):
-        largest, shown = _largest(sizes[word], profile.unit)
-        if largest:
+        largest, shown = _largest(sizes.get(word, 0.0), profile.unit)
+        if word not in sizes:
+            rooms.append(("", ""))
+        elif largest:
             rooms.append((f"write at most {shown} for {name} if {other} stays", f"at most {shown} beside {other}"))
         else:
             rooms.append((f"delete {name}", f"no room left beside {other}"))

@@ -146,6 +146,20 @@ def test_line_that_misses_the_circle_is_told_by_how_much_and_which_angles_meet_i
     assert verdicts(answer)["geometry"] == "found"
 
 
+@pytest.mark.parametrize("rules", ["enforce", "off"])
+def test_the_angles_at_which_a_line_meets_the_circle_behind_it_are_those_of_its_travel(rules):
+    text = "G17 G90 G42 D1 G0 X0 Y0\nG1 ,A0\nG3 X50 Y50 I40 J50 R10 Q1"
+    (answer,) = solve(text, rules=rules).answers
+    (finding,) = answer.diagnostics
+    low, high = finding.values["angle_from"], finding.values["angle_to"]
+    assert "a line through the same start point meets the circle" in finding.notes[0]
+    found = [
+        solve(text.replace(",A0", f",A{angle:.3f}"), rules=rules).answers[0].status.value
+        for angle in (low - 0.01, low + 0.01, (low + high) / 2, high - 0.01, high + 0.01)
+    ]
+    assert found == ["no-solution", "solved", "solved", "solved", "no-solution"]
+
+
 # Ties and freedoms against every subset of words ------------------------------------------------------
 
 EQUATIONS = "AIKBXUZW"

@@ -1,6 +1,7 @@
 """Reasons in short sentences: because these words say this, and that word says that, ... so."""
 
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 
 from contoursolve.analysis import judge, order
 from contoursolve.constraints import Heading, assemble
@@ -92,8 +93,9 @@ def path_reasons(profile: Profile, affine: AffineFacts | None, finding: Diagnost
         )
     yield from _placed_before(profile, finding)
     if "angle_from" in values:
+        known = "start" if _ends_on_arc(profile, finding) else "end"
         yield (
-            f"a line through the same end point meets the circle with {finding.addresses[0]} between "
+            f"a line through the same {known} point meets the circle with {finding.addresses[0]} between "
             f"{limit_text(values['angle_from'], 'deg', -1)} and {limit_text(values['angle_to'], 'deg', 1)}"
         )
     if affine is not None and finding.about is RefusalKind.LINE_REVERSED:
@@ -107,6 +109,15 @@ def path_reasons(profile: Profile, affine: AffineFacts | None, finding: Diagnost
                         f"because {line.name} goes from {place_text(profile, tail)} to {place_text(profile, head)}, "
                         f"and {word.text} points the other way"
                     )
+
+
+def _ends_on_arc(profile: Profile, finding: Diagnostic) -> bool:
+    """Whether the line of which a word states the angle goes on as an arc."""
+    for line, after in pairwise(profile.figure.path):
+        word = profile.givens[line.heading].word if isinstance(line, Line) and line.heading else None
+        if word is not None and word.span == finding.span:
+            return isinstance(after, Arc)
+    return False
 
 
 def _placed_before(profile: Profile, finding: Diagnostic) -> Iterator[str]:

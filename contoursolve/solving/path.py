@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from math import hypot
+from math import hypot, nan
 
 from contoursolve.model import FIRST, SECOND, Arc, Corner, Figure, Line, Profile
 from contoursolve.solving.compare import increments_of
@@ -148,7 +148,12 @@ def _check_room(
         largest, givens = [limits[corner.name] for corner in corners], tuple(corner.size for corner in corners)
         beside = largest[0][1] if kind is RefusalKind.CORNER_TOO_LARGE else ()
         keys = ("limit",) if kind is RefusalKind.CORNER_TOO_LARGE else BESIDE
-        every = {**values, **dict(zip(keys, (limit for limit, _ in largest), strict=False)), **together}
+        # What fits beside a corner that cannot stay as it is tells nothing.
+        told = (
+            nan if len(corners) > 1 and any(alone[other.name] for other in corners if other is not corner) else limit
+            for corner, (limit, _) in zip(corners, largest, strict=True)
+        )
+        every = {**values, **dict(zip(keys, told, strict=False)), **together}
         known = {name: value for name, value in every.items() if value == value}
         refusals.append(Refusal(kind, subject, givens, known, beside))
     return refusals

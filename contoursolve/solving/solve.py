@@ -311,12 +311,13 @@ class _Attempt:
         return None not in chord and sum(part**2 for part in chord if part is not None) == 4 * radius**2
 
     def _meeting_angles(self, step: LineCircleStep, radius: float) -> dict[str, float]:
-        """Between which angles a line through the known point of the heading meets the circle, degrees."""
+        """Between which angles of travel a line through the known point of the heading meets the circle, degrees."""
         if not isinstance(step.line, Heading):
             return {}
-        ends = {step.line.tail, step.line.head} - {step.circle.point}
-        through, center = self._point(ends.pop()), self._point(step.circle.center)
-        first, second = through[0] - center[0], through[1] - center[1]
+        line, circle = step.line, step.circle
+        (tail, head) = (circle.center, line.head) if line.tail == circle.point else (line.tail, circle.center)
+        (a, b), (c, d) = self._point(tail), self._point(head)
+        first, second = c - a, d - b
         distance = hypot(first, second)
         if distance <= radius:
             return {}

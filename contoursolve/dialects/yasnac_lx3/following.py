@@ -69,6 +69,13 @@ def follow(
             return
         state = state or leave()
         codes = codes_of(block, modes)
+        effects = {code.effect for code in codes if isinstance(code, Code)}
+        if Effect.NO_MOTION in effects:
+            # The X of a dwell is a time.
+            state = apply_modes(state, block, modes)
+            continue
+        if effects & _NOT_FOLLOWED:
+            return
         own = [code.number for code in codes if isinstance(code, Code) and code.effect in AXIS_EFFECTS]
         if addresses & AXIS_WORDS or (addresses & _OWN and not own):
             yield from _look(name, contour, state, block, own, context, modes)
@@ -77,6 +84,9 @@ def follow(
             return
         state = apply_modes(state, block, modes)
 
+
+_NOT_FOLLOWED = {Effect.SINGLE, Effect.PRESET}
+"""Codes with which axis words are not where the tool goes from the contour."""
 
 _PASSING = (Effect.NONE, Effect.COMPENSATION, Effect.MOTION, Effect.NO_MOTION)
 """What may stand between a contour and the block that moves on."""
