@@ -98,11 +98,17 @@ def _main(findings: list[Diagnostic], *, is_extended: bool) -> int | None:
     severities = [Severity.ERROR, Severity.WARNING]
     for group in [[each] for each in severities] if is_extended else [severities]:
         for index, finding in enumerate(findings):
-            is_before = finding.about is Trouble.START_IN_INCREMENTS
-            if finding.severity in group and not is_before and not (is_extended and finding.about is None):
+            if (
+                finding.severity in group
+                and finding.about not in _NOT_MENDED
+                and not (is_extended and finding.about is None)
+            ):
                 return index
     return None
 
+
+_NOT_MENDED = (Trouble.START_IN_INCREMENTS, Trouble.AXIS_CROSSED)
+"""What no repair of the contour is about: its start point, and a path that may be meant."""
 
 _FROM_START = (Trouble.WORD_IGNORED, RefusalKind.WORDS_DISAGREE, RefusalKind.LINE_REVERSED)
 
