@@ -155,12 +155,6 @@ def _digit_lost(typed: Typed) -> Iterator[str]:
         yield from (typed.with_number(text[:at] + digit + text[at:]) for digit in _NEAR)
 
 
-def _zero_lost(typed: Typed) -> Iterator[str]:
-    whole, point, rest = typed.number.partition(".")
-    if point and whole.strip("0"):
-        yield typed.with_number(f"{whole}0.{rest}")
-
-
 def _digit_added(typed: Typed) -> Iterator[str]:
     text = typed.number
     for at, digit in enumerate(text):
@@ -190,7 +184,6 @@ FEW = (
     Slip("a lost decimal point", _point_lost_in_few),
     Slip("a digit typed twice", _typed_twice),
     Slip("two digits swapped", _swapped),
-    Slip("a lost zero", _zero_lost),
 )
 """Kinds that leave few texts of each word."""
 
