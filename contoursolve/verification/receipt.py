@@ -1,15 +1,15 @@
 """The receipt of a verification: what was checked, what was not, the verdict; as records, as JSON and as text."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from math import isfinite
-from typing import Any
 
-from contoursolve.data import json_text
+from contoursolve.data import json_text, members
 from contoursolve.model import Length
 from contoursolve.tolerance import AGREEMENT, RESIDUAL
 from contoursolve.verification.decode import Document
+from contoursolve.wording import count
 
 SCHEMA = "contoursolve/verify/1"
 
@@ -135,31 +135,23 @@ class Receipt:
 
 def to_json(receipt: Receipt) -> str:
     """The receipt as JSON: the same bytes for the same inputs."""
-    documents = {"program": receipt.program, "result": receipt.result}
+    contours = [
+        members(each, "line lines form status verdict checks not_checked=omissions") for each in receipt.contours
+    ]
+    for check in (check for contour in contours for check in contour["checks"]):
+        # More than three digits would be the noise of the machine's sine.
+        check |= {key: float(f"{check[key]:.3g}") for key in ("residual", "limit") if check[key] is not None}
     return json_text(
         {
             "schema": SCHEMA,
-            "verdict": receipt.verdict.value,
-            **{key: {"name": each.name, "sha256": each.checksum} for key, each in documents.items()},
-            "control": receipt.control,
-            "units": receipt.unit.value,
-            "rules": receipt.rules,
-            "settings": dict(receipt.settings),
-            "start": receipt.start,
-            "facts": receipt.facts,
-            "contours": [_contour(each) for each in receipt.contours],
-            "not_checked": [asdict(each) for each in receipt.omissions],
+            **members(receipt, "verdict"),
+            "program": members(receipt.program, "name sha256=checksum"),
+            "result": members(receipt.result, "name sha256=checksum"),
+            **members(receipt, "control units=unit rules settings start facts"),
+            "contours": contours,
+            **members(receipt, "not_checked=omissions"),
         }
     )
-
-
-def _contour(contour: ContourReceipt) -> dict[str, Any]:
-    found = {**asdict(contour), "verdict": contour.verdict.value}
-    omissions = found.pop("omissions")
-    for check in found["checks"]:
-        # More than three digits would be the noise of the machine's sine.
-        check |= {key: float(f"{check[key]:.3g}") for key in ("residual", "limit") if check[key] is not None}
-    return {**found, "not_checked": omissions}
 
 
 _VERDICTS = {
@@ -187,7 +179,7 @@ def report_lines(receipt: Receipt) -> Iterator[str]:
 def _contour_lines(receipt: Receipt, contour: ContourReceipt) -> Iterator[str]:
     claimed = f"claimed {contour.status}" if contour.status else "not in the result"
     place = f"{receipt.program.name}:{contour.line}: {_plain(contour.form)}: {claimed}"
-    checks = _count(len(contour.checks), "check")
+    checks = count(len(contour.checks), "check")
     if contour.verdict is Verdict.NOTHING_CHECKED:
         checks = f"neither path nor status; {checks} of other things passed"
     yield f"{place}: {_VERDICTS[contour.verdict]} ({checks}{_largest(contour)})"
@@ -223,7 +215,7 @@ def _summary(receipt: Receipt) -> str:
     """How many contours got which verdict, and the verdict on all of them."""
     verdicts = [contour.verdict for contour in receipt.contours]
     counts = ", ".join(f"{verdicts.count(each)} {_VERDICTS[each]}" for each in Verdict if each in verdicts)
-    examined = f"{_count(len(verdicts), 'contour')} ({counts})" if verdicts else "no contour"
+    examined = f"{count(len(verdicts), 'contour')} ({counts})" if verdicts else "no contour"
     meaning = {
         Verdict.VERIFIED: "every claim that was checked is right",
         Verdict.FAILED: "the result is not right",
@@ -236,7 +228,3 @@ def _summary(receipt: Receipt) -> str:
 def _plain(text: str) -> str:
     """Text of the inputs in printable ASCII."""
     return text if text.isascii() and text.isprintable() else ascii(text)[1:-1]
-
-
-def _count(number: int, noun: str) -> str:
-    return f"{number} {noun}{'' if number == 1 else 's'}"
