@@ -1,6 +1,6 @@
 """Facts about circles: points on them, and their radii."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 from contoursolve.constraints.equation import Equation, both, dot, step
@@ -19,7 +19,11 @@ class OnCircle(Equation):
     center: str
     radius: str
     given: str = ""
-    slack: float = field(default=RADIUS_DIFFERENCE, repr=False)
+    slack: float = RADIUS_DIFFERENCE
+
+    def __repr__(self) -> str:
+        """Without the slack, which is no part of the equation: equations are told apart by their texts."""
+        return f"OnCircle(point={self.point!r}, center={self.center!r}, radius={self.radius!r}, given={self.given!r})"
 
     def reads(self) -> tuple[str, ...]:
         return *both(self.point, self.center), self.radius
