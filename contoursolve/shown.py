@@ -14,12 +14,12 @@ class Shown:
 
     def __str__(self) -> str:
         """What the terminal prints of this record; its `repr` has all its fields."""
-        return "\n".join(import_module("contoursolve.notebook.text").text_of(self)).rstrip()
+        return "\n".join(import_module("contoursolve.notebook.records").text_of(self)).rstrip()
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
         """Text, HTML and SVG of this record, as IPython asks for them; what cannot be drawn is text."""
         try:
-            bundle: dict[str, str] = import_module("contoursolve.notebook.text").bundle(self)
+            bundle: dict[str, str] = import_module("contoursolve.notebook.records").bundle(self)
         except Exception:  # a notebook must go on, whatever is missing or broken
             return {"text/plain": repr(self)}
         wanted = set(include or bundle) - set(exclude or ())

@@ -20,7 +20,7 @@ from test_backwards import SHAPES, draw_g111
 from contoursolve import feasible, solve
 from contoursolve.cli import main
 from contoursolve.notebook.exploration import begin
-from contoursolve.notebook.view import range_of, view_of
+from contoursolve.notebook.front_end import range_of, view_of
 from contoursolve.solving import RefusalKind
 
 STEP = Decimal("0.001")

@@ -15,7 +15,7 @@ import contoursolve
 from contoursolve import Status
 from contoursolve.contour import ArcSegment
 from contoursolve.dialects import DIALECTS
-from contoursolve.notebook import text as bundles
+from contoursolve.notebook import records as bundles
 from contoursolve.output import html as style
 from contoursolve.solving.enumerate import Effort
 
@@ -314,9 +314,9 @@ def test_what_cannot_be_drawn_is_told_and_what_cannot_be_made_is_left_out(monkey
     data = answer._repr_mimebundle_()
     assert SVG not in data
     assert "cannot be drawn" in "".join(Page(data[HTML]).words)
-    monkeypatch.setattr("contoursolve.notebook.html.html_of", fail)
+    monkeypatch.setattr("contoursolve.notebook.records_html.html_of", fail)
     assert list(answer._repr_mimebundle_()) == [TEXT]
-    monkeypatch.setattr("contoursolve.notebook.text.text_of", fail)
+    monkeypatch.setattr("contoursolve.notebook.records.text_of", fail)
     assert answer._repr_mimebundle_() == {TEXT: repr(answer)}
 
 

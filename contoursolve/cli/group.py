@@ -40,7 +40,7 @@ class _Commands(click.Group):
         try:
             return super().invoke(ctx)
         except click.ClickException as error:
-            from contoursolve.output.layout import harmless  # noqa: PLC0415 - only here
+            from contoursolve.output.plain_text import harmless  # noqa: PLC0415 - only here
 
             vars(error)["message"] = harmless(error.message)
             raise

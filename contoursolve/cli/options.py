@@ -7,7 +7,7 @@ import click
 from contoursolve.cli.control import control_option
 from contoursolve.examine import Policy
 from contoursolve.model import Length
-from contoursolve.output.layout import harmless
+from contoursolve.output.plain_text import harmless
 
 FOUND_ERRORS, COULD_NOT_RUN = 1, 2
 

@@ -9,7 +9,7 @@ from typing import Any
 import click
 
 from contoursolve.output.findings import Style, plain
-from contoursolve.output.layout import harmless
+from contoursolve.output.plain_text import harmless
 
 _COLORS: dict[str, dict[str, Any]] = {
     "error": {"fg": "red", "bold": True},

@@ -18,7 +18,7 @@ from contoursolve.cli.printing import print_lines, print_pieces, say, style_of_o
 from contoursolve.diagnostic import Severity
 from contoursolve.dialects import Dialect
 from contoursolve.output.document import Findings, Shelf, stream_json
-from contoursolve.output.listing import Tally, closing_lines, stream_findings, stream_listing
+from contoursolve.output.listing import Totals, closing_lines, stream_findings, stream_listing
 from contoursolve.pipeline import Result
 
 
@@ -57,7 +57,7 @@ def solve(
     contoursolve solve --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0."
     contoursolve solve --start "X40. Z0." --fact "length of line 1 = 30" --block "G111 X100. A180. B120. K?"
     """
-    run, tally = follow(load([program] if program else [], blocks, start)[0](), start, assignments, options), Tally()
+    run, tally = follow(load([program] if program else [], blocks, start)[0](), start, assignments, options), Totals()
     if format_ == "json":
         print_pieces(stream_json(run, tally))
     else:
@@ -104,7 +104,7 @@ def check(
     """
     # A bar among the lines of a terminal would be torn.
     is_shown = len(programs) > 1 and sys.stderr.isatty() and not (format_ == "text" and sys.stdout.isatty())
-    tally, document = Tally(), Findings(context.with_resource(Shelf()))
+    tally, document = Totals(), Findings(context.with_resource(Shelf()))
     results, done, failed = list[Result](), 0, False
     with click.progressbar(
         load(programs, blocks, start), label="checking", file=sys.stderr, hidden=not is_shown

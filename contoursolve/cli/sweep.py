@@ -33,7 +33,7 @@ from contoursolve.families import (
     write_parquet,
 )
 from contoursolve.files import CannotWriteError, check_target, open_whole, write_whole
-from contoursolve.output.layout import columns
+from contoursolve.output.plain_text import columns
 from contoursolve.pictures import Theme, draw_sweep
 
 

@@ -9,8 +9,8 @@ import traitlets
 
 from contoursolve.notebook import exploration as explorations
 from contoursolve.notebook.exploration import Exploration
-from contoursolve.notebook.text import bundle
-from contoursolve.notebook.view import frames_of, range_of, view_of
+from contoursolve.notebook.front_end import frames_of, range_of, view_of
+from contoursolve.notebook.records import bundle
 from contoursolve.output.html import notebook_style
 from contoursolve.pipeline import Result
 

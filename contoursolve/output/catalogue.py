@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator
 
 from contoursolve.diagnosis import tabulate
 from contoursolve.dialects import Dialect
-from contoursolve.output.layout import columns
+from contoursolve.output.plain_text import columns
 from contoursolve.rules import Rule
 
 

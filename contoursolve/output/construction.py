@@ -19,7 +19,7 @@ from contoursolve.constraints import (
 )
 from contoursolve.examine import Answer, list_alternatives
 from contoursolve.model import Fact, Profile
-from contoursolve.output.layout import printable
+from contoursolve.output.plain_text import printable
 from contoursolve.solving import scalars_of, solve
 from contoursolve.solving.alternatives import ARCS, Alternatives, choose
 from contoursolve.solving.elimination import has_closed_form

@@ -7,7 +7,7 @@ from contoursolve.contour import ArcSegment
 from contoursolve.diagnostic import Diagnosis, Verdict
 from contoursolve.examine import Answer, AskedValue, list_alternatives
 from contoursolve.model import Length, Turn, Unit
-from contoursolve.output.layout import Table, columns, printable
+from contoursolve.output.plain_text import Table, columns, printable
 from contoursolve.pipeline import Result
 from contoursolve.reading import Convention, Form
 from contoursolve.solutions import Listed, Listing, list_solutions, printed_certificate

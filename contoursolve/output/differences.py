@@ -10,7 +10,7 @@ from contoursolve.comparison import Comparison, Path, Place, Step, Travel, Unfol
 from contoursolve.data import json_text, members
 from contoursolve.model import Length
 from contoursolve.output.document import finding_data
-from contoursolve.output.layout import printable
+from contoursolve.output.plain_text import printable
 from contoursolve.pipeline import Result
 from contoursolve.wording import count, length_of
 

@@ -8,7 +8,7 @@ from contoursolve.contour import ArcSegment, Contour, Segment
 from contoursolve.data import json_text, members, plain
 from contoursolve.diagnostic import Diagnosis, Diagnostic
 from contoursolve.examine import Answer, AskedValue, rank
-from contoursolve.output.listing import Tally, findings_of
+from contoursolve.output.listing import Totals, findings_of
 from contoursolve.pipeline import Result, Run, without_contour
 from contoursolve.solutions import DECIMALS, decimals_of, list_solutions, printed_certificate
 from contoursolve.solving import Point
@@ -33,7 +33,7 @@ def _head(result: Result) -> dict[str, Any]:
     }
 
 
-def stream_json(run: Run, tally: Tally) -> Iterator[str]:
+def stream_json(run: Run, tally: Totals) -> Iterator[str]:
     """The same document in pieces, as its contours are solved; findings wait for their turn outside the memory."""
     if run.frame.start or run.frame.facts:
         # What is stated apart is shown at the only contour, which is known at the end; such programs are short.
@@ -51,7 +51,7 @@ def _in_list(answer: Answer) -> str:
 
 
 def _shelving(
-    run: Run, tally: Tally, shelf: "Shelf", number: int, about: Mapping[str, Any], *, is_check: bool = False
+    run: Run, tally: Totals, shelf: "Shelf", number: int, about: Mapping[str, Any], *, is_check: bool = False
 ) -> Iterator[Answer]:
     """The contours of a run, whose findings go to a shelf."""
     for item in run:
@@ -99,7 +99,7 @@ class Findings:
         self.shelf = shelf
         self._programs: list[dict[str, Any]] = []
 
-    def add(self, run: Run, tally: Tally) -> None:
+    def add(self, run: Run, tally: Totals) -> None:
         """The findings of one more program, as `check` reports them."""
         frame, about = run.frame, {"program": run.frame.program.name}
         number, contours = len(self._programs), 0

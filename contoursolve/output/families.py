@@ -7,7 +7,7 @@ from typing import Any
 from contoursolve.data import members
 from contoursolve.families import Effect, End, Feasible, Found, Hit, Reason, Region, Tolerances
 from contoursolve.model import Length
-from contoursolve.output.layout import Table
+from contoursolve.output.plain_text import Table
 from contoursolve.solutions import printed_certificate
 from contoursolve.wording import axis_labels, count, length_in, measured, short_name, written
 

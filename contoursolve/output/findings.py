@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 
 from contoursolve.diagnostic import Applicability, Diagnostic, Fix, Label
-from contoursolve.output.layout import cells, printable
+from contoursolve.output.plain_text import cells, printable
 from contoursolve.reading import Trouble
 from contoursolve.syntax import FaultKind
 

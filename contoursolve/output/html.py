@@ -19,7 +19,7 @@ from contoursolve.output.contours import (
     solution_rows,
 )
 from contoursolve.output.findings import Piece, finding_pieces
-from contoursolve.output.layout import Table, printable
+from contoursolve.output.plain_text import Table, printable
 from contoursolve.pictures import Drawable, Theme, draw
 from contoursolve.pictures.theme import DARK_COLORS, LIGHT_COLORS, Role
 from contoursolve.solutions import list_solutions, printed_certificate

@@ -30,7 +30,7 @@ def listing_lines(result: Result, style: Style, *, is_explained: bool = False) -
     return _listing_lines(listed(result), result, style, is_explained=is_explained)
 
 
-def stream_listing(run: Run, tally: "Tally", style: Style, *, is_explained: bool = False) -> Iterator[str]:
+def stream_listing(run: Run, tally: "Totals", style: Style, *, is_explained: bool = False) -> Iterator[str]:
     """The same of a stream."""
 
     def key(item: Answer | Diagnostic) -> Any:
@@ -40,7 +40,7 @@ def stream_listing(run: Run, tally: "Tally", style: Style, *, is_explained: bool
     return _listing_lines(_in_order((key(item), item) for item in run), run.frame, style, is_explained=is_explained)
 
 
-def stream_findings(run: Run, tally: "Tally", style: Style) -> Iterator[str]:
+def stream_findings(run: Run, tally: "Totals", style: Style) -> Iterator[str]:
     """The findings of a stream, as `check` reports them."""
 
     def items() -> Iterator[tuple[Any, Diagnostic]]:
@@ -105,7 +105,7 @@ def sources_of(result: Result, finding: Diagnostic) -> dict[int, str]:
     return sources | {fact.span.line: fact.text for fact in result.facts}
 
 
-def closing_lines(result: Result, tally: "Tally | None" = None) -> Iterator[str]:
+def closing_lines(result: Result, tally: "Totals | None" = None) -> Iterator[str]:
     """For which control a program was read and what shows that, and what was found in all: of a result that is only
     the frame of a stream, as it was counted."""
     if result.control is not None:
@@ -121,7 +121,7 @@ def summary_line(results: Sequence[Result]) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class Tally:
+class Totals:
     """How many contours have each status, and how many findings each severity."""
 
     statuses: Counter[Status] = field(default_factory=Counter)
@@ -142,8 +142,8 @@ class Tally:
         return f"{several}{examined}; {found or 'nothing found'}"
 
 
-def _tally(results: Sequence[Result]) -> Tally:
-    return Tally(
+def _tally(results: Sequence[Result]) -> Totals:
+    return Totals(
         Counter(answer.status for result in results for answer in result.answers),
         Counter(finding.severity for result in results for finding in result.diagnostics),
     )

@@ -27,8 +27,8 @@ from contoursolve.output.html import (
     words_table,
     worst_of,
 )
-from contoursolve.output.layout import printable
 from contoursolve.output.listing import sources_of, summary_line
+from contoursolve.output.plain_text import printable
 from contoursolve.pipeline import Result
 from contoursolve.source import Evidence
 from contoursolve.syntax import Block

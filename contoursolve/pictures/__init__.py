@@ -109,7 +109,7 @@ def draw_family_map(
 
 def draw_range(found: Feasible, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
     """The picture of the values of a word with which a block has a contour: a bar with what ends each range."""
-    from contoursolve.pictures.chart import lay_out_range, range_title  # noqa: PLC0415 - as above
+    from contoursolve.pictures.value_axes import lay_out_range, range_title  # noqa: PLC0415 - as above
 
     told = title if title is not None else range_title(found)
     return finish(lay_out_range(found, told), theme, told, told)

@@ -5,8 +5,19 @@ from math import cos, fmod, hypot, pi, radians, sin
 
 from contoursolve.contour import ArcSegment
 from contoursolve.pictures.labels import FAINT_WEIGHT, Canvas
-from contoursolve.pictures.page import THIN, Box, Dot, Run, Spot, Stroke, arc, head, line
-from contoursolve.pictures.scene import Aligned, Angle, Kind, Leader, Linear, Mark, Scene, Slide, Thin, Trail
+from contoursolve.pictures.page import THIN, Box, Dot, Spot, Stroke, TextRun, arc, head, line
+from contoursolve.pictures.scene import (
+    Aligned,
+    Angle,
+    Leader,
+    LinearDimension,
+    Mark,
+    MarkKind,
+    Scene,
+    Slide,
+    Thin,
+    Trail,
+)
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import along, direction, distance, minus, unit
 
@@ -25,7 +36,7 @@ _SHORT = 22.0
 
 def draw_callouts(canvas: Canvas, scene: Scene) -> None:
     """Everything that has a label in the drawing: first all lines, then the labels, those of words first."""
-    wanted: list[tuple[Spot, Run, Spot]] = []
+    wanted: list[tuple[Spot, TextRun, Spot]] = []
     counts: dict[Spot, int] = {}
     for slide in scene.each(Slide):
         _draw_slide(canvas, slide)
@@ -39,11 +50,11 @@ def draw_callouts(canvas: Canvas, scene: Scene) -> None:
             spot, away = _draw_angle(canvas, dimension, at, number)
         elif isinstance(dimension, Aligned):
             spot, away = _draw_aligned(canvas, dimension)
-        elif isinstance(dimension, Linear) and not dimension.length:
+        elif isinstance(dimension, LinearDimension) and not dimension.length:
             spot, away = canvas.view.place(dimension.start), (0.7, -0.7)
         else:
             continue
-        wanted.append((spot, Run(dimension.text, dimension.role), away))
+        wanted.append((spot, TextRun(dimension.text, dimension.role), away))
     for spot, run, away in wanted:
         canvas.label(spot, [(run,)], away, run.role)
     for leader in scene.each(Leader):
@@ -111,17 +122,17 @@ def _draw_leader(canvas: Canvas, leader: Leader) -> None:
     """A word that points at a place, with an arrowhead there."""
     at = canvas.view.place(leader.at)
     away = leader.away[0], -leader.away[1]
-    box = canvas.label(at, [(Run(leader.text, leader.role),)], away, leader.role, leads=True)
+    box = canvas.label(at, [(TextRun(leader.text, leader.role),)], away, leader.role, leads=True)
     if box is not None:
         middle = (box.left + box.right) / 2, (box.top + box.bottom) / 2
         canvas.fill(head(at, direction(middle, at), leader.role, 7.0, 2.3))
 
 
-_DOTS: Mapping[Kind, tuple[float, bool]] = {
-    Kind.START: (4.2, False),
-    Kind.OTHER: (3.2, False),
-    Kind.END: (4.0, True),
-    Kind.PLACE: (2.8, True),
+_DOTS: Mapping[MarkKind, tuple[float, bool]] = {
+    MarkKind.START: (4.2, False),
+    MarkKind.OTHER: (3.2, False),
+    MarkKind.END: (4.0, True),
+    MarkKind.PLACE: (2.8, True),
 }
 """Pixels of the radius of a point's sign, and whether it is filled; the others are crosses."""
 

@@ -6,9 +6,9 @@ from contoursolve.contour import ArcSegment, Contour, trace
 from contoursolve.diagnostic import Diagnostic, Severity
 from contoursolve.examine import Answer
 from contoursolve.model import SECOND, Turn
-from contoursolve.pictures.construction import list_construction
+from contoursolve.pictures.auxiliary import list_auxiliary
 from contoursolve.pictures.dimensions import Others, list_dimensions, list_marks, noted_points
-from contoursolve.pictures.page import Run, visible
+from contoursolve.pictures.page import TextRun, visible
 from contoursolve.pictures.scene import Scene, Trail, Weight, axis_names, coordinates, number
 from contoursolve.pictures.subject import Subject, subject_of, trace_known
 from contoursolve.pictures.theme import Role
@@ -41,7 +41,7 @@ def compose(answer: Answer, title: str | None = None) -> Scene:
             *subject.trails,
             *list_marks(subject, noted, others),
             *list_dimensions(subject, noted),
-            *list_construction(subject),
+            *list_auxiliary(subject),
         ),
         lines=tuple(_lines(subject)),
         remarks=tuple(remarks_of(answer.diagnostics)),
@@ -79,7 +79,7 @@ def _ghosts(subject: Subject) -> tuple[list[Trail], Others]:
     return trails, places
 
 
-def _lines(subject: Subject) -> Iterator[tuple[Run, ...]]:
+def _lines(subject: Subject) -> Iterator[tuple[TextRun, ...]]:
     """The program's lines, each word in its role."""
     answer, roles = subject.answer, subject.roles
     by_span = {
@@ -96,26 +96,26 @@ def _lines(subject: Subject) -> Iterator[tuple[Run, ...]]:
         for span in sorted((span for span in by_span if span.line == block.line), key=lambda span: span.column):
             if span.column - 1 < place:
                 continue
-            runs.append(Run(text[place : span.column - 1], Role.MUTED))
-            runs.append(Run(text[span.column - 1 : span.end_column - 1], by_span[span]))
+            runs.append(TextRun(text[place : span.column - 1], Role.MUTED))
+            runs.append(TextRun(text[span.column - 1 : span.end_column - 1], by_span[span]))
             place = span.end_column - 1
-        runs.append(Run(text[place:], Role.MUTED))
+        runs.append(TextRun(text[place:], Role.MUTED))
         yield tuple(run for run in runs if run.text)
     if len(blocks) > MOST_LINES:
-        yield (Run(f"... and {len(blocks) - MOST_LINES} more blocks", Role.MUTED),)
+        yield (TextRun(f"... and {len(blocks) - MOST_LINES} more blocks", Role.MUTED),)
     for directive in answer.claim.directives:
         if directive.span.line < 0:
-            yield (Run(visible(f'--fact "{directive.text}"'), by_span.get(directive.span, Role.GIVEN)),)
+            yield (TextRun(visible(f'--fact "{directive.text}"'), by_span.get(directive.span, Role.GIVEN)),)
 
 
-def remarks_of(diagnostics: Sequence[Diagnostic]) -> Iterator[tuple[Run, ...]]:
+def remarks_of(diagnostics: Sequence[Diagnostic]) -> Iterator[tuple[TextRun, ...]]:
     """The first findings."""
     findings = [finding for finding in diagnostics if finding.severity is not Severity.INFO]
     for finding in findings[:MOST_REMARKS]:
         role = Role.CONFLICTING if finding.severity is Severity.ERROR else Role.IGNORED
-        yield (Run(visible(f"{finding.severity.value}: {finding.message}"), role),)
+        yield (TextRun(visible(f"{finding.severity.value}: {finding.message}"), role),)
     if len(findings) > MOST_REMARKS:
-        yield (Run(f"... and {len(findings) - MOST_REMARKS} more findings", Role.MUTED),)
+        yield (TextRun(f"... and {len(findings) - MOST_REMARKS} more findings", Role.MUTED),)
 
 
 def describe(answer: Answer) -> str:

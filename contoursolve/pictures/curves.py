@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from contoursolve.backends.columns import Array
 from contoursolve.families import Boundary, Region
-from contoursolve.pictures.chart import BELOW, HIGH, LEFT, TOP, WIDE, Chart, axis_text, over_range, with_remarks
 from contoursolve.pictures.page import (
     PAD,
     SIZE,
@@ -18,17 +17,28 @@ from contoursolve.pictures.page import (
     Box,
     Dot,
     Item,
-    Run,
     Sheet,
     Spot,
     Stroke,
     Text,
+    TextRun,
     heading,
     visible,
     width_of,
     wrap,
 )
 from contoursolve.pictures.theme import Role
+from contoursolve.pictures.value_axes import (
+    BELOW,
+    HIGH,
+    LEFT,
+    TOP,
+    WIDE,
+    ValuePlane,
+    axis_text,
+    over_range,
+    with_remarks,
+)
 
 _GAP = (3.0, 3.0)
 """Pixels on and off of a line on which alone there is no contour."""
@@ -65,13 +75,13 @@ class Curve:
         return float(numpy.hypot(*numpy.diff(self.spots, axis=0).T).sum())
 
 
-def curves_of(region: Region, chart: Chart) -> list[Curve]:
+def curves_of(region: Region, chart: ValuePlane) -> list[Curve]:
     """The boundaries of a region as they run on the page, the longest first."""
     found = [_curve(each, chart) for each in region.boundaries]
     return sorted((each for each in found if each.length > 0), key=lambda each: -each.length)
 
 
-def _curve(boundary: Boundary, chart: Chart) -> Curve:
+def _curve(boundary: Boundary, chart: ValuePlane) -> Curve:
     rough = chart.spots(numpy.array(boundary.points))
     steps = numpy.concatenate([[0.0], numpy.cumsum(numpy.hypot(*numpy.diff(rough, axis=0).T))])
     along = numpy.linspace(0.0, steps[-1], max(2, int(steps[-1]) + 1))
@@ -120,7 +130,7 @@ def _teeth(curves: Sequence[Curve]) -> list[Stroke]:
 
 
 def names_of(
-    curves: Sequence[Curve], chart: Chart, taken: Sequence[Box], others: Sequence[Stroke] = ()
+    curves: Sequence[Curve], chart: ValuePlane, taken: Sequence[Box], others: Sequence[Stroke] = ()
 ) -> tuple[list[Text], list[str]]:
     """The names of lines beside them, where there is room, clear of texts that are there, and if it goes of other
     strokes; and the names that are nowhere."""
@@ -177,12 +187,12 @@ def _places(curve: Curve, name: str) -> Iterator[list[Text]]:
         off = abs(way[0]) * wide / 2 + abs(way[1]) * high / 2 + _ASIDE + farther
         x, y = (float(each) for each in curve.spots[place] + off * way)
         yield [
-            Text((x, y - high / 2 + SIZE + _HIGHER * number), (Run(each, Role.INK),), SIZE, Anchor.MIDDLE)
+            Text((x, y - high / 2 + SIZE + _HIGHER * number), (TextRun(each, Role.INK),), SIZE, Anchor.MIDDLE)
             for number, each in enumerate(lines)
         ]
 
 
-def _is_free(texts: Sequence[Text], chart: Chart, boxes: Sequence[Box], spots: Array) -> bool:
+def _is_free(texts: Sequence[Text], chart: ValuePlane, boxes: Sequence[Box], spots: Array) -> bool:
     """Whether texts lie in the plane, clear of other texts and of every line."""
     for box in (each.box.grow(2.0) for each in texts):
         if not chart.box.holds(box) or any(box.meets(other) for other in boxes):
@@ -226,7 +236,7 @@ def region_title(region: Region) -> str:
 def lay_out_region(region: Region, title: str) -> Sheet:
     """The page of a region."""
     first, second = map(axis_text, region.words, region.units)
-    chart = Chart((first, second), *(over_range(low, high) for low, high in region.within))
+    chart = ValuePlane((first, second), *(over_range(low, high) for low, high in region.within))
     curves = curves_of(region, chart)
     rough = _teeth(curves)
     stated = _stated(region, chart, curves)
@@ -241,13 +251,13 @@ def lay_out_region(region: Region, title: str) -> Sheet:
     return with_remarks(items, told, TOP + HIGH + BELOW, 4.0)
 
 
-def _stated(region: Region, chart: Chart, curves: Sequence[Curve]) -> list[Item]:
+def _stated(region: Region, chart: ValuePlane, curves: Sequence[Curve]) -> list[Item]:
     """The values that the block has, where they are in the plane."""
     if not all(low <= value <= high for value, (low, high) in zip(region.stated, region.within, strict=True)):
         return []
     ((x, y),) = chart.spots(numpy.array([region.stated])).tolist()
     words = " ".join(f"{word}{value:g}" for word, value in zip(region.words, region.stated, strict=True))
-    told = (Run(visible(words), Role.GIVEN),)
+    told = (TextRun(visible(words), Role.GIVEN),)
     places = [
         Text((x + side, y + down), told, SIZE, anchor)
         for down in (-7.0, 16.0)

@@ -6,15 +6,15 @@ from math import inf
 from contoursolve.constraints import Coordinate, Directed, Extent, Heading, Offset, Radius
 from contoursolve.contour import ArcSegment, Segment
 from contoursolve.model import Arc, CornerShape, Fact, Unit
-from contoursolve.pictures.page import Run
+from contoursolve.pictures.page import TextRun
 from contoursolve.pictures.scene import (
     Aligned,
     Angle,
     Dimension,
-    Kind,
     Leader,
-    Linear,
+    LinearDimension,
     Mark,
+    MarkKind,
     Ordinate,
     coordinates,
     number,
@@ -83,7 +83,7 @@ def _dimension(
         coordinate = known.coordinate(fact.point, fact.axis)
         if origin is not None and end is None and coordinate is not None:
             end = with_coordinate(origin, fact.axis, coordinate)
-        return Linear(origin, end, fact.axis, text, role) if origin is not None and end is not None else None
+        return LinearDimension(origin, end, fact.axis, text, role) if origin is not None and end is not None else None
     if isinstance(fact, Heading):
         at = known.points.get(fact.tail, subject.at(fact.head))
         return Angle(at, value, text, role) if at is not None else None
@@ -192,8 +192,8 @@ def list_marks(subject: Subject, noted: Noted, others: Others) -> Iterator[Mark]
     for name, places in others.items():
         for at, selects in places:
             if all(distance(at, there) > SAME for there, _ in spots):
-                runs = [Run(name, Role.GHOST), *([Run(selects, Role.GHOST)] if selects else [])]
-                yield Mark(at, Kind.PLACE, _joined([*runs, _computed(subject, at)]), _joined(runs), Role.GHOST)
+                runs = [TextRun(name, Role.GHOST), *([TextRun(selects, Role.GHOST)] if selects else [])]
+                yield Mark(at, MarkKind.PLACE, _joined([*runs, _computed(subject, at)]), _joined(runs), Role.GHOST)
 
 
 def _end(subject: Subject) -> Point | None:
@@ -229,10 +229,10 @@ def _mark(subject: Subject, noted: Noted, others: Others, at: Point, spot: Seque
     centers = {element.center for element in profile.figure.path if isinstance(element, Arc)}
     is_center = not centers.isdisjoint(spot) and not shown
     givens = [given for name in spot for given in noted.get(name, ())]
-    words = [Run(subject.word(given) or "", subject.role(given)) for given in givens]
+    words = [TextRun(subject.word(given) or "", subject.role(given)) for given in givens]
     if not (rank or shown or words):
         if is_center:
-            yield Mark(at, Kind.CENTER)
+            yield Mark(at, MarkKind.CENTER)
         return
     is_end_free = rank == "end" and subject.trails[-1].role is Role.FREE
     is_free = not known.placed.isdisjoint(spot) or is_end_free
@@ -240,34 +240,34 @@ def _mark(subject: Subject, noted: Noted, others: Others, at: Point, spot: Seque
     names = [*([rank] if rank else []), *(name for name in shown if not rank or not name.startswith("V"))]
     if is_free and rank == "end":
         names[0] = "end (free)"
-    short = [Run(name, Role.FREE if is_free else Role.INK) for name in names]
+    short = [TextRun(name, Role.FREE if is_free else Role.INK) for name in names]
     short += _choosing(subject, others, at, spot)
     about = words
     if rank == "start" and not words:
-        about = [Run(coordinates(at, subject.answer.plane, subject.answer.unit), Role.MUTED)]
+        about = [TextRun(coordinates(at, subject.answer.plane, subject.answer.unit), Role.MUTED)]
     elif names and not words and not is_free:
         about = [_computed(subject, at)]
     is_cut = not {corner.at for corner in profile.figure.corners}.isdisjoint(spot)
-    kind = Kind(rank) if rank else Kind.CENTER if is_center else Kind.VIRTUAL if is_cut else Kind.PLACE
+    kind = MarkKind(rank) if rank else MarkKind.CENTER if is_center else MarkKind.VIRTUAL if is_cut else MarkKind.PLACE
     yield Mark(at, kind, _joined([*short, *about]), _joined(short), Role.FREE if is_free else Role.INK)
 
 
-def _choosing(subject: Subject, others: Others, at: Point, spot: Sequence[str]) -> Iterator[Run]:
+def _choosing(subject: Subject, others: Others, at: Point, spot: Sequence[str]) -> Iterator[TextRun]:
     """The words that choose this place, or would."""
     for choice in subject.profile.choices:
         word = subject.word(choice.given)
         # The sign of a radius chooses a centre, and is shown with the radius.
         if choice.point in spot and choice.point in subject.profile.intersections and word is not None:
-            yield Run(word, subject.role(choice.given))
+            yield TextRun(word, subject.role(choice.given))
     for name in spot:
         texts = (text for there, text in others.get(name, ()) if distance(there, at) <= SAME)
-        yield from [Run(text, Role.GIVEN) for text in texts if text][:1]
+        yield from [TextRun(text, Role.GIVEN) for text in texts if text][:1]
 
 
-def _computed(subject: Subject, at: Point) -> Run:
-    return Run(coordinates(at, subject.answer.plane, subject.answer.unit), Role.DERIVED)
+def _computed(subject: Subject, at: Point) -> TextRun:
+    return TextRun(coordinates(at, subject.answer.plane, subject.answer.unit), Role.DERIVED)
 
 
-def _joined(runs: Sequence[Run]) -> tuple[Run, ...]:
+def _joined(runs: Sequence[TextRun]) -> tuple[TextRun, ...]:
     """Runs with what parts them."""
-    return tuple(Run((BETWEEN if number else "") + run.text, run.role) for number, run in enumerate(runs))
+    return tuple(TextRun((BETWEEN if number else "") + run.text, run.role) for number, run in enumerate(runs))

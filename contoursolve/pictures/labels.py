@@ -11,18 +11,18 @@ from contoursolve.pictures.page import (
     Anchor,
     Box,
     Item,
-    Run,
     Shape,
     Spot,
     Stroke,
     Sweep,
     Text,
+    TextRun,
     line,
     width_of,
 )
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import along, distance, minus
-from contoursolve.pictures.view import View
+from contoursolve.pictures.viewport import Viewport
 
 PATH_WEIGHT, THIN_WEIGHT, FAINT_WEIGHT = 40.0, 4.0, 1.5
 """How little a label likes to stand on a path, on a thin line of a word, and on a line of construction."""
@@ -187,7 +187,7 @@ def _needs_leader(box: Box, at: Spot) -> bool:
 class Canvas:
     """Items in the order in which they are painted: thin lines, paper behind labels, the path, labels."""
 
-    def __init__(self, view: View, frame: Box) -> None:
+    def __init__(self, view: Viewport, frame: Box) -> None:
         self.view, self.frame = view, frame
         self.grid = Grid(frame)
         self.thin: list[Item] = []
@@ -234,7 +234,7 @@ class Canvas:
         return (*self.thin, *self.papers, *self.thick, *self.texts)
 
     def label(
-        self, at: Spot, choices: Sequence[tuple[Run, ...]], away: Spot, role: Role, *, leads: bool = False
+        self, at: Spot, choices: Sequence[tuple[TextRun, ...]], away: Spot, role: Role, *, leads: bool = False
     ) -> Box | None:
         """A label near a place, in the first of these wordings that finds room; with a leader where it is far, or
         always if it `leads`. The box where it stands; None if there is no room."""

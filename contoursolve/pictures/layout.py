@@ -18,12 +18,12 @@ from contoursolve.pictures.page import (
     WIDTH,
     Box,
     Item,
-    Run,
     Sheet,
     Spot,
     Stroke,
     Sweep,
     Text,
+    TextRun,
     arc,
     head,
     heading,
@@ -35,7 +35,7 @@ from contoursolve.pictures.page import (
 from contoursolve.pictures.scene import Dimension, Mark, Ring, Scene, Slide, Thin, Trail, Weight
 from contoursolve.pictures.theme import DASHES, MEANINGS, Role
 from contoursolve.pictures.vectors import along, direction, distance, middle, sweep_of
-from contoursolve.pictures.view import View
+from contoursolve.pictures.viewport import Viewport
 
 _ARROWED = 34.0
 """Pixels of an element that is long enough for an arrow."""
@@ -77,7 +77,7 @@ def _thinned(scene: Scene) -> Scene:
     short = (replace(m, label=m.short if number < left else (), short=()) for number, m in enumerate(marks))
     others = (part for part in scene.parts if not isinstance(part, Dimension | Mark))
     told = f"{len(dimensions) - len(special)} words are not drawn: there is no room for so many"
-    remarks = (*scene.remarks, (Run(told, Role.MUTED),))
+    remarks = (*scene.remarks, (TextRun(told, Role.MUTED),))
     return replace(scene, parts=(*others, *short, *special), remarks=remarks)
 
 
@@ -107,7 +107,7 @@ def _draw_path(canvas: Canvas, scene: Scene) -> None:
             canvas.fill(head(along(view.place(at), step, 5.0), step, trail.role, 11.0, 4.6))
 
 
-def _pointed(segments: tuple[Segment, ...], view: View) -> list[Segment]:
+def _pointed(segments: tuple[Segment, ...], view: Viewport) -> list[Segment]:
     """The elements that are long enough for an arrow, or the longest; corners have their size there."""
     others = [segment for segment in segments if not segment.name.startswith("corner")]
     long = [segment for segment in others if segment.length * view.scale > _ARROWED]
@@ -123,7 +123,7 @@ def _ends_of(canvas: Canvas, thin: Thin) -> tuple[Spot, Spot] | None:
     return clip(along(a, way, -reach), along(a, way, reach), canvas.frame) if distance(a, b) > 0 else None
 
 
-def _strokes(view: View, trail: Trail) -> Iterator[Stroke]:
+def _strokes(view: Viewport, trail: Trail) -> Iterator[Stroke]:
     """A path as strokes; one where it has no gap."""
     is_ink = trail.role is Role.INK
     width = (THICK if is_ink else THICK - 0.4) if trail.weight is Weight.MAIN else 1.4
@@ -143,7 +143,7 @@ def _strokes(view: View, trail: Trail) -> Iterator[Stroke]:
         yield Stroke(begin, tuple(steps), trail.role, width, dash)
 
 
-def _step(view: View, segment: Segment, end: Spot) -> Spot | Sweep:
+def _step(view: Viewport, segment: Segment, end: Spot) -> Spot | Sweep:
     if not isinstance(segment, ArcSegment):
         return end
     return Sweep(view.place(segment.center), segment.radius * view.scale, end, -sweep_of(segment))
@@ -169,10 +169,10 @@ def _head_of(scene: Scene) -> Iterator[Text]:
             yield Text((PAD + (14.0 if row else 0.0), y), shown, SIZE, is_mono=True)
 
 
-def _rows(runs: tuple[Run, ...]) -> list[tuple[Run, ...]]:
+def _rows(runs: tuple[TextRun, ...]) -> list[tuple[TextRun, ...]]:
     """A line of a program in as many rows as it takes, up to `_MOST_ROWS`."""
     most = (WIDTH - 2 * PAD - 14.0) / (MONO * SIZE)
-    rows: list[list[Run]] = [[]]
+    rows: list[list[TextRun]] = [[]]
     used = 0.0
     for run in runs:
         # Broken before a word where it does not fit, or anywhere where it is longer than a row.
@@ -181,20 +181,20 @@ def _rows(runs: tuple[Run, ...]) -> list[tuple[Run, ...]]:
             if used and used + wide > most:
                 rows.append([])
                 used = 0.0
-            rows[-1].append(Run(shorten(piece, most * MONO, 1.0, is_mono=True), run.role))
+            rows[-1].append(TextRun(shorten(piece, most * MONO, 1.0, is_mono=True), run.role))
             used += wide
     kept = [row for row in rows if row][:_MOST_ROWS]
     if len(rows) > _MOST_ROWS:
-        kept[-1] = [*kept[-1][:-1], Run("…", Role.MUTED)]
+        kept[-1] = [*kept[-1][:-1], TextRun("…", Role.MUTED)]
     return [_merged(row) for row in kept]
 
 
-def _merged(row: list[Run]) -> tuple[Run, ...]:
+def _merged(row: list[TextRun]) -> tuple[TextRun, ...]:
     """Neighbours in one role as one run."""
-    found: list[Run] = []
+    found: list[TextRun] = []
     for run in row:
         if found and found[-1].role is run.role:
-            found[-1] = Run(found[-1].text + run.text, run.role)
+            found[-1] = TextRun(found[-1].text + run.text, run.role)
         else:
             found.append(run)
     return tuple(found)
@@ -209,7 +209,7 @@ def _foot_of(scene: Scene, homeless: Sequence[str], top: float) -> Iterator[Item
         yield line(corner, tip, Role.INK, 1.2)
         yield head(tip, way, Role.INK)
         at = (tip[0] + 5.0, tip[1] + 4.0) if way[0] else (tip[0] + 7.0, tip[1] + 8.0)
-        yield Text(at, (Run(name, Role.INK),), _SMALL)
+        yield Text(at, (TextRun(name, Role.INK),), _SMALL)
     x = corner[0] + 30.0 + 5.0 + max(width_of(name, _SMALL) for name in scene.axes) + 26.0
     y = corner[1] + 4.0
     begin = x
@@ -219,15 +219,15 @@ def _foot_of(scene: Scene, homeless: Sequence[str], top: float) -> Iterator[Item
         if x + wide > WIDTH - PAD and x > begin:
             x, y = begin, y + 16.0
         yield line((x, y - 4.0), (x + 28.0, y - 4.0), role, 1.6)
-        yield Text((x + 34.0, y), (Run(text, role),), _SMALL)
+        yield Text((x + 34.0, y), (TextRun(text, role),), _SMALL)
         x += wide
     y += 20.0
     remarks = list(scene.remarks)
     if homeless:
-        remarks.append((Run("no room for: " + ", ".join(homeless), Role.MUTED),))
+        remarks.append((TextRun("no room for: " + ", ".join(homeless), Role.MUTED),))
     for runs in remarks:
         for text in wrap("".join(run.text for run in runs), WIDTH - 2 * PAD, SIZE, 2):
-            yield Text((PAD, y), (Run(text, runs[0].role),), SIZE)
+            yield Text((PAD, y), (TextRun(text, runs[0].role),), SIZE)
             y += 16.0
 
 

@@ -13,7 +13,6 @@ from contoursolve.examine import Answer
 from contoursolve.families import REASONS, Code, CompiledSweep, Family, FamilyError, region_of, units_of
 from contoursolve.families.evaluate import compile_sweep, solve_sweep
 from contoursolve.families.spec import Ranges
-from contoursolve.pictures.chart import BELOW, HIGH, LEFT, TOP, WIDE, Chart, axis_text, over_cells, with_remarks
 from contoursolve.pictures.curves import Curve, curves_of, names_of, near, strokes
 from contoursolve.pictures.page import (
     PAD,
@@ -22,15 +21,26 @@ from contoursolve.pictures.page import (
     Anchor,
     Box,
     Item,
-    Run,
     Sheet,
     Spot,
     Stroke,
     Text,
+    TextRun,
     heading,
     wrap,
 )
 from contoursolve.pictures.theme import Role
+from contoursolve.pictures.value_axes import (
+    BELOW,
+    HIGH,
+    LEFT,
+    TOP,
+    WIDE,
+    ValuePlane,
+    axis_text,
+    over_cells,
+    with_remarks,
+)
 
 COLUMNS, ROWS = 305, 200
 """Cells of a map; of more values, the one nearest to the middle of each cell is shown."""
@@ -68,7 +78,7 @@ def lay_out_map(family: Family, words: tuple[str, ...], title: str) -> Sheet:
     columns, rows = _picks(across, COLUMNS), _picks(up, ROWS)
     shown = outcomes[numpy.ix_(columns, rows)].T[::-1]
     first, second = map(axis_text, words, units_of(family, words))
-    chart = Chart((first, second), over_cells(across[columns]), over_cells(up[rows]))
+    chart = ValuePlane((first, second), over_cells(across[columns]), over_cells(up[rows]))
     curves = _curves(family, (words[0], words[1]), chart)
     fields, others = _names(shown)
     borders = _boundaries(shown, curves)
@@ -83,7 +93,7 @@ def lay_out_map(family: Family, words: tuple[str, ...], title: str) -> Sheet:
     return with_remarks(items, remarks, TOP + HIGH + BELOW, 4.0)
 
 
-def _curves(family: Family, words: tuple[str, str], chart: Chart) -> list[Curve]:
+def _curves(family: Family, words: tuple[str, str], chart: ValuePlane) -> list[Curve]:
     """The exact lines between where the contour exists and where not; none where they cannot be told, as for facts that
     leave no closed form."""
     if any(scale.values[0] == scale.values[-1] for scale in (chart.across, chart.up)):
@@ -177,12 +187,12 @@ def _fitting(words: list[str], mask: Mask, shape: tuple[int, ...]) -> list[Text]
     for is_turned in (False, True):
         x, y = _deepest(mask, (1, 4) if is_turned else (4, 1), wide, high)
         if is_turned:
-            runs = (Run(", ".join(words), Role.INK),)
+            runs = (TextRun(", ".join(words), Role.INK),)
             texts = [Text((x + 4.0, y), runs, SIZE, Anchor.MIDDLE, is_turned=True)]
         else:
             first = y + 4.0 - 7.5 * (len(words) - 1)
             texts = [
-                Text((x, first + 15.0 * number), (Run(word, Role.INK),), SIZE, Anchor.MIDDLE)
+                Text((x, first + 15.0 * number), (TextRun(word, Role.INK),), SIZE, Anchor.MIDDLE)
                 for number, word in enumerate(words)
             ]
         if all(_holds(mask, text.box, wide, high) for text in texts):

@@ -5,11 +5,11 @@ from dataclasses import dataclass
 
 from contoursolve.model import FIRST, SECOND
 from contoursolve.pictures.labels import Canvas
-from contoursolve.pictures.page import SIZE, WIDTH, Anchor, Box, Run, Spot, Text, head, line, width_of
-from contoursolve.pictures.scene import Linear, Ordinate, Scene, Trail
+from contoursolve.pictures.page import SIZE, WIDTH, Anchor, Box, Spot, Text, TextRun, head, line, width_of
+from contoursolve.pictures.scene import LinearDimension, Ordinate, Scene, Trail
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import along, direction, distance
-from contoursolve.pictures.view import Bounds, View, bounds_of
+from contoursolve.pictures.viewport import Rectangle, Viewport, bounds_of
 
 _TALLEST, _LOWEST = 350.0, 110.0
 """Pixels of the drawing itself, without what stands in its margins."""
@@ -37,7 +37,7 @@ _SHORT = 22.0
 
 
 @dataclass(frozen=True, slots=True)
-class Side:
+class Border:
     """An edge of the drawing: the axis that runs along it, and whether it is the lower or left one (`sign` -1) or the
     upper or right one (+1), in mm."""
 
@@ -54,31 +54,31 @@ class Side:
         return (place, level) if self.axis == FIRST else (level, place)
 
 
-_SIDES = (Side(FIRST, -1), Side(FIRST, 1), Side(SECOND, -1), Side(SECOND, 1))
+_SIDES = (Border(FIRST, -1), Border(FIRST, 1), Border(SECOND, -1), Border(SECOND, 1))
 
-Row = tuple[Linear, int]
+Row = tuple[LinearDimension, int]
 """A distance and the number of its row, from the drawing outwards."""
 
 
 @dataclass(frozen=True, slots=True)
-class Margins:
+class Arrangement:
     """Where the drawing is, its rows of distances, and its coordinates with the edges at which they are written.
 
     `outer` is where each edge of the drawing is on the page.
     """
 
-    view: View
+    view: Viewport
     frame: Box
-    rows: Mapping[Side, Sequence[Row]]
-    coordinates: Mapping[Side, Sequence[Ordinate]]
-    outer: Mapping[Side, float]
+    rows: Mapping[Border, Sequence[Row]]
+    coordinates: Mapping[Border, Sequence[Ordinate]]
+    outer: Mapping[Border, float]
 
 
-def arrange(scene: Scene, top: float) -> Margins:
+def arrange(scene: Scene, top: float) -> Arrangement:
     """The margins of a drawing that begins at `top` on its page."""
     own = bounds_of(scene)
     span = _with_turning_axis(scene, own)
-    linear = [each for each in scene.each(Linear) if each.length]
+    linear = [each for each in scene.each(LinearDimension) if each.length]
     by_side = {side: [each for each in linear if _side_of(each, own) == side] for side in _SIDES}
     coordinates = _edges(scene.each(Ordinate), by_side, own)
     before, after = (_wide(by_side[side], coordinates[side]) for side in _SIDES if side.axis == SECOND)
@@ -91,41 +91,41 @@ def arrange(scene: Scene, top: float) -> Margins:
     is_above = (own.low[SECOND] - span.low[SECOND]) * scale >= under
     low = own.low[SECOND] if is_above else span.low[SECOND]
     tall = max(span.size[SECOND] * scale, _LOWEST) if scene.each(Trail) or scene.dimensions else 0.0
-    view = View(span.middle, scale, (before + room / 2, top + over + tall / 2))
+    view = Viewport(span.middle, scale, (before + room / 2, top + over + tall / 2))
     left, bottom = view.place((span.low[FIRST], low))
     right, upper = view.place(span.high)
     frame = Box(4.0, top, WIDTH - 4.0, top + over + tall + (_UNDER_AXIS if is_above else under))
-    return Margins(view, frame, rows, coordinates, dict(zip(_SIDES, (bottom, upper, left, right), strict=True)))
+    return Arrangement(view, frame, rows, coordinates, dict(zip(_SIDES, (bottom, upper, left, right), strict=True)))
 
 
-def _with_turning_axis(scene: Scene, span: Bounds) -> Bounds:
+def _with_turning_axis(scene: Scene, span: Rectangle) -> Rectangle:
     """The rectangle with the axis about which the work turns, where that is near."""
     is_near = 0 < span.low[SECOND] <= max(*span.size, 1e-9) * 0.3
-    return Bounds((span.low[FIRST], 0.0), span.high) if scene.has_turning_axis and is_near else span
+    return Rectangle((span.low[FIRST], 0.0), span.high) if scene.has_turning_axis and is_near else span
 
 
-def _side_of(dimension: Linear, span: Bounds) -> Side:
+def _side_of(dimension: LinearDimension, span: Rectangle) -> Border:
     """The edge that is nearer to the points of a distance."""
     across = 1 - dimension.axis
     mean = (dimension.start[across] + dimension.end[across]) / 2
-    return Side(dimension.axis, 1 if mean > span.middle[across] else -1)
+    return Border(dimension.axis, 1 if mean > span.middle[across] else -1)
 
 
 def _edges(
-    ordinates: Sequence[Ordinate], by_side: Mapping[Side, Sequence[Linear]], span: Bounds
-) -> dict[Side, list[Ordinate]]:
+    ordinates: Sequence[Ordinate], by_side: Mapping[Border, Sequence[LinearDimension]], span: Rectangle
+) -> dict[Border, list[Ordinate]]:
     """Coordinates by the edge at which they are written: where there are fewer distances, else where the points are."""
-    found: dict[Side, list[Ordinate]] = {side: [] for side in _SIDES}
+    found: dict[Border, list[Ordinate]] = {side: [] for side in _SIDES}
     for axis in (FIRST, SECOND):
         own = [each for each in ordinates if each.axis == axis]
-        less, more = (len(by_side[Side(axis, sign)]) for sign in (-1, 1))
+        less, more = (len(by_side[Border(axis, sign)]) for sign in (-1, 1))
         mean = sum(each.at[1 - axis] for each in own) / len(own) if own else 0.0
         is_upper = mean > span.middle[1 - axis] if less == more else less > more
-        found[Side(axis, 1 if is_upper else -1)] = own
+        found[Border(axis, 1 if is_upper else -1)] = own
     return found
 
 
-def _wide(distances: Sequence[Linear], coordinates: Sequence[Ordinate]) -> float:
+def _wide(distances: Sequence[LinearDimension], coordinates: Sequence[Ordinate]) -> float:
     """Pixels to the left or right of a drawing."""
     columns = _PITCH * len(distances)
     texts = [width_of(each.text, SIZE) for each in coordinates]
@@ -148,7 +148,7 @@ def _count(rows: Sequence[Row]) -> int:
     return max((row for _, row in rows), default=-1) + 1
 
 
-def _stack(dimensions: Sequence[Linear], scale: float) -> list[Row]:
+def _stack(dimensions: Sequence[LinearDimension], scale: float) -> list[Row]:
     """Distances along one edge, each with its row: shorter ones nearer to the drawing, none over another."""
     rows: list[list[tuple[float, float]]] = []
     found = []
@@ -167,7 +167,7 @@ def _stack(dimensions: Sequence[Linear], scale: float) -> list[Row]:
 # Distances ---------------------------------------------------------------------------------------------------
 
 
-def draw_margins(canvas: Canvas, margins: Margins) -> None:
+def draw_margins(canvas: Canvas, margins: Arrangement) -> None:
     """Distances and coordinates along all edges."""
     for side in _SIDES:
         _draw_distances(canvas, margins.rows[side], side, margins.outer[side])
@@ -176,9 +176,9 @@ def draw_margins(canvas: Canvas, margins: Margins) -> None:
         _draw_coordinates(canvas, margins.coordinates[side], side, level)
 
 
-def _draw_distances(canvas: Canvas, rows: Sequence[Row], side: Side, edge: float) -> None:
+def _draw_distances(canvas: Canvas, rows: Sequence[Row], side: Border, edge: float) -> None:
     """Distances along one edge, which is at `edge` on the page; lines first, and then their texts."""
-    texts: list[tuple[Linear, Spot, Spot]] = []
+    texts: list[tuple[LinearDimension, Spot, Spot]] = []
     for dimension, row in rows:
         a, b = canvas.view.place(dimension.start), canvas.view.place(dimension.end)
         level = edge + side.outward * (_FIRST_ROW + row * _PITCH)
@@ -207,9 +207,9 @@ def _measure(canvas: Canvas, c: Spot, d: Spot, role: Role) -> None:
     canvas.fill(head(d, back if is_short else way, role))
 
 
-def _write(canvas: Canvas, dimension: Linear, middle: Spot) -> None:
+def _write(canvas: Canvas, dimension: LinearDimension, middle: Spot) -> None:
     """The text over the middle of its line, or where there is room."""
-    runs = (Run(dimension.text, dimension.role),)
+    runs = (TextRun(dimension.text, dimension.role),)
     is_turned = dimension.axis != FIRST
     half = width_of(dimension.text, SIZE) / 2
     for shift in (0.0, half + 14.0, -half - 14.0, 2 * half + 20.0, -2 * half - 20.0):
@@ -222,7 +222,7 @@ def _write(canvas: Canvas, dimension: Linear, middle: Spot) -> None:
 # Coordinates -------------------------------------------------------------------------------------------------
 
 
-def _draw_coordinates(canvas: Canvas, ordinates: Sequence[Ordinate], side: Side, edge: float) -> None:
+def _draw_coordinates(canvas: Canvas, ordinates: Sequence[Ordinate], side: Border, edge: float) -> None:
     """Coordinates on an axis, written at the edge on which their lines end; moved apart where they are close."""
     entries = sorted(ordinates, key=lambda each: (canvas.view.place(each.at)[side.axis], each.text))
     wanted = [canvas.view.place(each.at)[side.axis] for each in entries]
@@ -232,14 +232,14 @@ def _draw_coordinates(canvas: Canvas, ordinates: Sequence[Ordinate], side: Side,
         _coordinate(canvas, ordinate, side, edge, at, place)
 
 
-def _coordinate(canvas: Canvas, ordinate: Ordinate, side: Side, edge: float, at: float, place: float) -> None:
+def _coordinate(canvas: Canvas, ordinate: Ordinate, side: Border, edge: float, at: float, place: float) -> None:
     """A coordinate, its line from its point at `at` along the edge, and its text at `place`."""
     role, outward = ordinate.role, side.outward
     begin, knee = canvas.view.place(ordinate.at)[1 - side.axis] + outward * _GAP, edge - outward * 8.0
     if (knee - begin) * outward > 0:
         canvas.draw(line(side.spot(begin, at), side.spot(knee, at), role, 0.8), 0.6)
     canvas.draw(line(side.spot(knee, at), side.spot(edge, place), role, 0.8, is_dashed=False), 0.6)
-    runs = (Run(ordinate.text, role),)
+    runs = (TextRun(ordinate.text, role),)
     if side.axis == FIRST:
         text = Text((place, edge + (13.0 if outward > 0 else -5.0)), runs, SIZE, Anchor.MIDDLE)
     else:

@@ -11,8 +11,8 @@ from contoursolve.dialects import DIALECTS
 from contoursolve.examine import Answer
 from contoursolve.model import SECOND, Turn
 from contoursolve.pictures.compose import MOST_ELEMENTS, remarks_of
-from contoursolve.pictures.page import Run
-from contoursolve.pictures.scene import Kind, Mark, Part, Scene, Trail, Weight, axis_names
+from contoursolve.pictures.page import TextRun
+from contoursolve.pictures.scene import Mark, MarkKind, Part, Scene, Trail, Weight, axis_names
 from contoursolve.pictures.subject import find_known, list_trails
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import distance
@@ -49,7 +49,7 @@ def compose_overview(result: Result, title: str | None) -> list[Scene]:
     named = f"{PurePath(result.program.name).name}: {total} contour{'' if total == 1 else 's'}"
     shown = title if title is not None else named + (f" ({told})" if told else "")
     if not total:
-        none = (Run("The program has no contour.", Role.MUTED),)
+        none = (TextRun("The program has no contour.", Role.MUTED),)
         return [Scene(shown, ("", ""), remarks=(none, *remarks_of(result.diagnostics)))]
     moves = _moves(result)
     scenes: list[Scene] = []
@@ -74,7 +74,7 @@ def describe_overview(result: Result) -> str:
 def _scene(title: str, answers: Numbered, moves: Sequence[Move]) -> Scene:
     plane = answers[0][1].plane
     parts: list[Part] = [Trail((move,), Role.INK, Weight.BESIDE) for move, axes in moves if axes == plane.axes]
-    remarks = [(Run("thin: the moves that lead to contours and away from them", Role.MUTED),)] if parts else []
+    remarks = [(TextRun("thin: the moves that lead to contours and away from them", Role.MUTED),)] if parts else []
     drawn = [(number, answer, _trails(answer)) for number, answer in answers[:MOST_CONTOURS]]
     begun: dict[Point, list[tuple[int, Answer]]] = {}
     for number, answer, own in drawn[:MOST_LABELED]:
@@ -83,15 +83,17 @@ def _scene(title: str, answers: Numbered, moves: Sequence[Move]) -> Scene:
     for place, (number, answer, own) in enumerate(drawn):
         parts += [replace(trail, role=_role(answer)) for trail in own]
         if answer.contour is None:
-            remarks.append((Run(f"{number}, line {answer.lines[0]}: {answer.status.value}", Role.CONFLICTING),))
+            remarks.append((TextRun(f"{number}, line {answer.lines[0]}: {answer.status.value}", Role.CONFLICTING),))
         if own and place < MOST_LABELED:
             here = begun.pop(own[0].segments[0].start, None)
             if here:
                 label = _label(here)
-                parts.append(Mark(own[0].segments[0].start, Kind.START, label, label[:-1]))
-            parts.append(Mark(own[-1].segments[-1].end, Kind.END))
+                parts.append(Mark(own[0].segments[0].start, MarkKind.START, label, label[:-1]))
+            parts.append(Mark(own[-1].segments[-1].end, MarkKind.END))
     if len(answers) > MOST_CONTOURS:
-        remarks.append((Run(f"... and {len(answers) - MOST_CONTOURS} more contours, which are not drawn", Role.MUTED),))
+        remarks.append(
+            (TextRun(f"... and {len(answers) - MOST_CONTOURS} more contours, which are not drawn", Role.MUTED),)
+        )
     return Scene(
         title,
         axis_names(plane),  # it has no numbers, so that contours in mm and in inches may stand together
@@ -106,11 +108,13 @@ def _trails(answer: Answer) -> list[Trail]:
     return [*list_trails(answer, find_known(answer))]
 
 
-def _label(here: Numbered) -> tuple[Run, ...]:
+def _label(here: Numbered) -> tuple[TextRun, ...]:
     """The numbers and the lines of the contours that begin at one place."""
-    numbers = [Run(f"{', ' if place else ''}{number}", _role(answer)) for place, (number, answer) in enumerate(here)]
+    numbers = [
+        TextRun(f"{', ' if place else ''}{number}", _role(answer)) for place, (number, answer) in enumerate(here)
+    ]
     lines = ", ".join(str(answer.lines[0]) for _, answer in here)
-    return (*numbers, Run(f"  line{'s' if len(here) > 1 else ''} {lines}", Role.MUTED))
+    return (*numbers, TextRun(f"  line{'s' if len(here) > 1 else ''} {lines}", Role.MUTED))
 
 
 def _role(answer: Answer, solved: Role = Role.INK) -> Role:
@@ -178,10 +182,10 @@ def compose_fan(word: str, values: Sequence[float], answers: Sequence[Answer], t
         weight = Weight.GHOST if not is_solved else Weight.MAIN if is_named else Weight.BESIDE
         parts += [replace(trail, role=role, weight=weight) for trail in own]
         if is_named:
-            text = (Run(f"{word}{value:g}", role),)
-            parts.append(Mark(own[-1].segments[-1].end, Kind.END, text, text))
+            text = (TextRun(f"{word}{value:g}", role),)
+            parts.append(Mark(own[-1].segments[-1].end, MarkKind.END, text, text))
     start = next((part.segments[0].start for part in parts if isinstance(part, Trail)), None)
-    parts += [Mark(start, Kind.START, (Run("start", Role.INK),))] if start is not None else []
+    parts += [Mark(start, MarkKind.START, (TextRun("start", Role.INK),))] if start is not None else []
     told = statuses_text(Counter(answer.status for answer in answers))
     named = f"{word} from {min(values):g} to {max(values):g}, {len(answers)} contours: {told}"
     return Scene(

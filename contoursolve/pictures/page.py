@@ -81,7 +81,7 @@ class Anchor(Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class Run:
+class TextRun:
     """A stretch of a text in one role."""
 
     text: str
@@ -126,7 +126,7 @@ class Text:
     """A text in one line; `at` is on its base line. A text that is turned reads from the right."""
 
     at: Spot
-    runs: tuple[Run, ...]
+    runs: tuple[TextRun, ...]
     size: float = SIZE
     anchor: Anchor = Anchor.START
     is_bold: bool = False
@@ -283,7 +283,7 @@ def wrap(text: str, width: float, size: float, lines: int) -> list[str]:
 def heading(title: str, y: float = 26.0) -> Text:
     """The title of a page, as much of it as fits."""
     told = shorten(visible(title), WIDTH - 2 * PAD, TITLE, is_bold=True)
-    return Text((PAD, y), (Run(told, Role.INK),), TITLE, is_bold=True)
+    return Text((PAD, y), (TextRun(told, Role.INK),), TITLE, is_bold=True)
 
 
 def visible(text: str) -> str:

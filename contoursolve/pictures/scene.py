@@ -10,7 +10,7 @@ from typing import TypeVar
 
 from contoursolve.contour import Segment
 from contoursolve.model import FIRST, SECOND, Length, Plane
-from contoursolve.pictures.page import Run, visible
+from contoursolve.pictures.page import TextRun, visible
 from contoursolve.pictures.theme import Role
 from contoursolve.solving import Point
 
@@ -54,7 +54,7 @@ class Ring:
     role: Role
 
 
-class Kind(Enum):
+class MarkKind(Enum):
     """How a point is marked."""
 
     START = "start"
@@ -71,15 +71,15 @@ class Mark:
     """A point with a name and, in other roles, what is said about it."""
 
     at: Point
-    kind: Kind
-    label: tuple[Run, ...] = ()
-    short: tuple[Run, ...] = ()
+    kind: MarkKind
+    label: tuple[TextRun, ...] = ()
+    short: tuple[TextRun, ...] = ()
     """What may stand there where the label finds no room."""
     role: Role = Role.INK
 
 
 @dataclass(frozen=True, slots=True)
-class Linear:
+class LinearDimension:
     """A distance along an axis between two points."""
 
     start: Point
@@ -143,7 +143,7 @@ class Slide:
     direction: Point | None
 
 
-Dimension = Linear | Aligned | Ordinate | Angle | Leader
+Dimension = LinearDimension | Aligned | Ordinate | Angle | Leader
 Part = Trail | Thin | Ring | Mark | Slide | Dimension
 """What a drawing is made of."""
 
@@ -159,8 +159,8 @@ class Scene:
     """The names of the axes to the right and up."""
     parts: tuple[Part, ...] = ()
     """Of one kind, each is drawn over those before it."""
-    lines: tuple[tuple[Run, ...], ...] = ()
-    remarks: tuple[tuple[Run, ...], ...] = ()
+    lines: tuple[tuple[TextRun, ...], ...] = ()
+    remarks: tuple[tuple[TextRun, ...], ...] = ()
     meanings: Mapping[Role, str] = field(default_factory=dict)
     """What the legend says of a role, where that is not what it says of a contour's words."""
     has_turning_axis: bool = False

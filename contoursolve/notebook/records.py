@@ -16,8 +16,8 @@ from contoursolve.output.catalogue import rule_lines
 from contoursolve.output.contours import check_table
 from contoursolve.output.families import found_lines, range_lines, region_lines, tolerances_lines
 from contoursolve.output.findings import finding_lines, plain
-from contoursolve.output.layout import Table, printable
 from contoursolve.output.listing import closing_lines, listing_lines
+from contoursolve.output.plain_text import Table, printable
 from contoursolve.pictures import Drawable, Theme, draw
 from contoursolve.pipeline import Result
 from contoursolve.rules import Rule
@@ -70,7 +70,7 @@ def _svg(record: Drawable) -> str:
 
 
 def _html(record: Shown) -> str:
-    from contoursolve.notebook.html import html_of  # noqa: PLC0415 - needs an extra
+    from contoursolve.notebook.records_html import html_of  # noqa: PLC0415 - needs an extra
 
     return html_of(record)
 

@@ -17,10 +17,10 @@ from contoursolve.pictures.page import (
     Box,
     Dot,
     Item,
-    Run,
     Sheet,
     Stroke,
     Text,
+    TextRun,
     heading,
     line,
     shorten,
@@ -76,11 +76,11 @@ def _values_across(scale: Scale, bottom: float) -> Iterator[Item]:
     for value, share in scale.ticks():
         x = LEFT + share * WIDE
         yield line((x, bottom), (x, bottom + 5.0), Role.INK)
-        yield Text((x, bottom + 19.0), (Run(f"{value:g}", Role.INK),), SIZE, Anchor.MIDDLE)
+        yield Text((x, bottom + 19.0), (TextRun(f"{value:g}", Role.INK),), SIZE, Anchor.MIDDLE)
 
 
 @dataclass(frozen=True, slots=True)
-class Chart:
+class ValuePlane:
     """A plane: what its two words are called, and their scales."""
 
     names: tuple[str, str]
@@ -108,8 +108,8 @@ class Chart:
         for value, share in self.up.ticks():
             y = bottom - share * HIGH
             items.append(line((LEFT - 5.0, y), (LEFT, y), Role.INK))
-            items.append(Text((LEFT - 9.0, y + 4.0), (Run(f"{value:g}", Role.INK),), SIZE, Anchor.END))
-        first, second = ((Run(visible(name), Role.INK),) for name in self.names)
+            items.append(Text((LEFT - 9.0, y + 4.0), (TextRun(f"{value:g}", Role.INK),), SIZE, Anchor.END))
+        first, second = ((TextRun(visible(name), Role.INK),) for name in self.names)
         items.append(Text((LEFT + WIDE / 2, bottom + 40.0), first, TITLE, Anchor.MIDDLE, is_bold=True))
         is_long = width_of(self.names[1], TITLE, is_bold=True) > _NARROW
         at = (24.0, TOP + HIGH / 2)
@@ -125,7 +125,7 @@ def axis_text(word: str, unit: str) -> str:
 def with_remarks(items: Sequence[Item], remarks: Sequence[tuple[str, Role]], height: float, lead: float = 0.0) -> Sheet:
     """The page whose drawing ends at a height, with lines of text below it, the first one farther down by `lead`."""
     texts = [
-        Text((PAD, height + lead + _HIGHER * number), (Run(told, role),), SIZE)
+        Text((PAD, height + lead + _HIGHER * number), (TextRun(told, role),), SIZE)
         for number, (told, role) in enumerate(remarks)
     ]
     height += _HIGHER * len(texts)
@@ -171,7 +171,7 @@ def lay_out_range(found: Feasible, title: str) -> Sheet:
         items.append(line((x, _BAR_TOP - 5.0), (x, bottom + 5.0), Role.INK, 1.6))
     items.append(line((LEFT, bottom), (LEFT + WIDE, bottom), Role.INK))
     items += _values_across(over_range(low, high), bottom)
-    name = (Run(axis_text(found.word, found.unit), Role.INK),)
+    name = (TextRun(axis_text(found.word, found.unit), Role.INK),)
     items.append(Text((LEFT + WIDE / 2, bottom + 38.0), name, TITLE, Anchor.MIDDLE, is_bold=True))
     items.append(Dot((x_of(found.stated), _BAR_TOP + _BAR_HIGH / 2), 4.0, Role.GIVEN))
     remarks = [(shorten(told, WIDTH - 2 * PAD, SIZE), role) for told, role in _remarks(found)]

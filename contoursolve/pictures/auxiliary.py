@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contoursolve.constraints import Collinear, Coordinate, Heading, Offset, OnCircle, TangentLine, Through
 from contoursolve.model import Arc, Fact, Line, Unit
 from contoursolve.pictures.known import place_of
-from contoursolve.pictures.scene import Aligned, Kind, Leader, Mark, Part, Ring, Slide, Thin, number
+from contoursolve.pictures.scene import Aligned, Leader, Mark, MarkKind, Part, Ring, Slide, Thin, number
 from contoursolve.pictures.subject import Subject
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import (
@@ -26,7 +26,7 @@ Ray = tuple[Point, Point]
 """A place on a line and its unit direction."""
 
 
-def list_construction(subject: Subject) -> Iterator[Part]:
+def list_auxiliary(subject: Subject) -> Iterator[Part]:
     """Everything, in the order in which it is drawn."""
     yield from _cut_off(subject)
     yield from _tangents(subject)
@@ -101,7 +101,7 @@ def _places(subject: Subject) -> Iterator[Part]:
         if text is None or at is None:
             continue
         role, there = subject.role(fact.given), None
-        yield Mark(at, Kind.CENTER)
+        yield Mark(at, MarkKind.CENTER)
         yield Leader(at, (1.0, 1.0), text, role)
         if isinstance(fact, OnCircle):
             circle = subject.circle(fact.center, fact.radius)
@@ -160,7 +160,7 @@ def _both_places(subject: Subject, fact: Fact, role: Role) -> Iterator[Part]:
             there = foot(head, tail, way)
             yield Thin(tail, along(tail, way, distance(tail, head) * 1.15), role)
             yield from _gap(subject, there, head, role)
-            yield Mark(there, Kind.OTHER, role=role)
+            yield Mark(there, MarkKind.OTHER, role=role)
     elif isinstance(fact, Coordinate | Offset) and given.unit is Unit.MM:
         at, origin = subject.at(fact.point), (0.0, 0.0) if isinstance(fact, Coordinate) else subject.at(fact.origin)
         if at is None or origin is None:
@@ -169,7 +169,7 @@ def _both_places(subject: Subject, fact: Fact, role: Role) -> Iterator[Part]:
         yield _endless(there, ALONG_AXIS[1 - fact.axis], role)
         yield from _gap(subject, there, at, role)
         if distance(there, at) > SAME:
-            yield Mark(there, Kind.OTHER, role=role)
+            yield Mark(there, MarkKind.OTHER, role=role)
 
 
 def _missed(subject: Subject, refusal: Refusal) -> Iterator[Part]:

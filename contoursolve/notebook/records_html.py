@@ -11,7 +11,7 @@ from contoursolve.contour import Contour
 from contoursolve.diagnostic import Diagnosis, Diagnostic
 from contoursolve.examine import Answer
 from contoursolve.families import Family, Feasible, Found, Region, Sensitivity, Tolerances
-from contoursolve.notebook.text import (
+from contoursolve.notebook.records import (
     bounded,
     contour_table,
     controls_of,

@@ -4,7 +4,18 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from contoursolve.pictures.page import Spot
-from contoursolve.pictures.scene import Aligned, Kind, Linear, Mark, Ring, Scene, Slide, Thin, Trail, Weight
+from contoursolve.pictures.scene import (
+    Aligned,
+    LinearDimension,
+    Mark,
+    MarkKind,
+    Ring,
+    Scene,
+    Slide,
+    Thin,
+    Trail,
+    Weight,
+)
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import ALONG_AXIS, along, extent
 from contoursolve.solving import Point
@@ -19,7 +30,7 @@ _ROUNDING = 1.001
 
 
 @dataclass(frozen=True, slots=True)
-class View:
+class Viewport:
     """The rectangle of the plane that is shown (mm), pixels in a mm, and where its middle is on the page."""
 
     middle: Point
@@ -35,7 +46,7 @@ class View:
 
 
 @dataclass(frozen=True, slots=True)
-class Bounds:
+class Rectangle:
     """An upright rectangle in mm."""
 
     low: Point
@@ -52,7 +63,7 @@ class Bounds:
         return (self.low[0] + self.high[0]) / 2, (self.low[1] + self.high[1]) / 2
 
 
-def bounds_of(scene: Scene) -> Bounds:
+def bounds_of(scene: Scene) -> Rectangle:
     """What a picture must show: the path and its points, and as much else as does not make the path small."""
     must: list[Point] = []
     more: list[Point] = []
@@ -62,11 +73,11 @@ def bounds_of(scene: Scene) -> Bounds:
             points = [at for segment in part.segments for at in extent(segment)]
             (more if part.weight is Weight.GHOST else must).extend(points)
         elif isinstance(part, Mark):
-            (more if part.kind in (Kind.CENTER, Kind.OTHER) else must).append(part.at)
+            (more if part.kind in (MarkKind.CENTER, MarkKind.OTHER) else must).append(part.at)
         elif isinstance(part, Ring):
             ends = (along(part.center, way, sign * part.radius) for way in ALONG_AXIS for sign in (1, -1))
             (wrong if part.role is Role.CONFLICTING else more).extend(ends)
-        elif isinstance(part, Thin | Linear | Aligned):
+        elif isinstance(part, Thin | LinearDimension | Aligned):
             more += [part.start] if isinstance(part, Thin) and part.is_endless else [part.start, part.end]
             if isinstance(part, Aligned) and part.role is Role.CONFLICTING:
                 wrong += [part.start, part.end]
@@ -79,12 +90,12 @@ def bounds_of(scene: Scene) -> Bounds:
     return _around([*must, *near] or [(0.0, 0.0)])
 
 
-def _near(points: Iterable[Point], own: Bounds, reach: float, times: float) -> list[Point]:
+def _near(points: Iterable[Point], own: Rectangle, reach: float, times: float) -> list[Point]:
     """The points in a rectangle that is so many times as large."""
     room = reach * (times - 1) / 2 * _ROUNDING
     return [at for at in points if all(own.low[n] - room <= at[n] <= own.high[n] + room for n in (0, 1))]
 
 
-def _around(points: Iterable[Point]) -> Bounds:
+def _around(points: Iterable[Point]) -> Rectangle:
     across, up = zip(*points, strict=True)
-    return Bounds((min(across), min(up)), (max(across), max(up)))
+    return Rectangle((min(across), min(up)), (max(across), max(up)))
