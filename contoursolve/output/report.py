@@ -2,8 +2,8 @@
 that it opens anywhere and says the same in ten years."""
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import PurePath
 
 import htpy as h
@@ -46,26 +46,19 @@ _GRADES = {
 Progress = Callable[[], object]
 
 
-@dataclass(frozen=True, slots=True)
-class Marked:
-    """A stretch of a line that a finding marks."""
-
-    label: Label
-    finding: Diagnostic
-    target: str
+Marked = tuple[Label, Diagnostic]
+"""A stretch of a line, and the finding that marks it."""
 
 
 @dataclass(frozen=True, slots=True)
 class Places:
-    """The addresses on the page."""
+    """The addresses on the page: the lines that it shows, the numbers of contours by line and of findings by identity,
+    both from 1, and what findings mark, by line."""
 
     lines: frozenset[int]
-    contour_at: dict[int, int] = field(default_factory=dict)
-    """The number of the contour that a line belongs to, from 1."""
-    number_of: dict[int, int] = field(default_factory=dict)
-    """The number of each finding by its identity."""
-    marks: dict[int, list[Marked]] = field(default_factory=dict)
-    """What findings mark, by line."""
+    contours: Mapping[int, int]
+    findings: Mapping[int, int]
+    marks: Mapping[int, Sequence[Marked]]
 
     def line(self, number: int) -> str | None:
         """The address of a line; None for what was stated apart from the program."""
@@ -73,21 +66,22 @@ class Places:
 
     def finding(self, finding: Diagnostic) -> str:
         """The name of a finding."""
-        return f"finding-{self.number_of[id(finding)]}"
+        return f"finding-{self.findings[id(finding)]}"
 
 
 def _find_places(result: Result) -> Places:
     """The places of everything that a result holds."""
-    places = Places(frozenset(block.line for block in result.program.blocks))
-    for number, answer in enumerate(result.answers, 1):
-        for line in answer.lines:
-            places.contour_at.setdefault(line, number)
-    for number, finding in enumerate(result.diagnostics, 1):
-        places.number_of[id(finding)] = number
+    numbered = list(enumerate(result.answers, 1))
+    marks: dict[int, list[Marked]] = {}
+    for finding in result.diagnostics:
         for label in finding.labels:
-            marked = Marked(label, finding, f"#finding-{number}")
-            places.marks.setdefault(label.span.line, []).append(marked)
-    return places
+            marks.setdefault(label.span.line, []).append((label, finding))
+    return Places(
+        frozenset(block.line for block in result.program.blocks),
+        {line: number for number, answer in reversed(numbered) for line in answer.lines},  # of several, the first
+        {id(each): number for number, each in enumerate(result.diagnostics, 1)},
+        marks,
+    )
 
 
 def report_page(result: Result, version: str, progress: Progress = lambda: None) -> Iterator[str]:
@@ -252,42 +246,40 @@ def _sources(result: Result) -> h.Element:
 
 
 def _line(block: Block, places: Places) -> h.Element:
-    contour = places.contour_at.get(block.line)
-    number: h.Node = str(block.line)
-    if contour is not None:
-        number = h.a(href=f"#contour-{contour}", title=f"contour {contour}")[number]
+    contour, number = places.contours.get(block.line), str(block.line)
+    shown = h.a(href=f"#contour-{contour}", title=f"contour {contour}")[number] if contour is not None else number
     kind = "contour" if contour is not None else None
     return h.div(id=f"line-{block.line}", class_=kind)[
-        h.span(".line")[number], h.code[_text(block, places)], _findings(block, places)
+        h.span(".line")[shown], h.code[_text(block, places)], _findings(block, places)
     ]
 
 
 def _findings(block: Block, places: Places) -> Iterator[h.Node]:
     """Links to the findings at a line."""
-    found = {marked.target: marked.finding for marked in places.marks.get(block.line, ())}
-    for target, finding in found.items():
+    found = {id(finding): finding for _, finding in places.marks.get(block.line, ())}
+    for finding in found.values():
         if finding.span.line == block.line:
-            yield h.a(class_=f"code {finding.severity.value}", href=target)[finding.code]
+            yield h.a(class_=f"code {finding.severity.value}", href=f"#{places.finding(finding)}")[finding.code]
 
 
 def _text(block: Block, places: Places) -> Iterator[h.Node]:
     """The text with the marked words as links to their findings."""
     text, here = printable(block.text), 0
-    for begin, end, marked in _apart(places.marks.get(block.line, ()), len(text)):
-        severity, message = marked.finding.severity.value, marked.finding.message
+    for begin, end, finding in _apart(places.marks.get(block.line, ()), len(text)):
+        kind, target = f"mark {finding.severity.value}", f"#{places.finding(finding)}"
         yield text[here:begin]
-        yield h.a(class_=f"mark {severity}", href=marked.target, title=short(message))[text[begin:end]]
+        yield h.a(class_=kind, href=target, title=short(finding.message))[text[begin:end]]
         here = end
     yield text[here:]
 
 
-def _apart(marks: Iterable[Marked], width: int) -> list[tuple[int, int, Marked]]:
+def _apart(marks: Iterable[Marked], width: int) -> list[tuple[int, int, Diagnostic]]:
     """Marks that do not overlap, from left to right; of those that do, the worst and then the shortest stays."""
-    stretches = [(each.label.span.column - 1, min(each.label.span.end_column - 1, width), each) for each in marks]
+    stretches = [(label.span.column - 1, min(label.span.end_column - 1, width), finding) for label, finding in marks]
     severities = list(Severity)
-    stretches.sort(key=lambda each: (severities.index(each[2].finding.severity), each[1] - each[0], each[0]))
-    chosen: list[tuple[int, int, Marked]] = []
-    for begin, end, each in stretches:
+    stretches.sort(key=lambda each: (severities.index(each[2].severity), each[1] - each[0], each[0]))
+    chosen: list[tuple[int, int, Diagnostic]] = []
+    for begin, end, finding in stretches:
         if begin < end and all(end <= other[0] or begin >= other[1] for other in chosen):
-            chosen.append((begin, end, each))
+            chosen.append((begin, end, finding))
     return sorted(chosen, key=lambda each: each[0])

@@ -112,7 +112,7 @@ def _emptier(canvas: Canvas, a: Spot, b: Spot, side: Spot) -> Spot:
 
     def cost(way: Spot) -> float:
         places = (along(along(a, minus(b, a), share), way, _BESIDE) for share in (0.1, 0.3, 0.5, 0.7, 0.9))
-        return sum(canvas.grid.cost(Box(x - 3.0, y - 3.0, x + 3.0, y + 3.0)) for x, y in places)
+        return sum(canvas.cost(Box(x - 3.0, y - 3.0, x + 3.0, y + 3.0)) for x, y in places)
 
     other = -side[0], -side[1]
     return side if cost(side) <= cost(other) else other

@@ -49,65 +49,6 @@ _TOUCHING = 20.0
 """Pixels. A label that is no farther needs no leader."""
 
 
-class Grid:
-    """How much is drawn in each cell of a page, and which boxes are taken by texts."""
-
-    def __init__(self, page: Box) -> None:
-        self.page = page
-        self.columns = ceil((page.right - page.left) / CELL) + 1
-        self.rows = ceil((page.bottom - page.top) / CELL) + 1
-        self.cells = [0.0] * (self.columns * self.rows)
-        self.taken: list[Box] = []
-
-    def _cell(self, at: Spot, step: Spot, share: float) -> int:
-        """The number of the cell after a share of a step from a place."""
-        column = int((at[0] + step[0] * share - self.page.left) / CELL)
-        return int((at[1] + step[1] * share - self.page.top) / CELL) * self.columns + column
-
-    def mark(self, a: Spot, b: Spot, weight: float) -> None:
-        """A line is drawn."""
-        clipped = clip(a, b, self.page)
-        if clipped is None:
-            return
-        step = minus(clipped[1], clipped[0])
-        steps = max(1, ceil(hypot(*step) / (CELL * 0.7)))
-        for number in range(steps + 1):
-            place = self._cell(clipped[0], step, number / steps)
-            if 0 <= place < len(self.cells):
-                self.cells[place] = max(self.cells[place], weight)
-
-    def cost(self, box: Box) -> float:
-        """How much a text would cover; infinite where another text is, or outside the page."""
-        if not self.page.holds(box):
-            return inf
-        for other in self.taken:
-            if box.meets(other):
-                return inf
-        total = 0.0
-        first, last = int((box.left - self.page.left) / CELL), int((box.right - self.page.left) / CELL)
-        for row in range(int((box.top - self.page.top) / CELL), int((box.bottom - self.page.top) / CELL) + 1):
-            total += sum(self.cells[row * self.columns + first : row * self.columns + last + 1])
-        return total
-
-    def crossings(self, a: Spot, b: Spot) -> float:
-        """What a line to a place `b` runs over, without what is right there."""
-        length, step = distance(b, a), minus(b, a)
-        total = 0.0
-        for number in range(int((length - CELL * 1.5) / CELL)):
-            place = self._cell(a, step, number * CELL / length)
-            total += self.cells[place] if 0 <= place < len(self.cells) else 0.0
-        return total
-
-    def is_crossed(self, a: Spot, b: Spot) -> bool:
-        """Whether a line would run through a text."""
-        (left, right), (top, bottom) = sorted((a[0], b[0])), sorted((a[1], b[1]))
-        return any(
-            clip(a, b, box) is not None
-            for box in self.taken
-            if box.left <= right and left <= box.right and box.top <= bottom and top <= box.bottom
-        )
-
-
 def clip(a: Spot, b: Spot, box: Box) -> tuple[Spot, Spot] | None:
     """The part of a line inside a box (Liang and Barsky 1984); None if it is outside."""
     low, high = 0.0, 1.0
@@ -144,7 +85,7 @@ def _boxes_around(at: Spot, width: float, height: float, away: Spot) -> Iterable
 
 
 def _place_label(
-    grid: Grid, at: Spot, sizes: Sequence[tuple[float, float]], away: Spot, leads: bool
+    canvas: "Canvas", at: Spot, sizes: Sequence[tuple[float, float]], away: Spot, leads: bool
 ) -> tuple[int, Box] | None:
     """Where a label of one of these sizes stands best near a place, the first size if there is any room; None if there
     is none. `leads` for a label that always has a leader."""
@@ -158,11 +99,11 @@ def _place_label(
             own = far * _PER_PIXEL + turned * 2.0 + (8.0 if far > _TOUCHING and not leads else 0.0)
             if best is not None and own >= best[0]:
                 continue
-            cost = own + grid.cost(box.grow(1.5))
-            if cost == inf or (far > _TOUCHING and grid.is_crossed(at, _nearest(box, at))):
+            cost = own + canvas.cost(box.grow(1.5))
+            if cost == inf or (far > _TOUCHING and canvas.is_crossed(at, _nearest(box, at))):
                 continue
             if far > _TOUCHING:
-                cost += grid.crossings(_nearest(box, at), at)
+                cost += canvas.crossings(_nearest(box, at), at)
             if best is None or cost < best[0]:
                 best = cost, box
         if best is not None:
@@ -189,7 +130,12 @@ class Canvas:
 
     def __init__(self, view: Viewport, frame: Box) -> None:
         self.view, self.frame = view, frame
-        self.grid = Grid(frame)
+        self.columns = ceil((frame.right - frame.left) / CELL) + 1
+        rows = ceil((frame.bottom - frame.top) / CELL) + 1
+        self.cells = [0.0] * (self.columns * rows)
+        """How much is drawn in each cell of the frame."""
+        self.taken: list[Box] = []
+        """Where texts stand."""
         self.thin: list[Item] = []
         self.papers: list[Item] = []
         self.thick: list[Item] = []
@@ -204,7 +150,7 @@ class Canvas:
         for step in item.steps:
             spots = step.spots(here, _PIECES) if isinstance(step, Sweep) else [step]
             for spot in spots:
-                self.grid.mark(here, spot, weight)
+                self._mark(here, spot, weight)
                 here = spot
 
     def fill(self, shape: Shape) -> None:
@@ -212,12 +158,12 @@ class Canvas:
         self.thick.append(shape)
         first = shape.corners[0]
         for corner in shape.corners[1:]:
-            self.grid.mark(first, corner, THIN_WEIGHT)
+            self._mark(first, corner, THIN_WEIGHT)
 
     def write(self, text: Text) -> bool:
         """A text where it is wanted, if nothing is there yet; tells whether it stands."""
         box = text.box.grow(1.0)
-        if not self.frame.holds(box) or any(box.meets(other) for other in self.grid.taken):
+        if not self.frame.holds(box) or any(box.meets(other) for other in self.taken):
             return False
         self._add(text, box)
         return True
@@ -226,7 +172,7 @@ class Canvas:
         """A text on paper, so that thin lines stop at it."""
         self.texts.append(text)
         self.papers.append(box.filled(Role.PAPER))
-        self.grid.taken.append(box)
+        self.taken.append(box)
 
     @property
     def items(self) -> tuple[Item, ...]:
@@ -243,7 +189,7 @@ class Canvas:
             return None
         high = SIZE * (ASCENT + DESCENT) + 2.0
         sizes = [(width_of("".join(run.text for run in runs), SIZE) + 4.0, high) for runs in wordings]
-        found = _place_label(self.grid, at, sizes, away, leads)
+        found = _place_label(self, at, sizes, away, leads)
         if found is None:
             self.homeless.append("".join(run.text for run in wordings[0]))
             return None
@@ -253,3 +199,51 @@ class Canvas:
         at = (box.left + box.right) / 2, box.bottom - 1.0 - DESCENT * SIZE
         self._add(Text(at, wordings[index], SIZE, Anchor.MIDDLE), box)
         return box
+
+    def _cell(self, at: Spot, step: Spot, share: float) -> int:
+        """The number of the cell after a share of a step from a place."""
+        column = int((at[0] + step[0] * share - self.frame.left) / CELL)
+        return int((at[1] + step[1] * share - self.frame.top) / CELL) * self.columns + column
+
+    def _mark(self, a: Spot, b: Spot, weight: float) -> None:
+        """A line is drawn."""
+        clipped = clip(a, b, self.frame)
+        if clipped is None:
+            return
+        step = minus(clipped[1], clipped[0])
+        steps = max(1, ceil(hypot(*step) / (CELL * 0.7)))
+        for number in range(steps + 1):
+            place = self._cell(clipped[0], step, number / steps)
+            if 0 <= place < len(self.cells):
+                self.cells[place] = max(self.cells[place], weight)
+
+    def cost(self, box: Box) -> float:
+        """How much a text would cover; infinite where another text is, or outside the page."""
+        if not self.frame.holds(box):
+            return inf
+        for other in self.taken:
+            if box.meets(other):
+                return inf
+        total = 0.0
+        first, last = int((box.left - self.frame.left) / CELL), int((box.right - self.frame.left) / CELL)
+        for row in range(int((box.top - self.frame.top) / CELL), int((box.bottom - self.frame.top) / CELL) + 1):
+            total += sum(self.cells[row * self.columns + first : row * self.columns + last + 1])
+        return total
+
+    def crossings(self, a: Spot, b: Spot) -> float:
+        """What a line to a place `b` runs over, without what is right there."""
+        length, step = distance(b, a), minus(b, a)
+        total = 0.0
+        for number in range(int((length - CELL * 1.5) / CELL)):
+            place = self._cell(a, step, number * CELL / length)
+            total += self.cells[place] if 0 <= place < len(self.cells) else 0.0
+        return total
+
+    def is_crossed(self, a: Spot, b: Spot) -> bool:
+        """Whether a line would run through a text."""
+        (left, right), (top, bottom) = sorted((a[0], b[0])), sorted((a[1], b[1]))
+        return any(
+            clip(a, b, box) is not None
+            for box in self.taken
+            if box.left <= right and left <= box.right and box.top <= bottom and top <= box.bottom
+        )

@@ -61,7 +61,7 @@ def lay_out(scene: Scene) -> Sheet:
     draw_margins(canvas, margins)
     draw_callouts(canvas, scene)
     # The axes stand beside the drawing's lower end where nothing else is.
-    is_free = canvas.grid.cost(Box(frame.left, frame.bottom - 34.0, _CORNER, frame.bottom)) == 0.0
+    is_free = canvas.cost(Box(frame.left, frame.bottom - 34.0, _CORNER, frame.bottom)) == 0.0
     foot = list(_foot_of(scene, canvas.homeless, frame.bottom - (26.0 if is_free else -4.0)))
     height = max((item.box.bottom for item in foot if isinstance(item, Text)), default=frame.bottom) + 12.0
     return Sheet(WIDTH, round(height, 1), frame, canvas.items, (*top, *foot))

@@ -112,7 +112,7 @@ def _picks(values: NDArray[numpy.float64], most: int) -> NDArray[numpy.int64]:
     return order[((numpy.arange(most) + 0.5) * order.size / most).astype(numpy.int64)]
 
 
-def _cell(shown: Outcomes) -> tuple[float, float]:
+def _cell(shown: Outcomes | Mask) -> tuple[float, float]:
     return WIDE / shown.shape[1], HIGH / shown.shape[0]
 
 
@@ -174,18 +174,17 @@ def _names(shown: Outcomes) -> tuple[list[Text], list[str]]:
     for outcome in sorted(counts, key=lambda each: -counts[each]):
         code, reason = Code(outcome // len(REASONS)), REASONS[outcome % len(REASONS)]
         words = [code.status.value.replace("-", " "), *([reason.value.replace("-", " ")] if reason is not None else [])]
-        found = _fitting(words, shown == outcome, shown.shape)
+        found = _fitting(words, shown == outcome)
         items += found
         if not found:
             others.append(f"{', '.join(words)} ({counts[outcome] / shown.size:.1%})")
     return items, others
 
 
-def _fitting(words: list[str], mask: Mask, shape: tuple[int, ...]) -> list[Text]:
+def _fitting(words: list[str], mask: Mask) -> list[Text]:
     """A name as texts that lie in their field: in lines, or turned in one line; nothing where neither does."""
-    wide, high = WIDE / shape[1], HIGH / shape[0]
     for is_turned in (False, True):
-        x, y = _deepest(mask, (1, 4) if is_turned else (4, 1), wide, high)
+        x, y = _deepest(mask, *((1, 4) if is_turned else (4, 1)))
         if is_turned:
             runs = (TextRun(", ".join(words), Role.INK),)
             texts = [Text((x + 4.0, y), runs, SIZE, Anchor.MIDDLE, is_turned=True)]
@@ -195,23 +194,24 @@ def _fitting(words: list[str], mask: Mask, shape: tuple[int, ...]) -> list[Text]
                 Text((x, first + 15.0 * number), (TextRun(word, Role.INK),), SIZE, Anchor.MIDDLE)
                 for number, word in enumerate(words)
             ]
-        if all(_holds(mask, text.box, wide, high) for text in texts):
+        if all(_holds(mask, text.box) for text in texts):
             return list(texts)
     return []
 
 
-def _holds(mask: Mask, box: Box, wide: float, high: float) -> bool:
+def _holds(mask: Mask, box: Box) -> bool:
     """Whether a box lies in a field."""
+    wide, high = _cell(mask)
     left, right = floor((box.left - LEFT) / wide), floor((box.right - LEFT) / wide)
     top, bottom = floor((box.top - TOP) / high), floor((box.bottom - TOP) / high)
     is_inside = left >= 0 and top >= 0 and right < mask.shape[1] and bottom < mask.shape[0]
     return is_inside and bool(mask[top : bottom + 1, left : right + 1].all())
 
 
-def _deepest(mask: Mask, shape: tuple[int, int], wide: float, high: float) -> Spot:
+def _deepest(mask: Mask, across: int, up: int) -> Spot:
     """The middle of the place that is farthest from all other fields, where being far counts in a ratio across and
     up, for a text is longer one way."""
-    across, up = shape
+    wide, high = _cell(mask)
     inner, last = mask, mask
     while inner.any():
         last = inner
