@@ -8,7 +8,7 @@ from typing import Any
 
 
 class MissingExtraError(ImportError):
-    """A package of an extra is missing; the message says what needs it and how to install it."""
+    """A package of an extra is missing, or a font for it; the message says what needs it and what to install."""
 
 
 @contextmanager

@@ -326,9 +326,9 @@ def test_a_page_can_colour_its_pictures_and_a_file_needs_no_style_sheet():
 def test_text_of_a_program_is_escaped():
     text = f"G111 X100. A180. K-30. B120. P5. {HOSTILE}"
     (answer,) = contoursolve.solve(text, start="X40. Z0.", facts=["line 2 passes through (Z-47.3205 X100.)"]).answers
-    picture = draw_answer(answer, title="<b>&\"'\x00")
+    picture = draw_answer(answer, title="<b>&\"'\x00\udcff")  # a file's name may be no Unicode
     tree = check(picture)
-    assert tree[0].text == "<b>&\"'�"
+    assert tree[0].text == "<b>&\"'��"
     tags = "svg title desc defs clipPath rect g path polygon circle text tspan"
     assert {each.tag for each in tree.iter()} <= {f"{SVG}{tag}" for tag in tags.split()}
     assert picture.png(50)
@@ -360,9 +360,18 @@ def test_a_png_has_the_size_that_is_asked_for():
         size = struct.unpack(">II", data[16:24])
         assert size == pytest.approx((picture.width * dpi / PIXELS, picture.height * dpi / PIXELS), abs=1)
         assert b"tIME" not in data
+        place = data.index(b"pHYs") + 4
+        assert struct.unpack(">IIB", data[place : place + 9]) == (round(dpi / 0.0254), round(dpi / 0.0254), 1)
+        assert picture.title.encode() in data[: data.index(b"IDAT")]
     for wrong in (0, -1, 1e9, float("nan")):
         with pytest.raises(ValueError, match="cannot be painted"):
             picture.png(wrong)
+
+
+def test_a_png_without_a_font_for_its_texts_is_refused(monkeypatch):
+    monkeypatch.setattr("contoursolve.pictures.svg._has_fonts", lambda: False)
+    with pytest.raises(contoursolve.MissingExtraError, match="needs a font"):
+        draw_answer(answers_of("solved")[0]).png()
 
 
 def test_svg_needs_no_package_and_png_names_the_one_it_needs(monkeypatch):

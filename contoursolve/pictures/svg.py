@@ -94,7 +94,10 @@ def write_svg(sheet: Sheet, theme: Theme, title: str, description: str) -> str:
     """The page as one SVG element, without an XML declaration, so that it can stand in HTML."""
     drawing, around = ("".join(_element(item, theme) for item in items) for items in (sheet.drawing, sheet.around))
     body = drawing + around
-    name = "cs-" + sha256("\0".join((theme.value, title, description, body)).encode()).hexdigest()[:12]
+    name = (
+        "cs-"
+        + sha256("\0".join((theme.value, title, description, body)).encode(errors="backslashreplace")).hexdigest()[:12]
+    )
     size = f'width="{_number(sheet.width)}" height="{_number(sheet.height)}"'
     frame = sheet.frame
     clip = (

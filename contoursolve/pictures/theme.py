@@ -46,35 +46,23 @@ DASHES: Mapping[Role, tuple[float, ...]] = {
 }
 """Pixels on and off of a role's thin lines; solid without. They tell the states apart without colour."""
 
-LIGHT_COLORS: Mapping[Role, str] = {
-    Role.PAPER: "#ffffff",
-    Role.INK: "#111827",
-    Role.MUTED: "#5b6472",
-    Role.GHOST: "#6b7280",
-    Role.GIVEN: "#1d4ed8",
-    Role.DERIVED: "#15693a",
-    Role.IGNORED: "#8a4b00",
-    Role.CONFLICTING: "#b91c1c",
-    Role.FREE: "#7e22ce",
-    Role.SOLVED_FIELD: "#eaf1fd",
-    Role.REFUSED_FIELD: "#f0cdc8",
-    Role.OTHER_FIELD: "#dccfee",
+_COLORS: Mapping[Role, tuple[str, str]] = {
+    Role.PAPER: ("#ffffff", "#10151f"),
+    Role.INK: ("#111827", "#f3f4f6"),
+    Role.MUTED: ("#5b6472", "#9aa5b5"),
+    Role.GHOST: ("#6b7280", "#8e99a9"),
+    Role.GIVEN: ("#1d4ed8", "#93c5fd"),
+    Role.DERIVED: ("#15693a", "#86efac"),
+    Role.IGNORED: ("#8a4b00", "#fcd34d"),
+    Role.CONFLICTING: ("#b91c1c", "#fca5a5"),
+    Role.FREE: ("#7e22ce", "#d8b4fe"),
+    Role.SOLVED_FIELD: ("#eaf1fd", "#1b3050"),
+    Role.REFUSED_FIELD: ("#f0cdc8", "#5a2a27"),
+    Role.OTHER_FIELD: ("#dccfee", "#3a2a55"),
 }
+"""The colours of a role: light and dark."""
 
-DARK_COLORS: Mapping[Role, str] = {
-    Role.PAPER: "#10151f",
-    Role.INK: "#f3f4f6",
-    Role.MUTED: "#9aa5b5",
-    Role.GHOST: "#8e99a9",
-    Role.GIVEN: "#93c5fd",
-    Role.DERIVED: "#86efac",
-    Role.IGNORED: "#fcd34d",
-    Role.CONFLICTING: "#fca5a5",
-    Role.FREE: "#d8b4fe",
-    Role.SOLVED_FIELD: "#1b3050",
-    Role.REFUSED_FIELD: "#5a2a27",
-    Role.OTHER_FIELD: "#3a2a55",
-}
+LIGHT_COLORS, DARK_COLORS = ({role: colors[number] for role, colors in _COLORS.items()} for number in (0, 1))
 
 
 class Theme(Enum):
