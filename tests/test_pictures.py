@@ -30,7 +30,7 @@ from contoursolve.pictures import (
     draw_region,
     draw_result,
 )
-from contoursolve.pictures.page import Box, Shape, Stroke, Text
+from contoursolve.pictures.page import WIDTH, Box, Shape, Stroke, Text
 from contoursolve.pictures.svg import PIXELS
 from contoursolve.pictures.theme import DARK_COLORS, DASHES, LIGHT_COLORS, Role
 
@@ -79,7 +79,7 @@ def answers_of(name: str):
 def check(picture: Picture) -> ElementTree.Element:
     """What holds for every picture; its SVG as a tree."""
     sheet = picture.sheet
-    page = Box(0.0, 0.0, sheet.width, sheet.height)
+    page = Box(0.0, 0.0, WIDTH, sheet.height)
     texts = [text for text in sheet.texts if text.words.strip()]
     for number, text in enumerate(texts):
         assert page.grow(0.5).holds(text.box), text

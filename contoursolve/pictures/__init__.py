@@ -58,8 +58,7 @@ def draw_answer(answer: Answer, *, theme: Theme = Theme.LIGHT, title: str | None
     >>> draw_answer(answer).title
     'G111 (taper multiple cornering), line 1: solved'
     """
-    scene = compose(answer, title)
-    return finish(lay_out(scene), theme, scene.title, describe(answer))
+    return finish(lay_out(compose(answer, title)), theme, describe(answer))
 
 
 def draw_result(result: Result, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
@@ -68,8 +67,7 @@ def draw_result(result: Result, *, theme: Theme = Theme.LIGHT, title: str | None
 
     if len(result.answers) == 1:
         return draw_answer(result.answers[0], theme=theme, title=title)
-    scenes = compose_overview(result, title)
-    return finish(stack_sheets([lay_out(scene) for scene in scenes]), theme, scenes[0].title, describe_overview(result))
+    return finish(stack_sheets([*map(lay_out, compose_overview(result, title))]), theme, describe_overview(result))
 
 
 def draw_family_fan(
@@ -86,8 +84,7 @@ def draw_family_fan(
     """
     from contoursolve.pictures.overview import compose_fan  # noqa: PLC0415 - not needed for one contour
 
-    scene = compose_fan(word, values, answers, title)
-    return finish(lay_out(scene), theme, scene.title, scene.title)
+    return finish(lay_out(compose_fan(word, values, answers, title)), theme)
 
 
 def draw_family_map(
@@ -99,29 +96,24 @@ def draw_family_map(
     `words` go to the right and up; without them, the two words of the family. Raises ValueError where these are not
     two words of a grid.
     """
-    from contoursolve.pictures.maps import lay_out_map, map_title  # noqa: PLC0415 - numpy
+    from contoursolve.pictures.maps import lay_out_map  # noqa: PLC0415 - numpy
 
-    several = [word for word, values in family.ranges.values.items() if values.size > 1]
-    chosen = words if words is not None else tuple(several or family.ranges.values)[:2]
-    told = title if title is not None else map_title(family, chosen)
-    return finish(lay_out_map(family, chosen, told), theme, told, told)
+    return finish(lay_out_map(family, words, title), theme)
 
 
 def draw_range(found: Feasible, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
     """The picture of the values of a word with which a block has a contour: a bar with what ends each range."""
-    from contoursolve.pictures.value_axes import lay_out_range, range_title  # noqa: PLC0415 - as above
+    from contoursolve.pictures.value_axes import lay_out_range  # noqa: PLC0415 - as above
 
-    told = title if title is not None else range_title(found)
-    return finish(lay_out_range(found, told), theme, told, told)
+    return finish(lay_out_range(found, title), theme)
 
 
 def draw_region(region: Region, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
     """The picture of the values of two words with which a block has a contour: the lines that bound them, each with
     what fails beyond it."""
-    from contoursolve.pictures.curves import lay_out_region, region_title  # noqa: PLC0415 - as above
+    from contoursolve.pictures.curves import lay_out_region  # noqa: PLC0415 - as above
 
-    told = title if title is not None else region_title(region)
-    return finish(lay_out_region(region, told), theme, told, told)
+    return finish(lay_out_region(region, title), theme)
 
 
 def draw_sweep(ready: CompiledSweep, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:

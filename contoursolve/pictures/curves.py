@@ -22,7 +22,6 @@ from contoursolve.pictures.page import (
     Stroke,
     Text,
     TextRun,
-    heading,
     visible,
     width_of,
     wrap,
@@ -37,7 +36,7 @@ from contoursolve.pictures.value_axes import (
     ValuePlane,
     axis_text,
     over_range,
-    with_remarks,
+    page_of,
 )
 
 _GAP = (3.0, 3.0)
@@ -224,7 +223,7 @@ _LINE = 2.0
 """Pixels of a line that bounds the region."""
 
 
-def region_title(region: Region) -> str:
+def _title(region: Region) -> str:
     """What a region shows."""
     words = " and ".join(region.words)
     if not region.boundaries:
@@ -233,7 +232,7 @@ def region_title(region: Region) -> str:
     return f"{words}: where the contour exists{proof}"
 
 
-def lay_out_region(region: Region, title: str) -> Sheet:
+def lay_out_region(region: Region, title: str | None) -> Sheet:
     """The page of a region."""
     first, second = map(axis_text, region.words, region.units)
     chart = ValuePlane((first, second), *(over_range(low, high) for low, high in region.within))
@@ -241,14 +240,14 @@ def lay_out_region(region: Region, title: str) -> Sheet:
     rough = _teeth(curves)
     stated = _stated(region, chart, curves)
     names, missing = names_of(curves, chart, [each.box for each in stated if isinstance(each, Text)], rough)
-    items: list[Item] = [heading(title), *strokes(curves, _LINE), *rough, *chart.axes(), *stated, *names]
+    items: list[Item] = [*strokes(curves, _LINE), *rough, *chart.axes(), *stated, *names]
     remarks = ["teeth: there is no contour on this side"] if any(not e.boundary.is_gap for e in curves) else []
     if any(each.boundary.is_gap for each in curves):
         remarks.append("dotted: there is none on the line alone")
     if missing:
         remarks.append(f"lines without room for a name: {', '.join(missing)}")
     told = [(each, Role.MUTED) for each in wrap("; ".join(remarks), WIDTH - 2 * PAD, SIZE, 3)]
-    return with_remarks(items, told, TOP + HIGH + BELOW, 4.0)
+    return page_of(title if title is not None else _title(region), items, told, TOP + HIGH + BELOW, 4.0)
 
 
 def _stated(region: Region, chart: ValuePlane, curves: Sequence[Curve]) -> list[Item]:

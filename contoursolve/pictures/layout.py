@@ -64,7 +64,7 @@ def lay_out(scene: Scene) -> Sheet:
     is_free = canvas.cost(Box(frame.left, frame.bottom - 34.0, _CORNER, frame.bottom)) == 0.0
     foot = list(_foot_of(scene, canvas.homeless, frame.bottom - (26.0 if is_free else -4.0)))
     height = max((item.box.bottom for item in foot if isinstance(item, Text)), default=frame.bottom) + 12.0
-    return Sheet(WIDTH, round(height, 1), frame, canvas.items, (*top, *foot))
+    return Sheet(scene.title, round(height, 1), frame, canvas.items, (*top, *foot))
 
 
 def _thinned(scene: Scene) -> Scene:

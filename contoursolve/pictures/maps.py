@@ -26,7 +26,6 @@ from contoursolve.pictures.page import (
     Stroke,
     Text,
     TextRun,
-    heading,
     wrap,
 )
 from contoursolve.pictures.theme import Role
@@ -39,7 +38,7 @@ from contoursolve.pictures.value_axes import (
     ValuePlane,
     axis_text,
     over_cells,
-    with_remarks,
+    page_of,
 )
 
 COLUMNS, ROWS = 305, 200
@@ -59,14 +58,17 @@ Outcomes = NDArray[numpy.int64]
 Mask = NDArray[numpy.bool_]
 
 
-def map_title(family: Family, words: tuple[str, ...]) -> str:
+def _title(family: Family, words: tuple[str, ...]) -> str:
     """What a map shows."""
     told = ", ".join(f"{number:,} {status.value}" for status, number in family.summary().items())
     return f"{' and '.join(words)}: {told}"
 
 
-def lay_out_map(family: Family, words: tuple[str, ...], title: str) -> Sheet:
-    """The page of a map. Raises ValueError where the words are not two words of a grid of two."""
+def lay_out_map(family: Family, chosen: tuple[str, str] | None, title: str | None) -> Sheet:
+    """The page of a map, of the words that vary unless others are chosen. Raises ValueError where these are not two
+    words of a grid of two."""
+    several = [word for word, values in family.ranges.values.items() if values.size > 1]
+    words = chosen if chosen is not None else tuple(several or family.ranges.values)[:2]
     own = [word for word, values in family.ranges.values.items() if values.size > 1 or word in words]
     if family.ranges.is_paired or len(own) != 2 or sorted(words) != sorted(own):  # noqa: PLR2004 - a plane
         raise ValueError(f"a map needs a grid of two words; this family has {' and '.join(own)}, not {words!r}")
@@ -83,14 +85,14 @@ def lay_out_map(family: Family, words: tuple[str, ...], title: str) -> Sheet:
     fields, others = _names(shown)
     borders = _boundaries(shown, curves)
     lines, unnamed = names_of(curves, chart, [each.box for each in fields], borders)
-    items: list[Item] = [heading(title), *_fields(shown), *borders]
+    items: list[Item] = [*_fields(shown), *borders]
     items += [*strokes(curves, _LINE), *chart.axes(), *fields, *lines]
     remarks = [
         (told, Role.MUTED)
         for start, several in (("too narrow to be named", others), ("lines without room for a name", unnamed))
         for told in (wrap(f"{start}: {'; '.join(several)}", WIDTH - 2 * PAD, SIZE, 3) if several else ())
     ]
-    return with_remarks(items, remarks, TOP + HIGH + BELOW, 4.0)
+    return page_of(title if title is not None else _title(family, words), items, remarks, TOP + HIGH + BELOW, 4.0)
 
 
 def _curves(family: Family, words: tuple[str, str], chart: ValuePlane) -> list[Curve]:

@@ -155,9 +155,9 @@ Item = Stroke | Shape | Dot | Text
 
 @dataclass(frozen=True, slots=True)
 class Sheet:
-    """A page: the drawing, which ends at its frame, and what stands around it, each as it is painted."""
+    """A page, as wide as all are: the drawing, which ends at its frame, and what stands around it, as it is painted."""
 
-    width: float
+    title: str
     height: float
     frame: Box
     drawing: tuple[Item, ...] = field(repr=False)
@@ -181,7 +181,7 @@ def stack_sheets(sheets: list[Sheet]) -> Sheet:
         around += [_shift(item, height) for item in sheet.around]
         height += sheet.height
     frame = Box(4.0, sheets[0].frame.top, WIDTH - 4.0, height)
-    return Sheet(WIDTH, round(height, 1), frame, tuple(drawing), tuple(around))
+    return Sheet(sheets[0].title, round(height, 1), frame, tuple(drawing), tuple(around))
 
 
 def _shift(item: Item, by: float) -> Item:

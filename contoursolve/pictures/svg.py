@@ -14,7 +14,7 @@ from xml.sax.saxutils import escape
 from zlib import crc32
 
 from contoursolve.extras import MissingExtraError, importing
-from contoursolve.pictures.page import Dot, Item, Shape, Sheet, Spot, Stroke, Sweep, Text
+from contoursolve.pictures.page import WIDTH, Dot, Item, Shape, Sheet, Spot, Stroke, Sweep, Text
 from contoursolve.pictures.theme import DARK_COLORS, LIGHT_COLORS, Role, Theme
 
 SANS = "'DejaVu Sans', Verdana, 'Liberation Sans', Arial, sans-serif"
@@ -34,15 +34,27 @@ _PIECES = 48
 
 @dataclass(frozen=True, slots=True)
 class Picture:
-    """A drawing; `width` and `height` are in pixels of CSS. `svg` is one element without an XML declaration."""
+    """A drawing. `svg` is one element without an XML declaration."""
 
     svg: str = field(repr=False)
-    title: str
     description: str
-    width: float
-    height: float
     sheet: Sheet = field(repr=False)
     theme: Theme = Theme.LIGHT
+
+    @property
+    def title(self) -> str:
+        """What is drawn, in a line."""
+        return self.sheet.title
+
+    @property
+    def width(self) -> float:
+        """Pixels of CSS."""
+        return WIDTH
+
+    @property
+    def height(self) -> float:
+        """Pixels of CSS."""
+        return self.sheet.height
 
     def _repr_svg_(self) -> str:
         """The drawing, as a notebook asks for it."""
@@ -56,7 +68,7 @@ class Picture:
                 f"a picture of {self.width:.0f} x {self.height:.0f} pixels cannot be painted at {dpi:g} dpi"
             )
         is_page = self.theme is Theme.PAGE
-        svg = write_svg(self.sheet, Theme.LIGHT, self.title, self.description) if is_page else self.svg
+        svg = write_svg(self.sheet, Theme.LIGHT, self.description) if is_page else self.svg
         if not _has_fonts():
             raise MissingExtraError("a PNG picture needs a font for its texts, such as DejaVu Sans; none is installed")
         png, meter = _painted(svg, dpi / PIXELS), round(dpi / 0.0254)
@@ -83,22 +95,19 @@ def _chunk(kind: bytes, data: bytes) -> bytes:
     return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", crc32(kind + data))
 
 
-def finish(sheet: Sheet, theme: Theme, title: str, description: str) -> Picture:
-    """The picture of a page."""
-    return Picture(
-        write_svg(sheet, theme, title, description), title, description, sheet.width, sheet.height, sheet, theme
-    )
+def finish(sheet: Sheet, theme: Theme, description: str = "") -> Picture:
+    """The picture of a page; what its title says is description enough where there is no other one."""
+    told = description or sheet.title
+    return Picture(write_svg(sheet, theme, told), told, sheet, theme)
 
 
-def write_svg(sheet: Sheet, theme: Theme, title: str, description: str) -> str:
+def write_svg(sheet: Sheet, theme: Theme, description: str) -> str:
     """The page as one SVG element, without an XML declaration, so that it can stand in HTML."""
     drawing, around = ("".join(_element(item, theme) for item in items) for items in (sheet.drawing, sheet.around))
     body = drawing + around
-    name = (
-        "cs-"
-        + sha256("\0".join((theme.value, title, description, body)).encode(errors="backslashreplace")).hexdigest()[:12]
-    )
-    size = f'width="{_number(sheet.width)}" height="{_number(sheet.height)}"'
+    about = "\0".join((theme.value, sheet.title, description, body)).encode(errors="backslashreplace")
+    name = "cs-" + sha256(about).hexdigest()[:12]
+    wide, high = _number(WIDTH), _number(sheet.height)
     frame = sheet.frame
     clip = (
         f'<clipPath id="{name}-frame"><rect x="{_number(frame.left)}" y="{_number(frame.top)}" '
@@ -107,10 +116,10 @@ def write_svg(sheet: Sheet, theme: Theme, title: str, description: str) -> str:
     style = _style(name) if theme is Theme.PAGE else ""
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" id="{name}" role="img" aria-labelledby="{name}-title {name}-text" '
-        f'{size} viewBox="0 0 {_number(sheet.width)} {_number(sheet.height)}" font-family="{SANS}" fill="none">'
-        f'<title id="{name}-title">{_clean(title)}</title><desc id="{name}-text">{_clean(description)}</desc>'
+        f'width="{wide}" height="{high}" viewBox="0 0 {wide} {high}" font-family="{SANS}" fill="none">'
+        f'<title id="{name}-title">{_clean(sheet.title)}</title><desc id="{name}-text">{_clean(description)}</desc>'
         f"<defs>{clip}</defs>{style}"
-        f'<rect width="{_number(sheet.width)}" height="{_number(sheet.height)}" {_paint("fill", Role.PAPER, theme)}/>'
+        f'<rect width="{wide}" height="{high}" {_paint("fill", Role.PAPER, theme)}/>'
         f'<g clip-path="url(#{name}-frame)">{drawing}</g>{around}</svg>\n'
     )
 

@@ -122,14 +122,16 @@ def axis_text(word: str, unit: str) -> str:
     return visible(f"{word} [{'in' if unit == 'inch' else unit}]" if unit else word)
 
 
-def with_remarks(items: Sequence[Item], remarks: Sequence[tuple[str, Role]], height: float, lead: float = 0.0) -> Sheet:
+def page_of(
+    title: str, items: Sequence[Item], remarks: Sequence[tuple[str, Role]], height: float, lead: float = 0.0
+) -> Sheet:
     """The page whose drawing ends at a height, with lines of text below it, the first one farther down by `lead`."""
     texts = [
         Text((PAD, height + lead + _HIGHER * number), (TextRun(told, role),), SIZE)
         for number, (told, role) in enumerate(remarks)
     ]
     height += _HIGHER * len(texts)
-    return Sheet(WIDTH, height, Box(0.0, 0.0, WIDTH, height), (*items, *texts))
+    return Sheet(title, height, Box(0.0, 0.0, WIDTH, height), (heading(title), *items, *texts))
 
 
 _HIGHER = 17.0
@@ -147,21 +149,16 @@ _MOST = 12
 """Ends that are told in words."""
 
 
-def range_title(found: Feasible) -> str:
-    """What a bar shows."""
-    proof = "" if found.is_complete else " (that these are all is not proven)"
-    return f"{found.word}: where the contour exists{proof}"
-
-
-def lay_out_range(found: Feasible, title: str) -> Sheet:
+def lay_out_range(found: Feasible, title: str | None) -> Sheet:
     """The page of the ranges of a word: where the contour exists, what ends it, and which value the block has."""
+    proof = "" if found.is_complete else " (that these are all is not proven)"
     low, high = _shown(found)
     bottom = _BAR_TOP + _BAR_HIGH
 
     def x_of(value: float) -> float:
         return LEFT + WIDE * (min(max(value, low), high) - low) / (high - low)
 
-    items: list[Item] = [heading(title), Box(LEFT, _BAR_TOP, LEFT + WIDE, bottom).filled(Role.REFUSED_FIELD)]
+    items: list[Item] = [Box(LEFT, _BAR_TOP, LEFT + WIDE, bottom).filled(Role.REFUSED_FIELD)]
     for interval in found.intervals:
         begin = x_of(interval.low.value)
         end = max(x_of(interval.high.value), begin + 1.5)
@@ -175,7 +172,8 @@ def lay_out_range(found: Feasible, title: str) -> Sheet:
     items.append(Text((LEFT + WIDE / 2, bottom + 38.0), name, TITLE, Anchor.MIDDLE, is_bold=True))
     items.append(Dot((x_of(found.stated), _BAR_TOP + _BAR_HIGH / 2), 4.0, Role.GIVEN))
     remarks = [(shorten(told, WIDTH - 2 * PAD, SIZE), role) for told, role in _remarks(found)]
-    return with_remarks(items, remarks, bottom + 62.0)
+    told = title if title is not None else f"{found.word}: where the contour exists{proof}"
+    return page_of(told, items, remarks, bottom + 62.0)
 
 
 def _ends(found: Feasible) -> Iterator[tuple[End, str]]:
