@@ -20,9 +20,9 @@ from contoursolve.pictures.page import (
     line,
     width_of,
 )
+from contoursolve.pictures.scene import Viewport
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import along, distance, minus
-from contoursolve.pictures.viewport import Viewport
 
 PATH_WEIGHT, THIN_WEIGHT, FAINT_WEIGHT = 40.0, 4.0, 1.5
 """How little a label likes to stand on a path, on a thin line of a word, and on a line of construction."""

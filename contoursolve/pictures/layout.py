@@ -32,10 +32,9 @@ from contoursolve.pictures.page import (
     width_of,
     wrap,
 )
-from contoursolve.pictures.scene import Dimension, Mark, Ring, Scene, Slide, Thin, Trail, Weight
+from contoursolve.pictures.scene import Dimension, Mark, Ring, Scene, Slide, Thin, Trail, Viewport, Weight
 from contoursolve.pictures.theme import DASHES, MEANINGS, Role
 from contoursolve.pictures.vectors import along, direction, distance, middle, sweep_of
-from contoursolve.pictures.viewport import Viewport
 
 _ARROWED = 34.0
 """Pixels of an element that is long enough for an arrow."""

@@ -6,10 +6,9 @@ from dataclasses import dataclass
 from contoursolve.model import FIRST, SECOND
 from contoursolve.pictures.labels import Canvas
 from contoursolve.pictures.page import SIZE, WIDTH, Anchor, Box, Spot, Text, TextRun, head, line, width_of
-from contoursolve.pictures.scene import LinearDimension, Ordinate, Scene, Trail
+from contoursolve.pictures.scene import LinearDimension, Ordinate, Rectangle, Scene, Trail, Viewport, bounds_of
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import along, direction, distance
-from contoursolve.pictures.viewport import Rectangle, Viewport, bounds_of
 
 _TALLEST, _LOWEST = 350.0, 110.0
 """Pixels of the drawing itself, without what stands in its margins."""
