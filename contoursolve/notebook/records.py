@@ -18,7 +18,6 @@ from contoursolve.output.families import found_lines, range_lines, region_lines,
 from contoursolve.output.findings import finding_lines, plain
 from contoursolve.output.listing import closing_lines, listing_lines
 from contoursolve.output.plain_text import Table, printable
-from contoursolve.pictures import Drawable, Theme, draw
 from contoursolve.pipeline import Result
 from contoursolve.rules import Rule
 from contoursolve.shown import Shown
@@ -65,7 +64,9 @@ def _made(make: Callable[[Any], str], record: object) -> str:
         return ""
 
 
-def _svg(record: Drawable) -> str:
+def _svg(record: Any) -> str:
+    from contoursolve.pictures import Theme, draw  # noqa: PLC0415 - text needs no picture
+
     return draw(record, theme=Theme.PAGE).svg
 
 
