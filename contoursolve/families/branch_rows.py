@@ -13,7 +13,7 @@ from contoursolve.backends.numeric import Tape, largest
 from contoursolve.constraints import Coordinate, Radius, System, Values
 from contoursolve.families.case_classes import CaseClass, asked_of
 from contoursolve.families.row_boxes import Place, RowBoxes
-from contoursolve.families.spec import Places, Stretches
+from contoursolve.families.spec import Places, stretches
 from contoursolve.model import FIRST, SECOND, Fact, Unit, scalar
 from contoursolve.solving import RefusalKind
 from contoursolve.solving.checks import (
@@ -47,7 +47,7 @@ Bits = NDArray[numpy.bool_]
 
 
 @dataclass(slots=True, eq=False)
-class Pairs:
+class RowCandidates:
     """Rows, each with one of its solutions: where it is sought (mm or cosines), and the sides at which it touches."""
 
     rows: Places
@@ -58,7 +58,7 @@ class Pairs:
 
 
 @dataclass(slots=True, eq=False)
-class Settled:
+class RowSolutions:
     """What becomes of rows: status and reason, and the scalars and sides of those that show a solution (0 for a side
     that is not known); `is_path` tells which of these are contours, and `again` has the rows that a single solve must
     decide."""
@@ -105,10 +105,10 @@ class BranchRows:
         """The number of checks that do not concern the path."""
         self.checks = tuple(check for check, _ in (*facts, *path))
 
-    def solve(self, values: Mapping[str, Array]) -> Settled:
+    def solve(self, values: Mapping[str, Array]) -> RowSolutions:
         """What becomes of rows with these values of the words."""
         rows = next(iter(values.values())).size
-        settled = Settled(
+        settled = RowSolutions(
             numpy.zeros(rows, numpy.uint8),
             numpy.zeros(rows, numpy.uint8),
             numpy.zeros(rows, bool),
@@ -138,7 +138,7 @@ class BranchRows:
         found |= {name: numpy.array([value]) for name, value in case.profile.increments.items()}
         return found
 
-    def _pairs(self, values: Mapping[str, Array], settled: Settled) -> Pairs:
+    def _pairs(self, values: Mapping[str, Array], settled: RowSolutions) -> RowCandidates:
         """Every row with each of its solutions; rows without any are settled."""
         found: list[tuple[Places, Place]] = []
         for cell in self.boxes.cells(values):
@@ -162,7 +162,7 @@ class BranchRows:
 
         bounds = {name: [place.bounds[name] for place in places] for name in self.system.unknowns}
         sides = places[0].signs if places else ()
-        return Pairs(
+        return RowCandidates(
             numpy.concatenate([numpy.zeros(0, numpy.int64), *(rows for rows, _ in found)]),
             numpy.repeat(numpy.array([place.is_chosen for place in places], bool), sizes),
             {name: spread((low + high) / 2 for low, high in each) for name, each in bounds.items()},
@@ -170,7 +170,7 @@ class BranchRows:
             {SIDE + side: spread(place.signs[side] for place in places) for side in sides},
         )
 
-    def _decide(self, pairs: Pairs, given: Mapping[str, Array], settled: Settled) -> None:
+    def _decide(self, pairs: RowCandidates, given: Mapping[str, Array], settled: RowSolutions) -> None:
         """Which of the solutions of each row is the contour."""
         rows = settled.status.size
 
@@ -208,7 +208,7 @@ class BranchRows:
         settled.is_shown[pairs.rows[at]] = True
         settled.is_path[pairs.rows[at]] = is_path[at]
 
-    def _follow(self, pairs: Pairs, given: Mapping[str, Array]) -> tuple[dict[str, Array], Bits]:
+    def _follow(self, pairs: RowCandidates, given: Mapping[str, Array]) -> tuple[dict[str, Array], Bits]:
         """The solutions of all pairs, step by step; and where they did not end in their boxes, or may be inexact."""
         rows = pairs.rows.size
         known, is_bad = dict(given), numpy.zeros(rows, bool)
@@ -257,7 +257,7 @@ class BranchRows:
         return found
 
     def _solve_alone(
-        self, values: Mapping[str, Array], row: int, rows: Sequence[int] | Places, settled: Settled
+        self, values: Mapping[str, Array], row: int, rows: Sequence[int] | Places, settled: RowSolutions
     ) -> None:
         """What a single solve of one row says, for all of some rows."""
         solution = self.case.solve({word: float(each[row]) for word, each in values.items()})
@@ -269,7 +269,9 @@ class BranchRows:
         for sides in settled.signs.values():
             sides[rows] = 0.0
 
-    def path_of(self, settled: Settled, rows: Places, values: Mapping[str, Array]) -> tuple[dict[str, Array], Array]:
+    def path_of(
+        self, settled: RowSolutions, rows: Places, values: Mapping[str, Array]
+    ) -> tuple[dict[str, Array], Array]:
         """The path of the solutions that some rows show, whose words have these values, in coordinates counted from the
         start point, and their largest residuals."""
         known = {**self._given(values), **{name: each[rows] for name, each in settled.scalars.items()}}
@@ -316,7 +318,7 @@ def _step(kernel: Kernel) -> tuple[Kernel, Columns]:
 def _run(function: Columns, values: Mapping[str, Array], rows: int) -> dict[str, Array]:
     """The outputs at these columns; true until the next call where one call is enough."""
     parts: list[dict[str, Array]] = []
-    for first, last in Stretches(rows, ROWS):
+    for first, last in stretches(rows, ROWS):
         for place, name in enumerate(function.compiled.varied):
             column = values[name]
             function.inputs[place, : last - first] = column if column.size == 1 else column[first:last]

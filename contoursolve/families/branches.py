@@ -2,7 +2,7 @@
 words choose it, several where further facts, values that are asked for, or choices that nothing makes leave several.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import product
@@ -10,11 +10,11 @@ from itertools import product
 import numpy
 from numpy.typing import NDArray
 
-from contoursolve.backends.chart import Bounds, Chart
+from contoursolve.backends.chart import Bounds, Chart, Following
 from contoursolve.backends.inputs import lookup
 from contoursolve.backends.intervals import Array, Intervals
 from contoursolve.constraints import System
-from contoursolve.families.case_classes import CaseClass, Follows
+from contoursolve.families.case_classes import ORIGIN, CaseClass, Follows
 from contoursolve.families.spec import NotClosedError
 from contoursolve.model import Choice, Fact
 from contoursolve.settling import orders_of, settled_by
@@ -37,6 +37,9 @@ from contoursolve.tolerance import REGULAR
 from contoursolve.wording import join
 
 Bits = NDArray[numpy.bool_]
+
+GOAL = "goal:"
+"""What the inputs for the goals of coordinates begin with."""
 
 _ROLES = (Role.CONTOUR, Role.FACT)
 """Checks that tell whether there is a contour."""
@@ -109,12 +112,23 @@ class Branch:
     fixed: tuple[float, ...]
     signs: tuple[tuple[str, float], ...] = ()
 
-    def results(self, names: Sequence[str], *, is_rate: bool = False) -> tuple[Chart, list[float]]:
-        """Some outputs as functions of the words, or their derivatives by the first, with the other inputs."""
-        follows, is_closed = self.case.follows(self.words), self.case.is_closed
-        system, count = self.case.system, len(self.words)
-        chart = _compile_results(system, count, follows, tuple(names), is_rate=is_rate, is_closed=is_closed)
-        return chart, self.case.fixed(chart.fixed, dict(self.signs))
+    def target(self, goals: Mapping[str, tuple[int, float]]) -> tuple[Chart, list[float]]:
+        """How far a coordinate is from its goal as a function of the word, or half the rate at which the square of the
+        distance of several grows; and the other inputs. See `targets.TargetCurve`."""
+        # Coordinates count from the start point inside, which may follow the word.
+        starts = {f"{ORIGIN}{axis}": self.case.moves.get(axis) for axis, _ in goals.values()}
+        rates = {
+            name: Following(((0, float(start.factor) if start is not None else 0.0),), is_angle=False)
+            for name, start in starts.items()
+        }
+        follows = (*self.case.follows(self.words), *rates.items())
+        axes = tuple((name, axis) for name, (axis, _) in goals.items())
+        chart = _compile_target(self.case.system, follows, axes, is_closed=self.case.is_closed)
+        known = {**dict(self.signs), **dict.fromkeys(rates, 0.0)}
+        for name, (axis, goal) in goals.items():
+            start = self.case.moves.get(axis)
+            known[GOAL + name] = goal - (float(start.base) if start is not None else self.case.start(axis))
+        return chart, self.case.fixed(chart.fixed, known)
 
     def at(self, words: Sequence[Array]) -> Array:
         """The margins at these values of the words, by (check, place)."""
@@ -241,12 +255,13 @@ def _compile(system: System, words: int, follows: Follows, choices: tuple[Choice
 
 
 @lru_cache(maxsize=256)
-def _compile_results(
-    system: System, words: int, follows: Follows, names: tuple[str, ...], *, is_rate: bool, is_closed: bool
-) -> Chart:
-    """Some outputs of a system, or their derivatives by the first word, as functions of some words."""
-    tape = compile_system(system).tape if is_closed else close(system).machine.tape
-    return Chart(tape, {name: tape.expression(name) for name in names}, words, dict(follows), is_rate=is_rate)
+def _compile_target(system: System, follows: Follows, axes: tuple[tuple[str, int], ...], *, is_closed: bool) -> Chart:
+    """How far outputs of a system are from a goal as a function of one word (see `Branch.target`)."""
+    tape = (compile_system(system) if is_closed else close(system).machine).tape.copy()
+    away = [tape.expression(name) + tape.input(f"{ORIGIN}{axis}") - tape.input(GOAL + name) for name, axis in axes]
+    is_rate = len(away) > 1
+    output = sum(each**2 for each in away) / 2 if is_rate else away[0]
+    return Chart(tape, {"away": output}, 1, dict(follows), is_rate=is_rate)
 
 
 def _conditions(form: ClosedForm) -> Checks:

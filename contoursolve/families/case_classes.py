@@ -312,10 +312,9 @@ class FreeWords:
         """Of the block as it stands."""
         words = template.words.values()
         self.values = tuple(value_of(word, self.answer) for word in words)
-        scales, bounds = limits_of(template, dict(zip(self.names, self.values, strict=True)))
-        self.scales = [abs(scale) for scale in scales]
+        self._limits = limits_of(template, dict(zip(self.names, self.values, strict=True)))
+        self.scales = [abs(each.scale) for each in self._limits]
         """mm or degrees for each unit of the words."""
-        self._limits = [[bound / scale for bound in own] for own, scale in zip(bounds, scales, strict=True)]
         self.kinds = [kind_of(word, self.answer)[0] for word in words]
         self.units = ["deg" if kind is Unit.DEGREE else self.answer.unit.value for kind in self.kinds]
         self._answers = {self.values: self.answer}
@@ -346,7 +345,8 @@ class FreeWords:
 
     def marks(self, number: int, low: float, high: float) -> list[float]:
         """The ends of a range of a word, and the limits of the rules in it."""
-        return [low, *(each for each in self._limits[number] if low < each < high), high]
+        limits = self._limits[number]
+        return [low, *(each for bound in limits.bounds if low < (each := bound / limits.scale) < high), high]
 
 
 # Results ---------------------------------------------------------------------------------------------------------

@@ -17,8 +17,7 @@ from time import perf_counter
 import numpy
 
 from contoursolve.families.compiled_sweep import CompiledSweep, Table
-from contoursolve.families.evaluate import STRETCH, solve_parts
-from contoursolve.families.spec import Stretches
+from contoursolve.families.evaluate import STRETCH, rows_of, solve_parts
 
 MOST_ROWS = 100_000_000
 """Rows that are begun at a word: a minute or two where there is a closed form, and a file of some 20 GB. More come of a
@@ -46,9 +45,6 @@ class Parts:
     folder: Path
     ready: CompiledSweep
 
-    def __iter__(self) -> Iterator[tuple[int, int]]:
-        return iter(Stretches(self.ready.ranges.count, STRETCH))
-
     def is_done(self, number: int) -> bool:
         """Whether a part was finished, as far as its file's being there tells."""
         return self._file(number).exists()
@@ -63,7 +59,7 @@ class Parts:
 
     def tables(self, workers: int | None = None, executor: Executor | None = None) -> Iterator[Table]:
         """The words and results of all rows in order; parts that were finished are read, others solved and kept."""
-        every = list(self)
+        every = list(rows_of(self.ready))
         missing = {number for number in range(len(every)) if not self.is_done(number)}
         solved = solve_parts(self.ready, [every[number] for number in sorted(missing)], workers, executor)
         for number, part in enumerate(every):

@@ -32,7 +32,7 @@ from contoursolve.families.case_classes import (
 )
 from contoursolve.families.export import Measure, measures_of
 from contoursolve.families.free_words import Examples
-from contoursolve.families.spec import Places, Ranges, Stretches, SweepSpec, Template
+from contoursolve.families.spec import Places, Ranges, SweepSpec, Template, stretches
 from contoursolve.solving import RefusalKind
 from contoursolve.solving.checks import NO_PLACE, compile_checks
 from contoursolve.solving.verdict import Code, Verdict, code_of, reason_of
@@ -116,7 +116,7 @@ class CompiledSweep:
             if rows.case.status is not None:
                 table["status"][own] = code_of(rows.case.status)
                 continue
-            for begin, end in Stretches(last - first if own is None else own.size, rows.most):
+            for begin, end in stretches(last - first if own is None else own.size, rows.most):
                 target = slice(begin, end) if own is None else own[begin:end]
                 part = {word: place[target] for word, place in places.items()}
                 rows.solve(ranges, part, target, table)

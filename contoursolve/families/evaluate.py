@@ -2,9 +2,9 @@
 
 import pickle
 from collections import deque
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field, replace
 from functools import lru_cache, partial
 from typing import TypeVar, Unpack
@@ -21,12 +21,12 @@ from contoursolve.families.spec import (
     BlockOptions,
     FamilyError,
     Ranges,
-    Stretches,
     SweepSpec,
     Template,
     errors_of,
     ranges_of,
     spec_of,
+    stretches,
 )
 from contoursolve.solving import Status
 from contoursolve.solving.verdict import REASONS, Code
@@ -35,7 +35,7 @@ STRETCH = 65_536
 """Rows that are evaluated, or written to a file, at once."""
 
 AHEAD = 8
-"""Stretches that an executor has under way at once, if `workers` does not say it."""
+"""stretches that an executor has under way at once, if `workers` does not say it."""
 
 
 Result = TypeVar("Result")
@@ -172,6 +172,15 @@ def family(
     return solve_sweep(ready, workers, executor)
 
 
+def rows_of(ready: CompiledSweep) -> Iterator[tuple[int, int]]:
+    """The rows of a sweep in stretches; however many, they take no memory."""
+    return stretches(ready.ranges.count, STRETCH)
+
+
+def _pool(ready: CompiledSweep, workers: int) -> AbstractContextManager[Executor | None]:
+    return threads(min(workers, -(-ready.ranges.count // STRETCH)))
+
+
 def solve_sweep(ready: CompiledSweep, workers: int | None = None, executor: Executor | None = None) -> Family:
     """All rows of a sweep; errors as for `family`."""
     count = _check_workers(workers)
@@ -180,18 +189,19 @@ def solve_sweep(ready: CompiledSweep, workers: int | None = None, executor: Exec
     except MemoryError as error:
         told = "take fewer values, or write them to a file with `contoursolve sweep`"
         raise FamilyError(f"{ready.ranges.count:,} rows do not fit into memory ({error}); {told}") from None
-    parts = Stretches(ready.ranges.count, STRETCH)
 
     def fill(first: int, last: int) -> None:
         ready.evaluate(first, last, {name: column[first:last] for name, column in table.items()})
 
     if executor is not None:
-        for (first, last), part in zip(parts, solve_parts(ready, parts, workers, executor), strict=True):
+        for (first, last), part in zip(
+            rows_of(ready), solve_parts(ready, rows_of(ready), workers, executor), strict=True
+        ):
             for name, column in table.items():
                 column[first:last] = part[name]
         return Family(ready.ranges, table, ready.spec)
-    with threads(min(count, len(parts))) as pool:
-        for _ in in_order((partial(fill, *part) for part in parts), pool, count):
+    with _pool(ready, count) as pool:
+        for _ in in_order((partial(fill, *part) for part in rows_of(ready)), pool, count):
             pass
     return Family(ready.ranges, table, ready.spec)
 
@@ -199,14 +209,13 @@ def solve_sweep(ready: CompiledSweep, workers: int | None = None, executor: Exec
 def pieces(ready: CompiledSweep, workers: int | None = None, executor: Executor | None = None) -> Iterator[Table]:
     """The words and results of all rows in order, some thousands at a time, so that any number of rows takes no more
     memory than a few of these. Raises FamilyError for less than one worker."""
-    parts = Stretches(ready.ranges.count, STRETCH)
-    for (first, last), part in zip(parts, solve_parts(ready, parts, workers, executor), strict=True):
-        yield {**ready.ranges.rows(first, last).values, **part}
+    for rows, part in zip(rows_of(ready), solve_parts(ready, rows_of(ready), workers, executor), strict=True):
+        yield {**ready.ranges.rows(*rows).values, **part}
 
 
 def solve_parts(
     ready: CompiledSweep,
-    parts: Collection[tuple[int, int]],
+    parts: Iterable[tuple[int, int]],
     workers: int | None = None,
     executor: Executor | None = None,
 ) -> Iterator[Table]:
@@ -217,7 +226,7 @@ def solve_parts(
         tasks = (partial(solve_rows, packed, dict(ready.ranges.rows(*part).values)) for part in parts)
         yield from in_order(tasks, executor, AHEAD if workers is None else count)
         return
-    with threads(min(count, len(parts))) as pool:
+    with _pool(ready, count) as pool:
         yield from in_order((partial(_solve, ready, *part) for part in parts), pool, count)
 
 

@@ -9,7 +9,7 @@ from typing import Unpack
 from contoursolve.examine import Answer
 from contoursolve.families.case_classes import CaseClass
 from contoursolve.families.free_words import check_block
-from contoursolve.families.range_pieces import Onset, RangePiece, Survey
+from contoursolve.families.range_pieces import Onset, RangePiece, RangeSearch
 from contoursolve.families.spec import BlockOptions, called, errors_of, first_error, spec_of
 from contoursolve.model import Line
 from contoursolve.shown import Shown
@@ -152,7 +152,7 @@ def feasible(
     """
     template = spec_of(block, (word,), **options).template()
     check_block(template)
-    survey = Survey(template)
+    survey = RangeSearch(template)
     low, high = survey.range_of(within)
     pieces, intervals = survey.pieces(low, high), list[Interval]()
     for is_solved, group in groupby(range(len(pieces)), key=lambda number: pieces[number].is_solved):
@@ -165,7 +165,7 @@ def feasible(
     return Feasible(*about, tuple(intervals), tuple(survey.doubts), refusal)
 
 
-def _end(survey: Survey, pieces: Sequence[RangePiece], number: int, other: int, way: int) -> End:
+def _end(survey: RangeSearch, pieces: Sequence[RangePiece], number: int, other: int, way: int) -> End:
     """The lower (-1) or upper (+1) end of a range from one piece to another, of which `number` is at this end."""
     value = pieces[number].low if way < 0 else pieces[number].high
     if not 0 <= number + way < len(pieces):
@@ -180,7 +180,7 @@ def _end(survey: Survey, pieces: Sequence[RangePiece], number: int, other: int, 
 
 
 def _sides(
-    survey: Survey, value: float, way: int, beyond: RangePiece, width: float
+    survey: RangeSearch, value: float, way: int, beyond: RangePiece, width: float
 ) -> tuple[float | None, float | None]:
     """Values close to an end on its two sides that single solves tell apart, within the range, which is so wide, and
     within what lies beyond it."""
@@ -194,7 +194,7 @@ def _sides(
 
 
 def _reason(
-    survey: Survey, value: float, way: int, outside: float | None, onset: Onset | None, near: Sequence[RangePiece]
+    survey: RangeSearch, value: float, way: int, outside: float | None, onset: Onset | None, near: Sequence[RangePiece]
 ) -> tuple[Reason, bool]:
     """What fails beyond an end, and whether it is a rule or the reading of the words; `near` are the pieces on its two
     sides, the one beyond it first."""

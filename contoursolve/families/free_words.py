@@ -2,7 +2,7 @@
 alike, and one row of each class that the rules may tell apart.
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from itertools import pairwise, product
@@ -72,13 +72,31 @@ def factor_of(answer: Answer, typed: Word, given: Given, number: Decimal) -> Dec
     return answer.claim.lexicon.value(one, answer.unit) or Decimal(1)
 
 
-def limits_of(template: Template, values: Mapping[str, float]) -> tuple[list[float], list[tuple[float, ...]]]:
-    """For each free word, the mm or degrees for each unit of it, and the limits of the rules, between which its values
-    are treated alike. Raises FamilyError where the limits of two words depend on each other."""
+@dataclass(frozen=True, slots=True)
+class WordLimits:
+    """The mm or degrees for each unit of a word, and the limits of the rules for its values so scaled."""
+
+    scale: float
+    bounds: tuple[float, ...]
+
+    @property
+    def count(self) -> int:
+        """How many intervals there are; a bound is an interval of its own."""
+        return 2 * len(self.bounds) + 1
+
+    def intervals(self, values: Array) -> Codes:
+        """The number of the interval in which each value lies."""
+        limits, scaled = numpy.array(self.bounds), values * self.scale
+        places = numpy.searchsorted(limits, scaled, "left") + numpy.searchsorted(limits, scaled, "right")
+        return places.astype(numpy.uint8)
+
+
+def limits_of(template: Template, values: Mapping[str, float]) -> list[WordLimits]:
+    """The limits between which the values of each free word are treated alike. Raises FamilyError where those of two
+    words depend on each other."""
     answer = template.solve(values)
     claim, tied = answer.claim, list[str]()
-    scales: list[float] = []
-    bounds: list[tuple[float, ...]] = []
+    found: list[WordLimits] = []
     for name, word in template.words.items():
         limits = {Decimal(0), -Decimal(LARGEST), Decimal(LARGEST)}
         stated = stated_by(word, answer.profile)
@@ -98,21 +116,13 @@ def limits_of(template: Template, values: Mapping[str, float]) -> tuple[list[flo
                 tied.append(word.text)
         if not stated and claim.limits and word.address != FACT:
             tied.append(name)
-        scales.append(float(one or 1))
-        bounds.append(tuple(sorted(map(float, limits))))
+        found.append(WordLimits(float(one or 1), tuple(sorted(map(float, limits)))))
     if len(tied) > 1:
         raise FamilyError(
             f"{' and '.join(tied)} are read together, for on which side of its centre the arc ends depends on both: "
             "vary one of them at a time"
         )
-    return scales, bounds
-
-
-def _intervals_of(values: Array, bounds: tuple[float, ...]) -> Codes:
-    """The number of the interval between two bounds in which each value lies; a bound is an interval of its own."""
-    limits = numpy.array(bounds)
-    places = numpy.searchsorted(limits, values, "left") + numpy.searchsorted(limits, values, "right")
-    return places.astype(numpy.uint8)
+    return found
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,51 +136,39 @@ class Example:
 
 @dataclass(frozen=True, slots=True)
 class Examples:
-    """One row of each class that the rules may tell apart, in the order of their keys, as plain data.
+    """One row of each class that the rules may tell apart, in the order of their keys, as plain data. The intervals in
+    which the values of all words lie make the key."""
 
-    Each word has a scale and bounds: its values, scaled, lie between two bounds or on one, which gives a number; the
-    numbers of all words make the key.
-    """
-
-    scales: tuple[float, ...]
-    bounds: tuple[tuple[float, ...], ...]
+    limits: tuple[WordLimits, ...]
     rows: tuple[Example, ...]
 
-    def key(self, values: Sequence[Array], places: Sequence[Places]) -> NDArray[numpy.int64]:
+    def key(self, values: Sequence[Array], places: Sequence[Places]) -> Places:
         """The keys of some rows."""
-        words = zip(values, places, self.scales, self.bounds, strict=True)
-        return _key_of((_intervals_of(each * scale, bounds)[at] for each, at, scale, bounds in words), self.bounds)
+        words = zip(values, places, self.limits, strict=True)
+        return _key_of([limits.intervals(each)[at] for each, at, limits in words], self.limits)
 
 
 def examples_of(template: Template, ranges: Ranges) -> Examples:
     """A row for each set of intervals in which the values lie. Raises FamilyError."""
-    scales, bounds = limits_of(template, {name: float(values[0]) for name, values in ranges.values.items()})
-    if prod(2 * len(limits) + 1 for limits in bounds) >= 2**63:
-        raise FamilyError(f"{len(bounds)} words are too many to vary at once")
+    limits = tuple(limits_of(template, {name: float(values[0]) for name, values in ranges.values.items()}))
+    if prod(each.count for each in limits) >= 2**63:
+        raise FamilyError(f"{len(limits)} words are too many to vary at once")
     words = list(ranges.values.values())
-    parts = [_intervals_of(values * scale, limits) for values, scale, limits in zip(words, scales, bounds, strict=True)]
-    columns = [_key_of(parts, bounds)] if ranges.is_paired else parts
+    numbers = [each.intervals(values) for each, values in zip(limits, words, strict=True)]
+    columns = [_key_of(numbers, limits)] if ranges.is_paired else numbers
+    unique = [numpy.unique(each, return_index=True, return_counts=True) for each in columns]
     rows: list[Example] = []
-    for choice in product(*(zip(*_unique(each), strict=True) for each in columns)):
-        numbers, firsts, counts = zip(*choice, strict=True)
+    for choice in product(*(zip(*(each.tolist() for each in found), strict=True) for found in unique)):
+        own, firsts, counts = zip(*choice, strict=True)
         places = firsts * len(words) if ranges.is_paired else firsts
-        key = numbers[0] if ranges.is_paired else int(_key_of(numbers, bounds)[0])
+        key = own[0] if ranges.is_paired else int(_key_of(own, limits))
         rows.append(Example(key, tuple(float(each[at]) for each, at in zip(words, places, strict=True)), prod(counts)))
-    return Examples(tuple(scales), tuple(bounds), tuple(rows))
+    return Examples(limits, tuple(rows))
 
 
-def _key_of(numbers: Iterable[NDArray[Any] | int], bounds: Sequence[tuple[float, ...]]) -> NDArray[numpy.int64]:
+def _key_of(numbers: Sequence[NDArray[Any]] | tuple[int, ...], limits: Sequence[WordLimits]) -> Places:
     """The numbers of the intervals of all words as one, row by row."""
-    key = numpy.zeros(1, numpy.int64)
-    for each, limits in zip(numbers, bounds, strict=True):
-        key = key * (2 * len(limits) + 1) + each
-    return key
-
-
-def _unique(numbers: NDArray[Any]) -> tuple[list[int], list[int], list[int]]:
-    """Numbers in order, each once, with the first place and the count of each."""
-    found, firsts, counts = numpy.unique(numbers, return_index=True, return_counts=True)
-    return found.tolist(), firsts.tolist(), counts.tolist()
+    return numpy.ravel_multi_index(tuple(numbers), tuple(each.count for each in limits))
 
 
 Refusals = frozenset[tuple[str, int, tuple[str, ...]]]
@@ -189,10 +187,10 @@ def check_block(template: Template, values: Mapping[str, float] | None = None) -
     if not left:
         return
     chosen = dict(values or {name: value_of(word, answer) for name, word in template.words.items()})
-    limits = zip(chosen, *limits_of(template, chosen), strict=True) if chosen else ()
-    for name, scale, bounds in limits:
-        for value in _probes(bounds):
-            tried = {**chosen, name: value / scale}
+    limits = zip(chosen, limits_of(template, chosen), strict=True) if chosen else ()
+    for name, each in limits:
+        for value in _probes(each.bounds):
+            tried = {**chosen, name: value / each.scale}
             try:
                 found = _refusals(template.solve(tried))
             except FamilyError:  # with this value it is no single contour

@@ -14,9 +14,10 @@ from contoursolve.constraints import assemble
 from contoursolve.contour import Contour
 from contoursolve.diagnosis.edits import write_word
 from contoursolve.examine import Answer
+from contoursolve.families.branches import Branch
 from contoursolve.families.case_classes import results_of
 from contoursolve.families.free_words import check_block
-from contoursolve.families.range_pieces import LEAST_GAP, RangePiece, Survey, short
+from contoursolve.families.range_pieces import LEAST_GAP, RangePiece, RangeSearch, short
 from contoursolve.families.sensitivities import slopes_of
 from contoursolve.families.spec import (
     BlockOptions,
@@ -140,7 +141,7 @@ def find_word(
     answer = template.solve({})
     wanted = read_goal(goal, answer.plane, answer.claim.lexicon, answer.unit)
     _check_open(answer)
-    survey = Survey(template)
+    survey = RangeSearch(template)
     low, high = survey.range_of(within)
     search = _TargetSearch(survey, wanted)
     about = (survey.word, survey.unit, survey.stated, wanted, answer.plane, answer.unit, (low, high))
@@ -214,7 +215,7 @@ class _Candidate:
 class _TargetSearch:
     """One goal for one word."""
 
-    def __init__(self, survey: Survey, goal: Goal) -> None:
+    def __init__(self, survey: RangeSearch, goal: Goal) -> None:
         self.survey, self.goal = survey, goal
         self.doubts: list[str] = []
 
@@ -274,7 +275,7 @@ class _TargetSearch:
             if piece.branch is None:
                 found += [_Candidate(piece.low)] if piece.is_value and piece.is_solved else []
                 continue
-            curve = self._curve(piece)
+            curve = self._curve(piece.branch, (piece.low, piece.high))
             if curve is None:
                 continue
             is_there = True
@@ -334,24 +335,18 @@ class _TargetSearch:
         letter = "." + case.profile.plane.axes[0]
         return ["end", *(name.removesuffix(letter) for name in results_of(case) if name.endswith(letter))]
 
-    def _curve(self, piece: RangePiece) -> TargetCurve | None:
-        """The curve of the solution of a piece; None where it has no such point."""
-        branch = piece.branch
-        if branch is None:
-            return None
+    def _curve(self, branch: Branch, within: tuple[float, float]) -> TargetCurve | None:
+        """The curve of a solution; None where it has no such point."""
         case = branch.case
         results, axes = results_of(case), case.profile.plane.axes
         point = end_name(case.system.figure) if self.goal.point == "end" else self.goal.point
-        wanted = [axis for axis in (FIRST, SECOND) if self.goal.place[axis] is not None]
-        if any(f"{point}.{axes[axis]}" not in results for axis in wanted):
-            return None
-        # Coordinates count from the start point inside, which may follow the word.
-        starts = [case.moves.get(axis) for axis in wanted]
-        bases = [case.start(axis) if at is None else float(at.base) for axis, at in zip(wanted, starts, strict=True)]
-        place = [(self.goal.place[axis] or 0.0) - base for axis, base in zip(wanted, bases, strict=True)]
-        drift = [0.0 if at is None else float(at.factor) for at in starts]
-        names = tuple(results[f"{point}.{axes[axis]}"][0] for axis in wanted)
-        return TargetCurve(branch, names, place, drift, (piece.low, piece.high))
+        goals: dict[str, tuple[int, float]] = {}
+        for axis, wanted in enumerate(self.goal.place):
+            if wanted is not None:
+                if f"{point}.{axes[axis]}" not in results:
+                    return None
+                goals[results[f"{point}.{axes[axis]}"][0]] = axis, wanted
+        return TargetCurve(branch, goals, within)
 
     def hit(self, value: float, give: float = ARRIVED) -> Hit | None:
         """What becomes of a value by its single solve, as a shorter number where rounding alone parts the two; None if

@@ -186,7 +186,7 @@ def _passing(lines: Sequence[Sequence[Stretch]]) -> list[_Passing]:
     return found
 
 
-class Survey(FreeWords):
+class RangeSearch(FreeWords):
     """One word of one block."""
 
     def __init__(self, template: Template) -> None:
@@ -342,7 +342,7 @@ class _Undecided:
     """A narrow stretch in which intervals cannot tell whether all checks are passed: there they begin to fail, or one
     is passed by rounding alone."""
 
-    def __init__(self, survey: Survey, branch: Branch) -> None:
+    def __init__(self, survey: RangeSearch, branch: Branch) -> None:
         self.survey, self.branch, self.margins = survey, branch, branch.margins
 
     def decide(

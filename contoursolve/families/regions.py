@@ -97,7 +97,7 @@ def region(
         raise FamilyError("name two words, and a range for each of them")
     template = spec_of(block, words, **options).template()
     check_block(template)
-    return _Map(template, within).run()
+    return _RegionSearch(template, within).run()
 
 
 def region_of(family: Family, words: tuple[str, str]) -> Region:
@@ -113,10 +113,10 @@ def region_of(family: Family, words: tuple[str, str]) -> Region:
     filled = family.spec.template().filled({name: float(column[0]) for name, column in others.items()})
     template = filled.with_words(words)
     first, second = ((float(values[word].min()), float(values[word].max())) for word in words)
-    return _Map(template, (first, second)).run()
+    return _RegionSearch(template, (first, second)).run()
 
 
-class _Map(FreeWords):
+class _RegionSearch(FreeWords):
     """Two words of one block."""
 
     def __init__(self, template: Template, within: Sequence[tuple[float, float]]) -> None:

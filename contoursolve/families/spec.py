@@ -3,7 +3,7 @@ the same functions.
 """
 
 import re
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal, InvalidOperation
 from math import isfinite
@@ -158,21 +158,9 @@ def read_limits(word: str, within: tuple[float, float], largest: float, unit: st
     return low, high
 
 
-@dataclass(frozen=True, slots=True)
-class Stretches(Collection[tuple[int, int]]):
-    """The rows from 0 to `count` in stretches of at most `size`; however many, they take no memory."""
-
-    count: int
-    size: int
-
-    def __len__(self) -> int:
-        return (self.count + self.size - 1) // self.size
-
-    def __iter__(self) -> Iterator[tuple[int, int]]:
-        return ((first, min(first + self.size, self.count)) for first in range(0, self.count, self.size))
-
-    def __contains__(self, stretch: object) -> bool:
-        return any(stretch == each for each in self)
+def stretches(count: int, size: int) -> Iterator[tuple[int, int]]:
+    """The rows from 0 to `count` in stretches of at most `size`."""
+    return ((first, min(first + size, count)) for first in range(0, count, size))
 
 
 def errors_of(found: Answer | Result) -> list[Diagnostic]:

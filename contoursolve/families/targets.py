@@ -3,7 +3,7 @@ form as a fact, with the word asked for.
 """
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from decimal import Decimal, InvalidOperation
 from math import hypot, isfinite
@@ -11,7 +11,7 @@ from math import hypot, isfinite
 import numpy
 from numpy.typing import NDArray
 
-from contoursolve.backends.intervals import Array, Intervals, constant
+from contoursolve.backends.intervals import Array, Intervals
 from contoursolve.contour import Contour
 from contoursolve.examine import Answer, Depth, answer_question, count_choices, list_alternatives
 from contoursolve.families.branches import PLACES, Branch
@@ -111,27 +111,21 @@ def end_name(figure: Figure) -> str:
 
 class TargetCurve:
     """A function of the word whose zeros are sought, for one solution: a coordinate less its goal, or half the rate at
-    which the square of the distance to the goal grows. `names` are the coordinates; `drift` is by how many mm the start
-    point, from which coordinates count inside, moves for each unit of the word, coordinate by coordinate. `within` are
-    the values of the word between which the solution is the contour."""
+    which the square of the distance to the goal grows. `goals` are the outputs that are coordinates, each with its axis
+    and its goal, mm. `within` are the values of the word between which the solution is the contour."""
 
-    def __init__(
-        self,
-        branch: Branch,
-        names: Sequence[str],
-        place: Sequence[float],
-        drift: Sequence[float],
-        within: tuple[float, float],
-    ) -> None:
-        self.branch, self.place, self.drift, self.within = branch, place, drift, within
-        (self.chart, fixed), (self.rate, others) = (branch.results(names, is_rate=each) for each in (False, True))
-        self.fixed = fixed, others
-        self.is_nearest = len(place) > 1
+    def __init__(self, branch: Branch, goals: Mapping[str, tuple[int, float]], within: tuple[float, float]) -> None:
+        self.branch, self.within = branch, within
+        self.chart, self.fixed = branch.target(goals)
+        several = goals.items() if len(goals) > 1 else ()
+        self.parts = [TargetCurve(branch, {name: goal}, within) for name, goal in several]
 
     def is_constant(self) -> bool:
         """Whether the word does not move the point."""
+        if self.parts:
+            return all(part.is_constant() for part in self.parts)
         places = numpy.random.default_rng(PLACES).uniform(*self.within, PLACES)
-        return bool((numpy.abs(self._slopes_at(places)) <= CONSTANT).all())
+        return bool((numpy.abs(self.chart.slopes_at([places], self.fixed)) <= CONSTANT).all())
 
     def is_void(self, cells: Intervals) -> Bits:
         """Where there is no contour for certain, so that no zero counts."""
@@ -141,50 +135,19 @@ class TargetCurve:
 
     def at(self, places: Array) -> Array:
         """The values."""
-        drifted = numpy.array(self.drift)[:, None] * places
-        values = self.chart.at([places], self.fixed[0]) + drifted - numpy.array(self.place)[:, None]
-        if not self.is_nearest:
-            first: Array = values[0]
-            return first
-        total: Array = (values * self._slopes_at(places)).sum(axis=0)
-        return total
-
-    def _slopes_at(self, places: Array) -> Array:
-        found: Array = self.chart.slopes_at([places], self.fixed[0])[0] + numpy.array(self.drift)[:, None]
+        found: Array = self.chart.at([places], self.fixed)[0]
         return found
 
     def between(self, cells: Intervals) -> tuple[Intervals, Bits]:
         """What the values lie between, and where nothing jumps."""
-        away, is_smooth = self._away(cells)
-        if not self.is_nearest:
-            return away[0], is_smooth
-        rates = self._rates(cells)
-        return away[0] * rates[0] + away[1] * rates[1], is_smooth
+        bounds = self.chart.between([cells], self.fixed)
+        bounds = self.chart.narrowed(bounds, [cells], self.fixed)
+        return Intervals(bounds.low[0], bounds.high[0]), bounds.is_smooth
 
     def slopes(self, cells: Intervals) -> Intervals:
         """What the derivatives lie between."""
-        rates = self._rates(cells)
-        if not self.is_nearest:
-            return rates[0]
-        away, _ = self._away(cells)
-        bends = self.rate.slopes_between([cells], self.fixed[1])
-        parts = [
-            rate * rate + gap * Intervals(low, high)
-            for rate, gap, low, high in zip(rates, away, bends.low, bends.high, strict=True)
-        ]
-        return parts[0] + parts[1]
-
-    def _away(self, cells: Intervals) -> tuple[list[Intervals], Bits]:
-        bounds = self.chart.between([cells], self.fixed[0])
-        bounds = self.chart.narrowed(bounds, [cells], self.fixed[0])
-        rows = zip(bounds.low, bounds.high, self.place, self.drift, strict=True)
-        away = [Intervals(low, high) + cells * constant(rate) - constant(want) for low, high, want, rate in rows]
-        return away, bounds.is_smooth
-
-    def _rates(self, cells: Intervals) -> list[Intervals]:
-        bounds = self.chart.slopes_between([cells], self.fixed[0])
-        rows = zip(bounds.low, bounds.high, self.drift, strict=True)
-        return [Intervals(low, high) + constant(rate) for low, high, rate in rows]
+        bounds = self.chart.slopes_between([cells], self.fixed)
+        return Intervals(bounds.low[0], bounds.high[0])
 
 
 @dataclass(frozen=True, slots=True)
