@@ -1,4 +1,9 @@
-"""Families: one block with some words free, a million contours at once."""
+"""Families: one block with some words free, a million contours at once.
+
+In comes a block as text, with the names of its free words. Out come its contours (`family`), the values for which there
+is one (`feasible`, `region`), those that a target needs (`find_word`), and derivatives (`sensitivity`, `tolerances`).
+Begin with `spec`, a block with free words, and `case_classes`, the rows that share one system of equations.
+"""
 
 from contoursolve.families.checkpoints import MOST_ROWS, Parts, others, parts_of, room_of, seconds_of
 from contoursolve.families.compiled_sweep import CompiledSweep

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy
 from numpy.typing import NDArray
@@ -17,6 +18,7 @@ from contoursolve.families.spec import Places, stretches
 from contoursolve.model import FIRST, SECOND, Fact, Unit, scalar
 from contoursolve.solving import RefusalKind
 from contoursolve.solving.checks import (
+    Check,
     Source,
     add_checks,
     at_origin,
@@ -25,7 +27,7 @@ from contoursolve.solving.checks import (
     check_range,
     check_residuals,
 )
-from contoursolve.solving.compile import PathMachine, compile_path
+from contoursolve.solving.compile import compile_path
 from contoursolve.solving.kernel import Kernel, make_kernel
 from contoursolve.solving.verdict import Code, Verdict, code_of, reason_of
 from contoursolve.tolerance import LENGTH
@@ -78,32 +80,48 @@ class BranchRows:
     def __init__(self, case: CaseClass) -> None:
         self.case = case
         self.system: System = case.system
-        verdict = judge(self.system)
-        self.basis = tuple(self.system.facts[index] for index in verdict.basis)
-        checks = tuple(fact for index, fact in enumerate(self.system.facts) if index not in verdict.basis)
+        basis = judge(self.system).basis
+        facts = [self.system.facts[index] for index in basis]
+        facts += [fact for index, fact in enumerate(self.system.facts) if index not in basis]
         self.boxes = RowBoxes(case)
         self.steps = [_step(make_kernel(self.system, group)) for group in self.boxes.groups]
         tape = Tape()
         at = lookup(self.system, tape, {})
-        for number, fact in enumerate((*self.basis, *checks)):
+        for number, fact in enumerate(facts):
             tape.output(f"residual:{number}", fact.residual(at))
-        self.solved = [f"residual:{number}" for number in range(len(self.basis))]
+        self.solved = [f"residual:{number}" for number in range(len(basis))]
         """The outputs of the equations that are solved."""
         equations = check_residuals(largest(tape.expression(name) for name in self.solved))
-        facts = [equations, *check_facts(Source(self.system.figure, tape, at), checks, len(self.basis))]
-        add_checks(tape, facts)
-        self.residuals = Columns(compile_columns(tape, tape.inputs))
-        self.machine: PathMachine = compile_path(self.system)
-        relative = self.machine.tape.copy()
-        origin = lookup(self.system, relative, at_origin(self.system.figure))
-        corners = largest(relative.expression(name) for name in self.machine.corner_residuals)
-        source = Source(self.system.figure, relative, origin)
-        path = [check_range(source), *check_path(source), check_residuals(corners)]
-        add_checks(relative, path, len(facts))
-        self.path = Columns(compile_columns(relative, relative.inputs))
-        self.before_path = len(facts)
-        """The number of checks that do not concern the path."""
-        self.checks = tuple(check for check, _ in (*facts, *path))
+        stated = check_facts(Source(self.system.figure, tape, at), facts[len(basis) :], len(basis))
+        self.corners = compile_path(self.system).corner_residuals
+        """The outputs of the equations of the corners."""
+        checks = [equations, *stated, *self._add_path(tape)]
+        add_checks(tape, checks)
+        self.function = Columns(compile_columns(tape, tape.inputs))
+        self.checks = tuple(check for check, _ in checks)
+
+    def _add_path(self, tape: Tape) -> list[tuple[Check, Any]]:
+        """Declare the path, whose coordinates count from the start point; its checks with their margins."""
+        figure, path = self.system.figure, compile_path(self.system).tape.copy()
+        source = Source(figure, path, lookup(self.system, path, at_origin(figure)))
+        corners = largest(path.expression(name) for name in self.corners)
+        checks = [check_range(source), *check_path(source), check_residuals(corners)]
+        radii = {
+            each.size: f"{each.name}.radius" for each in figure.corners if each.size not in self.case.profile.givens
+        }
+        inputs: dict[str, Any] = {name: tape.input(radii.get(name, name)) for name in path.inputs}
+        for axis in (FIRST, SECOND):
+            start = tape.input(scalar(figure.start, axis))
+            for point in (*figure.points, *figure.places):
+                inputs[scalar(point, axis)] = tape.input(scalar(point, axis)) - start
+                path.output(scalar(point, axis), path.input(scalar(point, axis)))
+            inputs[scalar(figure.start, axis)] = 0.0
+        for number, (_, margin) in enumerate(checks):
+            path.output(f"path:{number}", margin)
+        outputs = {name: path.expression(name) for name in path.outputs}
+        for name, expression in zip(outputs, path.replaced(inputs, outputs)[1], strict=True):
+            tape.output(name, expression)
+        return [(check, tape.expression(f"path:{number}")) for number, (check, _) in enumerate(checks)]
 
     def solve(self, values: Mapping[str, Array]) -> RowSolutions:
         """What becomes of rows with these values of the words."""
@@ -180,7 +198,8 @@ class BranchRows:
 
         known = {name: each if each.size == 1 else each[pairs.rows] for name, each in given.items()} | {**pairs.signs}
         scalars, is_bad = self._follow(pairs, known)
-        verdict = self._judge({**known, **scalars}, pairs.rows.size)
+        size = pairs.rows.size
+        verdict = Verdict(self.checks, _run(self.function, {**known, **scalars}, size), size)
         status, reason = verdict.status, verdict.reason
         settled.again |= count(is_bad | verdict.again | (reason == reason_of(RefusalKind.NOT_VERIFIED))) > 0
         status[(status == Code.OVERDETERMINED) & (reason != 0)] = Code.NO_SOLUTION
@@ -234,28 +253,6 @@ class BranchRows:
                     is_bad |= ~(numpy.abs(known[name] - pairs.middles[name]) <= pairs.radii[name] + LENGTH)
         return {name: known[name] for name in self.system.unknowns}, is_bad
 
-    def _judge(self, known: Mapping[str, Array], rows: int) -> Verdict:
-        """What speaks against each of some solutions."""
-        relative = self._relative(known)
-        out = {**relative, **_run(self.path, relative, rows)}
-        found = _run(self.residuals, known, rows)
-        # The checks of the path come after those of the facts.
-        passed = numpy.where(found["passed"] == self.before_path, found["passed"] + out["passed"], found["passed"])
-        return Verdict(self.checks, {**out, **found, "passed": passed}, rows)
-
-    def _relative(self, known: Mapping[str, Array]) -> dict[str, Array]:
-        """The inputs of the path: coordinates counted from the start, and the sizes of all corners."""
-        figure, found = self.system.figure, dict(known)
-        for axis in (FIRST, SECOND):
-            start = known[scalar(figure.start, axis)]
-            for point in (*figure.points, *figure.places):
-                found[scalar(point, axis)] = known[scalar(point, axis)] - start
-            found[scalar(figure.start, axis)] = numpy.zeros(1)
-        for corner in figure.corners:
-            if corner.size not in known:
-                found[corner.size] = known[f"{corner.name}.radius"]
-        return found
-
     def _solve_alone(
         self, values: Mapping[str, Array], row: int, rows: Sequence[int] | Places, settled: RowSolutions
     ) -> None:
@@ -275,23 +272,17 @@ class BranchRows:
         """The path of the solutions that some rows show, whose words have these values, in coordinates counted from the
         start point, and their largest residuals."""
         known = {**self._given(values), **{name: each[rows] for name, each in settled.scalars.items()}}
-        relative = self._relative(known)
-        found = {**relative, **_run(self.path, relative, rows.size)}
-        found |= {
-            name: self._ask(question.fact, known, rows.size) for name, question in asked_of(self.case.profile).items()
-        }
-        worst = numpy.maximum.reduce(
-            [numpy.zeros(rows.size), *(numpy.abs(found[name]) for name in self.machine.corner_residuals)]
-        )
         # A side that is not known is the one on which the equation is true.
-        tried = []
+        tried: list[list[Array]] = []
         for sign in (1.0, -1.0):
             signs = {name: numpy.where(each[rows] == 0, sign, each[rows]) for name, each in settled.signs.items()}
-            out = _run(self.residuals, {**known, **signs}, rows.size)
+            out = _run(self.function, {**known, **signs}, rows.size)
             tried.append([numpy.abs(out[name]) for name in self.solved])
+        worst = numpy.maximum.reduce([numpy.zeros(rows.size), *(numpy.abs(out[name]) for name in self.corners)])
         for one, other in zip(*tried, strict=True):
             numpy.maximum(worst, numpy.minimum(one, other), out=worst)
-        return found, worst
+        asked = asked_of(self.case.profile).items()
+        return {**known, **out} | {name: self._ask(each.fact, known, rows.size) for name, each in asked}, worst
 
     def _ask(self, fact: Fact, known: Mapping[str, Array], rows: int) -> Array:
         """What a fact would state, row by row: mm or degrees."""

@@ -35,7 +35,7 @@ STRETCH = 65_536
 """Rows that are evaluated, or written to a file, at once."""
 
 AHEAD = 8
-"""stretches that an executor has under way at once, if `workers` does not say it."""
+"""Stretches that an executor has under way at once, if `workers` does not say it."""
 
 
 Result = TypeVar("Result")
@@ -267,8 +267,8 @@ def _check_workers(workers: int | None) -> int:
 
 @dataclass(frozen=True, slots=True)
 class FailureSummary:
-    """The reason that most rows have: how many, the values of one of them as written, and the first error that `solve`
-    finds in that one."""
+    """The most frequent failure of a family: how many rows have it, and an example row, with its values as written and
+    the first error that `solve` finds in it."""
 
     count: int
     values: Mapping[str, float]
@@ -295,7 +295,7 @@ class Tally:
 
 
 def failure_summary(ready: CompiledSweep, tally: Tally) -> FailureSummary | None:
-    """Why no row has a contour; None where rows have different statuses, or a contour."""
+    """The most frequent failure; None where rows have different statuses, or a contour."""
     totals = tally.counts.sum(axis=1)
     code = int(totals.argmax())
     if totals[code] != totals.sum() or Code(code).status in (Status.SOLVED, Status.OVERDETERMINED):
