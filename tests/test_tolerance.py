@@ -207,6 +207,16 @@ def test_a_zero_without_a_point_moves_the_point_as_one_with_a_point():
     assert slopes == pytest.approx([tan(radians(30))] * 2)
 
 
+def test_a_word_that_stands_before_the_contour_too_is_the_one_of_the_contour():
+    chain = "G1 ,A197.103 ,R2\nG3 X20 Y30 I20 J-10 R40 Q-1"
+    allowed = {",A": 0.1, "X": 0.01}
+    found = tolerances(f"G17 G90 G42 G0 X100 Y20\n{chain}", allowed, control="nct-99m")
+    alone = tolerances(chain, allowed, start="G17 G90 G42 X100 Y20", control="nct-99m")
+    assert found.effects == alone.effects
+    assert found.limits == alone.limits
+    assert {each.word: each.tolerance for each in found.effects if each.tolerance} == allowed
+
+
 def test_a_half_circle_has_no_derivative_by_its_radius():
     """Its centre runs away as the root of what the radius is more than half the chord."""
     block = "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q-1"

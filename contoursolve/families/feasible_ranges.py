@@ -152,35 +152,35 @@ def feasible(
     """
     template = spec_of(block, (word,), **options).template()
     check_block(template)
-    survey = RangeSearch(template)
-    low, high = survey.range_of(within)
-    pieces, intervals = survey.pieces(low, high), list[Interval]()
+    search = RangeSearch(template)
+    low, high = search.range_of(within)
+    pieces, intervals = search.pieces(low, high), list[Interval]()
     for is_solved, group in groupby(range(len(pieces)), key=lambda number: pieces[number].is_solved):
         first, *rest = group
         if is_solved:
             last = rest[-1] if rest else first
-            intervals.append(Interval(_end(survey, pieces, first, last, -1), _end(survey, pieces, last, first, +1)))
-    refusal = first_error(survey.answer)
-    about = (survey.word, survey.unit, survey.stated, (low, high))
-    return Feasible(*about, tuple(intervals), tuple(survey.doubts), refusal)
+            intervals.append(Interval(_end(search, pieces, first, last, -1), _end(search, pieces, last, first, +1)))
+    refusal = first_error(search.answer)
+    about = (search.word, search.unit, search.stated, (low, high))
+    return Feasible(*about, tuple(intervals), tuple(search.doubts), refusal)
 
 
-def _end(survey: RangeSearch, pieces: Sequence[RangePiece], number: int, other: int, way: int) -> End:
+def _end(search: RangeSearch, pieces: Sequence[RangePiece], number: int, other: int, way: int) -> End:
     """The lower (-1) or upper (+1) end of a range from one piece to another, of which `number` is at this end."""
     value = pieces[number].low if way < 0 else pieces[number].high
     if not 0 <= number + way < len(pieces):
         return End(value, Way.RANGE, None, True, None, None)
     beyond = pieces[number + way]
     width = abs(value - (pieces[other].high if way < 0 else pieces[other].low))
-    inside, outside = _sides(survey, value, way, beyond, width)
-    onset = survey.onsets.get(value)
-    reason, is_rule = _reason(survey, value, way, outside, onset, (beyond, pieces[number]))
+    inside, outside = _sides(search, value, way, beyond, width)
+    onset = search.onsets.get(value)
+    reason, is_rule = _reason(search, value, way, outside, onset, (beyond, pieces[number]))
     how = Way.CLOSED_FORM if onset is not None and onset.is_closed else Way.BISECTION
-    return End(value, Way.RULE if is_rule else how, reason, survey.is_solved(value), inside, outside)
+    return End(value, Way.RULE if is_rule else how, reason, search.is_solved(value), inside, outside)
 
 
 def _sides(
-    survey: RangeSearch, value: float, way: int, beyond: RangePiece, width: float
+    search: RangeSearch, value: float, way: int, beyond: RangePiece, width: float
 ) -> tuple[float | None, float | None]:
     """Values close to an end on its two sides that single solves tell apart, within the range, which is so wide, and
     within what lies beyond it."""
@@ -188,21 +188,21 @@ def _sides(
         step = share * max(1.0, abs(value))
         inside = value - way * min(step, width)
         outside = value + way * min(step, (beyond.high - beyond.low) / 2)
-        if survey.is_solved(inside) and not survey.is_solved(outside):
+        if search.is_solved(inside) and not search.is_solved(outside):
             return inside, outside
     return None, None
 
 
 def _reason(
-    survey: RangeSearch, value: float, way: int, outside: float | None, onset: Onset | None, near: Sequence[RangePiece]
+    search: RangeSearch, value: float, way: int, outside: float | None, onset: Onset | None, near: Sequence[RangePiece]
 ) -> tuple[Reason, bool]:
     """What fails beyond an end, and whether it is a rule or the reading of the words; `near` are the pieces on its two
     sides, the one beyond it first."""
-    at, limit = value_text(value, survey.unit), limit_text(value, survey.unit, way, is_included=survey.is_solved(value))
+    at, limit = value_text(value, search.unit), limit_text(value, search.unit, way, is_included=search.is_solved(value))
     limit = f"at {at}" if near[0].is_value else f"{limit} at {'most' if way > 0 else 'least'}"
     beyond = "at" if near[0].is_value else "above" if way > 0 else "below"
     there = outside if outside is not None else (near[0].low + near[0].high) / 2
-    failure, event = failure_of(survey.answer_at(there))
+    failure, event = failure_of(search.answer_at(there))
     if event is RemarkKind.SEVERAL:
         # Another solution becomes a contour, too.
         return replace(failure, text=f"{failure.message}: {limit}"), False
@@ -210,12 +210,12 @@ def _reason(
     read_as = onset.case if onset is not None else next((each.case for each in near if each.case), None)
     if kind is None and failure.code:
         says = f"rule {failure.code} refuses" if event is None else f"{failure.code} is found for"
-        return replace(failure, text=f"{says} {called(survey.word)} {beyond} {at}"), onset is None
+        return replace(failure, text=f"{says} {called(search.word)} {beyond} {at}"), onset is None
     unnamed = replace(failure, text=f"{failure.message or 'there is no contour'}: {limit}")
     if read_as is None:
         return unnamed, True
     branch = onset.branch if onset is not None else near[1].branch
-    failing = survey.failing(branch, there) if branch is not None else []
+    failing = search.failing(branch, there) if branch is not None else []
     if onset is not None:
         failing.insert(0, onset.check)
     check = next((each for each in failing if kind is None or same(each.kind, kind)), None)

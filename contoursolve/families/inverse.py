@@ -141,27 +141,27 @@ def find_word(
     answer = template.solve({})
     wanted = read_goal(goal, answer.plane, answer.claim.lexicon, answer.unit)
     _check_open(answer)
-    survey = RangeSearch(template)
-    low, high = survey.range_of(within)
-    search = _TargetSearch(survey, wanted)
-    about = (survey.word, survey.unit, survey.stated, wanted, answer.plane, answer.unit, (low, high))
+    search = RangeSearch(template)
+    low, high = search.range_of(within)
+    target = _TargetSearch(search, wanted)
+    about = (search.word, search.unit, search.stated, wanted, answer.plane, answer.unit, (low, high))
     remark = first_error(answer)
     remark = f"as it stands, the block has no contour: {remark}" if remark else ""
     try:
-        hits = search.hits(survey.pieces(low, high))
+        hits = target.hits(search.pieces(low, high))
     except NotClosedError:
-        if template.words[survey.word].span.line not in _lines(template):
+        if template.words[search.word].span.line not in _lines(template):
             raise
         try:
-            hits = search.hits_by_asking(answer, (low, high))
+            hits = target.hits_by_asking(answer, (low, high))
         except NotMovedError as error:
-            hits, remark = search.there(), _moved_by(answer, wanted, error)
-        return Found(*about, tuple(hits), tuple(search.doubts), "" if hits else remark)
+            hits, remark = target.there(), _moved_by(answer, wanted, error)
+        return Found(*about, tuple(hits), tuple(target.doubts), "" if hits else remark)
     except NotMovedError as error:
-        return Found(*about, tuple(search.there()), search.all_doubts, _moved_by(answer, wanted, error))
+        return Found(*about, tuple(target.there()), target.all_doubts, _moved_by(answer, wanted, error))
     if wanted.is_nearest:
         hits.sort(key=lambda each: each.away)
-    return Found(*about, tuple(hits), search.all_doubts, "" if hits else remark)
+    return Found(*about, tuple(hits), target.all_doubts, "" if hits else remark)
 
 
 def _moved_by(answer: Answer, goal: Goal, error: NotMovedError) -> str:
@@ -215,8 +215,8 @@ class _Candidate:
 class _TargetSearch:
     """One goal for one word."""
 
-    def __init__(self, survey: RangeSearch, goal: Goal) -> None:
-        self.survey, self.goal = survey, goal
+    def __init__(self, search: RangeSearch, goal: Goal) -> None:
+        self.search, self.goal = search, goal
         self.doubts: list[str] = []
 
     def hits(self, pieces: Sequence[RangePiece]) -> list[Hit]:
@@ -235,7 +235,7 @@ class _TargetSearch:
 
     def there(self) -> list[Hit]:
         """The value that the word has, if the point is where it is wanted, which no other value changes."""
-        hit = self.hit(self.survey.stated) if not self.goal.is_nearest else None
+        hit = self.hit(self.search.stated) if not self.goal.is_nearest else None
         if hit is not None and not self.doubts:
             self.doubt(hit.value, f"all values near it leave {self.goal.point} where it is")
         return [hit] if hit is not None else []
@@ -243,10 +243,10 @@ class _TargetSearch:
     def hits_by_asking(self, answer: Answer, within: tuple[float, float]) -> list[Hit]:
         """The same where there is no closed form: every solution of the equations is looked for."""
         low, high = within
-        values, doubts = asked_values(self.survey.template, self.survey.word, self.goal, answer)
+        values, doubts = asked_values(self.search.template, self.search.word, self.goal, answer)
         self.doubts += doubts
         values = [short(value) for value in values]
-        if self.survey.is_angle:
+        if self.search.is_angle:
             values = [each for value in values for each in _turned(value, low, high)]
         found = []
         for value in sorted(value for value in values if low <= value <= high):
@@ -260,11 +260,11 @@ class _TargetSearch:
     @property
     def all_doubts(self) -> tuple[str, ...]:
         """Why the values that were found are not proven to be all."""
-        return tuple(dict.fromkeys((*self.survey.doubts, *self.doubts)))
+        return tuple(dict.fromkeys((*self.search.doubts, *self.doubts)))
 
     def doubt(self, value: float, why: str) -> None:
         """Remember that it is not proven what is at a value."""
-        self.doubts.append(f"{self.survey.word} {value_text(value, self.survey.unit)}: {why}")
+        self.doubts.append(f"{self.search.word} {value_text(value, self.search.unit)}: {why}")
 
     def _candidates(self, pieces: Sequence[RangePiece]) -> list[_Candidate]:
         """The values that may meet the goal."""
@@ -292,7 +292,7 @@ class _TargetSearch:
                 f"the contour has no point {self.goal.point}; there are {', '.join(self._points(pieces))}"
             )
         if is_there and not moves:
-            raise NotMovedError(f"{self.survey.word} does not move {self.goal.point} in this direction")
+            raise NotMovedError(f"{self.search.word} does not move {self.goal.point} in this direction")
         return found
 
     def _of_zero(self, zero: Zero, curve: TargetCurve, piece: RangePiece) -> Iterator[_Candidate]:
@@ -314,7 +314,7 @@ class _TargetSearch:
 
     def _level(self, curve: TargetCurve, piece: RangePiece) -> Iterator[_Candidate]:
         """A value of a piece in which the word does not move the point, if that is where it is wanted."""
-        stated = self.survey.stated
+        stated = self.search.stated
         value = stated if piece.low < stated < piece.high else (piece.low + piece.high) / 2
         if not self.goal.is_nearest and abs(float(curve.at(numpy.array([value]))[0])) <= ARRIVED:
             self.doubt(value, f"all values near it leave {self.goal.point} where it is")
@@ -356,7 +356,7 @@ class _TargetSearch:
         )
 
     def _hit(self, value: float, give: float) -> Hit | None:
-        answer = self.survey.answer_at(value)
+        answer = self.search.answer_at(value)
         at = place_of(self.goal.point, answer.contour)
         if at is None:
             return None
@@ -370,28 +370,28 @@ class _TargetSearch:
     def _is_least(self, value: float, away: float) -> bool:
         """Whether the point is no nearer to the goal at values beside this one."""
         step = BESIDE * max(1.0, abs(value))
-        places = [place_of(self.goal.point, self.survey.answer_at(value + way * step).contour) for way in (-1, 1)]
+        places = [place_of(self.goal.point, self.search.answer_at(value + way * step).contour) for way in (-1, 1)]
         return all(away <= self.goal.away(at) + ARRIVED for at in places if at is not None)
 
     def _rounded(self, value: float) -> tuple[float, str, Contour | None]:
         """The value in least increments of the control, the block with it, and its contour; rounded to the other side
         if only that has one."""
-        survey, answer = self.survey, self.survey.answer_at(self.survey.stated)
-        step = answer.claim.lexicon.numbers.step(Unit.DEGREE if survey.is_angle else Unit.MM, answer.unit)
+        search, answer = self.search, self.search.answer_at(self.search.stated)
+        step = answer.claim.lexicon.numbers.step(Unit.DEGREE if search.is_angle else Unit.MM, answer.unit)
         nearest = Decimal(repr(value)).quantize(step, ROUND_HALF_EVEN)
         numbers = [float(nearest), float(nearest + (step if nearest < Decimal(repr(value)) else -step))]
-        chosen = next((each for each in numbers if survey.is_solved(each)), numbers[0])
-        return chosen, self._text(chosen, answer), survey.answer_at(chosen).contour
+        chosen = next((each for each in numbers if search.is_solved(each)), numbers[0])
+        return chosen, self._text(chosen, answer), search.answer_at(chosen).contour
 
     def _text(self, value: float, answer: Answer) -> str:
         """The block with a value, and the facts beside it; for a word of the start point, the words of that."""
-        template, word = self.survey.template, self.survey.word
+        template, word = self.search.template, self.search.word
         typed = template.words[word]
         if typed.address == FACT:
             texts = {word: with_value(typed, write(value))}
         else:
             lexicon, unit = answer.claim.lexicon, answer.unit
-            texts = {word: write_word(typed.address, value * self.survey.scale, lexicon, unit)}
+            texts = {word: write_word(typed.address, value * self.search.scale, lexicon, unit)}
         if template.start is not None and typed.span.line not in _lines(template):
             return "\n".join(template.lines(template.start, texts))
         facts = template.typed(texts).facts

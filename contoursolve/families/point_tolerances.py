@@ -1,6 +1,6 @@
 """Which word moves a point of a contour most, and what tolerances come to: to first order and solved again."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import ROUND_HALF_EVEN, Decimal
 from math import hypot, isnan, nan
@@ -18,6 +18,7 @@ from contoursolve.families.spec import (
     BlockOptions,
     FamilyError,
     Template,
+    call,
     find_words,
     first_error,
     ranges_of,
@@ -29,6 +30,7 @@ from contoursolve.model import Length, Plane, Unit
 from contoursolve.shown import Shown
 from contoursolve.solving import Point
 from contoursolve.solving.verdict import Code
+from contoursolve.syntax import Word
 
 MOST_WORDS = 10
 """Words with a tolerance of which all combinations of limits are solved; each doubles them."""
@@ -136,25 +138,26 @@ def tolerances(
     limits = None
     if allowed and len(allowed) <= MOST_WORDS:
         values = {word: study.value(word) for word in allowed}
-        vary = {word: [values[word] - off, values[word] + off] for word, off in allowed.items()}
+        vary = {study.name(word): [values[word] - off, values[word] + off] for word, off in allowed.items()}
         found = solve_sweep(compile_sweep(spec, ranges_of(vary, is_paired=False)))
         # A family without any contour has no points.
         none = numpy.full(len(found), nan)
         limits = _limits(*(found.columns.get(f"{name}.{axis}", none) for axis in axes))
-        limits = replace(limits, missing=tuple(_missing(template, found)))
+        limits = replace(limits, missing=tuple(_missing(template, found, list(allowed))))
     spread = Spread(sum(parts[0]), hypot(*parts[0])), Spread(sum(parts[1]), hypot(*parts[1]))
     return Tolerances(point, study.place, answer.plane, answer.unit, tuple(effects), spread, limits)
 
 
-def _missing(template: Template, found: Family) -> Iterator[Missing]:
-    """The rows without a contour, each reason once, the most frequent first."""
+def _missing(template: Template, found: Family, words: Sequence[str]) -> Iterator[Missing]:
+    """The rows without a contour, each reason once, the most frequent first; `words` are the names to tell."""
     free = template.with_words(list(found.ranges.values))
     kinds = numpy.stack([found.columns["status"], found.columns["reason"]], axis=1)
     reasons, firsts, counts = numpy.unique(kinds, axis=0, return_index=True, return_counts=True)
     for number in numpy.argsort(-counts, kind="stable").tolist():
         if reasons[number, 0] > Code.OVERDETERMINED:
             values = {word: float(found[word].reshape(-1)[firsts[number]]) for word in found.ranges.values}
-            yield Missing(int(counts[number]), values, first_error(free.solve(values)))
+            told = dict(zip(words, values.values(), strict=True))
+            yield Missing(int(counts[number]), told, first_error(free.solve(values)))
 
 
 def _limits(first: Array, second: Array) -> Limits:
@@ -178,9 +181,17 @@ class _Study:
         self.place = at
         self.words = stated_words(answer)
 
+    def _typed(self, word: str) -> Word:
+        return self.words[word] if word in self.words else find_words(self.template, [word])[word]
+
+    def name(self, word: str) -> str:
+        """The name of a word among all words of the text, of which some may stand before the contour."""
+        every = [each for block in self.template.program.blocks for each in block.words]
+        return call(self.words[word], every) if word in self.words else word
+
     def value(self, word: str) -> float:
         """The value of a word or a fact, as it would be written with a decimal point."""
-        return value_of(find_words(self.template, [word])[word], self.answer)
+        return value_of(self._typed(word), self.answer)
 
     def unit(self, word: str) -> float:
         """By how many units of a word as written its value changes, for one of it with a decimal point."""
@@ -195,7 +206,7 @@ class _Study:
         """What a word does."""
         moves, typed = hypot(*slope) * tolerance if tolerance else 0.0, self.words.get(word)
         lexicon, value = self.answer.claim.lexicon, self.value(word)
-        stated = kind_of(find_words(self.template, [word])[word], self.answer)[0]
+        stated = kind_of(self._typed(word), self.answer)[0]
         unit = "deg" if stated is Unit.DEGREE else self.answer.unit.value
         effect = Effect(word, unit, value, slope, tolerance, moves, None, None, None, None, 0.0)
         if typed is None:
@@ -214,5 +225,5 @@ class _Study:
 
     def _moved(self, word: str, value: float) -> float | None:
         """How far the point moves when a word gets another value, mm; None where there is no contour then."""
-        at = place_of(self.point, self.template.with_words([word]).solve({word: value}).contour)
+        at = place_of(self.point, replace(self.template, words={word: self._typed(word)}).solve({word: value}).contour)
         return None if at is None else hypot(at[0] - self.place[0], at[1] - self.place[1])

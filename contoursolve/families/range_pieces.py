@@ -342,15 +342,15 @@ class _Undecided:
     """A narrow stretch in which intervals cannot tell whether all checks are passed: there they begin to fail, or one
     is passed by rounding alone."""
 
-    def __init__(self, survey: RangeSearch, branch: Branch) -> None:
-        self.survey, self.branch, self.margins = survey, branch, branch.margins
+    def __init__(self, search: RangeSearch, branch: Branch) -> None:
+        self.search, self.branch, self.margins = search, branch, branch.margins
 
     def decide(
         self, stretch: Stretch, before: Stretch | None, after: Stretch | None
     ) -> tuple[list[Stretch], list[float]]:
         """Its parts, as far as samples tell, and single values that may differ from them."""
         if stretch.high - stretch.low > LEAST_GAP:
-            self.survey.doubt(stretch.low, stretch.high, "the search for a proof was given up")
+            self.search.doubt(stretch.low, stretch.high, "the search for a proof was given up")
         places = numpy.linspace(stretch.low, stretch.high, SAMPLES)
         values = self.branch.at([places])
         states = (self.margins.first_failing(values) < 0).tolist()
@@ -387,7 +387,7 @@ class _Undecided:
         if abs(round(value, 3) - value) <= 2 * LENGTH * max(1.0, abs(value)):
             # A length that counts as zero is not quite.
             value = round(value, 3) + 0.0
-        self.survey.onsets[value] = Onset(self.margins.checks[number], self.branch, is_closed)
+        self.search.onsets[value] = Onset(self.margins.checks[number], self.branch, is_closed)
         return value
 
     def _exact(self, number: int, value: float) -> tuple[float, bool]:
