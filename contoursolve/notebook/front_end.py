@@ -8,9 +8,9 @@ from typing import Any
 from contoursolve.diagnostic import Applicability
 from contoursolve.examine import Answer
 from contoursolve.families import End, FamilyError, Feasible, Interval, Way, feasible
-from contoursolve.model import Length, Unit
+from contoursolve.model import Unit
 from contoursolve.notebook.exploration import Exploration, words_of
-from contoursolve.output.contours import count_text, form_text, path_table, solution_rows
+from contoursolve.output.contours import count_text, form_text, found_value, path_table, solution_rows, stated_value
 from contoursolve.output.findings import effect_of, finding_pieces
 from contoursolve.output.html import bounded, short, worst_of
 from contoursolve.output.listing import sources_of
@@ -73,18 +73,15 @@ def _fields(answer: Answer) -> Iterator[Data]:
         row = claim.lexicon.addresses.get(word.address)
         if row is None or (word.number is None and not word.is_asked):
             continue  # a variable has no value to move
-        value = number_of(answer, word)
-        asked = found.get(word.span)
-        if asked is not None and asked.value is not None:
-            is_angle = asked.question.unit is Unit.DEGREE
-            scale = 1.0 if is_angle else (2 if asked.question.is_diameter else 1) / float(answer.unit.in_mm)
-            value = round(asked.value * scale, DECIMALS)
+        value, unit = stated_value(word, answer)
+        asked = found_value(found[word.span], answer)[0] if word.span in found else None
+        value = value if asked is None else round(asked, DECIMALS)
         low, high, step = _scale(answer, word, value or 0.0, size)
         yield {
             "key": key,
             "word": short(word.text),
             "meaning": claim.form.meanings.get(names[word.span]) or row.meaning,
-            "unit": unit_of(answer, word),
+            "unit": unit,
             "value": None if value is None else round(value, 6) + 0.0,
             "state": "free" if word.is_asked else "ignored" if word in ignored else "given",
             "low": low,
@@ -94,28 +91,10 @@ def _fields(answer: Answer) -> Iterator[Data]:
         }
 
 
-def number_of(answer: Answer, word: Word) -> float | None:
-    """What a word states, in the unit in which it is written."""
-    value = answer.claim.lexicon.value(word, answer.unit)
-    if value is None:
-        return None
-    row = answer.claim.lexicon.addresses[word.address]
-    if row.unit is not Unit.MM:
-        return float(value)
-    return float(value) * (2 if row.is_diameter else 1) / float(answer.unit.in_mm)
-
-
-def unit_of(answer: Answer, word: Word) -> str:
-    """The unit in which a word is written; nothing for one of which only the sign counts."""
-    unit = answer.claim.lexicon.addresses[word.address].unit
-    if unit is Unit.MM:
-        return "in" if answer.unit is Length.INCH else "mm"
-    return "deg" if unit is Unit.DEGREE else ""
-
-
 def _size(answer: Answer) -> float:
     """How large the contour is about, in the unit of the program."""
-    lengths = [number_of(answer, word) or 0.0 for word in words_of(answer).values() if unit_of(answer, word) != "deg"]
+    values = (stated_value(word, answer) for word in words_of(answer).values())
+    lengths = [value or 0.0 for value, unit in values if unit != "deg"]
     places = [float(value or 0) / float(answer.unit.in_mm) for value in answer.start.values]
     return max(map(abs, (*lengths, *places, 1.0)))
 

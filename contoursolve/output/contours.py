@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import replace
+from decimal import Decimal
 
 from contoursolve.contour import ArcSegment
 from contoursolve.diagnostic import Diagnosis, Verdict
@@ -148,11 +149,11 @@ def given_table(answer: Answer) -> Table:
         if word.address == FACT:
             rows.append((printable(word.text), "", "", "further fact"))
         else:
-            rows.append((word.text, *_value(word, answer), meaning))
+            rows.append((word.text, *_cells(*stated_value(word, answer)), meaning))
     for asked in answer.answers:
         question = asked.question
         meaning = f"asked: {_meaning(question.name, question.word, answer, form)}".strip(": ")
-        number = ("?", "") if asked.value is None else _asked_value(asked, answer.unit)
+        number = ("?", "") if asked.value is None else _cells(*found_value(asked, answer))
         rows.append((printable(question.word.text), *number, meaning))
     by_point = {choice.point: words[choice.given].text for choice in answer.profile.choices if choice.given in words}
     for point, side in answer.sides.items():
@@ -165,31 +166,40 @@ def _meaning(name: str, word: Word, answer: Answer, form: Form) -> str:
     return form.meanings.get(name) or (row.meaning if row else "")
 
 
-def _asked_value(asked: AskedValue, unit: Length) -> tuple[str, str]:
-    """The value of a word that was asked for, as it is written, and its unit; nothing without a value."""
+def stated_value(word: Word, answer: Answer) -> tuple[float | None, str]:
+    """What a word states, as it is written, and its unit: mm, in, deg, or none where only the sign counts."""
+    lexicon = answer.claim.lexicon
+    row = lexicon.addresses[word.address]
+    return _as_written(lexicon.value(word, answer.unit), row.unit, answer.unit, is_diameter=row.is_diameter)
+
+
+def found_value(asked: AskedValue, answer: Answer) -> tuple[float | None, str]:
+    """The value of a word that was asked for, in the same terms."""
     question = asked.question
-    if asked.value is None:
-        return "", ""
-    if question.unit is Unit.DEGREE:
-        return f"{asked.value:.4f}", "deg"
-    return length_of(asked.value * (2 if question.is_diameter else 1), unit), short_name(unit.value)
+    return _as_written(asked.value, question.unit, answer.unit, is_diameter=question.is_diameter)
+
+
+def _as_written(
+    value: float | Decimal | None, kind: Unit, unit: Length, *, is_diameter: bool
+) -> tuple[float | None, str]:
+    if kind is not Unit.MM:
+        return None if value is None else float(value), "deg" if kind is Unit.DEGREE else ""
+    shown = None if value is None else float(value) * (2 if is_diameter else 1) / float(unit.in_mm)
+    return shown, short_name(unit.value)
+
+
+_FORMATS = {"mm": "z.4f", "in": "z.5f", "deg": ".4f", "": "+g"}
+"""How numbers are written, by their units."""
+
+
+def _cells(value: float | None, unit: str) -> tuple[str, str]:
+    return f"{value or 0.0:{_FORMATS[unit]}}", unit
 
 
 def _asked_text(asked: AskedValue, answer: Answer) -> str:
     """A value that was asked for, in one solution."""
-    value, name = _asked_value(asked, answer.unit)[0], asked.question.word.text.rstrip(" =?")
-    return f"{name} = {value}" if value else ""
-
-
-def _value(word: Word, answer: Answer) -> tuple[str, str]:
-    """What a word states, in the terms in which it is written, and its unit."""
-    lexicon, unit = answer.claim.lexicon, answer.unit
-    value, row = float(lexicon.value(word, unit) or 0), lexicon.addresses[word.address]
-    if row.unit is Unit.DEGREE:
-        return f"{value:.4f}", "deg"
-    if row.unit is Unit.SIGN:
-        return f"{value:+g}", ""
-    return length_of(value * (2 if row.is_diameter else 1), unit), short_name(unit.value)
+    name = asked.question.word.text.rstrip(" =?")
+    return f"{name} = {_cells(*found_value(asked, answer))[0]}" if asked.value is not None else ""
 
 
 # The path ----------------------------------------------------------------------------------------------------
