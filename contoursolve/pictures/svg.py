@@ -34,27 +34,15 @@ _PIECES = 48
 
 @dataclass(frozen=True, slots=True)
 class Picture:
-    """A drawing. `svg` is one element without an XML declaration."""
+    """A drawing; `width` and `height` are in pixels of CSS. `svg` is one element without an XML declaration."""
 
     svg: str = field(repr=False)
+    title: str
     description: str
+    width: float
+    height: float
     sheet: Sheet = field(repr=False)
     theme: Theme = Theme.LIGHT
-
-    @property
-    def title(self) -> str:
-        """What is drawn, in a line."""
-        return self.sheet.title
-
-    @property
-    def width(self) -> float:
-        """Pixels of CSS."""
-        return WIDTH
-
-    @property
-    def height(self) -> float:
-        """Pixels of CSS."""
-        return self.sheet.height
 
     def _repr_svg_(self) -> str:
         """The drawing, as a notebook asks for it."""
@@ -98,7 +86,7 @@ def _chunk(kind: bytes, data: bytes) -> bytes:
 def finish(sheet: Sheet, theme: Theme, description: str = "") -> Picture:
     """The picture of a page; what its title says is description enough where there is no other one."""
     told = description or sheet.title
-    return Picture(write_svg(sheet, theme, told), told, sheet, theme)
+    return Picture(write_svg(sheet, theme, told), sheet.title, told, WIDTH, sheet.height, sheet, theme)
 
 
 def write_svg(sheet: Sheet, theme: Theme, description: str) -> str:
