@@ -148,7 +148,7 @@ def solve_file(
 ) -> Result:
     """Solve every contour of a file; `-` is standard input.
 
-    Settings are those of the project file beside it or above it (see `contoursolve.project`), and `settings` on top.
+    Settings are those of the project file beside it or above it, and `settings` on top of them.
     Raises UnreadableProgramError, SettingError, and as `solve`.
     """
     folder = Path() if str(path) == STANDARD_INPUT else Path(path).parent
