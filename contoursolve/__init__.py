@@ -25,11 +25,9 @@ if TYPE_CHECKING:
         solve_file,
         solve_program,
     )
-    from contoursolve.contour import ArcSegment, Contour, LineSegment
-    from contoursolve.diagnostic import Basis, Diagnosis, Diagnostic, Severity
-    from contoursolve.dialects import Dialect
-    from contoursolve.examine import Answer, Depth, Policy
-    from contoursolve.extras import MissingExtraError
+    from contoursolve.diagnosis.examine import Answer, Depth, Policy
+    from contoursolve.diagnostics.extras import MissingExtraError
+    from contoursolve.diagnostics.finding import Basis, Diagnosis, Diagnostic, Severity
     from contoursolve.families import (
         Family,
         FamilyError,
@@ -45,14 +43,16 @@ if TYPE_CHECKING:
         sensitivity,
         tolerances,
     )
+    from contoursolve.gcode import Block, Program, Word
     from contoursolve.notebook import explore
-    from contoursolve.outcome import Expansion
-    from contoursolve.pipeline import Result
-    from contoursolve.recognise import UnknownControlError
+    from contoursolve.postprocess.expansion_report import Expansion
+    from contoursolve.program.pipeline import Result
+    from contoursolve.program.recognise import UnknownControlError
+    from contoursolve.reading.dialect import Dialect
     from contoursolve.sketch import Drawings, Drawn, Sketch
     from contoursolve.solving import Status
-    from contoursolve.syntax import Block, Program, Word
-    from contoursolve.trial import Completion, completions, what_if
+    from contoursolve.solving.contour import ArcSegment, Contour, LineSegment
+    from contoursolve.try_edits import Completion, completions, what_if
 
 __version__ = "0.1.0"
 
@@ -108,12 +108,12 @@ __all__ = [
 ]
 
 _ROOMS = {
-    "contour": ("ArcSegment", "Contour", "LineSegment"),
-    "diagnostic": ("Basis", "Diagnosis", "Diagnostic", "Severity"),
-    "dialects": ("Dialect",),
-    "examine": ("Answer", "Depth", "Policy"),
-    "extras": ("MissingExtraError",),
-    "outcome": ("Expansion",),
+    "solving.contour": ("ArcSegment", "Contour", "LineSegment"),
+    "diagnostics.finding": ("Basis", "Diagnosis", "Diagnostic", "Severity"),
+    "controls": ("Dialect",),
+    "diagnosis.examine": ("Answer", "Depth", "Policy"),
+    "diagnostics.extras": ("MissingExtraError",),
+    "postprocess.expansion_report": ("Expansion",),
     "families": (
         "Family",
         "FamilyError",
@@ -130,12 +130,12 @@ _ROOMS = {
         "tolerances",
     ),
     "notebook": ("explore",),
-    "pipeline": ("Result",),
-    "recognise": ("UnknownControlError",),
+    "program.pipeline": ("Result",),
+    "program.recognise": ("UnknownControlError",),
     "sketch": ("Drawings", "Drawn", "Sketch"),
     "solving": ("Status",),
-    "syntax": ("Block", "Program", "Word"),
-    "trial": ("Completion", "completions", "what_if"),
+    "gcode": ("Block", "Program", "Word"),
+    "try_edits": ("Completion", "completions", "what_if"),
 }
 """Where the public names live; the others are in `api`."""
 

@@ -7,21 +7,21 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from contoursolve import syntax
-from contoursolve.choices import choice_of
-from contoursolve.diagnostic import Diagnostic
-from contoursolve.dialects import Dialect
-from contoursolve.examine import Depth, Policy
-from contoursolve.model import Length
-from contoursolve.numbering import Numbers
-from contoursolve.pipeline import Result, Run, without_contour
-from contoursolve.project import find_settings
-from contoursolve.recognise import choose
-from contoursolve.syntax import STANDARD_INPUT, Directive, Program, UnreadableProgramError
+from contoursolve import gcode
+from contoursolve.diagnosis.examine import Depth, Policy
+from contoursolve.diagnostics.choices import choice_of
+from contoursolve.diagnostics.finding import Diagnostic
+from contoursolve.gcode import STANDARD_INPUT, Directive, Program, UnreadableProgramError
+from contoursolve.geometry import Length
+from contoursolve.postprocess.numbering import Numbers
+from contoursolve.program.pipeline import Result, Run, without_contour
+from contoursolve.program.project import find_settings
+from contoursolve.program.recognise import choose
+from contoursolve.reading.dialect import Dialect
 
 if TYPE_CHECKING:
-    from contoursolve.outcome import Expansion
-    from contoursolve.posts import Post
+    from contoursolve.postprocess.expansion_report import Expansion
+    from contoursolve.postprocess.post_processors import Post
     from contoursolve.statements import Statement
 
 __all__ = [
@@ -48,7 +48,7 @@ def parse(text: str, *, name: str = "<program>") -> Program:
     >>> parse("G111 X100. A180. K-30. B120.").blocks[0].words[1].text
     'X100.'
     """
-    return syntax.parse(text, name)
+    return gcode.parse(text, name)
 
 
 def solve(
@@ -100,7 +100,7 @@ def solve(
     """
     if not isinstance(text, str):
         raise TypeError(f"the program is a text (str), not {type(text).__name__}; solve_file reads a file")
-    program = syntax.parse(text, name)
+    program = gcode.parse(text, name)
     return solve_program(
         program,
         control=control,
@@ -205,11 +205,11 @@ def follow_program(
 ) -> Run:
     """The same as a stream of contours and findings, for a program of any length."""
     dialect = choose(control, program, settings)
-    beginning = syntax.parse(start, program.name, first_line=0) if start is not None else None
+    beginning = gcode.parse(start, program.name, first_line=0) if start is not None else None
     unit, policy = choice_of(Length, units, "units"), choice_of(Policy, rules, "rules")
     deep, together = choice_of(Depth, depth, "depth"), None
     if dialect is not None and len(program.blocks) >= _MANY:
-        from contoursolve.batch import Batch  # noqa: PLC0415 - a few blocks are solved before it is imported
+        from contoursolve.program.batch import Batch  # noqa: PLC0415 - a few blocks are solved before it is imported
 
         together = Batch(dialect, policy, is_proven=deep is not Depth.PATH)
     return Run(program, dialect, unit, policy, deep, beginning, _facts(facts), together)
@@ -227,7 +227,7 @@ def _facts(facts: Iterable[str | Statement]) -> list[Directive]:
 
 def _fact(fact: str | Statement, line: int) -> Directive:
     text = fact if isinstance(fact, str) else str(fact)
-    return replace(syntax.read_directive(text, line), statement=None if isinstance(fact, str) else fact)
+    return replace(gcode.read_directive(text, line), statement=None if isinstance(fact, str) else fact)
 
 
 def only_findings(result: Result) -> Result:
@@ -276,11 +276,11 @@ def expand(
     G01 X100. Z-47.321
     """
     # Only this function needs them.
-    from contoursolve.expansion import OPENING, expand_lines, lines_of_facts, opening_of  # noqa: PLC0415
-    from contoursolve.outcome import Expansion, Options, Summary, left_unread  # noqa: PLC0415
-    from contoursolve.posts import Arcs, Numbering, find_post  # noqa: PLC0415
+    from contoursolve.postprocess.expansion import OPENING, expand_lines, lines_of_facts, opening_of  # noqa: PLC0415
+    from contoursolve.postprocess.expansion_report import Expansion, Options, Summary, left_unread  # noqa: PLC0415
+    from contoursolve.postprocess.post_processors import Arcs, Numbering, find_post  # noqa: PLC0415
 
-    program = syntax.parse(text, name)
+    program = gcode.parse(text, name)
     dialect = choose(control, program, settings)
     if decimals is not None and (isinstance(decimals, bool) or decimals not in range(1, MOST_DECIMALS + 1)):
         raise ValueError(f"decimals cannot be {decimals!r}; choose 1 to {MOST_DECIMALS}, or None for the target's own")
@@ -290,11 +290,11 @@ def expand(
     if dialect is None:
         summary.left += filter(None, map(left_unread, program.blocks))
         return Expansion(text if keep_going or not summary.left else None, None, summary)
-    beginning = syntax.parse(start, name, first_line=0) if start is not None else None
+    beginning = gcode.parse(start, name, first_line=0) if start is not None else None
     further = lines_of_facts(program, dialect, unit, beginning, _facts(facts))
     pieces = list(
         expand_lines(
-            syntax.split_lines(text),
+            gcode.split_lines(text),
             dialect,
             options,
             summary,
@@ -302,7 +302,7 @@ def expand(
             policy=policy,
             start=beginning,
             facts=further,
-            numbers=Numbers(syntax.split_lines(text)) if numbering is Numbering.ALL else None,
+            numbers=Numbers(gcode.split_lines(text)) if numbering is Numbering.ALL else None,
         )
     )
     opening = opening_of(options, dialect, unit, summary)
@@ -317,5 +317,5 @@ def read_program(path: str | Path) -> Program:
     Raises UnreadableProgramError if there is no such file, or it is not text.
     """
     name = str(path)
-    text = syntax.decode(syntax.read_bytes(name, "a program file"), name)
-    return syntax.parse(text, "<standard input>" if name == STANDARD_INPUT else name)
+    text = gcode.decode(gcode.read_bytes(name, "a program file"), name)
+    return gcode.parse(text, "<standard input>" if name == STANDARD_INPUT else name)

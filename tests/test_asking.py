@@ -21,8 +21,8 @@ from oracle import PLANES, Outcome, circle_line, g111, largest_gap
 
 from contoursolve import Answer, ArcSegment, Contour, Status, solve
 from contoursolve.cli import main
-from contoursolve.pipeline import FactPlaceError
-from contoursolve.solutions import list_solutions
+from contoursolve.diagnosis.solutions import list_solutions
+from contoursolve.program.pipeline import FactPlaceError
 from contoursolve.solving.enumerate import Effort
 
 OFTEN = 20

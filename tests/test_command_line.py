@@ -14,7 +14,7 @@ from click.testing import CliRunner
 from jsonschema import Draft202012Validator
 
 from contoursolve.cli import main
-from contoursolve.dialects import DIALECTS
+from contoursolve.controls import DIALECTS
 
 PROGRAMS = Path(__file__).parent.parent / "notebooks" / "programs"
 SHAFT, BROKEN, PLATE = (str(PROGRAMS / name) for name in ("shaft.nc", "shaft_broken.nc", "plate.nc"))

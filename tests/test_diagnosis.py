@@ -19,7 +19,7 @@ import numpy
 import pytest
 
 from contoursolve import Answer, completions, parse, solve, what_if
-from contoursolve.diagnostic import Applicability, Severity, Verdict
+from contoursolve.diagnostics.finding import Applicability, Severity, Verdict
 
 START = "X40. Z0."
 AGREEMENT = 0.001

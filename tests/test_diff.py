@@ -15,10 +15,10 @@ from hypothesis import strategies as st
 from contoursolve.api import only_findings, read_program
 from contoursolve.cli import main
 from contoursolve.comparison import follow
-from contoursolve.dialects.plain import LINUXCNC as LINUXCNC_CONTROL
-from contoursolve.examine import Policy
-from contoursolve.model import Length
-from contoursolve.pipeline import run
+from contoursolve.controls.plain import LINUXCNC as LINUXCNC_CONTROL
+from contoursolve.diagnosis.examine import Policy
+from contoursolve.geometry import Length
+from contoursolve.program.pipeline import run
 
 PROGRAMS = Path(__file__).parent.parent / "notebooks" / "programs"
 SHAFT, PLATE = (PROGRAMS.joinpath(name).read_text() for name in ("shaft.nc", "plate.nc"))

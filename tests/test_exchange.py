@@ -12,7 +12,7 @@ from click.testing import CliRunner, Result
 
 from contoursolve import solve
 from contoursolve.cli import main
-from contoursolve.dialects import DIALECTS
+from contoursolve.controls import DIALECTS
 from contoursolve.output.exchange import to_github
 
 BROKEN = "G00 X40. Z0.\nG111 A135. I10. K-12. B180. Z-40. P2.\nG00 X40. Z0.\nG111 A180. K-30. P90. B120. X100.\n"

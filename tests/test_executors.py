@@ -21,7 +21,7 @@ import contoursolve.families.evaluate as evaluating
 from contoursolve.cli import main
 from contoursolve.cli.sweep import _write
 from contoursolve.families import family, parts_of, sweep
-from contoursolve.files import CannotWriteError
+from contoursolve.gcode.files import CannotWriteError
 
 BLOCK, START = "G111 X100. A180. K-30. B120. P5. Q5.", "X40. Z0."
 VARY = {"A": np.linspace(90, 270, 400), "P": np.linspace(-1, 30, 200)}

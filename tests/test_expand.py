@@ -21,19 +21,19 @@ import contoursolve
 from contoursolve.api import only_findings
 from contoursolve.cli import main
 from contoursolve.comparison import compare, follow
-from contoursolve.contour import ArcSegment, LineSegment
-from contoursolve.diagnostic import Severity
-from contoursolve.dialects import DIALECTS, YASNAC_LX3
-from contoursolve.dialects import PLAIN as TARGET_CONTROLS
-from contoursolve.emit import Format, emit
-from contoursolve.examine import Depth, Policy
-from contoursolve.lines import Lines
-from contoursolve.model import Length, Plane, Turn
-from contoursolve.pipeline import run as solved
-from contoursolve.pipeline import walk
-from contoursolve.posts import FANUC, LINUXCNC, POSTS, Arcs, Machine
+from contoursolve.controls import DIALECTS, YASNAC_LX3
+from contoursolve.controls import PLAIN as TARGET_CONTROLS
+from contoursolve.diagnosis.examine import Depth, Policy
+from contoursolve.diagnostics.finding import Severity
+from contoursolve.gcode import parse
+from contoursolve.geometry import Length, Plane, Turn
+from contoursolve.postprocess.emit import Format, emit
+from contoursolve.postprocess.post_processors import FANUC, LINUXCNC, POSTS, Arcs, Machine
+from contoursolve.program.lines import Lines
+from contoursolve.program.pipeline import run as solved
+from contoursolve.program.pipeline import walk
 from contoursolve.reading import Effect
-from contoursolve.syntax import parse
+from contoursolve.solving.contour import ArcSegment, LineSegment
 
 PROGRAMS = Path(__file__).parent.parent / "notebooks" / "programs"
 TAPER = "G111 A180. K-30. B120. X100."
@@ -671,7 +671,7 @@ def test_a_program_that_is_read_as_a_stream_has_the_same_contours(program, batch
     dialect = DIALECTS[control]
     text = "\n".join(lines)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("contoursolve.pipeline._BATCH", batch)
+        patch.setattr("contoursolve.program.pipeline._BATCH", batch)
         blocks = Lines([line + "\n" for line in lines], dialect, {}, is_certain=True).blocks()
         steps = list(walk(blocks, dialect, Length.MM, Policy.ENFORCE, Depth.VERDICT))
     answers = [step.answer for step in steps if step.answer]

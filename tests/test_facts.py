@@ -25,7 +25,7 @@ from sketches import chain_of, sketch_of
 
 from contoursolve import Sketch, solve
 from contoursolve.analysis import judge
-from contoursolve.constraints import (
+from contoursolve.geometry import (
     Along,
     ArcContact,
     ArcLength,
@@ -42,6 +42,7 @@ from contoursolve.constraints import (
     Foot,
     Functions,
     Heading,
+    Length,
     Level,
     Offset,
     OnCircle,
@@ -53,12 +54,12 @@ from contoursolve.constraints import (
     TangentCircles,
     TangentLine,
     Through,
+    Turn,
     TurnBetween,
     UnitDirection,
     Values,
     assemble,
 )
-from contoursolve.model import Length, Turn
 from contoursolve.output.document import to_json
 from contoursolve.solving import NoClosedFormError, is_closed
 from contoursolve.solving import solve as solve_in_closed_form
@@ -209,9 +210,9 @@ def law(*exceptions: type) -> Callable[[Any], Any]:
 
 
 def test_every_kind_of_equation_has_its_laws_tested() -> None:
-    from contoursolve import constraints  # noqa: PLC0415 - only here
+    from contoursolve import geometry  # noqa: PLC0415 - only here
 
-    exported = {getattr(constraints, name) for name in constraints.__all__}
+    exported = {getattr(geometry, name) for name in geometry.__all__}
     assert {kind for kind in exported if hasattr(kind, "residual")} == {type(fact) for fact in FACTS}
 
 

@@ -9,11 +9,11 @@ from test_limits import KINDS
 
 from contoursolve import solve
 from contoursolve.cli import main
-from contoursolve.contour import ArcSegment
 from contoursolve.diagnosis.edits import ERRANDS, Side
-from contoursolve.diagnostic import Applicability
+from contoursolve.diagnostics.finding import Applicability
+from contoursolve.diagnostics.source import Evidence
 from contoursolve.notebook.exploration import apply_fix, begin
-from contoursolve.source import Evidence
+from contoursolve.solving.contour import ArcSegment
 
 START = "X40. Z0."
 TAPER = "G111 X100. A180. K-30. B120."

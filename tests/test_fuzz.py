@@ -18,11 +18,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from contoursolve import Result, Severity, Status, parse, solve
-from contoursolve.dialects import DIALECTS
+from contoursolve.controls import DIALECTS
+from contoursolve.diagnosis.spelling import Meanings
 from contoursolve.output.contours import contour_lines
 from contoursolve.output.document import to_json
 from contoursolve.output.findings import finding_lines
-from contoursolve.spelling import Meanings
 
 PROGRAMS = {
     path.name: (path.read_text(), "nct-99m" if "NCT" in path.read_text() else "yasnac-lx3")

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from contoursolve import solve
 from contoursolve.cli import main
-from contoursolve.model import Length, Plane
+from contoursolve.geometry import Length, Plane
 from contoursolve.output.catalogue import vocabulary_lines
 from contoursolve.statements import GrammarError, Vocabulary, read_statement
 

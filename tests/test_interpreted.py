@@ -17,11 +17,11 @@ from oracle import Element, g111
 import contoursolve
 from contoursolve.api import only_findings
 from contoursolve.comparison import Path, compare, follow
-from contoursolve.dialects import DIALECTS, PLAIN
-from contoursolve.examine import Policy
-from contoursolve.model import Length
-from contoursolve.pipeline import run
-from contoursolve.syntax import parse
+from contoursolve.controls import DIALECTS, PLAIN
+from contoursolve.diagnosis.examine import Policy
+from contoursolve.gcode import parse
+from contoursolve.geometry import Length
+from contoursolve.program.pipeline import run
 
 LX3, NCT = "yasnac-lx3", "nct-99m"
 AT_LEAST = 200

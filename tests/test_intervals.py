@@ -11,11 +11,10 @@ import numpy
 import pytest
 from mpmath import mp, mpf
 
-from contoursolve.backends import intervals
-from contoursolve.backends.contraction import Boxes, approach, contract
-from contoursolve.backends.intervals import Intervals, constant
-from contoursolve.backends.narrow import Narrower
-from contoursolve.backends.replay import Replay
+from contoursolve.numeric import intervals
+from contoursolve.numeric.hc4 import Boxes, Narrower, approach, contract
+from contoursolve.numeric.interpreter import Replay
+from contoursolve.numeric.intervals import Intervals, constant
 
 ENDS = (0.0, 0.5, 1.0, 2.0, 1e-9, 3.7e5, 1e-200)
 

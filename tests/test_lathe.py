@@ -15,10 +15,10 @@ from oracle_lx3 import WORD, contours
 
 import contoursolve
 from contoursolve.cli import main
-from contoursolve.dialects import YASNAC_LX3
-from contoursolve.examine import Policy
-from contoursolve.model import Length
-from contoursolve.pipeline import run
+from contoursolve.controls import YASNAC_LX3
+from contoursolve.diagnosis.examine import Policy
+from contoursolve.geometry import Length
+from contoursolve.program.pipeline import run
 
 CLOSE = 1e-9
 """mm."""

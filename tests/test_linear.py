@@ -12,7 +12,7 @@ from collections.abc import Callable
 import pytest
 
 from contoursolve import check, expand, parse
-from contoursolve.dialects import DIALECTS
+from contoursolve.controls import DIALECTS
 from contoursolve.reading import plain_lines
 
 TIMES = 8

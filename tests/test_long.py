@@ -10,8 +10,8 @@ from click.testing import CliRunner
 
 import contoursolve
 from contoursolve.cli import main
+from contoursolve.gcode import lexer
 from contoursolve.output import listing
-from contoursolve.syntax import lexer
 
 PROGRAMS = sorted((Path(__file__).parent.parent / "notebooks" / "programs").glob("*.nc"))
 MOST = 300_000

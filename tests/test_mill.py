@@ -23,8 +23,8 @@ from oracle_corners import miss
 from oracle_nct import Run, runs
 
 from contoursolve import Result, check, solve
-from contoursolve.diagnostic import Applicability, Severity
-from contoursolve.dialects import DIALECTS
+from contoursolve.controls import DIALECTS
+from contoursolve.diagnostics.finding import Applicability, Severity
 from contoursolve.output.document import to_json
 
 CLOSE = 1e-8

@@ -10,7 +10,7 @@ import pytest
 from generate_nct import FORMS, Drawn, random_chain, random_cornered, random_pair
 
 from contoursolve import solve
-from contoursolve.contour import ArcSegment, Contour
+from contoursolve.solving.contour import ArcSegment, Contour
 
 AXES, CENTERS = ("X", "Y"), ("I", "J")
 WORD = re.compile(r"(,?[A-Z])(-?\d*\.?\d+)")

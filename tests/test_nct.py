@@ -14,11 +14,11 @@ from oracle_nct import Settings, runs
 
 from contoursolve import Result, check, expand, solve
 from contoursolve.cli import main
-from contoursolve.diagnostic import Diagnostic
-from contoursolve.dialects import DIALECTS
+from contoursolve.controls import DIALECTS
+from contoursolve.diagnostics.finding import Diagnostic
 from contoursolve.families import Code, family
 from contoursolve.output.document import to_json
-from contoursolve.project import SettingError
+from contoursolve.program.project import SettingError
 from contoursolve.verification import Document, Verdict, verify
 
 FROM_CIRCLE = "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 R50\n"

@@ -10,11 +10,11 @@ from click.testing import CliRunner
 
 import contoursolve
 from contoursolve.cli import main
-from contoursolve.dialects import DIALECTS, NCT_99M
-from contoursolve.dialects.geometry import GEOMETRY_RULES
+from contoursolve.controls import DIALECTS, NCT_99M
+from contoursolve.controls.geometry_rules import GEOMETRY_RULES
 from contoursolve.output.contours import contour_lines
-from contoursolve.posts import LINUXCNC
-from contoursolve.project import SettingError
+from contoursolve.postprocess.post_processors import LINUXCNC
+from contoursolve.program.project import SettingError
 from contoursolve.reading import Claim
 from contoursolve.solving import RefusalKind, RemarkKind
 

@@ -18,7 +18,6 @@ from test_rules import examine, examples
 
 import contoursolve
 from contoursolve.cli import main
-from contoursolve.contour import ArcSegment
 from contoursolve.families import Code
 from contoursolve.pictures import (
     Picture,
@@ -33,6 +32,7 @@ from contoursolve.pictures import (
 from contoursolve.pictures.page import WIDTH, Box, Shape, Stroke, Text
 from contoursolve.pictures.svg import PIXELS
 from contoursolve.pictures.theme import DARK_COLORS, DASHES, LIGHT_COLORS, Role
+from contoursolve.solving.contour import ArcSegment
 
 PROGRAMS = sorted((Path(__file__).parent.parent / "notebooks" / "programs").glob("*.nc"))
 RANDOM = int(os.environ.get("CONTOURSOLVE_PICTURES", "20"))

@@ -14,9 +14,9 @@ from ezdxf import recover
 
 import contoursolve
 from contoursolve.cli import main
-from contoursolve.contour import ArcSegment
-from contoursolve.model import Turn
+from contoursolve.geometry import Turn
 from contoursolve.output.dxf import CONSTRUCTION, layer_name, to_dxf
+from contoursolve.solving.contour import ArcSegment
 
 PROGRAMS = Path(__file__).parent.parent / "notebooks" / "programs"
 CIRCLE = "G17 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q-1"

@@ -12,7 +12,7 @@ from generate_slips import FORMS, Spoilt
 
 from contoursolve import Status, solve
 from contoursolve.diagnosis import attempt
-from contoursolve.diagnostic import Applicability
+from contoursolve.diagnostics.finding import Applicability
 
 
 def places(lines: tuple[str, ...]) -> list[tuple[int, int]]:

@@ -13,10 +13,10 @@ import pytest
 
 import contoursolve
 from contoursolve import Status
-from contoursolve.contour import ArcSegment
-from contoursolve.dialects import DIALECTS
+from contoursolve.controls import DIALECTS
 from contoursolve.notebook import records as bundles
 from contoursolve.output import html as style
+from contoursolve.solving.contour import ArcSegment
 from contoursolve.solving.enumerate import Effort
 
 BLOCKS = int(os.environ.get("CONTOURSOLVE_RICH", "14"))

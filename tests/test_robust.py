@@ -227,7 +227,7 @@ def test_json_is_the_same_whatever_the_hash_seed():
 
 FORKS = """
 import os, sys, threading
-from contoursolve.backends import ball
+from contoursolve.numeric import ball
 import contoursolve
 inside, leave = threading.Event(), threading.Event()
 

@@ -3,7 +3,7 @@
 import pytest
 
 from contoursolve import Result, UnknownControlError, solve
-from contoursolve.dialects import DIALECTS
+from contoursolve.controls import DIALECTS
 
 WITHOUT_REJECTED_EXAMPLE = {
     "not-verified": "an answer that fails its own equations is an error of contoursolve; no block is known to cause it",

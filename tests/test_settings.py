@@ -8,8 +8,8 @@ from click.testing import CliRunner
 
 import contoursolve
 from contoursolve.cli import main
-from contoursolve.dialects import DIALECTS
-from contoursolve.source import Evidence
+from contoursolve.controls import DIALECTS
+from contoursolve.diagnostics.source import Evidence
 
 CIRCLES = "G17 G90 G0 X90 Y0\nG42 G1 X50 D0\nG3 X-50 Y0 I-50 J0\nG3 X-40 Y60 I-40 J20 R40 Q-1\n"
 LEFT, RIGHT = (-46.0220, -19.5441), (-11.9780, 48.5441)

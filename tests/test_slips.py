@@ -5,7 +5,7 @@ import re
 import pytest
 
 from contoursolve import Status, solve
-from contoursolve.diagnostic import Severity
+from contoursolve.diagnostics.finding import Severity
 from contoursolve.output.findings import finding_lines
 
 TAPER = "N10 G111 X100. A180. K-30. B120. P5. Q5."

@@ -24,17 +24,17 @@ from sketches import chain_case, chain_of, is_among, is_drawing, sketch_of
 import contoursolve
 from contoursolve import Answer, Sketch
 from contoursolve.analysis import judge, order
-from contoursolve.backends import ball
 from contoursolve.cli import main
-from contoursolve.constraints import assemble
-from contoursolve.examine import list_alternatives
+from contoursolve.diagnosis.examine import list_alternatives
+from contoursolve.diagnosis.solutions import DECIMALS, printed_certificate
+from contoursolve.geometry import assemble
+from contoursolve.numeric import ball
 from contoursolve.sketch import Drawings, Drawn
-from contoursolve.solutions import DECIMALS, printed_certificate
-from contoursolve.solving.certificate import Proof
+from contoursolve.solving.branch_and_prune import search
 from contoursolve.solving.enumerate import enumerate_solutions
-from contoursolve.solving.ground import ground_of
-from contoursolve.solving.kernel import make_kernel
-from contoursolve.solving.search import search
+from contoursolve.solving.exact_inputs import ground_of
+from contoursolve.solving.solution import Proof
+from contoursolve.solving.step_equations import make_kernel
 
 NAMES = "abc"
 """Of the given things."""

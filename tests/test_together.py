@@ -7,8 +7,8 @@ from generate_lx3 import random_g11, random_g112
 from generate_nct import FORMS, random_chain, random_cornered, random_pair
 
 import contoursolve
-from contoursolve import pipeline
 from contoursolve.output.document import to_json
+from contoursolve.program import pipeline
 
 TAPERS = (
     "G111 X{x} A180. K-30. B120. P{s} Q{s}",
@@ -105,7 +105,7 @@ def alone(monkeypatch):
 
     def switch():
         walk = pipeline.walk
-        monkeypatch.setattr("contoursolve.expansion.walk", lambda *arguments: walk(*arguments[:6]))
+        monkeypatch.setattr("contoursolve.postprocess.expansion.walk", lambda *arguments: walk(*arguments[:6]))
         monkeypatch.setattr("contoursolve.api._MANY", 10**9)
 
     monkeypatch.setattr("contoursolve.api._MANY", 1)
@@ -127,7 +127,7 @@ def test_contours_solved_together_are_those_solved_one_by_one(seed, alone, monke
     }
     monkeypatch.setattr(pipeline, "_FIRST", rng.choice((1, 4, 16)))
     monkeypatch.setattr(pipeline, "_WINDOW", rng.choice((8, 64, 4096)))
-    monkeypatch.setattr("contoursolve.batch.FEWEST", rng.choice((1, 2, 8)))
+    monkeypatch.setattr("contoursolve.program.batch.FEWEST", rng.choice((1, 2, 8)))
     found = []
     for is_alone in (False, True):
         if is_alone:

@@ -8,10 +8,10 @@ import pytest
 from generate_typing import FORMS, Slip, Sound, random_slip, random_sound
 
 from contoursolve import solve
-from contoursolve.contour import Contour
-from contoursolve.diagnostic import Fix
-from contoursolve.dialects import DIALECTS
-from contoursolve.pipeline import Result
+from contoursolve.controls import DIALECTS
+from contoursolve.diagnostics.finding import Fix
+from contoursolve.program.pipeline import Result
+from contoursolve.solving.contour import Contour
 
 LATHE = "G00 X40. Z0.\n"
 CIRCLE_LINE = "G17 G0 X90 Y0 M3 S200\nG42 G1 X50 D0\nG3 X-50 Y0 {}\nG1 X-50 Y42.857 ,A171.87 Q-1\nG40 G0 Y70"

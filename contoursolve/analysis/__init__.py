@@ -1,6 +1,9 @@
-"""What a system of facts determines, before any number is put in."""
+"""What a system of facts determines, before any number is put in.
 
+A system comes in, its determinacy goes out: what is free, what is tied. Begin with `determinacy`.
+"""
+
+from contoursolve.analysis.determinacy import Verdict, derive, judge
 from contoursolve.analysis.partition import Group, Parts, decompose, match, order
-from contoursolve.analysis.verdict import Verdict, derive, judge
 
 __all__ = ["Group", "Parts", "Verdict", "decompose", "derive", "judge", "match", "order"]

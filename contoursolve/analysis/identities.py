@@ -3,9 +3,8 @@
 from collections.abc import Sequence
 from itertools import combinations
 
-from contoursolve.analysis.verdict import judge
-from contoursolve.constraints import Coordinate, Heading, Offset, OnCircle, System
-from contoursolve.model import Fact
+from contoursolve.analysis.determinacy import judge
+from contoursolve.geometry import Coordinate, Fact, Heading, Offset, OnCircle, System
 
 
 def tied_sets(system: System) -> tuple[tuple[Fact, ...], ...]:
@@ -24,7 +23,7 @@ def derive_identity(system: System, facts: Sequence[Fact]) -> str:
     All facts must be affine in the unknowns. Lengths are radius values; S.0 and S.1 are the start
     point's coordinates.
     """
-    from contoursolve.backends import symbolic  # noqa: PLC0415 - sympy is slow to import, see judge
+    from contoursolve.numeric import symbolic  # noqa: PLC0415 - sympy is slow to import, see judge
 
     lengths = [fact for fact in facts if isinstance(fact, Offset | Coordinate)]
     symbols = symbolic.Symbols()
@@ -39,7 +38,7 @@ def derive_identity(system: System, facts: Sequence[Fact]) -> str:
 def derive_circle_identity(system: System, facts: Sequence[Fact]) -> str:
     """What two points of one circle make their words satisfy, as a formula that is zero; empty if the tie is
     another one. S.0 and S.1 are the start point's coordinates."""
-    from contoursolve.backends import symbolic  # noqa: PLC0415 - sympy is slow to import, see judge
+    from contoursolve.numeric import symbolic  # noqa: PLC0415 - sympy is slow to import, see judge
 
     circles = [fact for fact in facts if isinstance(fact, OnCircle)]
     if len(circles) != 2 or len({(fact.center, fact.radius) for fact in circles}) != 1:  # noqa: PLR2004

@@ -3,8 +3,7 @@
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from contoursolve.constraints import System
-from contoursolve.model import Fact
+from contoursolve.geometry import Fact, System
 
 
 class Group(NamedTuple):

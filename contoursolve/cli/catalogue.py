@@ -4,11 +4,11 @@ from difflib import get_close_matches
 
 import click
 
-from contoursolve.cli.control import control_option
-from contoursolve.cli.options import CouldNotRunError
+from contoursolve.cli.options import CouldNotRunError, control_option
 from contoursolve.cli.printing import print_lines, say
-from contoursolve.dialects import DIALECTS, Dialect
-from contoursolve.rules import Rule
+from contoursolve.controls import DIALECTS
+from contoursolve.reading.dialect import Dialect
+from contoursolve.reading.rules import Rule
 
 
 @click.command(short_help="List the whole catalogue of rules.")

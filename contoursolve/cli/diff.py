@@ -5,24 +5,27 @@ from collections.abc import Sequence
 import click
 
 from contoursolve.api import only_findings
-from contoursolve.cli.control import control_option
-from contoursolve.cli.loading import folder_of, read, settings_of
 from contoursolve.cli.options import (
     FOUND_ERRORS,
     CouldNotRunError,
+    control_option,
+    folder_of,
+    read,
     rules_option,
+    settings_of,
     settings_option,
     units_option,
 )
 from contoursolve.cli.printing import print_lines, say, style_of_output
-from contoursolve.dialects import DIALECTS, PLAIN, Dialect
-from contoursolve.examine import Policy
-from contoursolve.model import Length
+from contoursolve.controls import DIALECTS, PLAIN
+from contoursolve.diagnosis.examine import Policy
+from contoursolve.gcode import Program
+from contoursolve.geometry import Length
 from contoursolve.output.listing import lines_of_findings
-from contoursolve.pipeline import Result, run
-from contoursolve.project import SettingError, configure
-from contoursolve.recognise import UnknownControlError, recognise
-from contoursolve.syntax import Program
+from contoursolve.program.pipeline import Result, run
+from contoursolve.program.project import SettingError, configure
+from contoursolve.program.recognise import UnknownControlError, recognise
+from contoursolve.reading.dialect import Dialect
 
 _ANY_CONTROL = (*DIALECTS, *PLAIN)
 

@@ -10,33 +10,33 @@ from typing import IO, Any
 
 import click
 
-from contoursolve import syntax
+from contoursolve import gcode
 from contoursolve.api import MOST_DECIMALS
-from contoursolve.cli.control import control_option
-from contoursolve.cli.loading import settings_of
 from contoursolve.cli.options import (
     FOUND_ERRORS,
     CouldNotRunError,
     common_options,
+    control_option,
     rules_option,
+    settings_of,
     settings_option,
     units_option,
 )
 from contoursolve.cli.printing import say, style_of_output
-from contoursolve.diagnostic import Severity
-from contoursolve.dialects import DIALECTS
-from contoursolve.examine import Policy
-from contoursolve.files import CannotWriteError, Tape, check_target, open_tape, tape_of, write_whole
-from contoursolve.model import Length
-from contoursolve.outcome import Options, Summary
+from contoursolve.controls import DIALECTS
+from contoursolve.diagnosis.examine import Policy
+from contoursolve.diagnosis.wording import count
+from contoursolve.diagnostics.finding import Severity
+from contoursolve.gcode import UnreadableProgramError
+from contoursolve.gcode.files import CannotWriteError, Tape, check_target, open_tape, tape_of, write_whole
+from contoursolve.geometry import Length
 from contoursolve.output.findings import Style, finding_lines, plain
-from contoursolve.pipeline import FactPlaceError
-from contoursolve.posts import POSTS, Arcs, Numbering, Post, Risk
-from contoursolve.project import SettingError
-from contoursolve.recognise import UnknownControlError
-from contoursolve.rewrite import Rewritten, rewrite
-from contoursolve.syntax import UnreadableProgramError
-from contoursolve.wording import count
+from contoursolve.postprocess.expansion_report import Options, Summary
+from contoursolve.postprocess.post_processors import POSTS, Arcs, Numbering, Post, Risk
+from contoursolve.postprocess.rewrite import Rewritten, rewrite
+from contoursolve.program.pipeline import FactPlaceError
+from contoursolve.program.project import SettingError
+from contoursolve.program.recognise import UnknownControlError
 
 _BY_HAND = "write by hand what is meant there"
 
@@ -248,8 +248,8 @@ def _rewrite(
                 unit=Length(options["units"]),
                 policy=Policy(options["rules"]),
                 settings=settings_of(folder, options["assignments"]),
-                start=syntax.parse(start, name, first_line=0) if start is not None else None,
-                facts=[syntax.read_directive(text, -number) for number, text in enumerate(options.get("facts", ()), 1)],
+                start=gcode.parse(start, name, first_line=0) if start is not None else None,
+                facts=[gcode.read_directive(text, -number) for number, text in enumerate(options.get("facts", ()), 1)],
                 progress=progress,
             )
     except (SettingError, UnreadableProgramError) as error:

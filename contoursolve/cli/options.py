@@ -1,13 +1,87 @@
-"""The options that commands share, and the exit statuses."""
+"""The options that commands share, the control, programs from files and options, and the exit statuses."""
 
-from collections.abc import Callable
+import sys
+from collections.abc import Callable, Iterable, Sequence
+from functools import partial
+from importlib import import_module
+from pathlib import Path
+from typing import Any
 
 import click
+from click.shell_completion import CompletionItem
 
-from contoursolve.cli.control import control_option
-from contoursolve.examine import Policy
-from contoursolve.model import Length
+from contoursolve import gcode
+from contoursolve.api import UnreadableProgramError, follow_program, read_program
+from contoursolve.controls import DIALECTS
+from contoursolve.diagnosis.examine import Policy
+from contoursolve.gcode import STANDARD_INPUT, Program
+from contoursolve.geometry import Length
 from contoursolve.output.plain_text import harmless
+from contoursolve.program.pipeline import FactPlaceError, Result, Run
+from contoursolve.program.project import SettingError, find_settings, read_setting
+from contoursolve.program.recognise import UnknownControlError
+from contoursolve.reading.dialect import Dialect
+
+_OWN = "MODULE:NAME"
+
+
+class ControlType(click.ParamType):  # type: ignore[type-arg]  # generic in newer releases of click only
+    """The name of a control, or `package.module:NAME` of a Dialect, which is then given itself."""
+
+    name = "control"
+
+    def __init__(self, names: Iterable[str]) -> None:
+        self.names = click.Choice([*names])
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        if isinstance(value, Dialect) or ":" not in value:
+            return value if isinstance(value, Dialect) else self.names.convert(value, param, ctx)
+        module, _, name = value.partition(":")
+        try:
+            return _load(module, name)
+        except (ImportError, TypeError) as error:
+            self.fail(f"{value}: {error}", param, ctx)
+
+    def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+        return self.names.shell_complete(ctx, param, incomplete)
+
+
+def control_option(
+    help_: str, name: str = "--control", names: Iterable[str] = tuple(DIALECTS)
+) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    """An option for a control; its value is a name, a Dialect, or None."""
+    choices = [*names]
+    own = f"{help_} {_OWN} names a Dialect of your own in a Python module, also one in this folder."
+    return click.option(name, type=ControlType(choices), metavar=f"[{'|'.join((*choices, _OWN))}]", help=own)
+
+
+def _load(module: str, name: str) -> Dialect:
+    """The tables of this name in a module that Python finds, also from here. Raises ImportError, TypeError."""
+    here = str(Path.cwd())
+    if here not in sys.path:
+        sys.path.append(here)
+    try:
+        imported = import_module(module)
+    except Exception as error:
+        # Whatever the module does.
+        told = f"{module or 'the module'} cannot be imported: {type(error).__name__}: {error}"
+        raise ImportError(f"{told}{_where(module, error)}") from None
+    found = getattr(imported, name, None)
+    if not isinstance(found, Dialect):
+        path = getattr(imported, "__file__", None)
+        file = f" ({path})" if path else ""
+        raise TypeError(f"{module}{file} has no contoursolve.Dialect of the name {name!r}")
+    return found
+
+
+def _where(module: str, error: Exception) -> str:
+    """What to do about a module that is not there."""
+    if not isinstance(error, ModuleNotFoundError) or error.name not in (module, module.partition(".")[0]):
+        return ""
+    if module.endswith(".py"):
+        return f"; write the module without .py, {module.removesuffix('.py')}:NAME"
+    return f"; a module is looked for among those of Python, then in this folder, {Path.cwd()}"
+
 
 FOUND_ERRORS, COULD_NOT_RUN = 1, 2
 
@@ -95,3 +169,58 @@ def common_options(command: Callable[..., None]) -> Callable[..., None]:
     ):
         command = option(command)
     return command
+
+
+def load(paths: Sequence[str], blocks: tuple[str, ...], start: str | None) -> list[Callable[[], Program]]:
+    """How to get each program that is asked for; a file is read when its turn comes."""
+    if blocks and paths:
+        raise click.UsageError("give either a PROGRAM or --block, not both")
+    if start is not None and not blocks:
+        raise click.UsageError("--start goes with --block; a PROGRAM states its own positions")
+    if blocks:
+        return [lambda: gcode.parse("\n".join(blocks), "<block>")]
+    if not paths:
+        raise click.UsageError("missing PROGRAM: name a file, or - for standard input, or use --block")
+    return [partial(read, path) for path in paths]
+
+
+def read(path: str) -> Program:
+    """The program of a file, or of standard input; one that cannot be read ends the command."""
+    try:
+        return read_program(path)
+    except UnreadableProgramError as error:
+        raise CouldNotRunError(str(error)) from None
+
+
+def named_after(program: str | None, suffix: str) -> Path:
+    """The file in this folder for what is made of a program, where nobody gave it a name."""
+    is_named = program is not None and program != STANDARD_INPUT
+    return Path(f"{Path(program).stem if program and is_named else 'contour'}{suffix}")
+
+
+def examine(program: Program, start: str | None, assignments: Sequence[str], options: dict[str, Any]) -> Result:
+    """The result of a program under the options of the command; what makes no sense ends the command."""
+    return follow(program, start, assignments, options).collect()
+
+
+def follow(program: Program, start: str | None, assignments: Sequence[str], options: dict[str, Any]) -> Run:
+    """The same as a stream."""
+    try:
+        settings = settings_of(folder_of(program), assignments)
+        return follow_program(program, start=start, settings=settings, **options)
+    except SettingError as error:
+        raise CouldNotRunError(str(error)) from None
+    except UnknownControlError as error:
+        raise CouldNotRunError(f"{program.name}: {error}; say which with --control {'|'.join(DIALECTS)}") from None
+    except FactPlaceError as error:
+        raise CouldNotRunError(f"{program.name}: {error}") from None
+
+
+def settings_of(folder: Path, assignments: Sequence[str]) -> dict[str, str]:
+    """The settings of the project file of a folder, and those of `--set` on top. Raises SettingError."""
+    return find_settings(folder) | dict(map(read_setting, assignments))
+
+
+def folder_of(program: Program) -> Path:
+    """Where the search for a project file begins: beside the program, or here for what is no file."""
+    return Path() if program.name.startswith("<") else Path(program.name).parent

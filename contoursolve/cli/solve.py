@@ -7,19 +7,13 @@ import click
 
 from contoursolve import __version__
 from contoursolve.api import only_findings
-from contoursolve.cli.loading import follow, load
-from contoursolve.cli.options import (
-    COULD_NOT_RUN,
-    FOUND_ERRORS,
-    CouldNotRunError,
-    common_options,
-)
+from contoursolve.cli.options import COULD_NOT_RUN, FOUND_ERRORS, CouldNotRunError, common_options, follow, load
 from contoursolve.cli.printing import print_lines, print_pieces, say, style_of_output
-from contoursolve.diagnostic import Severity
-from contoursolve.dialects import Dialect
+from contoursolve.diagnostics.finding import Severity
 from contoursolve.output.document import Findings, Shelf, stream_json
 from contoursolve.output.listing import Totals, closing_lines, stream_findings, stream_listing
-from contoursolve.pipeline import Result
+from contoursolve.program.pipeline import Result
+from contoursolve.reading.dialect import Dialect
 
 
 @click.command(short_help="Solve every contour block of a program.")

@@ -1,25 +1,33 @@
-"""The command that solves one block for many values of some of its words."""
+"""The command sweep: every contour of a family into a file, here or on a Dask cluster."""
 
+import logging
+import sys
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Executor
+from concurrent.futures import CancelledError, Executor, Future, wait
+from contextlib import contextmanager
 from io import TextIOWrapper
 from pathlib import Path
+from shutil import disk_usage
 from typing import Any
 
 import click
 
-from contoursolve.cli.blocks import block_options, fact_option, format_option, print_json, read_options, usage
-from contoursolve.cli.cluster import open_cluster
-from contoursolve.cli.extent import check_extent
-from contoursolve.cli.pictured import bytes_of, check_picture, theme_option
+from contoursolve.cli.blocks import (
+    block_options,
+    fact_option,
+    format_option,
+    print_json,
+    read_options,
+    read_range,
+    usage,
+)
+from contoursolve.cli.options import CouldNotRunError
+from contoursolve.cli.pictures import bytes_of, check_picture, theme_option
 from contoursolve.cli.printing import say
-from contoursolve.cli.progress import STOPPED, leave_threads, progress, stoppable
-from contoursolve.cli.varied import read_range
-from contoursolve.extras import need
+from contoursolve.cli.progress import STOPPED, duration, leave_threads, progress, stoppable
+from contoursolve.diagnostics.extras import need
 from contoursolve.families import (
     MOST_ROWS,
-    REASONS,
-    Code,
     CompiledSweep,
     FailureSummary,
     Parts,
@@ -29,12 +37,126 @@ from contoursolve.families import (
     others,
     parts_of,
     pieces,
+    room_of,
+    seconds_of,
     sweep,
     write_parquet,
 )
-from contoursolve.files import CannotWriteError, check_target, open_whole, write_whole
+from contoursolve.gcode.files import CannotWriteError, check_target, open_whole, write_whole
 from contoursolve.output.plain_text import columns
 from contoursolve.pictures import Theme, draw_sweep
+from contoursolve.solving.row_outcome import REASONS, Code
+
+PATIENCE = 1.0
+"""Seconds between two looks at whether the scheduler is still there."""
+
+
+@contextmanager
+def open_cluster(address: str | None) -> Iterator[Executor | None]:
+    """The executor of a Dask cluster; None without an address. Raises CouldNotRunError, MissingExtraError."""
+    if address is None:
+        yield None
+        return
+    distributed = need("distributed", "dask", "solving on a cluster")
+    for name in ("distributed.client", "tornado.application"):
+        # They log the traceback of a lost connection, which is told here in one line.
+        logging.getLogger(name).setLevel(logging.CRITICAL)
+    try:
+        client = distributed.Client(address, timeout="10s", set_as_default=False)
+    except (OSError, ValueError) as error:
+        raise CouldNotRunError(f"no Dask scheduler answers at {address}: {error}") from None
+    with client:
+        try:
+            yield _Cluster(client, address)
+        except distributed.scheduler.KilledWorker as error:
+            raise CouldNotRunError(f"workers of the Dask cluster at {address} were killed: {error}") from None
+        except ImportError as error:
+            if not isinstance(error, ModuleNotFoundError) or not (error.name or "").startswith("contoursolve"):
+                raise
+            told = f"a worker of the Dask cluster at {address} has no {error.name}; install contoursolve for it, too"
+            raise CouldNotRunError(told) from None
+
+
+class _Cluster(Executor):
+    """The executor of a client, without which a task would be waited for forever when the scheduler is gone."""
+
+    def __init__(self, client: Any, address: str) -> None:
+        self.client, self.address, self.inner = client, address, client.get_executor()
+        self.is_told = False
+        """Whether it has been told that there are no workers."""
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> "Future[Any]":
+        return _Task(self, self.inner.submit(fn, *args, **kwargs))
+
+    def check(self) -> None:
+        """Raise CouldNotRunError if the client has given up its connection; tell that there are no workers."""
+        if self.client.status in ("closing", "closed"):
+            raise self.lost()
+        if not self.is_told and self.client.status == "running" and not self._has_workers():
+            told = "has no workers; waiting for one (it needs contoursolve in this version)"
+            say(f"the Dask scheduler at {self.address} {told}", err=True)
+            self.is_told = True
+
+    def _has_workers(self) -> bool:
+        try:
+            return bool(self.client.nthreads())
+        except OSError:  # the connection was lost just now, which its status tells soon
+            return True
+
+    def lost(self) -> CouldNotRunError:
+        """The error of a cluster that is gone."""
+        return CouldNotRunError(f"the Dask scheduler at {self.address} does not answer any more")
+
+
+class _Task(Future[Any]):
+    """One task of a cluster."""
+
+    def __init__(self, cluster: _Cluster, inner: "Future[Any]") -> None:
+        super().__init__()
+        self.cluster, self.inner = cluster, inner
+
+    def result(self, timeout: float | None = None) -> Any:
+        """What the task gives; `timeout` is not needed here."""
+        while not wait([self.inner], PATIENCE).done:
+            self.cluster.check()
+        try:
+            return self.inner.result(timeout)
+        except CancelledError:
+            raise self.cluster.lost() from None
+
+    def cancel(self) -> bool:
+        return self.inner.cancel()
+
+
+def check_extent(ready: CompiledSweep, parts: Parts | None, target: Path | None, *, is_forced: bool) -> None:
+    """Raise CouldNotRunError for more contours than are begun at a word, or a file that the disk has no room for."""
+    rows = ready.ranges.count
+    if rows > sys.maxsize:
+        raise CouldNotRunError(f"{rows:.1e} contours cannot be counted; vary fewer words, or take larger steps")
+    if is_forced:
+        return
+    told = []
+    if rows > MOST_ROWS:
+        took = duration(seconds_of(ready))
+        told.append(f"{rows:,} contours are more than {MOST_ROWS:,}: about {took} on one thread, by the first ones")
+    if parts is not None and target is not None:
+        room, free = room_of(parts, is_text=target.suffix.lower() == ".csv"), disk_usage(target.parent).free
+        if room > free:
+            told.append(
+                f"{target}, with the rows that are kept beside it until it is whole, may need {size(room)}, where "
+                f"{size(free)} are free"
+            )
+    if told:
+        raise CouldNotRunError(f"{'; '.join(told)}; take larger steps, or give --force")
+
+
+def size(count: float) -> str:
+    """A number of bytes in the unit that fits: `3.1 GB`."""
+    for unit in ("bytes", "kB", "MB", "GB"):
+        if count < 1000:  # noqa: PLR2004 - decimal prefixes
+            return f"{count:.3g} {unit}"
+        count /= 1000
+    return f"{count:,.1f} TB"
 
 
 @click.command("sweep", short_help="Solve a block for many values of its words.")

@@ -4,12 +4,12 @@ from typing import Any
 
 import click
 
-from contoursolve.cli.control import control_option
 from contoursolve.cli.options import (
     COULD_NOT_RUN,
     FOUND_ERRORS,
     CouldNotRunError,
     apart_options,
+    control_option,
     units_option,
 )
 from contoursolve.cli.printing import print_lines

@@ -1,4 +1,7 @@
-"""Whether two programs describe the same path."""
+"""Whether two programs describe the same path.
+
+Two programs come in, their first difference goes out. Begin with `compare`.
+"""
 
 from contoursolve.comparison.compare import Comparison, Difference, compare
 from contoursolve.comparison.follow import Path, follow

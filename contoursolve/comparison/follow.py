@@ -7,26 +7,16 @@ from decimal import Decimal
 from math import atan2, hypot, sqrt, tau
 
 from contoursolve.comparison.travel import Bend, Motion, Place, Step, Travel, Unfollowed
-from contoursolve.contour import ArcSegment, Segment
-from contoursolve.dialects import Dialect
-from contoursolve.dialects.plain import SWITCHES, Centers, Switch
-from contoursolve.examine import Answer
-from contoursolve.model import Length, Plane, Turn
-from contoursolve.pipeline import Result
-from contoursolve.reading import (
-    Code,
-    Effect,
-    Lexicon,
-    State,
-    WithoutPoint,
-    advance,
-    apply_modes,
-    codes_of,
-    leave,
-)
+from contoursolve.controls.plain import SWITCHES, Centers, Switch
+from contoursolve.diagnosis.examine import Answer
+from contoursolve.gcode import Block, Macro, Program, Word
+from contoursolve.geometry import Length, Plane, Turn
+from contoursolve.program.pipeline import Result
+from contoursolve.reading import Code, Effect, Lexicon, State, WithoutPoint, advance, apply_modes, codes_of, leave
+from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.follow import ContourBlock, blocks_of
-from contoursolve.reliance import MOTIONS, Reliance, reliance
-from contoursolve.syntax import Block, Macro, Program, Word
+from contoursolve.reading.modal_dependence import MOTIONS, Reliance, reliance
+from contoursolve.solving.contour import ArcSegment, Segment
 from contoursolve.tolerance import LENGTH
 
 _TURNS = {2: Turn.CW, 3: Turn.CCW}

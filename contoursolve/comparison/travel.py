@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from enum import Enum
 from math import atan2, ceil, cos, hypot, inf, radians, sin, sqrt, tau
 
-from contoursolve.model import Length
+from contoursolve.geometry import Length
 
 Place = tuple[float | None, ...]
 """Coordinates in mm (X of a lathe as radius), None where not known, in the order of the path's axes."""

@@ -7,11 +7,11 @@ from decimal import Decimal
 from itertools import chain, islice
 
 from contoursolve.analysis import judge, order
-from contoursolve.constraints import assemble
-from contoursolve.contour import Contour
 from contoursolve.diagnosis.edits import Edit, EditKind, Side, Why, apply_edits, edit_facts
+from contoursolve.diagnosis.examine import Answer, Policy, examine
 from contoursolve.diagnosis.examples import ends, propose, sampled
-from contoursolve.diagnosis.slips import (
+from contoursolve.diagnosis.subsets import LARGEST_ROLE
+from contoursolve.diagnosis.typo_fixes import (
     FEW,
     NEIGHBOUR,
     POINT_LOST,
@@ -22,17 +22,16 @@ from contoursolve.diagnosis.slips import (
     Slip,
     recognise,
 )
-from contoursolve.diagnosis.subsets import LARGEST_ROLE
-from contoursolve.diagnostic import Applicability, Diagnostic, Severity
-from contoursolve.dialects import Dialect
-from contoursolve.examine import Answer, Policy, examine
-from contoursolve.model import Profile
+from contoursolve.diagnostics.finding import Applicability, Diagnostic, Severity
+from contoursolve.diagnostics.source import Span
+from contoursolve.gcode import Block, parse_block
+from contoursolve.geometry import Profile, assemble
 from contoursolve.reading import Claim, State, Trouble, advance, read
+from contoursolve.reading.dialect import Dialect
 from contoursolve.solving import RemarkKind, Status
 from contoursolve.solving.affine import affine_facts
+from contoursolve.solving.contour import Contour
 from contoursolve.solving.plan import is_closed
-from contoursolve.source import Span
-from contoursolve.syntax import Block, parse_block
 from contoursolve.tolerance import AGREEMENT
 
 MOST_TRIED = 60

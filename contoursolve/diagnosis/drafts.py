@@ -7,14 +7,14 @@ from itertools import product
 from math import copysign
 
 from contoursolve.diagnosis.edits import AT_MOST, Edit, EditKind, Why, write_word
-from contoursolve.diagnostic import Diagnostic, Severity
-from contoursolve.examine import Answer
-from contoursolve.model import Given, Length, Unit
+from contoursolve.diagnosis.examine import Answer
+from contoursolve.diagnosis.spelling import meant_words, respelled, unanswerable
+from contoursolve.diagnostics.finding import Diagnostic, Severity
+from contoursolve.diagnostics.source import Span
+from contoursolve.gcode import FACT, FaultKind, Word, find_lookalikes, lookalike_at
+from contoursolve.geometry import Given, Length, Unit
 from contoursolve.reading import Claim, Lexicon, Trouble
 from contoursolve.solving import BESIDE, RefusalKind
-from contoursolve.source import Span
-from contoursolve.spelling import meant_words, respelled, unanswerable
-from contoursolve.syntax import FACT, FaultKind, Word, find_lookalikes, lookalike_at
 
 _FEW = 8
 """Slips of which each is tried alone; each of many would take time by the square of a line's length."""

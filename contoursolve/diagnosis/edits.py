@@ -6,11 +6,11 @@ from dataclasses import dataclass, field
 from decimal import ROUND_DOWN, ROUND_HALF_EVEN, ROUND_UP, Decimal
 from enum import Enum, IntEnum
 
-from contoursolve.model import Length, Unit
+from contoursolve.diagnosis.wording import shorten
+from contoursolve.diagnostics.source import Evidence, Source, Span
+from contoursolve.gcode import FACT, Block, Directive, read_directive
+from contoursolve.geometry import Length, Unit
 from contoursolve.reading import Lexicon, WithoutPoint
-from contoursolve.source import Evidence, Source, Span
-from contoursolve.syntax import FACT, Block, Directive, read_directive
-from contoursolve.wording import shorten
 
 PLACEHOLDER = "?"
 """Stands for a number that the block does not give."""

@@ -7,12 +7,11 @@ from math import log10
 
 import numpy
 
-from contoursolve.backends.columns import Array
-from contoursolve.constraints import Coordinate, Radius
 from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, write_word
-from contoursolve.model import Profile, Unit
+from contoursolve.geometry import Coordinate, Profile, Radius, Unit
+from contoursolve.numeric.columns import Array
 from contoursolve.reading import Claim
-from contoursolve.solving.rows import agreement_rows, passed_rows
+from contoursolve.solving.checks import agreement_rows, passed_rows
 
 MOST_PROPOSED = 8
 """Numbers that are proposed for a repair; a few, because a rule may refuse what the equations accept."""

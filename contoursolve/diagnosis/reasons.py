@@ -1,19 +1,40 @@
 """Reasons in short sentences: because these words say this, and that word says that, ... so."""
 
-from collections.abc import Iterator, Sequence
+import json
+import pkgutil
+from collections.abc import Iterable, Iterator, Sequence
+from functools import lru_cache
 from itertools import pairwise
 
 from contoursolve.analysis import judge, order
-from contoursolve.constraints import Heading, assemble
-from contoursolve.diagnosis.identities import identity
-from contoursolve.diagnostic import Diagnostic, Freedom
-from contoursolve.model import FIRST, SECOND, Arc, Fact, Line, Profile, scalar
+from contoursolve.diagnosis.wording import angle_text, join, length_text, limit_text, place_text
+from contoursolve.diagnostics.finding import Diagnostic, Freedom
+from contoursolve.gcode import FACT
+from contoursolve.geometry import FIRST, SECOND, Arc, Fact, Heading, Line, Profile, assemble, scalar
 from contoursolve.solving import RefusalKind, lookup
 from contoursolve.solving.affine import AffineFacts, Circuit
 from contoursolve.solving.compare import is_conflict
-from contoursolve.syntax import FACT
 from contoursolve.tolerance import REGULAR
-from contoursolve.wording import angle_text, join, length_text, limit_text, place_text
+
+
+def identity(profile: Profile, facts: Iterable[Fact]) -> str:
+    """How the words of these facts depend on one another, such as `K = I/tan(A)`; empty where no formula is
+    kept. The start point's coordinates are called Zstart, Xstart and so on."""
+    names = sorted(fact.given for fact in facts if fact.given)
+    formula = _shipped().get(f"{profile.form}: {' '.join(names)}", "")
+    for name in sorted(names, key=len, reverse=True):
+        word = profile.givens[name].word
+        formula = formula.replace(name, word.address if word else f"{profile.givens[name].value:f}")
+    for number, axis in enumerate(profile.plane.axes):
+        formula = formula.replace(scalar(profile.figure.start, number), f"{axis}start")
+    return formula
+
+
+@lru_cache(maxsize=1)
+def _shipped() -> dict[str, str]:
+    data = pkgutil.get_data("contoursolve.analysis", "identities.json")
+    table: dict[str, str] = json.loads(data) if data else {}
+    return table
 
 
 def conflict_reasons(profile: Profile, affine: AffineFacts, circuit: Circuit) -> Iterator[str]:

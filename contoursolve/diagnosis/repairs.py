@@ -8,7 +8,6 @@ from functools import lru_cache
 from itertools import chain, combinations, product
 from math import copysign, sqrt
 
-from contoursolve.constraints import Radius
 from contoursolve.diagnosis.attempt import Before, Repairs, choose_repairs, examine_edited
 from contoursolve.diagnosis.drafts import (
     OF_CORNERS,
@@ -25,7 +24,18 @@ from contoursolve.diagnosis.drafts import (
     variants,
 )
 from contoursolve.diagnosis.edits import AT_LEAST, PLACEHOLDER, Edit, EditKind, Why, write_word
-from contoursolve.diagnosis.slips import (
+from contoursolve.diagnosis.examine import MOST_CHOICES, Answer, Policy, count_choices, examine
+from contoursolve.diagnosis.spelling import torn_codes
+from contoursolve.diagnosis.subsets import (
+    LARGEST_ROLE,
+    block_of,
+    blocks_at_fault,
+    corners_at_fault,
+    find_drop_sets,
+    is_blamed,
+    words_of,
+)
+from contoursolve.diagnosis.typo_fixes import (
     FEW,
     OF_DIGITS,
     SIGN_ADDED,
@@ -37,26 +47,15 @@ from contoursolve.diagnosis.slips import (
     slips,
     suspects,
 )
-from contoursolve.diagnosis.subsets import (
-    LARGEST_ROLE,
-    block_of,
-    blocks_at_fault,
-    corners_at_fault,
-    find_drop_sets,
-    is_blamed,
-    words_of,
-)
-from contoursolve.diagnostic import Diagnostic, Severity
-from contoursolve.dialects import Dialect
-from contoursolve.examine import MOST_CHOICES, Answer, Policy, count_choices, examine
-from contoursolve.model import Given, Profile, Role, Unit
+from contoursolve.diagnostics.finding import Diagnostic, Severity
+from contoursolve.gcode import Block, FaultKind, Word
+from contoursolve.geometry import Given, Profile, Radius, Role, Unit
 from contoursolve.reading import Claim, Form, State, read
-from contoursolve.rules import Rule, check
+from contoursolve.reading.dialect import Dialect
+from contoursolve.reading.rules import Rule, check
 from contoursolve.solving import RefusalKind, Status, lookup
 from contoursolve.solving.affine import AffineFacts, Circuit, affine_facts
 from contoursolve.solving.compare import is_conflict
-from contoursolve.spelling import torn_codes
-from contoursolve.syntax import Block, FaultKind, Word
 
 MOST_BLOCKS = 6
 """Of a contour in which wrong digits are looked for."""
@@ -91,7 +90,7 @@ def find_repairs(
         return replace(repairs, is_complete=False)
     if answer.profile.is_extended:
         # Few blocks state more than their words.
-        from contoursolve.diagnosis.further import further_drafts, next_place_of  # noqa: PLC0415
+        from contoursolve.diagnosis.drafts_beside_facts import further_drafts, next_place_of  # noqa: PLC0415
 
         before = Before(codes, answer.contour, next_place_of(answer.profile))
         repairs = choose_repairs(claim, dialect, further_drafts(answer, dialect, before), before)

@@ -6,13 +6,13 @@ from functools import lru_cache
 from itertools import chain, combinations
 from typing import NamedTuple
 
-from contoursolve.diagnostic import Severity
-from contoursolve.dialects import Dialect
-from contoursolve.examine import Answer
+from contoursolve.diagnosis.examine import Answer
+from contoursolve.diagnostics.finding import Severity
+from contoursolve.diagnostics.source import Span
+from contoursolve.gcode import Word
 from contoursolve.reading import Claim
-from contoursolve.rules import check, is_refused_by_values
-from contoursolve.source import Span
-from contoursolve.syntax import Word
+from contoursolve.reading.dialect import Dialect
+from contoursolve.reading.rules import check, is_refused_by_values
 
 MOST_CHECKED = 2_000
 """Sets of words of one contour that the rules are asked about."""

@@ -6,15 +6,14 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from contoursolve.analysis import judge
-from contoursolve.constraints import assemble
-from contoursolve.diagnostic import Severity
-from contoursolve.dialects import Dialect
-from contoursolve.model import Corner, Length, Profile
+from contoursolve.diagnosis.wording import unknowns_text
+from contoursolve.diagnostics.finding import Severity
+from contoursolve.gcode import parse
+from contoursolve.geometry import Corner, Length, Profile, assemble
 from contoursolve.reading import Claim, Form, Sample, advance, read
-from contoursolve.rules import check
+from contoursolve.reading.dialect import Dialect
+from contoursolve.reading.rules import check
 from contoursolve.solving import is_closed, points_with_two_solutions
-from contoursolve.syntax import parse
-from contoursolve.wording import unknowns_text
 
 _OPTIONAL = re.compile(r"\{([^}]*)\}")
 

@@ -1,8 +1,7 @@
 """Families: one block with some words free, a million contours at once.
 
-In comes a block as text, with the names of its free words. Out come its contours (`family`), the values for which there
-is one (`feasible`, `region`), those that a target needs (`find_word`), and derivatives (`sensitivity`, `tolerances`).
-Begin with `spec`, a block with free words, and `case_classes`, the rows that share one system of equations.
+A block with free words comes in; rows, ranges, regions and sensitivities go out. Begin with `spec`, then
+`compiled_sweep`.
 """
 
 from contoursolve.families.checkpoints import MOST_ROWS, Parts, others, parts_of, room_of, seconds_of
@@ -16,7 +15,7 @@ from contoursolve.families.regions import Boundary, Region, region, region_of
 from contoursolve.families.sensitivities import Sensitivity, Spread, sensitivity
 from contoursolve.families.spec import FamilyError, RefusedError, name_of
 from contoursolve.families.targets import Goal
-from contoursolve.solving.verdict import REASONS, Code
+from contoursolve.solving.row_outcome import REASONS, Code
 
 Sweep = CompiledSweep
 """The name that a sweep had before."""

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy
 from numpy.typing import NDArray
 
-from contoursolve.backends.intervals import Array, Intervals
 from contoursolve.families.branches import LEVEL, Branch
 from contoursolve.families.subdivision import bisect
+from contoursolve.numeric.intervals import Array, Intervals
 from contoursolve.solving import RefusalKind
 from contoursolve.solving.checks import Test
 

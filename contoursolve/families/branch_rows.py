@@ -8,14 +8,13 @@ import numpy
 from numpy.typing import NDArray
 
 from contoursolve.analysis import judge
-from contoursolve.backends.columns import ROWS, Array, Columns, columns_of, compile_columns, directions
-from contoursolve.backends.inputs import COSINE, SIDE, SINE, lookup
-from contoursolve.backends.numeric import Tape, largest
-from contoursolve.constraints import Coordinate, Radius, System, Values
 from contoursolve.families.case_classes import CaseClass, asked_of
 from contoursolve.families.row_boxes import Place, RowBoxes
 from contoursolve.families.spec import Places, stretches
-from contoursolve.model import FIRST, SECOND, Fact, Unit, scalar
+from contoursolve.geometry import FIRST, SECOND, Coordinate, Fact, Radius, System, Unit, Values, scalar
+from contoursolve.numeric.columns import ROWS, Array, Columns, columns_of, compile_columns, directions
+from contoursolve.numeric.expressions import Tape, largest
+from contoursolve.numeric.inputs import COSINE, SIDE, SINE, lookup
 from contoursolve.solving import RefusalKind
 from contoursolve.solving.checks import (
     Check,
@@ -28,8 +27,8 @@ from contoursolve.solving.checks import (
     check_residuals,
 )
 from contoursolve.solving.compile import compile_path
-from contoursolve.solving.kernel import Kernel, make_kernel
-from contoursolve.solving.verdict import Code, Verdict, code_of, reason_of
+from contoursolve.solving.row_outcome import Code, Verdict, code_of, reason_of
+from contoursolve.solving.step_equations import Kernel, make_kernel
 from contoursolve.tolerance import LENGTH
 
 BLOCK = 8_192

@@ -10,15 +10,15 @@ from itertools import product
 import numpy
 from numpy.typing import NDArray
 
-from contoursolve.backends.chart import Bounds, Chart, Following
-from contoursolve.backends.inputs import lookup
-from contoursolve.backends.intervals import Array, Intervals
-from contoursolve.constraints import System
+from contoursolve.diagnosis.wording import join
 from contoursolve.families.case_classes import ORIGIN, CaseClass, Follows
 from contoursolve.families.spec import NotClosedError
-from contoursolve.model import Choice, Fact
-from contoursolve.settling import orders_of, settled_by
+from contoursolve.geometry import Choice, Fact, System
+from contoursolve.numeric.charts import Bounds, Chart, Following
+from contoursolve.numeric.inputs import lookup
+from contoursolve.numeric.intervals import Array, Intervals
 from contoursolve.solving import RefusalKind
+from contoursolve.solving.ambiguity import orders_of, settled_by
 from contoursolve.solving.checks import (
     Check,
     Checks,
@@ -31,10 +31,9 @@ from contoursolve.solving.checks import (
     check_range,
     compile_checks,
 )
-from contoursolve.solving.closed import ROOT, ClosedForm, Need, NoFormulaError, close
+from contoursolve.solving.closed_form_branches import ROOT, ClosedForm, Need, NoFormulaError, close
 from contoursolve.solving.compile import compile_system
 from contoursolve.tolerance import REGULAR
-from contoursolve.wording import join
 
 Bits = NDArray[numpy.bool_]
 

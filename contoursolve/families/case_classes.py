@@ -12,26 +12,25 @@ import numpy
 from numpy.typing import NDArray
 
 from contoursolve.analysis import judge
-from contoursolve.backends.chart import Following
-from contoursolve.backends.columns import Array, difference, directions
-from contoursolve.backends.inputs import COSINE, SINE
-from contoursolve.constraints import System, assemble
-from contoursolve.diagnostic import Basis
-from contoursolve.examine import MOST_CHOICES, Answer, count_choices
+from contoursolve.diagnosis.examine import MOST_CHOICES, Answer, count_choices
+from contoursolve.diagnosis.wording import join
+from contoursolve.diagnostics.finding import Basis
 from contoursolve.families.free_words import factor_of, kind_of, limits_of, stated_by, value_of
 from contoursolve.families.spec import FamilyError, Places, Ranges, Template, called, errors_of, read_limits
-from contoursolve.model import FIRST, SECOND, CornerShape, Profile, Question, Start, Unit, scalar
+from contoursolve.gcode import Word
+from contoursolve.geometry import FIRST, SECOND, CornerShape, Profile, Question, Start, System, Unit, assemble, scalar
+from contoursolve.numeric.charts import Following
+from contoursolve.numeric.columns import Array, difference, directions
+from contoursolve.numeric.inputs import COSINE, SINE
 from contoursolve.reading import Trouble
 from contoursolve.solving import RemarkKind, Solution, Status, is_closed, points_with_two_solutions
 from contoursolve.solving.checks import Check, compile_checks
 from contoursolve.solving.compile import Machine, compile_system
 from contoursolve.solving.numbers import axes_of, inputs_of
 from contoursolve.solving.plan import TwoCirclesStep
+from contoursolve.solving.row_outcome import code_of, reason_of
 from contoursolve.solving.solve import solve
-from contoursolve.solving.verdict import code_of, reason_of
-from contoursolve.syntax import Word
 from contoursolve.tolerance import LARGEST, TOUCHING
-from contoursolve.wording import join
 
 ORIGIN = "origin:"
 """What the inputs for the coordinates of the start point begin with."""
@@ -191,7 +190,7 @@ class CaseClass:
 
     def solve(self, values: Mapping[str, float]) -> Solution:
         """A single solve of one row, as `examine` does it, without a proof."""
-        from contoursolve.settling import settle  # noqa: PLC0415 - few rows touch
+        from contoursolve.solving.ambiguity import settle  # noqa: PLC0415 - few rows touch
 
         profile = self.at(values)
         if not self.is_closed:

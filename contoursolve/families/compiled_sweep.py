@@ -11,9 +11,6 @@ from typing import Any
 import numpy
 from numpy.typing import NDArray
 
-from contoursolve.backends.columns import ROWS, Array, ColumnFunction, Columns, compile_columns
-from contoursolve.backends.numeric import where
-from contoursolve.constraints import System
 from contoursolve.families.branch_rows import BLOCK, BranchRows
 from contoursolve.families.case_classes import (
     ORIGIN,
@@ -33,9 +30,12 @@ from contoursolve.families.case_classes import (
 from contoursolve.families.export import Measure, measures_of
 from contoursolve.families.free_words import Examples
 from contoursolve.families.spec import Places, Ranges, SweepSpec, Template, stretches
+from contoursolve.geometry import System
+from contoursolve.numeric.columns import ROWS, Array, ColumnFunction, Columns, compile_columns
+from contoursolve.numeric.expressions import where
 from contoursolve.solving import RefusalKind
 from contoursolve.solving.checks import NO_PLACE, compile_checks
-from contoursolve.solving.verdict import Code, Verdict, code_of, reason_of
+from contoursolve.solving.row_outcome import Code, Verdict, code_of, reason_of
 
 Table = dict[str, NDArray[Any]]
 Target = slice | Places

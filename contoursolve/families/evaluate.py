@@ -12,8 +12,6 @@ from typing import TypeVar, Unpack
 import numpy
 from numpy.typing import ArrayLike, NDArray
 
-from contoursolve.backends.columns import Array
-from contoursolve.dialects import Dialect
 from contoursolve.families.compiled_sweep import CompiledSweep, Table, cases_of
 from contoursolve.families.export import Family
 from contoursolve.families.free_words import Examples, check_block, examples_of
@@ -28,8 +26,10 @@ from contoursolve.families.spec import (
     spec_of,
     stretches,
 )
+from contoursolve.numeric.columns import Array
+from contoursolve.reading.dialect import Dialect
 from contoursolve.solving import Status
-from contoursolve.solving.verdict import REASONS, Code
+from contoursolve.solving.row_outcome import REASONS, Code
 
 STRETCH = 65_536
 """Rows that are evaluated, or written to a file, at once."""

@@ -10,16 +10,16 @@ from typing import Any, BinaryIO
 import numpy
 from numpy.typing import NDArray
 
-from contoursolve.examine import Answer
-from contoursolve.extras import need
+from contoursolve.diagnosis.examine import Answer
+from contoursolve.diagnostics.display import Shown
+from contoursolve.diagnostics.extras import need
 from contoursolve.families.case_classes import asked_of
 from contoursolve.families.free_words import kind_of
 from contoursolve.families.spec import FamilyError, Ranges, SweepSpec, Template
-from contoursolve.model import Unit
-from contoursolve.shown import Shown
+from contoursolve.gcode import Word
+from contoursolve.geometry import Unit
 from contoursolve.solving import Status
-from contoursolve.solving.verdict import REASONS, Code
-from contoursolve.syntax import Word
+from contoursolve.solving.row_outcome import REASONS, Code
 
 
 @dataclass(frozen=True, slots=True)

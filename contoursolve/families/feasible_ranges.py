@@ -6,16 +6,16 @@ from enum import Enum
 from itertools import groupby
 from typing import Unpack
 
-from contoursolve.examine import Answer
+from contoursolve.diagnosis.examine import Answer
+from contoursolve.diagnosis.wording import join, limit_text, unknowns_text, value_text
+from contoursolve.diagnostics.display import Shown
 from contoursolve.families.case_classes import CaseClass
 from contoursolve.families.free_words import check_block
 from contoursolve.families.range_pieces import Onset, RangePiece, RangeSearch
 from contoursolve.families.spec import BlockOptions, called, errors_of, first_error, spec_of
-from contoursolve.model import Line
-from contoursolve.shown import Shown
+from contoursolve.geometry import Line
 from contoursolve.solving import RefusalKind, RemarkKind
 from contoursolve.solving.checks import Check
-from contoursolve.wording import join, limit_text, unknowns_text, value_text
 
 ASIDE = (1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4)
 """Share of an end (at least of 1). How far beside it single solves are tried, until they tell its two sides apart."""

@@ -12,9 +12,8 @@ from typing import Any
 import numpy
 from numpy.typing import NDArray
 
-from contoursolve.backends.columns import Array
-from contoursolve.diagnostic import Basis
-from contoursolve.examine import Answer
+from contoursolve.diagnosis.examine import Answer
+from contoursolve.diagnostics.finding import Basis
 from contoursolve.families.spec import (
     FamilyError,
     Places,
@@ -26,12 +25,13 @@ from contoursolve.families.spec import (
     is_same,
     unit_word,
 )
-from contoursolve.model import Given, Profile, Unit
+from contoursolve.gcode import FACT, Word
+from contoursolve.geometry import Given, Profile, Unit
+from contoursolve.numeric.columns import Array
 from contoursolve.reading import Trouble
-from contoursolve.rules import Value
+from contoursolve.reading.rules import Value
 from contoursolve.solving import Status
-from contoursolve.solving.verdict import Codes
-from contoursolve.syntax import FACT, Word
+from contoursolve.solving.row_outcome import Codes
 from contoursolve.tolerance import LARGEST
 
 

@@ -9,11 +9,10 @@ from typing import Unpack
 import numpy
 
 from contoursolve.analysis import judge
-from contoursolve.backends.intervals import Intervals
-from contoursolve.constraints import assemble
-from contoursolve.contour import Contour
 from contoursolve.diagnosis.edits import write_word
-from contoursolve.examine import Answer
+from contoursolve.diagnosis.examine import Answer
+from contoursolve.diagnosis.wording import join, value_text
+from contoursolve.diagnostics.display import Shown
 from contoursolve.families.branches import Branch
 from contoursolve.families.case_classes import results_of
 from contoursolve.families.free_words import check_block
@@ -41,12 +40,12 @@ from contoursolve.families.targets import (
     place_of,
     read_goal,
 )
-from contoursolve.model import FIRST, SECOND, Length, Plane, Unit
-from contoursolve.shown import Shown
+from contoursolve.gcode import FACT
+from contoursolve.geometry import FIRST, SECOND, Length, Plane, Unit, assemble
+from contoursolve.numeric.intervals import Intervals
 from contoursolve.solving import Point, Status
-from contoursolve.solving.certificate import Certificate
-from contoursolve.syntax import FACT
-from contoursolve.wording import join, value_text
+from contoursolve.solving.contour import Contour
+from contoursolve.solving.solution import Certificate
 
 ARRIVED = 1e-9
 """mm. A point this close to the place where it is wanted is there."""

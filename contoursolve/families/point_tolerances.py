@@ -8,8 +8,8 @@ from typing import Unpack
 
 import numpy
 
-from contoursolve.backends.intervals import Array
-from contoursolve.examine import Answer
+from contoursolve.diagnosis.examine import Answer
+from contoursolve.diagnostics.display import Shown
 from contoursolve.families.evaluate import compile_sweep, solve_sweep
 from contoursolve.families.export import Family
 from contoursolve.families.free_words import check_block, kind_of, value_of
@@ -26,11 +26,11 @@ from contoursolve.families.spec import (
     unit_word,
 )
 from contoursolve.families.targets import end_name, place_of
-from contoursolve.model import Length, Plane, Unit
-from contoursolve.shown import Shown
+from contoursolve.gcode import Word
+from contoursolve.geometry import Length, Plane, Unit
+from contoursolve.numeric.intervals import Array
 from contoursolve.solving import Point
-from contoursolve.solving.verdict import Code
-from contoursolve.syntax import Word
+from contoursolve.solving.row_outcome import Code
 
 MOST_WORDS = 10
 """Words with a tolerance of which all combinations of limits are solved; each doubles them."""

@@ -10,15 +10,15 @@ from math import copysign, inf, isfinite, sqrt
 import numpy
 from numpy.typing import NDArray
 
-from contoursolve.backends.intervals import Array, Intervals
+from contoursolve.diagnosis.wording import value_text
 from contoursolve.families.branches import INSTEAD, Branch, branches_of
 from contoursolve.families.case_classes import CaseClass, FreeWords
 from contoursolve.families.spec import FamilyError, NotClosedError, Template
 from contoursolve.families.subdivision import FEW, SAMPLES, STRETCHES, STRETCHES_FIRST, section, subdivide
-from contoursolve.model import Unit
+from contoursolve.geometry import Unit
+from contoursolve.numeric.intervals import Array, Intervals
 from contoursolve.solving.checks import Check
 from contoursolve.tolerance import LENGTH
-from contoursolve.wording import value_text
 
 LEAST_GAP = 1e-4
 """mm or degrees: a tenth of the controls' least increment. What is narrower may be missed."""

@@ -8,7 +8,8 @@ from typing import TypeVar, Unpack
 import numpy
 from numpy.typing import NDArray
 
-from contoursolve.backends.intervals import Array
+from contoursolve.diagnosis.wording import value_text
+from contoursolve.diagnostics.display import Shown
 from contoursolve.families.boundary_tracing import BISECTIONS, NODES, BoundaryTrace, Field, WordBox, edge_of, gaps_of
 from contoursolve.families.branches import branches_of
 from contoursolve.families.case_classes import CaseClass, FreeWords
@@ -17,11 +18,10 @@ from contoursolve.families.feasible_ranges import ASIDE, NO_FAILURE, Reason, Way
 from contoursolve.families.free_words import check_block
 from contoursolve.families.spec import BlockOptions, FamilyError, Template, called, spec_of
 from contoursolve.families.subdivision import bisect
-from contoursolve.model import Unit
-from contoursolve.shown import Shown
+from contoursolve.geometry import Unit
+from contoursolve.numeric.intervals import Array
 from contoursolve.solving import RefusalKind, RemarkKind
 from contoursolve.tolerance import LENGTH
-from contoursolve.wording import value_text
 
 Point = tuple[float, float]
 T = TypeVar("T")

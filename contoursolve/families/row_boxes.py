@@ -11,18 +11,17 @@ from dataclasses import dataclass, replace
 import numpy
 
 from contoursolve.analysis import judge, order
-from contoursolve.backends import ball
-from contoursolve.backends.ball import Number
-from contoursolve.backends.columns import Array
-from contoursolve.backends.inputs import COSINE
-from contoursolve.constraints import System, Values
 from contoursolve.families.case_classes import CaseClass
 from contoursolve.families.spec import Places
-from contoursolve.model import FIRST, SECOND, Unit, scalar
+from contoursolve.geometry import FIRST, SECOND, System, Unit, Values, scalar
+from contoursolve.numeric import ball
+from contoursolve.numeric.ball import Number
+from contoursolve.numeric.columns import Array
+from contoursolve.numeric.inputs import COSINE
 from contoursolve.solving.alternatives import BOTH, sides_of
 from contoursolve.solving.elimination import Close
 from contoursolve.solving.enumerate import DRAWING, Effort, Enumeration, enumerate_many
-from contoursolve.solving.ground import BALLS, Ground, ground_of
+from contoursolve.solving.exact_inputs import BALLS, Ground, ground_of
 
 BOX, SMALL_BOX = Effort(4_000, 1_500), Effort(0, 0)
 """For a box of values before it is divided; what has a closed form for one row needs a smaller box, not a search."""

@@ -13,20 +13,19 @@ from typing import Unpack
 import numpy
 
 from contoursolve.analysis import judge
-from contoursolve.backends.angle import direction
-from contoursolve.backends.inputs import COSINE, SIDE, SINE, lookup
-from contoursolve.backends.intervals import Array
-from contoursolve.backends.numeric import Compiled, Tape
-from contoursolve.constraints import System, assemble
-from contoursolve.examine import Answer
+from contoursolve.diagnosis.examine import Answer
+from contoursolve.diagnostics.display import Shown
 from contoursolve.families.case_classes import CaseClass, case_in, half_circles, results_of
 from contoursolve.families.free_words import check_block, factor_of
 from contoursolve.families.spec import BlockOptions, FamilyError, call, first_error, spec_of
-from contoursolve.model import Given, Profile, Unit
-from contoursolve.shown import Shown
+from contoursolve.gcode import Word
+from contoursolve.geometry import Given, Profile, System, Unit, assemble
+from contoursolve.numeric.angle import direction
+from contoursolve.numeric.expressions import Compiled, Tape
+from contoursolve.numeric.inputs import COSINE, SIDE, SINE, lookup
+from contoursolve.numeric.intervals import Array
 from contoursolve.solving import RemarkKind, Solution, Status
 from contoursolve.solving.compile import compile_path
-from contoursolve.syntax import Word
 from contoursolve.tolerance import RESIDUAL
 
 SINGULAR = 1e-9
@@ -180,7 +179,7 @@ def stated_words(answer: Answer) -> dict[str, Word]:
 
 def _implicit(answer: Answer, words: Mapping[str, Word]) -> dict[str, dict[str, float]]:
     """The derivatives where there is no closed form, or more is stated than words."""
-    from contoursolve.settling import settle  # noqa: PLC0415 - few blocks need it
+    from contoursolve.solving.ambiguity import settle  # noqa: PLC0415 - few blocks need it
 
     solution = settle(answer.profile).solution if answer.contour is not None else None
     _check(solution, answer)

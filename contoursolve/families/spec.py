@@ -12,17 +12,18 @@ from typing import TypedDict
 import numpy
 from numpy.typing import ArrayLike, NDArray
 
-from contoursolve import syntax
-from contoursolve.backends.columns import Array
-from contoursolve.choices import choice_of
-from contoursolve.diagnostic import Diagnostic, Severity
-from contoursolve.dialects import DIALECTS, Dialect
-from contoursolve.examine import Answer, Depth, Policy
-from contoursolve.model import Length
-from contoursolve.pipeline import Result, run
+from contoursolve import gcode
+from contoursolve.controls import DIALECTS
+from contoursolve.diagnosis.examine import Answer, Depth, Policy
+from contoursolve.diagnostics.choices import choice_of
+from contoursolve.diagnostics.finding import Diagnostic, Severity
+from contoursolve.gcode import FACT, Directive, Program, Word
+from contoursolve.geometry import Length
+from contoursolve.numeric.columns import Array
+from contoursolve.program.pipeline import Result, run
+from contoursolve.program.recognise import UnknownControlError, choose
 from contoursolve.reading import Trouble
-from contoursolve.recognise import UnknownControlError, choose
-from contoursolve.syntax import FACT, Directive, Program, Word
+from contoursolve.reading.dialect import Dialect
 from contoursolve.tolerance import LARGEST
 
 Places = NDArray[numpy.int64]
@@ -228,13 +229,13 @@ class Template:
 
     def typed(self, texts: Mapping[str, str]) -> "Template":
         """The block with these texts in place of free words, and no word free."""
-        program = syntax.parse("\n".join(self.lines(self.program, texts)), self.program.name)
+        program = gcode.parse("\n".join(self.lines(self.program, texts)), self.program.name)
         start = self.start
         if start is not None:
-            start = syntax.parse("\n".join(self.lines(start, texts)), start.name, first_line=0)
+            start = gcode.parse("\n".join(self.lines(start, texts)), start.name, first_line=0)
         free = {self.words[name].span.line: text for name, text in texts.items()}
         lines = ((each, each.span.line) for each in self.facts)
-        facts = tuple(syntax.read_directive(free[line], line) if line in free else each for each, line in lines)
+        facts = tuple(gcode.read_directive(free[line], line) if line in free else each for each, line in lines)
         return replace(self, program=program, start=start, words={}, facts=facts)
 
     def lines(self, program: Program, texts: Mapping[str, str]) -> list[str]:
@@ -370,9 +371,9 @@ class SweepSpec:
         for name, text in (("block", self.block), ("start", self.start or "")):
             if not isinstance(text, str):
                 raise TypeError(f"the {name} is a text (str), not {type(text).__name__}")
-        program = syntax.parse(self.block, "<block>")
+        program = gcode.parse(self.block, "<block>")
         unit, policy = choice_of(Length, self.units, "units"), choice_of(Policy, self.rules, "rules")
-        start = syntax.parse(self.start, "<start>", first_line=0) if self.start is not None else None
+        start = gcode.parse(self.start, "<start>", first_line=0) if self.start is not None else None
         dialect = choose(self.control, program, dict(self.settings))
         if dialect is None:
             unread = run(program, None, unit, policy, start=start)
@@ -380,7 +381,7 @@ class SweepSpec:
                 raise RefusedError(unread)
             choices = ", ".join(DIALECTS)
             raise UnknownControlError(f"the block does not tell its control; name it; choose from {choices}")
-        facts = tuple(syntax.read_directive(fact, -number) for number, fact in enumerate(self.facts, 1))
+        facts = tuple(gcode.read_directive(fact, -number) for number, fact in enumerate(self.facts, 1))
         template = Template(program, dialect, unit, policy, start, {}, facts)
         return template.with_words(self.names)
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy
 from numpy.typing import NDArray
 
-from contoursolve.backends.intervals import Array, Intervals
+from contoursolve.numeric.intervals import Array, Intervals
 
 Bits = NDArray[numpy.bool_]
 

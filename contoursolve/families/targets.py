@@ -11,19 +11,19 @@ from math import hypot, isfinite
 import numpy
 from numpy.typing import NDArray
 
-from contoursolve.backends.intervals import Array, Intervals
-from contoursolve.contour import Contour
-from contoursolve.examine import Answer, Depth, answer_question, count_choices, list_alternatives
+from contoursolve.diagnosis.examine import Answer, Depth, answer_question, count_choices, list_alternatives
+from contoursolve.diagnosis.missing_point import counts_few, readings
+from contoursolve.diagnosis.wording import unknowns_text
+from contoursolve.diagnostics.source import Span
 from contoursolve.families.branches import PLACES, Branch
 from contoursolve.families.spec import FamilyError, NotMovedError, Template, first_error, is_same, with_value, write
 from contoursolve.families.subdivision import SAMPLES, SECTIONS, Fineness, bisect, subdivide
-from contoursolve.model import Figure, Length, Plane, Unit
+from contoursolve.gcode import Word, read_directive
+from contoursolve.geometry import Figure, Length, Plane, Unit
+from contoursolve.numeric.intervals import Array, Intervals
 from contoursolve.reading import Lexicon, Trouble, WithoutPoint
 from contoursolve.solving import Point, Status
-from contoursolve.source import Span
-from contoursolve.syntax import Word, read_directive
-from contoursolve.unpointed import counts_few, readings
-from contoursolve.wording import unknowns_text
+from contoursolve.solving.contour import Contour
 
 CONSTANT = 1e-10
 """mm for each unit of the word. A coordinate whose rate is less at places drawn at random never changes."""

@@ -1,11 +1,14 @@
-"""Notebooks: how records show themselves, and a contour to move."""
+"""Notebooks: how records show themselves, and a contour to move.
+
+Records come in, what Jupyter displays goes out. Begin with `records`, then `exploration`.
+"""
 
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
-from contoursolve.dialects import Dialect
-from contoursolve.extras import importing
+from contoursolve.diagnostics.extras import importing
 from contoursolve.notebook.exploration import begin
+from contoursolve.reading.dialect import Dialect
 
 if TYPE_CHECKING:
     from contoursolve.notebook.explorer import Explorer

@@ -9,15 +9,15 @@ from typing import Any
 
 from contoursolve.api import solve
 from contoursolve.diagnosis.edits import Edit, EditKind, apply_edits, write_word
-from contoursolve.diagnostic import Diagnostic, Fix
-from contoursolve.examine import Answer
+from contoursolve.diagnosis.examine import Answer
+from contoursolve.diagnosis.fill import FARTHEST
+from contoursolve.diagnosis.solutions import Listed, list_solutions
+from contoursolve.diagnostics.finding import Diagnostic, Fix
 from contoursolve.families.spec import call
-from contoursolve.fill import FARTHEST
-from contoursolve.model import Unit
-from contoursolve.pipeline import Result
-from contoursolve.solutions import Listed, list_solutions
+from contoursolve.gcode import FACT, Word, parse
+from contoursolve.geometry import Unit
+from contoursolve.program.pipeline import Result
 from contoursolve.solving import Status
-from contoursolve.syntax import FACT, Word, parse
 
 SAME = 1e-3
 """mm. Contours whose points are this close are one: a fact that selects is written with three decimals."""

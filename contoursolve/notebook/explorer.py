@@ -12,7 +12,7 @@ from contoursolve.notebook.exploration import Exploration
 from contoursolve.notebook.front_end import frames_of, range_of, view_of
 from contoursolve.notebook.records import bundle
 from contoursolve.output.html import notebook_style
-from contoursolve.pipeline import Result
+from contoursolve.program.pipeline import Result
 
 _HOUSE = files("contoursolve.notebook")
 

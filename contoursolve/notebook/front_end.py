@@ -5,10 +5,13 @@ from decimal import Decimal
 from math import floor, log10
 from typing import Any
 
-from contoursolve.diagnostic import Applicability
-from contoursolve.examine import Answer
+from contoursolve.diagnosis.examine import Answer
+from contoursolve.diagnosis.solutions import list_solutions
+from contoursolve.diagnosis.wording import inward
+from contoursolve.diagnostics.finding import Applicability
 from contoursolve.families import End, FamilyError, Feasible, Interval, Way, feasible
-from contoursolve.model import Unit
+from contoursolve.gcode import Word
+from contoursolve.geometry import Unit
 from contoursolve.notebook.exploration import Exploration, words_of
 from contoursolve.output.contours import count_text, form_text, found_value, path_table, solution_rows, stated_value
 from contoursolve.output.findings import effect_of, finding_pieces
@@ -16,9 +19,6 @@ from contoursolve.output.html import bounded, short, worst_of
 from contoursolve.output.listing import sources_of
 from contoursolve.pictures import Theme, draw_answer
 from contoursolve.reading import Trouble
-from contoursolve.solutions import list_solutions
-from contoursolve.syntax import Word
-from contoursolve.wording import inward
 
 MOST_FINDINGS, MOST_FIXES, MOST_SOLUTIONS = 12, 8, 24
 

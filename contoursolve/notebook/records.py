@@ -7,22 +7,22 @@ from itertools import islice
 from math import isnan
 from typing import Any
 
-from contoursolve.contour import ArcSegment, Contour
-from contoursolve.diagnostic import Diagnosis, Diagnostic
-from contoursolve.dialects import DIALECTS
-from contoursolve.examine import Answer
+from contoursolve.controls import DIALECTS
+from contoursolve.diagnosis.examine import Answer
+from contoursolve.diagnosis.wording import axis_labels, count
+from contoursolve.diagnostics.display import Shown
+from contoursolve.diagnostics.finding import Diagnosis, Diagnostic
 from contoursolve.families import Family, Feasible, Found, Region, Sensitivity, Tolerances
+from contoursolve.gcode import Block, Program, Word
 from contoursolve.output.catalogue import rule_lines
 from contoursolve.output.contours import check_table
 from contoursolve.output.families import found_lines, range_lines, region_lines, tolerances_lines
 from contoursolve.output.findings import finding_lines, plain
 from contoursolve.output.listing import closing_lines, listing_lines
 from contoursolve.output.plain_text import Table, printable
-from contoursolve.pipeline import Result
-from contoursolve.rules import Rule
-from contoursolve.shown import Shown
-from contoursolve.syntax import Block, Program, Word
-from contoursolve.wording import axis_labels, count
+from contoursolve.program.pipeline import Result
+from contoursolve.reading.rules import Rule
+from contoursolve.solving.contour import ArcSegment, Contour
 
 MOST_ROWS = 200
 """Rows of a table."""

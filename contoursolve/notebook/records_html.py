@@ -7,10 +7,12 @@ from typing import Any
 import htpy as h
 from markupsafe import Markup
 
-from contoursolve.contour import Contour
-from contoursolve.diagnostic import Diagnosis, Diagnostic
-from contoursolve.examine import Answer
+from contoursolve.diagnosis.examine import Answer
+from contoursolve.diagnosis.wording import count
+from contoursolve.diagnostics.display import Shown
+from contoursolve.diagnostics.finding import Diagnosis, Diagnostic
 from contoursolve.families import Family, Feasible, Found, Region, Sensitivity, Tolerances
+from contoursolve.gcode import Block
 from contoursolve.notebook.records import (
     bounded,
     contour_table,
@@ -49,11 +51,9 @@ from contoursolve.output.html import (
     words_table,
 )
 from contoursolve.output.listing import listed, sources_of, summary_line
-from contoursolve.pipeline import Result
-from contoursolve.rules import Rule
-from contoursolve.shown import Shown
-from contoursolve.syntax import Block
-from contoursolve.wording import count
+from contoursolve.program.pipeline import Result
+from contoursolve.reading.rules import Rule
+from contoursolve.solving.contour import Contour
 
 MOST_ITEMS = 20
 """Contours and findings that one output shows."""

@@ -2,10 +2,10 @@
 
 from collections.abc import Iterable, Iterator
 
-from contoursolve.diagnosis import tabulate
-from contoursolve.dialects import Dialect
+from contoursolve.diagnosis.table import tabulate
 from contoursolve.output.plain_text import columns
-from contoursolve.rules import Rule
+from contoursolve.reading.dialect import Dialect
+from contoursolve.reading.rules import Rule
 
 
 def catalogue_lines(dialects: Iterable[Dialect]) -> list[str]:

@@ -3,13 +3,18 @@
 from collections.abc import Iterator, Mapping, Sequence
 
 from contoursolve.analysis import Group, judge, order
-from contoursolve.constraints import (
+from contoursolve.diagnosis.examine import Answer, list_alternatives
+from contoursolve.diagnosis.wording import angle_text, join, length_text, unknowns_text
+from contoursolve.gcode import FACT
+from contoursolve.geometry import (
     Coordinate,
+    Fact,
     Foot,
     Heading,
     Offset,
     OnCircle,
     Parallel,
+    Profile,
     Radius,
     System,
     TangentCircles,
@@ -17,15 +22,11 @@ from contoursolve.constraints import (
     Through,
     assemble,
 )
-from contoursolve.examine import Answer, list_alternatives
-from contoursolve.model import Fact, Profile
 from contoursolve.output.plain_text import printable
 from contoursolve.solving import scalars_of, solve
 from contoursolve.solving.alternatives import ARCS, Alternatives, choose
 from contoursolve.solving.elimination import has_closed_form
-from contoursolve.solving.kernel import make_kernel
-from contoursolve.syntax import FACT
-from contoursolve.wording import angle_text, join, length_text, unknowns_text
+from contoursolve.solving.step_equations import make_kernel
 
 
 def construction_lines(answer: Answer) -> list[str]:

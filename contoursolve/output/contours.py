@@ -4,16 +4,16 @@ from collections.abc import Iterator
 from dataclasses import replace
 from decimal import Decimal
 
-from contoursolve.contour import ArcSegment
-from contoursolve.diagnostic import Diagnosis, Verdict
-from contoursolve.examine import Answer, AskedValue, list_alternatives
-from contoursolve.model import Length, Turn, Unit
+from contoursolve.diagnosis.examine import Answer, AskedValue, list_alternatives
+from contoursolve.diagnosis.solutions import Listed, Listing, list_solutions, printed_certificate
+from contoursolve.diagnosis.wording import axis_labels, coordinate_texts, coordinates, count, length_of, short_name
+from contoursolve.diagnostics.finding import Diagnosis, Verdict
+from contoursolve.gcode import FACT, Word
+from contoursolve.geometry import Length, Turn, Unit
 from contoursolve.output.plain_text import Table, columns, printable
-from contoursolve.pipeline import Result
+from contoursolve.program.pipeline import Result
 from contoursolve.reading import Convention, Form
-from contoursolve.solutions import Listed, Listing, list_solutions, printed_certificate
-from contoursolve.syntax import FACT, Word
-from contoursolve.wording import axis_labels, coordinate_texts, coordinates, count, length_of, short_name
+from contoursolve.solving.contour import ArcSegment
 
 _VERDICT = {Verdict.PASSED: "passed", Verdict.FOUND: "see finding", Verdict.NOT_RUN: "not run"}
 

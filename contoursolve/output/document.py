@@ -4,16 +4,16 @@ from collections.abc import Iterable, Iterator, Mapping
 from tempfile import SpooledTemporaryFile
 from typing import Any
 
-from contoursolve.contour import ArcSegment, Contour, Segment
-from contoursolve.data import json_text, members, plain
-from contoursolve.diagnostic import Diagnosis, Diagnostic
-from contoursolve.examine import Answer, AskedValue, rank
+from contoursolve.diagnosis.examine import Answer, AskedValue, rank
+from contoursolve.diagnosis.solutions import DECIMALS, decimals_of, list_solutions, printed_certificate
+from contoursolve.diagnostics.finding import Diagnosis, Diagnostic
+from contoursolve.diagnostics.json_text import json_text, members, plain
+from contoursolve.diagnostics.source import Span
 from contoursolve.output.listing import Totals, findings_of
-from contoursolve.pipeline import Result, Run, without_contour
-from contoursolve.solutions import DECIMALS, decimals_of, list_solutions, printed_certificate
+from contoursolve.program.pipeline import Result, Run, without_contour
 from contoursolve.solving import Point
-from contoursolve.solving.certificate import Certificate, Proof
-from contoursolve.source import Span
+from contoursolve.solving.contour import ArcSegment, Contour, Segment
+from contoursolve.solving.solution import Certificate, Proof
 
 
 def to_json(result: Result) -> str:

@@ -15,10 +15,10 @@ from ezdxf.enums import TextEntityAlignment
 from ezdxf.filemanagement import new
 from ezdxf.layouts.layout import Modelspace
 
-from contoursolve.contour import ArcSegment, Contour, Segment
-from contoursolve.examine import Answer
-from contoursolve.model import Length, Plane, Turn
+from contoursolve.diagnosis.examine import Answer
+from contoursolve.geometry import Length, Plane, Turn
 from contoursolve.solving import Point
+from contoursolve.solving.contour import ArcSegment, Contour, Segment
 from contoursolve.tolerance import LENGTH
 
 CONSTRUCTION = "construction"

@@ -6,11 +6,12 @@ from pathlib import PurePath
 from typing import Any
 from urllib.parse import quote
 
-from contoursolve.data import json_text
-from contoursolve.diagnostic import Applicability, Diagnostic, Fix, Severity
-from contoursolve.dialects import DIALECTS, Dialect
-from contoursolve.pipeline import Result
-from contoursolve.rules import Rule
+from contoursolve.controls import DIALECTS
+from contoursolve.diagnostics.finding import Applicability, Diagnostic, Fix, Severity
+from contoursolve.diagnostics.json_text import json_text
+from contoursolve.program.pipeline import Result
+from contoursolve.reading.dialect import Dialect
+from contoursolve.reading.rules import Rule
 
 _LEVEL = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
 _COMMAND = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "notice"}

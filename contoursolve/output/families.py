@@ -4,12 +4,12 @@ from collections.abc import Iterator
 from math import isnan
 from typing import Any
 
-from contoursolve.data import members
+from contoursolve.diagnosis.solutions import printed_certificate
+from contoursolve.diagnosis.wording import axis_labels, count, length_in, measured, short_name, written
+from contoursolve.diagnostics.json_text import members
 from contoursolve.families import Effect, End, Feasible, Found, Hit, Reason, Region, Tolerances
-from contoursolve.model import Length
+from contoursolve.geometry import Length
 from contoursolve.output.plain_text import Table
-from contoursolve.solutions import printed_certificate
-from contoursolve.wording import axis_labels, count, length_in, measured, short_name, written
 
 # Ranges of a word --------------------------------------------------------------------------------------------
 

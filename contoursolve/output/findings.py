@@ -2,10 +2,10 @@
 
 from collections.abc import Callable, Mapping
 
-from contoursolve.diagnostic import Applicability, Diagnostic, Fix, Label
+from contoursolve.diagnostics.finding import Applicability, Diagnostic, Fix, Label
+from contoursolve.gcode import FaultKind
 from contoursolve.output.plain_text import cells, printable
 from contoursolve.reading import Trouble
-from contoursolve.syntax import FaultKind
 
 WIDTH = 100
 """Characters of a program line shown around the place."""

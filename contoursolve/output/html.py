@@ -7,8 +7,9 @@ from importlib.resources import files
 import htpy as h
 from markupsafe import Markup
 
-from contoursolve.diagnostic import Diagnostic, Severity
-from contoursolve.examine import Answer
+from contoursolve.diagnosis.examine import Answer
+from contoursolve.diagnosis.solutions import list_solutions, printed_certificate
+from contoursolve.diagnostics.finding import Diagnostic, Severity
 from contoursolve.output.contours import (
     check_table,
     count_text,
@@ -22,7 +23,6 @@ from contoursolve.output.findings import Piece, finding_pieces
 from contoursolve.output.plain_text import Table, printable
 from contoursolve.pictures import Drawable, Theme, draw
 from contoursolve.pictures.theme import DARK_COLORS, LIGHT_COLORS, Role
-from contoursolve.solutions import list_solutions, printed_certificate
 
 WIDEST, LONGEST = 200, 400
 """Characters of a cell, and of a line."""

@@ -6,15 +6,15 @@ from dataclasses import dataclass, field, replace
 from heapq import heappop, heappush
 from typing import Any, TypeVar
 
-from contoursolve.diagnostic import Diagnostic, Fix, Severity
-from contoursolve.dialects import DIALECTS
-from contoursolve.examine import Answer, rank
+from contoursolve.controls import DIALECTS
+from contoursolve.diagnosis.examine import Answer, rank
+from contoursolve.diagnosis.wording import count, statuses_text
+from contoursolve.diagnostics.finding import Diagnostic, Fix, Severity
 from contoursolve.output.contours import contour_lines
 from contoursolve.output.findings import Style, finding_lines
-from contoursolve.pipeline import Result, Run, without_contour
-from contoursolve.recognise import what_shows
+from contoursolve.program.pipeline import Result, Run, without_contour
+from contoursolve.program.recognise import what_shows
 from contoursolve.solving import Status
-from contoursolve.wording import count, statuses_text
 
 
 def listed(result: Result) -> list[Diagnostic | Answer]:

@@ -9,9 +9,12 @@ from pathlib import PurePath
 import htpy as h
 from markupsafe import Markup
 
-from contoursolve.diagnostic import Diagnostic, Label, Severity
-from contoursolve.dialects import DIALECTS
-from contoursolve.examine import Answer, Policy
+from contoursolve.controls import DIALECTS
+from contoursolve.diagnosis.examine import Answer, Policy
+from contoursolve.diagnosis.wording import coordinates, count
+from contoursolve.diagnostics.finding import Diagnostic, Label, Severity
+from contoursolve.diagnostics.source import Evidence
+from contoursolve.gcode import Block
 from contoursolve.output.contours import form_text
 from contoursolve.output.html import (
     checks_table,
@@ -29,10 +32,7 @@ from contoursolve.output.html import (
 )
 from contoursolve.output.listing import sources_of, summary_line
 from contoursolve.output.plain_text import printable
-from contoursolve.pipeline import Result
-from contoursolve.source import Evidence
-from contoursolve.syntax import Block
-from contoursolve.wording import coordinates, count
+from contoursolve.program.pipeline import Result
 
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'"
 """Tells the browser to load and to run nothing."""

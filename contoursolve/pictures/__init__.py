@@ -1,17 +1,20 @@
-"""Pictures: a contour with its words as dimensions, whatever its status; SVG, and PNG with the extra `picture`."""
+"""Pictures: a contour with its words as dimensions, whatever its status; SVG, and PNG with the extra `picture`.
+
+An answer or a family comes in, one page of shapes goes out. Begin with `compose`.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, TypeAlias
 
-from contoursolve.examine import Answer
+from contoursolve.diagnosis.examine import Answer
 from contoursolve.pictures.compose import compose, describe
 from contoursolve.pictures.layout import lay_out
 from contoursolve.pictures.page import stack_sheets
 from contoursolve.pictures.svg import Picture, finish
 from contoursolve.pictures.theme import Theme
-from contoursolve.pipeline import Result
+from contoursolve.program.pipeline import Result
 
 if TYPE_CHECKING:
     from contoursolve.families import CompiledSweep, Family, Feasible, Region

@@ -3,22 +3,24 @@ facts lead it, what can slide, and what is wrong."""
 
 from collections.abc import Callable, Iterator, Mapping
 
-from contoursolve.constraints import Collinear, Coordinate, Heading, Offset, OnCircle, TangentLine, Through
-from contoursolve.model import Arc, Fact, Line, Unit
+from contoursolve.geometry import (
+    Arc,
+    Collinear,
+    Coordinate,
+    Fact,
+    Heading,
+    Line,
+    Offset,
+    OnCircle,
+    TangentLine,
+    Through,
+    Unit,
+)
 from contoursolve.pictures.known import place_of
 from contoursolve.pictures.scene import Aligned, Leader, Mark, MarkKind, Part, Ring, Slide, Thin, number
 from contoursolve.pictures.subject import Subject
 from contoursolve.pictures.theme import Role
-from contoursolve.pictures.vectors import (
-    ALONG_AXIS,
-    SAME,
-    along,
-    direction,
-    distance,
-    foot,
-    toward,
-    with_coordinate,
-)
+from contoursolve.pictures.vectors import ALONG_AXIS, SAME, along, direction, distance, foot, toward, with_coordinate
 from contoursolve.solving import Point, Refusal, RefusalKind
 from contoursolve.solving.affine import affine_facts
 

@@ -3,7 +3,6 @@
 from collections.abc import Iterator, Mapping
 from math import cos, fmod, hypot, pi, radians, sin
 
-from contoursolve.contour import ArcSegment
 from contoursolve.pictures.labels import FAINT_WEIGHT, Canvas
 from contoursolve.pictures.page import THIN, Box, Dot, Spot, Stroke, TextRun, arc, head, line
 from contoursolve.pictures.scene import (
@@ -20,6 +19,7 @@ from contoursolve.pictures.scene import (
 )
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import along, direction, distance, minus, unit
+from contoursolve.solving.contour import ArcSegment
 
 _RADIUS, _STEP = 34.0, 13.0
 """Pixels. Radius of the arc of an angle, and how much more each further one at the same place has."""

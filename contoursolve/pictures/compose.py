@@ -2,10 +2,11 @@
 
 from collections.abc import Iterator, Sequence
 
-from contoursolve.contour import ArcSegment, Contour, trace
-from contoursolve.diagnostic import Diagnostic, Severity
-from contoursolve.examine import Answer
-from contoursolve.model import SECOND, Turn
+from contoursolve.diagnosis.examine import Answer
+from contoursolve.diagnosis.solutions import list_solutions
+from contoursolve.diagnostics.finding import Diagnostic, Severity
+from contoursolve.gcode import FACT
+from contoursolve.geometry import SECOND, Turn
 from contoursolve.pictures.auxiliary import list_auxiliary
 from contoursolve.pictures.dimensions import Others, list_dimensions, list_marks, noted_points
 from contoursolve.pictures.page import TextRun, visible
@@ -13,9 +14,8 @@ from contoursolve.pictures.scene import Scene, Trail, Weight, axis_names, coordi
 from contoursolve.pictures.subject import Subject, subject_of, trace_known
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import SAME, distance
-from contoursolve.solutions import list_solutions
 from contoursolve.solving import Point
-from contoursolve.syntax import FACT
+from contoursolve.solving.contour import ArcSegment, Contour, trace
 
 MOST_LINES = 6
 """Lines of a program in a picture's head."""

@@ -7,8 +7,8 @@ from itertools import product
 import numpy
 from numpy.typing import NDArray
 
-from contoursolve.backends.columns import Array
 from contoursolve.families import Boundary, Region
+from contoursolve.numeric.columns import Array
 from contoursolve.pictures.page import (
     PAD,
     SIZE,
@@ -27,17 +27,7 @@ from contoursolve.pictures.page import (
     wrap,
 )
 from contoursolve.pictures.theme import Role
-from contoursolve.pictures.value_axes import (
-    BELOW,
-    HIGH,
-    LEFT,
-    TOP,
-    WIDE,
-    ValuePlane,
-    axis_text,
-    over_range,
-    page_of,
-)
+from contoursolve.pictures.value_axes import BELOW, HIGH, LEFT, TOP, WIDE, ValuePlane, axis_text, over_range, page_of
 
 _GAP = (3.0, 3.0)
 """Pixels on and off of a line on which alone there is no contour."""

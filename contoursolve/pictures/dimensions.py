@@ -3,9 +3,9 @@
 from collections.abc import Iterator, Mapping, Sequence
 from math import inf
 
-from contoursolve.constraints import Coordinate, Directed, Extent, Heading, Offset, Radius
-from contoursolve.contour import ArcSegment, Segment
-from contoursolve.model import Arc, CornerShape, Fact, Unit
+from contoursolve.diagnosis.wording import length_limit
+from contoursolve.diagnostics.source import Span
+from contoursolve.geometry import Arc, Coordinate, CornerShape, Directed, Extent, Fact, Heading, Offset, Radius, Unit
 from contoursolve.pictures.page import TextRun
 from contoursolve.pictures.scene import (
     Aligned,
@@ -24,8 +24,7 @@ from contoursolve.pictures.subject import Subject
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import SAME, along, direction, distance, middle, on_arc, with_coordinate
 from contoursolve.solving import Point
-from contoursolve.source import Span
-from contoursolve.wording import length_limit
+from contoursolve.solving.contour import ArcSegment, Segment
 
 _BESIDE_ARROW = 0.36
 """Of an arc, from its start: where its radius is written, off the arrow in its middle."""
@@ -69,7 +68,7 @@ def _dimension(
     subject: Subject, elements: Mapping[str, Segment], fact: Fact, text: str, role: Role, value: float
 ) -> Dimension | None:
     """How a fact with a value stands on a drawing; None where its points are not known, or it has no such form."""
-    from contoursolve.constraints import Distance  # noqa: PLC0415 - see `constraints`
+    from contoursolve.geometry import Distance  # noqa: PLC0415 - see `constraints`
 
     known, figure = subject.known, subject.profile.figure
     start = subject.at(figure.start)

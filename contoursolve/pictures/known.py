@@ -11,8 +11,22 @@ from math import hypot, isfinite
 
 from contoursolve.analysis import judge
 from contoursolve.analysis.identities import is_affine
-from contoursolve.constraints import Coordinate, Level, Offset, OnCircle, Radius, assemble
-from contoursolve.model import FIRST, SECOND, Fact, Given, Layout, Profile, Unit, scalar
+from contoursolve.geometry import (
+    FIRST,
+    SECOND,
+    Coordinate,
+    Fact,
+    Given,
+    Layout,
+    Level,
+    Offset,
+    OnCircle,
+    Profile,
+    Radius,
+    Unit,
+    assemble,
+    scalar,
+)
 from contoursolve.pictures.vectors import distance
 from contoursolve.solving import Point, Refusal, Solution, Status, is_closed, points_with_two_solutions, solve
 from contoursolve.solving.affine import affine_facts

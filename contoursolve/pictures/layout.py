@@ -5,8 +5,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from math import tau
 
-from contoursolve.contour import ArcSegment, Segment
-from contoursolve.model import FIRST, SECOND
+from contoursolve.geometry import FIRST, SECOND
 from contoursolve.pictures.callouts import draw_callouts
 from contoursolve.pictures.labels import FAINT_WEIGHT, PATH_WEIGHT, THIN_WEIGHT, Canvas, clip
 from contoursolve.pictures.margins import arrange, draw_margins
@@ -35,6 +34,7 @@ from contoursolve.pictures.page import (
 from contoursolve.pictures.scene import Dimension, Mark, Ring, Scene, Slide, Thin, Trail, Viewport, Weight
 from contoursolve.pictures.theme import DASHES, MEANINGS, Role
 from contoursolve.pictures.vectors import along, direction, distance, middle, sweep_of
+from contoursolve.solving.contour import ArcSegment, Segment
 
 _ARROWED = 34.0
 """Pixels of an element that is long enough for an arrow."""

@@ -8,38 +8,16 @@ from math import floor
 import numpy
 from numpy.typing import NDArray
 
-from contoursolve.backends.columns import Array
-from contoursolve.examine import Answer
-from contoursolve.families import REASONS, Code, CompiledSweep, Family, FamilyError, region_of, units_of
+from contoursolve.diagnosis.examine import Answer
+from contoursolve.families import CompiledSweep, Family, FamilyError, region_of, units_of
 from contoursolve.families.evaluate import compile_sweep, solve_sweep
 from contoursolve.families.spec import Ranges
+from contoursolve.numeric.columns import Array
 from contoursolve.pictures.curves import Curve, curves_of, names_of, near, strokes
-from contoursolve.pictures.page import (
-    PAD,
-    SIZE,
-    WIDTH,
-    Anchor,
-    Box,
-    Item,
-    Sheet,
-    Spot,
-    Stroke,
-    Text,
-    TextRun,
-    wrap,
-)
+from contoursolve.pictures.page import PAD, SIZE, WIDTH, Anchor, Box, Item, Sheet, Spot, Stroke, Text, TextRun, wrap
 from contoursolve.pictures.theme import Role
-from contoursolve.pictures.value_axes import (
-    BELOW,
-    HIGH,
-    LEFT,
-    TOP,
-    WIDE,
-    ValuePlane,
-    axis_text,
-    over_cells,
-    page_of,
-)
+from contoursolve.pictures.value_axes import BELOW, HIGH, LEFT, TOP, WIDE, ValuePlane, axis_text, over_cells, page_of
+from contoursolve.solving.row_outcome import REASONS, Code
 
 COLUMNS, ROWS = 305, 200
 """Cells of a map; of more values, the one nearest to the middle of each cell is shown."""

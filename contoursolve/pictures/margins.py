@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from contoursolve.model import FIRST, SECOND
+from contoursolve.geometry import FIRST, SECOND
 from contoursolve.pictures.labels import Canvas
 from contoursolve.pictures.page import SIZE, WIDTH, Anchor, Box, Spot, Text, TextRun, head, line, width_of
 from contoursolve.pictures.scene import LinearDimension, Ordinate, Rectangle, Scene, Trail, Viewport, bounds_of

@@ -6,20 +6,20 @@ from dataclasses import replace
 from pathlib import PurePath
 
 from contoursolve.comparison import Motion, Travel, follow
-from contoursolve.contour import ArcSegment, LineSegment, Segment
-from contoursolve.dialects import DIALECTS
-from contoursolve.examine import Answer
-from contoursolve.model import SECOND, Turn
+from contoursolve.controls import DIALECTS
+from contoursolve.diagnosis.examine import Answer
+from contoursolve.diagnosis.wording import statuses_text
+from contoursolve.geometry import SECOND, Turn
 from contoursolve.pictures.compose import MOST_ELEMENTS, remarks_of
 from contoursolve.pictures.page import TextRun
 from contoursolve.pictures.scene import Mark, MarkKind, Part, Scene, Trail, Weight, axis_names
 from contoursolve.pictures.subject import find_known, list_trails
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import distance
-from contoursolve.pipeline import Result
+from contoursolve.program.pipeline import Result
 from contoursolve.solving import Point
+from contoursolve.solving.contour import ArcSegment, LineSegment, Segment
 from contoursolve.tolerance import LENGTH
-from contoursolve.wording import statuses_text
 
 MOST_CONTOURS = 400
 """Contours that are drawn; a picture of more says how many it leaves out."""

@@ -9,12 +9,12 @@ from dataclasses import dataclass, field
 from enum import Enum
 from typing import TypeVar
 
-from contoursolve.contour import Segment
-from contoursolve.model import FIRST, SECOND, Length, Plane
+from contoursolve.geometry import FIRST, SECOND, Length, Plane
 from contoursolve.pictures.page import Spot, TextRun, visible
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import ALONG_AXIS, along, extent
 from contoursolve.solving import Point
+from contoursolve.solving.contour import Segment
 
 
 class Weight(Enum):

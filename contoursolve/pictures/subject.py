@@ -9,11 +9,24 @@ from dataclasses import dataclass, replace
 from math import inf, isfinite
 
 from contoursolve.analysis import judge
-from contoursolve.constraints import OnCircle, TangentLine, Through, assemble
-from contoursolve.contour import ArcSegment, LineSegment, Segment
-from contoursolve.diagnostic import Diagnostic, Severity
-from contoursolve.examine import MOST_CHOICES, Answer, count_choices
-from contoursolve.model import FIRST, SECOND, Arc, Corner, Line, Profile, Turn, scalar
+from contoursolve.diagnosis.examine import MOST_CHOICES, Answer, count_choices
+from contoursolve.diagnostics.finding import Diagnostic, Severity
+from contoursolve.diagnostics.source import Span
+from contoursolve.gcode import FACT
+from contoursolve.geometry import (
+    FIRST,
+    SECOND,
+    Arc,
+    Corner,
+    Line,
+    OnCircle,
+    Profile,
+    TangentLine,
+    Through,
+    Turn,
+    assemble,
+    scalar,
+)
 from contoursolve.pictures.known import (
     Known,
     by_point,
@@ -29,13 +42,12 @@ from contoursolve.pictures.scene import Trail, word_text
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import SAME, distance
 from contoursolve.reading import Trouble
-from contoursolve.settling import said_twice
 from contoursolve.solving import Point, Refusal, RefusalKind, RemarkKind, is_closed, points_with_two_solutions, solve
+from contoursolve.solving.ambiguity import said_twice
 from contoursolve.solving.compile import compile_system
+from contoursolve.solving.contour import ArcSegment, LineSegment, Segment
 from contoursolve.solving.numbers import corner_of, inputs_of
 from contoursolve.solving.solution import CornerSolution
-from contoursolve.source import Span
-from contoursolve.syntax import FACT
 from contoursolve.tolerance import LENGTH
 
 _CORNERS = (

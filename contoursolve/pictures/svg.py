@@ -13,7 +13,7 @@ from math import pi, tau
 from xml.sax.saxutils import escape
 from zlib import crc32
 
-from contoursolve.extras import MissingExtraError, importing
+from contoursolve.diagnostics.extras import MissingExtraError, importing
 from contoursolve.pictures.page import WIDTH, Dot, Item, Shape, Sheet, Spot, Stroke, Sweep, Text
 from contoursolve.pictures.theme import DARK_COLORS, LIGHT_COLORS, Role, Theme
 

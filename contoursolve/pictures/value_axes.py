@@ -6,8 +6,9 @@ from math import floor, log10
 
 import numpy
 
-from contoursolve.backends.columns import Array
+from contoursolve.diagnosis.wording import written
 from contoursolve.families import End, Feasible, Way
+from contoursolve.numeric.columns import Array
 from contoursolve.pictures.page import (
     PAD,
     SIZE,
@@ -28,7 +29,6 @@ from contoursolve.pictures.page import (
     width_of,
 )
 from contoursolve.pictures.theme import Role
-from contoursolve.wording import written
 
 WIDE, HIGH = 610.0, 400.0
 """Pixels of a plane."""

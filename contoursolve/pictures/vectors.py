@@ -2,8 +2,8 @@
 
 from math import atan2, cos, hypot, pi, sin, tau
 
-from contoursolve.contour import ArcSegment, Segment
 from contoursolve.solving import Point
+from contoursolve.solving.contour import ArcSegment, Segment
 
 SAME = 1e-6
 """mm. Points nearer to each other are one on a drawing."""

@@ -1,14 +1,46 @@
-"""Modal state, and the way from blocks to profiles."""
+"""What the words of a control mean: its lexicon, its modal state, its contour forms, its rules.
 
-from contoursolve.reading.advance import Modes, advance, apply_modes, codes_of, positions
-from contoursolve.reading.beyond import end_of_contour, leave, next_place
-from contoursolve.reading.claim import Claim, Selector, Trouble, read, unused_words
-from contoursolve.reading.codes import Code, Effect
-from contoursolve.reading.form import CornerRow, FactRow, Form, Sample, lay_out, stated_sets
-from contoursolve.reading.lexicon import Address, Lexicon, NumberFormat, WithoutPoint
-from contoursolve.reading.plain import advance_plainly, is_plain, motion_of, plain_lines, words_of
-from contoursolve.reading.setting import AT_ITS_LIMIT, Assumption, Convention, Setting
-from contoursolve.reading.state import Awaited, Position, State
+Blocks come in, the modal state and parsed contours go out. Begin with `dialect`, which lists what a control is.
+"""
+
+from contoursolve.reading.contour_form import (
+    AT_ITS_LIMIT,
+    Assumption,
+    Convention,
+    CornerRow,
+    FactRow,
+    Form,
+    Sample,
+    Setting,
+    lay_out,
+    stated_sets,
+)
+from contoursolve.reading.lexicon import Address, Code, Effect, Lexicon, NumberFormat, WithoutPoint
+from contoursolve.reading.modal_state import (
+    Awaited,
+    Modes,
+    Position,
+    State,
+    advance,
+    advance_plainly,
+    apply_modes,
+    codes_of,
+    is_plain,
+    motion_of,
+    plain_lines,
+    positions,
+    words_of,
+)
+from contoursolve.reading.parsed_contour import (
+    Claim,
+    Selector,
+    Trouble,
+    end_of_contour,
+    leave,
+    next_place,
+    read,
+    unused_words,
+)
 
 __all__ = [
     "AT_ITS_LIMIT",

@@ -3,12 +3,10 @@
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from contoursolve.reading.advance import Modes, advance, apply_modes, codes_of
-from contoursolve.reading.beyond import leave
-from contoursolve.reading.claim import Claim
-from contoursolve.reading.codes import Effect
-from contoursolve.reading.state import State
-from contoursolve.syntax import Block, Directive, Program, Word
+from contoursolve.gcode import Block, Directive, Program, Word
+from contoursolve.reading.lexicon import Effect
+from contoursolve.reading.modal_state import Modes, State, advance, apply_modes, codes_of
+from contoursolve.reading.parsed_contour import Claim, leave
 
 Finder = Callable[[Sequence[Block], int, State, Modes], Claim | None]
 """(blocks, index, state before the block, modes) to the contour that begins at this block, if any."""

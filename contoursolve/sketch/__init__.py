@@ -1,4 +1,7 @@
-"""Drawings stated freely, beside any control, and every way to draw them."""
+"""Drawings stated freely, beside any control, and every way to draw them.
+
+Calls come in, all drawings that satisfy them go out. Begin with `sketch`.
+"""
 
 from contoursolve.sketch.drawn import Drawings, Drawn
 from contoursolve.sketch.sketch import Sketch

@@ -4,11 +4,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import atan2, degrees
 
-from contoursolve.contour import ArcSegment, Contour
-from contoursolve.model import Unit
-from contoursolve.shown import Shown
-from contoursolve.solving.certificate import Certificate
-from contoursolve.solving.solution import Status
+from contoursolve.diagnostics.display import Shown
+from contoursolve.geometry import Unit
+from contoursolve.solving.contour import ArcSegment, Contour
+from contoursolve.solving.solution import Certificate, Status
 
 
 @dataclass(frozen=True, slots=True)

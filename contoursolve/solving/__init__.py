@@ -1,4 +1,8 @@
-"""From a system to values: plan, function, solution."""
+"""From a system and its values to a contour: plan, function, checks, proof.
+
+A profile comes in, a solution or refusals go out. Begin with `solve`; what has several solutions or no closed form is
+in `ambiguity`, `alternatives` and `enumerate`.
+"""
 
 from contoursolve.solving.compare import compare
 from contoursolve.solving.numbers import lookup, scalars_of

@@ -14,9 +14,8 @@ from typing import NamedTuple
 import numpy
 
 from contoursolve.analysis.identities import is_affine
-from contoursolve.constraints import assemble
-from contoursolve.diagnostic import Freedom
-from contoursolve.model import FIRST, SECOND, Fact, Profile, scalar
+from contoursolve.diagnostics.finding import Freedom
+from contoursolve.geometry import FIRST, SECOND, Fact, Profile, assemble, scalar
 from contoursolve.solving.numbers import lookup
 from contoursolve.tolerance import REGULAR
 

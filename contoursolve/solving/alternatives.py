@@ -1,4 +1,4 @@
-"""Every contour that satisfies a profile: solutions of the equations, made into paths, named and certified."""
+"""Every contour that satisfies a profile, named and certified, and which one the control takes."""
 
 from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
@@ -7,24 +7,41 @@ from math import inf
 from typing import Any
 
 from contoursolve.analysis import judge, order
-from contoursolve.backends import ball
-from contoursolve.backends.angle import direction
-from contoursolve.backends.ball import Number
-from contoursolve.backends.inputs import COSINE, SINE
-from contoursolve.constraints import Coordinate, Offset, OnCircle, System, TangentCircles, Values, assemble
-from contoursolve.model import FIRST, SECOND, Arc, Choice, Line, Profile, Side, Unit, scalar
-from contoursolve.solving.certificate import Certificate, Proof
+from contoursolve.geometry import (
+    FIRST,
+    SECOND,
+    Arc,
+    Choice,
+    Coordinate,
+    Line,
+    Offset,
+    OnCircle,
+    Profile,
+    Side,
+    System,
+    TangentCircles,
+    Unit,
+    Values,
+    assemble,
+    scalar,
+)
+from contoursolve.numeric import ball
+from contoursolve.numeric.angle import direction
+from contoursolve.numeric.ball import Number
+from contoursolve.numeric.inputs import COSINE, SINE
 from contoursolve.solving.compare import compare_fact
 from contoursolve.solving.compile import compile_path
 from contoursolve.solving.elimination import Obstacle
 from contoursolve.solving.enumerate import Doubt, Enumeration, Found, enumerate_solutions
-from contoursolve.solving.ground import ground_of
+from contoursolve.solving.exact_inputs import ground_of
+from contoursolve.solving.krawczyk import Prover, radius_of
 from contoursolve.solving.numbers import corner_of, sizes_of
 from contoursolve.solving.path import check_path
-from contoursolve.solving.prove import Prover, radius_of
 from contoursolve.solving.solution import (
+    Certificate,
     CornerSolution,
     Point,
+    Proof,
     Refusal,
     RefusalKind,
     Remark,
@@ -374,3 +391,48 @@ def _reach(profile: Profile, system: System, enumeration: Enumeration) -> float 
         return None
     ranges = ground_of(profile).reach(system).values()
     return max(high - low for low, high in ranges) / 2
+
+
+def decide(alternatives: Alternatives, profile: Profile) -> Solution:
+    """The contour of a profile, of whose equations these are the solutions.
+
+    Several contours, between which nothing chooses, are ambiguous.
+    """
+    eligible = choose(alternatives, profile.choices)
+    paths = [item for item in eligible if item.is_path]
+    count = {"actual": float(len(paths))}
+    if len(paths) > 1:
+        return Solution(Status.AMBIGUOUS, remarks=(Remark(RemarkKind.SEVERAL, "", (), count),))
+    if paths:
+        solution = _without_selecting(paths[0].solution, alternatives)
+        if alternatives.is_complete:
+            return solution
+        return replace(solution, remarks=(*solution.remarks, Remark(RemarkKind.COUNT_OPEN, "", (), count)))
+    return _refused(eligible, alternatives)
+
+
+def _without_selecting(solution: Solution, alternatives: Alternatives) -> Solution:
+    """A solution without the remark that a word was not needed, where the word tells it from another solution."""
+    selecting = {
+        refusal.subject
+        for item in alternatives.items
+        for refusal in item.solution.refusals
+        if refusal.kind in (RefusalKind.WORDS_DISAGREE, RefusalKind.FACT_DISAGREES)
+    }
+    remarks = tuple(
+        remark
+        for remark in solution.remarks
+        if remark.kind is not RemarkKind.WORDS_AGREE or remark.subject not in selecting
+    )
+    agrees = any(remark.kind is RemarkKind.WORDS_AGREE for remark in remarks)
+    return replace(solution, status=Status.OVERDETERMINED if agrees else Status.SOLVED, remarks=remarks)
+
+
+def _refused(items: tuple[Alternative, ...], alternatives: Alternatives) -> Solution:
+    """Why there is no contour: what speaks against the first of the solutions, or that there is none. Where a search
+    was given up, there may be others."""
+    is_open = any(doubt.obstacle is Obstacle.UNFINISHED for doubt in alternatives.doubts)
+    if items and not is_open:
+        return items[0].solution
+    kind = RefusalKind.NO_POINT if alternatives.is_complete else RefusalKind.SEARCH_UNFINISHED
+    return Solution(kind.status, refusals=(Refusal(kind, ""),))

@@ -4,14 +4,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
-from contoursolve.backends import ball
-from contoursolve.backends.ball import Number
-from contoursolve.backends.inputs import COSINE, SINE
-from contoursolve.constraints import System
-from contoursolve.model import FIRST, SECOND, Profile, Unit, scalar
-from contoursolve.solving.certificate import Certificate, Proof, up_to_one_digit
+from contoursolve.geometry import FIRST, SECOND, Profile, System, Unit, scalar
+from contoursolve.numeric import ball
+from contoursolve.numeric.ball import Number
+from contoursolve.numeric.inputs import COSINE, SINE
 from contoursolve.solving.compile import ProofMachine, compile_decision, compile_proof
 from contoursolve.solving.numbers import axes_of
+from contoursolve.solving.solution import Certificate, Proof, up_to_one_digit
 
 BITS = 128
 """Bits of the balls: enough for a radius far below the rounding of the floats that are certified."""

@@ -5,9 +5,23 @@ from math import hypot, inf, pi
 from typing import Any
 
 from contoursolve.analysis import judge
-from contoursolve.constraints import Coordinate, Heading, Offset, OnCircle, Radius, System, Values, assemble
-from contoursolve.constraints.equation import step
-from contoursolve.model import FIRST, INCREMENT_OF, SECOND, Fact, Profile, Unit
+from contoursolve.geometry import (
+    FIRST,
+    INCREMENT_OF,
+    SECOND,
+    Coordinate,
+    Fact,
+    Heading,
+    Offset,
+    OnCircle,
+    Profile,
+    Radius,
+    System,
+    Unit,
+    Values,
+    assemble,
+)
+from contoursolve.geometry.system import step
 from contoursolve.solving.affine import AffineFacts, Circuit
 from contoursolve.solving.numbers import lookup
 from contoursolve.solving.solution import Refusal, RefusalKind, Remark, RemarkKind

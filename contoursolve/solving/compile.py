@@ -7,9 +7,25 @@ from math import tau
 from typing import Any
 
 from contoursolve.analysis import judge
-from contoursolve.backends import ball
-from contoursolve.backends.inputs import Directions, Inputs
-from contoursolve.backends.numeric import (
+from contoursolve.geometry import (
+    FIRST,
+    INCREMENT_OF,
+    SECOND,
+    Arc,
+    Collinear,
+    Corner,
+    Fact,
+    Functions,
+    Heading,
+    Line,
+    OnCircle,
+    Radius,
+    System,
+    Values,
+    scalar,
+)
+from contoursolve.numeric import ball
+from contoursolve.numeric.expressions import (
     Compiled,
     Tape,
     affine_parts,
@@ -23,15 +39,10 @@ from contoursolve.backends.numeric import (
     symbol,
     where,
 )
-from contoursolve.backends.numeric import (
-    cosine as cosine_of,
-)
-from contoursolve.backends.numeric import (
-    sine as sine_of,
-)
-from contoursolve.backends.replay import Replay
-from contoursolve.constraints import Collinear, Functions, Heading, OnCircle, Radius, System, Values
-from contoursolve.model import FIRST, INCREMENT_OF, SECOND, Arc, Corner, Fact, Line, scalar
+from contoursolve.numeric.expressions import cosine as cosine_of
+from contoursolve.numeric.expressions import sine as sine_of
+from contoursolve.numeric.inputs import Directions, Inputs
+from contoursolve.numeric.interpreter import Replay
 from contoursolve.solving.compare import half_circle_allowance
 from contoursolve.solving.corners import Edge, Pair, build_corner, unit
 from contoursolve.solving.plan import AffineStep, DistanceStep, LineCircleStep, Plan, Step, TwoCirclesStep, make_plan

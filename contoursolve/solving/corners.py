@@ -7,8 +7,8 @@ sought on a circle follows from one quadratic equation whose root is the one tha
 from dataclasses import dataclass
 from typing import Any
 
-from contoursolve.backends.numeric import angle, magnitude, sign, sqrt
-from contoursolve.model import CornerShape
+from contoursolve.geometry import CornerShape
+from contoursolve.numeric.expressions import angle, magnitude, sign, sqrt
 
 Pair = tuple[Any, Any]
 

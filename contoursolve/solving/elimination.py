@@ -5,12 +5,11 @@ from dataclasses import dataclass
 from enum import Enum
 from itertools import combinations
 
-from contoursolve.analysis.generic import witness_of
-from contoursolve.backends import ball
-from contoursolve.backends.ball import Number
-from contoursolve.backends.residue import PRIME
-from contoursolve.solving.kernel import Kernel
-from contoursolve.solving.polynomial import Coefficient, Monomial, Polynomial, known, polynomial, rational
+from contoursolve.analysis.determinacy import witness_of
+from contoursolve.numeric import ball
+from contoursolve.numeric.ball import Number
+from contoursolve.numeric.modular_rank import PRIME
+from contoursolve.solving.step_equations import Coefficient, Kernel, Monomial, Polynomial, known, polynomial, rational
 
 SHEAR = 0.4140625
 """Two conics are turned by this much (as a shear) before one unknown is eliminated, so that no two of their

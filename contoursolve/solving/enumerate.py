@@ -7,17 +7,14 @@ from itertools import product
 from typing import TypeVar
 
 from contoursolve.analysis import Group, judge, order
-from contoursolve.analysis.generic import witness_of
-from contoursolve.backends import ball
-from contoursolve.backends.ball import Number
-from contoursolve.constraints import System
-from contoursolve.model import Fact, Line, Profile, scalar
-from contoursolve.solving.division import Division, Task, conditions_of, divide
+from contoursolve.analysis.determinacy import witness_of
+from contoursolve.geometry import Fact, Line, Profile, System, scalar
+from contoursolve.numeric import ball
+from contoursolve.numeric.ball import Number
+from contoursolve.solving.branch_and_prune import Division, Task, conditions_of, divide, settle
 from contoursolve.solving.elimination import Close, Obstacle, ObstacleError, Root, solve_step
-from contoursolve.solving.ground import Ground, ground_of
-from contoursolve.solving.kernel import Kernel, make_kernel
-from contoursolve.solving.polynomial import Coefficient
-from contoursolve.solving.search import settle
+from contoursolve.solving.exact_inputs import Ground, ground_of
+from contoursolve.solving.step_equations import Coefficient, Kernel, make_kernel
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,14 +1,15 @@
-"""The Krawczyk test: does a box hold exactly one solution of a step's equations, or none?
-
-Krawczyk (1969), Computing 4, 187-201; Moore, Kearfott and Cloud (2009), Introduction to Interval Analysis, 8.2.
-"""
+"""Proves that a box holds exactly one solution of the equations of a step, or of a whole system."""
 
 from collections.abc import Mapping, Sequence
 from enum import Enum
 
-from contoursolve.backends import ball, numeric
-from contoursolve.backends.ball import Number
-from contoursolve.solving.kernel import Kernel
+from contoursolve.analysis import Group
+from contoursolve.geometry import System
+from contoursolve.numeric import ball, expressions
+from contoursolve.numeric.ball import Number
+from contoursolve.solving.exact_inputs import Ground
+from contoursolve.solving.solution import Proof, up_to_one_digit
+from contoursolve.solving.step_equations import Kernel, make_kernel
 
 
 class Content(Enum):
@@ -32,7 +33,7 @@ def content_of(kernel: Kernel, box: Sequence[Number], inputs: Mapping[str, Numbe
     if any(ball.sign(each) for each in at_box[:size]):
         return Content.NONE, list(box)
     slopes = [at_box[size + row * size : size + (row + 1) * size] for row in range(size)]
-    inverse = numeric.inverse([[ball.middle(each) for each in row] for row in slopes])
+    inverse = expressions.inverse([[ball.middle(each) for each in row] for row in slopes])
     if inverse is None:
         return Content.UNKNOWN, list(box)
     image: list[Number] = []
@@ -92,3 +93,62 @@ def keep(box: list[Number], found: list[list[Number]]) -> None:
         if all(ball.intersects(one, two) for one, two in zip(box, other, strict=True)):
             return
     found.append(box)
+
+
+MARGIN = 2.0**-100
+"""How far the box that is tested reaches beyond a solution's ball, as a share of the coordinates."""
+
+
+Box = tuple[Proof, Sequence[Number]]
+"""What is proven of a step's solution, and a ball for each of its unknowns."""
+
+
+class Prover:
+    """Proves solutions of one system on one ground; a step that several of them have in common is tested once."""
+
+    def __init__(self, system: System, groups: Sequence[Group], ground: Ground) -> None:
+        self.kernels = [make_kernel(system, group) for group in groups]
+        self.ground = ground
+        self.tested: dict[tuple[int, ...], tuple[Sequence[Number], Box]] = {}
+        """By step and the identities of its numbers, which are kept with it: balls have no equality, and solutions that
+        have a step in common have its numbers."""
+
+    def prove(self, scalars: Mapping[str, Number], signs: Mapping[str, int]) -> tuple[Proof, dict[str, Number]]:
+        """What is proven about a solution, and a box for every unknown that holds the exact solution.
+
+        The steps are tested one after the other, each for all values that the ones before may have: the product of
+        their boxes then holds exactly one solution of all equations.
+        """
+        boxes: dict[str, Number] = {}
+        proof = Proof.EXACT
+        for number, kernel in enumerate(self.kernels):
+            values = [scalars[name] for name in kernel.unknowns]
+            names = kernel.arguments[len(kernel.unknowns) :]
+            inputs = [self.ground.number(name, boxes, signs) for name in names]
+            numbers = (*values, *inputs)
+            key = (number, *map(id, numbers))
+            if key not in self.tested:
+                self.tested[key] = numbers, _test(kernel, values, dict(zip(names, inputs, strict=True)))
+            own, found = self.tested[key][1]
+            if own is Proof.UNKNOWN:
+                return Proof.UNKNOWN, dict(scalars)
+            if own is not Proof.EXACT:
+                proof = own
+            boxes.update(zip(kernel.unknowns, found, strict=True))
+        return proof, boxes
+
+
+def _test(kernel: Kernel, values: Sequence[Number], inputs: Mapping[str, Number]) -> Box:
+    if all(map(ball.is_exact, (*values, *inputs.values()))):
+        # Rational numbers are tried in the equations themselves.
+        found = kernel.equations([*values, *inputs.values()])[: len(kernel.facts)]
+        if all(each == 0 for each in found):
+            return Proof.EXACT, values
+    margin = MARGIN * max(1.0, *(abs(ball.middle(each)) for each in values))
+    content, image = content_of(kernel, [ball.wider(each, margin) for each in values], inputs)
+    return (Proof.UNIQUE, refine(kernel, image, inputs)) if content is Content.ONE else (Proof.UNKNOWN, values)
+
+
+def radius_of(boxes: Mapping[str, Number], values: Mapping[str, float]) -> float:
+    """The largest distance of an exact value from its float, rounded up to one digit, mm."""
+    return up_to_one_digit(max((ball.distance(boxes[name], value) for name, value in values.items()), default=0.0))

@@ -3,10 +3,21 @@
 from collections.abc import Callable, Mapping
 from functools import lru_cache
 
-from contoursolve.backends.angle import direction
-from contoursolve.backends.inputs import COSINE, SINE
-from contoursolve.constraints import Coordinate, System, Values, headed_lines
-from contoursolve.model import FIRST, SECOND, Corner, Profile, Start, Unit, scalar
+from contoursolve.geometry import (
+    FIRST,
+    SECOND,
+    Coordinate,
+    Corner,
+    Profile,
+    Start,
+    System,
+    Unit,
+    Values,
+    headed_lines,
+    scalar,
+)
+from contoursolve.numeric.angle import direction
+from contoursolve.numeric.inputs import COSINE, SINE
 from contoursolve.solving.solution import CornerSolution, Point, Solution, Status
 
 

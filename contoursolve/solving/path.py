@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from math import hypot, nan
 
-from contoursolve.model import FIRST, SECOND, Arc, Corner, Figure, Line, Profile
+from contoursolve.geometry import FIRST, SECOND, Arc, Corner, Figure, Line, Profile
 from contoursolve.solving.compare import increments_of
 from contoursolve.solving.solution import BESIDE, Point, Refusal, RefusalKind, Remark, RemarkKind
 from contoursolve.tolerance import LARGEST, LENGTH, REGULAR, RESIDUAL

@@ -6,10 +6,22 @@ from functools import lru_cache
 from itertools import pairwise
 
 from contoursolve.analysis import Group, judge, order
-from contoursolve.backends.inputs import lookup
-from contoursolve.backends.numeric import Tape, is_affine
-from contoursolve.constraints import Collinear, Coordinate, Heading, Level, Offset, OnCircle, System
-from contoursolve.model import FIRST, SECOND, Arc, Fact, scalar
+from contoursolve.geometry import (
+    FIRST,
+    SECOND,
+    Arc,
+    Collinear,
+    Coordinate,
+    Fact,
+    Heading,
+    Level,
+    Offset,
+    OnCircle,
+    System,
+    scalar,
+)
+from contoursolve.numeric.expressions import Tape, is_affine
+from contoursolve.numeric.inputs import lookup
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,20 +7,23 @@ from itertools import combinations
 from math import asin, atan2, degrees, dist, hypot, inf, isfinite
 
 from contoursolve.analysis import judge
-from contoursolve.backends.angle import direction
-from contoursolve.backends.numeric import inverse_norm
-from contoursolve.constraints import (
+from contoursolve.geometry import (
+    FIRST,
+    SECOND,
     Collinear,
     Coordinate,
+    Fact,
     Heading,
     Offset,
+    Profile,
     Radius,
     System,
     assemble,
+    scalar,
 )
-from contoursolve.model import FIRST, SECOND, Fact, Profile, scalar
+from contoursolve.numeric.angle import direction
+from contoursolve.numeric.expressions import inverse_norm
 from contoursolve.solving.affine import affine_facts
-from contoursolve.solving.certificate import Certificate, up_to_one_digit
 from contoursolve.solving.certify import certify, decide_meeting
 from contoursolve.solving.compare import compare_affine, compare_fact, givens_of
 from contoursolve.solving.compile import compile_system
@@ -36,6 +39,7 @@ from contoursolve.solving.plan import (
     lines_through,
 )
 from contoursolve.solving.solution import (
+    Certificate,
     Point,
     Refusal,
     RefusalKind,
@@ -43,14 +47,9 @@ from contoursolve.solving.solution import (
     RemarkKind,
     Solution,
     Status,
+    up_to_one_digit,
 )
-from contoursolve.tolerance import (
-    ERROR_BOUND_WARNING,
-    LENGTH,
-    REGULAR,
-    RESIDUAL,
-    TOUCHING,
-)
+from contoursolve.tolerance import ERROR_BOUND_WARNING, LENGTH, REGULAR, RESIDUAL, TOUCHING
 
 ROUNDING = 2.0**-50
 """1 (share of the coordinates). Rounding of one formula of about four operations."""

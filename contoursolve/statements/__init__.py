@@ -1,9 +1,11 @@
-"""Further facts about a drawing: statements, their textual form, and the draft that they add to."""
+"""Further facts about a drawing: statements, their textual form, and the draft that they add to.
+
+A text such as `length of line 1 = 30` comes in, facts of a profile go out. Begin with `statement`.
+"""
 
 from contoursolve.statements.apply import Fault, Flaw, apply_statements
-from contoursolve.statements.draft import Draft, StatementError
-from contoursolve.statements.grammar import GrammarError, Vocabulary, read_statement
-from contoursolve.statements.meeting import Meeting, MeetsLine
+from contoursolve.statements.draft import Draft, Meeting, MeetsLine, StatementError
+from contoursolve.statements.grammar import GrammarError, Vocabulary, read_statement, write_statement
 from contoursolve.statements.statement import (
     CircleAt,
     DirectionIs,
@@ -19,7 +21,6 @@ from contoursolve.statements.statement import (
     Touches,
     TurnIs,
 )
-from contoursolve.statements.text import write_statement
 
 __all__ = [
     "CircleAt",

@@ -1,15 +1,15 @@
-"""Further facts of a block, put into its profile."""
+"""Further facts of a block, put into its profile, and as words that findings can show."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
 from typing import cast
 
-from contoursolve.constraints import Radius
-from contoursolve.model import Corner, Profile, Question, Unit
-from contoursolve.statements.draft import Draft, StatementError
+from contoursolve.diagnostics.source import Span
+from contoursolve.gcode import FACT, Directive, Word
+from contoursolve.geometry import Corner, Profile, Question, Radius, Unit
+from contoursolve.statements.draft import Draft, Meeting, MeetsLine, StatementError
 from contoursolve.statements.grammar import GrammarError, Vocabulary, read_statement
-from contoursolve.statements.meeting import Meeting, MeetsLine
 from contoursolve.statements.statement import (
     DirectionIs,
     PassesThrough,
@@ -20,8 +20,14 @@ from contoursolve.statements.statement import (
     Touches,
     TurnIs,
 )
-from contoursolve.statements.words import word_of
-from contoursolve.syntax import Directive, Word
+
+
+def word_of(directive: Directive, begin: int = 0, end: int | None = None) -> Word:
+    """A directive, or a part of it, as a word that a finding can mark."""
+    text = directive.text[begin:end] or directive.text[-1:]
+    column = directive.span.column + begin
+    return Word(FACT, None, False, text, Span(directive.span.line, column, column + max(len(text), 1)))
+
 
 _FIRST = (MeetsLine, Touches, DirectionIs, TurnIs, PassesThrough, StraightIs)
 """Statements that say what a line is come before those that measure it."""

@@ -8,25 +8,30 @@ from dataclasses import dataclass
 from decimal import Decimal
 from typing import Protocol
 
-from contoursolve.constraints import (
+from contoursolve.geometry import (
     Along,
+    Arc,
     ArcLength,
     Contact,
     Coordinate,
+    Corner,
+    CornerShape,
     Directed,
     Distance,
     EqualDistances,
     EqualRadii,
     Extent,
+    Fact,
     Foot,
+    Line,
     OnCircle,
     Radius,
     TangentCircles,
     TangentLine,
     Through,
     TurnBetween,
+    Unit,
 )
-from contoursolve.model import Arc, Corner, CornerShape, Fact, Line, Unit
 from contoursolve.statements.draft import Draft, Round, StatementError
 
 Place = tuple[Decimal, Decimal]

@@ -8,12 +8,11 @@ from math import degrees, hypot, inf
 
 import numpy
 
-from contoursolve import syntax
-from contoursolve.constraints import Coordinate
-from contoursolve.model import Choice
+from contoursolve import gcode
+from contoursolve.gcode import Word
+from contoursolve.geometry import Choice, Coordinate
 from contoursolve.reading import Claim, unused_words
 from contoursolve.statements import apply_statements
-from contoursolve.syntax import Word
 from contoursolve.tolerance import AGREEMENT, REGULAR, RESIDUAL
 from contoursolve.verification import rank
 from contoursolve.verification.decode import (
@@ -293,7 +292,7 @@ def _check_selects(case: Case, solution: ClaimedSolution, others: Sequence[Claim
     for text in solution.selects:
         if any(each.word == text for each in case.claim.selectors):
             continue
-        block, truths = syntax.parse_block(text, 1), list[bool]()
+        block, truths = gcode.parse_block(text, 1), list[bool]()
         for word in block.words:
             answers = [each for each in solution.asked if each.word[: len(word.address)] == word.address]
             truths += [abs(missed(case, each, word)) <= half_increment(case, word) + RESIDUAL for each in answers]
@@ -362,7 +361,7 @@ def _check_diagnosis(case: Case, diagnosis: ClaimedDiagnosis, found: Sequence[Ca
 
 
 def _address(word: Word) -> str:
-    return word.text if word.address == syntax.FACT else word.address
+    return word.text if word.address == gcode.FACT else word.address
 
 
 def _check_other_ties(case: Case, ties: Sequence[ClaimedTie], found: Sequence[Candidate], ledger: Ledger) -> None:

@@ -10,8 +10,8 @@ from typing import Annotated, Any, Literal, NoReturn
 import msgspec
 from msgspec import Meta
 
-from contoursolve import syntax
-from contoursolve.syntax import STANDARD_INPUT, Program, UnreadableProgramError
+from contoursolve import gcode
+from contoursolve.gcode import STANDARD_INPUT, Program, UnreadableProgramError
 
 SCHEMA = "contoursolve/solve/1"
 
@@ -213,7 +213,7 @@ class ClaimedResult(msgspec.Struct, frozen=True):
 def read_document(path: str) -> Document:
     """The bytes of a file; `-` is standard input. Raises CannotVerifyError if there is no such file."""
     try:
-        return Document("<standard input>" if path == STANDARD_INPUT else path, syntax.read_bytes(path))
+        return Document("<standard input>" if path == STANDARD_INPUT else path, gcode.read_bytes(path))
     except UnreadableProgramError as error:
         raise CannotVerifyError(str(error)) from None
 
@@ -226,7 +226,7 @@ def document_of_blocks(blocks: Sequence[str]) -> Document:
 def parse_program(document: Document) -> Program:
     """The blocks of a program in UTF-8 or Latin-1. Raises CannotVerifyError if it is not text."""
     try:
-        return syntax.parse(syntax.decode(document.data, document.name), document.name)
+        return gcode.parse(gcode.decode(document.data, document.name), document.name)
     except UnreadableProgramError as error:
         raise CannotVerifyError(str(error)) from None
 

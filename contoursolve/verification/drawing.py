@@ -9,8 +9,21 @@ from dataclasses import dataclass
 from itertools import pairwise
 from math import asin, atan2, copysign, inf, tau
 
-from contoursolve.constraints import Coordinate, Offset, OnCircle
-from contoursolve.model import FIRST, SECOND, Arc, Choice, Corner, CornerShape, Line, Side, line_scalars, scalar
+from contoursolve.geometry import (
+    FIRST,
+    SECOND,
+    Arc,
+    Choice,
+    Coordinate,
+    Corner,
+    CornerShape,
+    Line,
+    Offset,
+    OnCircle,
+    Side,
+    line_scalars,
+    scalar,
+)
 from contoursolve.tolerance import LARGEST, LENGTH, REGULAR
 from contoursolve.verification.residuals import ResidualSystem
 

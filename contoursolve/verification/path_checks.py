@@ -11,11 +11,10 @@ from math import degrees, floor, inf, log10
 
 import numpy
 
-from contoursolve import syntax
-from contoursolve.constraints import OnCircle
-from contoursolve.model import FIRST, SECOND, Arc, CornerShape, Fact, Unit, line_scalars, scalar
+from contoursolve import gcode
+from contoursolve.gcode import Block, Word
+from contoursolve.geometry import FIRST, SECOND, Arc, CornerShape, Fact, OnCircle, Unit, line_scalars, scalar
 from contoursolve.reading import Claim
-from contoursolve.syntax import Block, Word
 from contoursolve.tolerance import ERROR_BOUND_WARNING, LENGTH, RESIDUAL
 from contoursolve.verification import rank
 from contoursolve.verification.decode import (
@@ -400,7 +399,7 @@ def check_filled(case: Case, claimed: ClaimedContour, ledger: Ledger) -> None:
     texts = [word.text for block in blocks for word in block.words if word.is_asked]
     if not ledger.require("a value is asked for", texts, bool(texts), "nothing was to be filled in"):
         return
-    own = [syntax.parse_block(text, block.line) for text, block in zip(filled.blocks, blocks, strict=False)]
+    own = [gcode.parse_block(text, block.line) for text, block in zip(filled.blocks, blocks, strict=False)]
     is_same = len(filled.blocks) == len(blocks) and all(map(_is_filled, blocks, own))
     if not ledger.require(SAME, texts, is_same, "something else was changed, or a value is missing"):
         return

@@ -12,8 +12,7 @@ from typing import Any
 
 import numpy
 
-from contoursolve.constraints import Coordinate, Heading, Level, Offset, Radius
-from contoursolve.model import FIRST, SECOND, Fact, scalar
+from contoursolve.geometry import FIRST, SECOND, Coordinate, Fact, Heading, Level, Offset, Radius, scalar
 from contoursolve.tolerance import REGULAR
 from contoursolve.verification.residuals import Array, ResidualSystem, direction
 

@@ -5,11 +5,11 @@ from dataclasses import dataclass, field, replace
 from enum import Enum
 from math import isfinite
 
-from contoursolve.data import json_text, members
-from contoursolve.model import Length
+from contoursolve.diagnosis.wording import count
+from contoursolve.diagnostics.json_text import json_text, members
+from contoursolve.geometry import Length
 from contoursolve.tolerance import AGREEMENT, RESIDUAL
 from contoursolve.verification.decode import Document
-from contoursolve.wording import count
 
 SCHEMA = "contoursolve/verify/1"
 

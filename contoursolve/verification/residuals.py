@@ -15,8 +15,8 @@ from typing import Any
 import numpy
 from numpy.typing import NDArray
 
-from contoursolve import constraints as kinds
-from contoursolve.model import FIRST, SECOND, Fact, Figure, Line, Profile, Unit, line_scalars, scalar
+from contoursolve import geometry as kinds
+from contoursolve.geometry import FIRST, SECOND, Fact, Figure, Line, Profile, Unit, line_scalars, scalar
 
 Vector = tuple[Any, Any]
 Array = NDArray[Any]

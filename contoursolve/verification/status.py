@@ -9,15 +9,30 @@ from math import hypot, pi
 
 import numpy
 
-from contoursolve.constraints import Coordinate, Directed, Heading, Offset, OnCircle, Radius, TurnBetween
-from contoursolve.diagnostic import Severity
-from contoursolve.dialects import Dialect
-from contoursolve.model import FIRST, INCREMENT_OF, SECOND, Choice, Fact, Profile, line_scalars, scalar
+from contoursolve.diagnostics.finding import Severity
+from contoursolve.gcode import FaultKind, Word
+from contoursolve.geometry import (
+    FIRST,
+    INCREMENT_OF,
+    SECOND,
+    Choice,
+    Coordinate,
+    Directed,
+    Fact,
+    Heading,
+    Offset,
+    OnCircle,
+    Profile,
+    Radius,
+    TurnBetween,
+    line_scalars,
+    scalar,
+)
 from contoursolve.reading import Claim, read
-from contoursolve.rules import Rule
-from contoursolve.rules import check as check_rules
+from contoursolve.reading.dialect import Dialect
+from contoursolve.reading.rules import Rule
+from contoursolve.reading.rules import check as check_rules
 from contoursolve.statements import apply_statements
-from contoursolve.syntax import FaultKind, Word
 from contoursolve.tolerance import AGREEMENT, LARGEST, LENGTH, REGULAR, RESIDUAL
 from contoursolve.verification import rank
 from contoursolve.verification.decode import ClaimedContour

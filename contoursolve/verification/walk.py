@@ -4,12 +4,13 @@ every contour that either of them has; after each, the claimed end is the positi
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
-from contoursolve import syntax
-from contoursolve.dialects import DIALECTS, Dialect
-from contoursolve.model import Length
+from contoursolve import gcode
+from contoursolve.controls import DIALECTS
+from contoursolve.gcode import Block, Directive, Program
+from contoursolve.geometry import Length
 from contoursolve.reading import Claim, next_place
+from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.follow import contours_of, state_facts
-from contoursolve.syntax import Block, Directive, Program
 from contoursolve.verification.contour_checks import check_contour
 from contoursolve.verification.decode import (
     PRINTED,
@@ -51,7 +52,7 @@ def verify(
             contours.
     """
     blocks, claims, unit = parse_program(program), read_result(result), Length(units)
-    beginning = syntax.parse(start, program.name, first_line=0) if start is not None else None
+    beginning = gcode.parse(start, program.name, first_line=0) if start is not None else None
     dialect = _configured(_dialect(blocks, claims, control), claims)
     if dialect and facts:
         blocks = with_facts(blocks, dialect, unit, beginning, facts)
@@ -165,7 +166,7 @@ def with_facts(
     if len(found) > 1:
         lines = ", ".join(str(each[0].line) for each in found)
         raise CannotVerifyError(f"a fact is about the only contour, and the program has {len(found)} (lines {lines})")
-    directives = [syntax.read_directive(text, -number) for number, text in enumerate(facts, 1)]
+    directives = [gcode.read_directive(text, -number) for number, text in enumerate(facts, 1)]
     return state_facts(program, found[0] if found else (), directives)
 
 
@@ -181,7 +182,7 @@ def _with_claimed_facts(blocks: Sequence[Block], claims: Mapping[int, ClaimedCon
             if text in known:
                 known.remove(text)
             else:
-                rest.append(syntax.read_directive(text, -given - len(rest) - 1))
+                rest.append(gcode.read_directive(text, -given - len(rest) - 1))
         if claimed.lines:
             added[claimed.lines[-1]] = rest
     return tuple(

@@ -19,7 +19,7 @@ from sketches import chain_case
 
 import contoursolve
 from contoursolve import Sketch
-from contoursolve.solving.certificate import Certificate, Proof
+from contoursolve.solving.solution import Certificate, Proof
 
 CASES = int(os.environ.get("CONTOURSOLVE_CASES", "300"))
 

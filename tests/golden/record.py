@@ -92,7 +92,7 @@ def shown(path: Path, content: bytes) -> str:
 
 def catalogue() -> Iterator[Case]:
     """What is told about the controls, whatever the program."""
-    from contoursolve.dialects import DIALECTS  # noqa: PLC0415 - only when records are made
+    from contoursolve.controls import DIALECTS  # noqa: PLC0415 - only when records are made
 
     commands = "check solve expand filter diff plot report sweep range find sensitivity verify rules explain facts"
     yield Case(("--help",))
@@ -112,7 +112,7 @@ def catalogue() -> Iterator[Case]:
 
 def rules() -> Iterator[Case]:
     """The examples of every rule."""
-    from contoursolve.dialects import DIALECTS  # noqa: PLC0415 - only when records are made
+    from contoursolve.controls import DIALECTS  # noqa: PLC0415 - only when records are made
 
     files = {"contoursolve.toml": ""}
     forms = cycle([("check",), ("solve",), ("solve", "--format", "json"), ("check", "--format", "github")])

@@ -1,0 +1,227 @@
+"""The commands plot and report: pictures and pages as files."""
+
+import sys
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import click
+
+from contoursolve import __version__
+from contoursolve.cli.options import FOUND_ERRORS, CouldNotRunError, common_options, examine, load, named_after
+from contoursolve.cli.printing import print_lines, say, style_of_output
+from contoursolve.diagnosis.examine import Answer
+from contoursolve.diagnosis.wording import count
+from contoursolve.diagnostics.extras import MissingExtraError, importing
+from contoursolve.gcode.files import CannotWriteError, check_target, write_whole
+from contoursolve.output.listing import lines_of_findings, summary_line
+from contoursolve.pictures import Picture, Theme, draw_answer, draw_result
+from contoursolve.program.pipeline import Result
+
+SVG, PNG = ".svg", ".png"
+
+theme_option = click.option(
+    "--theme",
+    type=click.Choice([Theme.LIGHT.value, Theme.DARK.value, Theme.PAGE.value]),
+    default=Theme.LIGHT.value,
+    show_default=True,
+    help="Colours of a picture; page follows the page or the reader of an SVG.",
+)
+
+
+def bytes_of(picture: Picture, target: Path) -> bytes:
+    """A picture as its name asks for. Raises MissingExtraError."""
+    return picture.png() if target.suffix.lower() == PNG else picture.svg.encode()
+
+
+def check_picture(target: Path, *, is_forced: bool) -> None:
+    """Raise CouldNotRunError if a picture cannot be written there."""
+    if target.suffix.lower() not in (SVG, PNG):
+        raise CouldNotRunError(f"{target}: pictures end in .svg or .png")
+    try:
+        check_target(target, None, is_forced=is_forced)
+    except CannotWriteError as error:
+        raise CouldNotRunError(str(error)) from None
+
+
+_DXF = ".dxf"
+
+Written = tuple[Path, bytes, str]
+"""A file, its bytes, and what is in it."""
+
+
+@click.command(short_help="Draw the contours (SVG, PNG), or write them for CAD (DXF).")
+@click.argument("program", required=False)
+@click.option(
+    "-o",
+    "--output",
+    metavar="OUT.svg|.png|.dxf",
+    type=click.Path(path_type=Path),
+    help="The drawing to write; without it, an SVG with the name of PROGRAM in this folder.",
+)
+@click.option("--line", type=click.IntRange(1), help="Draw the contour that this line of PROGRAM belongs to, alone.")
+@click.option("--each", "is_each", is_flag=True, help="Draw every contour in a file of its own: OUT-LINE.svg.")
+@theme_option
+@click.option("--force", "is_forced", is_flag=True, help="Replace drawings that exist.")
+@common_options
+@click.pass_context
+def plot(
+    context: click.Context,
+    /,
+    program: str | None,
+    output: Path | None,
+    line: int | None,
+    is_each: bool,
+    theme: str,
+    is_forced: bool,
+    blocks: tuple[str, ...],
+    start: str | None,
+    assignments: tuple[str, ...],
+    **options: Any,
+) -> None:
+    """Draw the contours of PROGRAM (a file, or - for standard input).
+
+    SVG and PNG show a contour with every word as a dimension: given, worked out, ignored, conflicting or still free.
+    One that cannot be solved is drawn, too: what is missing, both places of a point, the line that misses its circle.
+    A program with several contours is drawn as a whole, each with its number and line; --line and --each draw them one
+    by one. PNG needs the extra contoursolve[picture].
+
+    DXF is for CAD and needs the extra contoursolve[dxf]: every solved contour in full precision, each element on a
+    layer of its own; virtual and computed intersections on the layer construction. The drawing's X and Y are the
+    plane's axes: on a lathe Z to the right and X up, as radius. It is in mm, or in inches if all contours are.
+
+    \b
+    contoursolve plot shaft.nc
+    contoursolve plot shaft.nc --line 71 -o journal.png
+    contoursolve plot --block "G111 X100. A180. K-30. B120. P5." --start "X40. Z0." -o block.dxf
+    """
+    loader = load([program] if program else [], blocks, start)[0]
+    target = output if output is not None else named_after(program, SVG)
+    kind = target.suffix.lower()
+    if kind not in (SVG, PNG, _DXF):
+        raise CouldNotRunError(f"{target}: drawings end in .svg, .png or .dxf")
+    if kind == _DXF and (line is not None or is_each):
+        raise click.UsageError("a DXF drawing has every contour on layers of its own: leave out --line and --each")
+    if line is not None and is_each:
+        raise click.UsageError("give either --line or --each, not both")
+    source = Path(program) if program else None
+    try:
+        if not is_each:
+            check_target(target, source, is_forced=is_forced)
+        result = examine(loader(), start, assignments, options)
+        print_lines(lines_of_findings(result, result.diagnostics, style_of_output()))
+        if kind == _DXF:
+            files = _drawings_for_cad(result, target)
+        else:
+            files = list(_pictures(result, target, line, Theme(theme), is_each=is_each))
+        for path, _, _ in files if is_each else ():
+            check_target(path, source, is_forced=is_forced)
+        for path, data, _ in files:
+            write_whole(path, [data], keeps_backup=False)
+    except (CannotWriteError, MissingExtraError) as error:
+        raise CouldNotRunError(str(error)) from None
+    say(summary_line([result]))
+    for path, _, content in files:
+        say(f"{path}: {content}")
+    if not files:
+        say(f"{target}: not written")
+    context.exit(FOUND_ERRORS if result.has_errors or not files else 0)
+
+
+def _pictures(result: Result, target: Path, line: int | None, theme: Theme, *, is_each: bool) -> Iterator[Written]:
+    """The pictures that are asked for."""
+    if not result.answers:
+        return
+    if is_each:
+        for answer in result.answers:
+            path = target.with_name(f"{target.stem}-{answer.lines[0]}{target.suffix}")
+            yield path, bytes_of(draw_answer(answer, theme=theme), target), _about(answer)
+        return
+    if line is not None:
+        answer = _at(result.answers, line)
+        yield target, bytes_of(draw_answer(answer, theme=theme), target), _about(answer)
+        return
+    picture = draw_result(result, theme=theme)
+    yield target, bytes_of(picture, target), count(len(result.answers), "contour")
+
+
+def _about(answer: Answer) -> str:
+    return f"line {answer.lines[0]}, {answer.status.value}"
+
+
+def _at(answers: Sequence[Answer], line: int) -> Answer:
+    """The contour to which a line of the program belongs."""
+    for answer in answers:
+        if answer.lines[0] <= line <= answer.lines[-1]:
+            return answer
+    have = ", ".join(str(answer.lines[0]) for answer in answers)
+    raise CouldNotRunError(f"line {line} belongs to no contour; contours begin in lines {have}")
+
+
+def _drawings_for_cad(result: Result, target: Path) -> list[Written]:
+    """The DXF drawing, if anything is solved."""
+    with importing("dxf", "a DXF drawing"):
+        from contoursolve.output.dxf import to_dxf  # noqa: PLC0415 - needs an extra
+    contours = [answer.contour for answer in result.answers if answer.contour]
+    if not contours:
+        return []
+    elements = count(sum(len(contour.elements) for contour in contours), "element")
+    return [(target, to_dxf(result.answers), f"{elements} of {count(len(contours), 'contour')}")]
+
+
+@click.command(short_help="Make a page about a program, to read, send and print.")
+@click.argument("program", required=False)
+@click.option(
+    "-o",
+    "--output",
+    metavar="OUT.html",
+    type=click.Path(path_type=Path),
+    help="The page to write; without it, one with the name of PROGRAM in this folder.",
+)
+@click.option("--force", "is_forced", is_flag=True, help="Replace the page if it exists.")
+@common_options
+@click.pass_context
+def report(
+    context: click.Context,
+    /,
+    program: str | None,
+    output: Path | None,
+    is_forced: bool,
+    blocks: tuple[str, ...],
+    start: str | None,
+    assignments: tuple[str, ...],
+    **options: Any,
+) -> None:
+    """Make one page of HTML about PROGRAM (a file, or - for standard input).
+
+    Every contour with its picture, its elements and its findings with their fixes; the program's text, linked with
+    them; and the manual's places with how well each is known. The page opens without a network, in light and dark,
+    and prints. For a program without a contour none is written. Needs the extra contoursolve[report].
+
+    \b
+    contoursolve report shaft.nc
+    contoursolve report --block "G111 X100. A180. K-30. B120. P5." --start "X40. Z0." -o block.html --force
+    """
+    loader = load([program] if program else [], blocks, start)[0]
+    target = output if output is not None else named_after(program, ".html")
+    if target.suffix.lower() not in (".html", ".htm"):
+        raise CouldNotRunError(f"{target}: pages end in .html")
+    try:
+        with importing("report", "a report"):
+            from contoursolve.output.report import report_page  # noqa: PLC0415 - needs an extra
+        check_target(target, Path(program) if program else None, is_forced=is_forced)
+        result = examine(loader(), start, assignments, options)
+        if not result.answers:
+            print_lines(lines_of_findings(result, result.diagnostics, style_of_output()))
+            say(f"{summary_line([result])}\n{target}: not written")
+            context.exit(FOUND_ERRORS)
+        with click.progressbar(
+            length=len(result.answers), label="drawing", file=sys.stderr, hidden=not sys.stderr.isatty()
+        ) as bar:
+            pieces = report_page(result, __version__, lambda: bar.update(1))
+            write_whole(target, (piece.encode("utf-8", "replace") for piece in pieces), keeps_backup=False)
+    except (CannotWriteError, MissingExtraError) as error:
+        raise CouldNotRunError(str(error)) from None
+    say(summary_line([result]))
+    say(f"{target} written")
+    context.exit(FOUND_ERRORS if result.has_errors else 0)

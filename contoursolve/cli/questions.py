@@ -1,0 +1,195 @@
+"""The commands about a word of one block: which values it may have, which one is wanted, what it moves."""
+
+from math import isfinite
+from typing import Any
+
+import click
+
+from contoursolve.cli.blocks import (
+    block_options,
+    fact_option,
+    format_option,
+    print_json,
+    read_options,
+    read_within,
+    usage,
+)
+from contoursolve.cli.options import FOUND_ERRORS
+from contoursolve.cli.printing import print_lines
+from contoursolve.families import feasible, find_word, region, tolerances
+from contoursolve.output.families import (
+    found_data,
+    found_lines,
+    range_data,
+    range_lines,
+    region_data,
+    region_lines,
+    tolerances_data,
+    tolerances_lines,
+)
+
+
+@click.command("range", short_help="Tell for which values of a word, or of two, a contour exists.")
+@block_options
+@format_option
+@click.option(
+    "--word",
+    "words",
+    multiple=True,
+    required=True,
+    metavar="WORD",
+    help="A word of the block, such as P, or 2:,A for line 2; start.X of the start point; a fact, by what it "
+    "gives the value of. Given twice, the region of both.",
+)
+@click.option(
+    "--within",
+    multiple=True,
+    metavar="LOW:HIGH",
+    help="The range to look at, for each word in turn, as it stands; without it, one turn for an angle, and 1 m to "
+    "either side for a length.",
+)
+@fact_option
+@click.pass_context
+def range_(
+    context: click.Context,
+    /,
+    words: tuple[str, ...],
+    within: tuple[str, ...],
+    facts: tuple[str, ...],
+    format_: str,
+    **options: Any,
+) -> None:
+    """Tell for which values of WORD the contour of a block exists, and what ends each range of them.
+
+    Every range is found: the values are divided until it is proven of each part that the contour exists there or does
+    not. Each end is solved on both sides. For two words, the lines that bound the region are found, each with what
+    fails beyond it; --format json has their points. With facts or ?, all solutions are followed, and the contour
+    exists where one alone can be made; where they leave no closed form, sweep solves the block value by value.
+
+    Exit status: 0 the contour exists for some value, 1 for none, 2 could not run.
+
+    \b
+    contoursolve range --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0." --word P
+    """
+    ranges = [read_within(each) for each in within]
+    if len(words) > 2 or (len(words) == 2 and len(ranges) != 2) or len(ranges) > len(words):  # noqa: PLR2004
+        raise click.UsageError("name one --word, or two with a --within LOW:HIGH for each")
+    with usage():
+        about = {"facts": facts, **read_options(options)}
+        if len(words) == 1:
+            found = feasible(word=words[0], within=ranges[0] if ranges else None, **about)
+            exists, lines, document = bool(found.intervals), range_lines(found), range_data(found)
+        else:
+            both = region(words=(words[0], words[1]), within=(ranges[0], ranges[1]), **about)
+            exists, lines, document = both.exists, region_lines(both), region_data(both)
+    if format_ == "json":
+        print_json(document)
+    else:
+        print_lines(lines)
+    context.exit(0 if exists else FOUND_ERRORS)
+
+
+@click.command("find", short_help="Find the value of a word that brings a point where it is wanted.")
+@block_options
+@format_option
+@click.option(
+    "--word",
+    required=True,
+    metavar="WORD",
+    help="A word of the block, such as A, or 2:,A for line 2; start.X of the start point; a fact, by what it "
+    "gives the value of.",
+)
+@click.option(
+    "--bring",
+    "goal",
+    required=True,
+    metavar="GOAL",
+    help="A point and where it is wanted, in words as the control reads them: 'end Z-50.', 'V1 X44.', "
+    "'corner 1.center Z-20.'. With both coordinates, what comes nearest is found.",
+)
+@click.option(
+    "--within",
+    metavar="LOW:HIGH",
+    help="The values to look at, as they stand; without it, one turn for an angle, and 1 m to either side for a "
+    "length.",
+)
+@fact_option
+@click.pass_context
+def find(
+    context: click.Context,
+    /,
+    word: str,
+    goal: str,
+    within: str | None,
+    facts: tuple[str, ...],
+    format_: str,
+    **options: Any,
+) -> None:
+    """Find every value of WORD with which a point of the contour lies where it is wanted.
+
+    Each value is solved and certified by itself, and given once more rounded to the control's least increment, as the
+    block to write and how far the point is off then.
+
+    Exit status: 0 found, 1 no such value, 2 could not run.
+
+    \b
+    contoursolve find --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0." --word A --bring "end Z-50."
+    """
+    with usage():
+        limits = read_within(within) if within else None
+        found = find_word(word=word, goal=goal, within=limits, facts=facts, **read_options(options))
+    if format_ == "json":
+        print_json(found_data(found))
+    else:
+        print_lines(found_lines(found))
+    context.exit(0 if found.hits else FOUND_ERRORS)
+
+
+@click.command("sensitivity", short_help="Tell which word moves a point most, and what tolerances come to.")
+@block_options
+@format_option
+@click.option(
+    "--point", metavar="POINT", default="end", show_default=True, help="The point: end, V2, 'corner 1.center', ..."
+)
+@click.option(
+    "--tolerance",
+    "allowed",
+    multiple=True,
+    metavar="WORD=VALUE",
+    help="By how much a word may be off to either side, as the number stands; may be repeated. A fact goes by what it "
+    "gives the value of.",
+)
+@fact_option
+def sensitivity(allowed: tuple[str, ...], point: str, facts: tuple[str, ...], format_: str, **options: Any) -> None:
+    """Tell by how much each word moves a point of a contour: for each unit of it, by its tolerance, and by the rounding
+    of the control to its least increment. What tolerances come to is told to first order, at worst and in the root of
+    the sum of squares, and solved again at all combinations of their limits.
+
+    Exit status: 0 told, 2 could not run, or the block has no contour.
+
+    \b
+    contoursolve sensitivity --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0." \\
+      --tolerance A=0.1 --tolerance K=0.02
+    """
+    given: dict[str, float] = {}
+    for name, number in map(_read_tolerance, allowed):
+        if name in given:
+            raise click.UsageError(f"--tolerance names {name} twice")
+        given[name] = number
+    with usage():
+        found = tolerances(allowed=given, point=point, facts=facts, **read_options(options))
+    if format_ == "json":
+        print_json(tolerances_data(found))
+    else:
+        print_lines(tolerances_lines(found))
+
+
+def _read_tolerance(text: str) -> tuple[str, float]:
+    name, equals, value = text.rpartition("=")
+    try:
+        number = float(value)
+    except ValueError:
+        number = float("nan")
+    if not equals or not isfinite(number):
+        raise click.UsageError(f"--tolerance {text}: write WORD=VALUE, such as P=0.05")
+    return name.strip(), number

@@ -1,0 +1,23 @@
+"""The controls: each is a record of tables in a folder of its own.
+
+Blocks come in, parsed contours go out, and the rules about them. Begin with a folder, or with `common` for what holds
+for every control.
+"""
+
+from contoursolve.controls.common import COMMON_RULES
+from contoursolve.controls.nct_99m import NCT_99M
+from contoursolve.controls.plain import PLAIN
+from contoursolve.controls.yasnac_lx3 import YASNAC_LX3
+from contoursolve.reading.dialect import Dialect, Finder
+
+DIALECTS = {dialect.name: dialect for dialect in (YASNAC_LX3, NCT_99M)}
+
+__all__ = [
+    "COMMON_RULES",
+    "DIALECTS",
+    "NCT_99M",
+    "PLAIN",
+    "YASNAC_LX3",
+    "Dialect",
+    "Finder",
+]

@@ -1,0 +1,49 @@
+"""The NCT 99M and 2000M milling controls, from chapter 16 of their Programmer's Manual."""
+
+from contoursolve.controls.common import COMMON_RULES
+from contoursolve.controls.nct_99m.chain import FORMS
+from contoursolve.controls.nct_99m.claim import SETTINGS
+from contoursolve.controls.nct_99m.find import find
+from contoursolve.controls.nct_99m.lexicon import CODES, MODES, XY, YZ, ZX
+from contoursolve.controls.nct_99m.rules import COMBINATION_RULES, GEOMETRY_RULES
+from contoursolve.gcode import Block, Word
+from contoursolve.reading import Effect
+from contoursolve.reading.dialect import Dialect
+
+
+def _signs(block: Block) -> tuple[Word, ...]:
+    shown = {",A", ",C", ",R"} | _over_defining(block)
+    return tuple(word for word in block.words if word.address in shown)
+
+
+def _over_defining(block: Block) -> set[str]:
+    """The addresses that show an over-defined circle, whose G2 or G3 may stand in a block before (p. 134).
+
+    A lathe's arc may have X, Z, I, K and R, too: there Q has to tell, and without G2 or G3 one that is no length.
+    """
+    stated = {word.address for word in block.words}
+    motions = {word.number for word in block.words if word.address == "G"} - _OTHER_CODES
+    plane = next((each for each in (XY, ZX, YZ) if stated >= {*each.axes, *each.centers, "R"}), None)
+    if plane is None or not motions <= {2, 3}:
+        return set()
+    q = block.find("Q")
+    if plane is ZX and (q is None or (q.has_point and not motions)):
+        return set()
+    return {*plane.centers, "R", "Q"}
+
+
+_OTHER_CODES = {code.number for code in CODES if code.effect not in (Effect.MOTION, Effect.CYCLE, Effect.SINGLE)}
+
+
+NCT_99M = Dialect(
+    name="nct-99m",
+    title="NCT 99M and 2000M milling controls",
+    modes=MODES,
+    plane=XY,
+    forms=FORMS,
+    rules=COMMON_RULES + COMBINATION_RULES + GEOMETRY_RULES,
+    find=find,
+    signs=_signs,
+    contours="blocks with ,A ,C or ,R, arcs with R, and blocks over-defined by ,A or by end, centre and R",
+    settings=SETTINGS,
+)

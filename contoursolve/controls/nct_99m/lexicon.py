@@ -1,0 +1,204 @@
+"""NCT 99M/2000M: addresses, numbers, planes and G codes, what chapter 16's blocks are, and assumptions."""
+
+from dataclasses import dataclass
+from decimal import Decimal
+
+from contoursolve.diagnostics.source import Evidence, Source
+from contoursolve.geometry import Length, Plane, Turn, Unit
+from contoursolve.reading import Address, Assumption, Code, Effect, Lexicon, Modes, NumberFormat, WithoutPoint
+from contoursolve.reading.rules import Condition, Value, some
+
+MANUAL = "NCT 99M/2000M Programmer's Manual"
+CHAPTER = Source(MANUAL, "16.3.3, p. 129", Evidence.PRINTED)
+PARALLEL = Source(MANUAL, "16.2, p. 120", Evidence.PRINTED)
+ARCS = Source(MANUAL, "p. 25", Evidence.PRINTED)
+ANGLE = Source(MANUAL, "p. 120 and 123, not printed on p. 129", Evidence.DERIVED)
+SINGLE_BLOCK = "in single-block mode the control stops after each inserted chamfer or rounding, too (16.1, p. 120)"
+CODES_SOURCE = Source(MANUAL, "list of G codes", Evidence.ASSUMED)
+
+ADDRESSES = (
+    Address("X", "coordinate", Unit.MM, CHAPTER, axis="X"),
+    Address("Y", "coordinate", Unit.MM, CHAPTER, axis="Y"),
+    Address("Z", "coordinate", Unit.MM, CHAPTER, axis="Z"),
+    *(Address(axis, "coordinate of a parallel axis", Unit.MM, PARALLEL, axis=axis) for axis in "UVW"),
+    Address("I", "centre along X, from where the arc begins", Unit.MM, ARCS),
+    Address("J", "centre along Y, from where the arc begins", Unit.MM, ARCS),
+    Address("K", "centre along Z, from where the arc begins", Unit.MM, ARCS),
+    Address("R", "radius; negative for an arc of more than 180 deg", Unit.MM, ARCS),
+    Address(",A", "angle of the line, from the plane's first axis, counter-clockwise", Unit.DEGREE, ANGLE),
+    Address(",C", "chamfer", Unit.MM, Source(MANUAL, "16.1", Evidence.PRINTED)),
+    Address(",R", "rounding", Unit.MM, Source(MANUAL, "16.1", Evidence.PRINTED)),
+    Address("Q", "which intersection: along a line, negative the nearer, positive the farther", Unit.SIGN, CHAPTER),
+)
+
+NUMBERS = NumberFormat(WithoutPoint.AS_WRITTEN, Source(MANUAL, "examples, p. 123-130", Evidence.PRINTED))
+
+AXES = ("X", "Y", "Z", "U", "V", "W")
+PARALLEL_TO = {"X": "U", "Y": "V", "Z": "W"}
+
+XY = Plane("G17", ("X", "Y"), ("I", "J"))
+ZX = Plane("G18", ("Z", "X"), ("K", "I"))
+YZ = Plane("G19", ("Y", "Z"), ("J", "K"))
+PLANES = {plane.code: plane for plane in (XY, ZX, YZ)}
+
+
+def _codes(effect: Effect, meanings: dict[int, str]) -> tuple[Code, ...]:
+    return tuple(Code(number, effect, meaning, CODES_SOURCE) for number, meaning in meanings.items())
+
+
+CODES = (
+    *_codes(Effect.MOTION, {0: "positioning", 1: "line", 2: "arc clockwise", 3: "arc counter-clockwise", 33: "thread"}),
+    *(Code(number, Effect.PLANE, "plane", CHAPTER, plane=plane) for number, plane in {17: XY, 18: ZX, 19: YZ}.items()),
+    Code(20, Effect.UNITS, "inches", CODES_SOURCE, unit=Length.INCH),
+    Code(21, Effect.UNITS, "millimetres", CODES_SOURCE, unit=Length.MM),
+    *_codes(Effect.COMPENSATION, {40: "no compensation", 41: "compensation left", 42: "compensation right"}),
+    *_codes(Effect.ABSOLUTE, {90: "absolute coordinates"}),
+    *_codes(Effect.INCREMENTAL, {91: "incremental coordinates"}),
+    *_codes(Effect.NO_MOTION, {4: "dwell", 10: "data setting", 22: "stored limit on", 23: "stored limit off"}),
+    *_codes(
+        Effect.SINGLE, {27: "reference point check", 28: "reference point return", 29: "return from reference point"}
+    ),
+    *_codes(
+        Effect.SINGLE,
+        {30: "other reference point return", 31: "skip", 37: "length measurement", 53: "machine coordinates"},
+    ),
+    *_codes(Effect.SINGLE, {65: "macro call", 66: "modal macro call", 67: "end of modal macro call"}),
+    *_codes(Effect.CYCLE, dict.fromkeys((73, 74, 76, *range(81, 90)), "drilling cycle")),
+    *_codes(Effect.CANCEL, {80: "end of cycle"}),
+    *_codes(Effect.PRESET, {92: "coordinate setting"}),
+    *_codes(Effect.SHIFT, dict.fromkeys(range(54, 60), "work coordinate system")),
+    *_codes(Effect.FRAME, {50: "end of scaling", 51: "scaling", 52: "local coordinate system", 68: "rotation"}),
+    *_codes(Effect.FRAME, {69: "end of rotation", 15: "end of polar coordinates", 16: "polar coordinates"}),
+    *_codes(Effect.NONE, {43: "length compensation", 44: "length compensation", 49: "no length compensation"}),
+    *_codes(Effect.NONE, {61: "exact stop", 64: "continuous cutting", 94: "feed a minute", 95: "feed a revolution"}),
+    *_codes(
+        Effect.NONE, {9: "exact stop", 96: "constant surface speed", 97: "spindle speed", 98: "return", 99: "return"}
+    ),
+)
+
+MODES = Modes(
+    lexicon=Lexicon({row.address: row for row in ADDRESSES}, NUMBERS),
+    codes={code.number: code for code in CODES},
+    axes=AXES,
+    calls=frozenset({98, 99}),
+)
+
+
+LINE, ARC = "line", "arc"
+OVER_LINE, OVER_CIRCLE = "over-defined line", "over-defined circle"
+"""The roles of single blocks."""
+LINE_LINE, LINE_CIRCLE, CIRCLE_LINE, CIRCLE_CIRCLE = "line-line", "line-circle", "circle-line", "circle-circle"
+"""The roles of two blocks that meet in a computed intersection (16.3.1 to 16.3.4)."""
+
+ALONE, OTHER_PLANE, RAPID = "@alone", "@other-plane", "@rapid"
+UNCOMPENSATED, UNCOMPENSATED_FREE = "@uncompensated", "@uncompensated-free"
+"""Over-defined without compensation where that is required, and where a setting frees it."""
+FOLLOWED = "@followed"
+"""The next block is over-defined, so that this one ends in a computed intersection."""
+LAST = "@last"
+"""No G1, G2 or G3 block follows."""
+FEED, NEGATIVE_RADIUS, ONE_CENTER = "@feed", "@negative-radius", "@one-center"
+"""A feed in the block; an over-defined circle with a negative R; one of the two distances to the centre."""
+ON_PARALLEL_AXES = "@parallel"
+"""A parallel axis stands for an axis of the plane."""
+ONLY = "@only"
+"""The only block of its contour."""
+BESIDE = tuple(f"beside-{axis}" for axis in AXES)
+"""Words that move an axis outside the plane, each with its axis."""
+ORDINARY = "@ordinary"
+"""The control calculates nothing for it."""
+
+POINT = "point"
+"""Stated as soon as a block that ends in an intersection has a coordinate: then it states a point of its element."""
+
+AIMED = "aimed"
+"""Stated instead of it if the same line has an angle, too: both then say where it runs."""
+
+CHAMFER, ROUNDING = ",C", ",R"
+
+
+@dataclass(frozen=True, slots=True)
+class Element:
+    """One block: a line, or an arc of a sense.
+
+    `is_over` tells that it is over-defined: it begins in a computed intersection, and what it states is absolute.
+    `is_followed` tells that the next block is, so that it ends in one.
+    """
+
+    turn: Turn | None
+    is_over: bool
+    is_followed: bool
+
+    @property
+    def role(self) -> str:
+        """Which rules speak about it."""
+        if self.turn is None:
+            return OVER_LINE if self.is_over else LINE
+        return OVER_CIRCLE if self.is_over else ARC
+
+
+def pair_role(first: Element, second: Element) -> str:
+    """Which rules speak about two blocks that meet in a computed intersection."""
+    if first.turn is None:
+        return LINE_LINE if second.turn is None else LINE_CIRCLE
+    return CIRCLE_LINE if second.turn is None else CIRCLE_CIRCLE
+
+
+_POINT = ("first", "first-step", "second", "second-step")
+
+
+def _row(name: str, meaning: str, place: str, roles: tuple[str, ...], when: Condition) -> Assumption:
+    return Assumption(name, meaning, Source(MANUAL, place, Evidence.ASSUMED), roles, when)
+
+
+ASSUMPTIONS = (
+    _row(
+        "circle-without-point",
+        "the point of a circle that has I, J or K may be left out before an over-defined block",
+        "16.3.3, p. 129: the format has a point",
+        (ARC,),
+        some("center-first", "center-second") & ~some(*_POINT) & some(FOLLOWED),
+    ),
+    _row(
+        "sign-of-radius",
+        "the sign of R of an over-defined circle means nothing",
+        "p. 128: not described",
+        (OVER_CIRCLE,),
+        some(NEGATIVE_RADIUS),
+    ),
+    _row(
+        "one-of-center",
+        "of the two of I, J and K that belong to the plane, one that is left out is 0",
+        "p. 25: not described",
+        (ARC,),
+        some(ONE_CENTER),
+    ),
+    _row(
+        "parallel-axis",
+        "U, V or W beside ,A stands for the axis of the plane to which it is parallel, where that has no word",
+        "16.2, p. 120: X, Y, Z or their parallel axes",
+        (LINE,),
+        some(ON_PARALLEL_AXES),
+    ),
+    _row(
+        "increment-beside-angle",
+        "beside ,A, under G91, the coordinate is an increment from the start point",
+        "16.2, p. 120: not described",
+        (LINE,),
+        some("first-step", "second-step") & some(",A"),
+    ),
+    _row(
+        "corner-of-zero",
+        ",C or ,R of value 0 means no corner",
+        "16.1: not described",
+        (LINE, ARC, OVER_LINE, OVER_CIRCLE),
+        Value((CHAMFER, ROUNDING), excluding=Decimal(0)),
+    ),
+    _row(
+        "feed-in-block",
+        "F may stand in the block",
+        "16.3: the formats have none",
+        (LINE, ARC, OVER_LINE, OVER_CIRCLE),
+        some(FEED),
+    ),
+)

@@ -1,0 +1,197 @@
+"""Controls that are read as plain G-code, without contour forms of their own, to compare programs with theirs."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from decimal import Decimal
+from enum import Enum
+
+from contoursolve.controls.common import COMMON_RULES
+from contoursolve.diagnostics.source import Evidence, Source
+from contoursolve.gcode import Block
+from contoursolve.geometry import Length, Plane, Unit
+from contoursolve.reading import Address, Code, Effect, Lexicon, Modes, NumberFormat, State, WithoutPoint
+from contoursolve.reading.dialect import Dialect
+
+LINUXCNC_MANUAL = Source("LinuxCNC User Manual", "G-codes; lathe user information", Evidence.PRINTED)
+FANUC_MANUAL = Source("Fanuc 0i operator's manuals", "list of G codes, code system A for lathes", Evidence.ASSUMED)
+
+
+class Centers(Enum):
+    """What I J K of an arc are counted from."""
+
+    START = "where the arc begins"
+    ORIGIN = "the origin"
+
+
+@dataclass(frozen=True, slots=True)
+class Switch:
+    """What a G code changes in how later words are read; None: nothing."""
+
+    is_diameter: bool | None = None
+    centers: Centers | None = None
+
+
+SWITCHES: Mapping[str, Mapping[Decimal, Switch]] = {
+    "linuxcnc": {
+        Decimal(7): Switch(is_diameter=True),
+        Decimal(8): Switch(is_diameter=False),
+        Decimal("90.1"): Switch(centers=Centers.ORIGIN),
+        Decimal("91.1"): Switch(centers=Centers.START),
+        Decimal("61.1"): Switch(),
+        Decimal("43.1"): Switch(),
+        Decimal("43.2"): Switch(),
+    }
+}
+"""By the name of the control: codes that change how words are read (X as diameter or radius, the centres of arcs), and
+codes with a point that change nothing here."""
+
+LATHE = Plane("G18", ("Z", "X"), ("K", "I"), (False, True))
+_PLANES = {
+    17: Plane("G17", ("X", "Y"), ("I", "J")),
+    18: Plane("G18", ("Z", "X"), ("K", "I")),
+    19: Plane("G19", ("Y", "Z"), ("J", "K")),
+}
+
+
+def lexicon(
+    source: Source, numbers: NumberFormat, axes: str, increments: Mapping[str, str], *, is_diameter: bool
+) -> Lexicon:
+    """Coordinates, their increments, arc centres and radii; X and its increments are diameters, or not."""
+    rows = [
+        *(Address(axis, "coordinate", Unit.MM, source, axis, is_diameter=is_diameter and axis == "X") for axis in axes),
+        *(
+            Address(address, "increment", Unit.MM, source, axis, True, is_diameter and axis == "X")
+            for address, axis in increments.items()
+        ),
+        *(Address(address, "centre of an arc", Unit.MM, source) for address in "IJK"),
+        Address("R", "radius; negative for an arc of more than 180 deg", Unit.MM, source),
+    ]
+    return Lexicon({row.address: row for row in rows}, numbers)
+
+
+def _codes(source: Source, rows: Mapping[Effect, Mapping[int, str]], *, has_planes: bool) -> dict[int, Code]:
+    codes = [Code(number, effect, meaning, source) for effect, row in rows.items() for number, meaning in row.items()]
+    codes += [
+        Code(20, Effect.UNITS, "inches", source, unit=Length.INCH),
+        Code(21, Effect.UNITS, "millimetres", source, unit=Length.MM),
+    ]
+    if has_planes:
+        codes += [Code(number, Effect.PLANE, "plane", source, plane=plane) for number, plane in _PLANES.items()]
+    return {code.number: code for code in codes}
+
+
+_EVERYWHERE: dict[Effect, dict[int, str]] = {
+    Effect.MOTION: {0: "positioning", 1: "line", 2: "arc clockwise", 3: "arc counter-clockwise"},
+    Effect.NO_MOTION: {4: "dwell", 10: "data setting"},
+    Effect.COMPENSATION: {40: "no compensation", 41: "compensation left", 42: "compensation right"},
+    Effect.SHIFT: dict.fromkeys(range(54, 60), "work coordinate system"),
+    Effect.SINGLE: {28: "reference point return", 30: "other reference point return", 53: "machine coordinates"},
+    Effect.NONE: {96: "constant surface speed", 97: "spindle speed", 98: "feed or return", 99: "feed or return"},
+}
+_DRILLING = dict.fromkeys((73, *range(81, 90)), "drilling cycle")
+_G90 = {Effect.ABSOLUTE: {90: "absolute coordinates"}, Effect.INCREMENTAL: {91: "incremental coordinates"}}
+
+
+def _with(*tables: Mapping[Effect, Mapping[int, str]]) -> dict[Effect, dict[int, str]]:
+    """Tables of codes in one; where two have a code, the later one counts."""
+    rows: dict[Effect, dict[int, str]] = {}
+    for table in (_EVERYWHERE, *tables):
+        for effect, row in table.items():
+            rows.setdefault(effect, {}).update(row)
+    return rows
+
+
+_LINUXCNC_CODES = _codes(
+    LINUXCNC_MANUAL,
+    _with(
+        _G90,
+        {
+            Effect.MOTION: {33: "thread"},
+            Effect.CYCLE: _DRILLING,
+            Effect.CANCEL: {80: "end of cycle"},
+            Effect.PRESET: {92: "coordinate setting"},
+            Effect.FRAME: {52: "local coordinate system"},
+            Effect.SINGLE: {70: "finishing cycle", 71: "roughing", 72: "roughing", 76: "threading cycle"},
+            Effect.NONE: {43: "length compensation", 49: "no length compensation", 61: "exact path", 64: "blending"}
+            | dict.fromkeys((93, 94, 95), "kind of feed"),
+        },
+    ),
+    has_planes=True,
+)
+_FANUC_LATHE_CODES = _codes(
+    FANUC_MANUAL,
+    _with(
+        {
+            Effect.MOTION: {32: "thread", 34: "thread of variable lead"},
+            Effect.NO_MOTION: {22: "stored limit on", 23: "stored limit off"},
+            Effect.SINGLE: {27: "reference point check", 31: "skip", 36: "tool offset X", 37: "tool offset Z"}
+            | {65: "macro call", 66: "modal macro call", 67: "end of modal macro call"}
+            | dict.fromkeys(range(70, 77), "cycle"),
+            Effect.CYCLE: {90: "turning cycle", 92: "thread cycle", 94: "facing cycle"},
+            Effect.PRESET: {50: "coordinate setting or spindle limit"},
+            Effect.NONE: {18: "plane Z X"},
+        }
+    ),
+    has_planes=False,
+)
+_FANUC_MILL_CODES = _codes(
+    FANUC_MANUAL,
+    _with(
+        _G90,
+        {
+            Effect.MOTION: {33: "thread"},
+            Effect.NO_MOTION: {22: "stored limit on", 23: "stored limit off"},
+            Effect.SINGLE: {27: "reference point check", 29: "return from reference point", 31: "skip"}
+            | {37: "length measurement", 65: "macro call", 66: "modal macro call", 67: "end of modal macro call"},
+            Effect.CYCLE: _DRILLING | {74: "drilling cycle", 76: "drilling cycle"},
+            Effect.CANCEL: {80: "end of cycle"},
+            Effect.PRESET: {92: "coordinate setting"},
+            Effect.FRAME: {15: "end of polar coordinates", 16: "polar coordinates", 50: "end of scaling"}
+            | {51: "scaling", 52: "local coordinate system", 68: "rotation", 69: "end of rotation"},
+            Effect.NONE: {43: "length compensation", 44: "length compensation", 49: "no length compensation"}
+            | {9: "exact stop", 61: "exact stop", 64: "cutting", 94: "feed a minute", 95: "feed a revolution"},
+        },
+    ),
+    has_planes=True,
+)
+
+_AS_WRITTEN = NumberFormat(WithoutPoint.AS_WRITTEN, LINUXCNC_MANUAL)
+_INCREMENTS = NumberFormat(WithoutPoint.LEAST_INCREMENTS, FANUC_MANUAL)
+_CALLS = frozenset({98, 99})
+
+
+def _no_contour(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> None:
+    """There is none."""
+
+
+def _plain(name: str, title: str, modes: Modes, plane: Plane) -> Dialect:
+    return Dialect(name, title, modes, plane, (), COMMON_RULES, _no_contour, lambda _: ())
+
+
+LINUXCNC = _plain(
+    "linuxcnc",
+    "LinuxCNC, mills and lathes",
+    Modes(
+        lexicon(LINUXCNC_MANUAL, _AS_WRITTEN, "XYZ", {}, is_diameter=False), _LINUXCNC_CODES, ("X", "Y", "Z"), _CALLS
+    ),
+    _PLANES[17],
+)
+FANUC_LATHE = _plain(
+    "fanuc-lathe",
+    "Fanuc lathes, G-code system A",
+    Modes(
+        lexicon(FANUC_MANUAL, _INCREMENTS, "XZ", {"U": "X", "W": "Z"}, is_diameter=True),
+        _FANUC_LATHE_CODES,
+        ("Z", "X"),
+        _CALLS,
+    ),
+    LATHE,
+)
+FANUC_MILL = _plain(
+    "fanuc-mill",
+    "Fanuc mills",
+    Modes(lexicon(FANUC_MANUAL, _INCREMENTS, "XYZ", {}, is_diameter=False), _FANUC_MILL_CODES, ("X", "Y", "Z"), _CALLS),
+    _PLANES[17],
+)
+
+PLAIN = {dialect.name: dialect for dialect in (LINUXCNC, FANUC_LATHE, FANUC_MILL)}

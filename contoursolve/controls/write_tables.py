@@ -1,0 +1,62 @@
+"""Writes the tables of sympy's results that ship with the package: `python -m contoursolve.controls.write_tables`."""
+
+import json
+from collections.abc import Iterator
+from dataclasses import asdict
+from pathlib import Path
+
+from contoursolve import analysis
+from contoursolve.analysis import derive
+from contoursolve.analysis.identities import derive_circle_identity, derive_identity, is_affine, tied_sets
+from contoursolve.controls import DIALECTS
+from contoursolve.geometry import Fact, build_system
+from contoursolve.reading import Form, lay_out, stated_sets
+
+
+def table() -> str:
+    """The verdict on every combination of words of every form, by sympy, as JSON."""
+    rows = {}
+    for dialect in DIALECTS.values():
+        for form in dialect.forms:
+            for stated in stated_sets(form):
+                layout = lay_out(form, stated, frozenset())
+                system = build_system(layout.figure, layout.facts)
+                rows[system.equations_key] = json.dumps(asdict(derive(system)))
+    return _write(rows)
+
+
+def identity_table() -> str:
+    """For every smallest set of words that say the same: the formula that ties them, by sympy, as JSON."""
+    rows = {}
+    for dialect in DIALECTS.values():
+        for form in dialect.forms:
+            for facts, formula in _identities(form):
+                key = f"{form.name}: {' '.join(sorted(fact.given for fact in facts if fact.given))}"
+                rows[key] = json.dumps(formula)
+    return _write(rows)
+
+
+def _identities(form: Form) -> Iterator[tuple[tuple[Fact, ...], str]]:
+    layout = lay_out(form, frozenset().union(*stated_sets(form)), frozenset())
+    if is_affine(layout.facts):
+        system = build_system(layout.figure, layout.facts)
+        yield from ((facts, derive_identity(system, facts)) for facts in tied_sets(system))
+        return
+    for stated in stated_sets(form):
+        layout = lay_out(form, stated, frozenset())
+        system = build_system(layout.figure, layout.facts)
+        verdict = derive(system)
+        tied = tuple(layout.facts[index] for index in verdict.tied)
+        formula = derive_circle_identity(system, tied)
+        if formula and len(layout.facts) == len(system.unknowns) + 1:
+            yield tied, formula
+
+
+def _write(rows: dict[str, str]) -> str:
+    return "{\n" + ",\n".join(f"{json.dumps(key)}: {row}" for key, row in sorted(rows.items())) + "\n}\n"
+
+
+if __name__ == "__main__":
+    folder = Path(analysis.__file__).parent
+    (folder / "verdicts.json").write_text(table(), encoding="utf-8", newline="\n")
+    (folder / "identities.json").write_text(identity_table(), encoding="utf-8", newline="\n")

@@ -1,0 +1,33 @@
+"""The YASNAC LX3 lathe control, from section 2.8.30 and pages 31-32 of its Instruction Manual."""
+
+from contoursolve.controls.common import COMMON_RULES
+from contoursolve.controls.yasnac_lx3.arc import ARC_FORMS, ARC_RULES
+from contoursolve.controls.yasnac_lx3.find import find, follow
+from contoursolve.controls.yasnac_lx3.g111 import G111, G111_RULES
+from contoursolve.controls.yasnac_lx3.g112 import G112_FORMS, G112_RULES
+from contoursolve.controls.yasnac_lx3.leaving import LEAVING_FORMS, LEAVING_RULES
+from contoursolve.controls.yasnac_lx3.lexicon import BEVEL, LATHE, MODES, MOTION_AFTER
+from contoursolve.gcode import Block, Word
+from contoursolve.reading.dialect import Dialect
+
+
+def _signs(block: Block) -> tuple[Word, ...]:
+    addresses = {word.address for word in block.words}
+    codes = {111, 112, 11, 12} if addresses & {*"XUZW"} and addresses & {*"IK"} else {111, 112}
+    return tuple(word for word in block.words if word.address == "G" and word.number in codes)
+
+
+YASNAC_LX3 = Dialect(
+    name="yasnac-lx3",
+    title="YASNAC LX3 lathe control",
+    modes=MODES,
+    plane=LATHE,
+    forms=(G111, *G112_FORMS, *LEAVING_FORMS, *ARC_FORMS),
+    rules=COMMON_RULES + G111_RULES + G112_RULES + LEAVING_RULES + ARC_RULES,
+    find=find,
+    signs=_signs,
+    contours="G111, G112, G11, G12, and G01 with I or K",
+    settings=(BEVEL, MOTION_AFTER),
+    has_runs=False,
+    follow=follow,
+)

@@ -1,0 +1,447 @@
+"""YASNAC LX3 G111, taper multiple cornering: its facts, its path, and its rules."""
+
+from decimal import Decimal
+from functools import cache
+
+from contoursolve.controls.yasnac_lx3.claim import OTHER_G, after_cornering, bevel_of, claim_of
+from contoursolve.controls.yasnac_lx3.lexicon import ASSUMPTIONS, MOTION_AFTER, alarms, manual
+from contoursolve.diagnostics.finding import Severity
+from contoursolve.diagnostics.source import Evidence, Source
+from contoursolve.gcode import Block
+from contoursolve.geometry import FIRST, SECOND, Coordinate, CornerShape, Heading, Line, Offset, Role
+from contoursolve.reading import Claim, CornerRow, FactRow, Form, Modes, Sample, State, Trouble
+from contoursolve.reading.rules import Rule, Value, all_of, at_least, at_most, some
+from contoursolve.solving import RefusalKind, RemarkKind
+
+START, V1, V2 = "S", "V1", "V2"
+
+PASSING = frozenset("NGF")
+"""Addresses without a meaning for the contour that may stand in the block; F is assumed."""
+
+REFUSED = frozenset("MST")
+"""Addresses that a rule refuses."""
+
+
+@cache
+def g111(bevel: CornerShape) -> Form:
+    """The form of the block, with bevels of a shape."""
+    return Form(
+        name="G111",
+        title="taper multiple cornering",
+        roles=(Role("G111"),),
+        start=START,
+        points=(V1, V2),
+        radii=(),
+        facts=(
+            FactRow(Offset("I", V1, START, SECOND), ("I",)),
+            FactRow(Offset("K", V1, START, FIRST), ("K",)),
+            FactRow(Heading("A", START, V1), ("A",)),
+            FactRow(Coordinate("X", V2, SECOND), ("X",)),
+            FactRow(Offset("U", V2, START, SECOND), ("U",)),
+            FactRow(Coordinate("Z", V2, FIRST), ("Z",)),
+            FactRow(Offset("W", V2, START, FIRST), ("W",)),
+            FactRow(Heading("B", V1, V2), ("B",)),
+        ),
+        path=(Line("line 1", START, V1, heading="A"), Line("line 2", V1, V2, heading="B")),
+        corners=(
+            CornerRow("corner 1", V1, "line 1", "line 2", {"C": bevel, "P": CornerShape.FILLET}),
+            CornerRow(
+                "corner 2",
+                V2,
+                "line 2",
+                None,
+                {"D": bevel, "Q": CornerShape.FILLET},
+                landing=((("X", "U"), FIRST), (("Z", "W"), SECOND)),
+            ),
+        ),
+        intersections=(V1, V2),
+        allowed=frozenset("XUZWABIKPQCD") | PASSING,
+        combinations=tuple(((), (address,)) for address in "AIKBXUZW"),
+        sample=Sample(
+            "G00 X40. Z0.",
+            ("G111 {A160.} {B120.} {C2.} {D2.} {I10.919} {K-30.} {P2.} {Q2.} {U60.} {W-41.016} {X100.} {Z-41.016}",),
+        ),
+        assumptions=ASSUMPTIONS,
+        is_literal=True,
+    )
+
+
+G111 = g111(CornerShape.CHAMFER_AXIS_45)
+
+
+def claim_g111(block: Block, state: State, modes: Modes) -> Claim:
+    """The contour of a block with G111."""
+    after = after_cornering(block, state, modes)
+    return claim_of(block, g111(bevel_of(modes)), 111, state, after, modes, REFUSED)
+
+
+_ROLE = "G111"
+_END_X, _END_Z = ("X", "U"), ("Z", "W")
+_LINE_2 = ("B", _END_X, _END_Z)
+_WHOLE_LINE_2 = all_of(*_LINE_2)
+_START = "G00 X40. Z0.\n"
+_GOOD = _START + "G111 X100. A180. K-30. B120."
+
+_TABLE_234 = manual("2.8.30, Table 2.34")
+_FITS = manual("2.8.30; the family's alarms", Evidence.DERIVED)
+_WORDS_IN_BLOCK, _COMBINATION, _GEOMETRY = alarms(Evidence.ASSUMED)
+
+_COMBINATION_RULES = (
+    Rule(
+        code="g111-line-1",
+        message="line 1 needs two of A, I and K; the block gives {present:A I K}",
+        help="add {absent:A I K}; a zero must be written, too (I0, K0)",
+        source=_TABLE_234,
+        alarm=_COMBINATION,
+        roles=(_ROLE,),
+        when=at_most(1, "A", "I", "K") & ~(_WHOLE_LINE_2 & at_least(1, "A", "I", "K")),
+        accepted=(_GOOD, _START + "G111 A180. B120. X100. Z-47.3205"),
+        rejected=(_START + "G111 X100. A180. B120.", _START + "G111 X100. B120. Z-47."),
+    ),
+    Rule(
+        code="g111-line-2",
+        message="line 2 needs two of B, X or U, Z or W; the block gives {present:B X U Z W}",
+        help="add {absent:B X|U Z|W}; a zero must be written, too (U0, W0, B0)",
+        source=_TABLE_234,
+        alarm=_COMBINATION,
+        roles=(_ROLE,),
+        when=at_most(1, *_LINE_2),
+        accepted=(_GOOD, _START + "G111 A180. K-30. B120. U60."),
+        rejected=(_START + "G111 A180. K-30. B120.", _START + "G111 A180. K-30."),
+    ),
+    Rule(
+        code="g111-x-and-u",
+        message="{words}: X and U both give the end of line 2 in X",
+        help="keep one of them",
+        source=_TABLE_234,
+        alarm=_COMBINATION,
+        roles=(_ROLE,),
+        when=all_of("X", "U"),
+        accepted=(_GOOD,),
+        rejected=(_GOOD + " U60.",),
+    ),
+    Rule(
+        code="g111-z-and-w",
+        message="{words}: Z and W both give the end of line 2 in Z",
+        help="keep one of them",
+        source=_TABLE_234,
+        alarm=_COMBINATION,
+        roles=(_ROLE,),
+        when=all_of("Z", "W"),
+        accepted=(_START + "G111 A180. K-30. B120. Z-47.",),
+        rejected=(_START + "G111 A180. K-30. B120. Z-47. W-47.",),
+    ),
+    Rule(
+        code="g111-c-and-p",
+        message="{words}: corner 1 is either a bevel C or a rounding P",
+        help="keep one of them",
+        source=_TABLE_234,
+        alarm=_COMBINATION,
+        roles=(_ROLE,),
+        when=all_of("C", "P"),
+        accepted=(_GOOD + " C5. Q5.", _GOOD + " P5. D5."),
+        rejected=(_GOOD + " C5. P5.",),
+    ),
+    Rule(
+        code="g111-d-and-q",
+        message="{words}: corner 2 is either a bevel D or a rounding Q",
+        help="keep one of them",
+        source=_TABLE_234,
+        alarm=_COMBINATION,
+        roles=(_ROLE,),
+        when=all_of("D", "Q"),
+        accepted=(_GOOD + " D5.", _GOOD + " Q5."),
+        rejected=(_GOOD + " D5. Q5.",),
+    ),
+    Rule(
+        code="g111-corner-2-without-angle",
+        message="{words:D Q}: corner 2 is not available when X(U) and Z(W) give line 2",
+        help="delete {words:D Q}, or give line 2 by B and one of X(U), Z(W)",
+        source=manual("2.8.30, p. 140 (iii)"),
+        alarm=_COMBINATION,
+        roles=(_ROLE,),
+        when=some("D", "Q") & all_of(_END_X, _END_Z) & ~_WHOLE_LINE_2,
+        accepted=(_GOOD + " Q5.",),
+        rejected=(_START + "G111 A180. K-30. X100. Z-47. Q5.",),
+    ),
+    Rule(
+        code="g111-corner-2-with-three",
+        message="{words:D Q}: corner 2 is not available when B, X(U) and Z(W) are all given",
+        help="delete {words:D Q}, or one of X(U) and Z(W)",
+        source=manual("2.8.30, p. 140 (i); as (iii)", Evidence.ASSUMED),
+        alarm=_COMBINATION,
+        roles=(_ROLE,),
+        when=some("D", "Q") & _WHOLE_LINE_2 & at_most(1, "A", "I", "K"),
+        accepted=(_GOOD + " Q5.",),
+        rejected=(_START + "G111 A180. B120. X100. Z-47. Q5.",),
+    ),
+    Rule(
+        code="g111-corner-2-without-b",
+        message="{words:D Q}: corner 2 is not available, because {words:B} is ignored and X(U) and Z(W) give line 2",
+        help="delete {words:D Q}, or one of X(U) and Z(W)",
+        source=manual("2.8.30, p. 140 (vi) and (iii)", Evidence.DERIVED),
+        alarm=_COMBINATION,
+        roles=(_ROLE,),
+        when=some("D", "Q") & _WHOLE_LINE_2 & at_least(2, "A", "I", "K"),
+        accepted=(_GOOD + " Q5.", _START + "G111 A180. K-30. B120. X100. Z-47."),
+        rejected=(_START + "G111 A180. K-30. B120. X100. Z-47. Q5.", _START + "G111 I0 K-30. B120. X100. Z-47. D5."),
+    ),
+    Rule(
+        code="g111-a-ignored",
+        message="{words:A} is ignored, because I and K are given, too{comparison}",
+        help="delete {words:A}, or one of I and K if the angle is what you mean",
+        source=manual("2.8.30, p. 140 (v)"),
+        severity=Severity.WARNING,
+        roles=(_ROLE,),
+        when=all_of("A", "I", "K"),
+        about=Trouble.WORD_IGNORED,
+        ignores="A",
+        accepted=(_GOOD,),
+        rejected=(_START + "G111 A135. I10. K-12. B180. Z-40.",),
+    ),
+    Rule(
+        code="g111-b-ignored",
+        message="{words:B} is ignored, because X(U) and Z(W) and two of A, I, K are given, too{comparison}",
+        help="delete {words:B}, or one word more if the angle is what you mean",
+        source=manual("2.8.30, p. 140 (vi)"),
+        severity=Severity.WARNING,
+        roles=(_ROLE,),
+        when=_WHOLE_LINE_2 & at_least(2, "A", "I", "K"),
+        about=Trouble.WORD_IGNORED,
+        ignores="B",
+        accepted=(_GOOD, _START + "G111 A180. B120. X100. Z-47."),
+        rejected=(_START + "G111 A180. K-30. B120. X100. Z-47.",),
+    ),
+    Rule(
+        code="g111-angle-range",
+        message="{words} is outside -360 to 360 deg",
+        help="write an angle from -360 to 360 deg; this one is the direction of {within}",
+        source=manual("2.8.30, p. 140 (vii)"),
+        alarm=_COMBINATION,
+        roles=(_ROLE,),
+        when=Value(("A", "B"), least=Decimal(-360), most=Decimal(360)),
+        accepted=(_GOOD, _START + "G111 X100. A-180. K-30. B-240."),
+        rejected=(_START + "G111 X100. A180. K-30. B480.",),
+    ),
+    Rule(
+        code="g111-corner-sign",
+        message="{words} is negative; C, P, D and Q are written without sign",
+        help="delete the minus sign: the lines tell on which side the corner lies",
+        source=manual("2.8.30, Table 2.33: without sign; that it is an error", Evidence.ASSUMED),
+        alarm=_COMBINATION,
+        roles=(_ROLE,),
+        when=Value(("C", "P", "D", "Q"), least=Decimal(0)),
+        accepted=(_GOOD + " P5. Q5.", _GOOD + " P0"),
+        rejected=(_GOOD + " P-5.",),
+    ),
+    Rule(
+        code="g111-m-s-t",
+        message="{words:M S T}: a G111 block takes no M, S or T word",
+        help="write it in a block of its own",
+        source=manual("2.8.30, p. 140 Note 2"),
+        alarm=_WORDS_IN_BLOCK,
+        roles=(_ROLE,),
+        when=some("M", "S", "T"),
+        accepted=(_GOOD + " F0.2", "M08\n" + _GOOD),
+        rejected=(_GOOD + " M08", _GOOD + " S500", _GOOD + " T0101"),
+    ),
+    Rule(
+        code="g111-other-g",
+        message="{words:other G} uses the axis words of the block itself, and so does G111",
+        help="write it in a block of its own; G111 needs no G01",
+        source=manual("2.8.30: G111 is not modal; two codes of one group", Evidence.ASSUMED),
+        alarm=_COMBINATION,
+        roles=(_ROLE,),
+        when=some(OTHER_G),
+        accepted=(_GOOD,),
+        rejected=(_START + "G01 G111 X100. A180. K-30. B120.", _START + "G04 G111 X100. A180. K-30. B120."),
+    ),
+)
+
+_TOUCHING = Source("contoursolve", "further facts", Evidence.ASSUMED)
+
+_GEOMETRY_RULES = (
+    Rule(
+        code="g111-touches",
+        message="{subject}: two contours have become one, because an element just touches; a small change parts them",
+        help="check that it is meant to touch",
+        source=_TOUCHING,
+        roles=(_ROLE,),
+        about=RemarkKind.DOUBLE,
+        severity=Severity.WARNING,
+        accepted=(_GOOD,),
+        rejected=("G00 X40. Z0.\nG111 A180. K-30. X100. (contoursolve: length of line 2 = 30)",),
+    ),
+    Rule(
+        code="g111-parallel",
+        message="no point satisfies {words} together: the lines are parallel and {off} apart",
+        help="change an angle, or give the point by its distances I and K",
+        source=manual("2.8.30, p. 146: no intersection", Evidence.DERIVED),
+        alarm=_GEOMETRY,
+        roles=(_ROLE,),
+        about=RefusalKind.LINES_PARALLEL,
+        accepted=(_GOOD,),
+        rejected=(_START + "G111 A180. B180. X100. Z-50.", _START + "G111 A180. I5. B120. X100."),
+    ),
+    Rule(
+        code="g111-not-fixed",
+        message="{words} do not fix {free}: at these values they state the same line",
+        help="replace one of them by a word that says where on the line the point is",
+        source=manual("2.8.30, p. 146: no intersection", Evidence.DERIVED),
+        alarm=_GEOMETRY,
+        roles=(_ROLE,),
+        about=RefusalKind.NOT_FIXED,
+        accepted=(_GOOD,),
+        rejected=(_START + "G111 A180. I0 B120. X100.",),
+    ),
+    Rule(
+        code="g111-reversed",
+        message="{subject} would run against {words}: its end lies {off} behind its start",
+        help="check the signs: as its ends lie, it would run at {expected}",
+        source=manual("2.8.30, p. 146: moves away", Evidence.DERIVED),
+        alarm=_GEOMETRY,
+        roles=(_ROLE,),
+        about=RefusalKind.LINE_REVERSED,
+        accepted=(_GOOD,),
+        rejected=(_START + "G111 X100. A0 K-30. B120.", _START + "G111 X100. A180. K-30. B-60."),
+    ),
+    Rule(
+        code="g111-corner-too-large",
+        message="{subject} does not fit: {words} is {actual}, {fits} on its lines",
+        help="{smaller}, or make the lines longer",
+        source=_FITS,
+        alarm=_GEOMETRY,
+        roles=(_ROLE,),
+        about=RefusalKind.CORNER_TOO_LARGE,
+        accepted=(_GOOD + " P5. Q5.",),
+        rejected=(_GOOD + " P60.", _GOOD + " D40."),
+    ),
+    Rule(
+        code="g111-corners-overlap",
+        message="{words} overlap on {subject}: they need {actual}, the line has {limit}",
+        help="{smaller}",
+        source=_FITS,
+        alarm=_GEOMETRY,
+        roles=(_ROLE,),
+        about=RefusalKind.CORNERS_OVERLAP,
+        accepted=(_GOOD + " P5. Q5.",),
+        rejected=(_GOOD + " P35. Q35.",),
+    ),
+    Rule(
+        code="g111-no-corner",
+        message="{words}: {subject} joins two lines of the same direction, so there is nothing to round or bevel",
+        help="delete {words}",
+        source=manual("2.8.30, p. 146: no intersection", Evidence.DERIVED),
+        alarm=_GEOMETRY,
+        roles=(_ROLE,),
+        about=RefusalKind.CORNER_STRAIGHT,
+        accepted=(_GOOD + " P5.",),
+        rejected=(_START + "G111 A135. K-30. B135. X120. P2.",),
+    ),
+    Rule(
+        code="g111-corner-reverses",
+        message="{words}: {subject} turns back by 180 deg, where no corner can be made",
+        help="change an angle",
+        source=manual("2.8.30, p. 146: no intersection", Evidence.DERIVED),
+        alarm=_GEOMETRY,
+        roles=(_ROLE,),
+        about=RefusalKind.CORNER_REVERSES,
+        accepted=(_GOOD + " P5.",),
+        rejected=(_START + "G111 A135. K-30. B-45. X60. P2.",),
+    ),
+    Rule(
+        code="g111-bevel-outside",
+        message="{words}: the virtual intersection lies {off} outside the rectangle between start and end of line 2",
+        help="use a rounding P, or a sharp corner",
+        source=manual("2.8.30, p. 140 Note 3"),
+        alarm=_GEOMETRY,
+        roles=(_ROLE,),
+        about=RefusalKind.BEVEL_OUTSIDE,
+        accepted=(_GOOD + " C5.",),
+        rejected=(_START + "G111 X100. A180. K-30. B60. C5.",),
+    ),
+    Rule(
+        code="g111-bevel-band",
+        message="{words}: no 45 deg segment joins the two lines of {subject}",
+        help="use a rounding, or a sharp corner: the virtual intersection lies in the band between the 45 deg lines",
+        source=manual("2.8.30, p. 140 Note 3: printed for C, the same for D by symmetry", Evidence.DERIVED),
+        alarm=_GEOMETRY,
+        roles=(_ROLE,),
+        about=RefusalKind.BEVEL_IN_BAND,
+        accepted=(_GOOD + " C5. D5.",),
+        rejected=(_START + "G111 X60. A180. K-30. B160. C2.", _START + "G111 X60. A180. K-30. B160. D2."),
+    ),
+    Rule(
+        code="g111-landing-unknown",
+        message="{words}: neither line advances along the line that {subject} would land on",
+        help="delete {words}",
+        source=manual("2.8.30, p. 137, Tables 2.35 and 2.36", Evidence.DERIVED),
+        alarm=_GEOMETRY,
+        roles=(_ROLE,),
+        about=RefusalKind.LANDING_UNKNOWN,
+        accepted=(_GOOD + " Q5.",),
+        rejected=(_START + "G111 A90. I10. B90. X100. Q2.",),
+    ),
+)
+
+_FOLLOWING_RULES = (
+    Rule(
+        code="g111-forgotten",
+        message="{words} {stand} here without {code}, which is not modal: each contour needs its own",
+        help="write {code} into this block, or delete {words}",
+        source=manual("2.8.30: G111 is not modal", Evidence.DERIVED),
+        roles=(_ROLE, "G112"),
+        about=Trouble.CODE_FORGOTTEN,
+        severity=Severity.WARNING,
+        accepted=(
+            _GOOD + "\nG111 X160. A180. K-30. B120.",
+            _GOOD + "\nG01 X120. K-5.",
+            _GOOD + "\nG02 U10. W-5. I5. K0",
+        ),
+        rejected=(
+            _GOOD + "\nX160. A180. K-30. B120.",
+            "G01 X40. Z0. F0.2\nG111 X100. A180. K-30. B120.\nX160. A180. K-30. B120.",
+            _GOOD + "\nZ-90. K-10.",
+        ),
+    ),
+    Rule(
+        code="g111-rapid-behind",
+        message="{words} {have} no G code: behind {code}, G00 is in force again, so this is a rapid along the part",
+        help="write G01 or G00; if {code} leaves G01 in force on your control: --set yasnac-lx3.motion-after=g01",
+        source=MOTION_AFTER.source,
+        roles=(_ROLE, "G112"),
+        about=Trouble.RAPID_BEHIND,
+        severity=Severity.WARNING,
+        accepted=(
+            _GOOD + "\nG01 Z-90.",
+            _GOOD + "\nG00 X200.",
+            "G01 X40. Z0. F0.2\nG111 X100. A180. K-30. B120.\nZ-90.",
+        ),
+        rejected=(_GOOD + "\nZ-90.", _GOOD + " Q5.\nM08\nW-30.", "G00 X100. Z-50.\nG112 U0 I10. K-50. R30.\nZ-150."),
+    ),
+    Rule(
+        code="g111-landing-left",
+        message="{words} {leave} the line on which corner 2 lands by {angle}: corner 2 is made for {line}",
+        help="go on along {line}, or give line 2 a sharp end",
+        source=manual("2.8.30, p. 137 and 140: corner 2 does not look at the next block", Evidence.DERIVED),
+        roles=(_ROLE, "G112"),
+        about=Trouble.LANDING_LEFT,
+        severity=Severity.WARNING,
+        accepted=(
+            _GOOD + " Q5.\nG01 Z-90.",
+            _GOOD + " Q5.\nG00 X200. Z10.",
+            _GOOD + " D5.\nG111 A180. K-30. B120. X160.",
+            _GOOD + " Q5.\nG02 X110. Z-55.207 I5. K0",
+            _GOOD + "\nG01 X120.",
+        ),
+        rejected=(
+            _GOOD + " Q5.\nG01 X120.",
+            _GOOD + " D5.\nG01 X110. Z-90.",
+            _GOOD + " Q5.\nG01 Z-40.",
+            _GOOD + " Q5.\nG111 A150. K-30. B120. X160.",
+            "G00 X100. Z-50.\nG112 U0 I10. K-50. P5. Q5. R30.\nG01 X120. Z-150.",
+        ),
+    ),
+)
+
+G111_RULES = _COMBINATION_RULES + _GEOMETRY_RULES + _FOLLOWING_RULES

@@ -1,0 +1,427 @@
+"""YASNAC LX3 G112, circular-arc multiple cornering: its facts, its path, which way round its arc runs, its rules."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from decimal import Decimal
+from functools import cache
+
+from contoursolve.controls.yasnac_lx3.claim import OTHER_G, after_cornering, bevel_of, claim_of
+from contoursolve.controls.yasnac_lx3.g111 import PASSING, REFUSED, START, V1, V2
+from contoursolve.controls.yasnac_lx3.lexicon import ASSUMPTIONS, alarms, manual
+from contoursolve.diagnostics.finding import Severity
+from contoursolve.diagnostics.source import Evidence
+from contoursolve.gcode import Block
+from contoursolve.geometry import (
+    FIRST,
+    SECOND,
+    Arc,
+    Choice,
+    Coordinate,
+    CornerShape,
+    Given,
+    Heading,
+    Level,
+    Line,
+    Offset,
+    OnCircle,
+    Radius,
+    Role,
+    Side,
+    Turn,
+    Unit,
+)
+from contoursolve.reading import Claim, CornerRow, FactRow, Form, Modes, Sample, State
+from contoursolve.reading.rules import Rule, Value, all_of, at_least, at_most, some
+from contoursolve.solving import RefusalKind, RemarkKind
+
+CENTER, LANDING, RADIUS, WAY = "C", "landing line", "r", "way"
+"""LANDING is the foot of the centre on the line on which corner 2 lands, WAY the direction of both lines."""
+
+BACKS_UP, UNDECIDED = "@backs-up", "@undecided"
+"""Circumstances: an arc that would have to turn round, and one that could run on either side of its centre."""
+
+TURNING, FACING = "G112 turning", "G112 facing"
+
+_CENTERS = ("K", "I")
+"""The words that place the centre, by axis."""
+_WAYS = {(FIRST, 1): 0, (FIRST, -1): 180, (SECOND, 1): 90, (SECOND, -1): -90}
+"""Degrees, by the axis along which a line runs and the sign of its way."""
+
+
+@cache
+def g112(along: int, turn: Turn, bevel: CornerShape) -> Form:
+    """The form of the block: lines along an axis, an arc that turns so, bevels of a shape."""
+    across = 1 - along
+    absolute, increment = ("X", "U") if along == FIRST else ("Z", "W")
+    axis, other = ("Z", "X") if along == FIRST else ("X", "Z")
+    return Form(
+        name="G112",
+        title=f"circular-arc multiple cornering, {'turning' if along == FIRST else 'facing'}",
+        roles=(Role("G112"), Role(TURNING if along == FIRST else FACING)),
+        start=START,
+        points=(CENTER, V1, LANDING, V2),
+        radii=(RADIUS,),
+        facts=(
+            FactRow(Offset("I", CENTER, START, SECOND), ("I",)),
+            FactRow(Offset("K", CENTER, START, FIRST), ("K",)),
+            FactRow(Radius("R", RADIUS), ("R",)),
+            FactRow(Heading(WAY, START, V1), (WAY,)),
+            FactRow(OnCircle(V1, CENTER, RADIUS), ()),
+            FactRow(Level(LANDING, CENTER, along), ()),
+            FactRow(Coordinate(absolute, LANDING, across), (absolute,)),
+            FactRow(Offset(increment, LANDING, START, across), (increment,)),
+            FactRow(Heading(WAY, LANDING, V2), (WAY,)),
+            FactRow(OnCircle(V2, CENTER, RADIUS), ()),
+        ),
+        path=(Line("line 1", START, V1, heading=WAY), Arc("arc", V1, V2, CENTER, RADIUS, turn)),
+        lines=(Line("line 2", LANDING, V2, heading=WAY),),
+        corners=(
+            CornerRow("corner 1", V1, "line 1", "arc", {"C": bevel, "P": CornerShape.FILLET}),
+            CornerRow("corner 2", V2, "arc", None, {"D": bevel, "Q": CornerShape.FILLET}, lands_on="line 2"),
+        ),
+        intersections=(V1, V2),
+        allowed=frozenset("XUZWIKRPQCD") | PASSING,
+        combinations=(
+            *(((), (name,)) for name in (_CENTERS[across], "R", absolute, increment)),
+            ((), (_CENTERS[along],), (_CENTERS[along], WAY)),
+        ),
+        sample=_SAMPLES[along],
+        assumptions=ASSUMPTIONS,
+        meanings={
+            absolute: f"absolute {other} of the line along {axis} on which corner 2 lands",
+            increment: f"{other} increment from the start point to the line along {axis} on which corner 2 lands",
+            "I": "X distance from start to the centre of the arc (radius value)",
+            "K": "Z distance from start to the centre of the arc",
+        },
+    )
+
+
+_SAMPLES = (
+    Sample("G00 X100. Z-50.", ("G112 {C5.} {D5.} {I10.} {K-50.} {P5.} {Q5.} {R30.} {U0} {X100.}",)),
+    Sample("G00 X100. Z-50.", ("G112 Z-50. {C2.} {D2.} {I30.} {K5.} {P2.} {Q2.} {R15.} {W0}",)),
+)
+
+G112_FORMS = tuple(g112(along, Turn.CW, CornerShape.CHAMFER_AXIS_45) for along in (FIRST, SECOND))
+
+
+def claim_g112(block: Block, state: State, modes: Modes) -> Claim:
+    """The contour of a block with G112, which is not modal (assumed, as G111)."""
+    after = after_cornering(block, state, modes)
+    addresses = {word.address for word in block.words}
+    along = SECOND if addresses & {"Z", "W"} and not addresses & {"X", "U"} else FIRST
+    draft = claim_of(block, g112(along, Turn.CW, CornerShape.FILLET), 112, state, after, modes)
+    forward, aside = (_value(draft, _CENTERS[axis]) for axis in (along, 1 - along))
+    way, side = _sign(forward), _sign(aside)
+    beyond = _landing(draft, 1 - along, aside)
+    supplied = []
+    if way:
+        supplied.append(Given(WAY, Decimal(_WAYS[along, way]), Unit.DEGREE, None))
+    # The arc passes its centre on the side of line 1, or on that of the landing line where line 1 leads to the centre.
+    turns = way * (side or -_sign(beyond)) * (1 if along == FIRST else -1)
+    form = g112(along, Turn.CCW if turns > 0 else Turn.CW, bevel_of(modes))
+    # The arc begins where line 1 meets it first, and ends beyond its centre (derived).
+    choices = [Choice(V1, Side.NEARER, ""), Choice(V2, Side.FARTHER, "")]
+    circumstances = _circumstances(side, beyond)
+    claim = claim_of(block, form, 112, state, after, modes, REFUSED, supplied, choices, circumstances)
+    return replace(claim, limits=_limits(draft, 1 - along, aside, beyond))
+
+
+def _value(claim: Claim, name: str) -> Decimal | None:
+    return claim.givens[name].value if name in claim.givens else None
+
+
+def _sign(value: Decimal | None) -> int:
+    return (value > 0) - (value < 0) if value is not None else 0
+
+
+def _landing(claim: Claim, across: int, aside: Decimal | None) -> Decimal | None:
+    """How far the landing line lies from the centre, in the positive sense of its axis, mm; None where unknown."""
+    absolute, increment = (("Z", "W"), ("X", "U"))[across]
+    start = claim.before.start().values[across]
+    place, step = _value(claim, absolute), _value(claim, increment)
+    if aside is None:
+        return None
+    if step is not None:
+        return step - aside
+    return place - start - aside if place is not None and start is not None else None
+
+
+def _limits(claim: Claim, across: int, aside: Decimal | None, beyond: Decimal | None) -> dict[str, Decimal]:
+    """Where the words put the landing line through the centre, each by itself."""
+    if aside is None or beyond is None:
+        return {}
+    lands = claim.givens.keys() & set("ZW" if across == FIRST else "XU")
+    limits = {name: claim.givens[name].value - beyond for name in lands}
+    return {**limits, _CENTERS[across]: aside + beyond}
+
+
+def _circumstances(side: int, beyond: Decimal | None) -> Iterator[str]:
+    """What keeps the arc from running from V1 to V2; the centre lies to `side` of line 1."""
+    if beyond is not None and side * _sign(beyond) > 0:
+        yield BACKS_UP
+    if beyond == 0 and not side:
+        yield UNDECIDED
+
+
+_ROLE = "G112"
+_END = ("X", "U", "Z", "W")
+_START = "G00 X100. Z-50.\n"
+_GOOD = _START + "G112 U0 I10. K-50. R30."
+_FACE = _START + "G112 W0 I30. K5. R15."
+_ARC_FIRST = _START + "G112 U-10. I0 K-50. R30."
+
+_FORMAT = manual("2.8.30, p. 144")
+_IMPOSSIBLE = manual("2.8.30, p. 146, Table 2.44")
+_WAY = manual("2.8.30, p. 144-146: the path does not back up", Evidence.DERIVED)
+_FITS = manual("2.8.30, p. 146, Table 2.44: no intersection, bevel cannot be made", Evidence.DERIVED)
+_WORDS_IN_BLOCK, _PRINTED_COMBINATION, _PRINTED_GEOMETRY = alarms(Evidence.PRINTED)
+_, _COMBINATION, _GEOMETRY = alarms(Evidence.ASSUMED)
+
+_COMBINATION_RULES = (
+    Rule(
+        code="g112-word-missing",
+        message="G112 needs I, K, R and one of X, U, Z and W; the block gives {present:X U Z W I K R}",
+        help="add {absent:X|U|Z|W I K R}; a zero must be written, too (U0, I0)",
+        source=_FORMAT,
+        alarm=_COMBINATION,
+        roles=(_ROLE,),
+        when=at_most(3, _END, "I", "K", "R"),
+        accepted=(_GOOD, _FACE),
+        rejected=(_START + "G112 U0 I10. K-50.", _START + "G112 I10. K-50. R30.", _START + "G112 U0 K-50. R30."),
+    ),
+    Rule(
+        code="g112-x-and-u",
+        message="{words}: X and U both give the line on which corner 2 lands",
+        help="keep one of them",
+        source=_FORMAT,
+        alarm=_COMBINATION,
+        roles=(_ROLE,),
+        when=all_of("X", "U"),
+        accepted=(_GOOD,),
+        rejected=(_GOOD + " X100.",),
+    ),
+    Rule(
+        code="g112-z-and-w",
+        message="{words}: Z and W both give the line on which corner 2 lands",
+        help="keep one of them",
+        source=_FORMAT,
+        alarm=_COMBINATION,
+        roles=(_ROLE,),
+        when=all_of("Z", "W"),
+        accepted=(_FACE,),
+        rejected=(_FACE + " Z-50.",),
+    ),
+    Rule(
+        code="g112-x-and-z",
+        message="{words:X U Z W}: corner 2 lands on a line along Z by X(U), or on one along X by Z(W), not on both",
+        help="keep X(U) if line 1 runs along Z, Z(W) if it runs along X",
+        source=_FORMAT,
+        alarm=_COMBINATION,
+        roles=(_ROLE,),
+        when=all_of(("X", "U"), ("Z", "W")),
+        accepted=(_GOOD, _FACE),
+        rejected=(_GOOD + " Z-150.",),
+    ),
+    Rule(
+        code="g112-c-and-p",
+        message="{words}: corner 1 is either a bevel C or a rounding P",
+        help="keep one of them",
+        source=_FORMAT,
+        alarm=_PRINTED_COMBINATION,
+        roles=(_ROLE,),
+        when=all_of("C", "P"),
+        accepted=(_GOOD + " C5. Q5.", _GOOD + " P5. D5."),
+        rejected=(_GOOD + " C5. P5.",),
+    ),
+    Rule(
+        code="g112-d-and-q",
+        message="{words}: corner 2 is either a bevel D or a rounding Q",
+        help="keep one of them",
+        source=_FORMAT,
+        alarm=_PRINTED_COMBINATION,
+        roles=(_ROLE,),
+        when=all_of("D", "Q"),
+        accepted=(_GOOD + " D5.", _GOOD + " Q5."),
+        rejected=(_GOOD + " D5. Q5.",),
+    ),
+    Rule(
+        code="g112-corner-sign",
+        message="{words} is negative; C, P, D and Q are written without sign",
+        help="delete the minus sign: the arc tells on which side the corner lies",
+        source=manual("2.8.30, p. 144: without sign; that it is an error", Evidence.ASSUMED),
+        alarm=_COMBINATION,
+        roles=(_ROLE,),
+        when=Value(("C", "P", "D", "Q"), least=Decimal(0)),
+        accepted=(_GOOD + " P5. Q5.", _GOOD + " P0"),
+        rejected=(_GOOD + " P-5.",),
+    ),
+    Rule(
+        code="g112-radius",
+        message="{words}: the radius of the arc must be more than 0",
+        help="write the radius without sign; I and K tell where the centre is",
+        source=manual("2.8.30, p. 144: arc radius", Evidence.DERIVED),
+        alarm=_COMBINATION,
+        roles=(_ROLE,),
+        when=Value(("R",), least=Decimal(0), excluding=Decimal(0)),
+        accepted=(_GOOD,),
+        rejected=(_START + "G112 U0 I10. K-50. R-30.", _START + "G112 U0 I10. K-50. R0"),
+    ),
+    Rule(
+        code="g112-m-s-t",
+        message="{words:M S T}: a G112 block takes no M, S or T word",
+        help="write it in a block of its own",
+        source=_IMPOSSIBLE,
+        alarm=_WORDS_IN_BLOCK,
+        roles=(_ROLE,),
+        when=some("M", "S", "T"),
+        accepted=(_GOOD + " F0.2", "M08\n" + _GOOD),
+        rejected=(_GOOD + " M08", _GOOD + " S500", _GOOD + " T0101"),
+    ),
+    Rule(
+        code="g112-other-g",
+        message="{words:other G} uses the axis words of the block itself, and so does G112",
+        help="write it in a block of its own; G112 needs no G01",
+        source=manual("2.8.30: multiple cornering is not modal; two codes of one group", Evidence.ASSUMED),
+        alarm=_COMBINATION,
+        roles=(_ROLE,),
+        when=some(OTHER_G),
+        accepted=(_GOOD,),
+        rejected=(_START + "G01 G112 U0 I10. K-50. R30.", _START + "G04 G112 U0 I10. K-50. R30."),
+    ),
+)
+
+_WAY_RULES = (
+    Rule(
+        code="g112-no-way",
+        message="{words}: line 1 runs along Z towards the centre, and the centre is not before or behind the start",
+        help="write the Z distance to the centre, or use Z(W) if line 1 runs along X",
+        source=_WAY,
+        alarm=_GEOMETRY,
+        roles=(TURNING,),
+        when=Value(("K",), excluding=Decimal(0)),
+        is_about_geometry=True,
+        accepted=(_GOOD,),
+        rejected=(_START + "G112 U0 I10. K0 R30.",),
+    ),
+    Rule(
+        code="g112-no-way-facing",
+        message="{words}: line 1 runs along X towards the centre, and the centre is neither above nor below the start",
+        help="write the X distance to the centre, or use X(U) if line 1 runs along Z",
+        source=_WAY,
+        alarm=_GEOMETRY,
+        roles=(FACING,),
+        when=Value(("I",), excluding=Decimal(0)),
+        is_about_geometry=True,
+        accepted=(_FACE,),
+        rejected=(_START + "G112 W0 I0 K5. R15.",),
+    ),
+    Rule(
+        code="g112-backs-up",
+        message="{words}: line 1 and the line on which corner 2 lands lie on opposite sides of the centre, so the arc "
+        "between them would have to turn back",
+        help="put both lines on one side of the centre, or change the sign of I or K",
+        source=_WAY,
+        alarm=_GEOMETRY,
+        roles=(_ROLE,),
+        when=some(BACKS_UP) & at_least(1, "I", "K", *_END),
+        is_about_geometry=True,
+        accepted=(_GOOD,),
+        rejected=(_START + "G112 U30. I10. K-50. R30.", _START + "G112 W8. I30. K5. R15."),
+    ),
+    Rule(
+        code="g112-side-open",
+        message="{words}: line 1 and the line on which corner 2 lands both lead through the centre, so nothing tells "
+        "on which side of it the arc runs",
+        help="move the centre or the line on which corner 2 lands",
+        source=_WAY,
+        alarm=_GEOMETRY,
+        roles=(_ROLE,),
+        when=some(UNDECIDED) & at_least(1, "I", "K", *_END),
+        is_about_geometry=True,
+        accepted=(_ARC_FIRST,),
+        rejected=(_START + "G112 U0 I0 K-50. R30.",),
+    ),
+)
+
+# The two corners cannot overlap: each of them stays on its side of the arc's lowest or highest point.
+_GEOMETRY_RULES = (
+    Rule(
+        code="g112-missed",
+        message="the line through {subject} misses the arc: it passes the centre at {actual}, the radius is {limit}",
+        help="write a larger R, or move the centre or the line nearer to each other by {off}",
+        source=_IMPOSSIBLE,
+        alarm=_PRINTED_GEOMETRY,
+        roles=(_ROLE,),
+        about=RefusalKind.CIRCLE_MISSED,
+        accepted=(_GOOD,),
+        rejected=(_START + "G112 U0 I40. K-50. R30.", _START + "G112 U-60. I10. K-50. R30."),
+    ),
+    Rule(
+        code="g112-touches",
+        message="the line through {subject} just touches the arc, so the path has no corner there",
+        help="check that it is meant to touch",
+        source=_WAY,
+        severity=Severity.INFO,
+        roles=(_ROLE,),
+        about=RemarkKind.TOUCHES,
+        accepted=(_GOOD,),
+        rejected=(_START + "G112 U-40. I10. K-50. R30.",),
+    ),
+    Rule(
+        code="g112-reversed",
+        message="{subject} would have to run back: it meets the arc first {off} behind its start",
+        help="start farther from the arc, or change the centre or the radius",
+        source=_IMPOSSIBLE,
+        alarm=_PRINTED_GEOMETRY,
+        roles=(_ROLE,),
+        about=RefusalKind.LINE_REVERSED,
+        accepted=(_GOOD,),
+        rejected=(_START + "G112 U0 I10. K-20. R30.",),
+    ),
+    Rule(
+        code="g112-arc-empty",
+        message="{subject} ends where it begins: both lines touch it in the same point",
+        help="move the centre or the line on which corner 2 lands",
+        source=_FITS,
+        alarm=_GEOMETRY,
+        roles=(_ROLE,),
+        about=RefusalKind.ARC_EMPTY,
+        accepted=(_GOOD,),
+        rejected=(_START + "G112 U0 I30. K-50. R30.",),
+    ),
+    Rule(
+        code="g112-corner-too-large",
+        message="{subject} does not fit: {words} is {actual}, {fits} on line 1 and on the arc",
+        help="{smaller}, or make line 1 and the arc longer",
+        source=_FITS,
+        alarm=_GEOMETRY,
+        roles=(_ROLE,),
+        about=RefusalKind.CORNER_TOO_LARGE,
+        accepted=(_GOOD + " P5. Q5.", _GOOD + " C5. D5."),
+        rejected=(_GOOD + " P60.", _GOOD + " D40."),
+    ),
+    Rule(
+        code="g112-no-corner",
+        message="{words}: at {subject} the line touches the arc, so there is nothing to round or bevel",
+        help="delete {words}",
+        source=_FITS,
+        alarm=_GEOMETRY,
+        roles=(_ROLE,),
+        about=RefusalKind.CORNER_STRAIGHT,
+        accepted=(_GOOD + " P5.",),
+        rejected=(_START + "G112 U-40. I10. K-50. R30. Q5.",),
+    ),
+    Rule(
+        code="g112-bevel-band",
+        message="{words}: no 45 deg segment of {subject} joins the line and the arc",
+        help="use a rounding, or a sharp corner",
+        source=_IMPOSSIBLE,
+        alarm=_PRINTED_GEOMETRY,
+        roles=(_ROLE,),
+        about=RefusalKind.BEVEL_IN_BAND,
+        accepted=(_GOOD + " C5. D5.",),
+        rejected=(_START + "G112 U0 I28. K-50. R30. C1.",),
+    ),
+)
+
+G112_RULES = _COMBINATION_RULES + _WAY_RULES + _GEOMETRY_RULES

@@ -1,0 +1,201 @@
+"""YASNAC LX3 G11 and G12, and G01 with I or K: along one axis, then a corner that leaves it on one side."""
+
+from decimal import Decimal
+from functools import cache
+
+from contoursolve.controls.yasnac_lx3.claim import OTHER_G, claim_of
+from contoursolve.controls.yasnac_lx3.g111 import START, V1
+from contoursolve.controls.yasnac_lx3.lexicon import manual
+from contoursolve.diagnostics.finding import Alarm
+from contoursolve.diagnostics.source import Evidence
+from contoursolve.gcode import Block
+from contoursolve.geometry import FIRST, SECOND, Coordinate, CornerShape, Given, Level, Line, Offset, Role, Unit
+from contoursolve.reading import Claim, CornerRow, FactRow, Form, Modes, Sample, State, apply_modes
+from contoursolve.reading.rules import Rule, Value, all_of, at_most, some
+from contoursolve.solving import RefusalKind
+
+ALONG_Z, ALONG_X = "leaving Z", "leaving X"
+SIZE, END = "corner", "end"
+"""The size of the corner, which has no sign, and where the tool has left V1 by that much."""
+
+_LINE = 1
+_TITLES = {11: "bevelling", 12: "rounding", 1: "bevelling"}
+_SHAPES = {11: CornerShape.CHAMFER_AXIS_45, 12: CornerShape.FILLET, 1: CornerShape.CHAMFER_AXIS_45}
+_WORDS = ((("Z", "W"), "I", "X"), (("X", "U"), "K", "Z"))
+"""By the axis along which a block moves: its words, the letter of its corner, and the axis that this is along."""
+
+
+@cache
+def leaving(code: int, along: int) -> Form:
+    """The form of a block with or under a G code, along an axis."""
+    (absolute, increment), letter, other = _WORDS[along]
+    return Form(
+        name=f"G{code:02}",
+        title=f"{_TITLES[code]}, along {'ZX'[along]}",
+        roles=(Role("leaving"), Role((ALONG_Z, ALONG_X)[along])),
+        start=START,
+        points=(V1, END),
+        radii=(),
+        facts=(
+            FactRow(Coordinate(absolute, V1, along), (absolute,)),
+            FactRow(Offset(increment, V1, START, along), (increment,)),
+            FactRow(Level(V1, START, 1 - along), ()),
+            FactRow(Offset(letter, END, V1, 1 - along), (letter,)),
+            FactRow(Level(END, V1, along), ()),
+        ),
+        path=(Line("line 1", START, V1),),
+        lines=(Line("line 2", V1, END),),
+        corners=(CornerRow("corner 1", V1, "line 1", None, {SIZE: _SHAPES[code]}, lands_on="line 2"),),
+        intersections=(V1,),
+        allowed=frozenset("XUZWIKNGFMST"),
+        combinations=tuple(((), (name,)) for name in (absolute, increment, letter)),
+        # A block with G01 and neither I nor K is a line; all others say what they say with G11.
+        sample=None if code == _LINE else Sample("G00 X30. Z0.", (f"G{code:02} {_SAMPLES[along]}",)),
+        meanings={
+            absolute: f"absolute {absolute} of the virtual intersection",
+            increment: f"{absolute} increment from start to virtual intersection",
+            letter: f"size of the corner; its sign is the way in which the corner leaves, along {other}",
+        },
+    )
+
+
+_SAMPLES = ("Z-20. {I8.} {K8.} {U50.} {W-20.} {X80.}", "X80. {I7.} {K-7.} {U50.}")
+
+LEAVING_FORMS = tuple(leaving(code, along) for code in _TITLES for along in (FIRST, SECOND))
+
+
+def claim_leaving(block: Block, code: int, state: State, modes: Modes) -> Claim:
+    """The contour of a block that moves along one axis with a corner, with or under G11, G12 or G01."""
+    addresses = {word.address for word in block.words}
+    along = FIRST if addresses & {"Z", "W"} or ("I" in addresses and not addresses & {"X", "U"}) else SECOND
+    form, after = leaving(code, along), apply_modes(state, block, modes)
+    claim = claim_of(block, form, code, state, after, modes)
+    size = claim.givens.get(_WORDS[along][1])
+    supplied = [Given(SIZE, abs(size.value), Unit.MM, size.word)] if size is not None else []
+    return claim_of(block, form, code, state, after, modes, supplied=supplied)
+
+
+_ROLE = "leaving"
+_X, _Z = ("X", "U"), ("Z", "W")
+_START = "G00 X30. Z0.\n"
+_BEVEL = _START + "G11 Z-20. I8. F30."
+_GOOD = _BEVEL + "\nX80. K-7."
+_ROUND = _START + "G12 Z-20. I8. F30.\nX80. K-7."
+_BY_G01 = _START + "G01 Z-20. I8. F30.\nX80. K-7."
+
+_PAGE = manual("p. 31-32")
+_BOTH_AXES = Alarm("050", Evidence.PRINTED)
+
+LEAVING_RULES = (
+    Rule(
+        code="g11-both-axes",
+        message="{words:X U Z W}: the block moves along both axes, and a corner leaves one axis",
+        help="write each axis in a block of its own: X(U) with K, Z(W) with I",
+        source=_PAGE,
+        alarm=_BOTH_AXES,
+        roles=(_ROLE,),
+        when=all_of(_X, _Z),
+        accepted=(_GOOD, _ROUND, _BY_G01),
+        rejected=(_START + "G11 X80. Z-20. I8.", _START + "G12 U50. W-20. K8."),
+    ),
+    Rule(
+        code="g11-axis-twice",
+        message="{words}: both give the end along one axis",
+        help="keep one of them",
+        source=manual("p. 31-32: one axis a block", Evidence.DERIVED),
+        roles=(ALONG_Z,),
+        when=all_of("Z", "W"),
+        accepted=(_GOOD,),
+        rejected=(_BEVEL + " W-20.",),
+    ),
+    Rule(
+        code="g11-axis-twice-x",
+        message="{words}: both give the end along one axis",
+        help="keep one of them",
+        source=manual("p. 31-32: one axis a block", Evidence.DERIVED),
+        roles=(ALONG_X,),
+        when=all_of("X", "U"),
+        accepted=(_GOOD,),
+        rejected=(_START + "G11 X80. U50. K-7.",),
+    ),
+    Rule(
+        code="g11-axis-missing",
+        message="{words:I K}: the block moves along no axis, so there is nothing to leave",
+        help="add X(U) to a K, Z(W) to an I",
+        source=_PAGE,
+        roles=(_ROLE,),
+        when=at_most(0, _X, _Z) & at_most(2, "I", "K"),
+        accepted=(_GOOD, _ROUND),
+        rejected=(_START + "G11 I8.", _GOOD + "\nK2."),
+    ),
+    Rule(
+        code="g11-corner-missing",
+        message="under G11 and G12, a block along Z needs I, which tells how far and to which side the corner leaves",
+        help="add I, or write G00 or G01 for a move without a corner",
+        source=_PAGE,
+        roles=(ALONG_Z,),
+        when=some(*_Z) & ~some(*_X) & at_most(0, "I", "K"),
+        accepted=(_GOOD, _ROUND + "\nG01 Z-50."),
+        rejected=(_BEVEL + "\nZ-50.", _START + "G12 W-20."),
+    ),
+    Rule(
+        code="g11-corner-missing-x",
+        message="under G11 and G12, a block along X needs K, which tells how far and to which side the corner leaves",
+        help="add K, or write G00 or G01 for a move without a corner",
+        source=_PAGE,
+        roles=(ALONG_X,),
+        when=some(*_X) & ~some(*_Z) & at_most(0, "I", "K"),
+        accepted=(_GOOD, _ROUND + "\nG01 X90."),
+        rejected=(_BEVEL + "\nX80.", _START + "G12 U50."),
+    ),
+    Rule(
+        code="g11-corner-letter",
+        message="{words:I} is along X, and so is the move: the corner that leaves it is written with K",
+        help="write K for {words:I}",
+        source=_PAGE,
+        roles=(ALONG_X,),
+        when=some(*_X) & ~some(*_Z) & some("I"),
+        accepted=(_GOOD,),
+        rejected=(_START + "G11 X80. I8.", _START + "G11 X80. K-7. I8."),
+    ),
+    Rule(
+        code="g11-corner-letter-z",
+        message="{words:K} is along Z, and so is the move: the corner that leaves it is written with I",
+        help="write I for {words:K}",
+        source=_PAGE,
+        roles=(ALONG_Z,),
+        when=some(*_Z) & ~some(*_X) & some("K"),
+        accepted=(_GOOD,),
+        rejected=(_START + "G11 Z-20. K8.", _START + "G01 Z-20. I8. K8."),
+    ),
+    Rule(
+        code="g11-corner-zero",
+        message="{words}: a corner of size 0 is an error",
+        help="write its size, or G00 or G01 and no {words} for a move without a corner",
+        source=_PAGE,
+        roles=(_ROLE,),
+        when=Value(("I", "K"), excluding=Decimal(0)),
+        accepted=(_GOOD, _ROUND),
+        rejected=(_START + "G11 Z-20. I0", _START + "G12 X80. K0"),
+    ),
+    Rule(
+        code="g11-other-g",
+        message="{words:other G} uses the axis words of the block itself, and so do G11 and G12",
+        help="write it in a block of its own",
+        source=manual("p. 31-32: modal, group A; two codes of one group", Evidence.ASSUMED),
+        roles=(_ROLE,),
+        when=some(OTHER_G),
+        accepted=(_GOOD,),
+        rejected=(_START + "G01 G11 Z-20. I8.",),
+    ),
+    Rule(
+        code="g11-corner-too-large",
+        message="{words} is larger than the move: {actual}, {fits}",
+        help="{smaller}, or move farther",
+        source=_PAGE,
+        roles=(_ROLE,),
+        about=RefusalKind.CORNER_TOO_LARGE,
+        accepted=(_GOOD, _START + "G11 Z-8. I8."),
+        rejected=(_START + "G11 Z-5. I8.", _START + "G12 U10. K-7.", _START + "G01 W-2. I3."),
+    ),
+)

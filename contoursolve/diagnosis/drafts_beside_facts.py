@@ -1,0 +1,203 @@
+"""Drafts of repairs for blocks that state further facts or ask for values; rules of the manual only warn there."""
+
+import re
+from collections.abc import Iterable, Iterator
+from decimal import ROUND_HALF_EVEN, Decimal
+from itertools import combinations, product
+
+from contoursolve.diagnosis.attempt import Before, examine_edited
+from contoursolve.diagnosis.drafts import change, drop, marked, mended_words, missing_points, unreadable, variants
+from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, write_word
+from contoursolve.diagnosis.examine import Answer, AskedValue
+from contoursolve.diagnostics.finding import Diagnostic, Severity
+from contoursolve.diagnostics.source import Span
+from contoursolve.gcode import FACT, Word
+from contoursolve.geometry import FIRST, SECOND, Coordinate, Fact, Length, Offset, Profile, Unit, assemble, scalar
+from contoursolve.reading import Lexicon, Trouble
+from contoursolve.reading.dialect import Dialect
+from contoursolve.solving import RefusalKind, RemarkKind, Status
+from contoursolve.solving.ambiguity import tied_with
+from contoursolve.statements.apply import word_of
+
+MOST_ADDED = 2
+"""Words that a repair adds to such a block."""
+
+_TWICE = (RefusalKind.WORDS_DISAGREE, RefusalKind.FACT_DISAGREES, RemarkKind.WORDS_AGREE)
+_NOT_TOGETHER = (
+    RefusalKind.NO_POINT,
+    RefusalKind.SEARCH_UNFINISHED,
+    RefusalKind.LINES_PARALLEL,
+    RefusalKind.NOT_FIXED,
+    Trouble.FACTS_SINGULAR,
+)
+_USELESS = (Trouble.FACT_UNREADABLE, Trouble.FACT_IMPOSSIBLE)
+_DECIMAL_COMMA = re.compile(r"(?<=\d),(?=\d)")
+_VALUE = re.compile(r"=\s*+(?P<number>[+-]?+(?>\d++\.?+\d*+|\.\d++))\s*+$")
+
+
+def further_drafts(answer: Answer, dialect: Dialect, before: Before) -> Iterator[Iterable[tuple[Edit, ...]]]:
+    """The stages of drafts, simplest first."""
+    findings = [each for each in answer.diagnostics if each.severity is not Severity.INFO and each.about is not None]
+    if not findings:
+        return
+    yield mended_words(answer)
+    yield missing_points(answer)
+    yield marked(answer)
+    yield _brackets(answer)
+    yield _decimal_commas(answer)
+    yield _useless(answer, findings)
+    twice = [each for each in findings if each.about in _TWICE]
+    missing = list(_additions(answer)) if any(each.about is Trouble.UNDERDETERMINED for each in findings) else [()]
+    drops = [[(drop(word),) for word in _blamed(answer, each)] for each in twice]
+    yield [tuple(dict.fromkeys(sum(choice, ()))) for choice in product(*drops, missing) if any(choice)]
+    yield _corrected(answer, dialect, twice, before)
+    yield _slips(answer, dialect, findings)
+    yield _exchanged(answer, [each for each in findings if each.about in _NOT_TOGETHER])
+
+
+def next_place_of(profile: Profile) -> tuple[Decimal, Decimal] | None:
+    """Where the line of the next block ends, if a fact is about it and it was known."""
+    landing = (line for line in profile.figure.lines if line.name.endswith(".landing") and line.head)
+    for line in landing:
+        names = scalar(line.head, FIRST), scalar(line.head, SECOND)
+        if profile.givens.keys() >= set(names):
+            return profile.givens[names[0]].value, profile.givens[names[1]].value
+    return None
+
+
+def _brackets(answer: Answer) -> Iterator[tuple[Edit, ...]]:
+    """The places in comments with [ ] for ( ), which would end the comment."""
+    for block in answer.claim.blocks:
+        for directive in (each for each in block.directives if each.span.line == block.line):
+            begin = directive.span.column - 1 + directive.text.find("(")
+            end = block.text.find(")", begin)
+            if "(" in directive.text and ")" in block.text[end + 1 :]:
+                old, span = block.text[begin : end + 1], Span(block.line, begin + 1, end + 2)
+                yield (change(Word(FACT, None, False, old, span), f"[{old[1:-1]}]"),)
+
+
+def _decimal_commas(answer: Answer) -> Iterator[tuple[Edit, ...]]:
+    """Facts with a decimal comma, with a point for it: no comma of a fact stands between digits otherwise."""
+    for word in map(word_of, answer.claim.directives):
+        text = _DECIMAL_COMMA.sub(".", word.text)
+        if text != word.text:
+            yield (change(word, text),)
+
+
+def _useless(answer: Answer, findings: list[Diagnostic]) -> Iterator[tuple[Edit, ...]]:
+    """What cannot be read or says nothing, taken out."""
+    spans = [each.span for each in findings if each.about in _USELESS]
+    facts = [word for word in map(word_of, answer.claim.directives) if any(_holds(word.span, span) for span in spans)]
+    dropped = tuple(drop(word) for word in facts)
+    for forced in unreadable(answer.claim):
+        if forced or dropped:
+            yield (*forced, *dropped)
+
+
+def _holds(outer: Span, inner: Span) -> bool:
+    return outer.line == inner.line and outer.column <= inner.column <= outer.end_column
+
+
+def _blamed(answer: Answer, finding: Diagnostic) -> list[Word]:
+    """The words and facts that say something twice, the one that the finding is about first."""
+    profile = answer.profile
+    system = assemble(profile)
+    stated = [fact for fact in profile.facts if fact.given and _is_at(profile, fact.given, finding.span)]
+    names = dict.fromkeys(name for fact in stated for name in (fact.given, *tied_with(system, fact)))
+    words = (profile.givens[name].word for name in names)
+    return list({word.span: word for word in words if word is not None}.values())
+
+
+def _is_at(profile: Profile, name: str, span: Span) -> bool:
+    word = profile.givens[name].word
+    return word is not None and word.span == span
+
+
+def _additions(answer: Answer) -> Iterator[tuple[Edit, ...]]:
+    """Words that the form could have besides, without their numbers: each alone, then several; none for the coordinate
+    that a word asks for, as U beside X?."""
+    claim = answer.claim
+    facts = [row.fact for row in claim.form.facts if row.fact.given in claim.vocabulary]
+    asked = {_coordinate(fact) for fact in facts if fact.given in claim.words and claim.words[fact.given].is_asked}
+    names = [fact.given for fact in facts if _coordinate(fact) is None or _coordinate(fact) not in asked]
+    absent = [name for name in dict.fromkeys(names) if name not in claim.words]
+    edits = []
+    for name in absent:
+        address, index = claim.vocabulary[name]
+        edits.append(Edit(EditKind.ADD, address, text=address + PLACEHOLDER, line=claim.blocks[index].line))
+    for size in range(1, MOST_ADDED + 1):
+        yield from combinations(edits, size)
+
+
+def _coordinate(fact: Fact) -> tuple[str, int] | None:
+    """The point and the axis of the coordinate that a fact states."""
+    return (fact.point, fact.axis) if isinstance(fact, Coordinate | Offset) else None
+
+
+def _exchanged(answer: Answer, findings: list[Diagnostic]) -> Iterator[tuple[Edit, ...]]:
+    """One of the words and facts that do not go together for a word that the form could have besides."""
+    spans = {label.span: None for each in findings for label in each.labels}
+    words = {given.word.span: given.word for given in answer.profile.givens.values() if given.word}
+    for span in spans:
+        if span in words:
+            yield from ((drop(words[span]), *added) for added in _additions(answer) if len(added) == 1)
+
+
+def _corrected(answer: Answer, dialect: Dialect, twice: list[Diagnostic], before: Before) -> Iterator[tuple[Edit, ...]]:
+    """One word or fact of those that disagree with the value that the others give it: it is asked for instead."""
+    for finding in twice if any(each.severity is Severity.ERROR for each in twice) else ():
+        for word in _blamed(answer, finding):
+            asking = _with_value(word, PLACEHOLDER)
+            if not asking:
+                continue
+            other = examine_edited(answer.claim, dialect, (change(word, asking),), before)
+            for asked in other.answers if other else ():
+                if asked.value is not None and asked.question.word.text == asking:
+                    yield (change(word, _with_value(word, _shown(asked, word, answer, dialect))),)
+
+
+def _with_value(word: Word, value: str) -> str:
+    """A word or a fact with another value; empty if it has none."""
+    if word.address != FACT:
+        return f"{word.address}{value}" if word.number is not None else ""
+    match = _VALUE.search(word.text)
+    return f"{word.text[: match.start('number')]}{value}" if match else ""
+
+
+def _shown(asked: AskedValue, word: Word, answer: Answer, dialect: Dialect) -> str:
+    """A value as a word or a fact states it, rounded to the least increment."""
+    lexicon, value, unit = dialect.modes.lexicon, float(asked.value or 0), asked.question.unit
+    match = _VALUE.search(word.text)
+    stated = word.number if match is None else Decimal(match["number"])
+    if unit is Unit.DEGREE and stated is not None:
+        value += 360 * round((float(stated) - value) / 360)
+    if word.address != FACT:
+        return write_word(word.address, value, lexicon, answer.unit).removeprefix(word.address)
+    return _number(value * (2 if asked.question.is_diameter else 1), unit, answer.unit, lexicon)
+
+
+def _number(value: float, unit: Unit, length: Length, lexicon: Lexicon) -> str:
+    """A number of a fact, mm or degrees, in the program's unit and to the least increment."""
+    numbers, number = lexicon.numbers, Decimal(repr(value))
+    step = numbers.degree if unit is Unit.DEGREE else numbers.inch if length is Length.INCH else numbers.mm
+    number = (number if unit is Unit.DEGREE else number / length.in_mm).quantize(step, ROUND_HALF_EVEN)
+    text = f"{number + 0:f}"
+    return text.rstrip("0").rstrip(".") if "." in text else text
+
+
+def _slips(answer: Answer, dialect: Dialect, findings: list[Diagnostic]) -> Iterator[tuple[Edit, ...]]:
+    """One word or fact as it may have been meant, where nothing or no path satisfies them."""
+    if answer.status is not Status.NO_SOLUTION:
+        return
+    claim, profile, lexicon = answer.claim, answer.profile, dialect.modes.lexicon
+    spans = {label.span for each in findings for label in each.labels}
+    for given in profile.givens.values():
+        word = given.word
+        if word is None or given.unit is Unit.SIGN or word.span not in spans:
+            continue
+        if word.address != FACT:
+            texts = variants(word, given, lexicon, claim.after.unit) if word.number is not None else iter(())
+        else:
+            turned = (given.value + 180, 180 - given.value, -given.value) if given.unit is Unit.DEGREE else ()
+            texts = (_with_value(word, f"{value:f}") for value in turned)
+        yield from ((change(word, text),) for text in dict.fromkeys(texts) if text and text != word.text)

@@ -1,0 +1,442 @@
+"""One contour from its words to its path: every check in order, and everything there is to say."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from decimal import Decimal
+from enum import Enum
+from functools import lru_cache
+from math import dist
+from typing import TYPE_CHECKING
+
+from contoursolve.analysis import judge
+from contoursolve.diagnosis.explain import (
+    Context,
+    context_of,
+    explain_beyond,
+    explain_crossing,
+    explain_ignored,
+    explain_missing,
+    explain_offence,
+    explain_result,
+    explain_singular,
+    report,
+)
+from contoursolve.diagnosis.missing_point import start_without_point, tell_points, without_point
+from contoursolve.diagnosis.spelling import (
+    explain_skippable,
+    explain_spelling,
+    explain_start,
+    explain_unmarked,
+    meant_words,
+)
+from contoursolve.diagnostics.display import Shown
+from contoursolve.diagnostics.finding import Basis, Diagnosis, Diagnostic, Severity
+from contoursolve.diagnostics.source import Span
+from contoursolve.geometry import Length, Plane, Profile, Question, Side, Start, System, assemble
+from contoursolve.reading import AT_ITS_LIMIT, Assumption, Claim, Trouble, read, unused_words
+from contoursolve.reading.rules import Offence, Rule, check
+from contoursolve.solving import (
+    Refusal,
+    RefusalKind,
+    Remark,
+    RemarkKind,
+    Solution,
+    Status,
+    is_closed,
+    lookup,
+    points_with_two_solutions,
+    scalars_of,
+    solve,
+)
+from contoursolve.solving.contour import Contour, trace
+from contoursolve.solving.solution import Certificate
+from contoursolve.tolerance import LENGTH
+
+if TYPE_CHECKING:
+    from contoursolve.solving.alternatives import Alternatives
+
+
+class Policy(Enum):
+    """What the rules of the manual do to a block that they refuse."""
+
+    ENFORCE = "enforce"
+    """It is reported and not solved."""
+    WARN = "warn"
+    """It is reported as a warning, and solved if the geometry is determined."""
+    OFF = "off"
+    """The rules are not applied: the geometry alone decides."""
+
+
+class Depth(Enum):
+    """How much is worked out about a contour that has an error or a warning."""
+
+    VERDICT = "verdict"
+    """Its findings."""
+    PATH = "path"
+    """Also why they are so, and every repair; but nothing is proven of a contour without a finding."""
+    FULL = "full"
+    """Also why they are so, and every repair; some milliseconds a contour."""
+
+
+@dataclass(frozen=True, slots=True)
+class AskedValue:
+    """A value that was asked for: mm (radius) or degrees; None where nothing determines it."""
+
+    question: Question
+    value: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class Filled:
+    """Blocks with the values that were asked for filled in, rounded to the least increment; they make the same
+    contour to within `deviation` mm."""
+
+    blocks: tuple[str, ...]
+    deviation: float
+
+
+@dataclass(frozen=True, slots=True)
+class Answer(Shown):
+    """What became of one contour of a program.
+
+    `contour` is None unless the status is solved or overdetermined. `sides` are the solutions that the
+    block chose where two exist, by the point. `diagnostics` are the findings about this contour alone.
+    """
+
+    form: str
+    lines: tuple[int, ...]
+    claim: Claim
+    status: Status
+    plane: Plane
+    unit: Length
+    start: Start
+    profile: Profile
+    contour: Contour | None
+    sides: Mapping[str, Side]
+    error_bound: float
+    diagnostics: tuple[Diagnostic, ...]
+    diagnosis: Diagnosis | None = None
+    """Made where there is a finding, see `contoursolve.diagnosis`."""
+    certificate: Certificate | None = None
+    answers: tuple[AskedValue, ...] = ()
+    """The values that were asked for."""
+    alternatives: Alternatives | None = None
+    """Every solution, where more than the control's own was looked for; see `list_alternatives`."""
+    filled: Filled | None = None
+    """The block with them filled in, where it then stands alone."""
+
+    @property
+    def assumptions(self) -> tuple[Assumption, ...]:
+        """What the contour rests on, of all that the control is taken to accept."""
+        return self.claim.rests_on([AT_ITS_LIMIT] if self._has_bevel_at_its_limit() else [])
+
+    def _has_bevel_at_its_limit(self) -> bool:
+        """Whether a 45 degree bevel begins or ends at its virtual intersection, so that it runs along a line."""
+        cut = {each.name: each for each in self.contour.elements} if self.contour else {}
+        return any(
+            dist(self.contour.points[corner.at], at) <= LENGTH
+            for corner in self.profile.figure.corners
+            if self.contour and corner.shape.share and corner.name in cut and corner.at in self.contour.points
+            for at in (cut[corner.name].start, cut[corner.name].end)
+        )
+
+
+class _Notebook:
+    """The findings about one contour, and the statuses that they give it."""
+
+    def __init__(self) -> None:
+        self.findings: list[Diagnostic] = []
+        self.statuses: set[Status] = set()
+
+    def add(self, finding: Diagnostic, status: Status | None = None) -> None:
+        self.findings.append(finding)
+        if status and finding.severity is Severity.ERROR:
+            self.statuses.add(status)
+
+    @property
+    def status(self) -> Status:
+        if not self.statuses:
+            return Status.SOLVED
+        return next(status for status in Status if status in self.statuses)
+
+
+def _no_place() -> None:
+    """The next block is not known."""
+
+
+def examine(
+    claim: Claim,
+    rules: tuple[Rule, ...],
+    policy: Policy,
+    next_place: Callable[[], tuple[Decimal, Decimal] | None] = _no_place,
+    depth: Depth = Depth.FULL,
+) -> Answer:
+    """Everything there is to say about one contour, and its path if there is one.
+
+    `next_place` tells where the line of the next block ends, if that is known; some facts are about it.
+    """
+    context, notebook = context_of(claim, rules), _Notebook()
+    _examine_words(context, claim, notebook)
+    is_readable = not notebook.statuses
+    # Where characters could not be read, which words the block has is not known.
+    is_whole = not any(block.faults for block in claim.blocks) and not (claim.unknown and meant_words(claim))
+    offences = _offences(claim, rules) if is_whole and policy is not Policy.OFF else ()
+    for offence in offences:
+        if not offence.rule.ignores:
+            finding = explain_offence(context, offence, claim)
+            weaker = replace(finding, severity=Severity.WARNING)
+            # What states or asks more than the control reads is not a block for the control yet.
+            is_strict = policy is Policy.ENFORCE and not _is_extended(claim)
+            status = Status.NO_SOLUTION if offence.rule.is_about_geometry else Status.REJECTED
+            notebook.add(finding if is_strict else weaker, status)
+    ignoring = [offence for offence in offences if offence.rule.ignores]
+    profile, is_stated = _state_more(
+        context, claim, read(claim, frozenset(offence.rule.ignores for offence in ignoring)), next_place, notebook
+    )
+    is_readable = is_readable and is_stated
+    if not profile.start.is_known:
+        notebook.add(explain_start(context, claim), Status.UNDERDETERMINED)
+    unmarked = (finding for block in claim.blocks for finding in explain_unmarked(context, block))
+    notebook.findings += (*explain_skippable(context, claim), *unmarked)
+    explained = {label.span for finding in notebook.findings for label in finding.labels}
+    for word in unused_words(claim, profile) if is_whole else ():
+        # Whatever the rules say of it: nothing is dropped without a word.
+        if word.span not in explained:
+            notebook.add(report(context, context.row(Trouble.WORD_UNUSED), Basis.RULE, [word], form=claim.form.name))
+    if is_readable:
+        solution, alternatives = _examine_geometry(context, claim, profile, notebook, depth)
+    else:
+        solution, alternatives = Solution(Status.REJECTED), None
+    for offence in ignoring:
+        notebook.add(explain_ignored(context, offence, profile, solution))
+    notebook.findings += without_point(context, claim, notebook.findings)
+    notebook.findings += start_without_point(context, claim, notebook.findings)
+
+    is_path = bool(solution.points) and notebook.status in (Status.SOLVED, Status.OVERDETERMINED)
+    contour = trace(profile, solution) if is_path else None
+    if contour is not None:
+        notebook.findings += explain_crossing(context, profile, contour)
+        notebook.findings += explain_beyond(context, profile, solution, contour) if claim.directives else ()
+    touching = {remark.subject for remark in solution.remarks if remark.kind is RemarkKind.TOUCHES}
+    shown = {*profile.intersections} - touching
+    sides = {choice.point: choice.side for choice in profile.choices if choice.given and choice.point in shown}
+    return Answer(
+        form=claim.form.name,
+        lines=tuple(block.line for block in claim.blocks),
+        claim=claim,
+        status=notebook.status,
+        plane=profile.plane,
+        unit=profile.unit,
+        start=profile.start,
+        profile=profile,
+        contour=contour,
+        sides=sides if contour else {},
+        error_bound=solution.error_bound,
+        diagnostics=tuple(sorted(tell_points(context, claim, notebook.findings), key=rank)),
+        certificate=solution.certificate if contour else None,
+        answers=tuple(answer_question(question, profile, solution) for question in profile.questions),
+        alternatives=alternatives,
+    )
+
+
+MOST_CHOICES = 5
+"""Points of which each may lie in two places; each doubles the number of solutions. Of more, in a long chain, only
+the one that the words choose is worked out."""
+
+
+def count_choices(profile: Profile) -> int:
+    """The points that may lie in two places each, for all that the form says of it; 0 where the system is not
+    determined or has no closed form."""
+    points = _chosen_points(assemble(profile))
+    return len(points - {choice.point for choice in profile.choices if not choice.given}) if points else 0
+
+
+@lru_cache(maxsize=8192)
+def _chosen_points(system: System) -> frozenset[str]:
+    """The points that may lie in two places each; none where the system is not determined or has no closed form."""
+    is_ordered = judge(system).is_determined and is_closed(system)
+    return frozenset(points_with_two_solutions(system) if is_ordered else ())
+
+
+def is_rounded(answer: Answer) -> bool:
+    """Whether it has a half circle that is one within the least increments: no circle of exactly the stated radius has
+    its ends."""
+    return any(finding.about is RemarkKind.HALF_CIRCLE for finding in answer.diagnostics)
+
+
+def list_alternatives(answer: Answer) -> Alternatives | None:
+    """Every solution of a contour, the control's choice among them; None where nothing was solved, where the
+    equations are solved one after the other without a choice, so that there is one, or where there are too many."""
+    if (
+        answer.alternatives is not None
+        or answer.contour is None
+        or is_rounded(answer)
+        or not 0 < count_choices(answer.profile) <= MOST_CHOICES
+    ):
+        return answer.alternatives
+    from contoursolve.solving.alternatives import find_alternatives  # noqa: PLC0415 - see _solve
+
+    return find_alternatives(answer.profile)
+
+
+def _offences(claim: Claim, rules: tuple[Rule, ...]) -> tuple[Offence, ...]:
+    """The rules that hold for the stated words. A word that is asked for may fill a gap, but it is never one too
+    many: what refuses must do so without it as well, and what ignores another word must do so by itself."""
+    stated = claim.stated()
+    offences = tuple(check(rules, claim.form.roles, stated))
+    asked = {name for name, word in claim.words.items() if word.is_asked}
+    if not asked:
+        return offences
+    without = tuple(check(rules, claim.form.roles, {name: stated[name] for name in stated if name not in asked}))
+    codes = {offence.rule.code for offence in without}
+    refusing = tuple(each for each in offences if not each.rule.ignores and each.rule.code in codes)
+    return (*refusing, *(each for each in without if each.rule.ignores))
+
+
+def _is_extended(claim: Claim) -> bool:
+    return bool(claim.directives) or any(word.is_asked for word in claim.words.values())
+
+
+def _state_more(
+    context: Context,
+    claim: Claim,
+    profile: Profile,
+    next_place: Callable[[], tuple[Decimal, Decimal] | None],
+    notebook: _Notebook,
+) -> tuple[Profile, bool]:
+    """The profile with the facts that comments state, and whether all of them could be used."""
+    if not profile.is_extended:
+        return profile, True
+    # Few blocks state more than their words.
+    from contoursolve.statements import Flaw, apply_statements  # noqa: PLC0415
+
+    extended, faults = apply_statements(profile, claim.directives, next_place)
+    kinds = {Flaw.UNREADABLE: Trouble.FACT_UNREADABLE, Flaw.IMPOSSIBLE: Trouble.FACT_IMPOSSIBLE}
+    for fault in faults:
+        rule = context.row(kinds[fault.flaw])
+        notebook.add(report(context, rule, Basis.RULE, [fault.word], reason=fault.message), Status.REJECTED)
+    # With a fact that cannot be used, the others may speak of what is not drawn.
+    return profile if faults else extended, not faults
+
+
+def answer_question(question: Question, profile: Profile, solution: Solution) -> AskedValue:
+    """The value of what is asked for, at the points of a solution."""
+    if not solution.points:
+        return AskedValue(question, None)
+    scalars = {**solution.scalars, **scalars_of(solution.points), **solution.radii}
+    return AskedValue(question, question.fact.implied(lookup(profile, scalars)))
+
+
+def _examine_words(context: Context, claim: Claim, notebook: _Notebook) -> None:
+    """Characters, addresses and values, before any of them is given a meaning."""
+    for finding in explain_spelling(context, claim):
+        notebook.add(finding, Status.REJECTED)
+    variables = [word for word in claim.words.values() if word.number is None and not word.is_asked]
+    if variables:
+        notebook.add(report(context, context.row(Trouble.VARIABLE), Basis.RULE, variables), Status.UNDERDETERMINED)
+
+
+def _examine_geometry(
+    context: Context, claim: Claim, profile: Profile, notebook: _Notebook, depth: Depth
+) -> tuple[Solution, Alternatives | None]:
+    """The system for all values, then its solution at the values of the block.
+
+    A block that is refused is not solved; but whether its words agree is told. Where something is missing, so is what
+    is said of the rest.
+    """
+    is_refused = bool(notebook.statuses & {Status.REJECTED, Status.NO_SOLUTION})
+    structure = list(_examine_system(context, claim, profile))
+    for status, finding in structure:
+        notebook.add(_secondary(finding, is_refused), status)
+    is_solvable = not structure and profile.start.is_known
+    is_open = is_solvable and is_refused and not profile.is_extended and _has_choice(profile)
+    is_long = is_open and count_choices(profile) > MOST_CHOICES
+    if is_open and not is_long:
+        # Which contours the missing word could choose is worth knowing.
+        return Solution(Status.UNDERDETERMINED), _solve(profile, context, notebook, depth)[1]
+    if structure and profile.start.is_known and not (is_refused and profile.is_extended):
+        from contoursolve.solving.ambiguity import said_twice  # noqa: PLC0415 - few blocks lack something
+
+        for event in said_twice(profile):
+            status = event.kind.status if isinstance(event, Refusal) else Status.OVERDETERMINED
+            notebook.add(explain_result(context, event, profile))
+            notebook.statuses.add(status)
+    if not is_solvable or is_long:
+        return Solution(Status.UNDERDETERMINED), None
+    solution, alternatives = _solve(profile, context, notebook, depth)
+    events: list[Refusal | Remark] = [*solution.refusals, *solution.remarks]
+    for event in events:
+        if not is_refused or event.kind in _ABOUT_WORDS:
+            notebook.add(explain_result(context, event, profile, alternatives))
+            notebook.statuses.add(solution.status)
+    return (Solution(solution.status), None) if is_refused else (solution, alternatives)
+
+
+def _solve(
+    profile: Profile, context: Context, notebook: _Notebook, depth: Depth
+) -> tuple[Solution, Alternatives | None]:
+    """The contour that the control makes, or the only one that there is."""
+    is_chosen = not profile.is_extended and not _has_choice(profile)
+    solution = solve(profile, is_proven=depth is not Depth.PATH) if is_chosen else None
+    touches = solution is not None and any(remark.kind is RemarkKind.TOUCHES for remark in solution.remarks)
+    if solution is not None and not (touches and count_choices(profile) <= MOST_CHOICES):
+        return solution, None
+    # Unusual combinations, open choices, and lines that touch as far as floats can tell.
+    from contoursolve.solving.ambiguity import settle  # noqa: PLC0415
+
+    settlement = settle(profile)
+    if settlement.singular and Status.REJECTED not in notebook.statuses:
+        finding = explain_singular(context, settlement.singular, settlement.loose, profile)
+        notebook.add(finding, Status.UNDERDETERMINED)
+    return settlement.solution, settlement.alternatives
+
+
+def _has_choice(profile: Profile) -> bool:
+    """Whether there are points between whose two places nothing chooses; what has no closed form may have several."""
+    system, chosen = assemble(profile), {choice.point for choice in profile.choices}
+    return not is_closed(system) or any(point not in chosen for point in points_with_two_solutions(system))
+
+
+_ABOUT_WORDS = (
+    RefusalKind.WORDS_DISAGREE,
+    RefusalKind.FACT_DISAGREES,
+    RefusalKind.RADIUS_DIFFERENCE,
+    RefusalKind.LINES_PARALLEL,
+    RemarkKind.WORDS_AGREE,
+)
+
+
+def _secondary(finding: Diagnostic, is_refused: bool) -> Diagnostic:
+    """What the equations say of a block that a rule has refused already explains, and counts once."""
+    return replace(finding, severity=Severity.INFO) if is_refused else finding
+
+
+def _examine_system(context: Context, claim: Claim, profile: Profile) -> Iterator[tuple[Status, Diagnostic]]:
+    """Why the facts alone, whatever their values, make no single contour."""
+    system = assemble(profile)
+    verdict = judge(system)
+    if not verdict.is_determined:
+        yield Status.UNDERDETERMINED, explain_missing(context, profile, verdict, claim)
+    by_name: dict[str, list[str]] = {}
+    for corner in profile.figure.corners:
+        by_name.setdefault(corner.name, []).append(corner.size)
+        if corner.size in profile.givens and profile.givens[corner.size].value < 0:
+            rule, word = context.row(Trouble.CORNER_NEGATIVE), [context.words[corner.size]]
+            yield Status.NO_SOLUTION, report(context, rule, Basis.NUMERICAL, word, subject=corner.name)
+        if corner.after is None and corner.lands_parallel_to is None and corner.lands_on is None:
+            rule = context.row(Trouble.CORNER_NOWHERE)
+            word = [context.words[corner.size]]
+            yield Status.UNDERDETERMINED, report(context, rule, Basis.STRUCTURAL, word, subject=corner.name)
+    for name, sizes in by_name.items():
+        if len(sizes) > 1:
+            words = [context.words[size] for size in sizes]
+            rule = context.row(Trouble.CORNER_TWICE)
+            yield Status.CONFLICTING, report(context, rule, Basis.STRUCTURAL, words, subject=name)
+
+
+def rank(finding: Diagnostic) -> tuple[int, int, bool, Span, str]:
+    """By line, the worst first, and what follows from lines before after what does not."""
+    follows = finding.about is Trouble.POSITION_UNKNOWN
+    return finding.span.line, list(Severity).index(finding.severity), follows, finding.span, finding.code

@@ -1,0 +1,464 @@
+"""Puts findings into words: a row of the catalogue, the words of the block, and the values compared."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from decimal import Decimal
+from enum import Enum
+from functools import lru_cache, partial
+from typing import TYPE_CHECKING, Any
+
+from contoursolve.analysis import Verdict
+from contoursolve.diagnosis.wording import (
+    angle_text,
+    join,
+    length_limit,
+    length_text,
+    place_text,
+    shorten,
+    tell_apart,
+    unknowns_text,
+    value_text,
+)
+from contoursolve.diagnostics.finding import Basis, Diagnostic, Label
+from contoursolve.diagnostics.source import Span
+from contoursolve.gcode import FACT, Word
+from contoursolve.geometry import Length, Profile, Radius, Role, Unit, assemble
+from contoursolve.reading import Claim, Trouble
+from contoursolve.reading.rules import Offence, Rule
+from contoursolve.solving import (
+    BESIDE,
+    Refusal,
+    RefusalKind,
+    Remark,
+    RemarkKind,
+    Solution,
+    compare,
+    lookup,
+    scalars_of,
+)
+from contoursolve.solving.compare import allowance, increments_of
+from contoursolve.solving.contour import Contour, LineSegment
+
+if TYPE_CHECKING:
+    from contoursolve.solving.alternatives import Alternatives
+
+_BEGINNING = Span(1, 1, 2)
+
+MOST_THINGS = 2
+"""Points and lines that a message names as missing; beyond it, all of the contour is."""
+
+
+@dataclass(frozen=True, slots=True)
+class Words:
+    """Words in a message, as (name, text). A format keeps only some names: `{words:A B}`."""
+
+    by_name: tuple[tuple[str, str], ...]
+
+    def __format__(self, spec: str) -> str:
+        wanted = (spec,) if spec in dict(self.by_name) else spec.split()
+        texts = [text for name, text in self.by_name if not spec or name in wanted]
+        return shorten(join(texts)) or "the block"
+
+
+@dataclass(frozen=True, slots=True)
+class Present:
+    """The stated words among a list of names: `{present:A I K}`."""
+
+    by_name: Mapping[str, str]
+
+    def __format__(self, spec: str) -> str:
+        return join([self.by_name[name] for name in spec.split() if name in self.by_name]) or "none of them"
+
+
+@dataclass(frozen=True, slots=True)
+class Absent:
+    """The names of a list that are not stated; `X|U` is one of which either will do: `{absent:B X|U}`."""
+
+    by_name: Mapping[str, str]
+
+    def __format__(self, spec: str) -> str:
+        slots = [slot.split("|") for slot in spec.split()]
+        return " or ".join(" or ".join(slot) for slot in slots if not set(slot) & self.by_name.keys())
+
+
+@dataclass(frozen=True, slots=True)
+class Context:
+    """What a message may mention: the stated words by name, the unit to show lengths in."""
+
+    rules: Sequence[Rule]
+    unit: Length
+    words: Mapping[str, Word] = field(default_factory=dict)
+    place: Span = _BEGINNING
+    """Where to point if no word is to blame."""
+
+    def row(self, about: Enum) -> Rule:
+        """The row about an event. Raises LookupError if the control has none."""
+        found = next((rule for rule in self.rules if rule.about is about), None)
+        if found is None:
+            raise LookupError(f"the rules of this control have no row about {about}; let them end with GEOMETRY_RULES")
+        return found
+
+    def typed(self) -> dict[str, str]:
+        """The stated words as typed, by name."""
+        return {name: word.text for name, word in self.words.items()}
+
+
+def context_of(claim: Claim, rules: tuple[Rule, ...]) -> Context:
+    """The context of a contour; it begins where its first block does, and rows of its own roles come first."""
+    return Context(_own_first(rules, claim.form.roles), claim.after.unit, claim.words, claim.blocks[0].span)
+
+
+@lru_cache(maxsize=256)
+def _own_first(rules: tuple[Rule, ...], roles: tuple[Role, ...]) -> tuple[Rule, ...]:
+    own = {role.name for role in roles}
+    return tuple(sorted(rules, key=lambda rule: own.isdisjoint(rule.roles)))
+
+
+def report(
+    context: Context,
+    rule: Rule,
+    basis: Basis,
+    words: Iterable[Word],
+    values: Mapping[str, float] | None = None,
+    labels: Iterable[str] = (),
+    **fields: Any,
+) -> Diagnostic:
+    """One finding: the row's message with its fields filled in, its words marked."""
+    blamed = sorted(words, key=lambda word: word.span)
+    spans = [word.span for word in blamed] or [context.place]
+    typed = context.typed()
+    stated = {
+        "words": Words(tuple(_named(blamed, context.words))),
+        "present": Present(typed),
+        "absent": Absent(typed),
+        "address": blamed[0].address if blamed else "",
+        **fields,
+    }
+    texts = list(labels) + [""] * len(spans)
+    return Diagnostic(
+        code=rule.code,
+        severity=rule.severity,
+        basis=basis,
+        span=spans[0],
+        message=rule.message.format_map(stated),
+        help=rule.help.format_map(stated),
+        source=rule.source,
+        alarm=rule.alarm,
+        labels=tuple(Label(span, note) for span, note in zip(spans, texts, strict=False)),
+        addresses=tuple(dict.fromkeys(word.address for word in blamed)),
+        values=values or {},
+        about=rule.about,
+    )
+
+
+def _named(words: Sequence[Word], names: Mapping[str, Word]) -> Iterable[tuple[str, str]]:
+    """Words as (name, text): the name of the given, else the address."""
+    known = {id(word): name for name, word in names.items()}
+    return ((known.get(id(word), word.address), word.text) for word in words)
+
+
+def explain_offence(context: Context, offence: Offence, claim: Claim) -> Diagnostic:
+    """A rule on combinations that holds."""
+    givens = claim.givens
+    words = [context.words[name] for name in offence.names if name in context.words]
+    block = [word.span for name, word in context.words.items() if name.startswith(offence.role.prefixes[-1])]
+    if not words and block and min(block).line != context.place.line:
+        # What is missing is missing in the last block that the rule is about.
+        context = replace(context, place=min(block))
+    turned = (givens[name] for name in offence.names if name in givens and givens[name].unit is Unit.DEGREE)
+    within = [f"{each.word.address}{_pointed(each.value % _FULL_TURN)}" for each in turned if each.word]
+    lacking = join(_lacking(claim, offence.role.prefixes[-1]))
+    return report(context, offence.rule, Basis.RULE, words, comparison="", within=join(within), lacking=lacking)
+
+
+def _lacking(claim: Claim, prefix: str) -> list[str]:
+    """The fewest addresses whose words make a block, by the prefix of its names, one that states an element."""
+    options = [option for slot in claim.form.combinations for option in slot]
+    own = [[name for name in option if name.startswith(prefix) and name in claim.vocabulary] for option in options]
+    missing = [[claim.vocabulary[name][0] for name in names if name not in claim.words] for names in own if names]
+    return min(missing, key=len, default=[])
+
+
+_FULL_TURN = 360
+
+
+def _pointed(value: Decimal) -> str:
+    """A number as a word has it, with its decimal point."""
+    text = f"{value:f}"
+    return f"{text.rstrip('0')}" if "." in text else f"{text}."
+
+
+def explain_ignored(context: Context, offence: Offence, profile: Profile, solution: Solution) -> Diagnostic:
+    """A word that the control ignores: what it would have had to say, and how far off it is."""
+    fact = next((fact for fact in profile.ignored if fact.given == offence.rule.ignores), None)
+    word = context.words[offence.rule.ignores]
+    if fact is None or not solution.points:  # a variable states no fact
+        return report(context, offence.rule, Basis.RULE, [word], comparison="")
+    at = lookup(profile, scalars_of(solution.points))
+    values = compare(fact, profile, at)
+    expected = values.get("expected")
+    comparison = "; they leave it no value to have"
+    label = ""
+    if expected is not None:
+        gap = abs(values["actual"] - expected)
+        is_within = values["off_by_mm"] <= allowance(fact, at, increments_of(profile))
+        agrees = "; it agrees with them" if is_within else ""
+        comparison = agrees or (
+            f"; they make it {tell_apart((expected, values['actual']), angle_text)[0]}, it is off by {angle_text(gap)} "
+            f"({length_text(values['off_by_mm'], context.unit)})"
+        )
+        label = f"ignored; the line runs at {angle_text(expected)}"
+    return report(context, offence.rule, Basis.NUMERICAL, [word], values, [label], comparison=comparison)
+
+
+def explain_missing(context: Context, profile: Profile, verdict: Verdict, claim: Claim) -> Diagnostic:
+    """Unknowns that no word determines, and the words that speak about them."""
+    free = set(verdict.free)
+    stated = {fact.given for fact in profile.facts}
+    able = [
+        row.fact.given
+        for row in claim.form.facts
+        if row.fact.given and row.fact.given not in stated and free & set(row.fact.reads())
+    ]
+    # Of a corner whose size is not determined, nothing is.
+    corners = tuple(f"{corner.name}." for corner in profile.figure.corners if f"{corner.name}.radius" in free)
+    shown = [name for name in verdict.free if not name.startswith(corners) or name.endswith(".radius")]
+    addresses = dict.fromkeys(_address(name, claim) for name in able if name in claim.vocabulary)
+    ways = [f"words that say something about it: {', '.join(addresses)}"] if addresses else []
+    if profile.is_extended:
+        open_sizes = [
+            question.word.text
+            for question in profile.questions
+            if isinstance(question.fact, Radius) and question.fact.radius in free
+        ]
+        ways += [f"give {' or '.join(open_sizes)} a value"] if open_sizes else []
+        ways.append("state a fact about it ('contoursolve facts' lists them)")
+    completions = "; or ".join(ways) or "add a word for it"
+    return report(
+        context,
+        context.row(Trouble.UNDERDETERMINED),
+        Basis.SYMBOLIC,
+        [],
+        free=unknowns_text(shown, profile),
+        completions=completions,
+    )
+
+
+def _address(name: str, claim: Claim) -> str:
+    """The address that would state something, with the line of its block where there are several."""
+    address, index = claim.vocabulary[name]
+    return address if len(claim.blocks) == 1 else f"{address} in line {claim.blocks[index].line}"
+
+
+_IN_DEGREES = {RefusalKind.LINE_REVERSED}
+_OF_A_WORD = {RefusalKind.WORDS_DISAGREE, RemarkKind.WORDS_AGREE}
+
+
+def explain_result(
+    context: Context, event: Refusal | Remark, profile: Profile, alternatives: Alternatives | None = None
+) -> Diagnostic:
+    """A refusal or a remark of the solver; `alternatives` is what a search found."""
+    givens = [profile.givens[name] for name in event.givens if name in profile.givens]
+    asked = [question.word for question in profile.questions if question.name in event.givens]
+    words = list({word.span: word for word in (*(given.word for given in givens), *asked) if word}.values())
+    values = dict(event.values)
+    things = list(dict.fromkeys(name.rpartition(".")[0] or name for name in event.subject.split(",")))
+    fields: dict[str, Any] = {
+        "subject": event.subject,
+        "free": unknowns_text(event.subject.split(","), profile),
+        "things": join(things) if len(things) <= MOST_THINGS else "contour",
+        "together": " together" if len(words) > 1 else "",
+    }
+    is_word = event.kind in _OF_A_WORD
+    compared = [name for name in ("limit", "expected", "actual") if name in values]
+    if is_word and givens[0].is_diameter:
+        values |= {name: 2 * values[name] for name in compared}
+    in_degrees = event.kind in _IN_DEGREES or (is_word and givens[0].unit is Unit.DEGREE)
+    write = angle_text if in_degrees else partial(_length, context.unit)
+    fields |= zip(compared, tell_apart([values[name] for name in compared], write), strict=True)
+    fields |= {name: length_text(values[name], context.unit) for name in ("radius", "distance") if name in values}
+    if "off_by_mm" in values:
+        fields["off"] = length_text(values["off_by_mm"], context.unit)
+        if is_word and givens[0].unit is Unit.DEGREE and words and words[0].address == FACT and "expected" in values:
+            fields["off"] = angle_text(abs(values["expected"] - values["actual"]))
+    if event.kind is RemarkKind.SEVERAL:
+        fields["count"] = f"{event.values['actual']:.0f}"
+    notes: tuple[str, ...] = ()
+    if event.kind in _AGAINST_OTHERS:
+        fields |= _others(event, profile)
+    if event.kind is RefusalKind.SEARCH_UNFINISHED and alternatives is not None:
+        fields["advice"] = _ADVICE[alternatives.doubts[0].obstacle.name]
+        notes = tuple(_search_notes(profile, alternatives))
+    labels = [f"expected {fields['expected']}"] if "expected" in fields else []
+    if event.kind is RefusalKind.RADIUS_TOO_SMALL:
+        fields["limit"] = value_text(float(length_limit(values["limit"], context.unit, -1)), context.unit.value)
+    if event.kind is RefusalKind.CORNER_TOO_LARGE and isinstance(event, Refusal):
+        more, labels = _room(event, values, profile)
+        fields |= more
+    if event.kind is RefusalKind.CORNERS_OVERLAP:
+        rooms = _rooms(event, values, words, profile)
+        labels = [label for _, label in rooms]
+        told = [advice for advice, _ in rooms if advice]
+        if rooms and not any(advice.startswith("write") for advice in told):
+            told += _for_both(values, profile.unit)
+        fields["smaller"] = ", or ".join(told) or f"make the corners smaller by {fields['off']} of it in all"
+    finding = report(context, context.row(event.kind), Basis.NUMERICAL, words, values, labels, **fields)
+    if event.kind is RefusalKind.BEVEL_IN_BAND and "limit" in values:
+        _, shown = _largest(values["limit"], profile.unit)
+        finding = replace(
+            finding,
+            labels=(Label(finding.span, f"at most {shown}"), *finding.labels[1:]),
+            help=f"write at most {shown}, or {finding.help}",
+        )
+    if isinstance(event, Refusal) and event.beside and "together" in values:
+        takers = [given.word for name in event.beside if (given := profile.givens.get(name)) and given.word]
+        finding = replace(
+            finding, labels=(*finding.labels, *(Label(word.span, "takes all the room") for word in takers))
+        )
+    if asked and isinstance(event, Refusal):
+        causes = list(dict.fromkeys(text for word in asked for text in _causes(word, profile)))
+        advice = f"change what that follows from: {join(causes)}" if causes else "change what that follows from"
+        finding = replace(finding, help=advice, labels=tuple(replace(each, text="") for each in finding.labels))
+    return replace(finding, notes=notes)
+
+
+def _length(unit: Length, value: float, more: int) -> str:
+    return length_text(value, unit, more)
+
+
+def _room(event: Refusal, values: Mapping[str, float], profile: Profile) -> tuple[dict[str, str], list[str]]:
+    """How much room there is for a corner, as fields of its row, and its label."""
+    largest, shown = _largest(values["limit"], profile.unit)
+    others = (profile.givens[name].word for name in event.beside if name in profile.givens)
+    beside = join([_named_in(word, profile) for word in others if word])
+    beside = f" beside {beside}" if beside else ""
+    if not largest:
+        fits = f"no room is left{beside}" if beside else "nothing fits"
+        smaller = ", or ".join(["delete it", *_for_both(values, profile.unit)])
+        return {"limit": shown, "fits": fits, "smaller": smaller}, [f"no room left{beside}"]
+    fields = {"limit": shown, "fits": f"at most {shown} fits", "smaller": f"write at most {shown}"}
+    return fields, [f"at most {shown}{beside}"]
+
+
+def _for_both(values: Mapping[str, float], unit: Length) -> list[str]:
+    """What corners that leave each other no room may be if all of them come down."""
+    largest, shown = _largest(values.get("together", 0.0), unit)
+    return [f"write at most {shown} for both"] if largest else []
+
+
+def _largest(limit: float, unit: Length) -> tuple[Decimal, str]:
+    """The largest size (mm) as it is shown, in the program's unit."""
+    largest = length_limit(limit, unit)
+    return largest, value_text(float(largest), unit.value)
+
+
+def _named_in(word: Word, profile: Profile) -> str:
+    """A word, with its line where there are several."""
+    return f"{word.text} (line {word.span.line})" if len(profile.blocks) > 1 else word.text
+
+
+def _rooms(
+    event: Refusal | Remark, values: dict[str, float], words: Sequence[Word], profile: Profile
+) -> list[tuple[str, str]]:
+    """For either of two words for corners that overlap, in the order of the words, which the values then have, too:
+    what to write if the other one stays, and its label; for one of them if the other one cannot stay."""
+    known = {name: values.pop(key) for name, key in zip(event.givens, BESIDE, strict=False) if key in values}
+    sizes = {given.word: known[name] for name in known if (given := profile.givens.get(name)) and given.word}
+    own = sorted(words, key=lambda word: word.span)
+    if len(own) != len(BESIDE) or not sizes:
+        return []
+    values |= {key: sizes[word] for key, word in zip(BESIDE, own, strict=True) if word in sizes}
+    names = [_named_in(word, profile) for word in own]
+    rooms = []
+    for word, name, other in zip(own, names, reversed(names), strict=True):
+        largest, shown = _largest(sizes.get(word, 0.0), profile.unit)
+        if word not in sizes:
+            rooms.append(("", ""))
+        elif largest:
+            rooms.append((f"write at most {shown} for {name} if {other} stays", f"at most {shown} beside {other}"))
+        else:
+            rooms.append((f"delete {name}", f"no room left beside {other}"))
+    return rooms
+
+
+def _causes(asked: Word, profile: Profile) -> Iterator[str]:
+    """The words and facts that determine the size of a corner that is asked for."""
+    from contoursolve.solving.ambiguity import settled_by  # noqa: PLC0415 - few blocks ask for anything
+
+    for question in profile.questions:
+        if question.word is asked and isinstance(question.fact, Radius):
+            for name in settled_by(profile, question.fact.radius):
+                word = profile.givens[name].word
+                if word is not None:
+                    yield word.text
+
+
+_AGAINST_OTHERS = (*_OF_A_WORD, RefusalKind.FACT_DISAGREES)
+
+
+def _others(event: Refusal | Remark, profile: Profile) -> dict[str, str]:
+    """What a word or a fact is held against, by name where facts are stated besides words, and its verbs."""
+    words: list[Word] = []
+    if profile.is_extended:
+        from contoursolve.solving.ambiguity import tied_with  # noqa: PLC0415 - few blocks state more than their words
+
+        system = assemble(profile)
+        facts = [fact for fact in profile.facts if fact.given == event.subject]
+        names = [name for fact in facts for name in tied_with(system, fact) if name != event.subject]
+        words = [word for word in (profile.givens[name].word for name in dict.fromkeys(names)) if word]
+    if len(words) == 1:
+        return {"others": words[0].text, "they": words[0].text, "give": "gives", "say": "says"}
+    text = join([word.text for word in words]) or "the other words"
+    return {"others": text, "they": "they", "give": "give", "say": "say"}
+
+
+# By name: the obstacles belong to the search, which few blocks need.
+_ADVICE = {
+    "SINGULAR": "state another fact in place of one of them",
+    "UNDECIDED": "change a value a little: the case is too close to a limit to be decided",
+    "TOUCHING": "change a value a little: two places are one, or none, as far as numbers can tell",
+    "NO_CLOSED_FORM": "state a simpler fact in place of one of them, such as a coordinate or a direction",
+    "UNFINISHED": "state a simpler fact in place of one of them, such as a coordinate or a direction",
+}
+
+
+def _search_notes(profile: Profile, alternatives: Alternatives) -> Iterator[str]:
+    """What was tried, and what is not decided."""
+    way = "in closed form"
+    if alternatives.reach is not None:
+        way = f"by a search within {length_text(alternatives.reach, profile.unit)} of the start point"
+    yield f"tried: every combination of sides, {way}"
+    for doubt in alternatives.doubts:
+        yield f"not decided: {unknowns_text(doubt.unknowns, profile)}: {doubt.obstacle.value}"
+
+
+def explain_singular(context: Context, names: Sequence[str], loose: Sequence[str], profile: Profile) -> Diagnostic:
+    """Facts that do not fix what they are about at their values, though they would at others."""
+    words = [word for word in (profile.givens[name].word for name in names) if word]
+    rule, free = context.row(Trouble.FACTS_SINGULAR), unknowns_text(loose, profile)
+    return report(context, rule, Basis.NUMERICAL, words, free=free, do="do" if len(words) > 1 else "does")
+
+
+def explain_crossing(context: Context, profile: Profile, contour: Contour) -> Iterator[Diagnostic]:
+    """A path that goes on across the spindle axis."""
+    crossing = contour.crossing
+    if crossing is not None:
+        (radius,) = (at for at, is_diameter in zip(crossing.at, contour.plane.diameters, strict=True) if is_diameter)
+        start, place = (place_text(profile, scalars_of({"": at})) for at in (contour.start, crossing.at))
+        fields: dict[str, Any] = {"subject": crossing.element.name, "start": start, "place": place}
+        values = {"limit": 0.0, "actual": radius, "off_by_mm": abs(radius)}
+        yield report(context, context.row(Trouble.AXIS_CROSSED), Basis.NUMERICAL, [], values, **fields)
+
+
+def explain_beyond(context: Context, profile: Profile, solution: Solution, contour: Contour) -> Iterator[Diagnostic]:
+    """Facts about a whole line or circle that hold where the path does not reach."""
+    from contoursolve.diagnosis.off_path import facts_beyond  # noqa: PLC0415 - few blocks state more than their words
+
+    for given, element, at in facts_beyond(profile, solution, contour):
+        word = profile.givens[given].word
+        whole = "line" if isinstance(element, LineSegment) else "circle"
+        place = place_text(profile, scalars_of({"": at}))
+        fields: dict[str, Any] = {"element": element.name, "whole": whole, "place": place}
+        yield report(context, context.row(Trouble.FACT_BEYOND), Basis.NUMERICAL, [word] if word else [], **fields)

@@ -1,0 +1,52 @@
+"""The values that a block asked for, written into it, and the block tried again as the control would read it."""
+
+from dataclasses import replace
+from math import hypot
+
+from contoursolve import gcode
+from contoursolve.diagnosis.edits import write_word
+from contoursolve.diagnosis.examine import Answer, Filled, Policy, examine
+from contoursolve.gcode import FACT
+from contoursolve.reading import Claim, State
+from contoursolve.reading.dialect import Dialect
+from contoursolve.solving.contour import Contour
+
+FARTHEST = 0.01
+"""mm. A block with rounded values whose contour is farther from the exact one is not offered."""
+
+
+def fill_in(answer: Answer, before: State, dialect: Dialect) -> Filled | None:
+    """The blocks of an answer with the values that they ask for; None if they do not stand alone then.
+
+    `before` is the state at the first block. The further facts are left out: the control does not read them.
+    """
+    texts = {block.line: block.text for block in answer.claim.blocks}
+    words = [(each.question.word, each.value) for each in answer.answers if each.question.word.address != FACT]
+    for word, value in sorted(words, key=lambda each: each[0].span, reverse=True):
+        if value is None:
+            return None
+        span = word.span
+        written = write_word(word.address, value, dialect.modes.lexicon, answer.unit)
+        text = texts[span.line]
+        texts[span.line] = text[: span.column - 1] + written + text[span.end_column - 1 :]
+    first = answer.claim.blocks[0].line
+    blocks = tuple(
+        replace(gcode.parse_block(texts.get(line, ""), line), directives=())
+        for line in range(first, answer.claim.blocks[-1].line + 1)
+    )
+    claim = dialect.find(blocks, 0, before, dialect.modes)
+    if not isinstance(claim, Claim) or not words:
+        return None
+    again = examine(claim, dialect.rules, Policy.ENFORCE)
+    if again.contour is None or answer.contour is None:
+        return None
+    deviation = _deviation(again.contour, answer.contour)
+    return Filled(tuple(texts[line] for line in sorted(texts)), deviation) if deviation <= FARTHEST else None
+
+
+def _deviation(first: Contour, second: Contour) -> float:
+    """The largest distance between the ends of corresponding elements, mm; infinite where they differ in kind."""
+    if [type(each) for each in first.elements] != [type(each) for each in second.elements]:
+        return float("inf")
+    pairs = zip(first.elements, second.elements, strict=True)
+    return max((hypot(one.end[0] - two.end[0], one.end[1] - two.end[1]) for one, two in pairs), default=0.0)

@@ -1,0 +1,88 @@
+"""Facts about a whole line or circle that hold beyond the part of it that is cut."""
+
+from collections.abc import Iterator
+from math import atan2, hypot, tau
+from typing import NamedTuple
+
+from contoursolve.geometry import (
+    FIRST,
+    SECOND,
+    Arc,
+    CornerShape,
+    Fact,
+    OnCircle,
+    Profile,
+    TangentCircles,
+    TangentLine,
+    Through,
+    Values,
+)
+from contoursolve.solving import Point, Solution, lookup, scalars_of
+from contoursolve.solving.contour import Contour, LineSegment, Segment
+from contoursolve.tolerance import AGREEMENT
+
+
+class Beyond(NamedTuple):
+    """A fact, the element of the path that it is about, and the place (mm) where it holds, off what is cut of it."""
+
+    given: str
+    element: Segment
+    at: Point
+
+
+def facts_beyond(profile: Profile, solution: Solution, contour: Contour) -> Iterator[Beyond]:
+    """The facts that hold at a place of a line or a circle that the path does not reach."""
+    at = lookup(profile, {**solution.scalars, **scalars_of(solution.points), **solution.radii})
+    cut = {segment.name: segment for segment in contour.elements}
+    fillets = (corner.name for corner in profile.figure.corners if corner.shape is CornerShape.FILLET)
+    round_ones = {f"{name}.center": name for name in fillets}
+    round_ones |= {arc.center: arc.name for arc in profile.figure.path if isinstance(arc, Arc)}
+    for fact in profile.facts:
+        if not fact.given:
+            continue
+        for name, place in _places(fact, at):
+            segment = cut.get(round_ones.get(name, name))
+            if segment is not None and not _is_on(segment, place):
+                yield Beyond(fact.given, segment, place)
+
+
+def _places(fact: Fact, at: Values) -> Iterator[tuple[str, Point]]:
+    """The lines (by name) and the circles (by center) that a fact is about, and where it holds."""
+    match fact:
+        case Through(line=line, point=point):
+            yield line, _point(at, point)
+        case OnCircle(point=point, center=center):
+            yield center, _point(at, point)
+        case TangentLine(line=line, center=center):
+            (first, second), (cosine, sine, offset) = _point(at, center), at.line(line)
+            left = cosine * second - sine * first - offset
+            foot = first + left * sine, second - left * cosine
+            yield line, foot
+            yield center, foot
+        case TangentCircles(first=(center, radius), second=(other, other_radius)):
+            here, there = _point(at, center), _point(at, other)
+            between = hypot(there[FIRST] - here[FIRST], there[SECOND] - here[SECOND])
+            # Of two circles one in the other, the smaller one touches on the side away from the larger one's center.
+            is_inner = at.radius(radius) < at.radius(other_radius) and between < at.radius(other_radius)
+            way = float(at.radius(radius)) / between * (-1 if is_inner else 1)
+            contact = tuple(a + way * (b - a) for a, b in zip(here, there, strict=True))
+            yield center, (contact[FIRST], contact[SECOND])
+            yield other, (contact[FIRST], contact[SECOND])
+
+
+def _point(at: Values, name: str) -> Point:
+    return float(at.coordinate(name, FIRST)), float(at.coordinate(name, SECOND))
+
+
+def _is_on(segment: Segment, place: Point) -> bool:
+    """Whether a place of the line or the circle of an element lies on the element, or within the least increment."""
+    if isinstance(segment, LineSegment):
+        along = [(end - start) / segment.length for start, end in zip(segment.start, segment.end, strict=True)]
+        way = sum(part * (at - start) for part, at, start in zip(along, place, segment.start, strict=True))
+        return -AGREEMENT <= way <= segment.length + AGREEMENT
+    begin, angle = (
+        atan2(each[SECOND] - segment.center[SECOND], each[FIRST] - segment.center[FIRST])
+        for each in (segment.start, place)
+    )
+    way = ((angle - begin) * segment.turn.sign) % tau * segment.radius
+    return way <= segment.length + AGREEMENT or tau * segment.radius - way <= AGREEMENT

@@ -1,0 +1,114 @@
+"""Finds what was meant where a slip keeps a block from being a contour: a comma that is missing, a letter that looks
+like a digit."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from contoursolve.diagnosis.edits import Edit, EditKind, apply_edits
+from contoursolve.diagnosis.examine import Depth, Policy, examine
+from contoursolve.diagnosis.explain import Context, report
+from contoursolve.diagnosis.spelling import respelled
+from contoursolve.diagnosis.typo_fixes import mistyped_codes
+from contoursolve.diagnosis.wording import join
+from contoursolve.diagnostics.finding import Applicability, Basis, Diagnostic, Fix
+from contoursolve.gcode import Block, Word, find_lookalikes, lookalike_at, parse_block
+from contoursolve.reading import Claim, Effect, State, Trouble, codes_of
+from contoursolve.reading.dialect import Dialect
+
+_LINES = (0, 1)
+_OF_A_LINE = (
+    Effect.MOTION,
+    Effect.PLANE,
+    Effect.UNITS,
+    Effect.COMPENSATION,
+    Effect.ABSOLUTE,
+    Effect.INCREMENTAL,
+    Effect.NONE,
+)
+
+
+def explain_commas(
+    context: Context,
+    dialect: Dialect,
+    blocks: Sequence[Block],
+    states: tuple[State, State],
+    previous: tuple[Sequence[Block], State] | None = None,
+) -> Iterator[Diagnostic]:
+    """Words of a line, the first of some blocks, whose address the control reads with a comma only: each with the
+    comma as its fix, if that makes a contour that is solved. `states` are those before and after the block; `previous`
+    are the blocks before it, which may be part of the contour then, and the state before them."""
+    block, (before, after) = blocks[0], states
+    addresses = dialect.modes.lexicon.addresses
+    codes = codes_of(block, dialect.modes)
+    is_line = after.motion in _LINES and not block.macro
+    if not is_line or any(isinstance(code, Word) or code.effect not in _OF_A_LINE for code in codes):
+        return
+    for word in block.words:
+        text = "" if word.address.startswith(",") else respelled(word, addresses)
+        if not text:
+            continue
+        finding = report(context, context.row(Trouble.COMMA_MISSING), Basis.RULE, [word], meant=text)
+        edit = Edit(EditKind.CHANGE, word.address, word.span, word.text, text)
+        found, replacement = _read(dialect, blocks, [edit], before)
+        fixes = tuple(_tried(dialect, found, [edit], replacement))
+        if previous and not fixes:
+            edited = parse_block(replacement, block.line)
+            other = dialect.find([*previous[0], edited, *blocks[1:]], 0, previous[1], dialect.modes)
+            fixes = tuple(_tried(dialect, other if other and edited in other.blocks else None, [edit], replacement))
+        if fixes or any(map(block.find, after.plane.axes)):
+            yield replace(finding, fixes=fixes)
+
+
+def explain_codes(
+    context: Context, dialect: Dialect, blocks: Sequence[Block], before: State, findings: Sequence[Diagnostic]
+) -> Iterator[Diagnostic]:
+    """G codes of a block, the first of some, that the control does not know and with which it is a contour that is
+    solved if one slip of their digits is mended, as in G110."""
+    yield from findings
+    for word in blocks[0].words:
+        for text in mistyped_codes(word, dialect.modes) if word.number not in dialect.modes.codes else ():
+            edit = Edit(EditKind.CHANGE, word.address, word.span, word.text, text)
+            found, replacement = _read(dialect, blocks, [edit], before)
+            fixes = tuple(_tried(dialect, found, [edit], replacement))
+            if fixes:
+                finding = report(context, context.row(Trouble.CODE_MISTYPED), Basis.RULE, [word], meant=text)
+                yield replace(finding, fixes=fixes)
+
+
+def explain_letters(
+    context: Context, dialect: Dialect, blocks: Sequence[Block], before: State, findings: Sequence[Diagnostic]
+) -> Iterator[Diagnostic]:
+    """The findings about a block, the first of some, that is a contour if letters of its G code are the digits that
+    they look like: with these digits as the fix, if it is solved then. `before` is the state before it."""
+    block = blocks[0]
+    unread = [fault.span for fault in block.faults]
+    alike = find_lookalikes(block)
+    torn = {each.span for each in (lookalike_at(alike, span) for span in unread) if each}
+    meant = [each for each in alike if each.is_code or each.span in torn]
+    edits = [Edit(EditKind.CHANGE, each.address, each.span, each.old, each.new) for each in meant]
+    found, replacement = _read(dialect, blocks, edits, before)
+    if found is None or not any(each.is_code for each in meant):
+        yield from findings
+        return
+    fixes = tuple(_tried(dialect, found, edits, replacement))
+    blamed = [each for each in findings if lookalike_at(meant, each.span)]
+    if not blamed:
+        words = [Word(each.address, None, False, each.old, each.span) for each in meant]
+        text = join([each.new for each in meant])
+        row = context.row(Trouble.LETTER_FOR_DIGIT)
+        yield replace(report(context, row, Basis.RULE, words, meant=text), fixes=fixes)
+    for each in findings:
+        yield replace(each, fixes=fixes) if blamed and each is blamed[0] else each
+
+
+def _read(dialect: Dialect, blocks: Sequence[Block], edits: Sequence[Edit], before: State) -> tuple[Claim | None, str]:
+    """The contour that begins with the first of some blocks when it is edited, if one does; and its text then."""
+    (text,) = apply_edits(blocks[:1], edits)
+    found = dialect.find([parse_block(text, blocks[0].line), *blocks[1:]], 0, before, dialect.modes)
+    return (found if isinstance(found, Claim) and found.form.is_contour else None), text
+
+
+def _tried(dialect: Dialect, found: Claim | None, edits: Sequence[Edit], replacement: str) -> Iterator[Fix]:
+    """The edits as a fix, if they make a contour that is solved."""
+    if found is not None and examine(found, dialect.rules, Policy.ENFORCE, depth=Depth.VERDICT).contour:
+        yield Fix("; ".join(map(str, edits)), replacement, Applicability.CHANGES_CONTOUR)

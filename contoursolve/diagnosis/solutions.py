@@ -1,0 +1,164 @@
+"""All solutions of one contour, for a person and for JSON: which there are, what selects each, how well it is known."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import floor, inf, log10
+from typing import TYPE_CHECKING
+
+from contoursolve.diagnosis.examine import (
+    Answer,
+    AskedValue,
+    answer_question,
+    count_choices,
+    is_rounded,
+    list_alternatives,
+)
+from contoursolve.gcode import FACT
+from contoursolve.geometry import Length
+from contoursolve.solving.contour import Contour, trace
+from contoursolve.solving.solution import Certificate, Proof, up_to_one_digit
+from contoursolve.tolerance import LENGTH
+
+if TYPE_CHECKING:
+    from contoursolve.solving.alternatives import Alternative, Alternatives
+
+DECIMALS = 12
+"""Decimals of coordinates in mm: below the rounding of the arithmetic, so that nothing is lost."""
+
+
+@dataclass(frozen=True, slots=True)
+class Listed:
+    """One solution: its name, its path (None if the control cannot make it, with the reasons), what selects it,
+    and whether it is the contour that was solved."""
+
+    name: str
+    contour: Contour | None
+    asked: tuple[AskedValue, ...]
+    reasons: tuple[str, ...]
+    selects: tuple[str, ...]
+    is_chosen: bool
+    certificate: Certificate
+
+
+@dataclass(frozen=True, slots=True)
+class Listing:
+    """All solutions that were found, and whether these are proven to be all."""
+
+    solutions: tuple[Listed, ...]
+    is_complete: bool
+    method: str
+    doubts: tuple[str, ...]
+    chosen_by: str
+
+    @property
+    def is_single(self) -> bool:
+        """Whether there is one solution, and no other one can be."""
+        return len(self.solutions) == 1 and self.is_complete
+
+
+def list_solutions(answer: Answer) -> Listing | None:
+    """The solutions of a contour; None if nothing was solved."""
+    alternatives = list_alternatives(answer)
+    if alternatives is None:
+        if answer.contour is None or answer.certificate is None:
+            return None
+        only = Listed("", answer.contour, answer.answers, (), (), is_chosen=True, certificate=answer.certificate)
+        choices = count_choices(answer.profile)
+        why = "a half circle is one within the least increments" if is_rounded(answer) else "too many to list"
+        doubts = (f"the other sides of {choices} points: {why}",) if choices else ()
+        return Listing((only,), is_complete=not doubts, method="closed form", doubts=doubts, chosen_by="")
+    from contoursolve.solving.alternatives import choose  # noqa: PLC0415 - most contours need no choice
+
+    eligible = choose(alternatives, answer.profile.choices)
+    paths = [item for item in eligible if item.is_path]
+    chosen = paths[0] if len(paths) == 1 and answer.contour is not None else None
+    words = [
+        answer.claim.words[choice.given].text for choice in answer.profile.choices if choice.given in answer.claim.words
+    ]
+    method = "closed form"
+    if alternatives.reach is not None:
+        from contoursolve.solving.exact_inputs import SMALLEST  # noqa: PLC0415 - most contours need no search
+
+        method = f"search within {alternatives.reach:.0f} mm of the start point, for elements of at least {SMALLEST} mm"
+    return Listing(
+        solutions=tuple(_listed(item, item is chosen, alternatives, answer) for item in alternatives.items),
+        is_complete=alternatives.is_complete,
+        method=method,
+        doubts=tuple(f"{', '.join(doubt.unknowns)}: {doubt.obstacle.value}" for doubt in alternatives.doubts),
+        chosen_by=" and ".join(words) if chosen and len(alternatives.items) > 1 else "",
+    )
+
+
+def _listed(item: Alternative, is_chosen: bool, alternatives: Alternatives, answer: Answer) -> Listed:
+    profile = answer.profile
+    contour = trace(profile, item.solution) if item.is_path else None
+    asked = tuple(answer_question(question, profile, item.solution) for question in profile.questions)
+    name = item.name
+    for key, given in profile.givens.items():
+        if given.word is not None and given.word.address == FACT:
+            # A side that a fact leaves open is told by the fact.
+            name = name.replace(f"{key} ", f"{given.word.text.partition(' [')[0].partition(' (')[0]} ")
+    return Listed(
+        name=name,
+        contour=contour,
+        asked=asked,
+        reasons=tuple(f"{refusal.kind.value} {refusal.subject}".strip() for refusal in item.solution.refusals),
+        selects=tuple(_selecting(item, asked, alternatives, answer)),
+        is_chosen=is_chosen,
+        certificate=item.certificate,
+    )
+
+
+def _selecting(item: Alternative, asked: Sequence[AskedValue], alternatives: Alternatives, answer: Answer) -> list[str]:
+    """The words, or else the fact, that would select a solution."""
+    if len(alternatives.items) == 1:
+        return []
+    words = [
+        selector.word
+        for selector in answer.claim.selectors
+        if item.sides.get(selector.point) == selector.side.value
+        and len({other.sides.get(selector.point) for other in alternatives.items}) > 1
+    ]
+    if words:
+        return words
+    written = [_written(each, answer) for each in asked if each.value is not None]
+    if any(written):
+        return [word for word in written if word]
+    plane, unit = answer.profile.plane, answer.unit
+    for point in answer.profile.figure.points:
+        for axis in (0, 1):
+            name = f"{point}.{axis}"
+            others = [other.scalars[name] for other in alternatives.items if other is not item]
+            if all(abs(item.scalars[name] - value) > 10 * LENGTH for value in others) and "." not in point:
+                value = item.scalars[name] * (2 if plane.diameters[axis] else 1)
+                shown = value / 25.4 if unit is Length.INCH else value
+                return [f"(contoursolve: {plane.axes[axis]} of {point} = {shown:.3f})"]
+    return []
+
+
+def _written(asked: AskedValue, answer: Answer) -> str:
+    """An asked word with its value; empty for what is no word."""
+    word = asked.question.word
+    if asked.value is None or word.address == FACT:
+        return ""
+    from contoursolve.diagnosis.edits import write_word  # noqa: PLC0415 - few contours have several solutions
+
+    return write_word(word.address, asked.value, answer.claim.lexicon, answer.unit)
+
+
+def printed_certificate(certificate: Certificate | None) -> Certificate | None:
+    """A certificate of the numbers as they are printed: rounded to `decimals_of` it."""
+    if certificate is None or certificate.proof is Proof.EXACT:
+        return certificate
+    rounding = 0.5 * 10.0 ** -decimals_of(certificate)
+    radius = up_to_one_digit(certificate.radius + rounding)
+    return Certificate(certificate.proof, radius, certificate.reason, certificate.gap)
+
+
+def decimals_of(certificate: Certificate | None, most: int = DECIMALS) -> int:
+    """How many decimals of a coordinate in mm mean something: the radius is not larger than the last one."""
+    if certificate is None or not 0 < certificate.radius < inf:
+        return most
+    return max(0, min(most, floor(-log10(certificate.radius))))

@@ -1,0 +1,258 @@
+"""Findings about characters, words and positions, before the equations are looked at."""
+
+from bisect import bisect_right
+from collections.abc import Container, Iterator, Sequence
+from dataclasses import replace
+from decimal import Decimal
+
+from contoursolve.diagnosis.explain import Context, report
+from contoursolve.diagnosis.wording import join, length_text
+from contoursolve.diagnostics.finding import Basis, Diagnostic, Label
+from contoursolve.diagnostics.source import Span
+from contoursolve.gcode import Block, Fault, Lookalike, Word, find_lookalikes, lookalike_at, mended
+from contoursolve.geometry import CornerShape, Length
+from contoursolve.reading import Claim, Lexicon, Position, Trouble
+from contoursolve.tolerance import LARGEST
+
+
+def explain_spelling(context: Context, claim: Claim) -> Iterator[Diagnostic]:
+    """What keeps the words of a contour from being read: nothing can be said of what they mean then."""
+    words = [word for block in claim.blocks for word in block.words]
+    for block in claim.blocks:
+        yield from explain_faults(context, block)
+    yield from explain_words(context, claim.lexicon, claim.repeated, words)
+    yield from _explain_unknown(context, claim)
+    yield from _explain_asked(context, claim)
+
+
+def explain_unmarked(context: Context, block: Block) -> Iterator[Diagnostic]:
+    """Comments that look like facts and are not read as such."""
+    for directive in block.unmarked:
+        rule = context.row(Trouble.FACT_UNMARKED)
+        yield report(replace(context, place=directive.span), rule, Basis.RULE, [], fact=directive.text)
+
+
+def explain_asked_outside(context: Context, block: Block) -> Iterator[Diagnostic]:
+    """Words that ask for something in a block that is no contour."""
+    for word in (word for word in block.words if word.is_asked):
+        yield report(context, context.row(Trouble.ASKED_NOTHING), Basis.RULE, [word], allowed="words of contour blocks")
+
+
+def explain_start_units(context: Context, unit: Length, block: Block) -> Diagnostic:
+    """A start point in another unit than that of the contour."""
+    rule, units = context.row(Trouble.START_UNITS), {Length.MM: "mm", Length.INCH: "inches"}
+    codes = {Length.MM: "G21", Length.INCH: "G20"}
+    fields = {"was": units[context.unit], "unit": units[unit], "code": codes[unit], "start": block.text.strip()}
+    return report(context, rule, Basis.RULE, [], None, (), **fields)
+
+
+def _explain_asked(context: Context, claim: Claim) -> Iterator[Diagnostic]:
+    for word in unanswerable(claim):
+        names = _answerable(claim)
+        allowed = ", ".join(dict.fromkeys(claim.vocabulary[name][0] for name in claim.vocabulary if name in names))
+        yield report(context, context.row(Trouble.ASKED_NOTHING), Basis.RULE, [word], allowed=allowed)
+
+
+def unanswerable(claim: Claim) -> list[Word]:
+    """Words that ask for something that is not part of a contour."""
+    asking = [word for block in claim.blocks for word in block.words if word.is_asked]
+    if not asking:
+        return []
+    answered = [claim.words[name] for name in _answerable(claim) if name in claim.words]
+    return [word for word in asking if word not in answered and word not in claim.unknown]
+
+
+def _answerable(claim: Claim) -> set[str]:
+    """The names that state facts, sizes or choices."""
+    sizes = {name for row in claim.form.corners for name in row.shapes}
+    return {row.fact.given for row in claim.form.facts} | sizes | set(claim.form.choices)
+
+
+def explain_faults(context: Context, block: Block) -> Iterator[Diagnostic]:
+    """The faults of a block; of those that slips make in one word, the first."""
+    told: set[Span] = set()
+    meanings = Meanings(block) if block.faults else None
+    for fault in block.faults:
+        meant = meanings.at(fault.span) if meanings else None
+        if meant is None or meant.span not in told:
+            yield _explain_fault(context, fault, meant)
+        told |= {meant.span} if meant else set()
+
+
+def _explain_fault(context: Context, fault: Fault, meant: Lookalike | None) -> Diagnostic:
+    """Characters of a block that are not a word."""
+    shown = Word(fault.text[:1], None, False, fault.text.strip(), fault.span)
+    finding = report(context, context.row(fault.kind), Basis.RULE, [shown])
+    finding = replace(finding, addresses=(fault.address,) if fault.address else ())
+    if meant is None:
+        return finding
+    advice = f"write {meant.new} for {meant.old} if that is meant; else {finding.help}"
+    return replace(finding, message=_ask(meant), help=advice)
+
+
+class Meanings:
+    """The words that are meant in a block, and none where a word that may mean what it says begins in the middle, as
+    in X I5."""
+
+    def __init__(self, block: Block) -> None:
+        self._text = block.text
+        readable = (word for word in block.words if word.number is not None and word.address not in _NEVER_MEANT)
+        begins = sorted(word.span.column for word in readable)
+        self._found = [
+            each
+            for each in find_lookalikes(block)
+            if each.is_code or not _is_between(begins, each.span.column, each.span.end_column)
+        ]
+
+    def at(self, place: Span) -> Lookalike | None:
+        """The word that is meant at a place; None unless all there is of such words."""
+        stretch = self._text[place.column - 1 : place.end_column - 1]
+        columns = (place.column + index for index, char in enumerate(stretch) if not char.isspace())
+        chars = (Span(place.line, column, column + 1) for column in columns)
+        return lookalike_at(self._found, place) if all(lookalike_at(self._found, each) for each in chars) else None
+
+
+def _is_between(places: Sequence[int], low: int, high: int) -> bool:
+    """Whether one of some places, in order, is between two others."""
+    index = bisect_right(places, low)
+    return index < len(places) and places[index] < high
+
+
+_NEVER_MEANT = ("L", "O")
+"""Letters that look like digits and state nothing about a contour on any control."""
+
+
+def meant_words(claim: Claim) -> tuple[Lookalike, ...]:
+    """The words of a contour that slips keep from being read, in order."""
+    found: dict[Span, Lookalike] = {}
+    for block in claim.blocks:
+        unread = [fault.span for fault in block.faults]
+        unknown = [word for word in claim.unknown if word.span.line == block.line]
+        if not unread and not unknown:
+            continue
+        meanings, ends = Meanings(block), {each.span.end_column: each for each in block.words}
+        meant = [meanings.at(span) for span in (*unread, *(word.span for word in unknown))]
+        behind = [word for word in unknown if respelled(word, claim.form.allowed)]
+        meant += [_comma_behind(ends.get(word.span.column), word) for word in behind]
+        found |= {each.span: each for each in meant if each}
+    return tuple(found[span] for span in sorted(found))
+
+
+def _comma_behind(number: Word | None, word: Word) -> Lookalike | None:
+    """The number that the comma of a word stands right behind, with what the comma means there, as in `A180, K-30.`"""
+    if number is None or number.number is None:
+        return None
+    old = f"{number.text.strip()},"
+    span = Span(word.span.line, word.span.column - len(old) + 1, word.span.column + 1)
+    return Lookalike(span, old, mended(old))
+
+
+def _ask(meant: Lookalike) -> str:
+    """Whether what is almost a word means one."""
+    if not meant.has_letters:
+        return f"{meant.old} is not a number that a control reads: did you mean {meant.new}?"
+    pairs = dict(pair for pair in zip(meant.old, meant.new, strict=True) if pair[0] != pair[1])
+    plural = "s" if len(pairs) > 1 else ""
+    letters, digits = join(list(pairs)), join(list(pairs.values()))
+    return f"letter{plural} {letters} in {meant.old}: did you mean the digit{plural} {digits} ({meant.new})?"
+
+
+def torn_codes(claim: Claim) -> tuple[Lookalike, ...]:
+    """The G codes of a contour that slips keep from being read: what the words are is not known then."""
+    return tuple(each for each in meant_words(claim) if each.is_code)
+
+
+_LARGEST = Decimal(LARGEST)
+
+
+def explain_words(
+    context: Context, lexicon: Lexicon, repeated: Sequence[Word], words: Sequence[Word]
+) -> Iterator[Diagnostic]:
+    """Addresses given twice, and values beyond all travel."""
+    numbers = {each.number for each in repeated}
+    for address, line in dict.fromkeys((word.address, word.span.line) for word in repeated):
+        same = [word for word in words if word.address == address and word.span.line == line]
+        if address == "G":
+            same = [word for word in same if word.number in numbers]
+        yield report(context, context.row(Trouble.REPEATED_ADDRESS), Basis.RULE, same)
+    for word in words:
+        value = lexicon.value(word, context.unit) if word.address in lexicon.addresses else None
+        if value is not None and abs(value) > _LARGEST:
+            limit = length_text(LARGEST, context.unit)
+            yield report(context, context.row(Trouble.VALUE_TOO_LARGE), Basis.RULE, [word], limit=limit)
+
+
+def _explain_unknown(context: Context, claim: Claim) -> Iterator[Diagnostic]:
+    if not claim.unknown:
+        return
+    form, torn, mendable = claim.form, torn_codes(claim), meant_words(claim)
+    own = [address for address in claim.lexicon.addresses if address in form.allowed]
+    others = sorted(form.allowed - {"N", "G", *own})
+    allowed = " ".join(own) + (f", and besides {' '.join(others)}" if others else "")
+    for word in claim.unknown:
+        here = lookalike_at(torn, word.span)
+        if any(each.span.line == word.span.line and each is not here for each in torn):
+            continue
+        rule, other = context.row(Trouble.UNKNOWN_ADDRESS), respelled(word, form.allowed)
+        meant = lookalike_at(mendable, word.span)
+        other = "" if meant else other
+        sizes = _roundings(claim) if word.address == "R" else []
+        texts = [f"{address}{word.text.strip()[1:].strip()}" for address in sizes]
+        ways = [*texts, *filter(None, [other]), *([f"{meant.new} for {meant.old}"] if meant else [])]
+        do = f"write {' or '.join(ways)}" if ways else "delete it"
+        name = form.name if form.name.startswith("G") else form.title
+        finding = report(context, rule, Basis.RULE, [word], form=name, allowed=allowed, do=do)
+        if texts and not meant:
+            finding = replace(finding, message=f"{word.text.strip()}: {name} has no R; roundings are {join(sizes)}")
+        yield replace(finding, message=_ask(meant)) if meant else finding
+
+
+def _roundings(claim: Claim) -> list[str]:
+    """The addresses of roundings of a contour."""
+    shapes = ((name, shape) for row in claim.form.corners for name, shape in row.shapes.items())
+    # Under G11 and G12 a corner has the word of a line.
+    return [
+        claim.vocabulary[name][0] for name, shape in shapes if shape is CornerShape.FILLET and name in claim.vocabulary
+    ]
+
+
+def respelled(word: Word, allowed: Container[str]) -> str:
+    """The word with the comma that its address lacks, or without the one that it has not; empty if there is no such
+    address."""
+    has_comma = word.address.startswith(",")
+    other = word.address[1:] if has_comma else f",{word.address}"
+    text = word.text.strip()
+    return "" if other not in allowed else text.replace(",", "", 1).strip() if has_comma else f",{text}"
+
+
+def explain_start(context: Context, claim: Claim) -> Diagnostic:
+    """Which axes of the start point are unknown, and which line made them so."""
+    unknown = [axis for axis in claim.before.plane.axes if claim.before.axes[axis].value is None]
+    places = [claim.before.axes[axis] for axis in unknown]
+    reasons = dict.fromkeys(f"{each.reason}{_on_line(each)}" for each in places)
+    if claim.before.is_incremental and any(each.span is None for each in places):
+        reasons["G91 is active, and an increment from an unknown position gives none"] = None
+    finding = report(
+        context,
+        context.row(Trouble.POSITION_UNKNOWN),
+        Basis.RULE,
+        [],
+        axes=" and ".join(unknown),
+        reason="; ".join(reasons),
+    )
+    labels = (Label(each.span, "the position is lost here") for each in places if each.span)
+    return replace(finding, labels=finding.labels + tuple(dict.fromkeys(labels)), addresses=tuple(unknown))
+
+
+def _on_line(place: Position) -> str:
+    """Where a position was lost, unless the reason says so."""
+    if place.span is None or f"line {place.span.line}," in place.reason:
+        return ""
+    return f" (line {place.span.line})" if place.span.line else " (--start)"
+
+
+def explain_skippable(context: Context, claim: Claim) -> Iterator[Diagnostic]:
+    """A contour that depends on whether a block is skipped."""
+    skippable = {block.is_skippable for block in claim.blocks}
+    if len(skippable) > 1 or any(claim.before.axes[axis].is_skippable for axis in claim.before.plane.axes):
+        yield report(context, context.row(Trouble.SKIPPABLE_START), Basis.RULE, [])

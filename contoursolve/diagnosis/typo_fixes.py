@@ -1,0 +1,350 @@
+"""Slips of typing: one table of kinds, each with what a word may have been meant to be, the most plausible first."""
+
+import re
+from collections import Counter
+from collections.abc import Callable, Collection, Iterable, Iterator
+from dataclasses import dataclass, replace
+from decimal import Decimal
+
+from contoursolve.diagnosis.drafts import change, has_faults, missing_points, unreadable
+from contoursolve.diagnosis.edits import Edit, EditKind
+from contoursolve.diagnosis.examine import Answer
+from contoursolve.diagnosis.spelling import meant_words
+from contoursolve.diagnostics.finding import Severity
+from contoursolve.diagnostics.source import Span
+from contoursolve.gcode import FACT, Word, lookalike_at, mended
+from contoursolve.geometry import CornerShape, Unit
+from contoursolve.reading import Claim, Effect, Modes, Trouble, WithoutPoint
+
+_WORD = re.compile(r"(?P<address>,?[ \t]*[A-Za-z])[ \t]*(?P<sign>[+-]?)(?P<number>\d+\.?\d*|\.\d+)", re.ASCII)
+_DECIMALS = 3
+"""Decimals that a word of either control has at most."""
+_ABOUT, _NEARLY = 0.01, 0.003
+"""mm or degrees: by so much the value that agrees with rounded words may miss the one that was meant; the second where
+many values may be meant."""
+_WHOLE = 2
+"""Blocks of a contour that is looked at as a whole."""
+_LONG = 4
+"""Digits of a number that may have lost its point in the middle."""
+_NEAR = dict(zip("1234567890", ("2", "13", "24", "35", "46", "57", "68", "79", "80", "9"), strict=True))
+"""The digits beside each digit on a keyboard."""
+
+
+@dataclass(frozen=True, slots=True)
+class Typed:
+    """A word as it was typed, in parts, and the contour that it stands in."""
+
+    claim: Claim | None
+    word: Word
+    address: str
+    sign: str
+    number: str
+
+    def with_number(self, number: str) -> str:
+        """The word with other digits."""
+        return f"{self.address}{self.sign}{number}"
+
+    @property
+    def is_choice(self) -> bool:
+        """Whether only its sign counts, and chooses."""
+        return self.claim is not None and _is_sign(self.word, self.claim)
+
+    @property
+    def counts(self) -> bool:
+        """Whether a number without a point counts least increments."""
+        return self.claim is not None and self.claim.lexicon.numbers.without_point is WithoutPoint.LEAST_INCREMENTS
+
+
+@dataclass(frozen=True, slots=True)
+class Slip:
+    """A kind of slip: what happened, in words, and what a word may have been meant to be if it did."""
+
+    sentence: str
+    texts: Callable[[Typed], Iterator[str]]
+    is_of_digits: bool = True
+    """Whether it changes digits or the point."""
+    is_of_numbers: bool = True
+    """Whether it changes the value of a word, not its address."""
+
+
+def _point_lost(typed: Typed) -> Iterator[str]:
+    if "." in typed.number:
+        return
+    if typed.counts:
+        yield typed.with_number(f"{typed.number}.")
+    is_angle = typed.claim is not None and _unit(typed.word, typed.claim) is Unit.DEGREE
+    if typed.counts or len(typed.number) >= _LONG + is_angle:
+        # With as many decimals as the least increment has, it is what was typed where numbers count increments.
+        places = range(1, min(_DECIMALS + (not typed.counts), len(typed.number)))
+        yield from (typed.with_number(f"{typed.number[:-place]}.{typed.number[-place:]}") for place in places)
+
+
+def _point_lost_in_few(typed: Typed) -> Iterator[str]:
+    """A point in a number that is no larger than many that need none."""
+    if not typed.counts and "." not in typed.number and 1 < len(typed.number) < _LONG:
+        ends = range(len(typed.number) - 1, 0, -1) if not typed.number.endswith("0") else ()
+        yield from (typed.with_number(f"{typed.number[:at]}.{typed.number[at:]}") for at in ends)
+
+
+def _sign_lost(typed: Typed) -> Iterator[str]:
+    if not typed.sign and float(typed.number) and not typed.is_choice:
+        yield f"{typed.address}-{typed.number}"
+
+
+def _sign_added(typed: Typed) -> Iterator[str]:
+    if typed.sign == "-" and not typed.is_choice:
+        yield f"{typed.address}{typed.number}"
+
+
+def _sign_of_choice(typed: Typed) -> Iterator[str]:
+    if typed.is_choice and float(typed.number):
+        yield f"{typed.address}{'' if typed.sign == '-' else '-'}{typed.number}"
+
+
+def _comma_of_address(typed: Typed) -> Iterator[str]:
+    yield f"{typed.address[1:].strip()}{typed.sign}{typed.number}" if "," in typed.address else f",{typed.word.text}"
+
+
+def _neighbour(typed: Typed) -> Iterator[str]:
+    """The word of the other corner that gives it the same shape; a radius is a rounding."""
+    shapes = _shapes(typed.claim) if typed.claim else {}
+    shape = shapes.get(typed.address.upper(), CornerShape.FILLET if typed.address.strip(" ,").upper() == "R" else None)
+    for address, other in shapes.items():
+        if other is shape and address != typed.address.upper():
+            yield f"{address}{typed.sign}{typed.number}"
+
+
+def _shapes(claim: Claim) -> dict[str, CornerShape]:
+    """The addresses that give corners a size, each with its shape."""
+    shapes = {name: shape for row in claim.form.corners for name, shape in row.shapes.items()}
+    return {claim.vocabulary[name][0]: shape for name, shape in shapes.items() if name in claim.vocabulary}
+
+
+def _swapped(typed: Typed) -> Iterator[str]:
+    text = typed.number
+    for at in range(len(text) - 1):
+        if text[at] != text[at + 1] and "." not in text[at : at + 2]:
+            yield typed.with_number(text[:at] + text[at + 1] + text[at] + text[at + 2 :])
+
+
+def _typed_twice(typed: Typed) -> Iterator[str]:
+    text = typed.number
+    for at in range(len(text) - 1):
+        if text[at] == text[at + 1]:
+            yield typed.with_number(text[:at] + text[at + 1 :])
+
+
+def _beside(typed: Typed) -> Iterator[str]:
+    yield from _exchanged(typed, lambda digit: _NEAR[digit])
+
+
+def _other_digit(typed: Typed) -> Iterator[str]:
+    yield from _exchanged(typed, lambda _: _NEAR)
+
+
+def _exchanged(typed: Typed, others: Callable[[str], Iterable[str]]) -> Iterator[str]:
+    text = typed.number
+    for at, digit in enumerate(text):
+        if digit.isdigit():
+            yield from (typed.with_number(text[:at] + other + text[at + 1 :]) for other in others(digit))
+
+
+def _digit_lost(typed: Typed) -> Iterator[str]:
+    text = typed.number
+    for at in range(len(text) + 1):
+        yield from (typed.with_number(text[:at] + digit + text[at:]) for digit in _NEAR)
+
+
+def _digit_added(typed: Typed) -> Iterator[str]:
+    text = typed.number
+    for at, digit in enumerate(text):
+        if digit.isdigit():
+            yield typed.with_number(text[:at] + text[at + 1 :])
+
+
+def _mended(typed: Typed) -> Iterator[str]:
+    yield mended(typed.word.text)
+
+
+UNREADABLE = Slip("", _mended)
+"""Letters for digits, commas for points, two points or signs: told by the finding itself."""
+POINT_LOST = Slip("", _point_lost)
+SIGN_LOST = Slip("a lost minus sign", _sign_lost, is_of_digits=False)
+SIGN_ADDED = Slip("a minus sign too many", _sign_added, is_of_digits=False)
+NEIGHBOUR = Slip("the word of another corner", _neighbour, is_of_digits=False, is_of_numbers=False)
+
+FEW = (
+    UNREADABLE,
+    POINT_LOST,
+    Slip("", _comma_of_address, is_of_digits=False, is_of_numbers=False),
+    SIGN_LOST,
+    NEIGHBOUR,
+    SIGN_ADDED,
+    Slip("the other sign", _sign_of_choice, is_of_digits=False),
+    Slip("a lost decimal point", _point_lost_in_few),
+    Slip("a digit typed twice", _typed_twice),
+    Slip("two digits swapped", _swapped),
+)
+"""Kinds that leave few texts of each word."""
+
+OF_DIGITS = (
+    Slip("a key beside", _beside),
+    Slip("a lost digit", _digit_lost),
+    Slip("a digit too many", _digit_added),
+    Slip("another digit", _other_digit),
+)
+"""Kinds that leave dozens."""
+
+ROUND = Slip("", lambda _: iter(()))
+"""Digits that are wrong: the others make it a round number."""
+
+CODE = Slip("", lambda _: iter(()), is_of_digits=False, is_of_numbers=False)
+
+SLIPS = (*FEW, CODE, *OF_DIGITS, ROUND)
+
+
+def texts_of(slip: Slip, word: Word, claim: Claim) -> Iterator[str]:
+    """What a word may have been meant to be if a slip happened to it."""
+    typed = _typed(word, claim)
+    if typed is None or (slip.is_of_digits and _is_sign(word, claim)):
+        return
+    for text in dict.fromkeys(slip.texts(typed)):
+        match = _WORD.fullmatch(text)
+        if match is None or not _is_known(match["address"], claim) or _says_the_same(text, word.text.strip()):
+            continue
+        if _LEADING.search(text):
+            continue
+        if len(match["number"].partition(".")[2]) <= max(_DECIMALS, len(typed.number.partition(".")[2])):
+            yield text
+
+
+def mistyped_codes(word: Word, modes: Modes) -> list[str]:
+    """The contour codes that a G code may have been meant to be by a slip of its digits."""
+    match = _WORD.fullmatch(word.text.strip())
+    if word.address != "G" or match is None:
+        return []
+    typed = Typed(None, word, match["address"], match["sign"], match["number"])
+    meant = {text for slip in SLIPS if slip.is_of_digits and slip is not POINT_LOST for text in slip.texts(typed)}
+    codes = [f"G{number}" for number, code in modes.codes.items() if code.effect is Effect.CONTOUR]
+    return [code for code in codes if code in meant and code != word.text.strip()]
+
+
+def other_codes(answer: Answer, modes: Modes) -> Iterator[tuple[Edit, ...]]:
+    """The G codes of a contour as those of other contours that they may have been meant to be; none of a code that its
+    block repeats, because the other one would stay."""
+    words = [word for block in answer.claim.blocks for word in block.words]
+    times = Counter((word.span.line, word.address, word.number) for word in words)
+    words = [word for word in words if times[word.span.line, word.address, word.number] == 1]
+    yield from ((change(word, text),) for word in words for text in mistyped_codes(word, modes))
+
+
+def recognise(edit: Edit, claim: Claim) -> Slip | None:
+    """The most plausible slip that explains a change of a word; None if no slip does."""
+    if edit.kind is not EditKind.CHANGE or edit.span is None or edit.address == FACT:
+        return None
+    if edit.address == "G":
+        return CODE if edit.text != mended(edit.old) else UNREADABLE
+    if edit.text == mended(edit.old):
+        return UNREADABLE
+    word = Word(edit.address, None, False, edit.old, edit.span)
+    return next((slip for slip in SLIPS if edit.text in texts_of(slip, word, claim)), None)
+
+
+def explained(word: Word, value: float, claim: Claim) -> Iterator[str]:
+    """What a word may have been meant to be with about this value, mm (radius) or degrees."""
+    unit = claim.after.unit
+    for slip in SLIPS:
+        for text in texts_of(slip, word, claim):
+            match = _WORD.fullmatch(text)
+            if match is None or match["address"].replace(" ", "").upper() != word.address:
+                continue
+            number = match["sign"] + match["number"]
+            other = claim.lexicon.value(replace(word, number=Decimal(number), has_point="." in number), unit)
+            if other is not None and abs(float(other) - value) <= (_NEARLY if slip in OF_DIGITS else _ABOUT):
+                yield text
+
+
+def suspects(answer: Answer, tied: Collection[str]) -> list[Word]:
+    """The words in which a slip may lie: those that contradict each other, those that errors are about, the others; of
+    a chain only those near an error."""
+    claim = answer.claim
+    meant = meant_words(claim) if claim.unknown or has_faults(claim) else ()
+    words = list(dict.fromkeys(word for word in (*claim.unknown, *claim.repeated, *claim.words.values())))
+    words = [word for word in words if not lookalike_at(meant, word.span) and not word.is_asked]
+    blamed = blamed_spans(answer)
+    torn = [word for word in words if _LEADING.search(word.text)]
+    if torn:
+        # Nobody writes 08.4: that is where the slip is.
+        return torn
+    contradicting = {claim.words[name].span for name in tied if name in claim.words}
+    if len(claim.blocks) > _WHOLE:
+        near = {span.line for span in blamed | contradicting}
+        numbers = [at for at, block in enumerate(claim.blocks) if block.line in near]
+        lines = {block.line for at, block in enumerate(claim.blocks) if any(abs(at - each) <= 1 for each in numbers)}
+        words = [word for word in words if word.span.line in lines]
+    # Of two words for one corner, the later one is that of the corner behind.
+    first = {name for row in claim.form.corners[:1] for name in row.shapes}
+    late = {word.address for word in claim.repeated} & first
+    order = {word: -at if word.address in late else at for at, word in enumerate(sorted(words, key=_place))}
+    return sorted(words, key=lambda word: (word.span not in contradicting, word.span not in blamed, order[word]))
+
+
+_LEADING = re.compile(r"[A-Za-z][ \t]*+[+-]?0\d")
+
+
+def _place(word: Word) -> Span:
+    return word.span
+
+
+def blamed_spans(answer: Answer) -> set[Span]:
+    """The places that errors and warnings are about."""
+    findings = [each for each in answer.diagnostics if each.severity is not Severity.INFO]
+    return {label.span for each in findings for label in each.labels}
+
+
+def slips(answer: Answer, kinds: Iterable[Slip], words: Iterable[Word]) -> Iterator[tuple[Edit, ...]]:
+    """One word as it may have been meant, by each kind of slip; what cannot be read besides is taken out."""
+    claim, words = answer.claim, list(words)
+    forced = next(unreadable(claim), ())
+    for kind in kinds:
+        for word in words:
+            same = (word.address, word.span.line)
+            rest = tuple(edit for edit in forced if edit.span is None or (edit.address, edit.span.line) != same)
+            for text in texts_of(kind, word, claim):
+                yield (*rest, change(word, text))
+
+
+def point_slips(answer: Answer) -> Iterator[tuple[Edit, ...]]:
+    """Points in the words that are said to lack one: in all of them, then in each."""
+    yield from missing_points(answer)
+    lacking = {
+        label.span for each in answer.diagnostics if each.about is Trouble.POINT_MISSING for label in each.labels
+    }
+    words = [word for word in answer.claim.words.values() if word.span in lacking]
+    yield from slips(answer, (POINT_LOST,), words)
+
+
+def _typed(word: Word, claim: Claim) -> Typed | None:
+    match = _WORD.fullmatch(word.text.strip())
+    return None if match is None else Typed(claim, word, match["address"], match["sign"], match["number"])
+
+
+def _says_the_same(text: str, typed: str) -> bool:
+    """Whether two words differ in zeros at most."""
+    return text == typed or (
+        "." in text and "." in typed and text.rstrip("0") == typed.rstrip("0") and typed.rstrip("0") != ""
+    )
+
+
+def _is_known(address: str, claim: Claim) -> bool:
+    name = address.replace(" ", "").upper()
+    return name in claim.lexicon.addresses and name in claim.form.allowed
+
+
+def _is_sign(word: Word, claim: Claim) -> bool:
+    return _unit(word, claim) is Unit.SIGN
+
+
+def _unit(word: Word, claim: Claim) -> Unit | None:
+    row = claim.lexicon.addresses.get(word.address)
+    return row.unit if row else None

@@ -1,0 +1,171 @@
+"""Values, places and names as messages say them: in the program's unit, with the axes of its plane."""
+
+from collections.abc import Callable, Mapping, Sequence
+from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Decimal
+
+from contoursolve.geometry import CornerShape, Length, Plane, Profile
+from contoursolve.solving import Status
+
+SHOWN = 60
+"""Characters of a word or a list of words in a message; the listing shows the rest."""
+
+
+def length_text(value: float, unit: Length, more: int = 0) -> str:
+    """A length of so many mm in the program's unit, with so many decimals more than usual."""
+    return value_text(value / 25.4 if unit is Length.INCH else value, unit.value, more)
+
+
+def length_limit(value: float, unit: Length, way: int = 1) -> Decimal:
+    """A length (mm) that is the largest (`way` 1) or the least one (-1) in the program's unit, as the shown decimals
+    have it: not beyond the limit."""
+    return inward(Decimal(repr(value)) / unit.in_mm, unit.value, way)
+
+
+def limit_text(value: float, unit: str, way: int, *, is_included: bool = True) -> str:
+    """A value that is the largest (`way` 1) or the least one (-1) in mm, inch or deg, so that what is shown does not go
+    beyond it; nor is it the limit itself, if that is not one of the values (`is_included`)."""
+    exact = Decimal(repr(value))
+    shown = inward(exact, unit, way)
+    if shown == exact and not is_included:
+        shown -= way * _STEPS.get(unit, _STEP)
+    return value_text(float(shown), unit)
+
+
+def inward(value: Decimal, unit: str, way: int) -> Decimal:
+    """An upper (`way` 1) or a lower limit (-1) rounded into its range, to the decimals that are shown."""
+    return value.quantize(_STEPS.get(unit, _STEP), ROUND_FLOOR if way > 0 else ROUND_CEILING)
+
+
+_STEP = Decimal("0.001")
+_STEPS = {Length.INCH.value: Decimal("0.0001")}
+
+
+def angle_text(value: float, more: int = 0) -> str:
+    """An angle in degrees, with so many decimals more than usual."""
+    return value_text(value, "deg", more)
+
+
+def value_text(value: float, unit: str, more: int = 0) -> str:
+    """A value as its word has it, in mm, inch or deg, with so many decimals more than usual."""
+    return f"{_number(value, 4 + more)} in" if unit == "inch" else f"{_number(value, 3 + more)} {unit}"
+
+
+MOST_DECIMALS = 12
+"""Decimals more than usual; beyond them, values differ by rounding alone."""
+
+
+def tell_apart(values: Sequence[float], write: Callable[[float, int], str]) -> list[str]:
+    """Values with as many decimals more than usual as it takes that no two different ones look the same."""
+    for more in range(MOST_DECIMALS + 1):
+        texts = [write(value, more) for value in values]
+        if len({*texts}) == len({*values}):
+            return texts
+    return [write(value, 0) for value in values]
+
+
+_PARTS = {"cos": "direction", "sin": "direction", "off": "place", "radius": "radius"}
+
+
+def unknowns_text(names: Sequence[str], profile: Profile) -> str:
+    """Unknown scalars in the user's words: `V1 (Z and X)`, `line 2 (direction)`."""
+    things: dict[str, dict[str, None]] = {}
+    for name in names:
+        thing, _, part = name.rpartition(".")
+        shown = profile.plane.axes[int(part)] if part.isdigit() else _PARTS.get(part, "")
+        shapes = {corner.shape for corner in profile.figure.corners if corner.name == thing}
+        if part == "radius" and shapes and CornerShape.FILLET not in shapes:
+            shown = "size"
+        things.setdefault(thing if shown else name, {}).update({shown: None} if shown else {})
+    return join([f"{thing} ({join(list(parts))})" if parts else thing for thing, parts in things.items()])
+
+
+def place_text(profile: Profile, scalars: dict[str, float]) -> str:
+    """Coordinates in the user's terms: `Z-10.000 X60.000` (mm or inches, X of a lathe as diameter)."""
+    texts = []
+    for name, value in sorted(scalars.items(), key=lambda item: item[0].partition(".")[2]):
+        axis = int(name.partition(".")[2])
+        shown = value * (2 if profile.plane.diameters[axis] else 1)
+        texts.append(f"{profile.plane.axes[axis]}{length_text(shown, profile.unit)}")
+    return " ".join(texts)
+
+
+def join(texts: Sequence[str]) -> str:
+    """Texts as a list in a sentence: `A, B and C`."""
+    return " and ".join(filter(None, (", ".join(texts[:-1]), *texts[-1:])))
+
+
+def shorten(text: str) -> str:
+    """A text for a message, cut where it is very long."""
+    return text if len(text) <= SHOWN else text[: SHOWN - 4] + " ..."
+
+
+def _number(value: float, decimals: int) -> str:
+    smallest = 0.5 * 10.0**-decimals
+    value += 0.0  # -0.0 is 0
+    return f"{value:.{decimals}f}" if abs(value) >= smallest or value == 0 else f"{value:.1e}"
+
+
+# As listings show them, with a decimal more than messages ----------------------------------------------------
+
+_INCH = float(Length.INCH.in_mm)
+
+
+def length_of(mm: float, unit: Length) -> str:
+    """A length in the unit of a program: four decimals of a millimetre, five of an inch; no negative zero."""
+    return f"{mm:z.4f}" if unit is Length.MM else f"{mm / _INCH:z.5f}"
+
+
+def length_in(mm: float, unit: Length) -> str:
+    """A length in the unit of a program, with that unit."""
+    return f"{length_of(mm, unit)} {short_name(unit.value)}"
+
+
+def written(value: float, unit: str, way: int = 0) -> str:
+    """A value as its word has it, with its unit (mm, inch or deg); decimals as for lengths. An upper (`way` 1) or a
+    lower limit (-1) is rounded into its range."""
+    decimals = 5 if unit == "inch" else 4
+    rounding = {1: ROUND_FLOOR, -1: ROUND_CEILING}.get(way, ROUND_HALF_EVEN)
+    shown = Decimal(repr(value)).quantize(Decimal(1).scaleb(-decimals), rounding) if way else value
+    return f"{shown:z.{decimals}f} {short_name(unit)}"
+
+
+def coordinate_texts(place: Sequence[float], plane: Plane, unit: Length) -> list[str]:
+    """Coordinates (mm, X of a lathe as radius) as numbers of the program, one for each axis."""
+    return [
+        length_of(value * (2 if is_diameter else 1), unit)
+        for value, is_diameter in zip(place, plane.diameters, strict=True)
+    ]
+
+
+def coordinates(place: Sequence[float | None], plane: Plane, unit: Length) -> str:
+    """Coordinates (mm, X of a lathe as radius) as the control writes them; of a place with one coordinate, that one."""
+    texts = coordinate_texts([value or 0.0 for value in place], plane, unit)
+    shown = zip(plane.axes, place, texts, strict=True)
+    return " ".join(f"{letter}{text}" for letter, value, text in shown if value is not None)
+
+
+def measured(place: Sequence[float | None], plane: Plane, unit: Length) -> str:
+    """Coordinates as the control writes them, with their unit."""
+    return f"{coordinates(place, plane, unit)} {short_name(unit.value)}"
+
+
+def axis_labels(plane: Plane, what: str = "dia") -> list[str]:
+    """The axes, with what is said of one that is programmed as a diameter."""
+    return [
+        f"{axis} {what}" if is_diameter else axis for axis, is_diameter in zip(plane.axes, plane.diameters, strict=True)
+    ]
+
+
+def short_name(unit: str) -> str:
+    """A unit as it stands behind a number."""
+    return "in" if unit == "inch" else unit
+
+
+def count(number: int, noun: str) -> str:
+    """A number with its noun: `1 error`, `2 errors`."""
+    return f"{number} {noun}{'' if number == 1 else 's'}"
+
+
+def statuses_text(statuses: Mapping[Status, int]) -> str:
+    """How many contours have each status, the best first."""
+    return ", ".join(f"{statuses[each]} {each.value}" for each in reversed(Status) if statuses.get(each))

@@ -1,0 +1,160 @@
+"""One finding about a program, complete enough for a terminal, JSON and an editor."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from enum import Enum
+from math import atan2, degrees
+
+from contoursolve.diagnostics.display import Shown
+from contoursolve.diagnostics.source import Evidence, Source, Span
+
+
+class Severity(Enum):
+    """How bad a finding is; only `ERROR` makes a command exit with 1."""
+
+    ERROR = "error"
+    WARNING = "warning"
+    INFO = "info"
+
+
+class Basis(Enum):
+    """What kind of reasoning a finding rests on."""
+
+    RULE = "rule"
+    """Text or words alone: grammar, or a rule of the control's manual."""
+    STRUCTURAL = "structural"
+    """Which equation mentions which unknown."""
+    SYMBOLIC = "symbolic"
+    """The equations for all values of the words."""
+    NUMERICAL = "numerical"
+    """The equations at the values of this block."""
+
+
+class Applicability(Enum):
+    """What applying a fix does to the contour."""
+
+    SAFE = "safe"
+    CHANGES_CONTOUR = "changes-contour"
+    PLACEHOLDER = "placeholder"
+
+
+@dataclass(frozen=True, slots=True)
+class Fix:
+    """A whole new block to write instead, or a line for each block of a contour of several; a single block may become
+    several lines."""
+
+    description: str
+    replacement: str
+    applicability: Applicability
+    effect: str = ""
+    """What applying it does, in words, where `applicability` alone does not say it."""
+
+    def by_line(self, lines: Sequence[int]) -> dict[int, str]:
+        """What to write for each of the lines that it replaces."""
+        texts = [self.replacement] if len(lines) == 1 else self.replacement.split("\n")
+        return dict(zip(lines, texts, strict=False))
+
+
+@dataclass(frozen=True, slots=True)
+class Label:
+    """A remark beside a stretch of the program."""
+
+    span: Span
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Alarm:
+    """The number (and name) with which the control itself would stop."""
+
+    number: str
+    evidence: Evidence
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnostic(Shown):
+    """One finding.
+
+    `message` stands alone on one line; `labels` mark the words, the first one is the place of the
+    finding; `notes` say why, `help` says what to do. `values` holds `limit`, `expected`, `actual`
+    and `off_by_mm` as far as they apply (mm, X as radius; degrees for angles).
+    """
+
+    code: str
+    severity: Severity
+    basis: Basis
+    span: Span
+    message: str
+    source: Source
+    labels: tuple[Label, ...] = ()
+    addresses: tuple[str, ...] = ()
+    alarm: Alarm | None = None
+    values: Mapping[str, float] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
+    help: str = ""
+    fixes: tuple[Fix, ...] = ()
+    about: Enum | None = None
+    """The event that the finding is about, whatever the control calls it; None for a plain rule."""
+
+
+class Verdict(Enum):
+    """What became of one check."""
+
+    PASSED = "passed"
+    FOUND = "found"
+    NOT_RUN = "not run"
+
+
+@dataclass(frozen=True, slots=True)
+class Layer:
+    """One check, its verdict, and in words what it looked at or why it could not run."""
+
+    name: str
+    verdict: Verdict
+    remark: str
+
+
+@dataclass(frozen=True, slots=True)
+class Freedom:
+    """How far a point is from being fixed: with a `direction` it slides along it, without it lies anywhere.
+
+    `direction` is a unit vector in the plane's axes.
+    """
+
+    point: str
+    direction: tuple[float, float] | None
+
+    @property
+    def angle(self) -> float | None:
+        """The direction in degrees, 0 to less than 180; None where the point lies anywhere."""
+        return None if self.direction is None else degrees(atan2(self.direction[1], self.direction[0])) % 180
+
+
+@dataclass(frozen=True, slots=True)
+class Tie:
+    """A smallest set of words that say the same, each following from the others.
+
+    `identity` is the formula that ties them for all values, where one is kept. `off_by_mm` is by how much
+    they disagree; `is_conflict` whether that is more than the least increment.
+    """
+
+    addresses: tuple[str, ...]
+    identity: str
+    off_by_mm: float
+    is_conflict: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnosis(Shown):
+    """What the equations of one contour say: the checks it went through, what can still move, and which
+    words say the same.
+
+    `ties_complete` tells that the ties are all there are, found exhaustively; `repairs_complete` that all
+    smallest sets of words to drop and to add were tried.
+    """
+
+    layers: tuple[Layer, ...]
+    freedoms: tuple[Freedom, ...]
+    ties: tuple[Tie, ...]
+    ties_complete: bool
+    repairs_complete: bool

@@ -1,0 +1,58 @@
+"""Characters into blocks and words, exactly as typed.
+
+A text or a file comes in, blocks of words with their places go out; no word has a meaning yet. Begin with `word`,
+then `lexer`.
+"""
+
+from contoursolve.gcode.lexer import LONGEST_BLOCK, find_words, parse, parse_block, read_directive, split_lines
+from contoursolve.gcode.lookalikes import (
+    Lookalike,
+    find_lookalikes,
+    has_lookalike_code,
+    lookalike_at,
+    mended,
+    with_digits,
+)
+from contoursolve.gcode.text import (
+    BINARY,
+    STANDARD_INPUT,
+    UnreadableProgramError,
+    decode,
+    is_folder,
+    read_bytes,
+    reason_of,
+    standard_input,
+)
+from contoursolve.gcode.word import FACT, Block, Directive, Fault, FaultKind, Macro, Passage, Program, Word
+
+__all__ = [
+    "BINARY",
+    "FACT",
+    "LONGEST_BLOCK",
+    "STANDARD_INPUT",
+    "Block",
+    "Directive",
+    "Fault",
+    "FaultKind",
+    "Lookalike",
+    "Macro",
+    "Passage",
+    "Program",
+    "UnreadableProgramError",
+    "Word",
+    "decode",
+    "find_lookalikes",
+    "find_words",
+    "has_lookalike_code",
+    "is_folder",
+    "lookalike_at",
+    "mended",
+    "parse",
+    "parse_block",
+    "read_bytes",
+    "read_directive",
+    "reason_of",
+    "split_lines",
+    "standard_input",
+    "with_digits",
+]

@@ -1,0 +1,256 @@
+"""Programs as files: read as a stream whatever their encoding, and written whole or not at all."""
+
+import codecs
+import io
+import os
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from itertools import count
+from pathlib import Path
+from typing import BinaryIO
+
+from contoursolve.gcode.text import (
+    BINARY,
+    STANDARD_INPUT,
+    UnreadableProgramError,
+    is_folder,
+    reason_of,
+    standard_input,
+)
+
+_NOT_TEXT = bytes(sorted(BINARY))
+_CHUNK = 1 << 20
+_IN_MEMORY = 1 << 22
+"""Bytes of standard input that are held in memory."""
+
+
+class CannotWriteError(ValueError):
+    """A target that cannot be written; the message says why and what to do."""
+
+
+@dataclass(frozen=True, slots=True)
+class Tape:
+    """An open program: its name, its bytes, how many there are, and how they are to be read."""
+
+    name: str
+    data: BinaryIO
+    size: int
+    encoding: str
+    mark: bytes
+    """The byte order mark that it begins with, if any."""
+    stamp: object = None
+    """What tells whether the file was changed since it was opened; None for what is no file."""
+
+    def lines(self) -> Iterator[str]:
+        """Its lines from the first, each with its end, one at a time. Raises UnreadableProgramError at the last one if
+        the file was changed since it was opened."""
+        self.data.seek(len(self.mark))
+        text = io.TextIOWrapper(self.data, self.encoding, newline="")
+        try:
+            for line in text:  # noqa: UP028 - `yield from` would close the file when it is not read to its end
+                yield line
+            if self.stamp is not None and _stamp_of(self.data) != self.stamp:
+                raise UnreadableProgramError(f"{self.name} was changed while it was read; start again")
+        finally:
+            if not self.data.closed:
+                text.detach()
+
+    def encode(self, text: str) -> bytes:
+        """The bytes of a text that takes the place of its lines. Remarks may quote a fact of the command line, with
+        characters that the program's encoding lacks; they become question marks."""
+        return text.encode(self.encoding, "replace")
+
+    def read(self) -> str:
+        """All of it."""
+        self.data.seek(len(self.mark))
+        return self.data.read().decode(self.encoding)
+
+    @property
+    def share(self) -> float:
+        """How much of it has been read, from 0 to 1."""
+        return self.data.tell() / self.size if self.size else 1.0
+
+
+@contextmanager
+def open_tape(path: str | Path) -> Iterator[Tape]:
+    """Open a file of UTF-8 or Latin-1 text; `-` is standard input.
+
+    Raises UnreadableProgramError if there is no such file, or it is not text.
+    """
+    name = str(path)
+    try:
+        data = _spool() if name == STANDARD_INPUT else Path(path).open("rb")  # noqa: SIM115 - closed below
+    except FileNotFoundError:
+        raise UnreadableProgramError(f"{name}: no such file") from None
+    except (OSError, ValueError) as error:
+        if is_folder(name):  # Windows answers "permission denied" for a directory
+            raise UnreadableProgramError(f"{name} is a directory, not a program file") from None
+        raise UnreadableProgramError(f"{name} cannot be read: {reason_of(error)}") from None
+    with data:
+        stamp = _stamp_of(data) if name != STANDARD_INPUT else None
+        encoding, mark = _recognise_encoding(data, name)
+        size = data.seek(0, os.SEEK_END)
+        yield Tape("<standard input>" if name == STANDARD_INPUT else name, data, size, encoding, mark, stamp)
+
+
+def _stamp_of(data: BinaryIO) -> object:
+    """The size of an open file and when it was written last; None for what is in memory."""
+    try:
+        status = os.fstat(data.fileno())
+    except OSError:  # as in memory
+        return None
+    return status.st_size, status.st_mtime_ns
+
+
+@contextmanager
+def tape_of(text: str, name: str) -> Iterator[Tape]:
+    """A text as if it were in a file."""
+    try:
+        data = text.encode("utf-8", "surrogateescape")
+    except UnicodeEncodeError:
+        raise UnreadableProgramError(f"{name} is not text") from None
+    # A terminal's bytes need not be UTF-8.
+    encoding, _ = _recognise_encoding(io.BytesIO(data), name)
+    yield Tape(name, io.BytesIO(data), len(data), encoding, b"")
+
+
+def _spool() -> BinaryIO:
+    """Standard input as a file that can be read twice."""
+    from tempfile import SpooledTemporaryFile  # noqa: PLC0415 - most programs are files
+
+    copy = SpooledTemporaryFile(_IN_MEMORY)  # noqa: SIM115 - the caller closes it
+    data = standard_input()
+    while chunk := data.read(_CHUNK):
+        copy.write(chunk)
+    copy.seek(0)
+    return copy  # type: ignore[return-value]
+
+
+def _recognise_encoding(data: BinaryIO, name: str) -> tuple[str, bytes]:
+    """UTF-8 where every byte fits, else Latin-1; and the byte order mark of UTF-8, which Latin-1 has not."""
+    decoder = codecs.getincrementaldecoder("utf-8")()
+    mark = codecs.BOM_UTF8 if data.read(len(codecs.BOM_UTF8)) == codecs.BOM_UTF8 else b""
+    data.seek(0)
+    is_utf8 = True
+    while chunk := data.read(_CHUNK):
+        if len(chunk.translate(None, _NOT_TEXT)) < len(chunk):
+            raise UnreadableProgramError(
+                f"{name} is not a text file (it holds control bytes); save it as UTF-8 or Latin-1 text"
+            )
+        try:
+            is_utf8 = is_utf8 and decoder.decode(chunk) is not None
+        except UnicodeDecodeError:
+            is_utf8 = False
+    try:
+        decoder.decode(b"", is_utf8)
+    except UnicodeDecodeError:
+        is_utf8 = False
+    return ("utf-8", mark) if is_utf8 else ("latin-1", b"")
+
+
+def check_target(target: Path, source: Path | None, *, is_forced: bool) -> None:
+    """Raise CannotWriteError if a file exists and may not be replaced, or cannot be written at all."""
+    _resolve(target)
+    if target.is_dir():
+        raise CannotWriteError(f"{target} is a directory; name a file")
+    if not target.parent.is_dir():
+        raise CannotWriteError(f"{target.parent} is no directory; make it first")
+    if target.exists():
+        if source is not None and source.exists() and target.samefile(source):
+            raise CannotWriteError(f"{target} is the program itself; write to another file")
+        if not target.is_file():
+            raise CannotWriteError(f"{target} is not a regular file")
+        if not is_forced:
+            raise CannotWriteError(f"{target} exists; give --force to replace it")
+
+
+def _resolve(target: Path) -> Path:
+    """The file that a name leads to, which need not exist. Raises CannotWriteError for a link to itself."""
+    try:
+        target.stat()
+    except FileNotFoundError:
+        pass
+    except OSError as error:
+        raise CannotWriteError(f"{target} cannot be written: {error.strerror}") from None
+    except ValueError as error:  # a name with a NUL
+        raise CannotWriteError(f"{target} cannot be written: {error}") from None
+    return target.resolve()
+
+
+def write_whole(target: Path, pieces: Iterable[bytes], *, keeps_backup: bool) -> Path | None:
+    """Write a file so that at any moment it is either the old one or the whole new one; returns where the old one is
+    kept. Raises CannotWriteError."""
+    with open_whole(target, keeps_backup=keeps_backup) as whole:
+        for piece in pieces:
+            whole.file.write(piece)
+    return whole.backup
+
+
+@dataclass(slots=True)
+class Whole:
+    """A file on its way to a target: what to write to, and afterwards where the old one is kept, if it is."""
+
+    file: BinaryIO
+    backup: Path | None = None
+
+
+@contextmanager
+def open_whole(target: Path, *, temporary: Path | None = None, keeps_backup: bool = False) -> Iterator[Whole]:
+    """Open a file that takes the place of a target once all of it is written, with the target's permissions; where
+    that is a link, what it leads to is replaced. Raises CannotWriteError.
+
+    `temporary` is where it is until then, on the same disk; without it, beside the target under a name of its own.
+    """
+    import shutil  # noqa: PLC0415 - most commands write nothing
+
+    real = _resolve(target)
+    temporary = temporary or real.with_name(f".{real.name}.{os.urandom(4).hex()}.tmp")
+    whole = None
+    try:
+        try:
+            with temporary.open("xb") as file:
+                whole = Whole(file)
+                yield whole
+                file.flush()
+                os.fsync(file.fileno())
+            if real.exists():
+                shutil.copymode(real, temporary)
+                whole.backup = _back_up(real) if keeps_backup else None
+            temporary.replace(real)
+        finally:
+            temporary.unlink(missing_ok=True)
+    except OSError as error:
+        left = f"; {whole.backup} is a copy of it" if whole and whole.backup else ""
+        raise CannotWriteError(f"{target} cannot be written: {error.strerror or error}{left}") from error
+
+
+def _back_up(file: Path) -> Path:
+    """A whole copy beside a file, under the first name that is free: .bak, .bak2, ..."""
+    import shutil  # noqa: PLC0415 - most commands write nothing
+
+    copy = file.with_name(f".{file.name}.{os.urandom(4).hex()}.bak.tmp")
+    try:
+        with copy.open("xb") as target, file.open("rb") as original:
+            shutil.copyfileobj(original, target)
+            target.flush()
+            os.fsync(target.fileno())
+        shutil.copystat(file, copy)
+        for number in count(1):
+            backup = file.with_name(f"{file.name}.bak{number if number > 1 else ''}")
+            if not backup.exists() and _take_name(copy, backup):
+                return backup
+    finally:
+        copy.unlink(missing_ok=True)
+    raise AssertionError("there is always a free number")
+
+
+def _take_name(file: Path, name: Path) -> bool:
+    """Give a file another name, unless somebody has just taken that."""
+    try:
+        os.link(file, name)
+    except FileExistsError:
+        return False
+    except (OSError, NotImplementedError):  # a file system without links
+        file.rename(name)
+    return True

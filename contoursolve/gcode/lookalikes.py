@@ -1,0 +1,128 @@
+"""Stretches of a block that are almost a word: letters for digits (l and I for 1, O for 0), a comma for the point,
+a point or a sign too many."""
+
+import re
+from bisect import bisect_right
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from contoursolve.diagnostics.source import Span
+from contoursolve.gcode.word import Block, FaultKind
+
+_DIGITS = str.maketrans("lI|Oo", "11100")
+_NUMBER = r"(?:[-+0-9.lI|Oo]|,(?=[\d.,]|[ \t]*+(?:[;(]|$)))++"
+_SEARCH = re.compile(
+    rf"\([^)]*+\)?+|;.*+|,?+[A-Za-z][ \t]*+(?:[-+]++[ \t]++)?(?P<number>{_NUMBER})"
+    r"(?P<text>(?=[A-Za-z](?![ \t]*+[+-]?+[.\dlI|Oo])))?+"
+)
+"""A comment; or an address and what may be its number, and whether it goes on as a text does."""
+_WORD = re.compile(r",?+[A-Za-z][ \t]*+[+-]?+(?>\d++\.?+\d*+|\.\d++)", re.ASCII)
+_CODE = re.compile(r"[Gg][ \t]*+\d{1,3}+", re.ASCII)
+_HINT = re.compile(r"[Gg][ \t]*+\d*+[lI|Oo]")
+_LONGEST = 40
+"""Characters of what may be a number; a control reads 8 digits."""
+_WHOLE = "GMNOST"
+"""Addresses whose numbers have no point."""
+
+
+@dataclass(frozen=True, slots=True)
+class Lookalike:
+    """A stretch of a block that is one word if its slips are mended: as typed, and that word."""
+
+    span: Span
+    old: str
+    new: str
+
+    @property
+    def address(self) -> str:
+        """The address of the word, upper case with its comma."""
+        return self.new[: 1 + self.new.startswith(",")].upper()
+
+    @property
+    def is_code(self) -> bool:
+        """Whether it would be a G code."""
+        return _CODE.fullmatch(self.new) is not None
+
+    @property
+    def has_letters(self) -> bool:
+        """Whether letters stand for digits, and nothing else is wrong."""
+        return self.new == with_digits(self.old)
+
+
+def find_lookalikes(block: Block) -> tuple[Lookalike, ...]:
+    """The stretches of a block outside comments that would be words with their slips mended.
+
+    `X10I5.` is one, too, and means what it says: what is meant shows only where it is tried.
+    """
+    found, text, place = [], block.text, 0
+    if any(fault.kind is FaultKind.BLOCK_TOO_LONG for fault in block.faults):
+        return ()
+    while match := _SEARCH.search(text, place):
+        old, place = match[0], match.end()
+        if match["number"] is None or match["text"] is not None:
+            continue
+        new = mended(old) if len(match["number"]) <= _LONGEST else ""
+        if new and new != old:
+            found.append(Lookalike(Span(block.line, match.start() + 1, match.end() + 1), old, new))
+        elif not new:
+            # A letter among the digits may be the address.
+            place = max(match.start() + 1, match.end() - _LONGEST)
+    return tuple(found)
+
+
+def lookalike_at(words: Sequence[Lookalike], place: Span) -> Lookalike | None:
+    """The one of some such words, in their order, in which a place lies."""
+    index = bisect_right(words, (place.line, place.column), key=lambda each: (each.span.line, each.span.column)) - 1
+    found = words[index] if index >= 0 else None
+    is_in = found is not None and place.line == found.span.line and place.column < found.span.end_column
+    return found if is_in else None
+
+
+def has_lookalike_code(block: Block) -> bool:
+    """Whether a G code of a block may have letters for digits."""
+    return _HINT.search(block.text) is not None and any(each.is_code for each in find_lookalikes(block))
+
+
+def with_digits(word: str) -> str:
+    """A word whose letters behind the address are the digits that they look like."""
+    begin = 2 if word.startswith(",") else 1
+    return word[:begin] + word[begin:].translate(_DIGITS)
+
+
+def mended(word: str) -> str:
+    """A word without what keeps its number from being read; empty if it is none then, either."""
+    word = with_digits(word)
+    begin = 2 if word.startswith(",") else 1
+    address, number = word[:begin], word[begin:]
+    for mend in _MENDING:
+        number = mend(number, address)
+    return address + number if _WORD.fullmatch(address + number) else ""
+
+
+def _sign(number: str, _: str) -> str:
+    """One sign, before the digits: of several, a minus."""
+    match = _SIGNS.fullmatch(number)
+    if match is None or not (match["before"] or match["behind"]):
+        return number
+    signs = match["before"] + match["behind"]
+    return ("-" if "-" in signs else "+") + match["digits"]
+
+
+def _comma(number: str, address: str) -> str:
+    """A point for a comma; none where there is a point already, or where a number has none."""
+    text = number.rstrip(",")
+    if text == number:
+        return number.replace(",", ".")
+    return text if "." in text or "," in text or address.upper() in _WHOLE else f"{text}."
+
+
+def _points(number: str, _: str) -> str:
+    """One point for several in a row, and none behind a number that has one."""
+    text = _IN_A_ROW.sub(".", number)
+    return text[:-1] if text.endswith(".") and text.count(".") > 1 else text
+
+
+_SIGNS = re.compile(r"(?P<blank>[ \t]*+)(?P<before>[-+]*+)[ \t]*+(?P<digits>[0-9.,]++)(?P<behind>[-+]*+)")
+_IN_A_ROW = re.compile(r"\.{2,}")
+_MENDING: tuple[Callable[[str, str], str], ...] = (_sign, _comma, _points)
+"""What is mended in the text behind an address, one after the other."""

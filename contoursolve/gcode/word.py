@@ -1,0 +1,129 @@
+"""Words, blocks and programs exactly as they were typed."""
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from decimal import Decimal
+from enum import Enum
+
+from contoursolve.diagnostics.display import Shown
+from contoursolve.diagnostics.source import Span
+
+
+@dataclass(frozen=True, slots=True)
+class Word:
+    """An address with its value, such as `X40.` or `,A150`.
+
+    `address` is upper case with its comma; `number` is None when the value is a variable or a macro
+    expression, or when it is asked for with `?`. `text` is what was typed.
+    """
+
+    address: str
+    number: Decimal | None
+    has_point: bool
+    text: str
+    span: Span
+    is_asked: bool = False
+
+
+FACT = "fact"
+"""What stands for the address of a fact that is no word."""
+
+
+@dataclass(frozen=True, slots=True)
+class Directive:
+    """A fact for contoursolve alone, in a comment `(contoursolve: ...)` or stated apart from the program.
+
+    A fact apart from the program has a line number below zero, and may hold the statement that `text` shows.
+    """
+
+    text: str
+    span: Span
+    statement: object = None
+
+
+class FaultKind(Enum):
+    """What can be wrong with the characters of a block."""
+
+    NUMBER_MISSING = "number-missing"
+    NUMBER_MALFORMED = "number-malformed"
+    NUMBER_TOO_LONG = "number-too-long"
+    COMMA_WITHOUT_ADDRESS = "comma-without-address"
+    STRAY_CHARACTER = "stray-character"
+    COMMENT_NOT_CLOSED = "comment-not-closed"
+    BLOCK_TOO_LONG = "block-too-long"
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """A stretch of a block that is not a word."""
+
+    kind: FaultKind
+    text: str
+    span: Span
+
+    @property
+    def address(self) -> str:
+        """The address that the word would have had, upper case with its comma; empty if there is none."""
+        match = _ADDRESS.match(self.text)
+        return "".join(match.groups()).upper() if match else ""
+
+
+_ADDRESS = re.compile(r"[ \t]*(,?)[ \t]*([A-Za-z])")
+
+
+class Macro(Enum):
+    """Macro statements that a block may consist of."""
+
+    ASSIGNMENT = "assignment"
+    """`#100 = 5.`: moves nothing."""
+    FLOW = "flow"
+    """`IF`, `WHILE`, `GOTO`, ...: which block runs next is not known."""
+
+
+@dataclass(frozen=True, slots=True)
+class Block(Shown):
+    """One line of a program; `text` is the line without its end."""
+
+    line: int
+    text: str
+    words: tuple[Word, ...]
+    faults: tuple[Fault, ...] = ()
+    macro: Macro | None = None
+    directives: tuple[Directive, ...] = ()
+    unmarked: tuple[Directive, ...] = ()
+    """Comments that look like facts, but lack the mark: what would have to be written."""
+    is_skippable: bool = False
+    """The block begins with `/`: a switch at the machine decides whether it runs."""
+
+    def find(self, address: str) -> Word | None:
+        """The first word with this address, or None."""
+        for word in self.words:
+            if word.address == address:
+                return word
+        return None
+
+    @property
+    def span(self) -> Span:
+        """The whole line without surrounding blanks."""
+        stripped = self.text.strip()
+        column = self.text.find(stripped) + 1 if stripped else 1
+        return Span(self.line, column, column + max(len(stripped), 1))
+
+
+@dataclass(frozen=True, slots=True)
+class Passage:
+    """Lines of a program in a row that do nothing but move, or nothing at all, and that nobody has read into words
+    yet: the number of the first one, and all of them with their ends."""
+
+    line: int
+    lines: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Program(Shown):
+    """A program as typed: its name, text and blocks (one for each line, empty ones included)."""
+
+    name: str
+    text: str
+    blocks: Sequence[Block]

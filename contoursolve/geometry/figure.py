@@ -1,0 +1,232 @@
+"""A drawing without its values: points, lines, arcs and corners, what a fact about it is, the roles of blocks."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from enum import Enum
+from math import sqrt
+from typing import Any, Protocol
+
+
+class Lookup(Protocol):
+    """Gives the values of points, radii and givens; a value is anything with `+ - * / **`."""
+
+    def scalar(self, name: str) -> Any:
+        """A coordinate, a radius, or a part of a line, by its name."""
+
+    def coordinate(self, point: str, axis: int) -> Any:
+        """One coordinate of a point, mm."""
+
+    def radius(self, name: str) -> Any:
+        """A radius, mm."""
+
+    def amount(self, given: str) -> Any:
+        """A given length or coordinate, mm."""
+
+    def direction(self, given: str) -> tuple[Any, Any]:
+        """Cosine and sine of a given angle."""
+
+    def bearing(self, name: str) -> tuple[Any, Any]:
+        """Cosine and sine of a line's direction."""
+
+    def line(self, name: str) -> tuple[Any, Any, Any]:
+        """Cosine and sine of a line's direction, and how far to the right of it the origin lies, mm.
+
+        A point (x, y) lies `cosine * y - sine * x - offset` to the left of the line, mm.
+        """
+
+    def side(self, name: str) -> Any:
+        """+1 or -1: on which side two elements touch."""
+
+    def rotation(self, angle: Any) -> tuple[Any, Any]:
+        """Cosine and sine of a computed angle, radians."""
+
+    def root(self, value: Any) -> Any:
+        """Square root."""
+
+    def vanishes(self, value: Any) -> bool:
+        """Whether a value is zero."""
+
+
+class Fact(Protocol):
+    """One equation. Its residual is in mm; `equation` is the same without what makes it no polynomial."""
+
+    @property
+    def given(self) -> str:
+        """Name of the given that states this fact; empty for what the form itself states."""
+
+    def reads(self) -> tuple[str, ...]:
+        """Names of the scalars that the residual depends on besides the given."""
+
+    def sides(self) -> tuple[str, ...]:
+        """Names of the sides on which it is not stated where two elements touch."""
+
+    def residual(self, at: Lookup) -> Any:
+        """Signed distance from being true, mm."""
+
+    def equation(self, at: Lookup) -> Any:
+        """Zero where the residual is, and polynomial in coordinates, radii and directions where it can be."""
+
+    def senses(self, at: Lookup) -> tuple[Any, ...]:
+        """What must be positive besides, because the equation alone allows the opposite."""
+
+    def sense_reads(self) -> tuple[str, ...]:
+        """Names of the scalars that the sense depends on."""
+
+    def implied(self, at: Lookup) -> float | None:
+        """The value of the given (mm or degrees) that makes the residual zero; None where any does."""
+
+
+def scalar(point: str, axis: int) -> str:
+    """The name of one coordinate of a point."""
+    return f"{point}.{axis}"
+
+
+def line_scalars(line: str) -> tuple[str, str, str]:
+    """The names of a line's direction and place."""
+    return f"{line}.cos", f"{line}.sin", f"{line}.off"
+
+
+FIRST, SECOND = 0, 1
+"""Indices of a plane's first and second axis."""
+
+
+class Turn(Enum):
+    """Sense of an arc, seen with the plane's first axis to the right and its second axis up."""
+
+    CW = "cw"
+    CCW = "ccw"
+
+    @property
+    def sign(self) -> int:
+        """+1 for counter-clockwise, -1 for clockwise."""
+        return 1 if self is Turn.CCW else -1
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A straight move; `heading` names the given angle in whose direction it must run, if any, `toward` the point
+    towards which it must run from its tail."""
+
+    name: str
+    tail: str
+    head: str
+    heading: str | None = None
+    toward: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Arc:
+    """A circular move about an unknown centre; `radius` names the unknown radius.
+
+    Of its two intersections with the arc before it, one is left of the way between the centres; or else, where it
+    `counts_clockwise`, one is met first if that arc is travelled clockwise from its start.
+    """
+
+    name: str
+    tail: str
+    head: str
+    center: str
+    radius: str
+    turn: Turn
+    counts_clockwise: bool = False
+
+
+class CornerShape(Enum):
+    """What replaces a virtual intersection."""
+
+    FILLET = "fillet"
+    """An arc tangent to both elements; its size is the radius."""
+    CHAMFER_AXIS_45 = "chamfer axis-45"
+    """A segment at 45 degrees to the axes; its size is the extent along each axis."""
+    CHAMFER_LENGTH_45 = "chamfer length-45"
+    """A segment at 45 degrees to the axes; its size is its own length."""
+    CHAMFER_SETBACK = "chamfer setback"
+    """A segment whose two ends are as far from the virtual intersection as its size; on an arc, along the chord."""
+
+    @property
+    def share(self) -> float:
+        """The extent along each axis of a segment at 45 degrees of size 1; 0 for what does not run at 45 degrees."""
+        return _SHARES.get(self, 0)
+
+
+_SHARES = {CornerShape.CHAMFER_AXIS_45: 1, CornerShape.CHAMFER_LENGTH_45: sqrt(0.5)}
+
+
+@dataclass(frozen=True, slots=True)
+class Corner:
+    """A corner at the virtual intersection `at`, between the line or arc `before` and what follows.
+
+    `after` names the next element of the path; without it the corner lands on a line that the block itself does
+    not cut: parallel to axis `lands_parallel_to`, or the figure's line `lands_on`.
+    """
+
+    name: str
+    at: str
+    shape: CornerShape
+    size: str
+    before: str
+    after: str | None = None
+    lands_parallel_to: int | None = None
+    lands_on: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Circle:
+    """A circle that is not part of the path, about a point with a radius; either may be known or unknown."""
+
+    name: str
+    center: str
+    radius: str
+
+
+@dataclass(frozen=True, slots=True)
+class Figure:
+    """A drawing without its values: unknown points and radii, the path from `start`, its corners.
+
+    `places` are points with given coordinates (the givens `place.0` and `place.1`). `lines` and `circles` are
+    not part of the path; `known_radii` are radii that are givens. `carriers` names the lines whose direction
+    and place are unknowns of their own: `line.cos`, `line.sin`, and the distance of the origin to the right of
+    the line, `line.off`.
+    """
+
+    start: str
+    points: tuple[str, ...]
+    radii: tuple[str, ...]
+    path: tuple[Line | Arc, ...]
+    corners: tuple[Corner, ...] = ()
+    places: tuple[str, ...] = ()
+    known_radii: tuple[str, ...] = ()
+    lines: tuple[Line, ...] = ()
+    circles: tuple[Circle, ...] = ()
+    carriers: tuple[str, ...] = ()
+
+    def line(self, name: str) -> Line:
+        """The line of this name, of the path or beside it."""
+        for line in (*self.path, *self.lines):
+            if isinstance(line, Line) and line.name == name:
+                return line
+        raise KeyError(name)
+
+
+@dataclass(frozen=True, slots=True)
+class Role:
+    """What some blocks of a contour are together, by the name under which rules speak of it.
+
+    `prefixes` begin the names of what each of these blocks states. A rule about one block sees the names without
+    the prefix, a rule about several sees `1:`, `2:`, ... in its place.
+    """
+
+    name: str
+    prefixes: tuple[str, ...] = ("",)
+
+    def names(self, stated: Iterable[str]) -> dict[str, str]:
+        """Of the names that a contour states, those of this role, by what its rules call them."""
+        if self.prefixes == ("",):
+            return {name: name for name in stated}
+        calls = ("",) if len(self.prefixes) == 1 else tuple(f"{number}:" for number in range(1, len(self.prefixes) + 1))
+        return {
+            call + name.removeprefix(prefix): name
+            for name in [name for name in stated if name.startswith(self.prefixes)]
+            for prefix, call in zip(self.prefixes, calls, strict=True)
+            if name.startswith(prefix)
+        }

@@ -1,0 +1,333 @@
+"""Facts about lines as a whole: their direction, what they pass through, what they touch, how far points lie apart."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import atan2, degrees, hypot
+from typing import Any
+
+from contoursolve.geometry.figure import FIRST, SECOND, Lookup, Turn, line_scalars, scalar
+from contoursolve.geometry.system import Equation, both, cross, dot, rotate, step
+from contoursolve.geometry.touching import side_of
+
+
+@dataclass(frozen=True, slots=True)
+class UnitDirection(Equation):
+    """The direction of a line has the length 1."""
+
+    line: str
+    given: str = ""
+
+    def reads(self) -> tuple[str, ...]:
+        return line_scalars(self.line)[:2]
+
+    def equation(self, at: Lookup) -> Any:
+        cosine, sine = at.bearing(self.line)
+        return cosine * cosine + sine * sine - 1
+
+    def residual(self, at: Lookup) -> Any:
+        return self.equation(at) / 2
+
+
+@dataclass(frozen=True, slots=True)
+class Directed(Equation):
+    """The line runs at the given angle."""
+
+    given: str
+    line: str
+
+    def reads(self) -> tuple[str, ...]:
+        return line_scalars(self.line)[:2]
+
+    def residual(self, at: Lookup) -> Any:
+        return cross(at.bearing(self.line), at.direction(self.given))
+
+    def senses(self, at: Lookup) -> tuple[Any, ...]:
+        return (dot(at.bearing(self.line), at.direction(self.given)),)
+
+    def implied(self, at: Lookup) -> float | None:
+        cosine, sine = at.bearing(self.line)
+        return degrees(atan2(float(sine), float(cosine)))
+
+
+@dataclass(frozen=True, slots=True)
+class Through(Equation):
+    """The line passes through `point`; the residual is how far to the left of it the point lies."""
+
+    line: str
+    point: str
+    given: str = ""
+
+    def reads(self) -> tuple[str, ...]:
+        return *line_scalars(self.line), *both(self.point)
+
+    def residual(self, at: Lookup) -> Any:
+        return left_of(at, self.line, self.point)
+
+
+@dataclass(frozen=True, slots=True)
+class Foot(Equation):
+    """`point` is the foot of the perpendicular from `center` onto the line.
+
+    With a `corner`, the point must lie before it on the line (`way` +1) or beyond it (-1).
+    """
+
+    line: str
+    point: str
+    center: str
+    given: str = ""
+    corner: str = ""
+    way: int = 1
+
+    def reads(self) -> tuple[str, ...]:
+        return *line_scalars(self.line)[:2], *both(self.point, self.center)
+
+    def residual(self, at: Lookup) -> Any:
+        return dot(at.bearing(self.line), step(at, self.center, self.point))
+
+    def senses(self, at: Lookup) -> tuple[Any, ...]:
+        if not self.corner:
+            return ()
+        return (self.way * dot(at.bearing(self.line), step(at, self.point, self.corner)),)
+
+    def sense_reads(self) -> tuple[str, ...]:
+        return *self.reads(), *(both(self.corner) if self.corner else ())
+
+
+@dataclass(frozen=True, slots=True)
+class Parallel(Equation):
+    """The line is parallel to `axis` and runs the way that a path advances along it: the first in `advance` that moves
+    along the axis tells, each of these a line whose direction is stated, or a pair of points."""
+
+    line: str
+    axis: int
+    advance: tuple[tuple[str, ...], ...]
+    given: str = ""
+
+    def reads(self) -> tuple[str, ...]:
+        return (line_scalars(self.line)[1 - self.axis],)
+
+    def residual(self, at: Lookup) -> Any:
+        return at.scalar(line_scalars(self.line)[1 - self.axis])
+
+    def senses(self, at: Lookup) -> tuple[Any, ...]:
+        return (at.bearing(self.line)[self.axis] * way(at, self.advance, self.axis),)
+
+    def sense_reads(self) -> tuple[str, ...]:
+        return *line_scalars(self.line)[:2], *_ends(self.advance, self.axis)
+
+
+@dataclass(frozen=True, slots=True)
+class TangentLine(Equation):
+    """The line touches the circle about `center`, which lies to its left (`side` +1) or right (-1)."""
+
+    line: str
+    center: str
+    radius: str
+    side: str | int
+    given: str = ""
+
+    def reads(self) -> tuple[str, ...]:
+        return *line_scalars(self.line), *both(self.center), self.radius
+
+    def sides(self) -> tuple[str, ...]:
+        return (self.side,) if isinstance(self.side, str) else ()
+
+    def residual(self, at: Lookup) -> Any:
+        return left_of(at, self.line, self.center) - side_of(self.side, at) * at.radius(self.radius)
+
+
+@dataclass(frozen=True, slots=True)
+class Extent(Equation):
+    """From `tail` to `head`, both on the line, it goes the given length along the line."""
+
+    given: str
+    line: str
+    tail: str
+    head: str
+
+    def reads(self) -> tuple[str, ...]:
+        return *line_scalars(self.line)[:2], *both(self.tail, self.head)
+
+    def residual(self, at: Lookup) -> Any:
+        return self._extent(at) - at.amount(self.given)
+
+    def _extent(self, at: Lookup) -> Any:
+        return dot(at.bearing(self.line), step(at, self.tail, self.head))
+
+    def implied(self, at: Lookup) -> float | None:
+        return float(self._extent(at))
+
+
+@dataclass(frozen=True, slots=True)
+class ChamferLeg(Equation):
+    """A 45 degree chamfer from `begin` to `end` extends as far as a share of its size along `axis`, to one side.
+
+    The side is the way in which a path advances, see `Parallel`; or the way between the directions of the two lines
+    `between`, where these are given.
+    """
+
+    begin: str
+    end: str
+    size: str
+    side: str
+    axis: int
+    advance: tuple[tuple[str, ...], ...]
+    between: tuple[str, ...] = ()
+    given: str = ""
+    share: float = 1
+
+    def reads(self) -> tuple[str, ...]:
+        return scalar(self.begin, self.axis), scalar(self.end, self.axis), self.size
+
+    def sides(self) -> tuple[str, ...]:
+        return (self.side,)
+
+    def residual(self, at: Lookup) -> Any:
+        extent = at.coordinate(self.end, self.axis) - at.coordinate(self.begin, self.axis)
+        return extent - self.share * at.side(self.side) * at.radius(self.size)
+
+    def senses(self, at: Lookup) -> tuple[Any, ...]:
+        if self.between:
+            return (at.side(self.side) * sum(at.bearing(line)[self.axis] for line in self.between),)
+        return (at.side(self.side) * way(at, self.advance, self.axis),)
+
+    def sense_reads(self) -> tuple[str, ...]:
+        lines = (name for line in self.between for name in line_scalars(line)[:2])
+        return *self.reads(), *lines, *_ends(self.advance, self.axis)
+
+
+@dataclass(frozen=True, slots=True)
+class Along:
+    """The direction of a line."""
+
+    line: str
+
+    def reads(self) -> tuple[str, ...]:
+        """Names of the scalars that the direction depends on."""
+        return line_scalars(self.line)[:2]
+
+    def vector(self, at: Lookup) -> tuple[Any, Any]:
+        """A vector in the direction, 1 mm long."""
+        return at.bearing(self.line)
+
+    def length(self, _at: Lookup) -> Any:
+        """The length of the vector."""
+        return 1
+
+
+@dataclass(frozen=True, slots=True)
+class Tangent:
+    """The direction of an arc where it passes `point`."""
+
+    point: str
+    center: str
+    radius: str
+    turn: Turn
+
+    def reads(self) -> tuple[str, ...]:
+        """Names of the scalars that the direction depends on."""
+        return *both(self.point, self.center), self.radius
+
+    def vector(self, at: Lookup) -> tuple[Any, Any]:
+        """A vector in the direction, as long as the radius."""
+        first, second = step(at, self.center, self.point)
+        return -self.turn.sign * second, self.turn.sign * first
+
+    def length(self, at: Lookup) -> Any:
+        """The length of the vector."""
+        return at.radius(self.radius)
+
+
+@dataclass(frozen=True, slots=True)
+class TurnBetween(Equation):
+    """The direction of travel turns by the given angle from the first element to the second."""
+
+    given: str
+    first: Along | Tangent
+    second: Along | Tangent
+
+    def reads(self) -> tuple[str, ...]:
+        return tuple(dict.fromkeys((*self.first.reads(), *self.second.reads())))
+
+    def _vectors(self, at: Lookup) -> tuple[tuple[Any, Any], tuple[Any, Any]]:
+        return rotate(self.first.vector(at), at.direction(self.given)), self.second.vector(at)
+
+    def equation(self, at: Lookup) -> Any:
+        return cross(*self._vectors(at))
+
+    def residual(self, at: Lookup) -> Any:
+        return self.equation(at) / (self.first.length(at) * self.second.length(at))
+
+    def senses(self, at: Lookup) -> tuple[Any, ...]:
+        return (dot(*self._vectors(at)),)
+
+    def implied(self, at: Lookup) -> float | None:
+        first, second = self.first.vector(at), self.second.vector(at)
+        return degrees(atan2(float(cross(first, second)), float(dot(first, second))))
+
+
+def _ends(advance: tuple[tuple[str, ...], ...], axis: int) -> Iterator[str]:
+    """The coordinates by which lines advance."""
+    return (scalar(point, axis) for each in advance if len(each) > 1 for point in each)
+
+
+def moves_of(at: Lookup, advance: tuple[tuple[str, ...], ...], axis: int) -> list[Any]:
+    """How far each part of a path advances along an axis, mm, or that part of a line's direction."""
+    found = []
+    for name, *head in advance:
+        found.append(at.coordinate(head[0], axis) - at.coordinate(name, axis) if head else at.bearing(name)[axis])
+    return found
+
+
+def way(at: Lookup, advance: tuple[tuple[str, ...], ...], axis: int) -> Any:
+    """How a path advances along an axis, by the first of its lines that moves along it at all."""
+    moves = moves_of(at, advance, axis)
+    return next((move for move in moves if not at.vanishes(move)), moves[0])
+
+
+def left_of(at: Lookup, line: str, point: str) -> Any:
+    """How far to the left of a line a point lies, mm."""
+    cosine, sine, offset = at.line(line)
+    return cosine * at.coordinate(point, SECOND) - sine * at.coordinate(point, FIRST) - offset
+
+
+@dataclass(frozen=True, slots=True)
+class Distance(Equation):
+    """`tail` and `head` lie the given distance apart; to first order the residual is the excess."""
+
+    given: str
+    tail: str
+    head: str
+
+    def reads(self) -> tuple[str, ...]:
+        return both(self.tail, self.head)
+
+    def equation(self, at: Lookup) -> Any:
+        between = step(at, self.tail, self.head)
+        return dot(between, between) - at.amount(self.given) * at.amount(self.given)
+
+    def residual(self, at: Lookup) -> Any:
+        return self.equation(at) / (2 * at.amount(self.given))
+
+    def implied(self, at: Lookup) -> float | None:
+        return hypot(*map(float, step(at, self.tail, self.head)))
+
+
+@dataclass(frozen=True, slots=True)
+class EqualDistances(Equation):
+    """Two pairs of points lie equally far apart."""
+
+    given: str
+    first: tuple[str, str]
+    second: tuple[str, str]
+
+    def reads(self) -> tuple[str, ...]:
+        return tuple(dict.fromkeys(both(*self.first, *self.second)))
+
+    def equation(self, at: Lookup) -> Any:
+        first, second = step(at, *self.first), step(at, *self.second)
+        return dot(first, first) - dot(second, second)
+
+    def residual(self, at: Lookup) -> Any:
+        first, second = step(at, *self.first), step(at, *self.second)
+        return at.root(dot(first, first)) - at.root(dot(second, second))

@@ -1,0 +1,177 @@
+"""The drawing of one contour with the values that its blocks give: what reading makes of words."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from decimal import Decimal
+from enum import Enum
+
+from contoursolve.gcode import Block, Word
+from contoursolve.geometry.figure import Fact, Figure
+from contoursolve.tolerance import INCREMENT, INCREMENT_ANGLE, INCREMENT_INCH
+
+INCREMENT_OF = "increment:"
+"""What the name of a least increment begins with."""
+
+_MM, _INCH = Decimal(1), Decimal("25.4")
+
+
+class Unit(Enum):
+    """What a value measures."""
+
+    MM = "mm"
+    DEGREE = "deg"
+    SIGN = "sign"
+    """Only the sign counts."""
+
+
+class Length(Enum):
+    """The unit in which a program is written."""
+
+    MM = "mm"
+    INCH = "inch"
+
+    @property
+    def in_mm(self) -> Decimal:
+        """Millimetres in one unit."""
+        return _INCH if self is Length.INCH else _MM
+
+
+@dataclass(frozen=True, slots=True)
+class Plane:
+    """A working plane: its G code, its two axes, its centre addresses, and which axes are diameters."""
+
+    code: str
+    axes: tuple[str, str]
+    centers: tuple[str, str]
+    diameters: tuple[bool, bool] = (False, False)
+
+
+@dataclass(frozen=True, slots=True)
+class Given:
+    """A value that the block states: `name` is its name in the equations, `value` is in mm (radius)
+    or degrees. `word` is None for a value that the control supplies by itself. `is_diameter` tells that
+    the word is written as twice the value."""
+
+    name: str
+    value: Decimal
+    unit: Unit
+    word: Word | None
+    is_diameter: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """A value that is asked for: its name, the fact that tells it, and how it is written."""
+
+    name: str
+    fact: Fact
+    unit: Unit
+    word: Word
+    is_diameter: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Start:
+    """The start point of a contour: a value in mm (X as radius) per axis, None where unknown."""
+
+    values: tuple[Decimal | None, Decimal | None]
+
+    @property
+    def is_known(self) -> bool:
+        """Whether both coordinates are known."""
+        return None not in self.values
+
+
+class Side(Enum):
+    """Which of two solutions of a step is meant, named by the geometry."""
+
+    NEARER = "nearer"
+    """First of the two points on the line, counted along its direction."""
+    FARTHER = "farther"
+    LEFT = "left"
+    """Left of the chord from the first point to the second."""
+    RIGHT = "right"
+    FIRST = "first"
+    """Met first where an arc is travelled clockwise from its start."""
+    SECOND = "second"
+
+    @property
+    def sign(self) -> int:
+        """-1 for nearer, right and second, +1 for farther, left and first: the sign of the root."""
+        return -1 if self in (Side.NEARER, Side.RIGHT, Side.SECOND) else 1
+
+
+@dataclass(frozen=True, slots=True)
+class Choice:
+    """The control's choice between two solutions for `point`, and the given that makes it; empty for one that the
+    form itself makes, so that no block has the other solution."""
+
+    point: str
+    side: Side
+    given: str
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Layout:
+    """A figure with the facts that some combination of words states about it.
+
+    Every block with these words shares one object, which is its own identity: caches go by it.
+    """
+
+    figure: Figure
+    facts: tuple[Fact, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Profile:
+    """One contour, partly unknown.
+
+    The layout's facts are what the words state and the control uses; `ignored` are facts that the
+    control drops by a rule of its manual. `givens` holds every value by its name. `intersections` are the points
+    that a user wants to see.
+    """
+
+    form: str
+    blocks: tuple[Block, ...]
+    plane: Plane
+    unit: Length
+    layout: Layout
+    start: Start
+    givens: Mapping[str, Given]
+    intersections: tuple[str, ...]
+    ignored: tuple[Fact, ...] = ()
+    choices: tuple[Choice, ...] = ()
+    questions: tuple[Question, ...] = ()
+    is_extended: bool = False
+    """Whether it states or asks more than its form provides for."""
+
+    @property
+    def figure(self) -> Figure:
+        """The drawing without its values."""
+        return self.layout.figure
+
+    @property
+    def increments(self) -> dict[str, float]:
+        """The least increments of the control, mm (radius) or degrees: those of coordinates by `increment:0` and
+        `increment:1`, those of values by `increment:` and their names; 0 for a value that no word states."""
+        return least_increments(self.unit, self.plane, self.givens)
+
+    def words_of(self, facts: Iterable[Fact]) -> list[Word]:
+        """The words that state these facts; what the form or the control states by itself has none."""
+        words = (self.givens[fact.given].word for fact in facts if fact.given)
+        return [word for word in words if word]
+
+    @property
+    def facts(self) -> tuple[Fact, ...]:
+        """What the words state, as far as the control uses it."""
+        return self.layout.facts
+
+
+def least_increments(unit: Length, plane: Plane, givens: Mapping[str, Given]) -> dict[str, float]:
+    """The least increments of a program's coordinates and values, see `Profile.increments`."""
+    length = INCREMENT_INCH if unit is Length.INCH else INCREMENT
+    found = {f"{INCREMENT_OF}{axis}": length / (1 + is_half) for axis, is_half in enumerate(plane.diameters)}
+    for name, given in givens.items():
+        step = INCREMENT_ANGLE if given.unit is Unit.DEGREE else length / (1 + given.is_diameter)
+        found[INCREMENT_OF + name] = step if given.word is not None else 0.0
+    return found

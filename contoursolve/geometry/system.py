@@ -1,0 +1,215 @@
+"""Facts as equations: what they have in common, the values that they look up, and the system that they make."""
+
+import math
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from functools import lru_cache
+from typing import Any
+
+from contoursolve.geometry.figure import FIRST, SECOND, Fact, Figure, Line, Lookup, line_scalars, scalar
+from contoursolve.geometry.profile import Layout, Profile
+
+
+class Equation:
+    """A fact whose residual is a polynomial already, that holds in one sense only and on no open side."""
+
+    __slots__ = ()
+
+    def sides(self) -> tuple[str, ...]:
+        return ()
+
+    def equation(self, at: Lookup) -> Any:
+        return self.residual(at)
+
+    def residual(self, at: Lookup) -> Any:
+        raise NotImplementedError
+
+    def senses(self, _at: Lookup) -> tuple[Any, ...]:
+        return ()
+
+    def sense_reads(self) -> tuple[str, ...]:
+        return self.reads()
+
+    def reads(self) -> tuple[str, ...]:
+        raise NotImplementedError
+
+    def implied(self, _at: Lookup) -> float | None:
+        return None
+
+
+def both(*points: str) -> tuple[str, ...]:
+    """The names of both coordinates of points."""
+    return tuple(scalar(point, axis) for point in points for axis in (FIRST, SECOND))
+
+
+def step(at: Lookup, tail: str, head: str) -> tuple[Any, Any]:
+    """From one point to another, mm along each axis."""
+    return (
+        at.coordinate(head, FIRST) - at.coordinate(tail, FIRST),
+        at.coordinate(head, SECOND) - at.coordinate(tail, SECOND),
+    )
+
+
+def dot(a: tuple[Any, Any], b: tuple[Any, Any]) -> Any:
+    """Scalar product."""
+    return a[0] * b[0] + a[1] * b[1]
+
+
+def cross(a: tuple[Any, Any], b: tuple[Any, Any]) -> Any:
+    """Vector product; positive where b points to the left of a."""
+    return a[0] * b[1] - a[1] * b[0]
+
+
+def rotate(vector: tuple[Any, Any], by: tuple[Any, Any]) -> tuple[Any, Any]:
+    """A vector turned by the angle of this cosine and sine."""
+    return vector[0] * by[0] - vector[1] * by[1], vector[1] * by[0] + vector[0] * by[1]
+
+
+def _may_vanish(value: Any) -> bool:
+    return bool(value != 0) is False
+
+
+@dataclass(frozen=True, slots=True)
+class Functions:
+    """What equations need beyond arithmetic, for one kind of number."""
+
+    root: Callable[[Any], Any] = math.sqrt
+    cosine: Callable[[Any], Any] = math.cos
+    sine: Callable[[Any], Any] = math.sin
+    vanishes: Callable[[Any], bool] = _may_vanish
+    """Whether a number is zero; of a ball about one number, whether it may be."""
+
+
+FLOATS = Functions()
+
+
+@dataclass(frozen=True, slots=True)
+class Values:
+    """`scalars` holds coordinates, radii and lines by name, `amounts`, `directions` and `signs` the givens.
+
+    A coordinate or a radius that is no scalar is a given. `headed` are the lines whose direction is a given,
+    each with that given and with a point of the line.
+    """
+
+    scalars: Mapping[str, Any]
+    amounts: Mapping[str, Any]
+    directions: Mapping[str, tuple[Any, Any]]
+    headed: Mapping[str, tuple[str, str]] = field(default_factory=dict)
+    signs: Mapping[str, Any] = field(default_factory=dict)
+    functions: Functions = FLOATS
+
+    def scalar(self, name: str) -> Any:
+        return self.scalars[name] if name in self.scalars else self.amounts[name]
+
+    def coordinate(self, point: str, axis: int) -> Any:
+        return self.scalar(scalar(point, axis))
+
+    def radius(self, name: str) -> Any:
+        return self.scalar(name)
+
+    def amount(self, given: str) -> Any:
+        return self.amounts[given]
+
+    def direction(self, given: str) -> tuple[Any, Any]:
+        return self.directions[given]
+
+    def bearing(self, name: str) -> tuple[Any, Any]:
+        if name in self.headed:
+            return self.direction(self.headed[name][0])
+        cosine, sine, _ = line_scalars(name)
+        return self.scalars[cosine], self.scalars[sine]
+
+    def line(self, name: str) -> tuple[Any, Any, Any]:
+        cosine, sine = self.bearing(name)
+        if name not in self.headed:
+            return cosine, sine, self.scalars[line_scalars(name)[2]]
+        tail = self.headed[name][1]
+        return cosine, sine, cosine * self.coordinate(tail, SECOND) - sine * self.coordinate(tail, FIRST)
+
+    def side(self, name: str) -> Any:
+        return self.signs[name]
+
+    def rotation(self, angle: Any) -> tuple[Any, Any]:
+        return self.functions.cosine(angle), self.functions.sine(angle)
+
+    def vanishes(self, value: Any) -> bool:
+        return self.functions.vanishes(value)
+
+    def root(self, value: Any) -> Any:
+        return self.functions.root(value)
+
+
+def headed_lines(figure: Figure) -> dict[str, tuple[str, str]]:
+    """The lines of a figure whose direction is a given, each with that given and with a point of the line."""
+    lines = (line for line in (*figure.path, *figure.lines) if isinstance(line, Line))
+    return {
+        line.name: (line.heading, line.tail)
+        for line in lines
+        if line.heading is not None and line.name not in figure.carriers
+    }
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class System:
+    """Unknown scalars and the facts about them.
+
+    The coordinates of the figure's start and places are known, all other points, the radii and the carriers
+    are unknown. `choices` are the points with two solutions between which something outside the facts chooses.
+    Caches go by systems: those are equal whose `key` and facts are; by how much a fact may be off is not in its text.
+    `equations_key` leaves out the path and the corners, which state nothing about the points.
+    """
+
+    figure: Figure
+    facts: tuple[Fact, ...]
+    choices: tuple[str, ...]
+    unknowns: tuple[str, ...]
+    headed: Mapping[str, tuple[str, str]]
+    known: frozenset[str]
+    equations_key: str
+    key: str
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, System) and self.key == other.key and self.facts == other.facts
+
+    def __hash__(self) -> int:
+        return hash(self.key)
+
+    def unknowns_of(self, fact: Fact) -> tuple[str, ...]:
+        """The unknown scalars that a fact mentions."""
+        return self.unknowns_among(fact.reads())
+
+    def unknowns_among(self, reads: Iterable[str]) -> tuple[str, ...]:
+        """The unknown scalars behind names that a fact reads; a line of given direction is known by its tail."""
+        names: dict[str, None] = {}
+        for name in reads:
+            line, _, part = name.rpartition(".")
+            if line not in self.headed or part not in ("cos", "sin", "off"):
+                names[name] = None
+            elif part == "off":
+                names.update(dict.fromkeys(both(self.headed[line][1])))
+        return tuple(name for name in names if name not in self.known)
+
+    def keep(self, facts: tuple[Fact, ...]) -> "System":
+        """The same figure with other facts."""
+        return build_system(self.figure, facts, self.choices)
+
+
+@lru_cache(maxsize=8192)
+def build_system(figure: Figure, facts: tuple[Fact, ...], choices: tuple[str, ...] = ()) -> System:
+    """The system of a figure; equal arguments give the same object."""
+    lines = (name for line in figure.carriers for name in line_scalars(line))
+    unknowns = (*both(*figure.points), *figure.radii, *lines)
+    equations_key = f"{','.join(unknowns)}: {'; '.join(map(str, facts))}"
+    known = frozenset((*both(figure.start, *figure.places), *figure.known_radii))
+    key = f"{equations_key} | {figure} | {choices}"
+    return System(figure, facts, choices, unknowns, headed_lines(figure), known, equations_key, key)
+
+
+def assemble(profile: Profile) -> System:
+    """The system of equations of a profile."""
+    return _of_layout(profile.layout, tuple(choice.point for choice in profile.choices))
+
+
+@lru_cache(maxsize=8192)
+def _of_layout(layout: Layout, choices: tuple[str, ...]) -> System:
+    return build_system(layout.figure, layout.facts, choices)

@@ -1,0 +1,241 @@
+"""Facts about arcs, circles and corners: how they touch, how long they are, where they begin and end."""
+
+from dataclasses import dataclass
+from math import atan2, tau
+from typing import Any
+
+from contoursolve.geometry.figure import Lookup, Turn, line_scalars
+from contoursolve.geometry.system import Equation, both, cross, dot, rotate, step
+
+
+@dataclass(frozen=True, slots=True)
+class EqualRadii(Equation):
+    """Two circles have the same radius."""
+
+    given: str
+    first: str
+    second: str
+
+    def reads(self) -> tuple[str, ...]:
+        return self.first, self.second
+
+    def residual(self, at: Lookup) -> Any:
+        return at.radius(self.first) - at.radius(self.second)
+
+
+@dataclass(frozen=True, slots=True)
+class TangentCircles(Equation):
+    """Two circles touch: from outside (`side` +1) or one inside the other (-1).
+
+    `side` is the name of an open side, or the side itself. To first order the residual is the gap.
+    """
+
+    first: tuple[str, str]
+    """Center and radius."""
+    second: tuple[str, str]
+    side: str | int
+    given: str = ""
+
+    def reads(self) -> tuple[str, ...]:
+        return *both(self.first[0], self.second[0]), self.first[1], self.second[1]
+
+    def sides(self) -> tuple[str, ...]:
+        return (self.side,) if isinstance(self.side, str) else ()
+
+    def equation(self, at: Lookup) -> Any:
+        between, side = step(at, self.first[0], self.second[0]), side_of(self.side, at)
+        first, second = at.radius(self.first[1]), at.radius(self.second[1])
+        # Expanded with side**2 = 1, so that a difference of two such equations has no squares at all.
+        return dot(between, between) - first * first - second * second - 2 * side * first * second
+
+    def residual(self, at: Lookup) -> Any:
+        return self.equation(at) / (2 * (at.radius(self.first[1]) + at.radius(self.second[1])))
+
+
+@dataclass(frozen=True, slots=True)
+class Contact(Equation):
+    """`point`, which lies on two circles, is where they touch: in line with their centres.
+
+    It lies between the centres for a contact from outside (`side` +1), beyond them for one from inside (-1).
+    """
+
+    point: str
+    first: str
+    second: str
+    """The centres."""
+    side: int
+    given: str = ""
+
+    def reads(self) -> tuple[str, ...]:
+        return both(self.point, self.first, self.second)
+
+    def equation(self, at: Lookup) -> Any:
+        return cross(step(at, self.first, self.point), step(at, self.first, self.second))
+
+    def residual(self, at: Lookup) -> Any:
+        between = step(at, self.first, self.second)
+        return self.equation(at) / at.root(dot(between, between))
+
+    def senses(self, at: Lookup) -> tuple[Any, ...]:
+        return (self.side * dot(step(at, self.first, self.point), step(at, self.point, self.second)),)
+
+
+@dataclass(frozen=True, slots=True)
+class ArcLength(Equation):
+    """The arc from `tail` to `head` about `center` has the given length.
+
+    The residual is how far `head` lies off the ray at which the arc must end.
+    """
+
+    given: str
+    tail: str
+    head: str
+    center: str
+    radius: str
+    turn: Turn
+
+    def reads(self) -> tuple[str, ...]:
+        return *both(self.tail, self.head, self.center), self.radius
+
+    def _spokes(self, at: Lookup) -> tuple[tuple[Any, Any], tuple[Any, Any]]:
+        cosine, sine = at.rotation(at.amount(self.given) / at.radius(self.radius))
+        begin = rotate(step(at, self.center, self.tail), (cosine, self.turn.sign * sine))
+        return begin, step(at, self.center, self.head)
+
+    def equation(self, at: Lookup) -> Any:
+        return cross(*self._spokes(at))
+
+    def residual(self, at: Lookup) -> Any:
+        return self.equation(at) / at.radius(self.radius)
+
+    def senses(self, at: Lookup) -> tuple[Any, ...]:
+        # 710 / 113 is 2 pi and a little more: an arc is no longer than its circle.
+        circle = at.radius(self.radius) * 710 / 113
+        return dot(*self._spokes(at)), circle - at.amount(self.given)
+
+    def implied(self, at: Lookup) -> float | None:
+        begin, end = step(at, self.center, self.tail), step(at, self.center, self.head)
+        sweep = atan2(float(cross(begin, end)) * self.turn.sign, float(dot(begin, end))) % tau
+        return float(at.radius(self.radius)) * sweep
+
+
+def side_of(side: str | int, at: Lookup) -> Any:
+    """The value of a side, whether stated or open."""
+    return at.side(side) if isinstance(side, str) else side
+
+
+@dataclass(frozen=True, slots=True)
+class TangentArc(Equation):
+    """The circle about `center` touches the circle of an arc, and lies to the left of its travel (`side` +1) or to
+    the right (-1). To first order the residual is the gap."""
+
+    arc: tuple[str, str]
+    """Center and radius."""
+    turn: Turn
+    center: str
+    radius: str
+    side: str | int
+    given: str = ""
+
+    def reads(self) -> tuple[str, ...]:
+        return *both(self.arc[0], self.center), self.arc[1], self.radius
+
+    def sides(self) -> tuple[str, ...]:
+        return (self.side,) if isinstance(self.side, str) else ()
+
+    def equation(self, at: Lookup) -> Any:
+        between, own, radius = step(at, self.arc[0], self.center), at.radius(self.arc[1]), at.radius(self.radius)
+        # Expanded with side**2 = 1, as in `TangentCircles`.
+        inward = 2 * self.turn.sign * side_of(self.side, at) * own * radius
+        return dot(between, between) - own * own - radius * radius + inward
+
+    def residual(self, at: Lookup) -> Any:
+        return self.equation(at) / (2 * (at.radius(self.arc[1]) + at.radius(self.radius)))
+
+
+@dataclass(frozen=True, slots=True)
+class ArcContact(Equation):
+    """`point`, which lies on the circle of an arc, is where a circle about `center` touches it: in line with both
+    centres. It comes before the `corner` on the arc (`way` +1) or after it (-1), by less than half a turn."""
+
+    point: str
+    arc: tuple[str, str]
+    """Center and radius."""
+    turn: Turn
+    center: str
+    radius: str
+    side: str | int
+    corner: str
+    way: int
+    given: str = ""
+
+    def reads(self) -> tuple[str, ...]:
+        return both(self.point, self.arc[0], self.center)
+
+    def equation(self, at: Lookup) -> Any:
+        return cross(step(at, self.arc[0], self.point), step(at, self.arc[0], self.center))
+
+    def residual(self, at: Lookup) -> Any:
+        spoke = step(at, self.arc[0], self.point)
+        return self.equation(at) / at.root(dot(spoke, spoke))
+
+    def senses(self, at: Lookup) -> tuple[Any, ...]:
+        spoke, between = step(at, self.arc[0], self.point), step(at, self.arc[0], self.center)
+        # A circle that turns the same way and is larger than the arc's has its centre beyond the arc's.
+        reach = at.radius(self.arc[1]) - self.turn.sign * side_of(self.side, at) * at.radius(self.radius)
+        ahead = cross(spoke, step(at, self.arc[0], self.corner))
+        return reach * dot(spoke, between), self.way * self.turn.sign * ahead
+
+    def sense_reads(self) -> tuple[str, ...]:
+        return *self.reads(), self.arc[1], self.radius, *both(self.corner)
+
+
+@dataclass(frozen=True, slots=True)
+class Setback(Equation):
+    """`point`, which lies on the line, is `size` before the `corner` (`way` +1) or after it (-1)."""
+
+    line: str
+    point: str
+    corner: str
+    size: str
+    way: int
+    given: str = ""
+
+    def reads(self) -> tuple[str, ...]:
+        return *line_scalars(self.line)[:2], *both(self.point, self.corner), self.size
+
+    def residual(self, at: Lookup) -> Any:
+        ahead = dot(at.bearing(self.line), step(at, self.point, self.corner))
+        return self.way * ahead - at.radius(self.size)
+
+
+@dataclass(frozen=True, slots=True)
+class ChordSetback(Equation):
+    """`point`, which lies on the circle of an arc, is `size` away from the `corner`, along the chord: before it on
+    the arc (`way` +1) or after it (-1)."""
+
+    center: str
+    turn: Turn
+    point: str
+    corner: str
+    size: str
+    way: int
+    given: str = ""
+
+    def reads(self) -> tuple[str, ...]:
+        return *both(self.point, self.corner), self.size
+
+    def equation(self, at: Lookup) -> Any:
+        chord, size = step(at, self.point, self.corner), at.radius(self.size)
+        return dot(chord, chord) - size * size
+
+    def residual(self, at: Lookup) -> Any:
+        return self.equation(at) / (2 * at.radius(self.size))
+
+    def senses(self, at: Lookup) -> tuple[Any, ...]:
+        return (
+            self.way * self.turn.sign * cross(step(at, self.center, self.point), step(at, self.center, self.corner)),
+        )
+
+    def sense_reads(self) -> tuple[str, ...]:
+        return *self.reads(), *both(self.center)

@@ -1,0 +1,233 @@
+"""Numbers of a contour as functions of the words that vary: at many values at once, their derivatives, and bounds that
+hold for whole ranges of values."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import reduce
+from math import pi
+from operator import add
+from typing import Any
+
+import casadi
+import numpy
+from numpy.typing import NDArray
+
+from contoursolve.numeric import intervals
+from contoursolve.numeric.expressions import Tape, cosine, sine, symbol
+from contoursolve.numeric.inputs import COSINE, SINE
+from contoursolve.numeric.interpreter import Replay
+from contoursolve.numeric.intervals import Array, Intervals, constant, down, up
+
+NO_ROOT = -1e-10
+"""mm squared. A root's operand above this has a root: what touches by construction is off by rounding."""
+
+
+@dataclass(frozen=True, slots=True)
+class Following:
+    """A value that follows words, and is linear in each: the words' numbers, with the mm or degrees for each unit of
+    them. Of an angle there is one."""
+
+    words: tuple[tuple[int, float], ...]
+    is_angle: bool
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Bounds:
+    """What outputs lie between in each of many boxes, by (output, box); and in which boxes every root has a value for
+    certain, and in which none has."""
+
+    low: Array
+    high: Array
+    is_defined: NDArray[numpy.bool_]
+    is_undefined: NDArray[numpy.bool_]
+    is_smooth: NDArray[numpy.bool_]
+    """Whether no output jumps in the box."""
+
+    def __getitem__(self, boxes: NDArray[numpy.bool_]) -> "Bounds":
+        rest = (self.is_defined[boxes], self.is_undefined[boxes], self.is_smooth[boxes])
+        return Bounds(self.low[:, boxes], self.high[:, boxes], *rest)
+
+
+def _run_steps(steps: Sequence[tuple[Any, int, int, int]], work: list[Any]) -> None:
+    for operation, first, second, target in steps:
+        work[target] = operation(work[first], work[second]) if second >= 0 else operation(work[first])
+
+
+_JUMPING = (casadi.OP_SIGN, casadi.OP_EQ, casadi.OP_LE, casadi.OP_LT)
+"""Instructions whose results are steps."""
+
+
+class _Floats:
+    """The functions of plain arrays; what has no value is NaN."""
+
+    root, cosine, sine, magnitude, sign = numpy.sqrt, numpy.cos, numpy.sin, numpy.abs, numpy.sign
+    angle, larger = numpy.arctan2, numpy.maximum
+    equal, at_most, below = numpy.equal, numpy.less_equal, numpy.less
+    opposite = numpy.logical_not
+
+    @staticmethod
+    def chosen(condition: Any, value: Any) -> Any:
+        """The value where the condition is true, else 0."""
+        return numpy.where(condition, value, 0.0)
+
+
+class _Enclosure(Replay):
+    """The instructions on intervals, and what roots are taken of."""
+
+    def __init__(self, function: Any, words: int) -> None:
+        super().__init__(function, intervals, constant)
+        kinds = {target: function.instruction_id(target) for *_, target in self._steps}
+        self._roots = [first for _, first, _, target in self._steps if kinds[target] == casadi.OP_SQRT]
+        self._jumps = [target for target, kind in kinds.items() if kind in _JUMPING]
+        self._angles = [each[1:] for each in self._steps if kinds[each[3]] == casadi.OP_ATAN2]
+        self._torn: list[tuple[int, int, int]] = []
+        """What follows from results that may jump, these themselves included: operands and result."""
+        torn = {*self._jumps, *(target for *_, target in self._angles)}
+        for _, first, second, target in self._steps:
+            if not torn.isdisjoint((first, second, target)):
+                torn.add(target)
+                self._torn.append((first, second, target))
+        self._words = words
+        moving = {target for source, target in self._inputs if source < words}
+        for _, first, second, target in self._steps:
+            if first in moving or second in moving:
+                moving.add(target)
+        self._moving = [step for step in self._steps if step[3] in moving]
+        self._still = [step for step in self._steps if step[3] not in moving]
+        self._known: tuple[tuple[float, ...], list[Any]] = ((), [])
+        """The inputs that stay, as they were last, and all that follows from them alone."""
+
+    def bounds(self, words: Sequence[Intervals], fixed: Sequence[float], count: int) -> Bounds:
+        """What the outputs lie between."""
+        with numpy.errstate(all="ignore"):
+            work = self._prepared(tuple(fixed)).copy()
+            for source, target in self._inputs:
+                if source < self._words:
+                    work[target] = words[source]
+            _run_steps(self._moving, work)
+        low, high = numpy.zeros((self._count, count)), numpy.zeros((self._count, count))
+        for source, target in self._outputs:
+            low[target], high[target] = work[source].low, work[source].high
+        is_defined, is_undefined = numpy.ones(count, bool), numpy.zeros(count, bool)
+        for place in self._roots:
+            is_defined &= work[place].low >= NO_ROOT
+            is_undefined |= work[place].high < NO_ROOT
+        return Bounds(low, high, is_defined, is_undefined, is_defined & ~self._is_torn(work, count))
+
+    def _is_torn(self, work: Sequence[Any], count: int) -> NDArray[numpy.bool_]:
+        """In which boxes an output may jump: what is one number all the same, as a choice that is not taken, does not
+        hand on the jump of what it follows from."""
+        torn: dict[int, Any] = {place: work[place].low != work[place].high for place in self._jumps}
+        for first, second, target in self._angles:
+            torn[target] = ~((work[first].low > 0) | (work[first].high < 0) | (work[second].low > 0))
+        found = numpy.zeros(count, bool)
+        if not any(numpy.any(each) for each in torn.values()):
+            return found
+        for first, second, target in self._torn:
+            own = torn.get(target, False) | torn.get(first, False) | torn.get(second, False)
+            torn[target] = own & (work[target].low != work[target].high)
+        for source, _ in self._outputs:
+            found |= torn.get(source, False)
+        return found
+
+    def _prepared(self, fixed: tuple[float, ...]) -> list[Any]:
+        """The places of all values, with those that follow from the inputs that stay."""
+        known, work = self._known
+        if known != fixed or not work:
+            work = self._constants.copy()
+            for source, target in self._inputs:
+                if source >= self._words:
+                    work[target] = constant(fixed[source - self._words])
+            _run_steps(self._still, work)
+            self._known = fixed, work
+        return work
+
+
+class Chart:
+    """Some outputs as functions of some words, at fixed values of the other inputs.
+
+    `fixed` names those inputs; one that follows a word is what is added to it. With `is_rate` it is about the
+    derivatives of the outputs by the first word in place of the outputs.
+    """
+
+    def __init__(
+        self,
+        tape: Tape,
+        outputs: Mapping[str, Any],
+        words: int,
+        follows: Mapping[str, Following],
+        *,
+        is_rate: bool = False,
+    ) -> None:
+        symbols = [symbol(f"word {number}") for number in range(words)]
+        added, inputs = dict[str, Any](), dict[str, Any]()
+        for given, each in follows.items():
+            if each.is_angle:
+                ((word, factor),) = each.words
+                turned = symbols[word] * (factor * pi / 180)
+                inputs |= {given + COSINE: cosine(turned), given + SINE: sine(turned)}
+            else:
+                added[given] = symbol(given)
+                parts = [symbols[word] * factor for word, factor in each.words]
+                inputs[given] = reduce(add, parts) + added[given]
+        stay, expressions = tape.replaced(inputs, outputs)
+        self.outputs = tuple(outputs)
+        self.fixed = (*added, *(name for name in tape.inputs if name not in inputs))
+        self._words = words
+        arguments = casadi.vertcat(*(each.sx for each in (*symbols, *added.values(), *stay)))
+        values = casadi.SX(casadi.vertcat(*(each.sx for each in expressions)))
+        if is_rate:
+            values = casadi.SX(casadi.densify(casadi.jacobian(values, symbols[0].sx)))
+        slopes = casadi.densify(casadi.jacobian(values, casadi.vertcat(*(each.sx for each in symbols))))
+        self._function = casadi.Function("chart", [arguments], [casadi.cse(casadi.densify(values))])
+        self._derivative = casadi.Function("slopes", [arguments], [casadi.cse(casadi.vec(slopes))])
+        rates = casadi.which_depends(casadi.vec(slopes), casadi.vertcat(*(each.sx for each in symbols)), 2, True)
+        count = len(self.outputs)
+        self.is_quadratic = [not any(rates[number::count]) for number in range(count)]
+        """Which outputs are polynomials of degree 2 at most in the words."""
+        self._values = Replay(self._function, _Floats, numpy.float64)
+        self._slopes = Replay(self._derivative, _Floats, numpy.float64)
+        self._enclosure = _Enclosure(self._function, words)
+        self._steepness: _Enclosure | None = None
+
+    def at(self, words: Sequence[Array], fixed: Sequence[float]) -> Array:
+        """The outputs at these values of the words, by (output, place)."""
+        return _run(self._values, words, fixed)
+
+    def slopes_at(self, words: Sequence[Array], fixed: Sequence[float]) -> Array:
+        """The derivatives of the outputs by the words, by (word, output, place)."""
+        return _run(self._slopes, words, fixed).reshape(self._words, len(self.outputs), -1)
+
+    def between(self, words: Sequence[Intervals], fixed: Sequence[float]) -> Bounds:
+        """What the outputs lie between in boxes of the words."""
+        return self._enclosure.bounds(words, fixed, words[0].low.size)
+
+    def narrowed(self, bounds: Bounds, words: Sequence[Intervals], fixed: Sequence[float]) -> Bounds:
+        """The bounds narrowed by the mean value theorem, where nothing jumps: about the middle of each box, by the
+        derivatives in it. It takes twice as long as the bounds themselves."""
+        middles = [each.low / 2 + each.high / 2 for each in words]
+        center = self.between([Intervals(each, each) for each in middles], fixed)
+        slopes = self.slopes_between(words, fixed)
+        found, count = Intervals(center.low, center.high), len(self.outputs)
+        with numpy.errstate(all="ignore"):
+            for number, (each, middle) in enumerate(zip(words, middles, strict=True)):
+                rows = slice(number * count, (number + 1) * count)
+                away = Intervals(down(each.low - middle), up(each.high - middle))
+                found = found + Intervals(slopes.low[rows], slopes.high[rows]) * away
+        usable = bounds.is_smooth & numpy.isfinite(found.low) & numpy.isfinite(found.high)
+        low = numpy.where(usable, numpy.fmax(bounds.low, found.low), bounds.low)
+        high = numpy.where(usable, numpy.fmin(bounds.high, found.high), bounds.high)
+        return Bounds(low, high, bounds.is_defined, bounds.is_undefined, bounds.is_smooth)
+
+    def slopes_between(self, words: Sequence[Intervals], fixed: Sequence[float]) -> Bounds:
+        """What the derivatives lie between, by (word and output, box)."""
+        if self._steepness is None:
+            self._steepness = _Enclosure(self._derivative, self._words)
+        return self._steepness.bounds(words, fixed, words[0].low.size)
+
+
+def _run(replay: Replay, words: Sequence[Array], fixed: Sequence[float]) -> Array:
+    with numpy.errstate(all="ignore"):
+        found = replay([*words, *map(numpy.float64, fixed)])
+    size = words[0].size
+    return numpy.stack([numpy.broadcast_to(numpy.asarray(each, dtype=float), size) for each in found])

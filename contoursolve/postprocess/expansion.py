@@ -1,0 +1,374 @@
+"""A program with its contours written as plain G-code, and everything else byte for byte as it was."""
+
+from collections import deque
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from decimal import Decimal
+from itertools import chain
+
+from contoursolve.diagnosis.examine import Answer, Depth, Policy
+from contoursolve.diagnostics.finding import Severity
+from contoursolve.gcode import Block, Directive, Passage, Program, Word, parse_block
+from contoursolve.gcode.comments import LEFT_MARK, comment_out, own_comments, remark
+from contoursolve.geometry import Length
+from contoursolve.postprocess.emit import Format, Move, emit
+from contoursolve.postprocess.expansion_report import Left, Options, Summary, left_unread
+from contoursolve.postprocess.numbering import Numberer, Numbers, Offsets
+from contoursolve.postprocess.post_processors import Machine
+from contoursolve.postprocess.untranslatable import Watch
+from contoursolve.program.batch import Batch
+from contoursolve.program.lines import Lines
+from contoursolve.program.pipeline import attach, walk
+from contoursolve.program.solve_queue import Step
+from contoursolve.reading import State, Trouble, apply_modes, motion_of, words_of
+from contoursolve.reading.dialect import Dialect
+from contoursolve.reading.follow import blocks_of
+from contoursolve.reading.modal_dependence import (
+    STANDING_ALONE,
+    Reliance,
+    carried,
+    frame_of,
+    reliance,
+    restate,
+    why_unmet,
+)
+from contoursolve.solving import Point
+
+OPENING = object()
+"""Stands where the words belong that the target needs before anything else."""
+
+_NO_MOTION = -1
+"""The motion that is in force where none is: the control starts with it."""
+
+_NAMES = tuple(f"G{code:02}" for code in range(4))
+"""The codes of motions as they are written."""
+
+
+_TOLD = (Trouble.TEXT_OUTSIDE, Trouble.LETTER_FOR_DIGIT, Trouble.CODE_MISTYPED, Trouble.COMMA_MISSING)
+"""What is told about lines that stay: they may be cut in another way than they are meant."""
+
+
+def expand_lines(
+    lines: Iterable[str],
+    dialect: Dialect,
+    options: Options,
+    summary: Summary,
+    *,
+    unit: Length = Length.MM,
+    policy: Policy = Policy.ENFORCE,
+    start: Program | None = None,
+    facts: Mapping[int, tuple[Directive, ...]] | None = None,
+    is_certain: bool = True,
+    numbers: Numbers | None = None,
+) -> Iterator[str | object]:
+    """The lines of a program (each with its end) with every contour replaced, and `OPENING` once.
+
+    `facts` are further facts by line; `numbers` are those of the whole program, where every line is to have one.
+    Unless the control `is_certain`, raises UnknownControlError if some block is for another one.
+    """
+    together = Batch(dialect, policy, is_proven=False)
+    reel = Lines(lines, dialect, facts or {}, is_certain=is_certain)
+    steps = walk(reel.blocks(), dialect, unit, policy, Depth.PATH, start, together)
+    yield from _Expander(dialect, options, summary, reel, numbers).expand(steps)
+
+
+def lines_of_facts(
+    program: Program, dialect: Dialect, unit: Length, start: Program | None, facts: Sequence[Directive]
+) -> dict[int, tuple[Directive, ...]]:
+    """Facts that were stated apart from a program, by the line of its only contour. Raises FactPlaceError."""
+    if not facts:
+        return {}
+    attached, worded = attach(program, dialect, unit, start, facts)
+    return {block.line: worded for block in attached.blocks if worded[0] in block.directives}
+
+
+def opening_of(options: Options, dialect: Dialect, unit: Length, summary: Summary) -> str:
+    """The line that the target needs before the first block; empty if it needs none, or nothing was replaced."""
+    text = options.post.opening.get(_machine(dialect), "") if summary.replaced else ""
+    return text.format(unit="G20" if unit is Length.INCH else "G21") + summary.line_end if text else ""
+
+
+def _machine(dialect: Dialect) -> Machine:
+    return Machine.LATHE if any(dialect.plane.diameters) else Machine.MILL
+
+
+class _Expander:
+    """One pass over one program."""
+
+    def __init__(
+        self, dialect: Dialect, options: Options, summary: Summary, lines: Lines, numbers: Numbers | None
+    ) -> None:
+        self.dialect = dialect
+        self.modes = dialect.modes
+        self.options = options
+        self.summary = summary
+        self.lines = lines
+        self.watch = Watch(options.post, dialect, options.post.readings.get(_machine(dialect)))
+        summary.unfamiliar = self.watch.found
+        self.numberer = Numberer(self.modes, numbers)
+        self.formats: dict[tuple[tuple[str, str], bool, bool], Format] = {}
+        self.offsets = Offsets(self.modes)
+        self.motion: int | None = None
+        """The motion that is in force in the expanded program, where it differs from the original."""
+        self.is_opened = False
+        self.is_marked = False
+        """Whether the last line says why what follows is not expanded."""
+
+    def expand(self, steps: Iterable[Step]) -> Iterator[str | object]:
+        coming, rest = deque[Step](), iter(steps)
+        for step in _in_turn(rest, coming):
+            if not self.is_opened and any(map(_is_active, step.blocks)):
+                self.is_opened = True
+                self.summary.line_end = self.lines.end_of(step.blocks[0].line)
+                yield OPENING
+            self.summary.warn([each for each in step.findings if each.about in _TOLD])
+            if step.passage is not None:
+                yield from self._pass(step.passage, step.before)
+                continue
+            if step.answer is None:
+                for block in step.blocks:
+                    yield from self._keep(block, step.before)
+                continue
+            reason = self._obstacle(step.answer) or self._relying(step.answer, rest, coming)
+            if reason:
+                yield from self._leave(step, step.answer, reason)
+            else:
+                yield from self._replace(step, step.answer)
+        self.watch.finish()
+
+    # What stays as it is
+
+    def _pass(self, passage: Passage, state: State) -> Iterator[str | object]:
+        """Lines that only move, as they are; they are read into words only if they matter."""
+        is_asking = self.watch.asks("".join(passage.lines)) or self.watch.minds(state)
+        texts: list[str] = []
+        for place, line in enumerate(passage.lines):
+            if self.is_opened and self.motion is None and not self.offsets and not is_asking:
+                self.is_marked = passage.lines[-1].startswith(LEFT_MARK)
+                texts.append(self.lines.take(passage, place))
+                break
+            words, number = words_of(line), passage.line + place
+            if words and not self.is_opened:
+                self.is_opened = True
+                self.summary.line_end = self.lines.end_of(number)
+                yield "".join(texts)
+                yield OPENING
+                texts = []
+            if words and is_asking and (self.watch.asks(line) or self.watch.minds(state)):
+                texts += self._keep(parse_block(line.rstrip("\r\n"), number), state)
+                continue
+            if words:
+                if self.motion is not None and motion_of(words) is None:
+                    texts.append(f"G{state.motion:02}" + self.lines.end)
+                self.motion = None
+                if self.offsets:
+                    self.offsets.keep([axis for axis in self.modes.axes if axis not in words])
+            self.is_marked = line.startswith(LEFT_MARK)
+            texts.append(line.rstrip("\r\n") + self.lines.take_end(number))
+        yield "".join(texts)
+
+    def _keep(self, block: Block, state: State, there: int | None = None) -> Iterator[str]:
+        """A block as it is; `there` is the motion that is in force before it in the expanded program."""
+        if block.words or block.macro or block.faults:
+            there = self._motion_before(block, state) if there is None else there
+            if self.motion is not None:
+                before, block = self._restore(block, state)
+                yield from before
+            if self.offsets:
+                self._tell(block, self.offsets.update(block, state))
+            self.watch.look(block, block.words, state, there)
+            self._tell(block, self.numberer.look(block))
+            unread = left_unread(block)
+            if unread:
+                self.summary.left.append(unread)
+                if not self.is_marked:
+                    yield remark(unread.reason) + self.lines.end
+        self.is_marked = block.text.startswith(LEFT_MARK)
+        yield block.text + self.lines.take_end(block.line)
+
+    def _tell(self, block: Block, reason: str) -> None:
+        """Keep in mind what is wrong with a block, if anything is."""
+        if reason:
+            self.summary.left.append(Left((block.line,), reason, (), {block.line: block.text}))
+
+    def _restore(self, block: Block, state: State) -> tuple[list[str], Block]:
+        """What goes before a block, and the block itself, so that the motion that it relies on is in force although a
+        contour before it has left another one."""
+        need, motion, before = reliance(block, self.modes), state.motion, []
+        if need is Reliance.NONE:
+            return [], block
+        if need is not Reliance.ENDS and motion is not None:
+            if motion in STANDING_ALONE:
+                before = [f"G{motion:02}" + self.lines.end]
+            else:
+                block = restate(block, motion)
+                if block.is_skippable:
+                    return [], block
+        self.motion = None
+        return before, block
+
+    def _motion_before(self, block: Block, state: State) -> int | None:
+        """The motion that a block finds in the expanded program: that of a contour before it, unless what the block
+        relies on is said again."""
+        if self.motion is None or reliance(block, self.modes) is not Reliance.ENDS:
+            return state.motion
+        return self.motion
+
+    def _leave(self, step: Step, answer: Answer, reason: str) -> Iterator[str]:
+        """A contour as it was, below a comment that says why."""
+        sources = {block.line: block.text for block in step.blocks}
+        lines = tuple(block.line for block in answer.claim.blocks)
+        self.summary.left.append(Left(lines, reason, answer.diagnostics, sources))
+        first, *others = step.blocks
+        there = self._motion_before(first, step.before)
+        if self.motion is not None:
+            before, first = self._restore(first, step.before)
+            yield from before
+        if not self.is_marked:
+            yield remark(reason) + self.lines.end
+        state = step.before
+        for block in (first, *others):
+            yield from self._keep(block, state, there if block is first else None)
+            state = apply_modes(state, block, self.modes)
+
+    def _obstacle(self, answer: Answer) -> str:
+        """Why a contour cannot be expanded; empty if it can."""
+        errors = [each for each in answer.diagnostics if each.severity is Severity.ERROR]
+        if errors or answer.contour is None:
+            return f"{errors[0].code}: {errors[0].message}" if errors else "the contour is not known"
+        if len({block.is_skippable for block in answer.claim.blocks}) > 1:
+            return "some of its blocks begin with / and some do not: with them skipped, it is another contour"
+        is_open = any(answer.claim.before.axes[axis].is_skippable for axis in answer.plane.axes)
+        if is_open and not answer.claim.blocks[0].is_skippable:
+            return "it begins where a block with / leads: with that block skipped, it is another contour"
+        beside = [word.text for block in answer.claim.blocks for word in answer.claim.beside_plane(block)]
+        if not beside or (len(answer.claim.blocks) == 1 and len(answer.contour.elements) <= 1):
+            return ""
+        return f"{beside[0]} moves an axis outside the plane: move it in a block of its own"
+
+    def _relying(self, answer: Answer, steps: Iterator[Step], coming: deque[Step]) -> str:
+        """Why a contour has to stay because of a block behind it, for which the motion that is in force before it
+        cannot be put in force again; empty if there is none. What is read to see that is added to `coming`."""
+        motion = answer.claim.after.motion
+        if motion in STANDING_ALONE:
+            return ""
+        blocks = (block for step in chain(list(coming), _read_on(steps, coming)) for block in _blocks_of(step))
+        return why_unmet(motion, blocks, self.modes)
+
+    # What is replaced
+
+    def _replace(self, step: Step, answer: Answer) -> Iterator[str]:
+        claim, state = answer.claim, step.before
+        elements = answer.contour.elements if answer.contour else ()
+        parts = {each.block.line: each for each in blocks_of(claim, state, self.modes)}
+        axes = answer.plane.axes
+        here = self._place(answer)
+        had_ended = self.motion is not None
+        motion = self.motion if had_ended else state.motion
+        for block in step.blocks:
+            part = parts.get(block.line)
+            if part is None:
+                yield from self._keep(block, state)
+                continue
+            state = part.state
+            form = self._format(state if answer.plane is state.plane else replace(state, plane=answer.plane))
+            moves: list[Move] = []
+            for segment in (each for each in elements if part.makes(each.name)):
+                for move in emit(segment, here, form, is_rapid=part.is_rapid):
+                    here = move.end
+                    if move.deviation > self.summary.deviation:
+                        self.summary.deviation = move.deviation
+                    if move.words:
+                        moves.append(move)
+            beside = [self._as_written(word, form, state.unit) for word in claim.beside_plane(block)]
+            if beside:
+                move = moves.pop() if moves else Move(0 if part.is_rapid else 1, (), here, 0.0)
+                moves.append(move._replace(words=(*move.words, *beside)))
+            end = self.lines.take_end(block.line)
+            text = self._write(block, moves, end, state)
+            if text:
+                yield text
+            if moves:
+                motion = moves[-1].code
+        self.is_marked = False
+        is_same = motion == claim.after.motion and not (had_ended and claim.blocks[0].is_skippable)
+        self.motion = None if is_same else _NO_MOTION if motion is None else motion
+        contour = answer.contour
+        if contour is not None:
+            self.offsets.leave(axes, here, contour.end)
+        self.summary.replaced += 1
+        self.summary.warn(answer.diagnostics)
+
+    def _place(self, answer: Answer) -> Point:
+        """Where the tool is at the start of a contour, in the expanded program."""
+        (first, second), (one, two) = answer.start.values, self.offsets.take(answer.plane.axes)
+        return float(first or 0) + one, float(second or 0) + two
+
+    def _format(self, state: State) -> Format:
+        key = state.plane.axes, state.unit is Length.INCH, state.is_incremental
+        if key not in self.formats:
+            numbers, post = self.modes.lexicon.numbers, self.options.post
+            own, decimals = post.digits(state.unit, numbers), self.options.decimals
+            self.formats[key] = Format(
+                state.plane,
+                state.unit,
+                own if decimals is None else decimals,
+                post.writes_point(numbers),
+                self.options.arcs,
+                state.is_incremental,
+                own,
+            )
+        return self.formats[key]
+
+    def _as_written(self, word: Word, form: Format, unit: Length) -> str:
+        """A word that moves an axis beside a contour, as the target writes numbers."""
+        value = (self.modes.lexicon.value(word, unit) or Decimal(0)) / unit.in_mm
+        exponent = value.normalize().as_tuple().exponent
+        places = max(form.decimals, -exponent if isinstance(exponent, int) else 0)
+        return word.address + form.number(float(value), f"%.{places}f")
+
+    def _write(self, block: Block, moves: list[Move], end: str, state: State) -> str:
+        """The lines in place of a block. Its number and what it sets stand in the first, what ends it in the last."""
+        frame, rest = frame_of(block.text), carried(block, self.modes)
+        indent = frame.indent
+        lines = [indent + text for text in comment_out(block.text.strip())] if self.options.has_comments else []
+        self.watch.look(block, rest.kept, state, None)
+        comments = [] if self.options.has_comments else own_comments(block.text)
+        texts = [[_NAMES[move.code], *move.words] for move in moves]
+        texts = texts or ([[]] if rest.says_something or comments else [])
+        if texts:
+            texts[0] = [*rest.codes, *texts[0], *rest.words, *comments]
+            texts[-1] += rest.last
+            self._tell(block, self.numberer.number(block, [*rest.numbers], texts))
+        lines += [indent + frame.skip + " ".join(text) for text in texts]
+        if lines:
+            lines[0] = frame.before + lines[0]
+            lines[-1] += frame.behind
+        return (end or self.lines.end).join(lines) + end if lines else ""
+
+
+def _in_turn(steps: Iterator[Step], coming: deque[Step]) -> Iterator[Step]:
+    """Every step, those that have been read ahead first."""
+    for step in steps:
+        yield step
+        while coming:
+            yield coming.popleft()
+
+
+def _read_on(steps: Iterator[Step], coming: deque[Step]) -> Iterator[Step]:
+    for step in steps:
+        coming.append(step)
+        yield step
+
+
+def _blocks_of(step: Step) -> Iterable[Block]:
+    if step.passage is None:
+        return step.blocks
+    return (
+        parse_block(line.rstrip("\r\n"), number) for number, line in enumerate(step.passage.lines, step.passage.line)
+    )
+
+
+def _is_active(block: Block) -> bool:
+    """Whether a block is more than the name of the program."""
+    return bool(block.faults or block.macro) or any(word.address != "O" for word in block.words)

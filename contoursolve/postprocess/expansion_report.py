@@ -1,0 +1,79 @@
+"""What is asked of an expansion, and what became of the contours of the program."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from contoursolve.diagnostics.finding import Diagnostic, Severity
+from contoursolve.gcode import Block, FaultKind
+from contoursolve.postprocess.post_processors import SAME, Arcs, Numbering, Post, Risk
+from contoursolve.postprocess.untranslatable import Unfamiliar
+
+_KEPT_WARNINGS = 20
+"""Warnings that are kept to be shown."""
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """What is asked of an expansion: the target, how it writes arcs, decimals (None: the target's own), whether the
+    original blocks are kept as comments, and block numbers."""
+
+    post: Post = SAME
+    arcs: Arcs = Arcs.CENTER
+    decimals: int | None = None
+    has_comments: bool = True
+    numbering: Numbering = Numbering.FIRST
+
+
+@dataclass(frozen=True, slots=True)
+class Left:
+    """A contour that was left as it is: its lines with their texts, why, and the findings about it."""
+
+    lines: tuple[int, ...]
+    reason: str
+    diagnostics: tuple[Diagnostic, ...]
+    sources: Mapping[int, str]
+
+
+@dataclass(slots=True)
+class Summary:
+    """What became of a program's contours, as far as it has been read; `deviation` is the largest distance of what
+    was written from the exact contours, mm."""
+
+    replaced: int = 0
+    warnings: int = 0
+    """How many warnings there are about contours that were replaced, and lines that may be meant otherwise."""
+    warned: list[Diagnostic] = field(default_factory=list)
+    """The first of them."""
+    deviation: float = 0.0
+    left: list[Left] = field(default_factory=list)
+    unfamiliar: list[Unfamiliar] = field(default_factory=list)
+    line_end: str = "\n"
+    """How the first line that has an end ends."""
+
+    @property
+    def misread(self) -> list[Unfamiliar]:
+        """Of what the target reads in another way, that by which the tool may go another way without an alarm."""
+        return [each for each in self.unfamiliar if each.risk is Risk.PATH]
+
+    def warn(self, findings: Sequence[Diagnostic]) -> None:
+        """Note the warnings among the findings about a contour that was replaced, or about lines that stay."""
+        warnings = [each for each in findings if each.severity is Severity.WARNING]
+        self.warnings += len(warnings)
+        self.warned += warnings[: max(0, _KEPT_WARNINGS - len(self.warned))]
+
+
+@dataclass(frozen=True, slots=True)
+class Expansion:
+    """A program in plain G-code; `text` is None where a contour could not be expanded, or where the target would run
+    something else along another path."""
+
+    text: str | None
+    control: str | None
+    summary: Summary
+
+
+def left_unread(block: Block) -> Left | None:
+    """A block that is too long to be read, and may be a contour."""
+    if all(fault.kind is not FaultKind.BLOCK_TOO_LONG for fault in block.faults):
+        return None
+    return Left((block.line,), f"the block has {len(block.text):,} characters and was not read", (), {})

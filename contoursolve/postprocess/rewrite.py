@@ -1,0 +1,114 @@
+"""Expands a program of any length from an open file into bytes, of which none are delivered before all are known."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import IO
+
+from contoursolve.diagnosis.examine import Policy
+from contoursolve.gcode import Block, Directive, Program, parse, parse_block
+from contoursolve.gcode.files import Tape
+from contoursolve.geometry import Length
+from contoursolve.postprocess.expansion import OPENING, expand_lines, lines_of_facts, opening_of
+from contoursolve.postprocess.expansion_report import Left, Options, Summary, left_unread
+from contoursolve.postprocess.numbering import Numbers
+from contoursolve.postprocess.post_processors import Numbering
+from contoursolve.program.project import configure
+from contoursolve.program.recognise import find_dialect, first_sign
+from contoursolve.reading.dialect import Dialect
+
+_BATCH = 1 << 16
+"""Characters that are encoded at once."""
+
+_CHUNK = 1 << 20
+_REPORTED = 0.01
+"""Share of a program after which the progress is told again."""
+
+
+@dataclass(frozen=True, slots=True)
+class Rewritten:
+    """An expanded program in a temporary file, where the opening goes, and what became of the contours."""
+
+    body: IO[bytes]
+    place: int
+    opening: bytes
+    control: str | None
+    summary: Summary
+
+    def pieces(self) -> Iterator[bytes]:
+        """The bytes of the program, in order."""
+        self.body.seek(0)
+        yield self.body.read(self.place)
+        yield self.opening
+        while chunk := self.body.read(_CHUNK):
+            yield chunk
+
+
+def rewrite(
+    tape: Tape,
+    body: IO[bytes],
+    options: Options,
+    *,
+    control: str | Dialect | None = None,
+    unit: Length = Length.MM,
+    policy: Policy = Policy.ENFORCE,
+    settings: Mapping[str, str] | None = None,
+    start: Program | None = None,
+    facts: Sequence[Directive] = (),
+    progress: Callable[[float], None] = lambda _: None,
+) -> Rewritten:
+    """Expand a program into `body`; `progress` is told which share of it has been read.
+
+    Raises UnknownControlError, SettingError and FactPlaceError, as `solve` does. With facts, all of the program is
+    held in memory, to see which contour they are about.
+    """
+    unread: list[Left] = []
+    named = find_dialect(control) if isinstance(control, str) else control
+    dialect = named or first_sign(_blocks(tape, unread))
+    summary = Summary()
+    body.write(tape.mark)
+    if dialect is None:
+        summary.left += unread
+        lines: Iterable[str | object] = tape.lines()
+    else:
+        dialect = configure(dialect, settings)
+        places = lines_of_facts(parse(tape.read(), tape.name), dialect, unit, start, facts) if facts else {}
+        lines = expand_lines(
+            tape.lines(),
+            dialect,
+            options,
+            summary,
+            unit=unit,
+            policy=policy,
+            start=start,
+            facts=places,
+            is_certain=control is not None,
+            numbers=Numbers(tape.lines()) if options.numbering is Numbering.ALL else None,
+        )
+    held: list[str] = []
+    size, place, told = 0, len(tape.mark), 0.0
+    for line in lines:
+        if line is OPENING:
+            body.write(tape.encode("".join(held)))
+            held, size, place = [], 0, body.tell()
+            continue
+        held.append(str(line))
+        size += len(held[-1])
+        if size >= _BATCH:
+            body.write(tape.encode("".join(held)))
+            held, size = [], 0
+            if tape.share - told >= _REPORTED:
+                told = tape.share
+                progress(told)
+    body.write(tape.encode("".join(held)))
+    opening = opening_of(options, dialect, unit, summary) if dialect else ""
+    return Rewritten(body, place, tape.encode(opening), dialect.name if dialect else None, summary)
+
+
+def _blocks(tape: Tape, unread: list[Left]) -> Iterator[Block]:
+    """The blocks of a program; those that are too long to be read are added to `unread`."""
+    for number, line in enumerate(tape.lines(), 1):
+        block = parse_block(line.rstrip("\r\n"), number)
+        unread += filter(None, [left_unread(block)])
+        yield block

@@ -1,0 +1,259 @@
+"""Contours that differ in their values alone, solved together; whatever is not plainly solved is left alone."""
+
+from collections.abc import Callable, Hashable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import lru_cache
+
+import numpy
+from numpy.typing import NDArray
+
+from contoursolve.diagnosis.examine import Answer, Policy
+from contoursolve.diagnosis.explain import context_of
+from contoursolve.diagnosis.missing_point import is_counted_start, without_point
+from contoursolve.gcode import Word
+from contoursolve.geometry import Length, Line, Profile, System, assemble
+from contoursolve.numeric.expressions import Compiled, inverse_norms
+from contoursolve.reading import Claim, Form, WithoutPoint
+from contoursolve.reading.dialect import Dialect
+from contoursolve.reading.rules import Rule, is_refused_by_values
+from contoursolve.solving import Status
+from contoursolve.solving.certify import certify
+from contoursolve.solving.checks import Check, compile_checks
+from contoursolve.solving.compile import Machine, compile_system
+from contoursolve.solving.contour import trace
+from contoursolve.solving.numbers import inputs_of, sizes_of, solution_at
+from contoursolve.solving.plan import LineCircleStep, TwoCirclesStep
+from contoursolve.solving.row_outcome import Code, Verdict
+from contoursolve.solving.solution import Proof, up_to_one_digit
+from contoursolve.solving.solve import ROUNDING
+from contoursolve.tolerance import AGREEMENT, ERROR_BOUND_WARNING, LARGEST, LENGTH, TOUCHING
+
+Columns = Mapping[str, NDArray[numpy.float64]]
+
+FEWEST = 8
+"""Contours of one kind below which columns take longer than one by one."""
+
+_MADE_OF = ("begin:", "end:", "center:", "turn:")
+"""Outputs that place the corners."""
+
+_FAR_BELOW = 0.25
+"""Share of a limit up to which a value is within it, however the limit is rounded or measured."""
+
+_SMALL = 30_000
+"""A number that is no larger is below the largest value in every unit."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Kind:
+    """Contours with the same words and choices, by one of them about which there is nothing to say."""
+
+    answer: Answer
+    system: System
+    machine: Machine
+    checks: tuple[Check, ...]
+    function: Compiled
+    """The function of the machine, with the margins of the checks."""
+    wanted: tuple[str, ...]
+    """The outputs of which a contour is made."""
+
+
+@dataclass(slots=True)
+class Batch:
+    """Solves contours that a control's rules allow and that differ from one that was examined in their values alone.
+
+    The answers are those of `examine`: the same outputs of the same function, checked in columns.
+    """
+
+    dialect: Dialect
+    policy: Policy
+    is_proven: bool
+    kinds: dict[Hashable, Kind] = field(default_factory=dict)
+
+    @property
+    def rules(self) -> tuple[Rule, ...]:
+        """The rules of the control."""
+        return self.dialect.rules
+
+    def solve(self, claims: Sequence[Claim], examine: Sequence[Callable[[], Answer]]) -> list[Answer]:
+        """The answers to contours whose start is known; `examine` gives that to each of them."""
+        answers: dict[int, Answer] = {}
+        groups: dict[Hashable, list[int]] = {}
+        for number, claim in enumerate(claims):
+            key = self._key(claim)
+            if key is None:
+                answers[number] = examine[number]()
+            else:
+                groups.setdefault(key, []).append(number)
+        for key, numbers in groups.items():
+            rest = list(numbers)
+            while rest and (key not in self.kinds or len(rest) < FEWEST):
+                first = rest.pop(0)
+                answers[first] = examine[first]()
+                self._learn(key, answers[first])
+            if rest:
+                together = self._solve(self.kinds[key], [claims[number] for number in rest])
+                answers |= {number: answer or examine[number]() for number, answer in zip(rest, together, strict=True)}
+        return [answers[number] for number in range(len(claims))]
+
+    def _learn(self, key: Hashable, answer: Answer) -> None:
+        """Whether others can be solved as one that was examined."""
+        if answer.status is Status.SOLVED and not answer.diagnostics and answer.contour and not answer.alternatives:
+            system = assemble(answer.profile)
+            machine = compile_system(system)
+            wanted = (name for name in machine.function.outputs if name in system.unknowns or name.startswith(_MADE_OF))
+            checked = compile_checks(system)
+            kind = Kind(answer, system, machine, checked.checks, checked.tape.finish(), tuple(wanted))
+            self.kinds.setdefault(key, kind)
+
+    def _key(self, claim: Claim) -> Hashable:
+        """What contours of one kind have in common; None where more than the words and their values counts."""
+        if claim.unknown or claim.repeated:
+            return None
+        for block in claim.blocks:
+            if block.faults or block.directives or block.unmarked or block.is_skippable:
+                return None
+            for word in block.words:
+                if word.number is None or (not -_SMALL <= word.number <= _SMALL and self._is_large(word, claim)):
+                    return None
+        before, after = claim.before, claim.after
+        for axis in before.plane.axes:
+            position = before.axes[axis]
+            if position.value is None or position.is_skippable or is_counted_start(position, claim.lexicon):
+                return None
+        sharp = []
+        for size in _sizes(claim.form):
+            given = claim.givens.get(size)
+            if given is not None and given.value <= 0:
+                if given.value < 0:
+                    return None
+                sharp.append(size)
+        if self.policy is not Policy.OFF:
+            values = {name: given.value for name, given in claim.givens.items()}
+            if is_refused_by_values(self.rules, claim.form.roles, values):
+                return None
+        if claim.lexicon.numbers.without_point is WithoutPoint.LEAST_INCREMENTS and self._lacks_points(claim):
+            return None
+        return (
+            claim.form,
+            frozenset(claim.words),
+            frozenset(claim.givens),
+            claim.choices,
+            claim.circumstances,
+            after.unit is Length.INCH,
+            after.plane.code,
+            before.plane.code,
+            *sharp,
+        )
+
+    def _lacks_points(self, claim: Claim) -> bool:
+        """Whether there is something to say of numbers without points."""
+        for given in claim.givens.values():
+            if given.word is not None and not given.word.has_point:
+                return any(True for _ in without_point(context_of(claim, self.rules), claim, ()))
+        return False
+
+    @staticmethod
+    def _is_large(word: Word, claim: Claim) -> bool:
+        """Whether a number is larger than any control travels."""
+        if word.address not in claim.lexicon.addresses:
+            return False
+        value = claim.lexicon.value(word, claim.after.unit)
+        return value is None or abs(value) > LARGEST
+
+    def _solve(self, kind: Kind, claims: Sequence[Claim]) -> list[Answer | None]:
+        """The answers to contours of a kind, as far as nothing speaks against them."""
+        profiles = [_profile_of(claim, kind.answer.profile) for claim in claims]
+        found = _evaluate(kind, [inputs_of(profile, kind.system) for profile in profiles])
+        return [
+            None if row is None else self._answer(kind, claim, profile, *row)
+            for claim, profile, row in zip(claims, profiles, found, strict=True)
+        ]
+
+    def _answer(
+        self, kind: Kind, claim: Claim, profile: Profile, out: Mapping[str, float], bound: float
+    ) -> Answer | None:
+        like, bound = kind.answer, up_to_one_digit(bound)
+        certificate = certify(profile, kind.system, out, bound) if self.is_proven else None
+        if certificate is not None and certificate.proof not in (Proof.EXACT, Proof.UNIQUE):
+            return None
+        contour = trace(profile, solution_at(kind.system, profile.start, sizes_of(profile), out))
+        if contour.crossing is not None:
+            return None
+        return Answer(
+            form=like.form,
+            lines=tuple([block.line for block in claim.blocks]),
+            claim=claim,
+            status=like.status,
+            plane=like.plane,
+            unit=like.unit,
+            start=profile.start,
+            profile=profile,
+            contour=contour,
+            sides=like.sides,
+            error_bound=bound,
+            diagnostics=(),
+            certificate=certificate,
+        )
+
+
+def _profile_of(claim: Claim, like: Profile) -> Profile:
+    """The profile of a claim that differs from another one in its values alone."""
+    return Profile(
+        form=like.form,
+        blocks=claim.blocks,
+        plane=like.plane,
+        unit=like.unit,
+        layout=like.layout,
+        start=claim.before.start(),
+        givens=claim.givens,
+        intersections=like.intersections,
+        choices=claim.choices,
+    )
+
+
+@lru_cache(maxsize=4096)
+def _sizes(form: Form) -> tuple[str, ...]:
+    """The words that are sizes of corners."""
+    return tuple(word for row in form.corners for word in row.shapes)
+
+
+def _evaluate(kind: Kind, inputs: Sequence[Mapping[str, float]]) -> list[tuple[dict[str, float], float] | None]:
+    """The outputs at many inputs and a bound of their errors, mm; None where something speaks against them."""
+    if not inputs:
+        return []
+    function = kind.function
+    rows = [[each[name] for name in function.inputs] for each in inputs]
+    found = function.rows(rows)
+    out = dict(zip(function.outputs, numpy.ascontiguousarray(found.T), strict=True))
+    plain, bounds = _examine(kind, out, len(rows))
+    wanted = numpy.stack([out[name] for name in kind.wanted], axis=1).tolist()
+    return [
+        (dict(zip(kind.wanted, row, strict=True)), bound) if is_plain else None
+        for row, is_plain, bound in zip(wanted, plain.tolist(), bounds.tolist(), strict=True)
+    ]
+
+
+def _examine(kind: Kind, out: Columns, rows: int) -> tuple[NDArray[numpy.bool_], NDArray[numpy.float64]]:
+    """Which rows are solved without anything to say of them, and bounds of the errors of those, mm."""
+    figure, plan = kind.system.figure, kind.machine.plan
+    verdict = Verdict(kind.checks, out, rows)
+    plain = (verdict.status == Code.SOLVED) & (verdict.reason == 0) & ~verdict.again
+    for element in figure.path:
+        if isinstance(element, Line):
+            plain &= numpy.abs(out[f"length:{element.name}"]) > LENGTH
+    for number, step in enumerate(plan.steps):
+        if isinstance(step, LineCircleStep | TwoCirclesStep):
+            gap = numpy.abs(numpy.abs(out[f"offset:{number}"]) - out[f"radius:{number}"])
+            plain &= gap > TOUCHING * out[f"scale:{number}"]
+    for number in range(len(plan.basis), len(plan.basis) + len(plan.checks)):
+        plain &= numpy.abs(out[f"residual:{number}"]) <= _FAR_BELOW * AGREEMENT
+    bounds = numpy.zeros(rows)
+    chosen = numpy.flatnonzero(plain)
+    unknowns = kind.system.unknowns
+    if chosen.size and unknowns:
+        entries = {(row, column): out[name][chosen] for row, column, name in kind.machine.slopes}
+        largest = numpy.max([numpy.ones(chosen.size), *(numpy.abs(out[name][chosen]) for name in unknowns)], axis=0)
+        worst = numpy.max([numpy.abs(out[f"residual:{number}"][chosen]) for number in range(len(unknowns))], axis=0)
+        bounds[chosen] = inverse_norms(entries, len(unknowns), chosen.size) * (worst + ROUNDING * largest)
+        plain &= bounds <= _FAR_BELOW * ERROR_BOUND_WARNING
+    return plain, bounds

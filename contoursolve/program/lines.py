@@ -1,0 +1,100 @@
+"""The lines of a program on their way through an expansion: read into blocks, and their ends kept."""
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
+
+from contoursolve.controls import DIALECTS
+from contoursolve.gcode import LONGEST_BLOCK, Block, Directive, Passage, parse_block
+from contoursolve.program.recognise import several_controls, sign_of
+from contoursolve.program.stream import Line
+from contoursolve.reading import plain_lines
+from contoursolve.reading.dialect import Dialect
+
+_USUAL = "\n"
+"""How a line ends of which nothing else is noted."""
+
+
+_LONGEST = 1_000
+"""Plain lines in a row that go by together."""
+
+
+class Lines:
+    """The lines of a program as blocks; how each of them ends is kept until it is asked for."""
+
+    def __init__(
+        self,
+        lines: Iterable[str],
+        dialect: Dialect,
+        facts: Mapping[int, tuple[Directive, ...]],
+        *,
+        is_certain: bool,
+    ) -> None:
+        self._lines = lines
+        self._facts = facts
+        self._plain = plain_lines(dialect.modes).fullmatch
+        self._longest = 1 if dialect.has_runs else _LONGEST
+        self._others = [other for other in DIALECTS.values() if not is_certain and other.name != dialect.name]
+        self._dialect, self._own = dialect, ""
+        self._ends: dict[int, str] = {}
+        self.end = _USUAL
+        """The end of the last line that has one."""
+
+    def blocks(self) -> Iterator[Line]:
+        plain, facts = self._plain, self._facts
+        held: list[str] = []
+        for number, line in enumerate(self._lines, 1):
+            if plain(line) and len(line) <= LONGEST_BLOCK and number not in facts:
+                held.append(line)
+                if line[-1:] != _USUAL or line[-2:-1] == "\r":
+                    self._put(line, number)
+                if len(held) >= self._longest:
+                    yield Passage(number + 1 - len(held), tuple(held))
+                    held = []
+                continue
+            if held:
+                yield Passage(number - len(held), tuple(held))
+                held = []
+            yield self._read(line, number)
+        if held:
+            yield Passage(number + 1 - len(held), tuple(held))
+
+    def _read(self, line: str, number: int) -> Block:
+        text = self._put(line, number)
+        block = parse_block(text, number)
+        if number in self._facts:
+            block = replace(block, directives=(*block.directives, *self._facts[number]))
+        if self._others:
+            self._own = self._own or sign_of(block, self._dialect)
+        for other in self._others:
+            sign = sign_of(block, other)
+            if sign:
+                raise several_controls({self._dialect.name: self._own, other.name: sign})
+        return block
+
+    def _put(self, line: str, number: int) -> str:
+        """The text of a line; its end is kept."""
+        text = line.rstrip("\r\n")
+        end = line[len(text) :]
+        if end != _USUAL:
+            self._ends[number] = end
+        return text
+
+    def end_of(self, line: int) -> str:
+        """The end of a line that is not taken yet; if it has none, as the lines before it end."""
+        return self._ends.get(line, _USUAL) or self.end
+
+    def take_end(self, line: int) -> str:
+        """The end of a line, which is asked for once."""
+        end = self._ends.pop(line, _USUAL)
+        self.end = end or self.end
+        return end
+
+    def take(self, passage: Passage, place: int) -> str:
+        """The lines of a passage from a place on, with their ends, which are asked for once."""
+        lines = passage.lines[place:]
+        if self._ends:
+            return "".join(
+                line.rstrip("\r\n") + self.take_end(passage.line + place + n) for n, line in enumerate(lines)
+            )
+        self.end = _USUAL
+        return "".join(lines)

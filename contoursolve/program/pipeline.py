@@ -1,0 +1,441 @@
+"""The order of the stages: from the text of a program to its contours and findings."""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import islice
+from typing import TYPE_CHECKING, cast
+
+from contoursolve.controls import DIALECTS
+from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine, rank
+from contoursolve.diagnosis.explain import Context, report
+from contoursolve.diagnosis.spelling import (
+    explain_asked_outside,
+    explain_faults,
+    explain_start_units,
+    explain_unmarked,
+    explain_words,
+)
+from contoursolve.diagnostics.display import Shown
+from contoursolve.diagnostics.finding import Basis, Diagnostic, Severity
+from contoursolve.diagnostics.source import Span
+from contoursolve.gcode import (
+    Block,
+    Directive,
+    FaultKind,
+    Passage,
+    Program,
+    Word,
+    find_lookalikes,
+    has_lookalike_code,
+    parse_block,
+)
+from contoursolve.geometry import Length, Plane
+from contoursolve.program.recognise import what_shows
+from contoursolve.program.solve_queue import Pending, Previous, Queue, Step, Together
+from contoursolve.program.stream import Line, View, go_on, pass_plainly
+from contoursolve.program.tape_markers import Marks
+from contoursolve.reading import Claim, State, Trouble, advance, advance_plainly, is_plain, next_place
+from contoursolve.reading.dialect import Dialect
+from contoursolve.reading.follow import contours_of, state_facts
+
+if TYPE_CHECKING:
+    from contoursolve.statements import Statement
+
+
+@dataclass(frozen=True, slots=True)
+class Result(Shown):
+    """All contours and findings of a program; `control` is None where there was nothing to tell it by."""
+
+    program: Program
+    control: str | None
+    answers: tuple[Answer, ...]
+    diagnostics: tuple[Diagnostic, ...]
+    start: Program | None = None
+    """What stated the start point apart from the program; its line is line 0."""
+    facts: tuple[Directive, ...] = ()
+    """What was stated apart from the program; their lines are -1, -2, ..."""
+    settings: Mapping[str, str] = field(default_factory=dict)
+    """The settings of the control that are not the default ones, by name."""
+    policy: Policy = Policy.ENFORCE
+
+    @property
+    def has_errors(self) -> bool:
+        """Whether any finding is an error."""
+        return any(each.severity is Severity.ERROR for each in self.diagnostics)
+
+    def lines_of(self, finding: Diagnostic) -> tuple[int, ...]:
+        """The lines that a fix of a finding replaces: those of its contour, or its own."""
+        own = next((each for each in self.answers if finding in each.diagnostics), None)
+        return own.lines if own else (self.place(finding.span).line,)
+
+    def place(self, span: Span) -> Span:
+        """The place itself, or for what was stated apart from the program the block that it is about."""
+        if span.line > 0:
+            return span
+        lines = [answer.lines[-1] for answer in self.answers]
+        blocks = [block for block in self.program.blocks if block.words or block.line in lines]
+        block = next((block for block in blocks if block.line in lines), blocks[-1] if blocks else None)
+        return block.span if block else Span(1, 1, 2)
+
+
+class FactPlaceError(ValueError):
+    """Facts were stated apart from a program with several contours; the message says what to do."""
+
+
+def attach(
+    program: Program, dialect: Dialect, unit: Length, start: Program | None, facts: Sequence[Directive]
+) -> tuple[Program, tuple[Directive, ...]]:
+    """The program with further facts in the last block of its only contour, or else of its last block; and the facts,
+    those that are no texts in words. Raises FactPlaceError if there are several contours."""
+    before = dialect.initial_state(unit)
+    contours = [each for each, _ in contours_of(program.blocks, dialect.find, dialect.modes, before, start)]
+    if len(contours) > 1:
+        lines = ", ".join(str(each.blocks[0].line) for each in contours)
+        raise FactPlaceError(
+            f"the program has {len(contours)} contours (lines {lines}); write the fact into the block that it is "
+            "about, as a comment (contoursolve: ...)"
+        )
+    state, own = (contours[0].after, contours[0].blocks) if contours else (before, ())
+    worded = tuple(_in_words(fact, state.plane, state.unit) for fact in facts)
+    return state_facts(program, own, worded), worded
+
+
+def _in_words(fact: Directive, plane: Plane, unit: Length) -> Directive:
+    """A fact with the text that states it."""
+    if fact.statement is None:
+        return fact
+    from contoursolve.statements import write_statement  # noqa: PLC0415 - few programs need it
+
+    text = write_statement(cast("Statement", fact.statement), plane, unit)
+    return replace(fact, text=text, span=Span(fact.span.line, 1, len(text) + 1))
+
+
+def run(
+    program: Program,
+    dialect: Dialect | None,
+    unit: Length,
+    policy: Policy,
+    depth: Depth = Depth.FULL,
+    start: Program | None = None,
+    facts: Sequence[Directive] = (),
+    together: Together | None = None,
+) -> Result:
+    """Examine every block of a program and solve every contour, one by one or `together`.
+
+    `start` is a block that states the start point apart from the program, `facts` are further facts about its
+    only contour; raises FactPlaceError if it has several. Without a dialect only the characters of the program are
+    examined.
+    """
+    return Run(program, dialect, unit, policy, depth, start, facts, together).collect()
+
+
+class Run:
+    """The same as a stream: contours, and findings about other blocks, as they are found. `frame` is the result without
+    them. Raises FactPlaceError."""
+
+    def __init__(
+        self,
+        program: Program,
+        dialect: Dialect | None,
+        unit: Length,
+        policy: Policy,
+        depth: Depth = Depth.FULL,
+        start: Program | None = None,
+        facts: Sequence[Directive] = (),
+        together: Together | None = None,
+    ) -> None:
+        if facts and dialect is not None:
+            program, facts = attach(program, dialect, unit, start, facts)
+        control, settings = (dialect.name, dialect.modes.settings) if dialect else (None, {})
+        self.frame = Result(program, control, (), (), start, tuple(facts), settings, policy)
+        self._examiner = _Examiner(dialect, unit, policy, depth, together)
+
+    def __iter__(self) -> Iterator[Answer | Diagnostic]:
+        program, examiner, is_told = self.frame.program, self._examiner, False
+        # Blocks that are not kept are read as they are needed.
+        is_whole = isinstance(program.blocks, tuple) or self.frame.control is None
+        for step in examiner.steps(program.blocks if is_whole else iter(program.blocks), self.frame.start):
+            is_told = is_told or any(each.severity is Severity.ERROR for each in step.findings)
+            yield from step.findings
+            if isinstance(step.answer, Answer):
+                is_told = True
+                yield step.answer
+        if not is_told:
+            yield examiner.nothing_to_solve(program.blocks)
+
+    def collect(self) -> Result:
+        """All of it."""
+        items = list(self)
+        answers = [each for each in items if isinstance(each, Answer)]
+        everything = [each for each in items if isinstance(each, Diagnostic)]
+        everything += [each for answer in answers for each in answer.diagnostics]
+        return replace(self.frame, answers=tuple(answers), diagnostics=tuple(sorted(everything, key=rank)))
+
+
+def without_contour(finding: Diagnostic) -> Diagnostic:
+    """The finding as `check` reports it: that there is nothing to solve is a warning then."""
+    return replace(finding, severity=Severity.WARNING) if finding.about is Trouble.NO_CONTOUR else finding
+
+
+def walk(
+    blocks: Iterable[Line],
+    dialect: Dialect,
+    unit: Length,
+    policy: Policy,
+    depth: Depth,
+    start: Program | None = None,
+    together: Together | None = None,
+) -> Iterator[Step]:
+    """Every block and every contour of a program in order; blocks that are not a sequence are read as they are needed,
+    so that a program of any length takes no more memory than some thousand lines, or its longest contour. Plain lines
+    are read into words only where that matters. Contours are solved one by one, or `together`."""
+    return _Examiner(dialect, unit, policy, depth, together).steps(blocks, start)
+
+
+_FAULTS_OF_NO_CONSEQUENCE = (FaultKind.STRAY_CHARACTER,)
+"""Faults that are only worth a warning in a block that is not a contour."""
+
+_NEAR = 8
+"""Blocks at a place that are looked at together for what may have been meant there."""
+
+_BEHIND = 32
+"""Blocks after a contour of which a repair may make a part of it: the rest of a chain that a comma joins."""
+
+_BATCH = 1_000
+"""Blocks that are read at once."""
+
+_FIRST, _WINDOW = 16, 4_096
+"""Steps of a program of which the contours are solved together while it is read: in the beginning, when nothing is
+known, and later."""
+
+_WHOLE = 32_768
+"""The same for a program that has been read: the more there are of a kind, the less each of them takes."""
+
+
+class _Examiner:
+    """One pass over one program: the modal state as it goes, and the findings outside contours."""
+
+    def __init__(
+        self, dialect: Dialect | None, unit: Length, policy: Policy, depth: Depth, together: Together | None = None
+    ) -> None:
+        self.dialect = dialect
+        self.unit = unit
+        self.policy = policy
+        self.depth = depth
+        self.rules = dialect.rules if dialect else DIALECTS["yasnac-lx3"].rules
+        self.together = together
+        self.diagnostics: list[Diagnostic] = []
+        self.marks = Marks(Context(self.rules, unit))
+        self.previous: Previous | None = None
+        """The last contour or block that says something, and the state before it: with a comma in the next block, it
+        may be part of the contour there."""
+        self.start_unit = unit
+        """In which a start point that is stated apart counts, until a contour has another unit."""
+        self.queue = Queue(dialect or DIALECTS["yasnac-lx3"], together, self._examine)
+
+    def steps(self, blocks: Iterable[Line], start: Program | None) -> Iterator[Step]:
+        """Every block and every contour, in order; without a dialect, only what is found."""
+        window: list[Step | Pending] = []
+        size, most = (_WHOLE, _WHOLE) if isinstance(blocks, Sequence) else (_FIRST, _WINDOW)
+        if self.together is None:
+            size, most = 1, 1
+        for each in self._walk(blocks, start):
+            window.append(each)
+            if len(window) >= size:
+                self.queue.settle()
+                yield from (other.step if isinstance(other, Pending) else other for other in window)
+                window, size = [], min(2 * size, most)
+        self.queue.settle()
+        yield from (other.step if isinstance(other, Pending) else other for other in window)
+
+    def _walk(self, blocks: Iterable[Line], start: Program | None) -> Iterator[Step | Pending]:
+        """Every block and every contour, in order, contours as they are found."""
+        if self.dialect is None:
+            read, is_shown = cast("Sequence[Block]", blocks), False
+            for index, block in enumerate(read):
+                self.diagnostics += self.marks.look(block)
+                self._check_block(block)
+                # One line is enough: with that mended, the control is known.
+                is_shown = is_shown or (has_lookalike_code(block) and self._check_letters_of_any(read, index, start))
+            self.diagnostics += self.marks.finish()
+            none = DIALECTS["yasnac-lx3"].initial_state(self.unit)
+            yield Step((), none, findings=self._findings())
+            return
+        dialect = self.dialect
+        state = dialect.initial_state(self.unit)
+        for block in start.blocks if start else ():
+            self._check_block(block)
+            state = advance(state, block, dialect.modes)
+        self.start_unit = state.unit
+        is_whole, index, size = isinstance(blocks, Sequence), 0, _FIRST
+        held: list[Line] = list(blocks) if is_whole else []
+        rest = iter(() if is_whole else blocks)
+        while True:
+            if index >= len(held) - 1 and not is_whole:
+                more, size = list(islice(rest, size)), min(2 * size, _BATCH)
+                held, index, is_whole = [*held[index:], *more], 0, not more
+                continue
+            if index >= len(held):
+                self.diagnostics += self.marks.finish()
+                if self.diagnostics:
+                    yield Step((), state, findings=self._findings())
+                return
+            if isinstance(held[index], Passage):
+                passed = pass_plainly(held, index, moves=is_plain(state), joins=dialect.has_runs)
+                if passed:
+                    self.diagnostics += self.marks.look(passed)
+                    yield Step((), state, findings=self._findings(), passage=passed)
+                    state = advance_plainly(state, passed, dialect.modes)
+                    held, index = go_on(held, index, len(passed.lines))
+                    continue
+            view = View(held, index)
+            if not is_whole and not view.holds(1 + _NEAR):
+                more = list(islice(rest, _BATCH))
+                held, index, is_whole = [*held[index:], *more], 0, not more
+                continue
+            block = view[0]
+            found = dialect.find(view, 0, state, dialect.modes)
+            after = 1
+            if isinstance(found, Claim):
+                after += found.blocks[-1].line - block.line
+            if not is_whole and not (view.says_something(after) and view.holds(after + _BEHIND)):
+                # Whether a contour goes on is known at the next block that says something.
+                more = list(islice(rest, _BATCH))
+                held, index, is_whole = [*held[index:], *more], 0, not more
+                continue
+            blocks_of_step = (block,) if after == 1 else tuple(view[:after])
+            for each in blocks_of_step:
+                self.diagnostics += self.marks.look(each)
+            if isinstance(found, Claim) and found.form.is_contour:
+                self._check_units(start, found)
+                step = Step(blocks_of_step, state, findings=self._findings())
+                pending = self.queue.add(found, step, view, after, self.previous)
+                self.previous = found.blocks, state
+                yield pending
+                state = self.queue.leave(pending)
+            else:
+                before = state
+                state = advance(state, block, dialect.modes)
+                if isinstance(found, Claim):
+                    # Read as a contour is, but none.
+                    answer = self._examine(found, Pending(found, Step((), before), view, after))
+                    self.diagnostics += answer.diagnostics if answer.start.is_known else ()
+                    self._check_units(start, found)
+                else:
+                    self._check_block(block)
+                    self._check_slips(view, (before, state))
+                self.previous = ((block,), before) if block.words else self.previous
+                yield Step(blocks_of_step, before, findings=self._findings())
+            held, index = go_on(held, index, after)
+
+    def _check_slips(self, blocks: Sequence[Block], states: tuple[State, State]) -> None:
+        """Whether the first of some lines would be a contour without a slip."""
+        block, dialect = blocks[0], self.dialect
+        if dialect is None or self.depth is Depth.VERDICT:
+            return
+        context = Context(self.rules, self.unit, place=block.span)
+        if any(f",{word.address}" in dialect.modes.lexicon.addresses for word in block.words):
+            from contoursolve.diagnosis.other_readings import explain_commas  # noqa: PLC0415 - few programs need it
+
+            self.diagnostics += explain_commas(context, dialect, blocks[:_NEAR], states, self.previous)
+        codes = dialect.modes.codes
+        if any(word.address == "G" and word.number is not None and word.number not in codes for word in block.words):
+            from contoursolve.diagnosis.other_readings import explain_codes  # noqa: PLC0415 - few programs need it
+
+            self.diagnostics = [*explain_codes(context, dialect, blocks[:_NEAR], states[0], self.diagnostics)]
+        if has_lookalike_code(block):
+            self._check_letters(dialect, blocks[:_NEAR], states[0])
+
+    def _check_letters(self, dialect: Dialect, blocks: Sequence[Block], before: State) -> None:
+        """Whether the first of some lines would be a contour with digits for letters, as the control would read it."""
+        from contoursolve.diagnosis.other_readings import explain_letters  # noqa: PLC0415 - few programs need it
+
+        block = blocks[0]
+        own = [each for each in self.diagnostics if each.span.line == block.line]
+        others = [each for each in self.diagnostics if each.span.line != block.line]
+        context = Context(self.rules, self.unit, place=block.span)
+        self.diagnostics = [*others, *explain_letters(context, dialect, blocks, before, own)]
+
+    def _check_letters_of_any(self, blocks: Sequence[Block], index: int, start: Program | None) -> bool:
+        """The same for a line of a program that shows no control, by the control that shows if they are digits; whether
+        there is one."""
+        meant = parse_block(" ".join(each.new for each in find_lookalikes(blocks[index])), blocks[index].line)
+        dialect = next((each for each in DIALECTS.values() if each.signs(meant)), None)
+        if dialect is None:
+            return False
+        state = dialect.initial_state(self.unit)
+        for block in (*(start.blocks if start else ()), *islice(blocks, index)):
+            state = advance(state, block, dialect.modes)
+        self._check_letters(dialect, blocks[index : index + _NEAR], state)
+        return True
+
+    def _findings(self) -> tuple[Diagnostic, ...]:
+        """What was found since the last step."""
+        findings, self.diagnostics = tuple(self.diagnostics), []
+        return findings
+
+    def _examine(self, found: Claim, pending: Pending) -> Answer:
+        """The answer to a contour, with the values that it asks for filled in."""
+        dialect, blocks, after, state = self.dialect, pending.view, pending.after, pending.step.before
+        if dialect is None:
+            raise ValueError("without a control there is no contour")
+        answer = examine(
+            found, self.rules, self.policy, lambda: next_place(blocks[after:], found, dialect.modes), self.depth
+        )
+        if answer.contour is not None and any(value.value is not None for value in answer.answers):
+            from contoursolve.diagnosis.fill import fill_in  # noqa: PLC0415 - few blocks ask for a value
+
+            answer = replace(answer, filled=fill_in(answer, state, dialect))
+        # A path across the spindle axis is as the words say it.
+        told = (each for each in answer.diagnostics if each.about is not Trouble.AXIS_CROSSED)
+        has_findings = any(each.severity is not Severity.INFO for each in told)
+        if has_findings and self.depth is not Depth.VERDICT:
+            # Most programs need no diagnosis, and none should wait for its import.
+            from contoursolve.diagnosis.diagnose import diagnose  # noqa: PLC0415
+
+            answer = diagnose(answer, dialect, self.policy, blocks[after : after + _BEHIND], pending.previous)
+        elif self.depth is not Depth.VERDICT and any(
+            each.about is Trouble.POINT_MISSING for each in answer.diagnostics
+        ):
+            from contoursolve.diagnosis.diagnose import mend_points  # noqa: PLC0415
+
+            answer = mend_points(answer, dialect)
+        return answer
+
+    def _check_units(self, start: Program | None, found: Claim) -> None:
+        """Whether a contour is in the units in which the start point was stated apart from the program."""
+        if start and found.after.unit is not self.start_unit:
+            place = Context(self.rules, self.start_unit, place=start.blocks[0].span)
+            self.diagnostics.append(explain_start_units(place, found.after.unit, start.blocks[0]))
+        self.start_unit = found.after.unit
+
+    def nothing_to_solve(self, blocks: Sequence[Block]) -> Diagnostic:
+        """The finding that a program has no contour block."""
+        own = self.dialect.name if self.dialect else None
+        controls = (self.dialect,) if self.dialect else DIALECTS.values()
+        triggers = [f"of {each.name}: {each.contours}" for each in controls]
+        others = ((name, what_shows(blocks, each)) for name, each in DIALECTS.items() if own not in (None, name))
+        triggers += [f"{sign} is for {name}: try --control {name}" for name, sign in others if sign]
+        context = Context(self.rules, self.unit)
+        return report(context, context.row(Trouble.NO_CONTOUR), Basis.RULE, [], triggers="; ".join(triggers))
+
+    def _check_block(self, block: Block) -> None:
+        context = Context(self.rules, self.unit, place=block.span)
+        for finding in explain_faults(context, block):
+            is_slight = finding.about in _FAULTS_OF_NO_CONSEQUENCE
+            self.diagnostics.append(replace(finding, severity=Severity.WARNING) if is_slight else finding)
+        self.diagnostics += explain_unmarked(context, block)
+        for directive in block.directives:
+            place = Context(self.rules, self.unit, place=directive.span)
+            self.diagnostics.append(report(place, place.row(Trouble.FACT_NOWHERE), Basis.RULE, []))
+        self.diagnostics += explain_asked_outside(context, block) if self.dialect else ()
+        if self.dialect:
+            lexicon = self.dialect.modes.lexicon
+            addresses = lexicon.addresses
+            axis_words = [word for word in block.words if word.address in addresses and addresses[word.address].axis]
+            self.diagnostics += explain_words(context, lexicon, _repeated(axis_words), axis_words)
+
+
+def _repeated(words: Sequence[Word]) -> list[Word]:
+    seen: set[str] = set()
+    return [word for word in words if word.address in seen or seen.add(word.address)]  # type: ignore[func-returns-value]

@@ -1,0 +1,146 @@
+"""The project file: settings of the controls for all programs of a folder and the folders in it.
+
+`contoursolve.toml`, or the table `tool.contoursolve` of `pyproject.toml`, with one table a control:
+
+    [nct-99m]
+    circle-circle-q = "right-is-negative"
+"""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from contoursolve.controls import DIALECTS
+from contoursolve.reading.dialect import Dialect
+
+OWN, SHARED = "contoursolve.toml", "pyproject.toml"
+
+
+class SettingError(ValueError):
+    """A setting that there is not, or a project file that cannot be read; the message says what there is."""
+
+
+def find_settings(folder: Path) -> dict[str, str]:
+    """The settings, by `control.name`, of the first project file in a folder or the folders above it.
+
+    Raises SettingError, naming the file.
+    """
+    try:
+        above = folder.resolve().parents
+    except OSError:  # the folder is gone
+        return {}
+    for place in (folder, *above):
+        for name in (OWN, SHARED):
+            file = place / name
+            table = _table(file) if file.exists() else None
+            if table is not None:
+                return _settings(table, file)
+    return {}
+
+
+def read_setting(text: str) -> tuple[str, str]:
+    """`control.name=value` as name and value. Raises SettingError."""
+    name, equals, value = text.partition("=")
+    if not equals or not name.strip() or not value.strip():
+        raise SettingError(f"{text!r} is no setting; write CONTROL.NAME=VALUE, such as {_example()}")
+    return name.strip(), value.strip()
+
+
+def configure(dialect: Dialect, settings: Mapping[str, str] | None) -> Dialect:
+    """A control, which need not be built in, with those of the settings by `control.name` that are about it.
+
+    Raises SettingError, naming what there is.
+    """
+    if not settings:
+        return dialect
+    return _configured(settings, {**DIALECTS, dialect.name: dialect}).get(dialect.name, dialect)
+
+
+def check_settings(settings: Mapping[str, str]) -> None:
+    """Raise SettingError, naming what there is, for a setting that no control has."""
+    _configured(settings, DIALECTS)
+
+
+def _configured(settings: Mapping[str, str], controls: Mapping[str, Dialect]) -> dict[str, Dialect]:
+    """The controls that settings are about, with these values."""
+    values: dict[str, dict[str, str]] = {}
+    for full, value in settings.items():
+        control, _, name = full.partition(".")
+        if control not in controls or not name:
+            raise SettingError(f"there is no setting {full!r}; write CONTROL.NAME, such as {_example()}")
+        values.setdefault(control, {})[name] = value
+    try:
+        return {control: controls[control].configure(given) for control, given in values.items()}
+    except ValueError as error:
+        raise SettingError(str(error)) from None
+
+
+def _example() -> str:
+    names = (
+        f"{dialect.name}.{setting.name}={setting.default}"
+        for dialect in DIALECTS.values()
+        for setting in dialect.settings
+    )
+    return next(names, "")
+
+
+def _table(file: Path) -> dict[str, Any] | None:
+    """What a file says about contoursolve; None if nothing."""
+    import tomllib  # noqa: PLC0415 - most folders have no such file
+
+    if file.is_dir():
+        if file.name == SHARED:
+            return None
+        raise SettingError(f"{file} is a directory, not a file of settings")
+    is_shared, text = file.name == SHARED, ""
+    try:
+        text = _text(file)
+        if is_shared and "contoursolve" not in text:
+            return None  # another tool's business
+        data = tomllib.loads(text)
+    except UnicodeDecodeError:
+        if is_shared:
+            return None
+        raise SettingError(f"{file} cannot be read: it is not UTF-8 text") from None
+    except RecursionError:
+        if is_shared and "tool.contoursolve" not in text:
+            return None
+        raise SettingError(f"{file} cannot be read: its brackets are nested too deeply") from None
+    except (OSError, ValueError) as error:
+        # A number of thousands of digits is a ValueError, too.
+        if is_shared and "tool.contoursolve" not in text:
+            return None
+        reason = error.strerror if isinstance(error, OSError) else str(error).partition(";")[0]
+        raise SettingError(f"{file} cannot be read: {reason}") from None
+    tool = data if not is_shared else data.get("tool")
+    table = tool.get("contoursolve") if is_shared and isinstance(tool, dict) else tool
+    return table if isinstance(table, dict) else None
+
+
+_MOST = 50_000
+"""Bytes of a file of settings; all settings of all controls take 1,000."""
+
+
+def _text(file: Path) -> str:
+    """The text of a regular file: of a pipe or a device nobody knows whether it ends."""
+    if not file.is_file():
+        raise OSError(0, "it is not a regular file")
+    if file.name == OWN and file.stat().st_size > _MOST:
+        raise OSError(0, f"it has more than {_MOST:,} bytes, which no settings take")
+    return file.read_text(encoding="utf-8")
+
+
+def _settings(table: Mapping[str, Any], file: Path) -> dict[str, str]:
+    settings: dict[str, str] = {}
+    for control, own in table.items():
+        if not isinstance(own, dict):
+            raise SettingError(f"{file}: {control!r} stands in no table; write [CONTROL] above it, such as [nct-99m]")
+        for name, value in own.items():
+            if isinstance(value, (dict, list)):
+                raise SettingError(f"{file}: {control}.{name} is a table or a list; write {name} = VALUE")
+            settings[f"{control}.{name}"] = str(value)
+    try:
+        check_settings(settings)
+    except SettingError as error:
+        raise SettingError(f"{file}: {error}") from None
+    return settings

@@ -1,0 +1,111 @@
+"""The lines of a program that are read ahead: blocks, and what nobody needs to read into words yet."""
+
+from collections.abc import Iterator, Sequence
+from itertools import islice
+from typing import overload
+
+from contoursolve.gcode import Block, Passage, parse_block
+from contoursolve.reading import words_of
+
+Line = Block | Passage
+"""A line of a program, or several, read as far as it was needed."""
+
+
+class View(Sequence[Block]):
+    """The blocks from a place on; plain lines are read into words when somebody looks at them."""
+
+    def __init__(self, held: list[Line], index: int) -> None:
+        self.held, self.first = held, index
+        self.blocks: list[Block] = []
+        self.rest = each_block(held, index)
+
+    def __len__(self) -> int:
+        return sum(len(each.lines) if isinstance(each, Passage) else 1 for each in self.held[self.first :])
+
+    @overload
+    def __getitem__(self, index: int) -> Block: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> list[Block]: ...
+
+    def __getitem__(self, index: int | slice) -> Block | list[Block]:
+        last = (len(self) if index.stop is None else index.stop) if isinstance(index, slice) else index + 1
+        self.blocks += islice(self.rest, max(0, last - len(self.blocks)))
+        return self.blocks[index]
+
+    def holds(self, count: int) -> bool:
+        """Whether there are at least so many lines."""
+        for place in range(self.first, len(self.held)):
+            each = self.held[place]
+            count -= len(each.lines) if isinstance(each, Passage) else 1
+            if count <= 0:
+                return True
+        return False
+
+    def lines(self, first: int) -> Iterator[tuple[int, str]]:
+        """The lines from an index on as text, with their numbers."""
+        for place in range(self.first, len(self.held)):
+            each = self.held[place]
+            count = len(each.lines) if isinstance(each, Passage) else 1
+            if first < count and isinstance(each, Passage):
+                yield from enumerate(each.lines[max(0, first) :], each.line + max(0, first))
+            elif first < count and not isinstance(each, Passage):
+                yield each.line, each.text
+            first -= count
+
+    def says_something(self, first: int) -> bool:
+        """Whether any block from an index on has more than its number."""
+        place, number = self.first, 0
+        while place < len(self.held):
+            each = self.held[place]
+            lines = each.lines if isinstance(each, Passage) else (each,)
+            if any(map(_says_something, lines[max(0, first - number) :])):
+                return True
+            place, number = place + 1, number + len(lines)
+        return False
+
+
+def each_block(held: Sequence[Line], index: int) -> Iterator[Block]:
+    """The blocks from an index on."""
+    for place in range(index, len(held)):
+        each = held[place]
+        if isinstance(each, Passage):
+            for number, line in enumerate(each.lines, each.line):
+                yield parse_block(line.rstrip("\r\n"), number)
+        else:
+            yield each
+
+
+def pass_plainly(held: Sequence[Line], index: int, *, moves: bool, joins: bool) -> Passage | None:
+    """The plain lines in a row from an index on that need not be read into words: up to the last one that moves if
+    the next contour may begin with it (`joins`); if lines that move need be (not `moves`), up to the first one."""
+    lines: list[str] = []
+    for place in range(index, len(held)):
+        each = held[place]
+        if not isinstance(each, Passage):
+            break
+        lines += each.lines
+    if not moves or joins:
+        order = range(len(lines)) if not moves else range(len(lines) - 1, -1, -1)
+        stop = next((place for place in order if words_of(lines[place])), len(lines))
+        lines = lines[:stop]
+    return Passage(held[index].line, tuple(lines)) if lines else None
+
+
+def go_on(held: list[Line], index: int, rest: int) -> tuple[list[Line], int]:
+    """The lines that are held, and the index behind so many of them; a passage that goes on there is cut."""
+    while rest:
+        each = held[index]
+        if isinstance(each, Passage) and len(each.lines) > rest:
+            # Whoever looks at the old list later finds it as it was.
+            return [Passage(each.line + rest, each.lines[rest:]), *held[index + 1 :]], 0
+        rest -= len(each.lines) if isinstance(each, Passage) else 1
+        index += 1
+    return held, index
+
+
+def _says_something(line: Block | str) -> bool:
+    """Whether a line has more than its number."""
+    if isinstance(line, str):
+        return bool(words_of(line))
+    return bool(line.faults or line.macro) or any(word.address not in "NO" for word in line.words)

@@ -1,0 +1,96 @@
+"""Text outside the % that begin and end a program: controls do not read it, and here it is read as blocks."""
+
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+
+from contoursolve.diagnosis.explain import Context, report
+from contoursolve.diagnostics.finding import Basis, Diagnostic
+from contoursolve.diagnostics.source import Span
+from contoursolve.gcode import Block, Passage
+from contoursolve.reading import Trouble, words_of
+
+_OUTSIDE_COMMENTS = re.compile(r"\([^)]*\)?|;.*|(?P<mark>%)")
+
+
+class Marks:
+    """Follows the % of one program, as ISO 6983 and RS-274 have them on a tape: one before its first block, one behind
+    its last; a single one behind blocks ends it. One finding a side names the first line there."""
+
+    def __init__(self, context: Context) -> None:
+        self.context = context
+        self.first: Span | None = None
+        """The first block, as long as no % has come before or behind it."""
+        self.before: tuple[Span, int] | None = None
+        """The first block of a program that did not begin with %, and the line of the % behind it."""
+        self.after: Span | None = None
+        """The first block behind that %."""
+        self.opened = 0
+        """The line of the % that begins the program."""
+        self.closed = 0
+        """The line of the % that ends it."""
+        self.is_done = False
+
+    def look(self, line: Block | Passage) -> Iterator[Diagnostic]:
+        """What the next line, or the next lines that only move, show to be outside."""
+        if self.is_done:
+            return
+        is_inside = self.first is not None and not self.closed and self.before is None
+        if is_inside and not (isinstance(line, Block) and "%" in line.text):
+            return
+        span: Span | None
+        if isinstance(line, Passage):
+            span = _first_words(line)
+        else:
+            mark = next((found for found in _OUTSIDE_COMMENTS.finditer(line.text) if found["mark"]), None)
+            if mark is not None:
+                if line.words and line.words[0].span.column <= mark.start():
+                    yield from self._say(line.span)
+                yield from self._mark(line.line)
+                return
+            span = line.span if line.words or line.macro or line.faults else None
+        if span is not None:
+            yield from self._say(span)
+
+    def _say(self, span: Span) -> Iterator[Diagnostic]:
+        """A block that says something."""
+        if self.closed:
+            self.is_done = True
+            yield self._outside(span, "behind", "ends", self.closed)
+        elif self.before is not None:
+            self.after = self.after or span
+        else:
+            self.first = self.first or span
+
+    def _mark(self, line: int) -> Iterator[Diagnostic]:
+        """A %."""
+        if self.before is not None:
+            span, first = self.before
+            if self.after is not None:
+                # There are two, so that the first one begins the program.
+                yield self._outside(span, "before", "begins", first)
+            self.before, self.closed = None, line if self.after is not None else first
+        elif self.opened:
+            self.closed = self.closed or line
+        elif self.first is not None and not self.closed:
+            self.before = self.first, line
+        else:
+            self.opened = line
+
+    def finish(self) -> Iterator[Diagnostic]:
+        """What the end of the program shows to be outside."""
+        if self.before is not None and self.after is not None:
+            yield self._outside(self.after, "behind", "ends", self.before[1])
+
+    def _outside(self, span: Span, side: str, does: str, line: int) -> Diagnostic:
+        rule, place = self.context.row(Trouble.TEXT_OUTSIDE), replace(self.context, place=span)
+        return report(place, rule, Basis.RULE, [], side=side, does=does, mark=f"line {line}")
+
+
+def _first_words(passage: Passage) -> Span | None:
+    """The first of some plain lines that says something."""
+    for number, line in enumerate(passage.lines, passage.line):
+        if words_of(line):
+            text = line.rstrip("\r\n")
+            return Block(number, text, ()).span
+    return None

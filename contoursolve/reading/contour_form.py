@@ -1,0 +1,212 @@
+"""A contour form as tables: its points, the facts that words state, its path; and settings and assumptions."""
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from decimal import Decimal
+from functools import lru_cache
+from itertools import product
+
+from contoursolve.diagnostics.source import Evidence, Source
+from contoursolve.geometry import Arc, Corner, CornerShape, Fact, Figure, Layout, Line, Role
+from contoursolve.reading.rules import Condition, Stated
+
+
+@dataclass(frozen=True, slots=True)
+class Setting:
+    """One convention: what it decides, its values with what each means, the one in force unless told otherwise,
+    and why.
+
+    The value of one with `bounds` is a number between them, both in mm, and its values are the default one alone.
+    """
+
+    name: str
+    meaning: str
+    values: Mapping[str, str]
+    default: str
+    source: Source
+    bounds: tuple[Decimal, Decimal] | None = None
+
+    def choices(self, value: str) -> str:
+        """What it can be, if it cannot have this value; else empty."""
+        if self.bounds is None:
+            return "" if value in self.values else f"values are: {', '.join(self.values)}"
+        least, most = self.bounds
+        is_number = _NUMBER.fullmatch(value) is not None
+        return "" if is_number and least <= Decimal(value) <= most else f"it is a number from {least} to {most} mm"
+
+    def meaning_of(self, value: str) -> str:
+        """What a value means."""
+        return self.values[value] if self.bounds is None else f"{self.meaning}: {value} mm"
+
+
+_NUMBER = re.compile(r"\d{1,9}(\.\d{0,9})?|\.\d{1,9}", re.ASCII)
+
+
+@dataclass(frozen=True, slots=True)
+class Convention:
+    """A setting with the value that was used."""
+
+    setting: Setting
+    value: str
+
+    @property
+    def meaning(self) -> str:
+        """What the value means."""
+        return self.setting.meaning_of(self.value)
+
+    @property
+    def evidence(self) -> Evidence:
+        """How well it is known that the control means this: of another value than the default one, not at all."""
+        return self.setting.source.evidence if self.value == self.setting.default else Evidence.ASSUMED
+
+
+AT_ITS_LIMIT = "@at its limit"
+"""The circumstance that a 45 degree bevel begins or ends at its virtual intersection."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Assumption:
+    """What a control is taken to accept, or to mean, although no page that we have says so.
+
+    `meaning` is half a sentence without a full stop. A contour rests on it where `when` holds for what the blocks of
+    one of its `roles` state: values and circumstances by name, and in a form of one block every address.
+    """
+
+    name: str
+    meaning: str
+    source: Source
+    roles: tuple[str, ...]
+    when: Condition
+
+    def carries(self, roles: Iterable[Role], stated: Stated) -> bool:
+        """Whether a contour of these roles, which states this, rests on it."""
+        for role in roles:
+            if role.name in self.roles:
+                own = {call: stated[name] for call, name in role.names(stated).items()}
+                if self.when.holds(own):
+                    return True
+        return False
+
+
+@dataclass(frozen=True, slots=True)
+class FactRow:
+    """A fact, and the givens that must be stated for it to hold."""
+
+    fact: Fact
+    needs: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class CornerRow:
+    """A corner, the shape that each word gives it, and what it lands on if the path ends there: an axis-parallel
+    line, with the givens that tell which axis that is parallel to, or a line of the form beside the path."""
+
+    name: str
+    at: str
+    before: str
+    after: str | None
+    shapes: Mapping[str, CornerShape]
+    landing: tuple[tuple[tuple[str, ...], int], ...] = ()
+    lands_on: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Sample:
+    """A program that states a contour of a form, for tables of its words: `before` leads to the start point,
+    and each word in braces in `blocks` may be left out."""
+
+    before: str
+    blocks: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Form:
+    """One way of describing a contour.
+
+    `points` and `radii` are unknown as soon as some fact mentions them. `facts` are in order of
+    precedence: where words say too much, the first ones are solved for. `allowed` are the addresses that
+    may stand in its blocks. `roles` tells which rules its blocks obey; `lines` are lines of given direction
+    beside the path. `combinations` are slots, each with the sets of givens that
+    may fill it: their product is every combination of words that the equations can tell apart.
+    """
+
+    name: str
+    title: str
+    roles: tuple[Role, ...]
+    start: str
+    points: tuple[str, ...]
+    radii: tuple[str, ...]
+    facts: tuple[FactRow, ...]
+    path: tuple[Line | Arc, ...]
+    corners: tuple[CornerRow, ...]
+    intersections: tuple[str, ...]
+    allowed: frozenset[str]
+    combinations: tuple[tuple[tuple[str, ...], ...], ...]
+    sample: Sample | None = None
+    choices: tuple[str, ...] = ()
+    """Givens whose sign alone chooses between two solutions."""
+    meanings: Mapping[str, str] = field(default_factory=dict)
+    """What a given means in this form, where its address does not say it."""
+    lines: tuple[Line, ...] = ()
+    is_literal: bool = False
+    """Whether each word states one value, whatever the values are."""
+    is_contour: bool = True
+    """False for what a control calculates nothing for: it is checked, and not listed."""
+    corner_note: str = ""
+    """What the control does at each corner that it inserts, half a sentence without a full stop."""
+    assumptions: tuple[Assumption, ...] = ()
+    """What its blocks may rest on."""
+
+    def __hash__(self) -> int:
+        return hash(self.name)
+
+    def __eq__(self, other: object) -> bool:
+        return self is other
+
+
+def stated_sets(form: Form) -> Iterator[frozenset[str]]:
+    """Every combination of givens that a form may be stated by."""
+    for choice in product(*form.combinations):
+        yield frozenset(name for names in choice for name in names)
+
+
+@lru_cache(maxsize=8192)
+def lay_out(form: Form, stated: frozenset[str], sharp: frozenset[str], asked: frozenset[str] = frozenset()) -> Layout:
+    """The layout that a form makes of the givens that are stated; a corner whose size is asked for is there, too.
+
+    `sharp` are the corner words of value 0, which make no corner.
+    """
+    facts = tuple(row.fact for row in form.facts if stated.issuperset(row.needs))
+    mentioned = {name.partition(".")[0] for fact in facts for name in fact.reads()}
+    stating = {fact.given for fact in facts}
+    path: list[Line | Arc] = []
+    for element in form.path:
+        if isinstance(element, Line):
+            heading = element.heading if element.heading in stating else None
+            toward = element.toward if element.toward in mentioned and heading is None else None
+            path.append(replace(element, heading=heading, toward=toward))
+        else:
+            path.append(element)
+    ends = {end for element in path for end in (element.tail, element.head)} - {form.start}
+    figure = Figure(
+        form.start,
+        tuple(point for point in form.points if point in mentioned | ends),
+        tuple(radius for radius in form.radii if radius in mentioned),
+        tuple(path),
+        tuple(corner for row in form.corners for corner in _corners(row, stated, asked, sharp)),
+        lines=tuple(line for line in form.lines if line.heading is None or line.heading in stated),
+    )
+    return Layout(figure, facts)
+
+
+def _corners(row: CornerRow, stated: frozenset[str], asked: frozenset[str], sharp: frozenset[str]) -> list[Corner]:
+    """The corner of a row: none without its word, several if several words are stated."""
+    told = [[axis for names, axis in row.landing if which & set(names)] for which in (stated, asked)]
+    landing = told[0] or told[1]
+    axis = landing[0] if len(landing) == 1 else None
+    return [
+        Corner(row.name, row.at, shape, word, row.before, row.after, axis, row.lands_on)
+        for word, shape in row.shapes.items()
+        if word in stated | asked and word not in sharp
+    ]

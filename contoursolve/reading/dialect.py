@@ -1,0 +1,89 @@
+"""What a control is: a record of tables, and how its contours are found among the blocks."""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from contoursolve.diagnostics.finding import Diagnostic
+from contoursolve.gcode import Block, Word
+from contoursolve.geometry import Length, Plane
+from contoursolve.reading.contour_form import Assumption, Form, Setting
+from contoursolve.reading.modal_state import Modes, Position, State
+from contoursolve.reading.parsed_contour import Claim
+from contoursolve.reading.rules import Rule
+
+Finder = Callable[[Sequence[Block], int, State, Modes], Claim | None]
+"""(blocks, index, state before the block, modes) to the contour that begins at this block, if any."""
+
+
+Follower = Callable[..., Iterator[Diagnostic]]
+"""(name of the form, path or None, what gives the state behind it, lines behind it with their numbers, context of
+messages, modes) to the findings about the block behind a contour."""
+
+
+@dataclass(frozen=True, slots=True)
+class Dialect:
+    """One control, as tables. It need not be built in: every function takes one as `control`.
+
+    A relative of a control has a name of its own and the tables in which it differs:
+
+        from dataclasses import replace
+        from contoursolve.controls import NCT_99M
+
+        mine = replace(NCT_99M, name="mine", title="the mill in hall 2", rules=...)
+        contoursolve.solve(text, control=mine)
+
+    One from scratch is five tables (`notebooks/07_add_a_control.ipynb` writes one):
+
+    * the lexicon in `modes`: addresses, what a number without a point means, G codes, axes;
+    * `forms`: the points of a drawing, the facts that words state about them, the path and its corners;
+    * `find` reads blocks into claims of a form, and states which of two solutions the control takes, by name;
+    * `rules`: `COMMON_RULES`, rows of its own, then `GEOMETRY_RULES` (of `dialects.geometry`), so that whatever can
+      happen has a row;
+    * how it writes numbers is in the lexicon; a target of your own for `expand` is a `Post`.
+
+    Names of forms are not those of a built-in control: what sympy has said about these is kept by them.
+    """
+
+    name: str
+    title: str
+    modes: Modes
+    plane: Plane
+    forms: tuple[Form, ...]
+    rules: tuple[Rule, ...]
+    find: Finder
+    signs: Callable[[Block], Sequence[Word]]
+    """The words of a block by which it can only be meant for this control."""
+    contours: str = ""
+    """What shows a contour block, for a reader."""
+    settings: tuple[Setting, ...] = ()
+    """Conventions on which the manual is silent."""
+    has_runs: bool = True
+    """Whether a contour may be several blocks in a row."""
+    follow: Follower | None = None
+    """What is wrong with the block behind a contour, though it is no part of it."""
+
+    @property
+    def assumptions(self) -> tuple[Assumption, ...]:
+        """What it is taken to accept, in any of its forms."""
+        return tuple(dict.fromkeys(each for form in self.forms for each in form.assumptions))
+
+    def configure(self, values: Mapping[str, str]) -> "Dialect":
+        """The control with other values of its settings.
+
+        Raises ValueError, naming what there is, if there is no such setting or no such value.
+        """
+        known = {setting.name: setting for setting in self.settings}
+        for name, value in values.items():
+            if name not in known:
+                names = ", ".join(known) or "none"
+                raise ValueError(f"{self.name} has no setting {name!r}; settings are: {names}")
+            choices = known[name].choices(value)
+            if choices:
+                raise ValueError(f"{self.name}.{name} cannot be {value!r}; {choices}")
+        return replace(self, modes=replace(self.modes, settings={**self.modes.settings, **values}))
+
+    def initial_state(self, unit: Length) -> State:
+        """The state before the first block: the position is not known, nothing is compensated."""
+        reason = "nothing before it gives an absolute position"
+        axes = {axis: Position(None, reason) for axis in self.modes.axes}
+        return State(axes, None, self.plane, unit, is_incremental=False, compensation=40)

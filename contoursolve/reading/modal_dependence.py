@@ -1,0 +1,161 @@
+"""What a block says besides its contour, and which blocks behind it rely on the motion in force."""
+
+import re
+from collections.abc import Iterable
+from enum import Enum
+from typing import NamedTuple
+
+from contoursolve.gcode import Block, FaultKind, Macro, Word, parse_block
+from contoursolve.reading.lexicon import Code, Effect
+from contoursolve.reading.modal_state import Modes, codes_of
+
+MOTIONS = (Effect.MOTION, Effect.CYCLE, Effect.CANCEL)
+"""What puts another motion in force."""
+
+STANDING_ALONE = (0, 1)
+"""Motions whose code may stand in a block of its own; an arc without words is an error on some controls."""
+
+_OWN_WORDS = (Effect.NO_MOTION, Effect.PRESET, Effect.FRAME, Effect.CONTOUR)
+"""G codes whose blocks use their words themselves, whatever motion is in force."""
+
+_BY_THEMSELVES = frozenset({27, 28, 29, 30, 31, 36, 37})
+"""Reference points, skip and measuring: they move in their own way, and leave the motion in force."""
+
+_MODAL_CORNERS = frozenset({11, 12})
+"""Cycles of which every block says all that it needs. The others keep words from one block to the next, and a
+motion between them ends that."""
+
+
+class Reliance(Enum):
+    """What a block has to do with the motion that is in force before it."""
+
+    NONE = "none"
+    ENDS = "ends"
+    """It puts another one in force, or begins a program, which has that of the program that calls it."""
+    WORDS = "words"
+    """Its words are read by it, so that its code may be written into the block."""
+    BESIDE = "beside"
+    """It may hand it on, as calls and jumps do: it must be in force before the block."""
+
+
+def reliance(block: Block, modes: Modes) -> Reliance:
+    """What a block has to do with the motion that is in force before it."""
+    codes = codes_of(block, modes)
+    known = [code for code in codes if isinstance(code, Code)]
+    if any(code.effect in MOTIONS for code in known):
+        return Reliance.BESIDE if block.is_skippable else Reliance.ENDS
+    if block.macro is Macro.FLOW or len(known) < len(codes):
+        return Reliance.BESIDE
+    if any(word.address == "M" and word.number in modes.calls for word in block.words):
+        return Reliance.BESIDE
+    if block.find("O"):
+        return Reliance.ENDS
+    single = [code.number for code in known if code.effect is Effect.SINGLE]
+    if single:
+        return Reliance.NONE if _BY_THEMSELVES.issuperset(single) else Reliance.BESIDE
+    if any(code.effect in _OWN_WORDS for code in known):
+        return Reliance.NONE
+    is_faulty = any(fault.kind is not FaultKind.COMMENT_NOT_CLOSED for fault in block.faults)
+    uses = any(word.address in modes.lexicon.addresses for word in block.words)
+    return Reliance.WORDS if uses or is_faulty else Reliance.NONE
+
+
+def why_unmet(motion: int | None, blocks: Iterable[Block], modes: Modes) -> str:
+    """Why a motion that has been ended is missed by the blocks behind, of which no more are read than needed; empty
+    if it can be said again for the one that relies on it."""
+    code = modes.codes.get(motion) if motion is not None else None
+    is_free = code is not None and (code.effect is Effect.MOTION or code.number in _MODAL_CORNERS)
+    for block in blocks:
+        need = reliance(block, modes)
+        if need is Reliance.BESIDE or (need is Reliance.WORDS and not is_free):
+            name = f"the G{motion} before it" if code else "what the control starts with"
+            return f"line {block.line} relies on {name}: write the G code of its motion into line {block.line}"
+        if need is Reliance.ENDS or (need is Reliance.WORDS and not block.is_skippable):
+            break
+    return ""
+
+
+def restate(block: Block, motion: int) -> Block:
+    """The block with a motion code before its first word that is more than a number."""
+    places = [word.span.column for word in block.words if word.address not in "NO"]
+    column = min([*places, *(fault.span.column for fault in block.faults)])
+    before, after = block.text[: column - 1], block.text[column - 1 :]
+    blank = " " if before and before[-1] not in " \t/" else ""
+    return parse_block(f"{before}{blank}G{motion:02} {after.lstrip()}", block.line)
+
+
+_BLANKS = " \t\f\v\x02\x03\x11\x12\x13\x14\x1a\ufeff%"
+
+_FRAME = re.compile(rf"(?P<head>[{_BLANKS}]*+)(?P<skip>/[1-9]?+(?!\d)[ \t]*+)?+")
+
+_DROPPED = (*MOTIONS, Effect.CONTOUR)
+"""G codes in whose place those of the plain motions stand."""
+
+_AFTER_MOTION = frozenset({0, 1, 2, 5, 9, 30, 60, 98, 99})
+"""M codes that act after the motion of their block: stop, end, spindle and coolant off, pallet, calls."""
+
+
+class Frame(NamedTuple):
+    """What stands around the words of a block: what is for a tape reader, blanks before the words, the block skip, and
+    what is for a tape reader behind them."""
+
+    before: str = ""
+    indent: str = ""
+    skip: str = ""
+    behind: str = ""
+
+
+class Carried(NamedTuple):
+    """What a block says besides its contour, as it is written: its numbers and G codes, words for the first and for
+    the last line in its place, and the G codes and words among them (`kept`)."""
+
+    numbers: tuple[str, ...]
+    codes: tuple[str, ...]
+    words: tuple[str, ...]
+    last: tuple[str, ...]
+    kept: tuple[Word, ...]
+
+    @property
+    def says_something(self) -> bool:
+        """Whether there is anything besides the contour."""
+        return bool(self.kept)
+
+
+def frame_of(text: str) -> Frame:
+    """What stands around the words of a block."""
+    if text[:1].isalpha() and (text[-1].isalnum() or text[-1] == "."):
+        return Frame()
+    frame = _FRAME.match(text)
+    if frame is None:
+        return Frame()
+    head, rest = frame["head"], text[frame.end() :]
+    indent = "".join(c for c in head if c in " \t")
+    before = "".join(c for c in head if c not in " \t")
+    return Frame(before, indent, frame["skip"] or "", rest[len(rest.rstrip(_BLANKS)) :].strip(" \t"))
+
+
+def carried(block: Block, modes: Modes) -> Carried:
+    """What a block says besides its contour."""
+    numbers: list[str] = []
+    codes: list[str] = []
+    words: list[str] = []
+    last: list[str] = []
+    kept: list[Word] = []
+    rows = iter(codes_of(block, modes) if block.words else ())
+    for word in block.words:
+        text = word.text.strip()
+        if word.address == "G":
+            row = next(rows)
+            if not isinstance(row, Word) and row.effect in _DROPPED:
+                continue
+            codes.append(text)
+        elif word.address in "NO":
+            numbers.append(text)
+        elif word.address in modes.lexicon.addresses:
+            continue
+        elif word.address == "M" and word.number in _AFTER_MOTION:
+            last.append(text)
+        else:
+            words.append(text)
+        kept.append(word)
+    return Carried(tuple(numbers), tuple(codes), tuple(words), tuple(last), tuple(kept))

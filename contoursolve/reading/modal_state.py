@@ -1,0 +1,353 @@
+"""The modal state of a control, where the tool is and what is in force, followed through blocks and plain lines."""
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from decimal import Decimal
+from functools import partial
+
+from contoursolve.diagnostics.source import Span
+from contoursolve.gcode import Block, FaultKind, Macro, Passage, Word, find_words
+from contoursolve.geometry import Length, Plane, Start
+from contoursolve.reading.contour_form import Convention, Setting
+from contoursolve.reading.lexicon import Code, Effect, Lexicon
+from contoursolve.tolerance import RADIUS_DIFFERENCE
+
+
+@dataclass(frozen=True, slots=True)
+class Position:
+    """One coordinate in mm (X of a lathe as radius), or None with the reason why it is not known.
+
+    `span` is the place in the program that set it or made it unknown.
+    """
+
+    value: Decimal | None
+    reason: str
+    span: Span | None = None
+    is_skippable: bool = False
+    """The block that set it begins with `/`."""
+    word: Word | None = None
+    """The axis word that set it, where one did."""
+
+
+class Awaited(Position):
+    """A coordinate that is found when somebody looks at it.
+
+    `wave` counts the contours in a row, each of which begins where the one before it ends, that have to be solved
+    before; `find` has them solved.
+    """
+
+    __slots__ = ("_depth", "_find", "_found", "wave")
+    wave: int
+    _find: Callable[[], Position] | None
+    _found: Position | None
+    _depth: int
+
+    def __init__(self, find: Callable[[], Position], wave: int = 0, depth: int = 0) -> None:
+        for name, value in (("_find", find), ("_found", None), ("wave", wave), ("_depth", depth)):
+            object.__setattr__(self, name, value)
+
+    def found(self) -> Position:
+        """The position."""
+        if self._found is None and self._find is not None:
+            object.__setattr__(self, "_found", self._find())
+            object.__setattr__(self, "_find", None)
+            object.__setattr__(self, "wave", 0)
+        if self._found is None:
+            raise ValueError("the position has not been found")
+        return self._found
+
+    def then(self, follow: Callable[[Position], Position]) -> Position:
+        """A position that follows from this one."""
+        if self._found is not None or self._depth >= _DEEPEST:
+            return follow(self.found())
+        return Awaited(lambda: follow(self.found()), self.wave, self._depth + 1)
+
+    @property
+    def value(self) -> Decimal | None:
+        return self.found().value
+
+    @property
+    def reason(self) -> str:
+        return self.found().reason
+
+    @property
+    def span(self) -> Span | None:
+        return self.found().span
+
+    @property
+    def is_skippable(self) -> bool:
+        return self.found().is_skippable
+
+    @property
+    def word(self) -> Word | None:
+        return self.found().word
+
+
+_DEEPEST = 50
+"""Positions that each follow from the one before, of which none is looked at."""
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """What is in force before a block."""
+
+    axes: Mapping[str, Position]
+    motion: int | None
+    plane: Plane
+    unit: Length
+    is_incremental: bool
+    compensation: int
+    """40, 41 or 42."""
+
+    def start(self) -> Start:
+        """The position in the plane."""
+        first, second = self.plane.axes
+        return Start((self.axes[first].value, self.axes[second].value))
+
+    def move(self, changes: Mapping[str, Position]) -> "State":
+        """The state with other positions on some axes."""
+        if not changes:
+            return self
+        axes = {**self.axes, **changes}
+        return State(axes, self.motion, self.plane, self.unit, self.is_incremental, self.compensation)
+
+    def lose(self, axes: Mapping[str, Position] | tuple[str, ...], reason: str, span: Span) -> "State":
+        """The state with the position on these axes unknown."""
+        return self.move({axis: Position(None, reason, span) for axis in axes})
+
+
+@dataclass(frozen=True, slots=True)
+class Modes:
+    """What following the state of a control needs to know of it."""
+
+    lexicon: Lexicon
+    codes: Mapping[int, Code]
+    axes: tuple[str, ...]
+    calls: frozenset[int]
+    """M codes that call or end a subprogram."""
+    settings: Mapping[str, str] = field(default_factory=dict)
+    """The values of settings that are not the default ones, by name."""
+
+    def convention(self, setting: Setting) -> Convention:
+        """A setting with its value."""
+        return Convention(setting, self.settings.get(setting.name, setting.default))
+
+    @property
+    def radius_difference(self) -> float:
+        """How much the radii at two points of an arc may differ, mm: a setting where a machine parameter tells."""
+        return float(self.settings.get("radius-difference", RADIUS_DIFFERENCE))
+
+
+def codes_of(block: Block, modes: Modes) -> list[Code | Word]:
+    """The rows of a block's G codes; a code without a row is given as its word."""
+    found: list[Code | Word] = []
+    for word in block.words:
+        if word.address == "G":
+            row = None if word.number is None else modes.codes.get(word.number)  # type: ignore[call-overload]
+            found.append(row or word)
+    return found
+
+
+def apply_modes(state: State, block: Block, modes: Modes) -> State:
+    """The state with the block's G codes in force, before its motion."""
+    for code in codes_of(block, modes):
+        if isinstance(code, Word):
+            continue
+        match code.effect:
+            case Effect.MOTION | Effect.CYCLE:
+                state = state if state.motion == code.number else replace(state, motion=code.number)
+            case Effect.CANCEL:
+                state = replace(state, motion=None)
+            case Effect.PLANE:
+                state = replace(state, plane=code.plane or state.plane)
+            case Effect.UNITS:
+                state = replace(state, unit=code.unit or state.unit)
+            case Effect.ABSOLUTE | Effect.INCREMENTAL:
+                state = replace(state, is_incremental=code.effect is Effect.INCREMENTAL)
+            case Effect.COMPENSATION:
+                state = replace(state, compensation=code.number)
+            case Effect.SHIFT | Effect.FRAME:
+                reason = f"G{code.number} changes the coordinate system"
+                state = state.lose(modes.axes, reason, block.span)
+            case _:
+                pass
+    return state
+
+
+def advance(state: State, block: Block, modes: Modes) -> State:
+    """The state after a block that is not a contour."""
+    if not block.words and not block.faults and block.macro is None:
+        return state
+    if block.macro is Macro.FLOW:
+        return state.lose(modes.axes, "a macro statement may jump", block.span)
+    state = apply_modes(state, block, modes)
+    if block.find("O"):
+        state = state.lose(modes.axes, "a new program begins", block.span)
+    for word in block.words:
+        if word.address == "M" and word.number in modes.calls:
+            return state.lose(modes.axes, f"{word.text} calls or ends a subprogram", word.span)
+    codes = codes_of(block, modes)
+    for code in codes:
+        if isinstance(code, Word):
+            # Whatever it does, it may do to every axis.
+            return state.lose(modes.axes, f"{code.text} is not known to contoursolve", code.span)
+    lost = _lost_by_faults(block, modes)
+    effect, reason = _effect(state, codes, modes)
+    words = [word for word in block.words if _axis(word, modes)]
+    if effect is Effect.NO_MOTION:
+        return state
+    if effect is Effect.SINGLE or (effect is Effect.CYCLE and words):
+        axes = tuple(dict.fromkeys(_axis(word, modes) for word in words)) or modes.axes
+        return state.lose(axes, reason, block.span)
+    if words:
+        state = state.move(positions(state, words, modes, block.is_skippable))
+    return state.move({axis: Position(None, "the block has an error", span) for axis, span in lost.items()})
+
+
+def positions(state: State, words: list[Word], modes: Modes, is_skippable: bool) -> dict[str, Position]:
+    """Where the axis words of a motion lead."""
+    moved: dict[str, Position] = {}
+    for word in words:
+        axis = _axis(word, modes)
+        is_step = state.is_incremental or modes.lexicon.addresses[word.address].is_increment
+        moved[axis] = _led(word, axis in moved, state.axes[axis] if is_step else None, state.unit, modes, is_skippable)
+    return moved
+
+
+def absolute_positions(words: list[Word], unit: Length, modes: Modes) -> dict[str, Position]:
+    """Where absolute axis words lead."""
+    moved: dict[str, Position] = {}
+    for word in words:
+        axis = _axis(word, modes)
+        moved[axis] = _led(word, axis in moved, None, unit, modes, is_skippable=False)
+    return moved
+
+
+def _led(
+    word: Word, is_second: bool, before: Position | None, unit: Length, modes: Modes, is_skippable: bool
+) -> Position:
+    """Where an axis word leads; `before` is where an increment counts from, None for a coordinate."""
+    if is_second:
+        return Position(None, f"{_axis(word, modes)} is given twice", word.span)
+    value = modes.lexicon.value(word, unit)
+    if value is None:
+        return Position(None, f"{word.text} depends on a variable", word.span)
+    if before is None:
+        return Position(value, word.text, word.span, is_skippable, word)
+    if isinstance(before, Awaited):
+        return before.then(partial(_step, by=value, word=word, is_skippable=is_skippable))
+    return _step(before, value, word, is_skippable)
+
+
+def _step(before: Position, by: Decimal, word: Word, is_skippable: bool) -> Position:
+    """Where an increment leads, mm."""
+    if before.value is None:
+        return before
+    return Position(before.value + by, word.text, word.span, is_skippable or before.is_skippable, word)
+
+
+def _axis(word: Word, modes: Modes) -> str:
+    row = modes.lexicon.addresses.get(word.address)
+    return row.axis if row else ""
+
+
+def _effect(state: State, codes: Sequence[Code | Word], modes: Modes) -> tuple[Effect, str]:
+    """What a block of these G codes does with its axis words, and the reason to give if the position is lost."""
+    for code in codes:
+        if isinstance(code, Word):
+            continue
+        if code.effect is Effect.SINGLE:
+            return Effect.SINGLE, f"the end of G{code.number} ({code.meaning}) is not followed"
+        if code.effect in (Effect.NO_MOTION, Effect.FRAME):
+            return Effect.NO_MOTION, ""
+        if code.effect is Effect.PRESET:
+            return Effect.MOTION, ""
+    modal = modes.codes.get(state.motion) if state.motion is not None else None
+    if modal and modal.effect is Effect.CYCLE:
+        return Effect.CYCLE, f"the end of G{modal.number} ({modal.meaning}) is not followed"
+    return Effect.MOTION, ""
+
+
+def _lost_by_faults(block: Block, modes: Modes) -> dict[str, Span]:
+    """The axes whose words could not be read."""
+    lost: dict[str, Span] = {}
+    for fault in block.faults:
+        row = modes.lexicon.addresses.get(fault.address)
+        if fault.kind is FaultKind.BLOCK_TOO_LONG:
+            lost.update(dict.fromkeys(modes.axes, fault.span))
+        elif row and row.axis and fault.kind is not FaultKind.COMMENT_NOT_CLOSED:
+            lost[row.axis] = fault.span
+        elif fault.kind is FaultKind.COMMA_WITHOUT_ADDRESS:
+            lost.update(dict.fromkeys(modes.axes, fault.span))
+    return lost
+
+
+# Possessive throughout: an integer that may be divided at any digit would be tried in all ways.
+_NUMBER = r"[ \t]*+[+-]?+(?:[0-9]{1,12}+(?:\.[0-9]{0,12}+)?+|\.[0-9]{1,12}+)"
+_COMMENTS = re.compile(r"\([^()]*+\)")
+_MOTIONS = re.compile(r"G0?([01])")
+_COMMENT = r"\((?![ \t]*+contoursolve)[^()]*+\)"
+
+
+def plain_lines(modes: Modes) -> re.Pattern[str]:
+    """What a line with its end looks like that has G00, G01 or neither and coordinates, whatever its feed, speed and
+    tool; or one without words.
+
+    Such a line is no contour, and belongs to one only beside a line that is not plain, as long as `is_plain`.
+    """
+    axes = "".join(sorted(modes.axes))
+    words = rf"N[0-9]{{1,8}}+|G0?[01]|M0?[34589]|T[0-9]{{1,8}}+|[FS{axes}]{_NUMBER}"
+    moving = rf"(?=[^(]*[{axes}])[ \t]*+(?:(?:(?:{words})(?![0-9.])|{_COMMENT})[ \t]*+)++"
+    return re.compile(rf"(?:{moving}|[ \t]*+(?:{_COMMENT}[ \t]*+)*+)(?:\r\n|\n|\r)?", re.IGNORECASE | re.ASCII)
+
+
+def is_plain(state: State) -> bool:
+    """Whether plain lines are lines to their coordinates in this state."""
+    return state.motion in (0, 1) and not state.is_incremental
+
+
+def words_of(line: str) -> str:
+    """The words of a plain line, upper case, without its comments and its end; empty if it has none."""
+    return (_COMMENTS.sub("", line) if "(" in line else line).strip().upper()
+
+
+def motion_of(words: str) -> int | None:
+    """The motion that the words of a plain line state, if they state one."""
+    found = _MOTIONS.findall(words) if "G" in words else None
+    return int(found[-1]) if found else None
+
+
+def advance_plainly(state: State, passage: Passage, modes: Modes) -> State:
+    """The state after plain lines; each axis and the motion are where the last line that says so has them. What an
+    axis is told is read when somebody asks."""
+    axes, motion = dict[str, Position](), None
+    text = "".join(passage.lines).upper()
+    programmed = [axis for axis in modes.axes if axis in text]
+    for place in range(len(passage.lines) - 1, -1, -1):
+        words, found = words_of(passage.lines[place]), None
+        motion = motion_of(words) if motion is None else motion
+        for axis in programmed:
+            if axis in words and axis not in axes:
+                found = found or _Moved(passage.lines[place], passage.line + place, state.unit, modes)
+                axes[axis] = Awaited(partial(found.position, axis))
+        if motion is not None and len(axes) == len(programmed):
+            break
+    if motion is not None and motion != state.motion:
+        state = replace(state, motion=motion)
+    return state.move(axes)
+
+
+class _Moved:
+    """Where a plain line leads; it is read once, when somebody asks."""
+
+    def __init__(self, text: str, line: int, unit: Length, modes: Modes) -> None:
+        self.text, self.line, self.unit, self.modes = text, line, unit, modes
+        self.positions: dict[str, Position] | None = None
+
+    def position(self, axis: str) -> Position:
+        """Its end on an axis that it programs."""
+        if self.positions is None:
+            words = find_words(self.text.rstrip("\r\n"), self.line, self.modes.axes)
+            self.positions = absolute_positions(words, self.unit, self.modes)
+        return self.positions[axis]

@@ -1,0 +1,236 @@
+"""A contour found in a program: its form, blocks and words, and where it leaves the tool."""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from decimal import Decimal
+from enum import Enum
+
+from contoursolve.diagnostics.source import Span
+from contoursolve.gcode import Block, Directive, Word
+from contoursolve.geometry import Choice, Fact, Given, Layout, Plane, Profile, Question, Radius, Side
+from contoursolve.reading.contour_form import Assumption, Convention, Form, lay_out
+from contoursolve.reading.lexicon import Lexicon
+from contoursolve.reading.modal_state import Modes, Position, State, apply_modes, positions
+
+
+class Trouble(Enum):
+    """What can keep a program or a contour from being read, apart from its characters."""
+
+    REPEATED_ADDRESS = "repeated-address"
+    UNKNOWN_ADDRESS = "unknown-address"
+    VARIABLE = "variable"
+    WORD_IGNORED = "word-ignored"
+    POINT_MISSING = "point-missing"
+    START_IN_INCREMENTS = "start-in-increments"
+    COMMA_MISSING = "comma-missing"
+    LETTER_FOR_DIGIT = "letter-for-digit"
+    CODE_MISTYPED = "code-mistyped"
+    VALUE_TOO_LARGE = "value-too-large"
+    POSITION_UNKNOWN = "position-unknown"
+    SKIPPABLE_START = "skippable-start"
+    NO_CONTOUR = "no-contour"
+    TEXT_OUTSIDE = "text-outside"
+    UNDERDETERMINED = "underdetermined"
+    CORNER_TWICE = "corner-twice"
+    CORNER_NEGATIVE = "corner-negative"
+    CORNER_NOWHERE = "corner-nowhere"
+    FACT_UNREADABLE = "fact-unreadable"
+    FACT_IMPOSSIBLE = "fact-impossible"
+    FACT_NOWHERE = "fact-nowhere"
+    FACT_UNMARKED = "fact-unmarked"
+    FACT_BEYOND = "fact-beyond"
+    FACTS_SINGULAR = "facts-singular"
+    START_UNITS = "start-units"
+    ASKED_NOTHING = "asked-nothing"
+    WORD_UNUSED = "word-unused"
+    AXIS_CROSSED = "axis-crossed"
+    CODE_FORGOTTEN = "code-forgotten"
+    RAPID_BEHIND = "rapid-behind"
+    LANDING_LEFT = "landing-left"
+
+
+@dataclass(frozen=True, slots=True)
+class Selector:
+    """A word that chooses one of the two places of a point."""
+
+    point: str
+    side: Side
+    word: str
+
+
+@dataclass(frozen=True, slots=True)
+class Claim:
+    """A contour before any check.
+
+    `words` are the words by the name of the given that they state; `givens` their values in mm or
+    degrees, without those that are variables; `circumstances` are names such as `@alone`. `before` is the
+    state at the start point, `after` the state with the modes of all its blocks.
+    """
+
+    form: Form
+    lexicon: Lexicon
+    blocks: tuple[Block, ...]
+    before: State
+    after: State
+    words: Mapping[str, Word]
+    givens: Mapping[str, Given]
+    vocabulary: Mapping[str, tuple[str, int]]
+    """The address and the block (its index) of every name that a word may state here."""
+    unknown: tuple[Word, ...] = ()
+    repeated: tuple[Word, ...] = ()
+    circumstances: frozenset[str] = frozenset()
+    choices: tuple[Choice, ...] = ()
+    selectors: tuple[Selector, ...] = ()
+    """The words that would choose, whether they are stated or not."""
+    conventions: tuple[Convention, ...] = ()
+    """What the manual does not say and the reading rests on."""
+    selected: Plane | None = None
+    """The plane in force behind it, where a parallel axis may stand for an axis of that."""
+    is_end_absolute: bool = False
+    """Whether its last block states its end as coordinates even where increments are in force."""
+    limits: Mapping[str, Decimal] = field(default_factory=dict)
+    """Values of givens, mm, on whose two sides the words are read in different ways while the others stay."""
+
+    def beside_plane(self, block: Block) -> list[Word]:
+        """The words of one of its blocks that move an axis outside the plane."""
+        rows = ((word, self.lexicon.addresses.get(word.address)) for word in block.words)
+        return [word for word, row in rows if row and row.axis and row.axis not in self.after.plane.axes]
+
+    @property
+    def left(self) -> State:
+        """The modes that it leaves."""
+        return self.after if self.selected in (None, self.after.plane) else replace(self.after, plane=self.selected)
+
+    @property
+    def directives(self) -> tuple[Directive, ...]:
+        """What comments in its blocks state for contoursolve alone."""
+        return tuple(directive for block in self.blocks for directive in block.directives)
+
+    def stated(self) -> dict[str, Decimal | None]:
+        """What the rules on combinations look at."""
+        values = {name: self.givens[name].value if name in self.givens else None for name in self.words}
+        return {**values, **dict.fromkeys(self.circumstances)}
+
+    def rests_on(self, more: Iterable[str] = ()) -> tuple[Assumption, ...]:
+        """What the contour rests on, of all that the control is taken to accept; `more` are circumstances that the
+        words alone do not show."""
+        addresses = dict.fromkeys(word.address for block in self.blocks for word in block.words)
+        stated = {**addresses, **self.stated(), **dict.fromkeys(more)}
+        return tuple(each for each in self.form.assumptions if each.carries(self.form.roles, stated))
+
+
+def read(claim: Claim, ignored: frozenset[str]) -> Profile:
+    """The profile of a claim, without the facts that the control ignores."""
+    names = frozenset(claim.givens)
+    sharp = frozenset(
+        word for row in claim.form.corners for word in row.shapes if word in names and not claim.givens[word].value
+    )
+    asked = frozenset(name for name, word in claim.words.items() if word.is_asked)
+    layout = lay_out(claim.form, names - ignored, sharp, asked)
+    dropped = tuple(row.fact for row in claim.form.facts if row.fact.given in ignored & names)
+    return Profile(
+        form=claim.form.name,
+        blocks=claim.blocks,
+        plane=claim.after.plane,
+        unit=claim.after.unit,
+        layout=layout,
+        start=claim.before.start(),
+        givens=claim.givens,
+        intersections=claim.form.intersections,
+        ignored=dropped,
+        choices=claim.choices,
+        questions=tuple(_questions(claim, asked, layout)),
+        is_extended=bool(asked or claim.directives),
+    )
+
+
+def unused_words(claim: Claim, profile: Profile) -> list[Word]:
+    """The words with a value that states nothing about the contour and chooses nothing."""
+    used = {fact.given for fact in (*profile.facts, *profile.ignored)}
+    used |= {choice.given for choice in claim.choices} | {question.name for question in profile.questions}
+    used |= {name for row in claim.form.corners for name in row.shapes}
+    # One block moves all its axes; where several make a contour, that is left to its rules.
+    beside = claim.beside_plane(claim.blocks[0]) if len(claim.blocks) == 1 else []
+    words = (given.word for name, given in claim.givens.items() if given.word and name not in used)
+    return [word for word in words if word not in beside]
+
+
+def _questions(claim: Claim, asked: frozenset[str], layout: Layout) -> Iterator[Question]:
+    """The words that are asked for, each with the fact that it would state about what there is."""
+    if not asked:
+        return
+    drawn = {layout.figure.start, *layout.figure.points, *layout.figure.radii}
+    facts: dict[str, Fact] = {}
+    for row in claim.form.facts:
+        if row.fact.given in asked and drawn.issuperset(name.partition(".")[0] for name in row.fact.reads()):
+            facts.setdefault(row.fact.given, row.fact)
+    yield from (_question(claim, name, fact) for name, fact in facts.items())
+    for corner in claim.form.corners:
+        for name in (name for name in corner.shapes if name in asked):
+            yield _question(claim, name, Radius(name, f"{corner.name}.radius"))
+
+
+def _question(claim: Claim, name: str, fact: Fact) -> Question:
+    word = claim.words[name]
+    row = claim.lexicon.addresses[word.address]
+    return Question(name, fact, row.unit, word, row.is_diameter)
+
+
+def leave(
+    claim: Claim, end: tuple[float, float] | None, modes: Modes, reason: str = "", cause: Span | None = None
+) -> State:
+    """The modes of a contour's blocks, and the position where it ends, mm.
+
+    Where it has no end, for this reason, whose `cause` may lie in a line before it, an axis that its last block
+    programs is still known.
+    """
+    state, last, axes = claim.left, claim.blocks[-1], claim.after.plane.axes
+    if end is not None:
+        before = claim.before.axes
+        is_skippable = any(block.is_skippable for block in claim.blocks) or any(
+            before[axis].is_skippable for axis in axes
+        )
+        ends = zip(axes, end, strict=True)
+        state = state.move({axis: end_of_contour(value, last.span, is_skippable=is_skippable) for axis, value in ends})
+        return _move_beside(state, claim, modes)
+    lost = state.lose(axes, reason, cause or last.span)
+    if last.faults:
+        return lost
+    # Increments count from where the last block begins, which is known of an only one.
+    origin = state if len(claim.blocks) == 1 else lost
+    told = replace(origin, is_incremental=state.is_incremental and not claim.is_end_absolute)
+    return lost.move(positions(told, _axis_words(last, modes), modes, last.is_skippable))
+
+
+def _move_beside(state: State, claim: Claim, modes: Modes) -> State:
+    """The state with the axes outside the plane where the words of a contour's blocks lead."""
+    here = claim.before
+    for block in claim.blocks:
+        words = claim.beside_plane(block)
+        here = apply_modes(here.move(state.axes), block, modes)
+        state = state.move(positions(here, words, modes, block.is_skippable)) if words else state
+    return state
+
+
+def end_of_contour(value: float, span: Span, *, is_skippable: bool = False) -> Position:
+    """Where a contour ends on an axis, mm; `span` is its last block."""
+    return Position(Decimal(value), "the end of this contour", span, is_skippable)
+
+
+def next_place(blocks: Sequence[Block], claim: Claim, modes: Modes) -> tuple[Decimal, Decimal] | None:
+    """Where the next block with words ends, mm, if it is a line and both its coordinates are known."""
+    block = next((block for block in blocks if block.words), None)
+    if block is None or block.faults:
+        return None
+    state = apply_modes(claim.left, block, modes)
+    if state.motion not in (0, 1, None):
+        return None
+    unknown = state.lose(modes.axes, "the contour before it is not solved yet", block.span)
+    found = positions(unknown, _axis_words(block, modes), modes, is_skippable=False)
+    first, second = (found[axis].value if axis in found else None for axis in state.plane.axes)
+    return None if first is None or second is None else (first, second)
+
+
+def _axis_words(block: Block, modes: Modes) -> list[Word]:
+    addresses = modes.lexicon.addresses
+    return [word for word in block.words if word.address in addresses and addresses[word.address].axis]

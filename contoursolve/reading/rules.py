@@ -1,0 +1,245 @@
+"""A rule is a row: a condition on the words of a block, what it says, its source, alarm and examples."""
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from decimal import Decimal
+from enum import Enum
+from functools import lru_cache
+
+from contoursolve.diagnostics.display import Shown
+from contoursolve.diagnostics.finding import Alarm, Severity
+from contoursolve.diagnostics.source import Source
+from contoursolve.geometry import Role
+
+Stated = Mapping[str, Decimal | None]
+"""What a block states: the value of each given by name (None for a variable), and circumstances such
+as `@alone`, which have no value."""
+
+Slot = tuple[str, ...]
+"""Names that say the same thing in different ways, such as X and U."""
+
+
+class Condition:
+    """Holds or does not hold for what a block states; `offenders` are the names that make it hold."""
+
+    reads_values = False
+    """Whether it depends on values and not on names alone."""
+
+    def holds(self, stated: Stated) -> bool:
+        """Whether the condition is true of these words; their order never matters."""
+        raise NotImplementedError
+
+    def offenders(self, stated: Stated) -> tuple[str, ...]:
+        """The stated names that this condition speaks about."""
+        raise NotImplementedError
+
+    def __and__(self, other: "Condition") -> "Condition":
+        return Both(self, other)
+
+    def __invert__(self) -> "Condition":
+        return Unless(self)
+
+
+@dataclass(frozen=True, slots=True)
+class Both(Condition):
+    """Two conditions at once."""
+
+    first: Condition
+    second: Condition
+
+    def holds(self, stated: Stated) -> bool:
+        return self.first.holds(stated) and self.second.holds(stated)
+
+    def offenders(self, stated: Stated) -> tuple[str, ...]:
+        return tuple(dict.fromkeys(self.first.offenders(stated) + self.second.offenders(stated)))
+
+
+@dataclass(frozen=True, slots=True)
+class Unless(Condition):
+    """The opposite of a condition; it points at nothing."""
+
+    condition: Condition
+
+    def holds(self, stated: Stated) -> bool:
+        return not self.condition.holds(stated)
+
+    def offenders(self, _stated: Stated) -> tuple[str, ...]:
+        return ()
+
+
+@dataclass(frozen=True, slots=True)
+class Count(Condition):
+    """The number of slots that are filled lies between two bounds."""
+
+    slots: tuple[Slot, ...]
+    least: int = 0
+    most: int = 1_000
+
+    def holds(self, stated: Stated) -> bool:
+        return self.least <= sum(any(name in stated for name in slot) for slot in self.slots) <= self.most
+
+    def offenders(self, stated: Stated) -> tuple[str, ...]:
+        return tuple(name for slot in self.slots for name in slot if name in stated)
+
+
+@dataclass(frozen=True, slots=True)
+class Value(Condition):
+    """Some of these names has a value outside the bounds; a bound that is open excludes itself."""
+
+    names: tuple[str, ...]
+    least: Decimal = Decimal("-Infinity")
+    most: Decimal = Decimal("Infinity")
+    excluding: Decimal | None = None
+
+    @property
+    def reads_values(self) -> bool:  # type: ignore[override]
+        return True
+
+    def holds(self, stated: Stated) -> bool:
+        for name in self.names:
+            value = stated.get(name)
+            if value is not None and not (self.least <= value <= self.most and value != self.excluding):
+                return True
+        return False
+
+    def offenders(self, stated: Stated) -> tuple[str, ...]:
+        return tuple(name for name in self.names if name in stated and self.holds({name: stated[name]}))
+
+
+def some(*names: str) -> Condition:
+    """At least one of the names is stated."""
+    return Count((names,), least=1)
+
+
+def all_of(*slots: Slot | str) -> Condition:
+    """Each slot is filled."""
+    return at_least(len(slots), *slots)
+
+
+def at_least(number: int, *slots: Slot | str) -> Condition:
+    """At least this many slots are filled."""
+    return Count(_slots(slots), least=number)
+
+
+def at_most(number: int, *slots: Slot | str) -> Condition:
+    """At most this many slots are filled."""
+    return Count(_slots(slots), most=number)
+
+
+def _slots(slots: tuple[Slot | str, ...]) -> tuple[Slot, ...]:
+    return tuple((slot,) if isinstance(slot, str) else slot for slot in slots)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Rule(Shown):
+    """One row of the catalogue.
+
+    `message` is a template; its fields are listed in `explain`. A rule finds something in one of two
+    ways: `when` holds for the words of the blocks of one of its `roles`; or something in the program or its geometry
+    happens that `about` names. `ignores` names the word that the control then drops without
+    a word. Each example is a program; `rejected` ones raise this code, `accepted` ones do not.
+    """
+
+    code: str
+    message: str
+    help: str
+    source: Source
+    accepted: tuple[str, ...]
+    rejected: tuple[str, ...]
+    roles: tuple[str, ...] = ()
+    when: Condition | None = None
+    about: Enum | None = None
+    ignores: str = ""
+    alarm: Alarm | None = None
+    severity: Severity = Severity.ERROR
+    note: str = ""
+    """What the manual says besides about the same thing, half a sentence without a full stop."""
+    is_about_geometry: bool = False
+    """What it refuses could be written, but cannot be made."""
+
+    def holds(self, own: Stated) -> bool:
+        """Whether it finds something in what the blocks of its role state."""
+        return self.when is not None and self.when.holds(own)
+
+    @property
+    def title(self) -> str:
+        """The message with its fields shown as gaps."""
+        return _FIELD.sub(_gap, self.message)
+
+    @property
+    def advice(self) -> str:
+        """What to do, with its fields shown as gaps."""
+        return _FIELD.sub(_gap, self.help)
+
+
+_FIELD = re.compile(r"\{(\w+)(?::([^}]*))?\}")
+
+
+def _gap(field: re.Match[str]) -> str:
+    """A field of a template: `{words:D Q}` as <D or Q>, `{limit}` as <limit>."""
+    name, spec = field.groups()
+    if spec:
+        return f"<{spec if spec == 'other G' else ' or '.join(spec.replace('|', ' ').split())}>"
+    return _PHRASES[name] if name in _PHRASES else f"<{_GAPS.get(name, name)}>"
+
+
+_PHRASES = {"comparison": "", "fits": "at most <limit> fits", "smaller": "write at most <limit>"}
+_GAPS = {"words": "word", "off": "difference", "subject": "element", "free": "point"}
+
+
+@dataclass(frozen=True, slots=True)
+class Offence:
+    """A rule that holds for the blocks of a role, and the names of the givens that it points at."""
+
+    rule: Rule
+    names: tuple[str, ...]
+    role: Role
+
+
+def check(rules: tuple[Rule, ...], roles: Sequence[Role], stated: Stated) -> tuple[Offence, ...]:
+    """All rules on combinations of words that refuse or ignore something in what the blocks of a contour state."""
+    return tuple(offence for role in roles for offence in _check_role(rules, role, stated))
+
+
+def is_refused_by_values(rules: tuple[Rule, ...], roles: Sequence[Role], stated: Stated) -> bool:
+    """Whether `check` finds something that depends on values and not on names alone."""
+    for role in roles:
+        by_values = _rules_of(rules, role.name)[1]
+        if by_values:
+            is_all = role.prefixes == ("",)
+            own = stated if is_all else {call: stated[name] for call, name in role.names(stated).items()}
+            if any(rule.holds(own) for rule in by_values):
+                return True
+    return False
+
+
+def _check_role(rules: tuple[Rule, ...], role: Role, stated: Stated) -> tuple[Offence, ...]:
+    by_names, by_values = _rules_of(rules, role.name)
+    names = role.names(stated)
+    offences = _offences_by_names(by_names, role, frozenset(names.values()))
+    if by_values:
+        own = {call: stated[name] for call, name in names.items()}
+        offences += tuple(_offence(rule, role, own, names) for rule in by_values if rule.holds(own))
+    return offences
+
+
+@lru_cache(maxsize=256)
+def _rules_of(rules: tuple[Rule, ...], role: str) -> tuple[tuple[Rule, ...], tuple[Rule, ...]]:
+    """The rules on combinations of a role: those on names alone, and those on values."""
+    own = [rule for rule in rules if role in rule.roles and rule.when is not None]
+    by_values = tuple(rule for rule in own if rule.when is not None and rule.when.reads_values)
+    return tuple(rule for rule in own if rule not in by_values), by_values
+
+
+@lru_cache(maxsize=8192)
+def _offences_by_names(rules: tuple[Rule, ...], role: Role, stated: frozenset[str]) -> tuple[Offence, ...]:
+    """Programs repeat few combinations of words many times."""
+    names = role.names(stated)
+    own = dict.fromkeys(names)
+    return tuple(_offence(rule, role, own, names) for rule in rules if rule.holds(own))
+
+
+def _offence(rule: Rule, role: Role, own: Stated, names: Mapping[str, str]) -> Offence:
+    offenders = rule.when.offenders(own) if rule.when is not None else ()
+    return Offence(rule, tuple(names[call] for call in offenders), role)

@@ -1,0 +1,268 @@
+"""Contours with open choices, further facts or asked values: all solutions, or the facts that are to blame."""
+
+from bisect import bisect_left
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from decimal import Decimal
+
+from contoursolve.analysis import Group, judge, order
+from contoursolve.analysis.determinacy import survey
+from contoursolve.analysis.identities import is_affine
+from contoursolve.geometry import (
+    FIRST,
+    SECOND,
+    Coordinate,
+    Fact,
+    Given,
+    Layout,
+    Line,
+    Profile,
+    System,
+    Through,
+    Unit,
+    assemble,
+    line_scalars,
+    scalar,
+)
+from contoursolve.solving.affine import affine_facts
+from contoursolve.solving.alternatives import Alternative, Alternatives, decide, find_alternatives
+from contoursolve.solving.compare import compare_affine
+from contoursolve.solving.elimination import Obstacle
+from contoursolve.solving.enumerate import enumerate_solutions
+from contoursolve.solving.solution import Refusal, RefusalKind, Remark, RemarkKind, Solution, Status
+from contoursolve.solving.solve import solve
+
+
+def restrict(profile: Profile, names: Iterable[str]) -> Profile:
+    """The profile with the facts about these unknowns alone, and with no path.
+
+    Where only a part of a point or of a line is among them, the other part, of which nothing is said then, is put
+    somewhere.
+    """
+    system, kept = assemble(profile), frozenset(names)
+    figure = profile.figure
+    facts: list[Fact] = [fact for fact in profile.facts if kept.issuperset(system.unknowns_of(fact))]
+    givens = dict(profile.givens)
+    points = tuple(point for point in figure.points if not kept.isdisjoint(_both(point)))
+    for point in points:
+        for axis in (FIRST, SECOND):
+            if scalar(point, axis) not in kept:
+                name = f"{point} somewhere along {axis}"
+                givens[name] = Given(name, profile.start.values[axis] or Decimal(0), Unit.MM, None)
+                facts.append(Coordinate(name, point, axis))
+    carriers = tuple(line for line in figure.carriers if not kept.isdisjoint(line_scalars(line)))
+    facts += [Through(line, figure.start) for line in carriers if line_scalars(line)[2] not in kept]
+    lines = tuple(
+        # A line has a sense where both its ends are known, not where one has been put somewhere.
+        replace(line, head=line.head if kept.issuperset(_both(line.tail, line.head)) else "")
+        for line in (*figure.path, *figure.lines)
+        if isinstance(line, Line)
+    )
+    part = replace(
+        figure,
+        points=points,
+        radii=tuple(radius for radius in figure.radii if radius in kept),
+        path=(),
+        corners=(),
+        lines=lines,
+        carriers=carriers,
+    )
+    return replace(profile, layout=Layout(part, tuple(facts)), givens=givens, choices=(), questions=())
+
+
+def _both(*points: str) -> tuple[str, ...]:
+    return tuple(scalar(point, axis) for point in points for axis in (FIRST, SECOND))
+
+
+def tied_with(system: System, fact: Fact) -> tuple[str, ...]:
+    """The givens of a smallest set of facts from which a fact of the system follows, with its own, in the order of
+    the facts.
+
+    A fact beside the basis can replace exactly those facts of the basis that it is tied with. A fact of the basis
+    is tied with the first fact beside it that can replace it.
+    """
+    verdict = judge(system)
+    if system.facts.index(fact) in verdict.basis:
+        spare = (each for index, each in enumerate(system.facts) if index not in verdict.basis)
+        return next((names for names in (tied_with(system, each) for each in spare) if fact.given in names), ())
+    basis = tuple(system.facts[index] for index in verdict.basis)
+    # A fact without unknowns is about the givens alone, and the angles among them tell which.
+    replaceable = basis if system.unknowns_of(fact) else ()
+    tied = [each for each in replaceable if _rank(system, basis, each, fact) == verdict.rank]
+    names = [name for each in (*tied, fact) for name in (*headings_of(each, system), each.given) if name]
+    return tuple(dict.fromkeys(names))
+
+
+def _rank(system: System, basis: tuple[Fact, ...], old: Fact, new: Fact) -> int:
+    return survey(system.keep((*(fact for fact in basis if fact is not old), new))).rank
+
+
+def headings_of(fact: Fact, system: System) -> tuple[str, ...]:
+    """The given angles of the lines that a fact speaks about."""
+    lines = (name.rpartition(".")[0] for name in fact.reads())
+    return tuple(dict.fromkeys(system.headed[line][0] for line in lines if line in system.headed))
+
+
+@dataclass(frozen=True, slots=True)
+class Settlement:
+    """The contour of a profile or what speaks against it, and every solution of its equations.
+
+    `singular` are the givens of facts that do not fix what they speak about at their values, and `loose` is that;
+    both are empty where there is another reason.
+    """
+
+    solution: Solution
+    alternatives: Alternatives
+    singular: tuple[str, ...] = ()
+    loose: tuple[str, ...] = ()
+
+
+def settle(profile: Profile) -> Settlement:
+    """The contour that the control makes of a determined profile, or the only one that there is.
+
+    Where the first facts are singular at their values, those that were not needed are tried instead of them.
+    """
+    alternatives = find_alternatives(profile)
+    if not alternatives.items and _singular(alternatives):
+        tried = (find_alternatives(other) for other in orders_of(profile))
+        alternatives = next((found for found in tried if not _singular(found)), alternatives)
+    nearest = tuple(sorted(alternatives.items, key=_disagreement))
+    solution = decide(replace(alternatives, items=nearest), profile)
+    kinds = {refusal.kind for refusal in solution.refusals}
+    if not kinds & {RefusalKind.NO_POINT, RefusalKind.SEARCH_UNFINISHED}:
+        return Settlement(solution, alternatives)
+    system = assemble(profile)
+    groups = _groups(system)
+    if RefusalKind.NO_POINT in kinds:
+        dead = _dead(profile, groups)
+        return Settlement(_affine(profile, groups, dead) or _blame(solution, dead, groups, system), alternatives)
+    unknowns = {name for doubt in alternatives.doubts for name in doubt.unknowns}
+    doubtful = [group for group in groups if not unknowns.isdisjoint(group.unknowns)]
+    singular = _singular(alternatives)
+    if not singular:
+        return Settlement(_blame(solution, doubtful, groups, system), alternatives)
+    found = _affine(profile, groups, doubtful)
+    if found is not None:
+        return Settlement(found, alternatives)
+    solution = Solution(Status.UNDERDETERMINED)
+    return Settlement(solution, alternatives, _givens(doubtful, groups, system), tuple(singular))
+
+
+def settled_by(profile: Profile, unknown: str) -> tuple[str, ...]:
+    """The givens of the facts that determine an unknown together."""
+    system = assemble(profile)
+    groups = _groups(system)
+    return _givens([group for group in groups if unknown in group.unknowns], groups, system)
+
+
+def _singular(alternatives: Alternatives) -> list[str]:
+    """The unknowns of a step whose facts do not fix them at their values."""
+    doubts = (doubt for doubt in alternatives.doubts if doubt.obstacle is Obstacle.SINGULAR)
+    return list(dict.fromkeys(name for doubt in doubts for name in doubt.unknowns))
+
+
+def orders_of(profile: Profile) -> Iterator[Profile]:
+    """The profile with one of the facts that were not needed put first, so that it is."""
+    basis = judge(assemble(profile)).basis
+    for index, fact in enumerate(profile.facts):
+        if index not in basis:
+            rest = (each for each in profile.facts if each is not fact)
+            yield replace(profile, layout=Layout(profile.figure, (fact, *rest)))
+
+
+def _disagreement(item: Alternative) -> float:
+    """By how much facts that were not needed disagree with a solution, mm."""
+    return sum(refusal.values.get("off_by_mm", 0.0) for refusal in item.solution.refusals)
+
+
+def _groups(system: System) -> tuple[Group, ...]:
+    return order(system, tuple(system.facts[index] for index in judge(system).basis))
+
+
+def _dead(profile: Profile, groups: tuple[Group, ...]) -> list[Group]:
+    """The first group that has no solution after the groups before it; found by halving."""
+
+    def is_dead(number: int) -> bool:
+        part = _first(profile, groups[: number + 1])
+        system = assemble(part)
+        if not system.unknowns or not judge(system).is_determined:
+            return False
+        return not enumerate_solutions(part, system).found
+
+    # Of all groups together it is known.
+    number = bisect_left(range(len(groups) - 1), True, key=is_dead)
+    return [groups[number]]
+
+
+def _first(profile: Profile, groups: tuple[Group, ...]) -> Profile:
+    """The part of a profile that some groups determine, without points of which one coordinate is determined."""
+    names = {name for group in groups for name in group.unknowns}
+    half = [
+        pair for point in profile.figure.points if not names.issuperset(pair := {scalar(point, 0), scalar(point, 1)})
+    ]
+    return restrict(profile, names.difference(*half))
+
+
+def _blame(solution: Solution, blamed: list[Group], groups: tuple[Group, ...], system: System) -> Solution:
+    """The solution whose refusal names the facts of some groups."""
+    subject = ",".join(name for group in blamed for name in group.unknowns)
+    givens = _givens(blamed, groups, system)
+    refusals = (replace(each, subject=subject, givens=givens) for each in solution.refusals)
+    return replace(solution, refusals=tuple(refusals))
+
+
+def _givens(blamed: list[Group], groups: tuple[Group, ...], system: System) -> tuple[str, ...]:
+    """What states the facts of some groups; for a fact that nothing states, what it builds on."""
+    names: dict[str, None] = {}
+    for fact in (fact for group in blamed for fact in group.facts):
+        names |= dict.fromkeys(name for name in (fact.given, *headings_of(fact, system)) if name)
+        if not fact.given:
+            used = set(system.unknowns_of(fact)).difference(*(group.unknowns for group in blamed))
+            earlier = [group for group in groups if not used.isdisjoint(group.unknowns)]
+            names |= dict.fromkeys(_givens(earlier, groups, system))
+    return tuple(names)
+
+
+def _affine(profile: Profile, groups: tuple[Group, ...], doubtful: list[Group]) -> Solution | None:
+    """What the solver of ordinary words says of a group, where it and all before it are about such words."""
+    part = _first(profile, groups[: groups.index(doubtful[0]) + 1])
+    system = assemble(part)
+    if not is_affine(part.facts) or not judge(system).is_determined:
+        return None
+    refusals = [each for each in solve(part).refusals if isinstance(each, Refusal)]
+    return Solution(refusals[0].kind.status, refusals=tuple(refusals)) if refusals else None
+
+
+_COMPARED = (
+    RefusalKind.WORDS_DISAGREE,
+    RefusalKind.FACT_DISAGREES,
+    RefusalKind.RADIUS_DIFFERENCE,
+    RemarkKind.WORDS_AGREE,
+)
+
+
+def said_twice(profile: Profile) -> tuple[Refusal | Remark, ...]:
+    """How the facts that are not needed compare with the others, as far as these determine what they speak about.
+
+    Facts about lines are compared whatever the others leave free. Of the others, where they leave several places, the
+    one with which most of them agree counts.
+    """
+    affine = affine_facts(profile, profile.facts)
+    if affine is not None:
+        return tuple(compare_affine(profile, affine))
+    system = assemble(profile)
+    free = judge(system).free
+    part = restrict(profile, (name for name in system.unknowns if name not in free))
+    if len(part.facts) <= len(assemble(part).unknowns) or not judge(assemble(part)).is_determined:
+        return ()
+    items = find_alternatives(part).items
+    compared = [tuple(event for event in _events(item) if event.kind in _COMPARED) for item in items]
+    return min(compared, key=_disagreements) if compared else ()
+
+
+def _events(item: Alternative) -> tuple[Refusal | Remark, ...]:
+    return (*item.solution.refusals, *item.solution.remarks)
+
+
+def _disagreements(events: tuple[Refusal | Remark, ...]) -> int:
+    return sum(isinstance(event, Refusal) for event in events)

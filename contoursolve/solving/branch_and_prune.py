@@ -1,0 +1,267 @@
+"""Steps without a closed form: all solutions in a range, by dividing it until each box holds one or none."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import pairwise
+
+import numpy
+
+from contoursolve.analysis import Group, judge
+from contoursolve.geometry import System
+from contoursolve.numeric import ball, expressions, intervals
+from contoursolve.numeric.ball import Number
+from contoursolve.numeric.expressions import Tape
+from contoursolve.numeric.hc4 import Boxes, Narrower, approach, contract, joined, stacked
+from contoursolve.numeric.inputs import lookup
+from contoursolve.numeric.interpreter import Replay
+from contoursolve.numeric.intervals import Intervals, constant
+from contoursolve.numeric.newton import Finder, finder_of
+from contoursolve.solving.elimination import Root
+from contoursolve.solving.implied_constraints import consequences, necessities
+from contoursolve.solving.krawczyk import keep, prove, refine
+from contoursolve.solving.step_equations import Kernel
+
+BATCH = 1024
+"""How many boxes are looked at together."""
+
+FEW = 32
+"""Fewer boxes than these are divided further before they are looked at."""
+
+DIVISION = 0.487
+"""Boxes are divided away from the middle, where drawings like to have their solutions."""
+
+NARROWEST = 2.0**-36
+"""A box this small in every direction, as a share of the whole range, is given up as undecided."""
+
+MARGINS = (2.0**-43, 2.0**-37, 2.0**-31)
+"""By how much of its coordinates a box is inflated before it is tested; the larger ones for the smallest boxes, in
+which rounding hides the solution."""
+
+STARTS, STEPS = 2000, 25
+"""How many of the boxes that remain undecided Newton's method starts from, and how many steps it takes."""
+
+PASSES, WORTHWHILE = 3, 0.8
+"""How often boxes are narrowed by each equation before they are by all, and the share of an unknown's range that must
+be left after a pass for another one not to be worthwhile."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Conditions:
+    """What a group's unknowns must satisfy, for intervals.
+
+    `narrower` has the equations, what follows from them, and what must not be negative; `equations` the equations
+    and their derivatives, row by row.
+    """
+
+    unknowns: tuple[str, ...]
+    narrower: Narrower
+    narrowed_by: tuple[str, ...]
+    equations: Replay
+    arguments: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Task:
+    """Where solutions of a group are searched for: cases, each with the values of the group's other inputs, the range
+    of each unknown, and how many intervals may be looked at for all of the cases together. With `is_guessing`, points
+    near which there may be solutions are looked for in what remains undecided."""
+
+    cases: Sequence[Mapping[str, Number]]
+    reach: Mapping[str, tuple[float, float]]
+    budget: int
+    is_guessing: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Division:
+    """Boxes that are proven to hold exactly one solution, and whether they hold all of them.
+
+    `likely` are points near which there may be others, in the boxes that remain undecided.
+    """
+
+    proven: Boxes
+    likely: list[list[float]]
+    is_complete: bool
+
+
+@lru_cache(maxsize=1024)
+def conditions_of(system: System, group: Group) -> Conditions:
+    """The conditions of a group of facts of a system."""
+    tape = Tape()
+    for name in group.unknowns:
+        tape.input(name)
+    at = lookup(system, tape, {})
+    true = [system.facts[index] for index in judge(system).basis]
+    zeros = [*(fact.equation(at) for fact in group.facts), *consequences(group.facts, true, at)]
+    signs = necessities(system.figure, group.facts, at)
+    for number, expression in enumerate((*zeros, *signs)):
+        tape.output(str(number), expression)
+    slopes = Tape()
+    unknowns = [slopes.input(name) for name in group.unknowns]
+    equations = [fact.equation(lookup(system, slopes, {})) for fact in group.facts]
+    for number, expression in enumerate((*equations, *expressions.derivatives(equations, unknowns))):
+        slopes.output(str(number), expression)
+    return Conditions(
+        group.unknowns,
+        Narrower(tape.shared(), len(zeros)),
+        tape.inputs,
+        Replay(slopes.shared(), intervals, constant),
+        slopes.inputs,
+    )
+
+
+def divide(conditions: Conditions, tasks: Sequence[Task]) -> list[tuple[list[Division], int]]:
+    """All solutions within reach for each case of each task, and how many intervals were looked at for the task."""
+    size = len(conditions.unknowns)
+    cases = [case for task in tasks for case in task.cases]
+    owner = numpy.repeat(numpy.arange(len(tasks)), [len(task.cases) for task in tasks])
+    narrowed_at, known = (
+        [_by_case(name, cases) for name in names[size:]] for names in (conditions.narrowed_by, conditions.arguments)
+    )
+    low, high = (
+        numpy.array([[task.reach[name][end] for name in conditions.unknowns] for task in tasks])[owner]
+        for end in (0, 1)
+    )
+    ranges = high - low
+    pending = [Boxes(low, high, numpy.arange(len(cases)))]
+    proven, undecided = [pending[0][:0]], [pending[0][:0]]
+    looked_at, budgets = numpy.zeros(len(tasks), int), numpy.array([task.budget for task in tasks])
+    with numpy.errstate(all="ignore"):
+        while pending:
+            boxes, pending = _batch(pending)
+            is_over = (looked_at * size >= budgets)[owner[boxes.case]]
+            undecided.append(boxes[is_over])
+            boxes = boxes[~is_over]
+            looked_at += numpy.bincount(owner[boxes.case], minlength=len(tasks))
+            if len(boxes):
+                boxes = _narrowed(conditions.narrower, boxes, narrowed_at)
+            if not len(boxes):
+                continue
+            found = contract(conditions.equations, boxes, known, MARGINS[0])
+            proven.append(found.boxes[found.is_proven])
+            boxes, slopes = found.boxes[~found.is_proven], found.slopes[~found.is_proven]
+            is_small = (boxes.high - boxes.low <= NARROWEST * ranges[boxes.case]).all(axis=1)
+            small, boxes, slopes = boxes[is_small], boxes[~is_small], slopes[~is_small]
+            for margin in MARGINS[1:] if len(small) else ():
+                found = contract(conditions.equations, small, known, margin)
+                proven.append(found.boxes[found.is_proven])
+                small = found.boxes[~found.is_proven]
+            undecided.append(small)
+            if len(boxes):
+                pending.append(_divided(boxes, slopes, ranges))
+        rest, alone = joined(undecided), joined(proven)
+        guessed = rest[numpy.array([task.is_guessing for task in tasks])[owner[rest.case]]]
+        likely = approach(conditions.equations, guessed[:: max(1, len(guessed) // STARTS)].middle, known, STEPS)
+    is_open = numpy.bincount(rest.case, minlength=len(cases)) > 0
+    parts = zip(_by(alone, len(cases)), _by(likely, len(cases)), is_open.tolist(), strict=True)
+    divisions = [Division(own, near.low.tolist(), not is_left) for own, near, is_left in parts]
+    firsts = numpy.searchsorted(owner, numpy.arange(len(tasks) + 1)).tolist()
+    return [
+        (divisions[first:last], count * size)
+        for (first, last), count in zip(pairwise(firsts), looked_at.tolist(), strict=True)
+    ]
+
+
+def _by_case(name: str, cases: Sequence[Mapping[str, Number]]) -> Intervals:
+    """The bounds of an input in every case."""
+    bounds = [ball.bounds(case[name]) for case in cases]
+    return Intervals(numpy.array([low for low, _ in bounds]), numpy.array([high for _, high in bounds]))
+
+
+def _by(boxes: Boxes, cases: int) -> list[Boxes]:
+    """The boxes of each case."""
+    order = numpy.argsort(boxes.case, kind="stable")
+    ends = numpy.searchsorted(boxes.case[order], numpy.arange(cases + 1)).tolist()
+    return [boxes[order[first:last]] for first, last in pairwise(ends)]
+
+
+def _batch(pending: list[Boxes]) -> tuple[Boxes, list[Boxes]]:
+    """The boxes that have waited longest, and the others: no cluster of boxes uses up what others need."""
+    number, count = 0, 0
+    while number < len(pending) and count < BATCH:
+        count += len(pending[number])
+        number += 1
+    boxes = joined(pending[:number])
+    rest = [boxes[BATCH:]] if count > BATCH else []
+    return boxes[:BATCH], rest + pending[number:]
+
+
+def _narrowed(narrower: Narrower, boxes: Boxes, known: list[Intervals]) -> Boxes:
+    """The boxes narrowed by each condition, for as long as that helps most of them."""
+    for _ in range(PASSES):
+        columns, is_possible = narrower.narrowed(boxes.inputs(known), len(boxes))
+        widths = (boxes.high - boxes.low)[is_possible]
+        boxes = stacked(columns[: boxes.low.shape[1]], boxes.case)[is_possible]
+        if not len(boxes):
+            break
+        left = numpy.min((boxes.high - boxes.low) / numpy.maximum(widths, 1e-300), axis=1)
+        if numpy.median(left) > WORTHWHILE:
+            break
+    return boxes
+
+
+def _where(slopes: intervals.Array, widths: intervals.Array, ranges: intervals.Array) -> intervals.Array:
+    """The unknown to divide of each box: the one whose width moves the equations most, each by its share.
+
+    The smear of Kearfott (1987), relative and summed as by Trombettoni, Araya and others (2011), AAAI.
+    """
+    smear = numpy.minimum(slopes, 1e100) * widths[:, None, :]
+    share = smear / numpy.maximum(smear.sum(axis=2, keepdims=True), 1e-300)
+    found: intervals.Array = numpy.where(widths <= NARROWEST * ranges, 0.0, share.sum(axis=1)).argmax(axis=1)
+    return found
+
+
+def _divided(boxes: Boxes, slopes: intervals.Array, ranges: intervals.Array) -> Boxes:
+    """Two parts of each box, or more where there are few boxes: a batch of a few takes as long as one of many."""
+    parts = boxes
+    while True:
+        where = _where(slopes, parts.high - parts.low, ranges[parts.case])
+        every = numpy.arange(len(parts))
+        begin, end = parts.low[every, where], parts.high[every, where]
+        low, high = parts.low.copy(), parts.high.copy()
+        low[every, where] = high[every, where] = begin + DIVISION * (end - begin)
+        parts = joined([Boxes(parts.low, high, parts.case), Boxes(low, parts.high, parts.case)])
+        if len(parts) >= FEW:
+            return parts
+        slopes = numpy.concatenate([slopes, slopes])
+
+
+NARROW = 2.0**-60
+"""1 (share of the coordinates). A box that is wider is tried to be enclosed otherwise."""
+
+
+def settle(kernel: Kernel, division: Division, inputs: Mapping[str, Number]) -> list[Root]:
+    """All solutions that are proven."""
+    found: list[list[Number]] = []
+    for low, high in zip(division.proven.low.tolist(), division.proven.high.tolist(), strict=True):
+        keep(_pinned(kernel, [ball.between(*ends) for ends in zip(low, high, strict=True)], inputs), found)
+    for point in division.likely:
+        box = search(kernel, point, inputs)
+        if box is not None:
+            keep(box, found)
+    return [Root(dict(enumerate(box))) for box in found]
+
+
+def search(kernel: Kernel, guess: Sequence[float], inputs: Mapping[str, Number]) -> list[Number] | None:
+    """A box about the solution that a guess leads to, if it can be proven to be one."""
+    names = kernel.arguments[len(kernel.unknowns) :]
+    finder = _finder(kernel)
+    found = finder(guess, [ball.middle(inputs[name]) for name in names]) if finder else None
+    return prove(kernel, found, inputs) if found else None
+
+
+def _pinned(kernel: Kernel, box: list[Number], inputs: Mapping[str, Number]) -> list[Number]:
+    """The solution in a box that is proven to hold exactly one, as narrowly as it can be enclosed."""
+    narrow = refine(kernel, box, inputs)
+    if all(ball.width(each) <= NARROW * max(1.0, abs(ball.middle(each))) for each in narrow):
+        return narrow
+    near = search(kernel, [ball.middle(each) for each in narrow], inputs)
+    if near is not None and all(ball.contains(outer, inner) for outer, inner in zip(narrow, near, strict=True)):
+        return near
+    return narrow
+
+
+@lru_cache(maxsize=256)
+def _finder(kernel: Kernel) -> Finder | None:
+    return finder_of(kernel.function, len(kernel.unknowns))

@@ -1,0 +1,199 @@
+"""The solved path: lines and arcs with all their numbers, checked once more as a path."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from math import atan2, cos, degrees, hypot, pi, radians, sin, tau
+from typing import NamedTuple
+
+from contoursolve.diagnostics.display import Shown
+from contoursolve.geometry import Line, Plane, Profile, Turn
+from contoursolve.solving.solution import Point, Solution
+from contoursolve.tolerance import AGREEMENT, LENGTH
+
+
+@dataclass(frozen=True, slots=True)
+class LineSegment:
+    """A straight element; points in mm in the plane's axes, X as radius on a lathe."""
+
+    name: str
+    start: Point
+    end: Point
+
+    @property
+    def length(self) -> float:
+        """Length, mm."""
+        return hypot(self.end[0] - self.start[0], self.end[1] - self.start[1])
+
+    @property
+    def angle(self) -> float:
+        """Direction of travel, degrees, counter-clockwise from the plane's first axis."""
+        return degrees(atan2(self.end[1] - self.start[1], self.end[0] - self.start[0]))
+
+
+@dataclass(frozen=True, slots=True)
+class ArcSegment:
+    """A circular element; seen with the plane's first axis to the right and its second axis up."""
+
+    name: str
+    start: Point
+    end: Point
+    center: Point
+    radius: float
+    turn: Turn
+
+    @property
+    def sweep(self) -> float:
+        """Angle travelled, degrees, more than 0."""
+        begin = atan2(self.start[1] - self.center[1], self.start[0] - self.center[0])
+        end = atan2(self.end[1] - self.center[1], self.end[0] - self.center[0])
+        return degrees(((end - begin) * self.turn.sign) % tau)
+
+    @property
+    def length(self) -> float:
+        """Length along the arc, mm."""
+        return self.radius * self.sweep / degrees(1)
+
+
+Segment = LineSegment | ArcSegment
+
+
+class Crossing(NamedTuple):
+    """An element that lies on the other side of the spindle axis than the path begins, and its farthest place there."""
+
+    element: Segment
+    at: Point
+
+
+@dataclass(frozen=True, slots=True)
+class Contour(Shown):
+    """The path of one contour from `start` to `end` without gaps, and its named points. Contours with the same numbers
+    are equal, whatever their plane."""
+
+    start: Point
+    end: Point
+    points: Mapping[str, Point]
+    elements: tuple[Segment, ...]
+    plane: Plane = field(compare=False)
+
+    def table(self) -> list[dict[str, str | float | None]]:
+        """A row for each element, as `pandas.DataFrame` takes them; None for what an element does not have.
+
+        The names of the columns have the axes of the plane and the units: `end_Z_mm`, `end_X_radius_mm`, `radius_mm`,
+        `angle_deg` (the direction of a line, counter-clockwise from the plane's first axis), `sweep_deg` (the angle
+        that an arc travels).
+        """
+        return [_row(element, self.plane) for element in self.elements]
+
+    def is_alike(self, other: "Contour") -> bool:
+        """Whether the elements of two paths are of the same kinds and turn the same way, one by one."""
+        return [_kind(each) for each in self.elements] == [_kind(each) for each in other.elements]
+
+    def deviation(self, other: "Contour") -> float:
+        """The largest distance (mm) of the end and the named points of two paths, and of the ends, centres and radii of
+        their elements, where these are alike."""
+        pairs = [
+            (self.end, other.end),
+            *((self.points[name], other.points[name]) for name in self.points.keys() & other.points.keys()),
+        ]
+        off = 0.0
+        if self.is_alike(other):
+            for one, two in zip(self.elements, other.elements, strict=True):
+                pairs += [(one.start, two.start), (one.end, two.end)]
+                if isinstance(one, ArcSegment) and isinstance(two, ArcSegment):
+                    pairs.append((one.center, two.center))
+                    off = max(off, abs(one.radius - two.radius))
+        return max(off, *(hypot(a[0] - b[0], a[1] - b[1]) for a, b in pairs))
+
+    @property
+    def crossing(self) -> Crossing | None:
+        """Where the path lies farthest across the spindle axis from where it begins, by more than the least increment;
+        None where it does not, or the machine is no lathe. A path may begin on either side."""
+        axis = next((number for number, is_diameter in enumerate(self.plane.diameters) if is_diameter), None)
+        if axis is None:
+            return None
+        side, across = 0.0, None
+        for element in self.elements:
+            for at in _extremes(element, axis):
+                if abs(at[axis]) > AGREEMENT:
+                    side = side or at[axis]
+                    if at[axis] * side < 0 and (across is None or abs(at[axis]) > abs(across.at[axis])):
+                        across = Crossing(element, at)
+        return across
+
+
+def _kind(segment: Segment) -> Turn | None:
+    """The sense in which an arc turns; None for a line."""
+    return segment.turn if isinstance(segment, ArcSegment) else None
+
+
+def _extremes(segment: Segment, axis: int) -> list[Point]:
+    """The ends of an element, and where an arc turns back along an axis, in the order of travel."""
+    if isinstance(segment, LineSegment):
+        return [segment.start, segment.end]
+    quarter = radians(90 * axis)
+    begin = atan2(segment.start[1] - segment.center[1], segment.start[0] - segment.center[0])
+    ways = {((angle - begin) * segment.turn.sign) % tau: angle for angle in (quarter, quarter + pi)}
+    turning = [
+        (segment.center[0] + segment.radius * cos(ways[way]), segment.center[1] + segment.radius * sin(ways[way]))
+        for way in sorted(ways)
+        if way < radians(segment.sweep)
+    ]
+    return [segment.start, *turning, segment.end]
+
+
+def _row(element: Segment, plane: Plane) -> dict[str, str | float | None]:
+    def place(name: str, at: Point | None) -> dict[str, float | None]:
+        return {
+            f"{name}_{axis}{'_radius' if is_diameter else ''}_mm": at[number] if at else None
+            for number, (axis, is_diameter) in enumerate(zip(plane.axes, plane.diameters, strict=True))
+        }
+
+    arc = element if isinstance(element, ArcSegment) else None
+    return {
+        "name": element.name,
+        "kind": "arc" if arc else "line",
+        **place("start", element.start),
+        **place("end", element.end),
+        **place("center", arc.center if arc else None),
+        "radius_mm": arc.radius if arc else None,
+        "turn": arc.turn.value if arc else None,
+        "angle_deg": element.angle if isinstance(element, LineSegment) else None,
+        "sweep_deg": arc.sweep if arc else None,
+        "length_mm": element.length,
+    }
+
+
+def trace(profile: Profile, solution: Solution) -> Contour:
+    """The path of a solved profile. Elements of no length are left out.
+
+    Raises ValueError if the solution has no values.
+    """
+    points, corners = solution.points, {corner.at: corner for corner in profile.figure.corners}
+    if not points:
+        raise ValueError(f"a contour that is {solution.status.value} has no path")
+    start = here = points[profile.figure.start]
+    elements: list[Segment] = []
+
+    def add(segment: Segment) -> Point:
+        if hypot(segment.end[0] - here[0], segment.end[1] - here[1]) <= LENGTH:
+            return here
+        elements.append(segment)
+        return segment.end
+
+    for element in profile.figure.path:
+        corner = corners.get(element.head)
+        built = solution.corners[corner.name] if corner else None
+        end = built.begin if built else points[element.head]
+        if isinstance(element, Line):
+            here = add(LineSegment(element.name, here, end))
+        else:
+            center, radius = points[element.center], solution.radii[element.radius]
+            here = add(ArcSegment(element.name, here, end, center, radius, element.turn))
+        if corner and built:
+            if built.center is None:
+                here = add(LineSegment(corner.name, here, built.end))
+            else:
+                turn = Turn.CCW if built.turn > 0 else Turn.CW
+                here = add(ArcSegment(corner.name, here, built.end, built.center, built.radius, turn))
+    shown = {name: points[name] for name in profile.figure.points if name in profile.intersections}
+    return Contour(start, here, shown, tuple(elements), profile.plane)

@@ -1,0 +1,114 @@
+"""The verdict on each of many rows, by the table of checks."""
+
+from collections.abc import Mapping, Sequence
+from enum import IntEnum
+
+import numpy
+from numpy.typing import NDArray
+
+from contoursolve.numeric.columns import Array
+from contoursolve.solving.checks import Check, Role
+from contoursolve.solving.solution import RefusalKind, Status
+
+Mask = NDArray[numpy.bool_]
+Codes = NDArray[numpy.uint8]
+Places = NDArray[numpy.intp]
+Out = Mapping[str, Array]
+
+
+class Code(IntEnum):
+    """A status in a column of numbers."""
+
+    SOLVED = 0
+    OVERDETERMINED = 1
+    REJECTED = 2
+    CONFLICTING = 3
+    UNDERDETERMINED = 4
+    AMBIGUOUS = 5
+    NO_SOLUTION = 6
+    UNDECIDED = 7
+
+    @property
+    def status(self) -> Status:
+        """The status that it stands for."""
+        return Status[self.name]
+
+
+REASONS: tuple[RefusalKind | None, ...] = (None, *RefusalKind)
+"""What a number in the column `reason` stands for."""
+
+_REASON = {kind: number for number, kind in enumerate(REASONS)}
+
+
+def code_of(status: Status) -> Code:
+    """The number of a status."""
+    return Code[status.name]
+
+
+def reason_of(kind: RefusalKind | None) -> int:
+    """The number of a reason."""
+    return _REASON[kind]
+
+
+class Verdict:
+    """What the checks found, row by row: `status` and `reason` as numbers; and the rows `again` that need the exact
+    arithmetic of a single solve: a step that is singular, a line that touches its circle.
+
+    `out` has the outputs of `checks.add_checks`, and the cosines at the corners.
+    """
+
+    def __init__(self, checks: Sequence[Check], out: Out, rows: int) -> None:
+        passed = numpy.broadcast_to(out["passed"], rows)
+        self.is_clear: Mask = passed == len(checks)
+        """Where every check is passed."""
+        self.reason: Codes = numpy.zeros(rows, numpy.uint8)
+        self.again: Mask = numpy.zeros(rows, bool)
+        self.agreeing: dict[str, Mask] = {}
+        """Where a fact that was not needed agrees, by the value that it states."""
+        self.differing: dict[str, Mask] = {}
+        self._conflicts: Mask = numpy.zeros(rows, bool)
+        rest = numpy.flatnonzero(~self.is_clear)
+        if rest.size:
+            self._note_first(checks, rest, passed[rest].astype(numpy.intp), out)
+        facts = {number: check for number, check in enumerate(checks) if check.role is Role.FACT}
+        if facts:
+            # The first such check is about the points; that of the corners comes last.
+            points = next(number for number, check in enumerate(checks) if check.role is Role.EQUATION)
+            is_solved = passed != points
+            for number, check in facts.items():
+                self._compare(check, out[f"margin:{number}"], is_solved)
+
+    @property
+    def status(self) -> Codes:
+        """The statuses; of several, the first in the order of `Status`."""
+        status: Codes = (self.reason != 0).view(numpy.uint8) * numpy.uint8(Code.NO_SOLUTION)
+        for agrees in self.agreeing.values():
+            status[agrees] = Code.OVERDETERMINED
+        status[self._conflicts] = Code.CONFLICTING
+        return status
+
+    def _note_first(self, checks: Sequence[Check], rows: Places, failed: Places, out: Out) -> None:
+        """Rows with the first check that each fails."""
+        self.again[rows] = numpy.array([check.is_doubtful for check in checks])[failed]
+        self.reason[rows] = numpy.array([_reason_where(check) for check in checks], numpy.uint8)[failed]
+        for number, check in enumerate(checks):
+            if check.opposite is not None:
+                bent = rows[failed == number]
+                cosine = numpy.broadcast_to(out[f"cosine:{check.subject}"], self.reason.size)[bent]
+                self.reason[bent[~(cosine > 0)]] = reason_of(check.opposite)
+
+    def _compare(self, check: Check, margin: Array, is_solved: Mask) -> None:
+        """A fact that was not needed, at the points that the others give."""
+        is_known = numpy.isfinite(margin) & is_solved
+        agrees = (margin >= check.limit) & is_known
+        differs = is_known & ~agrees
+        if check.fact:
+            # A fact may have several checks.
+            self.differing[check.fact] = self.differing.get(check.fact, False) | differs
+            self.agreeing[check.fact] = self.agreeing.get(check.fact, True) & agrees
+        self._conflicts |= differs
+
+
+def _reason_where(check: Check) -> int:
+    """The reason against rows of which it is the first check that fails."""
+    return reason_of(None if check.is_doubtful and check.role is not Role.FACT else check.kind)

@@ -1,0 +1,191 @@
+"""The equations of one step of a plan, as polynomials where they are, for exact numbers and balls."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+from contoursolve.analysis import Group
+from contoursolve.geometry import Fact, Functions, System
+from contoursolve.numeric import ball, expressions, modular_rank
+from contoursolve.numeric.ball import Number
+from contoursolve.numeric.expressions import Tape
+from contoursolve.numeric.inputs import lookup
+from contoursolve.numeric.interpreter import Replay
+from contoursolve.numeric.modular_rank import PRIME, draw, draw_direction
+
+
+class Coefficient:
+    """A number and what it is modulo `PRIME` at other values of the inputs: zero there is zero for all values."""
+
+    __slots__ = ("value", "witness")
+
+    def __init__(self, value: Number, witness: int) -> None:
+        self.value = value
+        self.witness = witness
+
+    def __add__(self, other: "Coefficient") -> "Coefficient":
+        return Coefficient(self.value + other.value, (self.witness + other.witness) % PRIME)
+
+    def __sub__(self, other: "Coefficient") -> "Coefficient":
+        return Coefficient(self.value - other.value, (self.witness - other.witness) % PRIME)
+
+    def __mul__(self, other: "Coefficient") -> "Coefficient":
+        return Coefficient(self.value * other.value, self.witness * other.witness % PRIME)
+
+    def __truediv__(self, other: "Coefficient") -> "Coefficient":
+        return Coefficient(self.value / other.value, self.witness * pow(other.witness, -1, PRIME) % PRIME)
+
+    def __pow__(self, exponent: int) -> "Coefficient":
+        return Coefficient(self.value**exponent, pow(self.witness, exponent, PRIME))
+
+    def __neg__(self) -> "Coefficient":
+        return Coefficient(-self.value, -self.witness % PRIME)
+
+    def __rtruediv__(self, one: int) -> "Coefficient":
+        return Coefficient(one / self.value, one * pow(self.witness, -1, PRIME) % PRIME)
+
+    @property
+    def is_zero(self) -> bool:
+        """Whether the coefficient is zero: for all values, or exactly at these."""
+        return self.witness == 0 or (ball.is_exact(self.value) and self.value == 0)
+
+
+def rational(value: float) -> Coefficient:
+    """A number that is the same for all values."""
+    return Coefficient(ball.exact(value), modular_rank.rational(value))
+
+
+def _apart(function: Callable[[Number], Number], name: str) -> Callable[[Coefficient], Coefficient]:
+    """A function of a coefficient, whose witness has nothing to do with any other."""
+    return lambda each: Coefficient(function(each.value), draw(f"{name} {each.witness}"))
+
+
+def _rotation(part: int) -> Callable[[Coefficient], Coefficient]:
+    function = (ball.cosine, ball.sine)[part]
+    return lambda each: Coefficient(function(each.value), draw_direction(str(each.witness))[part])
+
+
+COEFFICIENTS = Functions(_apart(ball.root, "root"), _rotation(0), _rotation(1))
+
+
+Monomial = tuple[int, ...]
+"""Indices of the unknowns that are multiplied, in order; empty for the constant."""
+
+
+@dataclass(frozen=True, slots=True)
+class Polynomial:
+    """Coefficients by monomial, without those that are zero."""
+
+    terms: Mapping[Monomial, Coefficient]
+
+    @property
+    def degree(self) -> int:
+        """The largest number of unknowns that are multiplied; -1 for the zero polynomial."""
+        return max(map(len, self.terms), default=-1)
+
+    @property
+    def unknowns(self) -> frozenset[int]:
+        """The unknowns that occur."""
+        return frozenset(index for monomial in self.terms for index in monomial)
+
+    @property
+    def constant(self) -> Coefficient | None:
+        """The constant term."""
+        return self.terms.get(())
+
+    def __add__(self, other: "Polynomial") -> "Polynomial":
+        terms = dict(self.terms)
+        for monomial, each in other.terms.items():
+            terms[monomial] = terms[monomial] + each if monomial in terms else each
+        return polynomial(terms)
+
+    def scaled(self, factor: Coefficient) -> "Polynomial":
+        """Every coefficient times a factor."""
+        return polynomial({monomial: each * factor for monomial, each in self.terms.items()})
+
+    def __mul__(self, other: "Polynomial") -> "Polynomial":
+        terms: dict[Monomial, Coefficient] = {}
+        for first, a in self.terms.items():
+            for second, b in other.terms.items():
+                monomial = tuple(sorted(first + second))
+                terms[monomial] = terms[monomial] + a * b if monomial in terms else a * b
+        return polynomial(terms)
+
+    def substitute(self, unknown: int, replacement: "Polynomial") -> "Polynomial":
+        """The polynomial with one unknown replaced."""
+        if unknown not in self.unknowns:
+            return self
+        result = polynomial({})
+        for monomial, each in self.terms.items():
+            count = monomial.count(unknown)
+            term = polynomial({tuple(index for index in monomial if index != unknown): each})
+            for _ in range(count):
+                term = term * replacement
+            result = result + term
+        return result
+
+
+def polynomial(terms: Mapping[Monomial, Coefficient]) -> Polynomial:
+    """A polynomial without its zero terms."""
+    return Polynomial({monomial: each for monomial, each in terms.items() if not each.is_zero})
+
+
+def known(value: Any) -> Polynomial:
+    """A number that was found for an unknown, as a polynomial; it is like no other number."""
+    return polynomial({(): Coefficient(value, draw(str(value)))})
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Kernel:
+    """Equations and unknowns of one step.
+
+    `coefficients` gives the coefficients of the equations as polynomials in the unknowns, in the order of `terms`
+    (equation, monomial), at the values of `parameters`; it is None if an equation is no
+    polynomial of degree 2. `equations` gives the equations and then their derivatives, row by row, at the values of
+    `arguments`, which are the unknowns and then other inputs. `function` is the same in CasADi.
+    """
+
+    facts: tuple[Fact, ...]
+    unknowns: tuple[str, ...]
+    sides: tuple[str, ...]
+    parameters: tuple[str, ...]
+    terms: tuple[tuple[int, Monomial], ...]
+    coefficients: Replay | None
+    arguments: tuple[str, ...]
+    equations: Replay
+    function: Any
+
+
+@lru_cache(maxsize=8192)
+def make_kernel(system: System, group: Group) -> Kernel:
+    """The kernel of a group of facts of a system."""
+    sides = tuple(dict.fromkeys(side for fact in group.facts for side in fact.sides()))
+    symbols = {name: expressions.symbol(name) for name in group.unknowns}
+    tape = Tape()
+    parts = expressions.quadratic_parts(
+        [fact.equation(lookup(system, tape, symbols)) for fact in group.facts],
+        list(symbols.values()),
+    )
+    coefficients = None
+    if parts is not None:
+        for number, expression in enumerate(parts.values()):
+            tape.output(str(number), expression)
+        coefficients = Replay(tape.function(), COEFFICIENTS, rational)
+    at = Tape()
+    unknowns = [at.input(name) for name in group.unknowns]
+    outputs = [fact.equation(lookup(system, at, {})) for fact in group.facts]
+    for number, expression in enumerate((*outputs, *expressions.derivatives(outputs, unknowns))):
+        at.output(str(number), expression)
+    function = at.function()
+    return Kernel(
+        facts=group.facts,
+        unknowns=group.unknowns,
+        sides=sides,
+        parameters=tape.inputs,
+        terms=tuple(parts) if parts is not None else (),
+        coefficients=coefficients,
+        arguments=at.inputs,
+        equations=Replay(function, ball, ball.exact),
+        function=function,
+    )
