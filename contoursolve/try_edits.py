@@ -1,7 +1,8 @@
 """What if: a block tried with words dropped, added, changed or completed."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from contoursolve import gcode
 from contoursolve.api import solve
@@ -14,8 +15,7 @@ from contoursolve.reading.dialect import Dialect
 from contoursolve.solving.contour import Contour
 
 
-@dataclass(frozen=True, slots=True)
-class Completion:
+class Completion(Struct, frozen=True):
     """A word that completes a block: the word, the whole block with it, and the contour that it then has
     (None while the word's number is open)."""
 

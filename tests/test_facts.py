@@ -4,10 +4,11 @@ The laws hold at random places, whether or not the fact is true there. The drawi
 oracle, and it is the oracle that measures what comes back.
 """
 
+import dataclasses
 import json
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Mapping
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass
 from decimal import Decimal
 from functools import cache
 from itertools import combinations, permutations, product
@@ -21,6 +22,7 @@ import pytest
 from chains import KINDS, Chain, Fact, distance_between, form_residuals, measure, random_chain, random_facts
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from msgspec import Struct, structs
 from sketches import chain_of, sketch_of
 
 from contoursolve import Sketch, solve
@@ -77,6 +79,13 @@ from contoursolve.statements import (
     write_statement,
 )
 from contoursolve.statements.apply import vocabulary_of
+
+
+def replace(record: Any, **changes: Any) -> Any:
+    """A record with some fields changed; those of the tests are dataclasses, most of the package are not."""
+    change = structs.replace if isinstance(record, Struct) else dataclasses.replace
+    return change(record, **changes)
+
 
 # Laws of equations ----------------------------------------------------------------------------------------
 
@@ -199,7 +208,7 @@ def gradient(formula: Callable[[Values], Any], place: Place) -> dict[str, float]
 
 
 def name_of(fact: Any) -> str:
-    details = [str(getattr(fact, each.name)) for each in fields(fact) if each.name in ("axis", "side", "turn", "way")]
+    details = [str(getattr(fact, name)) for name in ("axis", "side", "turn", "way") if hasattr(fact, name)]
     between = [type(each).__name__ for each in (fact.first, fact.second)] if isinstance(fact, TurnBetween) else []
     return "-".join([type(fact).__name__, *details, *between])
 
@@ -213,7 +222,7 @@ def test_every_kind_of_equation_has_its_laws_tested() -> None:
     from contoursolve import geometry  # noqa: PLC0415 - only here
 
     exported = {getattr(geometry, name) for name in geometry.__all__}
-    assert {kind for kind in exported if hasattr(kind, "residual")} == {type(fact) for fact in FACTS}
+    assert {kind for kind in exported - {geometry.Fact} if hasattr(kind, "residual")} == {type(fact) for fact in FACTS}
 
 
 @law()

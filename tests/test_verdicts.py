@@ -4,11 +4,11 @@ import json
 import pkgutil
 import random
 import re
-from dataclasses import asdict
 from math import cos, radians, sin, sqrt
 
 import numpy as np
 import pytest
+from msgspec.structs import asdict
 
 from contoursolve import geometry
 from contoursolve.analysis import derive

@@ -3,9 +3,10 @@
 import json
 import pkgutil
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, NamedTuple
+
+from msgspec import Struct
 
 from contoursolve.analysis.partition import order
 from contoursolve.geometry import Fact, System
@@ -48,8 +49,7 @@ def witness_of(name: str, signs: Mapping[str, int] | None = None) -> int:
     return draw(name)
 
 
-@dataclass(frozen=True, slots=True)
-class Verdict:
+class Verdict(Struct, frozen=True):
     """The generic properties of a system, exact for all values but those on which `condition` is zero.
 
     `basis` are the indices of the first facts that determine as much as all of them do; `tied` those

@@ -3,12 +3,12 @@
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, ExitStack, contextmanager
-from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryFile
 from typing import IO, Any
 
 import click
+from msgspec.structs import replace
 
 from contoursolve import gcode
 from contoursolve.api import MOST_DECIMALS

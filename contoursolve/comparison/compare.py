@@ -1,15 +1,15 @@
 """Compares two paths from their starts: each element, or the part of it that the other path has in one piece."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from math import inf
+
+from msgspec import Struct
 
 from contoursolve.comparison.follow import Path
 from contoursolve.comparison.travel import Motion, Place, Step, Travel, Unfollowed, deviation, distance
 
 
-@dataclass(frozen=True, slots=True)
-class Difference:
+class Difference(Struct, frozen=True):
     """The first place where two paths are not the same, and how far apart, mm; None where that is no distance.
 
     `old` or `new` is None where that path has ended.
@@ -21,8 +21,7 @@ class Difference:
     distance: float | None
 
 
-@dataclass(frozen=True, slots=True)
-class Comparison:
+class Comparison(Struct, frozen=True):
     """Two paths that are the same to within `deviation` mm, at most at these lines, up to the difference if any."""
 
     old: Path
@@ -39,8 +38,7 @@ class Comparison:
         return self.difference is None
 
 
-@dataclass(frozen=True, slots=True)
-class _Match:
+class _Match(Struct, frozen=True):
     """Up to which fraction of its way each element was found to be the same, and how far apart they are, mm."""
 
     old: float
@@ -48,14 +46,12 @@ class _Match:
     deviation: float
 
 
-@dataclass(frozen=True, slots=True)
-class _Mismatch:
+class _Mismatch(Struct, frozen=True):
     reason: str
     distance: float | None = None
 
 
-@dataclass(slots=True)
-class _Cursor:
+class _Cursor(Struct):
     """A place on a path: an element, and the fraction of its way that is done."""
 
     steps: Sequence[Step]

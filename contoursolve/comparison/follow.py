@@ -1,10 +1,13 @@
 """Follows a solved program block by block into its path: contours, and the ordinary moves G0 to G3 between them."""
 
+import dataclasses
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
 from decimal import Decimal
 from math import atan2, hypot, sqrt, tau
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.comparison.travel import Bend, Motion, Place, Step, Travel, Unfollowed
 from contoursolve.controls.plain import SWITCHES, Centers, Switch
@@ -28,8 +31,7 @@ _NAMES = frozenset("GMTSPNO")
 """Addresses whose numbers are names or counts: a decimal point changes nothing."""
 
 
-@dataclass(frozen=True, slots=True)
-class Path:
+class Path(Struct, frozen=True):
     """The path of one program: its axes, and its elements in order."""
 
     name: str
@@ -118,10 +120,10 @@ class _Follower:
         if switch.is_diameter is not None:
             lexicon = self.modes.lexicon
             rows = {
-                name: replace(row, is_diameter=switch.is_diameter) if row.axis == "X" else row
+                name: dataclasses.replace(row, is_diameter=switch.is_diameter) if row.axis == "X" else row
                 for name, row in lexicon.addresses.items()
             }
-            self.modes = replace(self.modes, lexicon=replace(lexicon, addresses=rows))
+            self.modes = dataclasses.replace(self.modes, lexicon=dataclasses.replace(lexicon, addresses=rows))
 
     def _block(self, block: Block) -> Iterator[Step]:
         """What a block that is no contour adds to the path."""

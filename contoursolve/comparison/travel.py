@@ -4,9 +4,10 @@ A part of an element is told by two fractions of its way, 0 where it starts and 
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from enum import Enum
 from math import atan2, ceil, cos, hypot, inf, radians, sin, sqrt, tau
+
+from msgspec import Struct
 
 from contoursolve.geometry import Length
 
@@ -27,8 +28,7 @@ class Motion(Enum):
     """It stays where it is; the coordinates change."""
 
 
-@dataclass(frozen=True, slots=True)
-class Bend:
+class Bend(Struct, frozen=True):
     """What makes an element an arc: the indices of its plane's axes, its centre in them (mm), the directions from
     there in which it begins (rad), and how far it turns (rad), counter-clockwise positive."""
 
@@ -40,8 +40,7 @@ class Bend:
     """At the start and at the end, mm; they differ by the rounding of the words."""
 
 
-@dataclass(frozen=True, slots=True)
-class Travel:
+class Travel(Struct, frozen=True):
     """One line or arc of a program, and how its block is written: `unit` and, by axis, whether as diameter."""
 
     line: int
@@ -108,8 +107,7 @@ class Travel:
         return along / square if square else inf
 
 
-@dataclass(frozen=True, slots=True)
-class Unfollowed:
+class Unfollowed(Struct, frozen=True):
     """A block whose effect on the path is not followed, and why; `words` are what it says, for comparison."""
 
     line: int

@@ -1,9 +1,10 @@
 """Controls that are read as plain G-code, without contour forms of their own, to compare programs with theirs."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from decimal import Decimal
 from enum import Enum
+
+from msgspec import Struct
 
 from contoursolve.controls.common import COMMON_RULES
 from contoursolve.diagnostics.source import Evidence, Source
@@ -23,8 +24,7 @@ class Centers(Enum):
     ORIGIN = "the origin"
 
 
-@dataclass(frozen=True, slots=True)
-class Switch:
+class Switch(Struct, frozen=True):
     """What a G code changes in how later words are read; None: nothing."""
 
     is_diameter: bool | None = None

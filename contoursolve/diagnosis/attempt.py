@@ -2,9 +2,11 @@
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
 from decimal import Decimal
 from itertools import chain, islice
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.analysis import judge, order
 from contoursolve.diagnosis.edits import Edit, EditKind, Side, Why, apply_edits, edit_facts
@@ -55,8 +57,7 @@ SLOW = 15
 """Drafts that one with a step between these counts for; it can take a second."""
 
 
-@dataclass(frozen=True, slots=True)
-class Before:
+class Before(Struct, frozen=True):
     """The contour before its repair: its codes, its path if there is one, and where the next block's line ends."""
 
     codes: frozenset[str]
@@ -72,8 +73,7 @@ class Before:
     """Whether its words say something twice, and agree."""
 
 
-@dataclass(frozen=True, slots=True)
-class Repair:
+class Repair(Struct, frozen=True):
     """A change of a block that the control accepts, with the block that it makes.
 
     `contour` is the path then (None for a placeholder, whose number is missing), `deviation` the largest
@@ -103,8 +103,7 @@ class Repair:
     """What makes it unlikely to be meant, in words."""
 
 
-@dataclass(frozen=True, slots=True)
-class Repairs:
+class Repairs(Struct, frozen=True):
     """Repairs, best first: fewest edits, smallest change of the contour.
 
     `is_complete` tells that all smallest sets of words to drop and add, up to `MOST_EDITS`, were tried.

@@ -1,7 +1,8 @@
 """Adds to findings why they are so and what to write instead, and which checks a contour went through."""
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from contoursolve.analysis import decompose, judge
 from contoursolve.diagnosis.attempt import Repair

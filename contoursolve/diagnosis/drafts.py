@@ -1,7 +1,7 @@
 """Edits that repairs of every kind are made of: words dropped and changed, characters corrected, points added."""
 
+import dataclasses
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import replace
 from decimal import Decimal
 from itertools import product
 from math import copysign
@@ -119,14 +119,14 @@ def moving(claim: Claim, drafts: Iterable[tuple[Edit, ...]]) -> Iterator[tuple[E
     blocks of their own. Between the blocks of a chain there is no place for them."""
     for edits in drafts:
         if len(claim.blocks) == 1:
-            moved = tuple(replace(edit, kind=EditKind.MOVE) if _is_moved(edit) else edit for edit in edits)
+            moved = tuple(dataclasses.replace(edit, kind=EditKind.MOVE) if _is_moved(edit) else edit for edit in edits)
             if moved != edits:
                 # A block may have several of one letter, such as M08 and M30.
                 spans = {edit.span for edit in edits}
                 letters = {edit.address for edit in moved if edit.kind is EditKind.MOVE}
                 more = (drop(word) for word in claim.blocks[0].words if word.address in letters)
                 others = (each for each in more if each.span not in spans and _is_moved(each))
-                yield (*moved, *(replace(each, kind=EditKind.MOVE) for each in others))
+                yield (*moved, *(dataclasses.replace(each, kind=EditKind.MOVE) for each in others))
         yield edits
 
 

@@ -6,6 +6,8 @@ from dataclasses import dataclass, field
 from decimal import ROUND_DOWN, ROUND_HALF_EVEN, ROUND_UP, Decimal
 from enum import Enum, IntEnum
 
+from msgspec import Struct
+
 from contoursolve.diagnosis.wording import shorten
 from contoursolve.diagnostics.source import Evidence, Source, Span
 from contoursolve.gcode import FACT, Block, Directive, read_directive
@@ -32,8 +34,7 @@ class Side(Enum):
     BEHIND = "behind"
 
 
-@dataclass(frozen=True, slots=True)
-class Errand:
+class Errand(Struct, frozen=True):
     """What a word does besides the contour, and when: before the motion of its block or behind it. None where a block
     of its own is no place for it."""
 

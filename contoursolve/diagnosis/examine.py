@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
 from decimal import Decimal
 from enum import Enum
 from functools import lru_cache
 from math import dist
 from typing import TYPE_CHECKING
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.analysis import judge
 from contoursolve.diagnosis.explain import (
@@ -80,16 +82,14 @@ class Depth(Enum):
     """Also why they are so, and every repair; some milliseconds a contour."""
 
 
-@dataclass(frozen=True, slots=True)
-class AskedValue:
+class AskedValue(Struct, frozen=True):
     """A value that was asked for: mm (radius) or degrees; None where nothing determines it."""
 
     question: Question
     value: float | None
 
 
-@dataclass(frozen=True, slots=True)
-class Filled:
+class Filled(Struct, frozen=True):
     """Blocks with the values that were asked for filled in, rounded to the least increment; they make the same
     contour to within `deviation` mm."""
 
@@ -97,8 +97,7 @@ class Filled:
     deviation: float
 
 
-@dataclass(frozen=True, slots=True)
-class Answer(Shown):
+class Answer(Shown, Struct, frozen=True):
     """What became of one contour of a program.
 
     `contour` is None unless the status is solved or overdetermined. `sides` are the solutions that the

@@ -1,8 +1,8 @@
 """Numbers for words that a repair adds without one: some with which there is a contour."""
 
+import dataclasses
 from bisect import bisect_left
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
 from math import log10
 
 import numpy
@@ -110,7 +110,7 @@ def _last(claim: Claim, profile: Profile, name: str, good: float, bad: float) ->
 
 
 def _numbered(edit: Edit, text: str) -> Edit:
-    return replace(edit, text=text)
+    return dataclasses.replace(edit, text=text)
 
 
 def _name_of(claim: Claim, edit: Edit) -> str:

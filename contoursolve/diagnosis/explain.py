@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
 from decimal import Decimal
 from enum import Enum
 from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Any
+
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from contoursolve.analysis import Verdict
 from contoursolve.diagnosis.wording import (
@@ -50,8 +52,7 @@ MOST_THINGS = 2
 """Points and lines that a message names as missing; beyond it, all of the contour is."""
 
 
-@dataclass(frozen=True, slots=True)
-class Words:
+class Words(Struct, frozen=True):
     """Words in a message, as (name, text). A format keeps only some names: `{words:A B}`."""
 
     by_name: tuple[tuple[str, str], ...]
@@ -62,8 +63,7 @@ class Words:
         return shorten(join(texts)) or "the block"
 
 
-@dataclass(frozen=True, slots=True)
-class Present:
+class Present(Struct, frozen=True):
     """The stated words among a list of names: `{present:A I K}`."""
 
     by_name: Mapping[str, str]
@@ -72,8 +72,7 @@ class Present:
         return join([self.by_name[name] for name in spec.split() if name in self.by_name]) or "none of them"
 
 
-@dataclass(frozen=True, slots=True)
-class Absent:
+class Absent(Struct, frozen=True):
     """The names of a list that are not stated; `X|U` is one of which either will do: `{absent:B X|U}`."""
 
     by_name: Mapping[str, str]
@@ -83,8 +82,7 @@ class Absent:
         return " or ".join(" or ".join(slot) for slot in slots if not set(slot) & self.by_name.keys())
 
 
-@dataclass(frozen=True, slots=True)
-class Context:
+class Context(Struct, frozen=True):
     """What a message may mention: the stated words by name, the unit to show lengths in."""
 
     rules: Sequence[Rule]

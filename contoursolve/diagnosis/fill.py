@@ -1,7 +1,8 @@
 """The values that a block asked for, written into it, and the block tried again as the control would read it."""
 
-from dataclasses import replace
 from math import hypot
+
+from msgspec.structs import replace
 
 from contoursolve import gcode
 from contoursolve.diagnosis.edits import write_word

@@ -1,8 +1,9 @@
 """Numbers without a decimal point: the control counts them in least increments, which is seldom what was meant."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
 from decimal import Decimal
+
+from msgspec.structs import replace
 
 from contoursolve.diagnosis.explain import Context, report
 from contoursolve.diagnosis.spelling import meant_words

@@ -2,11 +2,13 @@
 contour. Each one is applied to the text, read, checked and solved again before it is offered."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from decimal import ROUND_HALF_EVEN, Decimal
 from functools import lru_cache
 from itertools import chain, combinations, product
 from math import copysign, sqrt
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.diagnosis.attempt import Before, Repairs, choose_repairs, examine_edited
 from contoursolve.diagnosis.drafts import (
@@ -176,8 +178,7 @@ def _agreeing(claim: Claim, name: str) -> Iterator[tuple[Edit, ...]]:
 _SINGULAR = (RefusalKind.LINES_PARALLEL, RefusalKind.NOT_FIXED)
 
 
-@dataclass(frozen=True, slots=True)
-class _Geometry:
+class _Geometry(Struct, frozen=True):
     """What some words fix of the drawing, as far as they do not contradict each other."""
 
     profile: Profile

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from math import floor, inf, log10
 from typing import TYPE_CHECKING
+
+from msgspec import Struct
 
 from contoursolve.diagnosis.examine import (
     Answer,
@@ -28,8 +29,7 @@ DECIMALS = 12
 """Decimals of coordinates in mm: below the rounding of the arithmetic, so that nothing is lost."""
 
 
-@dataclass(frozen=True, slots=True)
-class Listed:
+class Listed(Struct, frozen=True):
     """One solution: its name, its path (None if the control cannot make it, with the reasons), what selects it,
     and whether it is the contour that was solved."""
 
@@ -42,8 +42,7 @@ class Listed:
     certificate: Certificate
 
 
-@dataclass(frozen=True, slots=True)
-class Listing:
+class Listing(Struct, frozen=True):
     """All solutions that were found, and whether these are proven to be all."""
 
     solutions: tuple[Listed, ...]

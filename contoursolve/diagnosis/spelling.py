@@ -2,8 +2,9 @@
 
 from bisect import bisect_right
 from collections.abc import Container, Iterator, Sequence
-from dataclasses import replace
 from decimal import Decimal
+
+from msgspec.structs import replace
 
 from contoursolve.diagnosis.explain import Context, report
 from contoursolve.diagnosis.wording import join, length_text

@@ -1,10 +1,12 @@
 """Which words may be left out so that the control accepts the rest, as far as no equation has to be solved for it."""
 
 from collections.abc import Hashable, Iterable, Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import chain, combinations
 from typing import NamedTuple
+
+from msgspec.structs import replace
 
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnostics.finding import Severity

@@ -2,8 +2,9 @@
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import combinations
+
+from msgspec import Struct
 
 from contoursolve.analysis import judge
 from contoursolve.diagnosis.wording import unknowns_text
@@ -18,8 +19,7 @@ from contoursolve.solving import is_closed, points_with_two_solutions
 _OPTIONAL = re.compile(r"\{([^}]*)\}")
 
 
-@dataclass(frozen=True, slots=True)
-class Row:
+class Row(Struct, frozen=True):
     """One set of words: the rules that refuse it, those that warn, the words that the control ignores, what the words
     that remain leave free or say twice, and the condition under which they determine the contour.
 

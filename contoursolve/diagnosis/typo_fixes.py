@@ -3,8 +3,10 @@
 import re
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Iterator
-from dataclasses import dataclass, replace
 from decimal import Decimal
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.diagnosis.drafts import change, has_faults, missing_points, unreadable
 from contoursolve.diagnosis.edits import Edit, EditKind
@@ -30,8 +32,7 @@ _NEAR = dict(zip("1234567890", ("2", "13", "24", "35", "46", "57", "68", "79", "
 """The digits beside each digit on a keyboard."""
 
 
-@dataclass(frozen=True, slots=True)
-class Typed:
+class Typed(Struct, frozen=True):
     """A word as it was typed, in parts, and the contour that it stands in."""
 
     claim: Claim | None
@@ -55,8 +56,7 @@ class Typed:
         return self.claim is not None and self.claim.lexicon.numbers.without_point is WithoutPoint.LEAST_INCREMENTS
 
 
-@dataclass(frozen=True, slots=True)
-class Slip:
+class Slip(Struct, frozen=True):
     """A kind of slip: what happened, in words, and what a word may have been meant to be if it did."""
 
     sentence: str

@@ -1,9 +1,10 @@
 """One finding about a program, complete enough for a terminal, JSON and an editor."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from enum import Enum
 from math import atan2, degrees
+
+from msgspec import Struct, field
 
 from contoursolve.diagnostics.display import Shown
 from contoursolve.diagnostics.source import Evidence, Source, Span
@@ -38,8 +39,7 @@ class Applicability(Enum):
     PLACEHOLDER = "placeholder"
 
 
-@dataclass(frozen=True, slots=True)
-class Fix:
+class Fix(Struct, frozen=True):
     """A whole new block to write instead, or a line for each block of a contour of several; a single block may become
     several lines."""
 
@@ -55,24 +55,21 @@ class Fix:
         return dict(zip(lines, texts, strict=False))
 
 
-@dataclass(frozen=True, slots=True)
-class Label:
+class Label(Struct, frozen=True):
     """A remark beside a stretch of the program."""
 
     span: Span
     text: str
 
 
-@dataclass(frozen=True, slots=True)
-class Alarm:
+class Alarm(Struct, frozen=True):
     """The number (and name) with which the control itself would stop."""
 
     number: str
     evidence: Evidence
 
 
-@dataclass(frozen=True, slots=True)
-class Diagnostic(Shown):
+class Diagnostic(Shown, Struct, frozen=True):
     """One finding.
 
     `message` stands alone on one line; `labels` mark the words, the first one is the place of the
@@ -105,8 +102,7 @@ class Verdict(Enum):
     NOT_RUN = "not run"
 
 
-@dataclass(frozen=True, slots=True)
-class Layer:
+class Layer(Struct, frozen=True):
     """One check, its verdict, and in words what it looked at or why it could not run."""
 
     name: str
@@ -114,8 +110,7 @@ class Layer:
     remark: str
 
 
-@dataclass(frozen=True, slots=True)
-class Freedom:
+class Freedom(Struct, frozen=True):
     """How far a point is from being fixed: with a `direction` it slides along it, without it lies anywhere.
 
     `direction` is a unit vector in the plane's axes.
@@ -130,8 +125,7 @@ class Freedom:
         return None if self.direction is None else degrees(atan2(self.direction[1], self.direction[0])) % 180
 
 
-@dataclass(frozen=True, slots=True)
-class Tie:
+class Tie(Struct, frozen=True):
     """A smallest set of words that say the same, each following from the others.
 
     `identity` is the formula that ties them for all values, where one is kept. `off_by_mm` is by how much
@@ -144,8 +138,7 @@ class Tie:
     is_conflict: bool
 
 
-@dataclass(frozen=True, slots=True)
-class Diagnosis(Shown):
+class Diagnosis(Shown, Struct, frozen=True):
     """What the equations of one contour say: the checks it went through, what can still move, and which
     words say the same.
 

@@ -1,8 +1,9 @@
 """Where a statement comes from: the place in the user's program, and the evidence in a manual."""
 
-from dataclasses import dataclass
 from enum import Enum
 from typing import NamedTuple
+
+from msgspec import Struct
 
 
 class Evidence(Enum):
@@ -16,8 +17,7 @@ class Evidence(Enum):
     """Our choice where the pages that we have are silent."""
 
 
-@dataclass(frozen=True, slots=True)
-class Source:
+class Source(Struct, frozen=True):
     """The manual, the place in it, and the grade of the evidence."""
 
     manual: str

@@ -3,9 +3,9 @@ cell by cell, each brought onto the zero of the margin that governs it.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy
+from msgspec import Struct
 from numpy.typing import NDArray
 
 from contoursolve.families.branches import LEVEL, Branch
@@ -38,8 +38,7 @@ Node = tuple[str, int]
 """A point on an edge of the grid, or a corner where two checks begin to fail, by its number."""
 
 
-@dataclass(frozen=True, slots=True)
-class BoundaryTrace:
+class BoundaryTrace(Struct, frozen=True):
     """A line of the edge on which one check begins to fail; its first and last point are the same if it is closed."""
 
     check: int
@@ -47,8 +46,7 @@ class BoundaryTrace:
     """By (point, word)."""
 
 
-@dataclass(frozen=True, slots=True)
-class WordBox:
+class WordBox(Struct, frozen=True):
     """The range of both words."""
 
     low: Point

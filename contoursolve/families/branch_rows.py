@@ -1,10 +1,10 @@
 """Rows of which each may have several solutions: Newton's method from the boxes that hold one each, and a verdict."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy
+from msgspec import Struct
 from numpy.typing import NDArray
 
 from contoursolve.analysis import judge
@@ -47,8 +47,7 @@ STANDING = 1e-12
 Bits = NDArray[numpy.bool_]
 
 
-@dataclass(slots=True, eq=False)
-class RowCandidates:
+class RowCandidates(Struct, eq=False):
     """Rows, each with one of its solutions: where it is sought (mm or cosines), and the sides at which it touches."""
 
     rows: Places
@@ -58,8 +57,7 @@ class RowCandidates:
     signs: Mapping[str, Array]
 
 
-@dataclass(slots=True, eq=False)
-class RowSolutions:
+class RowSolutions(Struct, eq=False):
     """What becomes of rows: status and reason, and the scalars and sides of those that show a solution (0 for a side
     that is not known); `is_path` tells which of these are contours, and `again` has the rows that a single solve must
     decide."""

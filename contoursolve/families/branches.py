@@ -3,11 +3,12 @@ words choose it, several where further facts, values that are asked for, or choi
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import product
 
 import numpy
+from msgspec import Struct
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from contoursolve.diagnosis.wording import join
@@ -44,8 +45,7 @@ _ROLES = (Role.CONTOUR, Role.FACT)
 """Checks that tell whether there is a contour."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Margins:
+class Margins(Struct, frozen=True, eq=False):
     """All checks of a system in their order, and their margins as functions of the free words."""
 
     checks: tuple[Check, ...]
@@ -101,8 +101,7 @@ PLACES, LEVEL = 64, 1e-10
 few places where a direction turns."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Branch:
+class Branch(Struct, frozen=True, eq=False):
     """One of the solutions of a class: its checks as margins, and the values of their other inputs."""
 
     case: CaseClass

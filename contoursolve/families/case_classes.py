@@ -3,12 +3,13 @@ the free words, and what its results are.
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
 from decimal import Decimal
 from math import isfinite, nan
 from typing import Any
 
 import numpy
+from msgspec import Struct, field
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from contoursolve.analysis import judge
@@ -42,8 +43,7 @@ Follows = tuple[tuple[str, Following], ...]
 """The values that follow words, by name."""
 
 
-@dataclass(frozen=True, slots=True)
-class Linear:
+class Linear(Struct, frozen=True):
     """A value that follows a word: the mm or degrees for each unit of the word, and the value for 0."""
 
     word: str
@@ -61,8 +61,7 @@ class Linear:
         return found + float(self.base) if self.base else found
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Input:
+class Input(Struct, frozen=True, eq=False):
     """An input of a function that varies: the values, and the word whose places they have; less those of the start
     point where it counts from there, and the word that this follows."""
 
@@ -78,8 +77,7 @@ class Input:
             out[:] = difference(out, self.start[places[self.since]])
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class CaseClass:
+class CaseClass(Struct, frozen=True, eq=False):
     """Rows that share a profile but for the values of the free words.
 
     `status` is the verdict where it does not depend on the values. `free` has the values that follow a free word, by

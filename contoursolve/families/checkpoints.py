@@ -7,7 +7,6 @@ import os
 import zipfile
 from collections.abc import Collection, Iterator
 from concurrent.futures import Executor
-from dataclasses import dataclass
 from glob import escape
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -15,6 +14,7 @@ from shutil import rmtree
 from time import perf_counter
 
 import numpy
+from msgspec import Struct
 
 from contoursolve.families.compiled_sweep import CompiledSweep, Table
 from contoursolve.families.evaluate import STRETCH, rows_of, solve_parts
@@ -33,8 +33,7 @@ NUMBER = 20
 """Bytes of a number in CSV: 17 digits, a sign, a point and a comma."""
 
 
-@dataclass(frozen=True, slots=True)
-class Parts:
+class Parts(Struct, frozen=True):
     """A folder with a file for each finished stretch of rows of one sweep.
 
     The name of the folder tells the sweep: another block, other values, another version have another folder. The same

@@ -2,13 +2,13 @@
 
 import threading
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import product
 from math import nan
 from typing import Any
 
 import numpy
+from msgspec import Struct, field
 from numpy.typing import NDArray
 
 from contoursolve.families.branch_rows import BLOCK, BranchRows
@@ -52,8 +52,7 @@ _NOWHERE = [reason_of(kind) for kind in (None, *NO_PLACE)]
 """Reasons of places that do not exist; where that is so of all, no point satisfies the block."""
 
 
-@dataclass(slots=True, eq=False)
-class CompiledSweep:
+class CompiledSweep(Struct, eq=False):
     """A case that is read, the classes of its rows, and how to evaluate them; every thread has functions of its own."""
 
     spec: SweepSpec

@@ -5,11 +5,12 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from contextlib import AbstractContextManager, contextmanager
-from dataclasses import dataclass, field, replace
 from functools import lru_cache, partial
 from typing import TypeVar, Unpack
 
 import numpy
+from msgspec import Struct, field
+from msgspec.structs import replace
 from numpy.typing import ArrayLike, NDArray
 
 from contoursolve.families.compiled_sweep import CompiledSweep, Table, cases_of
@@ -265,8 +266,7 @@ def _check_workers(workers: int | None) -> int:
     return workers or 1
 
 
-@dataclass(frozen=True, slots=True)
-class FailureSummary:
+class FailureSummary(Struct, frozen=True):
     """The most frequent failure of a family: how many rows have it, and an example row, with its values as written and
     the first error that `solve` finds in it."""
 
@@ -276,8 +276,7 @@ class FailureSummary:
     message: str
 
 
-@dataclass(slots=True)
-class Tally:
+class Tally(Struct):
     """How many rows have each status and reason, and the values of the first of each."""
 
     words: tuple[str, ...]

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, BinaryIO
 
 import numpy
+from msgspec import Struct
 from numpy.typing import NDArray
 
 from contoursolve.diagnosis.examine import Answer
@@ -22,8 +23,7 @@ from contoursolve.solving import Status
 from contoursolve.solving.row_outcome import REASONS, Code
 
 
-@dataclass(frozen=True, slots=True)
-class Measure:
+class Measure(Struct, frozen=True):
     """The unit of a column (mm, inch, deg; empty for one without), and where it matters whether it is the `radius` or
     the `diameter` that is meant."""
 

@@ -1,10 +1,12 @@
 """Where a contour exists: every range of one word's values in which it is solved, and what ends each."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
 from enum import Enum
 from itertools import groupby
 from typing import Unpack
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.wording import join, limit_text, unknowns_text, value_text
@@ -21,8 +23,7 @@ ASIDE = (1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4)
 """Share of an end (at least of 1). How far beside it single solves are tried, until they tell its two sides apart."""
 
 
-@dataclass(frozen=True, slots=True)
-class Reason:
+class Reason(Struct, frozen=True):
     """Why a contour does not exist beyond an end.
 
     `text` says it about the word, such as "P too large for line 2: 6.340 mm at most"; `code` and `message` are those
@@ -59,8 +60,7 @@ class Way(Enum):
     """The range that was asked about ends there; the contour goes on."""
 
 
-@dataclass(frozen=True, slots=True)
-class End:
+class End(Struct, frozen=True):
     """One end of a range of values with a contour.
 
     `value` is as the word is written. `reason` says what fails beyond it; None where only the range that was asked
@@ -81,8 +81,7 @@ class End:
         return self.way is Way.RANGE or None not in (self.inside, self.outside)
 
 
-@dataclass(frozen=True, slots=True)
-class Interval:
+class Interval(Struct, frozen=True):
     """A range of a word's values in all of which the contour is solved; both ends are the same for a single value."""
 
     low: End
@@ -95,8 +94,7 @@ class Interval:
         return self.low.value < value < self.high.value
 
 
-@dataclass(frozen=True, slots=True)
-class Feasible(Shown):
+class Feasible(Shown, Struct, frozen=True):
     """All values of a word, within a range, with which its block has a contour.
 
     `unit` is what the word is written in (mm, inch or deg), `stated` the value that the block has. Without `doubts`, it

@@ -3,13 +3,13 @@ alike, and one row of each class that the rules may tell apart.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from decimal import Decimal
 from itertools import pairwise, product
 from math import prod
 from typing import Any
 
 import numpy
+from msgspec import Struct
 from numpy.typing import NDArray
 
 from contoursolve.diagnosis.examine import Answer
@@ -72,8 +72,7 @@ def factor_of(answer: Answer, typed: Word, given: Given, number: Decimal) -> Dec
     return answer.claim.lexicon.value(one, answer.unit) or Decimal(1)
 
 
-@dataclass(frozen=True, slots=True)
-class WordLimits:
+class WordLimits(Struct, frozen=True):
     """The mm or degrees for each unit of a word, and the limits of the rules for its values so scaled."""
 
     scale: float
@@ -125,8 +124,7 @@ def limits_of(template: Template, values: Mapping[str, float]) -> list[WordLimit
     return found
 
 
-@dataclass(frozen=True, slots=True)
-class Example:
+class Example(Struct, frozen=True):
     """A row of a class that the rules may tell apart: its key, its values, and how many rows have this key."""
 
     key: int
@@ -134,8 +132,7 @@ class Example:
     count: int
 
 
-@dataclass(frozen=True, slots=True)
-class Examples:
+class Examples(Struct, frozen=True):
     """One row of each class that the rules may tell apart, in the order of their keys, as plain data. The intervals in
     which the values of all words lie make the key."""
 

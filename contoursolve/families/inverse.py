@@ -1,12 +1,12 @@
 """The inverse question: which value of a word brings a point to a place, or as near to it as it gets."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from decimal import ROUND_HALF_EVEN, Decimal
 from math import ceil, floor, isfinite
 from typing import Unpack
 
 import numpy
+from msgspec import Struct
 
 from contoursolve.analysis import judge
 from contoursolve.diagnosis.edits import write_word
@@ -60,8 +60,7 @@ BESIDE = 1e-5
 """Share of a value (at least of 1). How far beside it others are looked at, whether they are nearer to the goal."""
 
 
-@dataclass(frozen=True, slots=True)
-class Hit:
+class Hit(Struct, frozen=True):
     """A value of the word that brings the point where it is wanted, or nearer than its neighbours do.
 
     `point` is where the point is then, `away` how far from the goal (mm). `certificate` is that of the single solve.
@@ -79,8 +78,7 @@ class Hit:
     rounded_away: float | None
 
 
-@dataclass(frozen=True, slots=True)
-class Found(Shown):
+class Found(Shown, Struct, frozen=True):
     """All values of a word, within a range, that meet a goal, in order; for a goal of two coordinates, all that are
     nearer to it than their neighbours, the nearest first. `doubts` say why these are not proven to be all; values are
     told apart to nine digits.
@@ -201,8 +199,7 @@ def _turned(angle: float, low: float, high: float) -> list[float]:
     return [angle + number * TURN for number in range(first, last + 1)]
 
 
-@dataclass(frozen=True, slots=True)
-class _Candidate:
+class _Candidate(Struct, frozen=True):
     """A value that may meet the goal, how far from it the point may be all the same (mm), and why the list is not
     complete if it does not; empty where the value alone is in question, which a single solve decides."""
 

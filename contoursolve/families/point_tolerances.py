@@ -1,12 +1,13 @@
 """Which word moves a point of a contour most, and what tolerances come to: to first order and solved again."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from decimal import ROUND_HALF_EVEN, Decimal
 from math import hypot, isnan, nan
 from typing import Unpack
 
 import numpy
+from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnostics.display import Shown
@@ -36,8 +37,7 @@ MOST_WORDS = 10
 """Words with a tolerance of which all combinations of limits are solved; each doubles them."""
 
 
-@dataclass(frozen=True, slots=True)
-class Effect:
+class Effect(Struct, frozen=True):
     """What one word or fact does to the point.
 
     `slope` is by how much it moves on each axis, mm (X as radius) for each unit of the word as written, in `unit` (mm,
@@ -62,8 +62,7 @@ class Effect:
     by_rounding_linear: float
 
 
-@dataclass(frozen=True, slots=True)
-class Missing:
+class Missing(Struct, frozen=True):
     """Combinations of the limits without a contour for one reason: how many, the values of one of them as written, and
     what `solve` says of that one."""
 
@@ -72,8 +71,7 @@ class Missing:
     message: str
 
 
-@dataclass(frozen=True, slots=True)
-class Limits:
+class Limits(Struct, frozen=True):
     """Where the point lies on each axis at most and at least, mm, at all combinations of the limits of the tolerances,
     each solved; `without` counts those that have no contour, `missing` says which and why."""
 
@@ -84,8 +82,7 @@ class Limits:
     missing: tuple[Missing, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Tolerances(Shown):
+class Tolerances(Shown, Struct, frozen=True):
     """How words move a point of a contour: the words, the one that moves it most first; how far it may be off on each
     axis to first order; and where it lies at the limits, None without tolerances or with too many of them."""
 

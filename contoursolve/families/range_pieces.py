@@ -3,11 +3,12 @@ values at which one part ends.
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
 from itertools import groupby, pairwise
 from math import copysign, inf, isfinite, sqrt
 
 import numpy
+from msgspec import Struct
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from contoursolve.diagnosis.wording import value_text
@@ -54,8 +55,7 @@ TOGETHER = 1e-9
 """Share of a value (at least of 1). Values this close at which two branches change are one."""
 
 
-@dataclass(frozen=True, slots=True)
-class Stretch:
+class Stretch(Struct, frozen=True):
     """Part of a range: all checks are passed (True), or one fails everywhere (False), or that is not decided."""
 
     low: float
@@ -117,8 +117,7 @@ def _joined(lows: Array, highs: Array, kinds: NDArray[numpy.int8]) -> list[Stret
     ]
 
 
-@dataclass(frozen=True, slots=True)
-class RangePiece:
+class RangePiece(Struct, frozen=True):
     """Values from `low` to `high` without these two, or one value: whether the contour is solved there. `case` is how
     the words are read; None for one value. `branch` is the only solution that is a contour there, if there is one."""
 
@@ -134,8 +133,7 @@ class RangePiece:
         return self.case is None
 
 
-@dataclass(frozen=True, slots=True)
-class Onset:
+class Onset(Struct, frozen=True):
     """Where a check begins to fail: the check, the solution that it is about, and whether the value is a zero in closed
     form."""
 
@@ -149,8 +147,7 @@ class Onset:
         return self.branch.case
 
 
-@dataclass(frozen=True, slots=True)
-class _Passing:
+class _Passing(Struct, frozen=True):
     """Part of a range, and which of several solutions pass their checks there."""
 
     low: float

@@ -1,11 +1,12 @@
 """Where a contour exists in two words: the lines that bound the region, each with what fails beyond it."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from itertools import product
 from typing import TypeVar, Unpack
 
 import numpy
+from msgspec import Struct
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from contoursolve.diagnosis.wording import value_text
@@ -27,8 +28,7 @@ Point = tuple[float, float]
 T = TypeVar("T")
 
 
-@dataclass(frozen=True, slots=True)
-class Boundary:
+class Boundary(Struct, frozen=True):
     """A line that bounds the region, or a gap in it.
 
     `points` are values of both words, each a zero of what fails on the other side, to rounding; the first and the last
@@ -47,8 +47,7 @@ class Boundary:
     unverified: int
 
 
-@dataclass(frozen=True, slots=True)
-class Region(Shown):
+class Region(Shown, Struct, frozen=True):
     """The values of two words, within a box, with which a block has a contour, by the lines that bound them.
 
     `units` are what the words are written in. Without `doubts`, it is proven that no line is missing, and no part that

@@ -6,9 +6,11 @@ something remains undecided is divided.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy
+from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.analysis import judge, order
 from contoursolve.families.case_classes import CaseClass
@@ -69,8 +71,7 @@ class BoxGround(Ground):
         return Ground.number(self, name, scalars, signs)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Place:
+class Place(Struct, frozen=True, eq=False):
     """Where a solution lies, alone: the bounds of every unknown, and the sides at which elements touch; and whether it
     lies on the sides that the words choose."""
 
@@ -79,8 +80,7 @@ class Place:
     is_chosen: bool
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Cell:
+class Cell(Struct, frozen=True, eq=False):
     """Rows with the same solutions, each proven to be alone in its box; None where a single solve must decide.
     `is_lost` tells that there is none because a search found none."""
 

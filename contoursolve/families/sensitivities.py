@@ -3,7 +3,6 @@ equations at its points by the implicit function theorem.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from decimal import Decimal
 from functools import lru_cache
 from itertools import product
@@ -11,6 +10,7 @@ from math import hypot, inf, nan, pi
 from typing import Unpack
 
 import numpy
+from msgspec import Struct
 
 from contoursolve.analysis import judge
 from contoursolve.diagnosis.examine import Answer
@@ -38,8 +38,7 @@ Rates = Mapping[str, Mapping[str, float]]
 """The derivatives of outputs by inputs."""
 
 
-@dataclass(frozen=True, slots=True)
-class Spread:
+class Spread(Struct, frozen=True):
     """How far a coordinate moves, mm, to first order: if all words are off in the worst way, and if they are off
     independently of each other (root of the sum of squares)."""
 
@@ -47,8 +46,7 @@ class Spread:
     typical: float
 
 
-@dataclass(frozen=True, slots=True)
-class Sensitivity(Shown):
+class Sensitivity(Shown, Struct, frozen=True):
     """The derivatives of a contour: `slopes[result][word]` in mm for each unit of the word as it is written, so that a
     diameter counts as such; NaN where a word parts two places that have become one, as in a half circle. The results
     have the names that they have in a `Family`."""

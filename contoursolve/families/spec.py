@@ -4,12 +4,13 @@ the same functions.
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from decimal import Decimal, InvalidOperation
 from math import isfinite
 from typing import TypedDict
 
 import numpy
+from msgspec import Struct
+from msgspec.structs import replace
 from numpy.typing import ArrayLike, NDArray
 
 from contoursolve import gcode
@@ -44,8 +45,7 @@ class NotMovedError(FamilyError):
     """A word that does not move a point in the direction that is asked about."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Ranges:
+class Ranges(Struct, frozen=True, eq=False):
     """The values of each free word, by its name: as columns side by side (`is_paired`), or as the axes of a grid whose
     last word varies fastest."""
 
@@ -185,8 +185,7 @@ class RefusedError(FamilyError):
         super().__init__(f"{error.message}; {remedy}" if remedy else error.message)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Template:
+class Template(Struct, frozen=True, eq=False):
     """A program with one contour, how it is read, and its free words by the names that the user gave them: words of its
     blocks, words of the start point, and facts whose value is free."""
 
@@ -352,8 +351,7 @@ def called(word: str) -> str:
     return f"{address} of block {line}" if line else address
 
 
-@dataclass(frozen=True, slots=True)
-class SweepSpec:
+class SweepSpec(Struct, frozen=True):
     """A block, the names of its free words, and how it is read: the arguments of `family`, but for the values."""
 
     block: str

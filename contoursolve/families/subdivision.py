@@ -1,9 +1,9 @@
 """Division of a range of one word until each part is decided, and bisection to neighbouring numbers."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy
+from msgspec import Struct
 from numpy.typing import NDArray
 
 from contoursolve.numeric.intervals import Array, Intervals
@@ -11,8 +11,7 @@ from contoursolve.numeric.intervals import Array, Intervals
 Bits = NDArray[numpy.bool_]
 
 
-@dataclass(frozen=True, slots=True)
-class Fineness:
+class Fineness(Struct, frozen=True):
     """Into how many parts each cell that is not decided is divided, how often, and the share of the word's value (at
     least of 1) below which it is left as it is."""
 

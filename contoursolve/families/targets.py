@@ -4,11 +4,12 @@ form as a fact, with the word asked for.
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
 from decimal import Decimal, InvalidOperation
 from math import hypot, isfinite
 
 import numpy
+from msgspec import Struct
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from contoursolve.diagnosis.examine import Answer, Depth, answer_question, count_choices, list_alternatives
@@ -41,8 +42,7 @@ BISECTIONS = 64
 Bits = NDArray[numpy.bool_]
 
 
-@dataclass(frozen=True, slots=True)
-class Goal:
+class Goal(Struct, frozen=True):
     """Where a point is wanted: its name, and a value for one axis or both, mm, X of a lathe as radius."""
 
     point: str
@@ -150,8 +150,7 @@ class TargetCurve:
         return Intervals(bounds.low[0], bounds.high[0])
 
 
-@dataclass(frozen=True, slots=True)
-class Zero:
+class Zero(Struct, frozen=True):
     """A zero, and whether the function rises there (1) or falls (-1); both are proven.
 
     With 0, nothing is proven: it is the best value of a part of this width in which the function may cross or touch

@@ -5,10 +5,11 @@ import io
 import os
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from itertools import count
 from pathlib import Path
 from typing import BinaryIO
+
+from msgspec import Struct
 
 from contoursolve.gcode.text import (
     BINARY,
@@ -29,8 +30,7 @@ class CannotWriteError(ValueError):
     """A target that cannot be written; the message says why and what to do."""
 
 
-@dataclass(frozen=True, slots=True)
-class Tape:
+class Tape(Struct, frozen=True):
     """An open program: its name, its bytes, how many there are, and how they are to be read."""
 
     name: str
@@ -187,8 +187,7 @@ def write_whole(target: Path, pieces: Iterable[bytes], *, keeps_backup: bool) ->
     return whole.backup
 
 
-@dataclass(slots=True)
-class Whole:
+class Whole(Struct):
     """A file on its way to a target: what to write to, and afterwards where the old one is kept, if it is."""
 
     file: BinaryIO

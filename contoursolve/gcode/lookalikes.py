@@ -4,7 +4,8 @@ a point or a sign too many."""
 import re
 from bisect import bisect_right
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode.word import Block, FaultKind
@@ -25,8 +26,7 @@ _WHOLE = "GMNOST"
 """Addresses whose numbers have no point."""
 
 
-@dataclass(frozen=True, slots=True)
-class Lookalike:
+class Lookalike(Struct, frozen=True):
     """A stretch of a block that is one word if its slips are mended: as typed, and that word."""
 
     span: Span

@@ -2,16 +2,16 @@
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
 from decimal import Decimal
 from enum import Enum
+
+from msgspec import Struct
 
 from contoursolve.diagnostics.display import Shown
 from contoursolve.diagnostics.source import Span
 
 
-@dataclass(frozen=True, slots=True)
-class Word:
+class Word(Struct, frozen=True):
     """An address with its value, such as `X40.` or `,A150`.
 
     `address` is upper case with its comma; `number` is None when the value is a variable or a macro
@@ -30,8 +30,7 @@ FACT = "fact"
 """What stands for the address of a fact that is no word."""
 
 
-@dataclass(frozen=True, slots=True)
-class Directive:
+class Directive(Struct, frozen=True):
     """A fact for contoursolve alone, in a comment `(contoursolve: ...)` or stated apart from the program.
 
     A fact apart from the program has a line number below zero, and may hold the statement that `text` shows.
@@ -54,8 +53,7 @@ class FaultKind(Enum):
     BLOCK_TOO_LONG = "block-too-long"
 
 
-@dataclass(frozen=True, slots=True)
-class Fault:
+class Fault(Struct, frozen=True):
     """A stretch of a block that is not a word."""
 
     kind: FaultKind
@@ -81,8 +79,7 @@ class Macro(Enum):
     """`IF`, `WHILE`, `GOTO`, ...: which block runs next is not known."""
 
 
-@dataclass(frozen=True, slots=True)
-class Block(Shown):
+class Block(Shown, Struct, frozen=True):
     """One line of a program; `text` is the line without its end."""
 
     line: int
@@ -111,8 +108,7 @@ class Block(Shown):
         return Span(self.line, column, column + max(len(stripped), 1))
 
 
-@dataclass(frozen=True, slots=True)
-class Passage:
+class Passage(Struct, frozen=True):
     """Lines of a program in a row that do nothing but move, or nothing at all, and that nobody has read into words
     yet: the number of the first one, and all of them with their ends."""
 
@@ -120,8 +116,7 @@ class Passage:
     lines: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Program(Shown):
+class Program(Shown, Struct, frozen=True):
     """A program as typed: its name, text and blocks (one for each line, empty ones included)."""
 
     name: str

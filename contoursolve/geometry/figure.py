@@ -1,10 +1,11 @@
 """A drawing without its values: points, lines, arcs and corners, what a fact about it is, the roles of blocks."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from enum import Enum
 from math import sqrt
 from typing import Any, Protocol
+
+from msgspec import Struct
 
 
 class Lookup(Protocol):
@@ -102,8 +103,7 @@ class Turn(Enum):
         return 1 if self is Turn.CCW else -1
 
 
-@dataclass(frozen=True, slots=True)
-class Line:
+class Line(Struct, frozen=True):
     """A straight move; `heading` names the given angle in whose direction it must run, if any, `toward` the point
     towards which it must run from its tail."""
 
@@ -114,8 +114,7 @@ class Line:
     toward: str | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Arc:
+class Arc(Struct, frozen=True):
     """A circular move about an unknown centre; `radius` names the unknown radius.
 
     Of its two intersections with the arc before it, one is left of the way between the centres; or else, where it
@@ -152,8 +151,7 @@ class CornerShape(Enum):
 _SHARES = {CornerShape.CHAMFER_AXIS_45: 1, CornerShape.CHAMFER_LENGTH_45: sqrt(0.5)}
 
 
-@dataclass(frozen=True, slots=True)
-class Corner:
+class Corner(Struct, frozen=True):
     """A corner at the virtual intersection `at`, between the line or arc `before` and what follows.
 
     `after` names the next element of the path; without it the corner lands on a line that the block itself does
@@ -170,8 +168,7 @@ class Corner:
     lands_on: str | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Circle:
+class Circle(Struct, frozen=True):
     """A circle that is not part of the path, about a point with a radius; either may be known or unknown."""
 
     name: str
@@ -179,8 +176,7 @@ class Circle:
     radius: str
 
 
-@dataclass(frozen=True, slots=True)
-class Figure:
+class Figure(Struct, frozen=True):
     """A drawing without its values: unknown points and radii, the path from `start`, its corners.
 
     `places` are points with given coordinates (the givens `place.0` and `place.1`). `lines` and `circles` are
@@ -208,8 +204,7 @@ class Figure:
         raise KeyError(name)
 
 
-@dataclass(frozen=True, slots=True)
-class Role:
+class Role(Struct, frozen=True):
     """What some blocks of a contour are together, by the name under which rules speak of it.
 
     `prefixes` begin the names of what each of these blocks states. A rule about one block sees the names without

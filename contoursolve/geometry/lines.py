@@ -1,17 +1,17 @@
 """Facts about lines as a whole: their direction, what they pass through, what they touch, how far points lie apart."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from math import atan2, degrees, hypot
 from typing import Any
+
+from msgspec import Struct
 
 from contoursolve.geometry.figure import FIRST, SECOND, Lookup, Turn, line_scalars, scalar
 from contoursolve.geometry.system import Equation, both, cross, dot, rotate, step
 from contoursolve.geometry.touching import side_of
 
 
-@dataclass(frozen=True, slots=True)
-class UnitDirection(Equation):
+class UnitDirection(Equation, Struct, frozen=True):
     """The direction of a line has the length 1."""
 
     line: str
@@ -28,8 +28,7 @@ class UnitDirection(Equation):
         return self.equation(at) / 2
 
 
-@dataclass(frozen=True, slots=True)
-class Directed(Equation):
+class Directed(Equation, Struct, frozen=True):
     """The line runs at the given angle."""
 
     given: str
@@ -49,8 +48,7 @@ class Directed(Equation):
         return degrees(atan2(float(sine), float(cosine)))
 
 
-@dataclass(frozen=True, slots=True)
-class Through(Equation):
+class Through(Equation, Struct, frozen=True):
     """The line passes through `point`; the residual is how far to the left of it the point lies."""
 
     line: str
@@ -64,8 +62,7 @@ class Through(Equation):
         return left_of(at, self.line, self.point)
 
 
-@dataclass(frozen=True, slots=True)
-class Foot(Equation):
+class Foot(Equation, Struct, frozen=True):
     """`point` is the foot of the perpendicular from `center` onto the line.
 
     With a `corner`, the point must lie before it on the line (`way` +1) or beyond it (-1).
@@ -93,8 +90,7 @@ class Foot(Equation):
         return *self.reads(), *(both(self.corner) if self.corner else ())
 
 
-@dataclass(frozen=True, slots=True)
-class Parallel(Equation):
+class Parallel(Equation, Struct, frozen=True):
     """The line is parallel to `axis` and runs the way that a path advances along it: the first in `advance` that moves
     along the axis tells, each of these a line whose direction is stated, or a pair of points."""
 
@@ -116,8 +112,7 @@ class Parallel(Equation):
         return *line_scalars(self.line)[:2], *_ends(self.advance, self.axis)
 
 
-@dataclass(frozen=True, slots=True)
-class TangentLine(Equation):
+class TangentLine(Equation, Struct, frozen=True):
     """The line touches the circle about `center`, which lies to its left (`side` +1) or right (-1)."""
 
     line: str
@@ -136,8 +131,7 @@ class TangentLine(Equation):
         return left_of(at, self.line, self.center) - side_of(self.side, at) * at.radius(self.radius)
 
 
-@dataclass(frozen=True, slots=True)
-class Extent(Equation):
+class Extent(Equation, Struct, frozen=True):
     """From `tail` to `head`, both on the line, it goes the given length along the line."""
 
     given: str
@@ -158,8 +152,7 @@ class Extent(Equation):
         return float(self._extent(at))
 
 
-@dataclass(frozen=True, slots=True)
-class ChamferLeg(Equation):
+class ChamferLeg(Equation, Struct, frozen=True):
     """A 45 degree chamfer from `begin` to `end` extends as far as a share of its size along `axis`, to one side.
 
     The side is the way in which a path advances, see `Parallel`; or the way between the directions of the two lines
@@ -196,8 +189,7 @@ class ChamferLeg(Equation):
         return *self.reads(), *lines, *_ends(self.advance, self.axis)
 
 
-@dataclass(frozen=True, slots=True)
-class Along:
+class Along(Struct, frozen=True):
     """The direction of a line."""
 
     line: str
@@ -215,8 +207,7 @@ class Along:
         return 1
 
 
-@dataclass(frozen=True, slots=True)
-class Tangent:
+class Tangent(Struct, frozen=True):
     """The direction of an arc where it passes `point`."""
 
     point: str
@@ -238,8 +229,7 @@ class Tangent:
         return at.radius(self.radius)
 
 
-@dataclass(frozen=True, slots=True)
-class TurnBetween(Equation):
+class TurnBetween(Equation, Struct, frozen=True):
     """The direction of travel turns by the given angle from the first element to the second."""
 
     given: str
@@ -291,8 +281,7 @@ def left_of(at: Lookup, line: str, point: str) -> Any:
     return cosine * at.coordinate(point, SECOND) - sine * at.coordinate(point, FIRST) - offset
 
 
-@dataclass(frozen=True, slots=True)
-class Distance(Equation):
+class Distance(Equation, Struct, frozen=True):
     """`tail` and `head` lie the given distance apart; to first order the residual is the excess."""
 
     given: str
@@ -313,8 +302,7 @@ class Distance(Equation):
         return hypot(*map(float, step(at, self.tail, self.head)))
 
 
-@dataclass(frozen=True, slots=True)
-class EqualDistances(Equation):
+class EqualDistances(Equation, Struct, frozen=True):
     """Two pairs of points lie equally far apart."""
 
     given: str

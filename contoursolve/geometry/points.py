@@ -1,16 +1,16 @@
 """Facts about points and circles: coordinates, directions from one point to another, points on circles, radii."""
 
-from dataclasses import dataclass
 from math import atan2, degrees, hypot
 from typing import Any
+
+from msgspec import Struct
 
 from contoursolve.geometry.figure import Lookup, scalar
 from contoursolve.geometry.system import Equation, both, cross, dot, step
 from contoursolve.tolerance import RADIUS_DIFFERENCE
 
 
-@dataclass(frozen=True, slots=True)
-class Coordinate(Equation):
+class Coordinate(Equation, Struct, frozen=True):
     """`point` has the given coordinate on `axis`."""
 
     given: str
@@ -27,8 +27,7 @@ class Coordinate(Equation):
         return float(at.coordinate(self.point, self.axis))
 
 
-@dataclass(frozen=True, slots=True)
-class Offset(Equation):
+class Offset(Equation, Struct, frozen=True):
     """`point` lies the given distance from `origin`, counted along `axis`."""
 
     given: str
@@ -46,8 +45,7 @@ class Offset(Equation):
         return float(at.coordinate(self.point, self.axis) - at.coordinate(self.origin, self.axis))
 
 
-@dataclass(frozen=True, slots=True)
-class Level(Equation):
+class Level(Equation, Struct, frozen=True):
     """`point` has the same coordinate on `axis` as `origin`."""
 
     point: str
@@ -62,8 +60,7 @@ class Level(Equation):
         return at.coordinate(self.point, self.axis) - at.coordinate(self.origin, self.axis)
 
 
-@dataclass(frozen=True, slots=True)
-class Collinear(Equation):
+class Collinear(Equation, Struct, frozen=True):
     """`point` lies on the line from `tail` through `through`."""
 
     tail: str
@@ -82,8 +79,7 @@ class Collinear(Equation):
         return self.equation(at) / at.root(dot(along, along))
 
 
-@dataclass(frozen=True, slots=True)
-class Heading(Equation):
+class Heading(Equation, Struct, frozen=True):
     """The line from `tail` to `head` runs at the given angle."""
 
     given: str
@@ -103,8 +99,7 @@ class Heading(Equation):
         return degrees(atan2(second, first)) if hypot(first, second) > 0 else None
 
 
-@dataclass(frozen=True, slots=True)
-class OnCircle(Equation):
+class OnCircle(Equation, Struct, frozen=True):
     """`point` lies on the circle about `center`; to first order the residual is the distance from it.
 
     By up to `slack` (mm) it may be off where the circle is known without it.
@@ -131,8 +126,7 @@ class OnCircle(Equation):
         return self.equation(at) / (2 * at.radius(self.radius))
 
 
-@dataclass(frozen=True, slots=True)
-class Radius(Equation):
+class Radius(Equation, Struct, frozen=True):
     """The radius has the given value."""
 
     given: str

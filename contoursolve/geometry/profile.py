@@ -1,9 +1,10 @@
 """The drawing of one contour with the values that its blocks give: what reading makes of words."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from decimal import Decimal
 from enum import Enum
+
+from msgspec import Struct
 
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry.figure import Fact, Figure
@@ -36,8 +37,7 @@ class Length(Enum):
         return _INCH if self is Length.INCH else _MM
 
 
-@dataclass(frozen=True, slots=True)
-class Plane:
+class Plane(Struct, frozen=True):
     """A working plane: its G code, its two axes, its centre addresses, and which axes are diameters."""
 
     code: str
@@ -46,8 +46,7 @@ class Plane:
     diameters: tuple[bool, bool] = (False, False)
 
 
-@dataclass(frozen=True, slots=True)
-class Given:
+class Given(Struct, frozen=True):
     """A value that the block states: `name` is its name in the equations, `value` is in mm (radius)
     or degrees. `word` is None for a value that the control supplies by itself. `is_diameter` tells that
     the word is written as twice the value."""
@@ -59,8 +58,7 @@ class Given:
     is_diameter: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Question:
+class Question(Struct, frozen=True):
     """A value that is asked for: its name, the fact that tells it, and how it is written."""
 
     name: str
@@ -70,8 +68,7 @@ class Question:
     is_diameter: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Start:
+class Start(Struct, frozen=True):
     """The start point of a contour: a value in mm (X as radius) per axis, None where unknown."""
 
     values: tuple[Decimal | None, Decimal | None]
@@ -101,8 +98,7 @@ class Side(Enum):
         return -1 if self in (Side.NEARER, Side.RIGHT, Side.SECOND) else 1
 
 
-@dataclass(frozen=True, slots=True)
-class Choice:
+class Choice(Struct, frozen=True):
     """The control's choice between two solutions for `point`, and the given that makes it; empty for one that the
     form itself makes, so that no block has the other solution."""
 
@@ -111,8 +107,7 @@ class Choice:
     given: str
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Layout:
+class Layout(Struct, frozen=True, eq=False):
     """A figure with the facts that some combination of words states about it.
 
     Every block with these words shares one object, which is its own identity: caches go by it.
@@ -122,8 +117,7 @@ class Layout:
     facts: tuple[Fact, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Profile:
+class Profile(Struct, frozen=True):
     """One contour, partly unknown.
 
     The layout's facts are what the words state and the control uses; `ignored` are facts that the

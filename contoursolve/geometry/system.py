@@ -2,9 +2,10 @@
 
 import math
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any
+
+from msgspec import Struct, field
 
 from contoursolve.geometry.figure import FIRST, SECOND, Fact, Figure, Line, Lookup, line_scalars, scalar
 from contoursolve.geometry.profile import Layout, Profile
@@ -69,8 +70,7 @@ def _may_vanish(value: Any) -> bool:
     return bool(value != 0) is False
 
 
-@dataclass(frozen=True, slots=True)
-class Functions:
+class Functions(Struct, frozen=True):
     """What equations need beyond arithmetic, for one kind of number."""
 
     root: Callable[[Any], Any] = math.sqrt
@@ -83,8 +83,7 @@ class Functions:
 FLOATS = Functions()
 
 
-@dataclass(frozen=True, slots=True)
-class Values:
+class Values(Struct, frozen=True):
     """`scalars` holds coordinates, radii and lines by name, `amounts`, `directions` and `signs` the givens.
 
     A coordinate or a radius that is no scalar is a given. `headed` are the lines whose direction is a given,
@@ -149,8 +148,7 @@ def headed_lines(figure: Figure) -> dict[str, tuple[str, str]]:
     }
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class System:
+class System(Struct, frozen=True, eq=False):
     """Unknown scalars and the facts about them.
 
     The coordinates of the figure's start and places are known, all other points, the radii and the carriers

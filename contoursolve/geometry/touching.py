@@ -1,15 +1,15 @@
 """Facts about arcs, circles and corners: how they touch, how long they are, where they begin and end."""
 
-from dataclasses import dataclass
 from math import atan2, tau
 from typing import Any
+
+from msgspec import Struct
 
 from contoursolve.geometry.figure import Lookup, Turn, line_scalars
 from contoursolve.geometry.system import Equation, both, cross, dot, rotate, step
 
 
-@dataclass(frozen=True, slots=True)
-class EqualRadii(Equation):
+class EqualRadii(Equation, Struct, frozen=True):
     """Two circles have the same radius."""
 
     given: str
@@ -23,8 +23,7 @@ class EqualRadii(Equation):
         return at.radius(self.first) - at.radius(self.second)
 
 
-@dataclass(frozen=True, slots=True)
-class TangentCircles(Equation):
+class TangentCircles(Equation, Struct, frozen=True):
     """Two circles touch: from outside (`side` +1) or one inside the other (-1).
 
     `side` is the name of an open side, or the side itself. To first order the residual is the gap.
@@ -52,8 +51,7 @@ class TangentCircles(Equation):
         return self.equation(at) / (2 * (at.radius(self.first[1]) + at.radius(self.second[1])))
 
 
-@dataclass(frozen=True, slots=True)
-class Contact(Equation):
+class Contact(Equation, Struct, frozen=True):
     """`point`, which lies on two circles, is where they touch: in line with their centres.
 
     It lies between the centres for a contact from outside (`side` +1), beyond them for one from inside (-1).
@@ -80,8 +78,7 @@ class Contact(Equation):
         return (self.side * dot(step(at, self.first, self.point), step(at, self.point, self.second)),)
 
 
-@dataclass(frozen=True, slots=True)
-class ArcLength(Equation):
+class ArcLength(Equation, Struct, frozen=True):
     """The arc from `tail` to `head` about `center` has the given length.
 
     The residual is how far `head` lies off the ray at which the arc must end.
@@ -124,8 +121,7 @@ def side_of(side: str | int, at: Lookup) -> Any:
     return at.side(side) if isinstance(side, str) else side
 
 
-@dataclass(frozen=True, slots=True)
-class TangentArc(Equation):
+class TangentArc(Equation, Struct, frozen=True):
     """The circle about `center` touches the circle of an arc, and lies to the left of its travel (`side` +1) or to
     the right (-1). To first order the residual is the gap."""
 
@@ -153,8 +149,7 @@ class TangentArc(Equation):
         return self.equation(at) / (2 * (at.radius(self.arc[1]) + at.radius(self.radius)))
 
 
-@dataclass(frozen=True, slots=True)
-class ArcContact(Equation):
+class ArcContact(Equation, Struct, frozen=True):
     """`point`, which lies on the circle of an arc, is where a circle about `center` touches it: in line with both
     centres. It comes before the `corner` on the arc (`way` +1) or after it (-1), by less than half a turn."""
 
@@ -190,8 +185,7 @@ class ArcContact(Equation):
         return *self.reads(), self.arc[1], self.radius, *both(self.corner)
 
 
-@dataclass(frozen=True, slots=True)
-class Setback(Equation):
+class Setback(Equation, Struct, frozen=True):
     """`point`, which lies on the line, is `size` before the `corner` (`way` +1) or after it (-1)."""
 
     line: str
@@ -209,8 +203,7 @@ class Setback(Equation):
         return self.way * ahead - at.radius(self.size)
 
 
-@dataclass(frozen=True, slots=True)
-class ChordSetback(Equation):
+class ChordSetback(Equation, Struct, frozen=True):
     """`point`, which lies on the circle of an arc, is `size` away from the `corner`, along the chord: before it on
     the arc (`way` +1) or after it (-1)."""
 

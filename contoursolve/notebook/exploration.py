@@ -1,11 +1,13 @@
 """A contour that is being explored: the block's text, and every way to change it. Nothing here knows a notebook."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
 from decimal import Decimal, InvalidOperation
 from itertools import islice, product
 from math import hypot
 from typing import Any
+
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from contoursolve.api import solve
 from contoursolve.diagnosis.edits import Edit, EditKind, apply_edits, write_word
@@ -29,8 +31,7 @@ MOST_TRIED = 16
 """Ways to write what selects a solution that are tried."""
 
 
-@dataclass(frozen=True, slots=True)
-class Exploration:
+class Exploration(Struct, frozen=True):
     """The text of a contour as it is now, what it comes to, and what it was first."""
 
     text: str

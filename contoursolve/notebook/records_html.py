@@ -1,11 +1,11 @@
 """Records as HTML for an output of a notebook, in the notebook's theme and without anything from a network."""
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import replace
 from typing import Any
 
 import htpy as h
 from markupsafe import Markup
+from msgspec.structs import replace
 
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.wording import count

@@ -2,7 +2,6 @@
 hold for whole ranges of values."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import reduce
 from math import pi
 from operator import add
@@ -10,6 +9,7 @@ from typing import Any
 
 import casadi
 import numpy
+from msgspec import Struct
 from numpy.typing import NDArray
 
 from contoursolve.numeric import intervals
@@ -22,8 +22,7 @@ NO_ROOT = -1e-10
 """mm squared. A root's operand above this has a root: what touches by construction is off by rounding."""
 
 
-@dataclass(frozen=True, slots=True)
-class Following:
+class Following(Struct, frozen=True):
     """A value that follows words, and is linear in each: the words' numbers, with the mm or degrees for each unit of
     them. Of an angle there is one."""
 
@@ -31,8 +30,7 @@ class Following:
     is_angle: bool
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Bounds:
+class Bounds(Struct, frozen=True, eq=False):
     """What outputs lie between in each of many boxes, by (output, box); and in which boxes every root has a value for
     certain, and in which none has."""
 

@@ -1,12 +1,12 @@
 """One function for many rows at once: its instructions replayed over columns, called through a buffer."""
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any
 
 import casadi
 import numpy
+from msgspec import Struct
 from numpy.typing import NDArray
 
 from contoursolve.numeric.expressions import Tape
@@ -28,8 +28,7 @@ SIZES = (PART, 8 * PART, ROWS)
 """How many rows are computed at once, so that few rows take little time."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class ColumnFunction:
+class ColumnFunction(Struct, frozen=True, eq=False):
     """A function of columns: its inputs that are single numbers and those that vary, its outputs that are single
     numbers, as they follow from those alone, and those that vary."""
 

@@ -1,11 +1,11 @@
 """Narrows boxes to what equations allow, forwards and backwards through a CasADi function, one or many at once."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import casadi
 import numpy
+from msgspec import Struct
 from numpy.typing import NDArray
 
 from contoursolve.numeric import intervals
@@ -141,8 +141,7 @@ FAR, PLACES = 1e9, 6
 """mm, and the decimals to which two places where it arrived are the same."""
 
 
-@dataclass(frozen=True, slots=True)
-class Boxes:
+class Boxes(Struct, frozen=True):
     """Lower and upper bounds by box and unknown, and for each box the number of the case that it belongs to: systems
     of the same equations with other values for what is known."""
 
@@ -168,8 +167,7 @@ class Boxes:
         return unknown + [Intervals(each.low[self.case], each.high[self.case]) for each in known]
 
 
-@dataclass(frozen=True, slots=True)
-class Contraction:
+class Contraction(Struct, frozen=True):
     """Boxes that hold all solutions that there were, whether each is proven to hold exactly one, and how large the
     slopes are in it at most, by equation and unknown."""
 

@@ -3,10 +3,10 @@
 Every bound of an operation is moved to the next double, so that whatever is excluded is excluded with proof.
 """
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy
+from msgspec import Struct
 from numpy.typing import NDArray
 
 Array = NDArray[numpy.float64]
@@ -28,8 +28,7 @@ def up(value: Array) -> Array:
     return numpy.nextafter(value, numpy.inf)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Intervals:
+class Intervals(Struct, frozen=True, eq=False):
     """Lower and upper bounds."""
 
     low: Array

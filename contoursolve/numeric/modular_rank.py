@@ -4,8 +4,9 @@ The chance that something else is zero by accident is about its degree / PRIME, 
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import lru_cache
+
+from msgspec import Struct
 
 from contoursolve.geometry import Functions
 
@@ -120,8 +121,7 @@ RESIDUES = Functions(_root, _cosine, _sine)
 """What is not arithmetic: a root is any number; cosine and sine belong together."""
 
 
-@dataclass(frozen=True, slots=True)
-class ExactRank:
+class ExactRank(Struct, frozen=True):
     """Rank of a matrix with its two null spaces, as indices of their non-zero entries."""
 
     rank: int

@@ -1,8 +1,9 @@
 """A contour as text and as tables: what was given, every element of the path, all solutions, what was checked."""
 
 from collections.abc import Iterator
-from dataclasses import replace
 from decimal import Decimal
+
+from msgspec.structs import replace
 
 from contoursolve.diagnosis.examine import Answer, AskedValue, list_alternatives
 from contoursolve.diagnosis.solutions import Listed, Listing, list_solutions, printed_certificate

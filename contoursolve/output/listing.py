@@ -2,9 +2,11 @@
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
 from heapq import heappop, heappush
 from typing import Any, TypeVar
+
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis.examine import Answer, rank
@@ -120,8 +122,7 @@ def summary_line(results: Sequence[Result]) -> str:
     return _tally(results).line(len(results))
 
 
-@dataclass(frozen=True, slots=True)
-class Totals:
+class Totals(Struct, frozen=True):
     """How many contours have each status, and how many findings each severity."""
 
     statuses: Counter[Status] = field(default_factory=Counter)

@@ -3,7 +3,8 @@
 import re
 import unicodedata
 from collections.abc import Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 
 def columns(rows: Sequence[Sequence[str]], left: Sequence[int] = (0,), indent: str = "  ") -> list[str]:
@@ -41,8 +42,7 @@ def harmless(text: str) -> str:
 _COMMAND = re.compile(r"^(?P<blank>[^\S\n]*+)::", re.MULTILINE)
 
 
-@dataclass(frozen=True, slots=True)
-class Table:
+class Table(Struct, frozen=True):
     """Rows under a caption, as every format shows them; the columns named in `left` are texts, the others numbers."""
 
     caption: str

@@ -3,11 +3,11 @@ that it opens anywhere and says the same in ten years."""
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import PurePath
 
 import htpy as h
 from markupsafe import Markup
+from msgspec import Struct
 
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis.examine import Answer, Policy
@@ -50,8 +50,7 @@ Marked = tuple[Label, Diagnostic]
 """A stretch of a line, and the finding that marks it."""
 
 
-@dataclass(frozen=True, slots=True)
-class Places:
+class Places(Struct, frozen=True):
     """The addresses on the page: the lines that it shows, the numbers of contours by line and of findings by identity,
     both from 1, and what findings mark, by line."""
 

@@ -1,10 +1,10 @@
 """The exact lines that bound a region of two words, each named by what fails beyond it, and the picture of a region."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from itertools import product
 
 import numpy
+from msgspec import Struct
 from numpy.typing import NDArray
 
 from contoursolve.families import Boundary, Region
@@ -48,8 +48,7 @@ _LEAST = 40.0
 """Pixels. A shorter line goes without a name where another of that name has one."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Curve:
+class Curve(Struct, frozen=True, eq=False):
     """A boundary on the page: its points, places on it a pixel apart, and the unit directions to its failing side there
     (to either side for a gap)."""
 

@@ -4,10 +4,12 @@ A contour whose words leave something free is completed: that is put somewhere, 
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
 from decimal import Decimal
 from itertools import product
 from math import hypot, isfinite
+
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from contoursolve.analysis import judge
 from contoursolve.analysis.identities import is_affine
@@ -49,8 +51,7 @@ _TURNED = (0.6, -0.6, 1.0, -1.0)
 """The same, with backwards as likely as onwards: a line at 180 deg leads to lower Z."""
 
 
-@dataclass(frozen=True, slots=True)
-class Known:
+class Known(Struct, frozen=True):
     """`points` (mm) and `radii` by name, `corners` whether they fit or not; `placed` are the points that words leave
     free. `others` are further completions."""
 

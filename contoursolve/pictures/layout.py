@@ -2,8 +2,9 @@
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from math import tau
+
+from msgspec.structs import replace
 
 from contoursolve.geometry import FIRST, SECOND
 from contoursolve.pictures.callouts import draw_callouts

@@ -1,7 +1,8 @@
 """How large a drawing is on its page, and what stands around it: distances in rows, coordinates at the edges."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from contoursolve.geometry import FIRST, SECOND
 from contoursolve.pictures.labels import Canvas
@@ -35,8 +36,7 @@ _SHORT = 22.0
 """Pixels. In a shorter distance the arrowheads stand outside."""
 
 
-@dataclass(frozen=True, slots=True)
-class Border:
+class Border(Struct, frozen=True):
     """An edge of the drawing: the axis that runs along it, and whether it is the lower or left one (`sign` -1) or the
     upper or right one (+1), in mm."""
 
@@ -59,8 +59,7 @@ Row = tuple[LinearDimension, int]
 """A distance and the number of its row, from the drawing outwards."""
 
 
-@dataclass(frozen=True, slots=True)
-class Arrangement:
+class Arrangement(Struct, frozen=True):
     """Where the drawing is, its rows of distances, and its coordinates with the edges at which they are written.
 
     `outer` is where each edge of the drawing is on the page.

@@ -2,8 +2,9 @@
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import PurePath
+
+from msgspec.structs import replace
 
 from contoursolve.comparison import Motion, Travel, follow
 from contoursolve.controls import DIALECTS

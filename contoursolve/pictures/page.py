@@ -1,10 +1,13 @@
 """A page in pixels with Y down: strokes, shapes and texts, how wide texts are, arrowheads and lines."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from enum import Enum
 from math import cos, sin
 from typing import NamedTuple
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.pictures.theme import DASHES, Role
 from contoursolve.pictures.vectors import along
@@ -22,8 +25,7 @@ WIDTH, PAD = 760.0, 18.0
 """Pixels of a page, and between its edge and its texts."""
 
 
-@dataclass(frozen=True, slots=True)
-class Sweep:
+class Sweep(Struct, frozen=True):
     """An arc of a circle from where a stroke is; `angle` is travelled (radians, positive clockwise on the page)."""
 
     center: Spot
@@ -43,8 +45,7 @@ class Sweep:
         yield self.end
 
 
-@dataclass(frozen=True, slots=True)
-class Stroke:
+class Stroke(Struct, frozen=True):
     """A line that is drawn: from `start` through places and arcs."""
 
     start: Spot
@@ -54,16 +55,14 @@ class Stroke:
     dash: tuple[float, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Shape:
+class Shape(Struct, frozen=True):
     """A filled polygon."""
 
     corners: tuple[Spot, ...]
     role: Role
 
 
-@dataclass(frozen=True, slots=True)
-class Dot:
+class Dot(Struct, frozen=True):
     """A disc, filled with its role or with paper."""
 
     at: Spot
@@ -80,8 +79,7 @@ class Anchor(Enum):
     END = "end"
 
 
-@dataclass(frozen=True, slots=True)
-class TextRun:
+class TextRun(Struct, frozen=True):
     """A stretch of a text in one role."""
 
     text: str
@@ -121,8 +119,7 @@ class Box(NamedTuple):
         return Shape(((left, top), (right, top), (right, bottom), (left, bottom)), role)
 
 
-@dataclass(frozen=True, slots=True)
-class Text:
+class Text(Struct, frozen=True):
     """A text in one line; `at` is on its base line. A text that is turned reads from the right."""
 
     at: Spot

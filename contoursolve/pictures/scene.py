@@ -5,9 +5,10 @@ Nothing here knows where a label finds room.
 """
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
 from enum import Enum
 from typing import TypeVar
+
+from msgspec import Struct, field
 
 from contoursolve.geometry import FIRST, SECOND, Length, Plane
 from contoursolve.pictures.page import Spot, TextRun, visible
@@ -28,8 +29,7 @@ class Weight(Enum):
     """What might be instead; drawn where it does not make the others small."""
 
 
-@dataclass(frozen=True, slots=True)
-class Trail:
+class Trail(Struct, frozen=True):
     """A path, or a part of it."""
 
     segments: tuple[Segment, ...]
@@ -37,8 +37,7 @@ class Trail:
     weight: Weight = Weight.MAIN
 
 
-@dataclass(frozen=True, slots=True)
-class Thin:
+class Thin(Struct, frozen=True):
     """A straight construction line; an endless one is drawn as far as the picture goes."""
 
     start: Point
@@ -47,8 +46,7 @@ class Thin:
     is_endless: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Ring:
+class Ring(Struct, frozen=True):
     """A whole circle as construction."""
 
     center: Point
@@ -68,8 +66,7 @@ class MarkKind(Enum):
     """Where a word puts a point that others put elsewhere."""
 
 
-@dataclass(frozen=True, slots=True)
-class Mark:
+class Mark(Struct, frozen=True):
     """A point with a name and, in other roles, what is said about it."""
 
     at: Point
@@ -80,8 +77,7 @@ class Mark:
     role: Role = Role.INK
 
 
-@dataclass(frozen=True, slots=True)
-class LinearDimension:
+class LinearDimension(Struct, frozen=True):
     """A distance along an axis between two points."""
 
     start: Point
@@ -96,8 +92,7 @@ class LinearDimension:
         return abs(self.end[self.axis] - self.start[self.axis])
 
 
-@dataclass(frozen=True, slots=True)
-class Aligned:
+class Aligned(Struct, frozen=True):
     """A distance straight from one point to another; on the line between them, or beside it."""
 
     start: Point
@@ -107,8 +102,7 @@ class Aligned:
     is_beside: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Ordinate:
+class Ordinate(Struct, frozen=True):
     """The coordinate of a point on an axis: the line on which the point lies."""
 
     at: Point
@@ -117,8 +111,7 @@ class Ordinate:
     role: Role
 
 
-@dataclass(frozen=True, slots=True)
-class Angle:
+class Angle(Struct, frozen=True):
     """A direction at a point, as written, in degrees from the plane's first axis."""
 
     at: Point
@@ -127,8 +120,7 @@ class Angle:
     role: Role
 
 
-@dataclass(frozen=True, slots=True)
-class Leader:
+class Leader(Struct, frozen=True):
     """A word that points at a place, from the side to which `away` leads."""
 
     at: Point
@@ -137,8 +129,7 @@ class Leader:
     role: Role
 
 
-@dataclass(frozen=True, slots=True)
-class Slide:
+class Slide(Struct, frozen=True):
     """What can still move: both ways along a direction, or anywhere without one."""
 
     at: Point
@@ -152,8 +143,7 @@ Part = Trail | Thin | Ring | Mark | Slide | Dimension
 _Kind = TypeVar("_Kind", bound=Part)
 
 
-@dataclass(frozen=True, slots=True)
-class Scene:
+class Scene(Struct, frozen=True):
     """One drawing. `lines` are the program's lines in their roles, `remarks` what is said below the drawing."""
 
     title: str
@@ -189,8 +179,7 @@ MOST_TIMES_WRONG = 12.0
 _ROUNDING = 1.001
 
 
-@dataclass(frozen=True, slots=True)
-class Viewport:
+class Viewport(Struct, frozen=True):
     """The rectangle of the plane that is shown (mm), pixels in a mm, and where its middle is on the page."""
 
     middle: Point
@@ -205,8 +194,7 @@ class Viewport:
         )
 
 
-@dataclass(frozen=True, slots=True)
-class Rectangle:
+class Rectangle(Struct, frozen=True):
     """An upright rectangle in mm."""
 
     low: Point

@@ -5,8 +5,10 @@ corner that does not fit has a place as well. What words leave free is put somew
 """
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
 from math import inf, isfinite
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.analysis import judge
 from contoursolve.diagnosis.examine import MOST_CHOICES, Answer, count_choices
@@ -62,8 +64,7 @@ _CORNERS = (
 """Refusals after which the lines of the path are as they should be, without their corners."""
 
 
-@dataclass(frozen=True, slots=True)
-class Subject:
+class Subject(Struct, frozen=True):
     """An answer, what is known of it, its path, and the role of each given whose word is drawn."""
 
     answer: Answer

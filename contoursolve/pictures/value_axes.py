@@ -1,10 +1,10 @@
 """Values of words on a page: the plane of two words, and the bar of one with the ranges in which a contour exists."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from math import floor, log10
 
 import numpy
+from msgspec import Struct
 
 from contoursolve.diagnosis.wording import written
 from contoursolve.families import End, Feasible, Way
@@ -41,8 +41,7 @@ _NARROW = 36.0
 """Pixels for the name of the second word; a longer one is turned."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Scale:
+class Scale(Struct, frozen=True, eq=False):
     """Where the values of a word are in the plane, from 0 to 1: of some of them, rising, and straight between."""
 
     values: Array
@@ -79,8 +78,7 @@ def _values_across(scale: Scale, bottom: float) -> Iterator[Item]:
         yield Text((x, bottom + 19.0), (TextRun(f"{value:g}", Role.INK),), SIZE, Anchor.MIDDLE)
 
 
-@dataclass(frozen=True, slots=True)
-class ValuePlane:
+class ValuePlane(Struct, frozen=True):
     """A plane: what its two words are called, and their scales."""
 
     names: tuple[str, str]

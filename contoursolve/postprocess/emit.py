@@ -1,9 +1,11 @@
 """Writes a contour as plain G-code: rounded so that every arc stays valid, with the deviation that this costs."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from math import atan2, ceil, cos, floor, hypot, inf, pi, radians, sin, sqrt, tau
 from typing import NamedTuple
+
+from msgspec.structs import replace
 
 from contoursolve.geometry import Length, Plane, Turn
 from contoursolve.postprocess.post_processors import Arcs

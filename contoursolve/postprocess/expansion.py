@@ -2,9 +2,10 @@
 
 from collections import deque
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
 from decimal import Decimal
 from itertools import chain
+
+from msgspec.structs import replace
 
 from contoursolve.diagnosis.examine import Answer, Depth, Policy
 from contoursolve.diagnostics.finding import Severity

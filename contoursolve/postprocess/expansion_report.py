@@ -1,7 +1,8 @@
 """What is asked of an expansion, and what became of the contours of the program."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+
+from msgspec import Struct, field
 
 from contoursolve.diagnostics.finding import Diagnostic, Severity
 from contoursolve.gcode import Block, FaultKind
@@ -12,8 +13,7 @@ _KEPT_WARNINGS = 20
 """Warnings that are kept to be shown."""
 
 
-@dataclass(frozen=True, slots=True)
-class Options:
+class Options(Struct, frozen=True):
     """What is asked of an expansion: the target, how it writes arcs, decimals (None: the target's own), whether the
     original blocks are kept as comments, and block numbers."""
 
@@ -24,8 +24,7 @@ class Options:
     numbering: Numbering = Numbering.FIRST
 
 
-@dataclass(frozen=True, slots=True)
-class Left:
+class Left(Struct, frozen=True):
     """A contour that was left as it is: its lines with their texts, why, and the findings about it."""
 
     lines: tuple[int, ...]
@@ -34,8 +33,7 @@ class Left:
     sources: Mapping[int, str]
 
 
-@dataclass(slots=True)
-class Summary:
+class Summary(Struct):
     """What became of a program's contours, as far as it has been read; `deviation` is the largest distance of what
     was written from the exact contours, mm."""
 
@@ -62,8 +60,7 @@ class Summary:
         self.warned += warnings[: max(0, _KEPT_WARNINGS - len(self.warned))]
 
 
-@dataclass(frozen=True, slots=True)
-class Expansion:
+class Expansion(Struct, frozen=True):
     """A program in plain G-code; `text` is None where a contour could not be expanded, or where the target would run
     something else along another path."""
 

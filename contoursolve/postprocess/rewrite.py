@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import IO
+
+from msgspec import Struct
 
 from contoursolve.diagnosis.examine import Policy
 from contoursolve.gcode import Block, Directive, Program, parse, parse_block
@@ -26,8 +27,7 @@ _REPORTED = 0.01
 """Share of a program after which the progress is told again."""
 
 
-@dataclass(frozen=True, slots=True)
-class Rewritten:
+class Rewritten(Struct, frozen=True):
     """An expanded program in a temporary file, where the opening goes, and what became of the contours."""
 
     body: IO[bytes]

@@ -2,9 +2,11 @@
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from decimal import Decimal
 from functools import lru_cache
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.diagnosis.wording import join
 from contoursolve.gcode import Block, Macro, Word
@@ -29,8 +31,7 @@ _NOT_KNOWN = Other("is not known")
 _PATH_WITHOUT_POINT = "path without point"
 
 
-@dataclass(frozen=True, slots=True)
-class Unfamiliar:
+class Unfamiliar(Struct, frozen=True):
     """One code or word, as it was first written: what is the matter with it, and in which line that is.
 
     With Risk.PATH, `meant` is what it is on the control of the program.

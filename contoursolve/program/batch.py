@@ -1,10 +1,10 @@
 """Contours that differ in their values alone, solved together; whatever is not plainly solved is left alone."""
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
-from dataclasses import dataclass, field
 from functools import lru_cache
 
 import numpy
+from msgspec import Struct, field
 from numpy.typing import NDArray
 
 from contoursolve.diagnosis.examine import Answer, Policy
@@ -43,8 +43,7 @@ _SMALL = 30_000
 """A number that is no larger is below the largest value in every unit."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Kind:
+class Kind(Struct, frozen=True, eq=False):
     """Contours with the same words and choices, by one of them about which there is nothing to say."""
 
     answer: Answer
@@ -57,8 +56,7 @@ class Kind:
     """The outputs of which a contour is made."""
 
 
-@dataclass(slots=True)
-class Batch:
+class Batch(Struct):
     """Solves contours that a control's rules allow and that differ from one that was examined in their values alone.
 
     The answers are those of `examine`: the same outputs of the same function, checked in columns.

@@ -1,7 +1,8 @@
 """The lines of a program on their way through an expansion: read into blocks, and their ends kept."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from contoursolve.controls import DIALECTS
 from contoursolve.gcode import LONGEST_BLOCK, Block, Directive, Passage, parse_block

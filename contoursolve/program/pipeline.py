@@ -1,9 +1,11 @@
 """The order of the stages: from the text of a program to its contours and findings."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
 from itertools import islice
 from typing import TYPE_CHECKING, cast
+
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine, rank
@@ -42,8 +44,7 @@ if TYPE_CHECKING:
     from contoursolve.statements import Statement
 
 
-@dataclass(frozen=True, slots=True)
-class Result(Shown):
+class Result(Shown, Struct, frozen=True):
     """All contours and findings of a program; `control` is None where there was nothing to tell it by."""
 
     program: Program

@@ -1,9 +1,11 @@
 """Contours that are found and not solved yet: together, as soon as it is known where they begin."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
 from functools import partial
 from typing import Protocol, cast
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.explain import Context
@@ -16,8 +18,7 @@ from contoursolve.reading.dialect import Dialect
 from contoursolve.solving.contour import Contour
 
 
-@dataclass(frozen=True, slots=True)
-class Step:
+class Step(Struct, frozen=True):
     """One block of a program, or the blocks of one contour from its first line to its last, or plain lines in a row;
     and the state before them.
 

@@ -2,7 +2,8 @@
 
 import re
 from collections.abc import Iterator
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from contoursolve.diagnosis.explain import Context, report
 from contoursolve.diagnostics.finding import Basis, Diagnostic

@@ -2,10 +2,12 @@
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from decimal import Decimal
 from functools import lru_cache
 from itertools import product
+
+from msgspec.structs import replace
 
 from contoursolve.diagnostics.source import Evidence, Source
 from contoursolve.geometry import Arc, Corner, CornerShape, Fact, Figure, Layout, Line, Role

@@ -1,7 +1,9 @@
 """Following a program through its contours, one after the other, and a contour through its blocks."""
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.gcode import Block, Directive, Program, Word
 from contoursolve.reading.lexicon import Effect
@@ -52,8 +54,7 @@ def state_facts(program: Program, contour: Sequence[Block], facts: Sequence[Dire
     return replace(program, blocks=blocks)
 
 
-@dataclass(frozen=True, slots=True)
-class ContourBlock:
+class ContourBlock(Struct, frozen=True):
     """One block of a contour: the state in which its words are read, whether it moves in rapid, and the names of the
     elements and corners that it makes, None for all of them. A contour has one block, or one for each element."""
 

@@ -2,9 +2,12 @@
 
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from decimal import Decimal
 from functools import partial
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import Block, FaultKind, Macro, Passage, Word, find_words
@@ -88,8 +91,7 @@ _DEEPEST = 50
 """Positions that each follow from the one before, of which none is looked at."""
 
 
-@dataclass(frozen=True, slots=True)
-class State:
+class State(Struct, frozen=True):
     """What is in force before a block."""
 
     axes: Mapping[str, Position]

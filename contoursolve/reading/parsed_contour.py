@@ -1,9 +1,12 @@
 """A contour found in a program: its form, blocks and words, and where it leaves the tool."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from decimal import Decimal
 from enum import Enum
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import Block, Directive, Word
@@ -49,8 +52,7 @@ class Trouble(Enum):
     LANDING_LEFT = "landing-left"
 
 
-@dataclass(frozen=True, slots=True)
-class Selector:
+class Selector(Struct, frozen=True):
     """A word that chooses one of the two places of a point."""
 
     point: str

@@ -4,14 +4,15 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import atan2, degrees
 
+from msgspec import Struct
+
 from contoursolve.diagnostics.display import Shown
 from contoursolve.geometry import Unit
 from contoursolve.solving.contour import ArcSegment, Contour
 from contoursolve.solving.solution import Certificate, Status
 
 
-@dataclass(frozen=True, slots=True)
-class Asked:
+class Asked(Struct, frozen=True):
     """A value that was asked for: mm or degrees, as `unit` says; None where nothing determines it."""
 
     fact: str

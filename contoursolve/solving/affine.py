@@ -6,12 +6,13 @@ facts that say the same.
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
 from itertools import combinations
 from math import comb
 from typing import NamedTuple
 
 import numpy
+from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.analysis.identities import is_affine
 from contoursolve.diagnostics.finding import Freedom
@@ -20,8 +21,7 @@ from contoursolve.solving.numbers import lookup
 from contoursolve.tolerance import REGULAR
 
 
-@dataclass(frozen=True, slots=True)
-class Circuit:
+class Circuit(Struct, frozen=True):
     """Facts that say the same: each is determined by the others, and no part of them is tied.
 
     `off` (mm) says for each fact by how much it misses what the others say; all zero if they agree.
@@ -55,8 +55,7 @@ class Part(NamedTuple):
     values: numpy.ndarray
 
 
-@dataclass(frozen=True, slots=True)
-class AffineFacts:
+class AffineFacts(Struct, frozen=True):
     """Facts as rows of `matrix`, shape (facts, unknowns), and `constants`, shape (facts,), mm."""
 
     facts: tuple[Fact, ...]

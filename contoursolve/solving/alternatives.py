@@ -1,10 +1,12 @@
 """Every contour that satisfies a profile, named and certified, and which one the control takes."""
 
 from collections.abc import Iterator, Mapping, Sequence, Set
-from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import inf
 from typing import Any
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.analysis import judge, order
 from contoursolve.geometry import (
@@ -52,8 +54,7 @@ from contoursolve.solving.solution import (
 from contoursolve.tolerance import LENGTH, RESIDUAL
 
 
-@dataclass(frozen=True, slots=True)
-class Alternative:
+class Alternative(Struct, frozen=True):
     """One solution of the equations, as a path or with what speaks against it.
 
     `scalars` holds every unknown in mm. `sides` are the branches by the point or the elements that they are about;
@@ -72,8 +73,7 @@ class Alternative:
         return self.solution.status in (Status.SOLVED, Status.OVERDETERMINED)
 
 
-@dataclass(frozen=True, slots=True)
-class Alternatives:
+class Alternatives(Struct, frozen=True):
     """All solutions of a profile's equations; the list is complete, with proof, if there is no doubt.
 
     `reach` is how far from the start point solutions were searched for, mm; None where the closed form gives all.

@@ -2,8 +2,10 @@
 
 from bisect import bisect_left
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
 from decimal import Decimal
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.analysis import Group, judge, order
 from contoursolve.analysis.determinacy import survey
@@ -103,8 +105,7 @@ def headings_of(fact: Fact, system: System) -> tuple[str, ...]:
     return tuple(dict.fromkeys(system.headed[line][0] for line in lines if line in system.headed))
 
 
-@dataclass(frozen=True, slots=True)
-class Settlement:
+class Settlement(Struct, frozen=True):
     """The contour of a profile or what speaks against it, and every solution of its equations.
 
     `singular` are the givens of facts that do not fix what they speak about at their values, and `loose` is that;

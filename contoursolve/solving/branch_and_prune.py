@@ -1,11 +1,11 @@
 """Steps without a closed form: all solutions in a range, by dividing it until each box holds one or none."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
 
 import numpy
+from msgspec import Struct
 
 from contoursolve.analysis import Group, judge
 from contoursolve.geometry import System
@@ -46,8 +46,7 @@ PASSES, WORTHWHILE = 3, 0.8
 be left after a pass for another one not to be worthwhile."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Conditions:
+class Conditions(Struct, frozen=True, eq=False):
     """What a group's unknowns must satisfy, for intervals.
 
     `narrower` has the equations, what follows from them, and what must not be negative; `equations` the equations
@@ -61,8 +60,7 @@ class Conditions:
     arguments: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Task:
+class Task(Struct, frozen=True, eq=False):
     """Where solutions of a group are searched for: cases, each with the values of the group's other inputs, the range
     of each unknown, and how many intervals may be looked at for all of the cases together. With `is_guessing`, points
     near which there may be solutions are looked for in what remains undecided."""
@@ -73,8 +71,7 @@ class Task:
     is_guessing: bool
 
 
-@dataclass(frozen=True, slots=True)
-class Division:
+class Division(Struct, frozen=True):
     """Boxes that are proven to hold exactly one solution, and whether they hold all of them.
 
     `likely` are points near which there may be others, in the boxes that remain undecided.

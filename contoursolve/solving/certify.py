@@ -1,8 +1,9 @@
 """Certifies a contour that was solved in closed form: the same steps once more, in exact numbers and balls."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import lru_cache
+
+from msgspec import Struct
 
 from contoursolve.geometry import FIRST, SECOND, Profile, System, Unit, scalar
 from contoursolve.numeric import ball
@@ -69,8 +70,7 @@ def decide_meeting(profile: Profile, system: System, number: int) -> tuple[int, 
         return ball.sign(found) or 0, ball.middle(found)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _Proof:
+class _Proof(Struct, frozen=True, eq=False):
     """What the outputs of a machine are, by index."""
 
     machine: ProofMachine

@@ -1,12 +1,12 @@
 """What must hold of a contour, as one table of margins; and which of many values of some words pass it."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from enum import Enum
 from functools import lru_cache, reduce
 from typing import Any
 
 import numpy
+from msgspec import Struct
 
 from contoursolve.analysis import judge
 from contoursolve.geometry import (
@@ -70,8 +70,7 @@ class Role(Enum):
     """Whether the equations are satisfied, as they are by construction but for rounding."""
 
 
-@dataclass(frozen=True, slots=True)
-class Check:
+class Check(Struct, frozen=True):
     """One check: what is refused where it fails, about which point, element or corner, and on which element."""
 
     kind: RefusalKind
@@ -104,8 +103,7 @@ Checks = Iterator[tuple[Check, Any]]
 """Checks with their margins, mm but for turns and landings (1)."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Source:
+class Source(Struct, frozen=True, eq=False):
     """Where the expressions come from of which margins are made: the outputs of a tape, and what stands for the
     coordinates, radii and angles of a figure."""
 
@@ -131,8 +129,7 @@ class Source:
         return c - a, d - b
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Checked:
+class Checked(Struct, frozen=True, eq=False):
     """The checks of a system, in the order in which they count, their margins, and a tape of what came of them."""
 
     checks: tuple[Check, ...]

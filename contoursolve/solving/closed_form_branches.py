@@ -1,10 +1,11 @@
 """Every solution of a system with further facts as a function of its values: one for each choice of signs."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from enum import Enum
 from functools import lru_cache
 from typing import Any
+
+from msgspec import Struct
 
 from contoursolve.analysis import Group, judge, order
 from contoursolve.geometry import FIRST, SECOND, ChamferLeg, Fact, Line, Parallel, Radius, System, Values, scalar
@@ -47,8 +48,7 @@ class Need(Enum):
     POSITIVE = "a radius, or what tells a sense, is positive"
 
 
-@dataclass(frozen=True, slots=True)
-class Condition:
+class Condition(Struct, frozen=True):
     """What must hold of a solution besides the equations: the output that is compared with zero, the facts that it is
     about, and the unknowns that they give."""
 
@@ -58,8 +58,7 @@ class Condition:
     unknowns: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class ClosedForm:
+class ClosedForm(Struct, frozen=True, eq=False):
     """The solutions of a system, by the inputs `signs` (each +1 or -1): the unknowns, the residuals of facts that were
     not needed, and the path are outputs of the machine, whose plan has no steps.
 

@@ -1,10 +1,11 @@
 """One CasADi function for one combination of words: points, residuals, determinants and corner room."""
 
-from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
 from math import tau
 from typing import Any
+
+from msgspec import Struct
 
 from contoursolve.analysis import judge
 from contoursolve.geometry import (
@@ -342,8 +343,7 @@ def _quadrant_between(arriving: Pair, leaving: Pair) -> Pair:
     return first, second
 
 
-@dataclass(frozen=True, slots=True)
-class Machine:
+class Machine(Struct, frozen=True):
     """The plan of a system with its function, and the names of those outputs that come in numbers."""
 
     plan: Plan
@@ -372,8 +372,7 @@ def compile_system(system: System) -> Machine:
     return Machine(plan, builder.tape.finish(), residuals, slopes, corner_residuals, builder.tape)
 
 
-@dataclass(frozen=True, slots=True)
-class PathMachine:
+class PathMachine(Struct, frozen=True):
     """The path of a figure as a function of its points, whatever they were found from."""
 
     function: Compiled
@@ -381,8 +380,7 @@ class PathMachine:
     tape: Tape
 
 
-@dataclass(frozen=True, slots=True)
-class ProofMachine:
+class ProofMachine(Struct, frozen=True):
     """The closed form of a system in exact numbers and balls, with the names of inputs and outputs.
 
     Outputs that begin with `determinant:` must not be zero, those that begin with `discriminant:` or `radius:`

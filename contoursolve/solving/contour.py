@@ -5,14 +5,15 @@ from dataclasses import dataclass, field
 from math import atan2, cos, degrees, hypot, pi, radians, sin, tau
 from typing import NamedTuple
 
+from msgspec import Struct
+
 from contoursolve.diagnostics.display import Shown
 from contoursolve.geometry import Line, Plane, Profile, Turn
 from contoursolve.solving.solution import Point, Solution
 from contoursolve.tolerance import AGREEMENT, LENGTH
 
 
-@dataclass(frozen=True, slots=True)
-class LineSegment:
+class LineSegment(Struct, frozen=True):
     """A straight element; points in mm in the plane's axes, X as radius on a lathe."""
 
     name: str
@@ -30,8 +31,7 @@ class LineSegment:
         return degrees(atan2(self.end[1] - self.start[1], self.end[0] - self.start[0]))
 
 
-@dataclass(frozen=True, slots=True)
-class ArcSegment:
+class ArcSegment(Struct, frozen=True):
     """A circular element; seen with the plane's first axis to the right and its second axis up."""
 
     name: str

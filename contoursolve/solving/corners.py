@@ -4,8 +4,9 @@ The elements before and after are edges: each leaves the intersection along a li
 sought on a circle follows from one quadratic equation whose root is the one that grows from 0 with the size.
 """
 
-from dataclasses import dataclass
 from typing import Any
+
+from msgspec import Struct
 
 from contoursolve.geometry import CornerShape
 from contoursolve.numeric.expressions import angle, magnitude, sign, sqrt
@@ -13,8 +14,7 @@ from contoursolve.numeric.expressions import angle, magnitude, sign, sqrt
 Pair = tuple[Any, Any]
 
 
-@dataclass(frozen=True, slots=True)
-class Edge:
+class Edge(Struct, frozen=True):
     """How an element passes the virtual intersection: its unit direction of travel there, and for an arc the
     vector from the centre to the intersection, the radius, and +1 if it turns to the left, -1 to the right."""
 
@@ -29,8 +29,7 @@ class Edge:
         return -self.direction[1], self.direction[0]
 
 
-@dataclass(frozen=True, slots=True)
-class CornerPath:
+class CornerPath(Struct, frozen=True):
     """Where a corner leaves the element before (`setback_in` along it from the intersection) and joins the one after.
 
     `center` is None for a chamfer. `turn` is the sine of the turn, positive to the left; `cosine` its

@@ -1,9 +1,10 @@
 """All real solutions of a few polynomial equations of degree 2, in closed form, with proof of their number."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from enum import Enum
 from itertools import combinations
+
+from msgspec import Struct
 
 from contoursolve.analysis.determinacy import witness_of
 from contoursolve.numeric import ball
@@ -34,8 +35,7 @@ class ObstacleError(Exception):
         self.obstacle = obstacle
 
 
-@dataclass(frozen=True, slots=True)
-class Root:
+class Root(Struct, frozen=True):
     """One solution: numbers by index of the unknown; a double one is where two have become one."""
 
     values: Mapping[int, Number]

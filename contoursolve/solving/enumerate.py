@@ -1,10 +1,11 @@
 """All solutions of a determined system, step by step, with proof of their number or an honest doubt."""
 
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
 from itertools import product
 from typing import TypeVar
+
+from msgspec import Struct
 
 from contoursolve.analysis import Group, judge, order
 from contoursolve.analysis.determinacy import witness_of
@@ -17,8 +18,7 @@ from contoursolve.solving.exact_inputs import Ground, ground_of
 from contoursolve.solving.step_equations import Coefficient, Kernel, make_kernel
 
 
-@dataclass(frozen=True, slots=True)
-class Effort:
+class Effort(Struct, frozen=True):
     """How many intervals, one for each unknown of a box, are looked at for one drawing before the search is given up
     as undecided; and how many every step may look at, however many the ones before it used.
 
@@ -34,8 +34,7 @@ DRAWING = Effort(200_000, 30_000, is_guessing=True)
 """For a single drawing; about two seconds."""
 
 
-@dataclass(frozen=True, slots=True)
-class Found:
+class Found(Struct, frozen=True):
     """One solution of the equations: every unknown, exact or in a ball, and the sides at which elements touch.
 
     `doubles` are the unknowns of steps whose two solutions have become one.
@@ -46,16 +45,14 @@ class Found:
     doubles: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Doubt:
+class Doubt(Struct, frozen=True):
     """A part of the search that could not be decided: the unknowns of the step, and why."""
 
     unknowns: tuple[str, ...]
     obstacle: Obstacle
 
 
-@dataclass(frozen=True, slots=True)
-class Enumeration:
+class Enumeration(Struct, frozen=True):
     """What a search found. The list is complete, with proof, if there is no doubt."""
 
     found: tuple[Found, ...]

@@ -1,8 +1,9 @@
 """Can the control make the path? Direction of travel, and the room for each corner."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import replace
 from math import hypot, nan
+
+from msgspec.structs import replace
 
 from contoursolve.geometry import FIRST, SECOND, Arc, Corner, Figure, Line, Profile
 from contoursolve.solving.compare import increments_of

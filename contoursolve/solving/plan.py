@@ -1,9 +1,10 @@
 """The construction of a contour: a list of small steps in closed form, found from structure alone."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
+
+from msgspec import Struct
 
 from contoursolve.analysis import Group, judge, order
 from contoursolve.geometry import (
@@ -24,31 +25,27 @@ from contoursolve.numeric.expressions import Tape, is_affine
 from contoursolve.numeric.inputs import lookup
 
 
-@dataclass(frozen=True, slots=True)
-class AffineStep:
+class AffineStep(Struct, frozen=True):
     """One or two unknowns from as many facts that are affine in them (Cramer's rule)."""
 
     facts: tuple[Fact, ...]
     unknowns: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class DistanceStep:
+class DistanceStep(Struct, frozen=True):
     """An unknown radius as the distance from a known centre to a known point of the circle."""
 
     circle: OnCircle
 
 
-@dataclass(frozen=True, slots=True)
-class LineCircleStep:
+class LineCircleStep(Struct, frozen=True):
     """An unknown point on a circle and on a line that is known otherwise: nearer or farther along the line."""
 
     circle: OnCircle
     line: Heading | Collinear
 
 
-@dataclass(frozen=True, slots=True)
-class TwoCirclesStep:
+class TwoCirclesStep(Struct, frozen=True):
     """An unknown point of two known circles, or the unknown centre of a circle through two known points (which lies
     on the circles of its radius about them): left or right of the way from the first centre to the second."""
 
@@ -86,8 +83,7 @@ class NoClosedFormError(Exception):
     """A group of facts for which no step exists, or facts that hold on either side; names the facts or the sides."""
 
 
-@dataclass(frozen=True, slots=True)
-class Plan:
+class Plan(Struct, frozen=True):
     """Steps in order, and the facts that are left over as checks."""
 
     steps: tuple[Step, ...]

@@ -1,9 +1,10 @@
 """What a solver answers: values with their status and certificate, or the reasons why there are none."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from enum import Enum
 from math import floor, inf, log10
+
+from msgspec import Struct, field
 
 
 class Proof(Enum):
@@ -18,8 +19,7 @@ class Proof(Enum):
     UNKNOWN = "unknown"
 
 
-@dataclass(frozen=True, slots=True)
-class Certificate:
+class Certificate(Struct, frozen=True):
     """A proof, and the radius in mm of a box about the points in which the exact ones lie.
 
     `reason` says why there is no better one. `gap` is given for a double solution, where an element touches: how
@@ -149,8 +149,7 @@ BESIDE = ("limit_first", "limit_second")
 """For two corners that overlap: the largest size of either, mm, if the other one stays."""
 
 
-@dataclass(frozen=True, slots=True)
-class Refusal:
+class Refusal(Struct, frozen=True):
     """One reason against a contour: the element or corner, the givens involved, the values compared.
 
     `values` may hold limit, expected, actual (mm or degrees) and off_by_mm, and those of `BESIDE`.
@@ -164,8 +163,7 @@ class Refusal:
     """Givens that are not to blame, but leave no more room than the limit."""
 
 
-@dataclass(frozen=True, slots=True)
-class Remark:
+class Remark(Struct, frozen=True):
     """One remark about a solved contour, in the same terms as a refusal."""
 
     kind: RemarkKind
@@ -177,8 +175,7 @@ class Remark:
 Point = tuple[float, float]
 
 
-@dataclass(frozen=True, slots=True)
-class CornerSolution:
+class CornerSolution(Struct, frozen=True):
     """A corner in numbers: it replaces the path from `begin` to `end`; no centre for a chamfer."""
 
     begin: Point
@@ -189,8 +186,7 @@ class CornerSolution:
     """Sine of the turn; positive to the left."""
 
 
-@dataclass(frozen=True, slots=True)
-class Solution:
+class Solution(Struct, frozen=True):
     """Values of all unknowns (mm), or the refusals that leave none.
 
     `points` and `radii` go by name, `corners` by the corner's name. `error_bound` (mm) bounds the

@@ -1,10 +1,11 @@
 """Solves a determined profile and believes nothing: every answer is held against the original equations."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import replace
 from decimal import Decimal
 from itertools import combinations
 from math import asin, atan2, degrees, dist, hypot, inf, isfinite
+
+from msgspec.structs import replace
 
 from contoursolve.analysis import judge
 from contoursolve.geometry import (

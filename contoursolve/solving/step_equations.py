@@ -1,9 +1,10 @@
 """The equations of one step of a plan, as polynomials where they are, for exact numbers and balls."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
+
+from msgspec import Struct
 
 from contoursolve.analysis import Group
 from contoursolve.geometry import Fact, Functions, System
@@ -73,8 +74,7 @@ Monomial = tuple[int, ...]
 """Indices of the unknowns that are multiplied, in order; empty for the constant."""
 
 
-@dataclass(frozen=True, slots=True)
-class Polynomial:
+class Polynomial(Struct, frozen=True):
     """Coefficients by monomial, without those that are zero."""
 
     terms: Mapping[Monomial, Coefficient]
@@ -136,8 +136,7 @@ def known(value: Any) -> Polynomial:
     return polynomial({(): Coefficient(value, draw(str(value)))})
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Kernel:
+class Kernel(Struct, frozen=True, eq=False):
     """Equations and unknowns of one step.
 
     `coefficients` gives the coefficients of the equations as polynomials in the unknowns, in the order of `terms`

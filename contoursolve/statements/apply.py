@@ -1,9 +1,11 @@
 """Further facts of a block, put into its profile, and as words that findings can show."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
 from enum import Enum
 from typing import cast
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import FACT, Directive, Word
@@ -40,8 +42,7 @@ class Flaw(Enum):
     IMPOSSIBLE = "impossible"
 
 
-@dataclass(frozen=True, slots=True)
-class Fault:
+class Fault(Struct, frozen=True):
     """A fact that was not used: what is wrong, in words, and where."""
 
     flaw: Flaw

@@ -1,8 +1,10 @@
 """A drawing under construction, to which statements add what they speak about."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
 from decimal import Decimal
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.gcode import Word
 from contoursolve.geometry import (
@@ -41,8 +43,7 @@ class StatementError(ValueError):
     """A statement that makes no sense for this drawing; the message says why."""
 
 
-@dataclass(frozen=True, slots=True)
-class Round:
+class Round(Struct, frozen=True):
     """A circle, an arc or a rounding: its centre, its radius, and where it begins and ends, if it does."""
 
     center: str
@@ -267,16 +268,14 @@ class Draft:
         return name
 
 
-@dataclass(frozen=True, slots=True)
-class Meeting:
+class Meeting(Struct, frozen=True):
     """A line from the corner's virtual intersection: to a place, or at an angle; neither where the next block tells."""
 
     to: tuple[Decimal, Decimal] | None
     angle: Decimal | None
 
 
-@dataclass(frozen=True, slots=True)
-class MeetsLine:
+class MeetsLine(Struct, frozen=True):
     """A last corner joins its line to this one.
 
     A 45 degree chamfer runs in the quadrant of the direction midway between the two lines: of the four, the one

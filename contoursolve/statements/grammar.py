@@ -2,8 +2,9 @@
 
 import re
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from decimal import Decimal
+
+from msgspec import Struct
 
 from contoursolve.geometry import Length, Plane
 from contoursolve.statements.draft import Meeting, MeetsLine
@@ -45,8 +46,7 @@ class GrammarError(ValueError):
         self.end = max(end, begin + 1)
 
 
-@dataclass(frozen=True, slots=True)
-class Vocabulary:
+class Vocabulary(Struct, frozen=True):
     """What a statement may mention: elements and points by name, the plane's axes, the unit of lengths."""
 
     elements: Sequence[str]
@@ -55,8 +55,7 @@ class Vocabulary:
     unit: Length
 
 
-@dataclass(frozen=True, slots=True)
-class _Quantity:
+class _Quantity(Struct, frozen=True):
     kind: str
     names: tuple[str, ...]
     state: Callable[[Decimal | None], Statement]

@@ -4,9 +4,10 @@ Lengths are in mm, angles in degrees, coordinates in the plane's axes with X of 
 is None is asked for instead of stated. `state` adds the equations to a draft under a name.
 """
 
-from dataclasses import dataclass
 from decimal import Decimal
 from typing import Protocol
+
+from msgspec import Struct
 
 from contoursolve.geometry import (
     Along,
@@ -37,16 +38,14 @@ from contoursolve.statements.draft import Draft, Round, StatementError
 Place = tuple[Decimal, Decimal]
 
 
-@dataclass(frozen=True, slots=True)
-class CircleAt:
+class CircleAt(Struct, frozen=True):
     """A given circle."""
 
     center: Place
     radius: Decimal
 
 
-@dataclass(frozen=True, slots=True)
-class LineAt:
+class LineAt(Struct, frozen=True):
     """A given line through a place, running at an angle."""
 
     place: Place
@@ -64,8 +63,7 @@ class Statement(Protocol):
         """
 
 
-@dataclass(frozen=True, slots=True)
-class PointIs:
+class PointIs(Struct, frozen=True):
     """A coordinate of a point: a virtual intersection, or where an element begins, ends or has its centre."""
 
     part: str
@@ -81,8 +79,7 @@ class PointIs:
         return _stated(draft, Coordinate(name, point, self.axis), self.value, Unit.MM)
 
 
-@dataclass(frozen=True, slots=True)
-class LengthIs:
+class LengthIs(Struct, frozen=True):
     """The length of a line (between the virtual intersections at its ends), of an arc, or of a corner."""
 
     element: str
@@ -113,8 +110,7 @@ class LengthIs:
         )
 
 
-@dataclass(frozen=True, slots=True)
-class StraightIs:
+class StraightIs(Struct, frozen=True):
     """The length of a line's straight part, between the corners at its ends."""
 
     line: str
@@ -131,8 +127,7 @@ class StraightIs:
         return _stated(draft, Extent(name, self.line, *ends), self.value, Unit.MM)
 
 
-@dataclass(frozen=True, slots=True)
-class DirectionIs:
+class DirectionIs(Struct, frozen=True):
     """The direction in which a line runs."""
 
     line: str
@@ -146,8 +141,7 @@ class DirectionIs:
         return _stated(draft, Directed(name, self.line), self.value, Unit.DEGREE)
 
 
-@dataclass(frozen=True, slots=True)
-class TurnIs:
+class TurnIs(Struct, frozen=True):
     """By how much the direction of travel turns from one element to another, counter-clockwise."""
 
     first: str
@@ -164,8 +158,7 @@ class TurnIs:
         return _stated(draft, TurnBetween(name, *vectors), self.value, Unit.DEGREE)  # type: ignore[arg-type]
 
 
-@dataclass(frozen=True, slots=True)
-class PassesThrough:
+class PassesThrough(Struct, frozen=True):
     """An element, or the line or circle that it is part of, passes through a place."""
 
     element: str
@@ -180,8 +173,7 @@ class PassesThrough:
         return _named(draft, name, OnCircle(place, form.center, form.radius, name))
 
 
-@dataclass(frozen=True, slots=True)
-class RadiusIs:
+class RadiusIs(Struct, frozen=True):
     """The radius of an arc, a circle or a rounding, or the size of a chamfer."""
 
     element: str
@@ -196,8 +188,7 @@ class RadiusIs:
         return _stated(draft, Radius(name, draft.round(self.element).radius), self.value, Unit.MM)
 
 
-@dataclass(frozen=True, slots=True)
-class Touches:
+class Touches(Struct, frozen=True):
     """Two elements are tangent. Neighbours go on smoothly; others touch from any side."""
 
     first: str
@@ -253,8 +244,7 @@ class Touches:
         return _named(draft, name, TangentCircles(*circles, side, name))
 
 
-@dataclass(frozen=True, slots=True)
-class EqualLengths:
+class EqualLengths(Struct, frozen=True):
     """Two lines are equally long."""
 
     first: str
@@ -271,8 +261,7 @@ class EqualLengths:
         return _named(draft, name, EqualDistances(name, *ends))
 
 
-@dataclass(frozen=True, slots=True)
-class EqualSizes:
+class EqualSizes(Struct, frozen=True):
     """Two arcs, circles or corners have the same radius."""
 
     first: str

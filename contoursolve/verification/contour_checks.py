@@ -2,11 +2,11 @@
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
 from itertools import combinations, islice
 from math import degrees, hypot, inf
 
 import numpy
+from msgspec.structs import replace
 
 from contoursolve import gcode
 from contoursolve.gcode import Word

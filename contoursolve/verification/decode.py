@@ -3,12 +3,11 @@
 import json
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from hashlib import sha256
 from typing import Annotated, Any, Literal, NoReturn
 
 import msgspec
-from msgspec import Meta
+from msgspec import Meta, Struct
 
 from contoursolve import gcode
 from contoursolve.gcode import STANDARD_INPUT, Program, UnreadableProgramError
@@ -31,8 +30,7 @@ class CannotVerifyError(ValueError):
     """An input that cannot be read, or is not what it should be; the message says which and why."""
 
 
-@dataclass(frozen=True, slots=True)
-class Document:
+class Document(Struct, frozen=True):
     """An input: what messages call it, and its bytes."""
 
     name: str

@@ -5,9 +5,10 @@ Points are complex numbers in mm from the start point: real is the plane's first
 
 from cmath import rect
 from collections.abc import Mapping
-from dataclasses import dataclass
 from itertools import pairwise
 from math import asin, atan2, copysign, inf, tau
+
+from msgspec import Struct
 
 from contoursolve.geometry import (
     FIRST,
@@ -30,8 +31,7 @@ from contoursolve.verification.residuals import ResidualSystem
 Values = Mapping[str, float]
 
 
-@dataclass(frozen=True, slots=True)
-class Circle:
+class Circle(Struct, frozen=True):
     """The circle of an arc; `turn` is +1 for counter-clockwise, -1 for clockwise."""
 
     center: complex
@@ -39,8 +39,7 @@ class Circle:
     turn: int
 
 
-@dataclass(frozen=True, slots=True)
-class Move:
+class Move(Struct, frozen=True):
     """An element of a path; `circle` is None for a line."""
 
     name: str
@@ -49,8 +48,7 @@ class Move:
     circle: Circle | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Path:
+class Path(Struct, frozen=True):
     """The moves of a path without those of no length, and what speaks against it."""
 
     moves: tuple[Move, ...]
@@ -63,8 +61,7 @@ def draw(system: ResidualSystem, values: Values, sizes: Mapping[str, float], inc
     return _Drawing(system, values).draw(sizes, increments)
 
 
-@dataclass(frozen=True, slots=True)
-class _Edge:
+class _Edge(Struct, frozen=True):
     """How an element passes a point: there, in this direction, and along this circle, if it is an arc."""
 
     at: complex

@@ -4,12 +4,13 @@ The elements that a result has are told apart by the figure's own; what they tel
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from decimal import Decimal
 from itertools import combinations, islice
 from math import degrees, floor, inf, log10
 
 import numpy
+from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve import gcode
 from contoursolve.gcode import Block, Word
@@ -47,8 +48,7 @@ MOST_SIGNS, MOST_READINGS = 64, 8
 """Ways to choose the sides on which elements touch, and to tell the elements apart, that are looked at."""
 
 
-@dataclass(frozen=True, slots=True)
-class ClaimedMoves:
+class ClaimedMoves(Struct, frozen=True):
     """A claimed path counted from the start point; `limit` is what a residual may be, mm, and `grain` half of the last
     decimal that its numbers have, if the certificate's radius leaves them no more."""
 
@@ -282,7 +282,7 @@ def _name(case: Case, fact: Fact) -> str:
     """What checks call a fact."""
     if fact.given.startswith("fact "):
         return "the fact holds"
-    fields = {name: getattr(fact, name) for name in type(fact).__dataclass_fields__}  # type: ignore[attr-defined]
+    fields = {name: getattr(fact, name) for name in type(fact).__struct_fields__}  # type: ignore[attr-defined]
     axis = case.profile.plane.axes[fields["axis"]] if "axis" in fields else ""
     return MEANINGS[type(fact)].name.format_map({**fields, "axis": axis})
 

@@ -4,13 +4,14 @@ Along them, damped Gauss-Newton from many starts at once searches for solutions;
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
 from decimal import Decimal
 from itertools import combinations
 from math import comb
 from typing import Any
 
 import numpy
+from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.geometry import FIRST, SECOND, Coordinate, Fact, Heading, Level, Offset, Radius, scalar
 from contoursolve.tolerance import REGULAR
@@ -117,8 +118,7 @@ def compare(rows: Array, off: Array, others: Sequence[int], last: int) -> tuple[
     return abs(float(rows[last] @ values + off[last])), values, is_fixed
 
 
-@dataclass(frozen=True, slots=True)
-class Tie:
+class Tie(Struct, frozen=True):
     """Facts (by their numbers) that say the same, and by how much the one that is off most misses the others, mm."""
 
     facts: tuple[int, ...]
@@ -150,8 +150,7 @@ def ties(rows: Array, off: Array) -> list[Tie] | None:
 # --- How far values are from a solution --------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
-class Correction:
+class Correction(Struct, frozen=True):
     """How far each unknown is from where the facts put it to first order, `by`, and what rounding hides of that, mm.
 
     `fold` (mm) is how far the values are from two solutions that have become one, None where those are apart.

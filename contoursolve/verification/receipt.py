@@ -1,9 +1,11 @@
 """The receipt of a verification: what was checked, what was not, the verdict; as records, as JSON and as text."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
 from enum import Enum
 from math import isfinite
+
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from contoursolve.diagnosis.wording import count
 from contoursolve.diagnostics.json_text import json_text, members
@@ -25,8 +27,7 @@ class Verdict(Enum):
     """Nothing is wrong, but there was no path to check, and why there is none was not worked out."""
 
 
-@dataclass(frozen=True, slots=True)
-class Check:
+class Check(Struct, frozen=True):
     """One check of a claim against the words that it rests on.
 
     `residual` says by how much the claim is off and `limit` how much is allowed, in `unit` (mm or deg); all three
@@ -42,8 +43,7 @@ class Check:
     remark: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Omission:
+class Omission(Struct, frozen=True):
     """Something that was not checked, and why."""
 
     what: str
@@ -54,8 +54,7 @@ _STEPS = 10
 """Of a limit in which residuals are told."""
 
 
-@dataclass(slots=True)
-class Ledger:
+class Ledger(Struct):
     """The checks and omissions of one contour, in the order in which they were made."""
 
     checks: list[Check] = field(default_factory=list)
@@ -91,8 +90,7 @@ class Ledger:
         return [check for check in self.checks if not check.passed]
 
 
-@dataclass(frozen=True, slots=True)
-class ContourReceipt:
+class ContourReceipt(Struct, frozen=True):
     """The checks of one contour; `status` is the claimed one, None where the result does not mention it."""
 
     line: int
@@ -104,8 +102,7 @@ class ContourReceipt:
     omissions: tuple[Omission, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Receipt:
+class Receipt(Struct, frozen=True):
     """The verdict on a result, with the bytes that it is about; `control` is None where neither input tells.
 
     `start` and `facts` are what was given apart from the program.

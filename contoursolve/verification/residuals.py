@@ -5,7 +5,6 @@ points come from, and has no branch that depends on them. Coordinates count from
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from decimal import Decimal
 from enum import Enum
 from functools import partial
@@ -13,6 +12,7 @@ from math import atan2, cos, degrees, radians, sin, tau
 from typing import Any
 
 import numpy
+from msgspec import Struct
 from numpy.typing import NDArray
 
 from contoursolve import geometry as kinds
@@ -22,8 +22,7 @@ Vector = tuple[Any, Any]
 Array = NDArray[Any]
 
 
-@dataclass(frozen=True, slots=True)
-class ResidualSystem:
+class ResidualSystem(Struct, frozen=True):
     """The unknown scalars of a figure and everything that is known about it; `headed` are the lines whose direction is
     stated, each with the given that states it and with a point of the line."""
 
@@ -73,8 +72,7 @@ class ResidualSystem:
 _STEP = 1e-30
 
 
-@dataclass(frozen=True, slots=True)
-class Place:
+class Place(Struct, frozen=True):
     """Points, radii and directions by their names, at some values."""
 
     system: ResidualSystem
@@ -186,8 +184,7 @@ class States(Enum):
 Formula = Callable[[Any, Place], Any]
 
 
-@dataclass(frozen=True, slots=True)
-class Meaning:
+class Meaning(Struct, frozen=True):
     """What one kind of constraint says; `name` is what checks call it.
 
     `formula` is how far it is from being true, mm (1 for a direction). Where a word states a length, it is what the

@@ -2,12 +2,13 @@
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from decimal import Decimal
 from itertools import combinations
 from math import hypot, pi
 
 import numpy
+from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.diagnostics.finding import Severity
 from contoursolve.gcode import FaultKind, Word
@@ -58,8 +59,7 @@ ORDER = (
 """The statuses in the order of precedence."""
 
 
-@dataclass(frozen=True, slots=True)
-class Found:
+class Found(Struct, frozen=True):
     """A contour block of the program and what the result claims of it, if anything.
 
     `rules` is the policy that the result names. `apart` is how many facts were stated apart from the program, on lines
@@ -77,8 +77,7 @@ class Found:
     apart: int
 
 
-@dataclass(frozen=True, slots=True)
-class Case:
+class Case(Struct, frozen=True):
     """What the words of a contour say: its profile and its residuals, the facts that fix its points, and those that say
     more.
 
@@ -253,8 +252,7 @@ class LooseError(ValueError):
     """The facts leave a point free at their values, although not at others."""
 
 
-@dataclass(frozen=True, slots=True)
-class Candidate:
+class Candidate(Struct, frozen=True):
     """A solution of the facts that fix the points: its path, and which of the other facts it is against."""
 
     values: Array

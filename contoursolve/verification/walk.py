@@ -2,7 +2,8 @@
 every contour that either of them has; after each, the claimed end is the position."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from contoursolve import gcode
 from contoursolve.controls import DIALECTS

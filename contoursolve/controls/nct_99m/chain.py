@@ -1,9 +1,11 @@
 """NCT chapter 16: the forms, composed of their elements: any number of blocks in a row that are solved together."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.controls.nct_99m.lexicon import (
     AIMED,
@@ -65,8 +67,7 @@ _SIGNS = {
 """What the sign of Q chooses."""
 
 
-@dataclass(frozen=True, slots=True)
-class Names:
+class Names(Struct, frozen=True):
     """The names of one element and of its points: where it begins, the point that its own coordinates state, where
     it ends, its centre and its radius."""
 

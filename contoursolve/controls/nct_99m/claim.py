@@ -1,8 +1,10 @@
 """NCT chapter 16: what the blocks of a contour state, with what the control supplies, and what their signs choose."""
 
 from collections.abc import Iterator, Mapping, Sequence, Set
-from dataclasses import dataclass, replace
 from decimal import Decimal
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.controls.nct_99m.chain import Names, compose, names_of
 from contoursolve.controls.nct_99m.lexicon import (
@@ -75,8 +77,7 @@ RADIUS_DIFFERENCES = Setting(
 SETTINGS = (CIRCLE_CIRCLE_Q, COMPENSATION, RADIUS_DIFFERENCES)
 
 
-@dataclass(frozen=True, slots=True)
-class Member:
+class Member(Struct, frozen=True):
     """One block of a contour: its element, the states before and after its G codes, whether it can stand here."""
 
     block: Block

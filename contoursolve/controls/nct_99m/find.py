@@ -5,8 +5,9 @@ control computes, and where the first one has ,C or ,R (16.1).
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from itertools import count
+
+from msgspec.structs import replace
 
 from contoursolve.controls.nct_99m.claim import Member, claim_of
 from contoursolve.controls.nct_99m.lexicon import AXES, CHAMFER, PARALLEL_TO, PLANES, ROUNDING, Element

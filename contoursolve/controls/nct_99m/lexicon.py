@@ -1,7 +1,8 @@
 """NCT 99M/2000M: addresses, numbers, planes and G codes, what chapter 16's blocks are, and assumptions."""
 
-from dataclasses import dataclass
 from decimal import Decimal
+
+from msgspec import Struct
 
 from contoursolve.diagnostics.source import Evidence, Source
 from contoursolve.geometry import Length, Plane, Turn, Unit
@@ -117,8 +118,7 @@ AIMED = "aimed"
 CHAMFER, ROUNDING = ",C", ",R"
 
 
-@dataclass(frozen=True, slots=True)
-class Element:
+class Element(Struct, frozen=True):
     """One block: a line, or an arc of a sense.
 
     `is_over` tells that it is over-defined: it begins in a computed intersection, and what it states is absolute.

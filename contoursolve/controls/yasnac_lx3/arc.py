@@ -1,12 +1,14 @@
 """YASNAC LX3 arcs, G02 and G03: nothing is calculated, but whether an arc can run as stated is checked."""
 
+import dataclasses
 from collections.abc import Mapping
-from dataclasses import replace
 from decimal import Decimal
 from functools import cache
 from itertools import chain
 from math import hypot
 from string import ascii_uppercase
+
+from msgspec.structs import replace
 
 from contoursolve.controls.yasnac_lx3.claim import claim_of
 from contoursolve.controls.yasnac_lx3.g111 import START
@@ -103,7 +105,7 @@ def claim_arc(block: Block, code: int, state: State, modes: Modes) -> Claim | No
         # Of the two distances to the centre, one that is not written is 0 (assumed, as on other controls).
         supplied += [Given(name, Decimal(0), Unit.MM, None) for name in CENTERS if name not in known]
     givens = {**claim.givens, **{given.name: given for given in supplied}}
-    return replace(claim, givens=givens, choices=tuple(choices))
+    return dataclasses.replace(claim, givens=givens, choices=tuple(choices))
 
 
 _READ = frozenset({*chain(*_ENDS), *CENTERS, "R", *WRONG_CENTER})

@@ -1,8 +1,9 @@
 """YASNAC LX3: a block as a contour of some form, with every word by the name of the given that it states."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import replace
 from functools import lru_cache
+
+from msgspec.structs import replace
 
 from contoursolve.controls.yasnac_lx3.lexicon import (
     ADDRESSES,

@@ -2,8 +2,9 @@
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import replace
 from math import asin, atan2, cos, degrees, hypot, pi, radians, sin
+
+from msgspec.structs import replace
 
 from contoursolve.controls.yasnac_lx3.arc import claim_arc
 from contoursolve.controls.yasnac_lx3.claim import AXIS_EFFECTS

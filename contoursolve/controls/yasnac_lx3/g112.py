@@ -1,7 +1,7 @@
 """YASNAC LX3 G112, circular-arc multiple cornering: its facts, its path, which way round its arc runs, its rules."""
 
+import dataclasses
 from collections.abc import Iterator
-from dataclasses import replace
 from decimal import Decimal
 from functools import cache
 
@@ -123,7 +123,7 @@ def claim_g112(block: Block, state: State, modes: Modes) -> Claim:
     choices = [Choice(V1, Side.NEARER, ""), Choice(V2, Side.FARTHER, "")]
     circumstances = _circumstances(side, beyond)
     claim = claim_of(block, form, 112, state, after, modes, REFUSED, supplied, choices, circumstances)
-    return replace(claim, limits=_limits(draft, 1 - along, aside, beyond))
+    return dataclasses.replace(claim, limits=_limits(draft, 1 - along, aside, beyond))
 
 
 def _value(claim: Claim, name: str) -> Decimal | None:
