@@ -189,6 +189,19 @@ def test_what_is_missing_and_what_contradicts_itself_have_a_finding_each(block, 
     assert any(tie.is_conflict for tie in answer.diagnosis.ties)
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "G17 G90 G41 G0 X120.8 Y-55.9\nG1 G90 ,R7.75\nG3 R17.36 Q77 Y-101.97 I-100.41 J-117.73 X107.69",
+        "G17 G90 G41 G0 X124 Y34.4\nG1 ,C9.9 ,A-270.\nG91 Y29.2 ,A-42.7\nG3 G91 X123.6 Y-35.3 R86.9 J64.3 I205.5 Q-77",
+    ],
+    ids=["pair", "chain"],
+)
+def test_a_circle_that_misses_its_point_is_told_where_its_beginning_is_not_determined(text):
+    found = {each.code for each in contoursolve.solve(text, control="nct-99m").diagnostics}
+    assert {"nct-radius-difference", "words-missing"} <= found
+
+
 def test_the_amount_of_a_tie_is_in_the_reasons_too():
     block = "G111 X100. Z-50. A180. K-30. B120. P5. Q5."
     finding = contoursolve.solve(block, start=START, rules="off").answers[0].diagnostics[0]

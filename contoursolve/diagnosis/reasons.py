@@ -149,6 +149,8 @@ def _placed_before(profile: Profile, finding: Diagnostic) -> Iterator[str]:
         if block.line == finding.span.line and element.tail != profile.figure.start:
             system = assemble(profile)
             verdict = judge(system)
+            if not verdict.is_determined:
+                return
             wanted = {scalar(element.tail, axis) for axis in (FIRST, SECOND)}
             facts: list[Fact] = []
             for group in reversed(order(system, tuple(system.facts[index] for index in verdict.basis))):
