@@ -26,7 +26,7 @@ from msgspec import Struct, structs
 from sketches import chain_of, sketch_of
 
 from contoursolve import Sketch, solve
-from contoursolve.analysis import judge
+from contoursolve.analysis import analyse
 from contoursolve.geometry import (
     Along,
     ArcContact,
@@ -667,7 +667,7 @@ def test_whatever_has_a_closed_form_is_solved_by_it_and_nothing_else_is_said_to_
         text = " ".join(("G111", *words, *(f"(contoursolve: {each})" for each in stated)))
         (answer,) = solve(text, start="X40. Z0.", rules="off", depth="verdict").answers
         system = assemble(answer.profile)
-        if not judge(system).is_determined:
+        if not analyse(system).is_determined:
             continue
         seen[is_closed(system)] += 1
         if is_closed(system):

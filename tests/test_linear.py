@@ -114,7 +114,7 @@ def seconds(act: Callable[[], object]) -> float:
     return shortest
 
 
-def judge(text: str, control: str) -> None:
+def analyse(text: str, control: str) -> None:
     check(text, control=control)
     expand(f"G0 X1. Z0.\n{text}\n", control=control, keep_going=True)
 
@@ -135,8 +135,8 @@ LONG_JUDGED = ("words given many times", "a word given many times", "letters for
 
 def hold_against_length(shape: tuple[str, str, str], short: int, control: str) -> None:
     texts = line(shape, short), line(shape, TIMES * short)
-    judge(texts[0], control)
-    few, many = (calls(lambda text=text: judge(text, control)) for text in texts)
+    analyse(texts[0], control)
+    few, many = (calls(lambda text=text: analyse(text, control)) for text in texts)
     assert many <= 1.5 * TIMES * few, texts[0]
     little, much = (seconds(lambda text=text: read(text)) for text in texts)
     assert much <= 3 * TIMES * little + 0.005, texts[0]
@@ -155,7 +155,7 @@ def test_time_goes_by_the_length_of_a_line(shape, short):
 def test_time_goes_by_the_length_of_a_line_of_chains(shape, short):
     hold_against_length(shape, short, "nct-99m")
     texts = line(shape, short), line(shape, TIMES * short)
-    little, much = (seconds(lambda text=text: judge(text, "nct-99m")) for text in texts)
+    little, much = (seconds(lambda text=text: analyse(text, "nct-99m")) for text in texts)
     assert much <= 3 * TIMES * little + 0.005
 
 

@@ -15,8 +15,8 @@ from contoursolve.controls.geometry_rules import GEOMETRY_RULES
 from contoursolve.output.contours import contour_lines
 from contoursolve.postprocess.post_processors import LINUXCNC
 from contoursolve.program.project import SettingError
-from contoursolve.reading import Claim
-from contoursolve.solving import RefusalKind, RemarkKind
+from contoursolve.reading import ParsedContour
+from contoursolve.solving import NoteKind, RefusalKind
 
 GENERAL = {rule.about for rule in GEOMETRY_RULES}
 
@@ -32,7 +32,7 @@ MINE = relative(NCT_99M)
 
 def find_as_theirs(blocks, index, state, modes):
     found = NCT_99M.find(blocks, index, state, modes)
-    return replace(found, form=replace(found.form, name="their own")) if isinstance(found, Claim) else found
+    return replace(found, form=replace(found.form, name="their own")) if isinstance(found, ParsedContour) else found
 
 
 THEIRS = replace(MINE, name="theirs", find=find_as_theirs)
@@ -58,7 +58,7 @@ def test_the_general_rows_speak_where_a_control_has_none_of_its_own(rule):
 
 
 def test_with_the_general_rows_every_event_of_geometry_has_a_row():
-    assert set(RefusalKind) | set(RemarkKind) <= {rule.about for rule in MINE.rules}
+    assert set(RefusalKind) | set(NoteKind) <= {rule.about for rule in MINE.rules}
 
 
 def test_the_rows_of_the_control_itself_come_first():

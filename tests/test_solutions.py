@@ -23,7 +23,7 @@ from sketches import chain_case, chain_of, is_among, is_drawing, sketch_of
 
 import contoursolve
 from contoursolve import Answer, Sketch
-from contoursolve.analysis import judge, order
+from contoursolve.analysis import analyse, order
 from contoursolve.cli import main
 from contoursolve.diagnosis.examine import list_alternatives
 from contoursolve.diagnosis.solutions import DECIMALS, printed_certificate
@@ -437,7 +437,7 @@ def stage_of(sketch: Sketch) -> Stage:
     """The last group of a sketch whose other groups have one solution."""
     profile = sketch.profile()
     system = assemble(profile)
-    groups = order(system, tuple(system.facts[index] for index in judge(system).basis))
+    groups = order(system, tuple(system.facts[index] for index in analyse(system).basis))
     kernel, ground = make_kernel(system, groups[-1]), ground_of(profile)
     enumeration = enumerate_solutions(profile, system)
     before = {name: enumeration.found[0].scalars[name] for group in groups[:-1] for name in group.unknowns}

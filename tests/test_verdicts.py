@@ -99,7 +99,7 @@ def rank(matrix):
     return int(np.linalg.matrix_rank(matrix, tol=ZERO)) if matrix.size else 0
 
 
-def judge(matrix):
+def analyse(matrix):
     """Rank, rows that the others imply, and columns that nothing determines, at one point."""
     whole = rank(matrix)
     units = np.eye(matrix.shape[1])
@@ -116,7 +116,7 @@ def test_shipped_verdicts_equal_those_of_numpy_at_random_values():
         facts = [eval(text, FACTS.copy()) for text in texts.split("; ") if text]
         matrices = [jacobian(facts, unknowns, seed) for seed in (1, 2, 3)]
         best = max(matrices, key=rank)
-        found = judge(best)
+        found = analyse(best)
         if found != (row["rank"], row["tied"], [unknowns.index(name) for name in row["free"]]):
             wrong[key] = found
         elif len(row["basis"]) != rank(best[row["basis"]]) or len(row["basis"]) != row["rank"]:

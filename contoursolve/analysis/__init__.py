@@ -3,7 +3,7 @@
 A system comes in, its determinacy goes out: what is free, what is tied. Begin with `determinacy`.
 """
 
-from contoursolve.analysis.determinacy import Verdict, derive, judge
+from contoursolve.analysis.determinacy import Determinacy, analyse, derive
 from contoursolve.analysis.partition import Group, Parts, decompose, match, order
 
-__all__ = ["Group", "Parts", "Verdict", "decompose", "derive", "judge", "match", "order"]
+__all__ = ["Determinacy", "Group", "Parts", "analyse", "decompose", "derive", "match", "order"]

@@ -49,7 +49,7 @@ def witness_of(name: str, signs: Mapping[str, int] | None = None) -> int:
     return draw(name)
 
 
-class Verdict(Struct, frozen=True):
+class Determinacy(Struct, frozen=True):
     """The generic properties of a system, exact for all values but those on which `condition` is zero.
 
     `basis` are the indices of the first facts that determine as much as all of them do; `tied` those
@@ -76,7 +76,7 @@ about degree / range, 1e-3 (Schwartz 1980), two of them with 1e-6, and the shipp
 
 
 @lru_cache(maxsize=8192)
-def judge(system: System) -> Verdict:
+def analyse(system: System) -> Determinacy:
     """The verdict on a system: from the table that ships with the package, else by the rank at random values.
 
     Importing sympy takes longer than solving a program, and its verdict on a combination of words
@@ -87,30 +87,30 @@ def judge(system: System) -> Verdict:
     return _from_json(known) if known else survey(system)
 
 
-def survey(system: System) -> Verdict:
+def survey(system: System) -> Determinacy:
     """The verdict on a system without sympy, from its rank modulo a prime; it has no condition."""
 
     rank = generic_rank(system)
     free = tuple(system.unknowns[column] for column in rank.free_columns)
-    return Verdict(rank.rank, rank.independent_rows, rank.dependent_rows, free, "")
+    return Determinacy(rank.rank, rank.independent_rows, rank.dependent_rows, free, "")
 
 
-def derive(system: System) -> Verdict:
+def derive(system: System) -> Determinacy:
     """The verdict on a system, by sympy: exact rank of the Jacobian at random rational points."""
-    from contoursolve.numeric import symbolic  # noqa: PLC0415 - 200 ms, see judge
+    from contoursolve.numeric import symbolic  # noqa: PLC0415 - 200 ms, see analyse
 
     symbols = symbolic.Symbols()
     at = symbols.lookup(system.headed)
     residuals = [fact.equation(at) for fact in system.facts]
     unknowns = [symbols.scalar(name) for name in system.unknowns]
     if not residuals:
-        return Verdict(0, (), (), system.unknowns, "")
+        return Determinacy(0, (), (), system.unknowns, "")
     matrix = symbolic.jacobian(residuals, unknowns)
     ranks = [symbolic.exact_rank(matrix, symbols.random_point(seed)) for seed in SEEDS]
     best = max(ranks, key=lambda each: each.rank)
     is_determined = not best.free_columns
     basis = best.independent_rows
-    return Verdict(
+    return Determinacy(
         rank=best.rank,
         basis=basis,
         tied=best.dependent_rows,
@@ -125,7 +125,7 @@ LARGEST_DETERMINANT = 5
 
 def _condition(system: System, matrix: Any, basis: Sequence[int]) -> str:
     """What must not be zero: the product of the determinants of the groups that are solved one after the other."""
-    from contoursolve.numeric import symbolic  # noqa: PLC0415 - see judge
+    from contoursolve.numeric import symbolic  # noqa: PLC0415 - see analyse
 
     groups = order(system, [system.facts[index] for index in basis])
     row_of = {system.facts[index]: index for index in basis}
@@ -146,5 +146,5 @@ def _shipped() -> dict[str, Any]:
     return table
 
 
-def _from_json(row: dict[str, Any]) -> Verdict:
-    return Verdict(row["rank"], tuple(row["basis"]), tuple(row["tied"]), tuple(row["free"]), row["condition"])
+def _from_json(row: dict[str, Any]) -> Determinacy:
+    return Determinacy(row["rank"], tuple(row["basis"]), tuple(row["tied"]), tuple(row["free"]), row["condition"])

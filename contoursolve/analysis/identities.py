@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from itertools import combinations
 
-from contoursolve.analysis.determinacy import judge
+from contoursolve.analysis.determinacy import analyse
 from contoursolve.geometry import Coordinate, Fact, Heading, Offset, OnCircle, System
 
 
@@ -12,7 +12,7 @@ def tied_sets(system: System) -> tuple[tuple[Fact, ...], ...]:
     found: list[tuple[Fact, ...]] = []
     for size in range(1, len(system.unknowns) + 2):
         for facts in combinations(system.facts, size):
-            if not any(set(other) <= set(facts) for other in found) and judge(system.keep(facts)).rank < size:
+            if not any(set(other) <= set(facts) for other in found) and analyse(system.keep(facts)).rank < size:
                 found.append(facts)
     return tuple(found)
 
@@ -23,7 +23,7 @@ def derive_identity(system: System, facts: Sequence[Fact]) -> str:
     All facts must be affine in the unknowns. Lengths are radius values; S.0 and S.1 are the start
     point's coordinates.
     """
-    from contoursolve.numeric import symbolic  # noqa: PLC0415 - sympy is slow to import, see judge
+    from contoursolve.numeric import symbolic  # noqa: PLC0415 - sympy is slow to import, see analyse
 
     lengths = [fact for fact in facts if isinstance(fact, Offset | Coordinate)]
     symbols = symbolic.Symbols()
@@ -38,7 +38,7 @@ def derive_identity(system: System, facts: Sequence[Fact]) -> str:
 def derive_circle_identity(system: System, facts: Sequence[Fact]) -> str:
     """What two points of one circle make their words satisfy, as a formula that is zero; empty if the tie is
     another one. S.0 and S.1 are the start point's coordinates."""
-    from contoursolve.numeric import symbolic  # noqa: PLC0415 - sympy is slow to import, see judge
+    from contoursolve.numeric import symbolic  # noqa: PLC0415 - sympy is slow to import, see analyse
 
     circles = [fact for fact in facts if isinstance(fact, OnCircle)]
     if len(circles) != 2 or len({(fact.center, fact.radius) for fact in circles}) != 1:  # noqa: PLR2004

@@ -32,7 +32,7 @@ from contoursolve.output.listing import lines_of_findings
 from contoursolve.program.pipeline import FactPlaceError
 from contoursolve.program.project import SettingError
 from contoursolve.program.recognise import UnknownControlError
-from contoursolve.reading import Trouble
+from contoursolve.reading import ReadIssue
 from contoursolve.tolerance import LARGEST
 
 
@@ -74,7 +74,7 @@ def read_options(options: dict[str, Any]) -> dict[str, Any]:
     rest["settings"] = settings_of(Path(), options["assignments"])
     block = "\n".join(options["blocks"])
     for finding in solve(block, **rest, depth="verdict").diagnostics:
-        if finding.about is Trouble.START_IN_INCREMENTS:
+        if finding.about is ReadIssue.START_IN_INCREMENTS:
             say(f"{finding.severity.value}: {finding.message}; {finding.help}", err=True)
     return {"block": block, **rest}
 

@@ -7,9 +7,9 @@ from enum import Enum
 
 from contoursolve.diagnostics.finding import Severity
 from contoursolve.diagnostics.source import Evidence, Source
-from contoursolve.reading import Trouble
+from contoursolve.reading import ReadIssue
 from contoursolve.reading.rules import Rule
-from contoursolve.solving import RefusalKind, RemarkKind
+from contoursolve.solving import NoteKind, RefusalKind
 
 _SOURCE = Source("contoursolve", "the geometry of lines, arcs and corners", Evidence.ASSUMED)
 
@@ -157,7 +157,7 @@ GEOMETRY_RULES = (
         _ARC + "G1 X90 Y0 ,A0 Q1",
     ),
     _row(
-        RemarkKind.TOUCHES,
+        NoteKind.TOUCHES,
         "{subject}: two elements only touch, so that both intersections are one point",
         "a value slightly different splits it in two or loses it: check that tangency is meant",
         _ARC + _LINE,
@@ -165,7 +165,7 @@ GEOMETRY_RULES = (
         Severity.WARNING,
     ),
     _row(
-        RemarkKind.DOUBLE,
+        NoteKind.DOUBLE,
         "{subject}: two contours have become one, because an element just touches; a small change parts them",
         "check that it is meant to touch",
         _ARC + _LINE,
@@ -173,7 +173,7 @@ GEOMETRY_RULES = (
         Severity.WARNING,
     ),
     _row(
-        RemarkKind.RADIUS_DIFFERS,
+        NoteKind.RADIUS_DIFFERS,
         "{words}: two points of the arc differ in their distance from the centre by {off}, within the allowed {limit}",
         "correct the point, the centre or the radius",
         _CENTERED + _LINE,
@@ -181,7 +181,7 @@ GEOMETRY_RULES = (
         Severity.INFO,
     ),
     _row(
-        RemarkKind.HALF_CIRCLE,
+        NoteKind.HALF_CIRCLE,
         "{words}: the ends are {limit} from their middle, {off} more than the radius, so it is a half circle",
         "within the least increments nothing is wrong; the arc ends where its words say",
         _ARC + _LINE,
@@ -189,7 +189,7 @@ GEOMETRY_RULES = (
         Severity.INFO,
     ),
     _row(
-        Trouble.COMMA_MISSING,
+        ReadIssue.COMMA_MISSING,
         "{words} is no corner and no angle without its comma, and this line is taken as if it were not there",
         "write {meant} if that is meant",
         _CUT,

@@ -11,7 +11,7 @@ from contoursolve.analysis import derive
 from contoursolve.analysis.identities import derive_circle_identity, derive_identity, is_affine, tied_sets
 from contoursolve.controls import DIALECTS
 from contoursolve.geometry import Fact, build_system
-from contoursolve.reading import Form, lay_out, stated_sets
+from contoursolve.reading import ContourForm, lay_out, stated_sets
 
 
 def table() -> str:
@@ -37,7 +37,7 @@ def identity_table() -> str:
     return _write(rows)
 
 
-def _identities(form: Form) -> Iterator[tuple[tuple[Fact, ...], str]]:
+def _identities(form: ContourForm) -> Iterator[tuple[tuple[Fact, ...], str]]:
     layout = lay_out(form, frozenset().union(*stated_sets(form)), frozenset())
     if is_affine(layout.facts):
         system = build_system(layout.figure, layout.facts)

@@ -8,7 +8,7 @@ from itertools import chain, islice
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.analysis import judge, order
+from contoursolve.analysis import analyse, order
 from contoursolve.diagnosis.edits import Edit, EditKind, Side, Why, apply_edits, edit_facts
 from contoursolve.diagnosis.examine import Answer, Policy, examine
 from contoursolve.diagnosis.examples import ends, propose, sampled
@@ -28,9 +28,9 @@ from contoursolve.diagnostics.finding import Applicability, Diagnostic, Severity
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import Block, parse_block
 from contoursolve.geometry import Profile, assemble
-from contoursolve.reading import Claim, State, Trouble, advance, read
+from contoursolve.reading import ParsedContour, ReadIssue, State, advance, read
 from contoursolve.reading.dialect import Dialect
-from contoursolve.solving import RemarkKind, Status
+from contoursolve.solving import NoteKind, Status
 from contoursolve.solving.affine import affine_facts
 from contoursolve.solving.contour import Contour
 from contoursolve.solving.plan import is_closed
@@ -114,7 +114,7 @@ class Repairs(Struct, frozen=True):
 
 
 def choose_repairs(
-    claim: Claim,
+    claim: ParsedContour,
     dialect: Dialect,
     stages: Iterable[Iterable[tuple[Edit, ...]]],
     before: Before,
@@ -262,7 +262,7 @@ def _drawbacks(contour: Contour, reference: Contour | None) -> Iterator[str]:
         yield _ACROSS
 
 
-def _try(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> Repair | None:
+def _try(claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> Repair | None:
     """The repair with the reasons for it, if it is one."""
     repair = _solve_edited(claim, dialect, edits, before)
     if repair is None:
@@ -278,7 +278,7 @@ def _is_round(edit: Edit) -> bool:
     return edit.why is Why.AGREES and len(edit.text.partition(".")[2]) <= 1 and edit.kind is EditKind.CHANGE
 
 
-def _solve_edited(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> Repair | None:
+def _solve_edited(claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> Repair | None:
     """The repair, if the changed block is read as the same form, accepted, and solved without a finding."""
     texts = apply_edits(claim.blocks, edits)
     if texts == tuple(block.text for block in claim.blocks) and all(edit.is_in_block for edit in edits):
@@ -304,13 +304,13 @@ def _solve_edited(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], befor
     applicability = Applicability.SAFE if is_safe else Applicability.CHANGES_CONTOUR
     warnings = sum(each.code not in before.codes for each in rules)
     drawbacks = tuple(_drawbacks(answer.contour, reference))
-    is_exact = all(each.about is not RemarkKind.RADIUS_DIFFERS for each in answer.diagnostics)
+    is_exact = all(each.about is not NoteKind.RADIUS_DIFFERS for each in answer.diagnostics)
     return Repair(
         edits, replacement, applicability, answer.contour, deviation, warnings, is_exact=is_exact, drawbacks=drawbacks
     )
 
 
-def _drops_more(edit: Edit, claim: Claim) -> bool:
+def _drops_more(edit: Edit, claim: ParsedContour) -> bool:
     """Whether a word is dropped that does something besides the contour, or moves an axis outside the plane: the
     contour is the same, what the machine does is not."""
     row = claim.lexicon.addresses.get(edit.address)
@@ -327,12 +327,12 @@ def _is_settled(answer: Answer, edits: tuple[Edit, ...]) -> bool:
 
 def _is_before(finding: Diagnostic) -> bool:
     """Whether it is about what stands before the contour."""
-    return finding.about is Trouble.START_IN_INCREMENTS
+    return finding.about is ReadIssue.START_IN_INCREMENTS
 
 
 def _is_crossing(finding: Diagnostic) -> bool:
     """Whether the path crosses the spindle axis, which may be meant."""
-    return finding.about is Trouble.AXIS_CROSSED
+    return finding.about is ReadIssue.AXIS_CROSSED
 
 
 def _is_rule(finding: Diagnostic) -> bool:
@@ -346,7 +346,7 @@ def _now_agrees(finding: Diagnostic, before: Before) -> bool:
     return is_new and finding.values.get("off_by_mm", float("inf")) <= AGREEMENT
 
 
-def examine_edited(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> Answer | None:
+def examine_edited(claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> Answer | None:
     """The answer to the edited blocks; None where they are not read as the same contour any more."""
     found = _find(claim, dialect, edits, before)
     if found is None or _largest_step(found, before) > LARGEST_STEP:
@@ -354,19 +354,19 @@ def examine_edited(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], befo
     return examine(found, dialect.rules, Policy.ENFORCE, lambda: before.next_place)
 
 
-def _extra(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> int:
+def _extra(claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> int:
     """How many more drafts trying these edits counts for."""
     found = _find(claim, dialect, edits, before) if claim.directives else None
     return SLOW - 1 if found and EASY_STEP < _largest_step(found, before) <= LARGEST_STEP else 0
 
 
-def _largest_step(found: Claim, before: Before) -> int:
+def _largest_step(found: ParsedContour, before: Before) -> int:
     """The number of unknowns that further facts make one step determine together; 0 for ordinary words."""
     profile = _stated(found, before)
     if profile is None or not profile.is_extended:
         return 0
     system = assemble(profile)
-    verdict = judge(system)
+    verdict = analyse(system)
     if not verdict.is_determined:
         return 0
     return max(len(group.unknowns) for group in order(system, [system.facts[index] for index in verdict.basis]))
@@ -377,7 +377,7 @@ def _is_comma(edit: Edit) -> bool:
     return edit.kind is EditKind.CHANGE and edit.text != edit.old and edit.text.strip(", ") == edit.old.strip(", ")
 
 
-def _find(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> Claim | None:
+def _find(claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> ParsedContour | None:
     texts = apply_edits(claim.blocks, edits)
     lines = [(part, block.line) for text, block in zip(texts, claim.blocks, strict=True) for part in text.split("\n")]
     ahead, blocks, behind = _parted([parse_block(*line) for line in lines], edits)
@@ -390,11 +390,11 @@ def _find(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], before: Befor
     more = before.following if is_about_commas else ()
     if is_about_commas and before.previous and before.previous[0][-1].line < blocks[0].line:
         whole = dialect.find([*before.previous[0], *blocks, *more], 0, before.previous[1], dialect.modes)
-        if isinstance(whole, Claim) and whole.blocks[-1].line >= blocks[-1].line:
+        if isinstance(whole, ParsedContour) and whole.blocks[-1].line >= blocks[-1].line:
             return whole
     found = dialect.find([*blocks, *more], 0, state, dialect.modes)
     others = (dialect.find([*ahead, *behind], index, state, dialect.modes) for index in range(len(ahead + behind)))
-    if not isinstance(found, Claim) or any(isinstance(each, Claim) for each in others):
+    if not isinstance(found, ParsedContour) or any(isinstance(each, ParsedContour) for each in others):
         return None
     return found if len(found.blocks) == len(blocks) or (more and len(found.blocks) > len(blocks)) else None
 
@@ -406,7 +406,9 @@ def _parted(blocks: list[Block], edits: tuple[Edit, ...]) -> tuple[list[Block], 
     return blocks[:first], blocks[first:last], blocks[last:]
 
 
-def _example(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> tuple[Edit, ...] | None:
+def _example(
+    claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ...], before: Before
+) -> tuple[Edit, ...] | None:
     """The edits with a number for every placeholder that makes a contour; as they are where further facts determine a
     drawing that has no closed form. None if nothing is found."""
     found = _find(claim, dialect, sampled(edits), Before(frozenset(), None))
@@ -415,7 +417,7 @@ def _example(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], before: Be
         return None
     if profile.is_extended:
         system = assemble(profile)
-        if not judge(system).is_determined:
+        if not analyse(system).is_determined:
             return None
         if not is_closed(system):
             return edits
@@ -425,7 +427,7 @@ def _example(claim: Claim, dialect: Dialect, edits: tuple[Edit, ...], before: Be
     return next((each for each in propose(found, profile, edits) if _try(claim, dialect, each, before)), None)
 
 
-def _with_ends(repair: Repair, claim: Claim, dialect: Dialect, before: Before) -> Repair:
+def _with_ends(repair: Repair, claim: ParsedContour, dialect: Dialect, before: Before) -> Repair:
     """A repair with a placeholder, with the numbers between which that of its example stands."""
     found = _find(claim, dialect, repair.example, before) if repair.example != repair.edits else None
     if found is None:
@@ -438,7 +440,7 @@ def _with_ends(repair: Repair, claim: Claim, dialect: Dialect, before: Before) -
     return replace(repair, ends=tuple(ends(found, profile, repair.edits, is_accepted))) if profile else repair
 
 
-def _stated(claim: Claim, before: Before) -> Profile | None:
+def _stated(claim: ParsedContour, before: Before) -> Profile | None:
     """The profile of a contour with its further facts; None if one of them cannot be used."""
     from contoursolve.statements import apply_statements  # noqa: PLC0415 - few blocks state more than their words
 

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from msgspec.structs import replace
 
-from contoursolve.analysis import decompose, judge
+from contoursolve.analysis import analyse, decompose
 from contoursolve.diagnosis.attempt import Repair
 from contoursolve.diagnosis.edits import EditKind
 from contoursolve.diagnosis.examine import Answer, Policy
@@ -15,9 +15,9 @@ from contoursolve.diagnostics.finding import Basis, Diagnosis, Diagnostic, Fix, 
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import FACT, Block, FaultKind, Word
 from contoursolve.geometry import OnCircle, Profile, System, assemble
-from contoursolve.reading import State, Trouble, read
+from contoursolve.reading import ReadIssue, State, read
 from contoursolve.reading.dialect import Dialect
-from contoursolve.solving import RefusalKind, RemarkKind, scalars_of
+from contoursolve.solving import NoteKind, RefusalKind, scalars_of
 from contoursolve.solving.affine import NO_CIRCUITS, AffineFacts, Circuit, affine_facts
 from contoursolve.solving.compare import compare_affine, is_conflict
 
@@ -52,7 +52,7 @@ def diagnose(
     if repairs.repairs and any(edit.address == "G" for edit in repairs.repairs[0].edits):
         # What is unknown to this contour may be known to that one.
         first = "; ".join(map(str, repairs.repairs[0].edits))
-        findings = [replace(each, help=first) if each.about is Trouble.UNKNOWN_ADDRESS else each for each in findings]
+        findings = [replace(each, help=first) if each.about is ReadIssue.UNKNOWN_ADDRESS else each for each in findings]
     main = _main(findings, is_extended=profile.is_extended)
     if main is not None:
         fixes = tuple(_fix(answer, repair) for repair in repairs.repairs)
@@ -70,7 +70,7 @@ def _both(findings: list[Diagnostic]) -> list[int]:
     return [*missing, *against] if missing and against else []
 
 
-_MISSING = (Trouble.UNDERDETERMINED, Trouble.CORNER_NOWHERE, RefusalKind.NOT_FIXED)
+_MISSING = (ReadIssue.UNDERDETERMINED, ReadIssue.CORNER_NOWHERE, RefusalKind.NOT_FIXED)
 _AGAINST = (
     RefusalKind.WORDS_DISAGREE,
     RefusalKind.FACT_DISAGREES,
@@ -84,7 +84,7 @@ def mend_points(answer: Answer, dialect: Dialect) -> Answer:
     repairs = find_repairs(answer, dialect).repairs
     findings = []
     for finding in answer.diagnostics:
-        spans = {label.span for label in finding.labels if finding.about is Trouble.POINT_MISSING}
+        spans = {label.span for label in finding.labels if finding.about is ReadIssue.POINT_MISSING}
         own = (repair for repair in repairs if any(edit.span in spans for edit in repair.edits))
         findings.append(replace(finding, fixes=tuple(_fix(answer, repair) for repair in own)))
     return replace(answer, diagnostics=tuple(findings))
@@ -105,10 +105,10 @@ def _main(findings: list[Diagnostic], *, is_extended: bool) -> int | None:
     return None
 
 
-_NOT_MENDED = (Trouble.START_IN_INCREMENTS, Trouble.AXIS_CROSSED)
+_NOT_MENDED = (ReadIssue.START_IN_INCREMENTS, ReadIssue.AXIS_CROSSED)
 """What no repair of the contour is about: its start point, and a path that may be meant."""
 
-_FROM_START = (Trouble.WORD_IGNORED, RefusalKind.WORDS_DISAGREE, RefusalKind.LINE_REVERSED)
+_FROM_START = (ReadIssue.WORD_IGNORED, RefusalKind.WORDS_DISAGREE, RefusalKind.LINE_REVERSED)
 
 
 def _start_labels(answer: Answer) -> tuple[Label, ...]:
@@ -162,14 +162,14 @@ def _further_ties(answer: Answer) -> Iterator[Tie]:
             break
 
 
-_SAID_AGAIN = (RefusalKind.WORDS_DISAGREE, RefusalKind.FACT_DISAGREES, RemarkKind.WORDS_AGREE)
+_SAID_AGAIN = (RefusalKind.WORDS_DISAGREE, RefusalKind.FACT_DISAGREES, NoteKind.WORDS_AGREE)
 
 
 def _circle_ties(answer: Answer) -> Iterator[Tie]:
     """The tie of a circle whose centre and whose point are both given; there is at most this one."""
     profile = answer.profile
     system = assemble(profile)
-    verdict = judge(system)
+    verdict = analyse(system)
     tied = [system.facts[index] for index in verdict.tied]
     if len(verdict.basis) + 1 != len(system.facts) or not any(isinstance(fact, OnCircle) for fact in tied):
         return
@@ -184,7 +184,7 @@ def _circle_ties(answer: Answer) -> Iterator[Tie]:
     )
 
 
-_ABOUT_RADII = (RefusalKind.RADIUS_DIFFERENCE, RemarkKind.RADIUS_DIFFERS)
+_ABOUT_RADII = (RefusalKind.RADIUS_DIFFERENCE, NoteKind.RADIUS_DIFFERS)
 
 
 def _reasons(
@@ -217,15 +217,15 @@ def _points_lost(profile: Profile, affine: AffineFacts) -> set[str]:
 
 
 _ABOUT_TIES = (
-    Trouble.WORD_IGNORED,
+    ReadIssue.WORD_IGNORED,
     RefusalKind.WORDS_DISAGREE,
     RefusalKind.LINES_PARALLEL,
     RefusalKind.NOT_FIXED,
-    RemarkKind.WORDS_AGREE,
+    NoteKind.WORDS_AGREE,
 )
 _AT_VALUES = (RefusalKind.LINES_PARALLEL, RefusalKind.NOT_FIXED)
 """They name all the words that they are about."""
-_ABOUT_FREEDOM = (Trouble.UNDERDETERMINED, RefusalKind.NOT_FIXED)
+_ABOUT_FREEDOM = (ReadIssue.UNDERDETERMINED, RefusalKind.NOT_FIXED)
 
 
 def _fix(answer: Answer, repair: Repair) -> Fix:
@@ -260,7 +260,9 @@ def list_layers(answer: Answer, policy: Policy) -> tuple[Layer, ...]:
     whole = answer.profile if whole.is_extended else whole
     grammar = [each for each in answer.diagnostics if each.about in _GRAMMAR]
     refused = [each for each in answer.diagnostics if each.basis is Basis.RULE and _counts(each.severity)]
-    refused = [each for each in refused if each.about not in _GRAMMAR and each.about is not Trouble.START_IN_INCREMENTS]
+    refused = [
+        each for each in refused if each.about not in _GRAMMAR and each.about is not ReadIssue.START_IN_INCREMENTS
+    ]
     layers = [_layer("grammar", bool(grammar), f"{_count(claim.blocks, 'block')}, every character")]
     if any(block.faults for block in claim.blocks):
         layers.append(Layer("rules", Verdict.NOT_RUN, "not every word could be read"))
@@ -277,19 +279,19 @@ def list_layers(answer: Answer, policy: Policy) -> tuple[Layer, ...]:
 
 _GRAMMAR = (
     *FaultKind,
-    Trouble.REPEATED_ADDRESS,
-    Trouble.UNKNOWN_ADDRESS,
-    Trouble.VARIABLE,
-    Trouble.FACT_UNREADABLE,
-    Trouble.FACT_IMPOSSIBLE,
-    Trouble.ASKED_NOTHING,
-    Trouble.VALUE_TOO_LARGE,
+    ReadIssue.REPEATED_ADDRESS,
+    ReadIssue.UNKNOWN_ADDRESS,
+    ReadIssue.VARIABLE,
+    ReadIssue.FACT_UNREADABLE,
+    ReadIssue.FACT_IMPOSSIBLE,
+    ReadIssue.ASKED_NOTHING,
+    ReadIssue.VALUE_TOO_LARGE,
 )
 _EQUATIONS = ("structure", "generic rank", "values", "geometry")
 
 
 def _equations(answer: Answer, profile: Profile, system: System) -> list[Layer]:
-    parts, verdict = decompose(system), judge(system)
+    parts, verdict = decompose(system), analyse(system)
     size = f"{_count(system.facts, 'equation')}, {_count(system.unknowns, 'unknown')}"
     # A point of a circle may be given besides its centre: the control compares the radii, and so do we.
     spare = [system.facts[index] for index in range(len(system.facts)) if index not in verdict.basis]
@@ -328,12 +330,12 @@ _ABOUT_VALUES = (
     RefusalKind.LINES_PARALLEL,
     RefusalKind.NOT_FIXED,
     RefusalKind.POINT_IS_START,
-    Trouble.FACTS_SINGULAR,
+    ReadIssue.FACTS_SINGULAR,
     RefusalKind.WORDS_DISAGREE,
     RefusalKind.FACT_DISAGREES,
     RefusalKind.RADIUS_DIFFERENCE,
-    RemarkKind.WORDS_AGREE,
-    RemarkKind.SENSITIVE,
+    NoteKind.WORDS_AGREE,
+    NoteKind.SENSITIVE,
 )
 
 

@@ -13,7 +13,7 @@ from contoursolve.diagnostics.finding import Diagnostic, Severity
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import FACT, FaultKind, Word, find_lookalikes, lookalike_at
 from contoursolve.geometry import Given, Length, Unit
-from contoursolve.reading import Claim, Lexicon, Trouble
+from contoursolve.reading import Lexicon, ParsedContour, ReadIssue
 from contoursolve.solving import BESIDE, RefusalKind
 
 _FEW = 8
@@ -22,7 +22,7 @@ _FEW = 8
 
 def missing_points(answer: Answer) -> Iterator[tuple[Edit, ...]]:
     """Decimal points added to the words that lack them: each alone where others of the block have one, and all."""
-    missing = [each for each in answer.diagnostics if each.about is Trouble.POINT_MISSING]
+    missing = [each for each in answer.diagnostics if each.about is ReadIssue.POINT_MISSING]
     spans = {label.span for finding in missing for label in finding.labels}
     edits = [change(word, word.text + ".") for word in answer.claim.words.values() if word.span in spans]
     if len(missing) == len(spans):
@@ -114,7 +114,7 @@ def _written(answer: Answer, sizes: Iterable[Mapping[Span, float]]) -> Iterator[
             yield change(word, text, Why.FITS)
 
 
-def moving(claim: Claim, drafts: Iterable[tuple[Edit, ...]]) -> Iterator[tuple[Edit, ...]]:
+def moving(claim: ParsedContour, drafts: Iterable[tuple[Edit, ...]]) -> Iterator[tuple[Edit, ...]]:
     """Drafts, each that drops words which have nothing to do with the contour after the same one that moves them into
     blocks of their own. Between the blocks of a chain there is no place for them."""
     for edits in drafts:
@@ -144,12 +144,12 @@ def change(word: Word, text: str, why: Why = Why.OTHER) -> Edit:
     return Edit(EditKind.CHANGE, word.address, word.span, word.text, text, why=why)
 
 
-def has_faults(claim: Claim) -> bool:
+def has_faults(claim: ParsedContour) -> bool:
     """Whether some characters are no word, so that it is not known which words the block has."""
     return any(fault.kind is not FaultKind.COMMENT_NOT_CLOSED for block in claim.blocks for fault in block.faults)
 
 
-def unreadable(claim: Claim) -> Iterator[tuple[Edit, ...]]:
+def unreadable(claim: ParsedContour) -> Iterator[tuple[Edit, ...]]:
     """What every repair must take out or correct: characters, addresses without a meaning, repetitions. Of an
     address that is given twice, either word may be the one that is meant. Letters for digits become these."""
     meant = meant_words(claim)

@@ -13,24 +13,24 @@ from contoursolve.diagnostics.finding import Diagnostic, Severity
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import FACT, Word
 from contoursolve.geometry import FIRST, SECOND, Coordinate, Fact, Length, Offset, Profile, Unit, assemble, scalar
-from contoursolve.reading import Lexicon, Trouble
+from contoursolve.reading import Lexicon, ReadIssue
 from contoursolve.reading.dialect import Dialect
-from contoursolve.solving import RefusalKind, RemarkKind, Status
+from contoursolve.solving import NoteKind, RefusalKind, Status
 from contoursolve.solving.ambiguity import tied_with
 from contoursolve.statements.apply import word_of
 
 MOST_ADDED = 2
 """Words that a repair adds to such a block."""
 
-_TWICE = (RefusalKind.WORDS_DISAGREE, RefusalKind.FACT_DISAGREES, RemarkKind.WORDS_AGREE)
+_TWICE = (RefusalKind.WORDS_DISAGREE, RefusalKind.FACT_DISAGREES, NoteKind.WORDS_AGREE)
 _NOT_TOGETHER = (
     RefusalKind.NO_POINT,
     RefusalKind.SEARCH_UNFINISHED,
     RefusalKind.LINES_PARALLEL,
     RefusalKind.NOT_FIXED,
-    Trouble.FACTS_SINGULAR,
+    ReadIssue.FACTS_SINGULAR,
 )
-_USELESS = (Trouble.FACT_UNREADABLE, Trouble.FACT_IMPOSSIBLE)
+_USELESS = (ReadIssue.FACT_UNREADABLE, ReadIssue.FACT_IMPOSSIBLE)
 _DECIMAL_COMMA = re.compile(r"(?<=\d),(?=\d)")
 _VALUE = re.compile(r"=\s*+(?P<number>[+-]?+(?>\d++\.?+\d*+|\.\d++))\s*+$")
 
@@ -47,7 +47,7 @@ def further_drafts(answer: Answer, dialect: Dialect, before: Before) -> Iterator
     yield _decimal_commas(answer)
     yield _useless(answer, findings)
     twice = [each for each in findings if each.about in _TWICE]
-    missing = list(_additions(answer)) if any(each.about is Trouble.UNDERDETERMINED for each in findings) else [()]
+    missing = list(_additions(answer)) if any(each.about is ReadIssue.UNDERDETERMINED for each in findings) else [()]
     drops = [[(drop(word),) for word in _blamed(answer, each)] for each in twice]
     yield [tuple(dict.fromkeys(sum(choice, ()))) for choice in product(*drops, missing) if any(choice)]
     yield _corrected(answer, dialect, twice, before)

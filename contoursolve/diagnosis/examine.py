@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.analysis import judge
+from contoursolve.analysis import analyse
 from contoursolve.diagnosis.explain import (
     Context,
     context_of,
@@ -37,13 +37,13 @@ from contoursolve.diagnostics.display import Shown
 from contoursolve.diagnostics.finding import Basis, Diagnosis, Diagnostic, Severity
 from contoursolve.diagnostics.source import Span
 from contoursolve.geometry import Length, Plane, Profile, Question, Side, Start, System, assemble
-from contoursolve.reading import AT_ITS_LIMIT, Assumption, Claim, Trouble, read, unused_words
+from contoursolve.reading import AT_ITS_LIMIT, Assumption, ParsedContour, ReadIssue, read, unused_words
 from contoursolve.reading.rules import Offence, Rule, check
 from contoursolve.solving import (
+    Note,
+    NoteKind,
     Refusal,
     RefusalKind,
-    Remark,
-    RemarkKind,
     Solution,
     Status,
     is_closed,
@@ -106,7 +106,7 @@ class Answer(Shown, Struct, frozen=True):
 
     form: str
     lines: tuple[int, ...]
-    claim: Claim
+    claim: ParsedContour
     status: Status
     plane: Plane
     unit: Length
@@ -166,7 +166,7 @@ def _no_place() -> None:
 
 
 def examine(
-    claim: Claim,
+    claim: ParsedContour,
     rules: tuple[Rule, ...],
     policy: Policy,
     next_place: Callable[[], tuple[Decimal, Decimal] | None] = _no_place,
@@ -203,7 +203,7 @@ def examine(
     for word in unused_words(claim, profile) if is_whole else ():
         # Whatever the rules say of it: nothing is dropped without a word.
         if word.span not in explained:
-            notebook.add(report(context, context.row(Trouble.WORD_UNUSED), Basis.RULE, [word], form=claim.form.name))
+            notebook.add(report(context, context.row(ReadIssue.WORD_UNUSED), Basis.RULE, [word], form=claim.form.name))
     if is_readable:
         solution, alternatives = _examine_geometry(context, claim, profile, notebook, depth)
     else:
@@ -218,7 +218,7 @@ def examine(
     if contour is not None:
         notebook.findings += explain_crossing(context, profile, contour)
         notebook.findings += explain_beyond(context, profile, solution, contour) if claim.directives else ()
-    touching = {remark.subject for remark in solution.remarks if remark.kind is RemarkKind.TOUCHES}
+    touching = {remark.subject for remark in solution.remarks if remark.kind is NoteKind.TOUCHES}
     shown = {*profile.intersections} - touching
     sides = {choice.point: choice.side for choice in profile.choices if choice.given and choice.point in shown}
     return Answer(
@@ -255,14 +255,14 @@ def count_choices(profile: Profile) -> int:
 @lru_cache(maxsize=8192)
 def _chosen_points(system: System) -> frozenset[str]:
     """The points that may lie in two places each; none where the system is not determined or has no closed form."""
-    is_ordered = judge(system).is_determined and is_closed(system)
+    is_ordered = analyse(system).is_determined and is_closed(system)
     return frozenset(points_with_two_solutions(system) if is_ordered else ())
 
 
 def is_rounded(answer: Answer) -> bool:
     """Whether it has a half circle that is one within the least increments: no circle of exactly the stated radius has
     its ends."""
-    return any(finding.about is RemarkKind.HALF_CIRCLE for finding in answer.diagnostics)
+    return any(finding.about is NoteKind.HALF_CIRCLE for finding in answer.diagnostics)
 
 
 def list_alternatives(answer: Answer) -> Alternatives | None:
@@ -280,7 +280,7 @@ def list_alternatives(answer: Answer) -> Alternatives | None:
     return find_alternatives(answer.profile)
 
 
-def _offences(claim: Claim, rules: tuple[Rule, ...]) -> tuple[Offence, ...]:
+def _offences(claim: ParsedContour, rules: tuple[Rule, ...]) -> tuple[Offence, ...]:
     """The rules that hold for the stated words. A word that is asked for may fill a gap, but it is never one too
     many: what refuses must do so without it as well, and what ignores another word must do so by itself."""
     stated = claim.stated()
@@ -294,13 +294,13 @@ def _offences(claim: Claim, rules: tuple[Rule, ...]) -> tuple[Offence, ...]:
     return (*refusing, *(each for each in without if each.rule.ignores))
 
 
-def _is_extended(claim: Claim) -> bool:
+def _is_extended(claim: ParsedContour) -> bool:
     return bool(claim.directives) or any(word.is_asked for word in claim.words.values())
 
 
 def _state_more(
     context: Context,
-    claim: Claim,
+    claim: ParsedContour,
     profile: Profile,
     next_place: Callable[[], tuple[Decimal, Decimal] | None],
     notebook: _Notebook,
@@ -312,7 +312,7 @@ def _state_more(
     from contoursolve.statements import Flaw, apply_statements  # noqa: PLC0415
 
     extended, faults = apply_statements(profile, claim.directives, next_place)
-    kinds = {Flaw.UNREADABLE: Trouble.FACT_UNREADABLE, Flaw.IMPOSSIBLE: Trouble.FACT_IMPOSSIBLE}
+    kinds = {Flaw.UNREADABLE: ReadIssue.FACT_UNREADABLE, Flaw.IMPOSSIBLE: ReadIssue.FACT_IMPOSSIBLE}
     for fault in faults:
         rule = context.row(kinds[fault.flaw])
         notebook.add(report(context, rule, Basis.RULE, [fault.word], reason=fault.message), Status.REJECTED)
@@ -328,17 +328,17 @@ def answer_question(question: Question, profile: Profile, solution: Solution) ->
     return AskedValue(question, question.fact.implied(lookup(profile, scalars)))
 
 
-def _examine_words(context: Context, claim: Claim, notebook: _Notebook) -> None:
+def _examine_words(context: Context, claim: ParsedContour, notebook: _Notebook) -> None:
     """Characters, addresses and values, before any of them is given a meaning."""
     for finding in explain_spelling(context, claim):
         notebook.add(finding, Status.REJECTED)
     variables = [word for word in claim.words.values() if word.number is None and not word.is_asked]
     if variables:
-        notebook.add(report(context, context.row(Trouble.VARIABLE), Basis.RULE, variables), Status.UNDERDETERMINED)
+        notebook.add(report(context, context.row(ReadIssue.VARIABLE), Basis.RULE, variables), Status.UNDERDETERMINED)
 
 
 def _examine_geometry(
-    context: Context, claim: Claim, profile: Profile, notebook: _Notebook, depth: Depth
+    context: Context, claim: ParsedContour, profile: Profile, notebook: _Notebook, depth: Depth
 ) -> tuple[Solution, Alternatives | None]:
     """The system for all values, then its solution at the values of the block.
 
@@ -365,7 +365,7 @@ def _examine_geometry(
     if not is_solvable or is_long:
         return Solution(Status.UNDERDETERMINED), None
     solution, alternatives = _solve(profile, context, notebook, depth)
-    events: list[Refusal | Remark] = [*solution.refusals, *solution.remarks]
+    events: list[Refusal | Note] = [*solution.refusals, *solution.remarks]
     for event in events:
         if not is_refused or event.kind in _ABOUT_WORDS:
             notebook.add(explain_result(context, event, profile, alternatives))
@@ -379,7 +379,7 @@ def _solve(
     """The contour that the control makes, or the only one that there is."""
     is_chosen = not profile.is_extended and not _has_choice(profile)
     solution = solve(profile, is_proven=depth is not Depth.PATH) if is_chosen else None
-    touches = solution is not None and any(remark.kind is RemarkKind.TOUCHES for remark in solution.remarks)
+    touches = solution is not None and any(remark.kind is NoteKind.TOUCHES for remark in solution.remarks)
     if solution is not None and not (touches and count_choices(profile) <= MOST_CHOICES):
         return solution, None
     # Unusual combinations, open choices, and lines that touch as far as floats can tell.
@@ -403,7 +403,7 @@ _ABOUT_WORDS = (
     RefusalKind.FACT_DISAGREES,
     RefusalKind.RADIUS_DIFFERENCE,
     RefusalKind.LINES_PARALLEL,
-    RemarkKind.WORDS_AGREE,
+    NoteKind.WORDS_AGREE,
 )
 
 
@@ -412,30 +412,30 @@ def _secondary(finding: Diagnostic, is_refused: bool) -> Diagnostic:
     return replace(finding, severity=Severity.INFO) if is_refused else finding
 
 
-def _examine_system(context: Context, claim: Claim, profile: Profile) -> Iterator[tuple[Status, Diagnostic]]:
+def _examine_system(context: Context, claim: ParsedContour, profile: Profile) -> Iterator[tuple[Status, Diagnostic]]:
     """Why the facts alone, whatever their values, make no single contour."""
     system = assemble(profile)
-    verdict = judge(system)
+    verdict = analyse(system)
     if not verdict.is_determined:
         yield Status.UNDERDETERMINED, explain_missing(context, profile, verdict, claim)
     by_name: dict[str, list[str]] = {}
     for corner in profile.figure.corners:
         by_name.setdefault(corner.name, []).append(corner.size)
         if corner.size in profile.givens and profile.givens[corner.size].value < 0:
-            rule, word = context.row(Trouble.CORNER_NEGATIVE), [context.words[corner.size]]
+            rule, word = context.row(ReadIssue.CORNER_NEGATIVE), [context.words[corner.size]]
             yield Status.NO_SOLUTION, report(context, rule, Basis.NUMERICAL, word, subject=corner.name)
         if corner.after is None and corner.lands_parallel_to is None and corner.lands_on is None:
-            rule = context.row(Trouble.CORNER_NOWHERE)
+            rule = context.row(ReadIssue.CORNER_NOWHERE)
             word = [context.words[corner.size]]
             yield Status.UNDERDETERMINED, report(context, rule, Basis.STRUCTURAL, word, subject=corner.name)
     for name, sizes in by_name.items():
         if len(sizes) > 1:
             words = [context.words[size] for size in sizes]
-            rule = context.row(Trouble.CORNER_TWICE)
+            rule = context.row(ReadIssue.CORNER_TWICE)
             yield Status.CONFLICTING, report(context, rule, Basis.STRUCTURAL, words, subject=name)
 
 
 def rank(finding: Diagnostic) -> tuple[int, int, bool, Span, str]:
     """By line, the worst first, and what follows from lines before after what does not."""
-    follows = finding.about is Trouble.POSITION_UNKNOWN
+    follows = finding.about is ReadIssue.POSITION_UNKNOWN
     return finding.span.line, list(Severity).index(finding.severity), follows, finding.span, finding.code

@@ -10,7 +10,7 @@ import numpy
 from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, write_word
 from contoursolve.geometry import Coordinate, Profile, Radius, Unit
 from contoursolve.numeric.columns import Array
-from contoursolve.reading import Claim
+from contoursolve.reading import ParsedContour
 from contoursolve.solving.checks import agreement_rows, passed_rows
 
 MOST_PROPOSED = 8
@@ -40,7 +40,7 @@ def sampled(edits: Sequence[Edit]) -> tuple[Edit, ...]:
     return tuple(_numbered(edit, edit.address + SAMPLE) if edit.is_placeholder else edit for edit in edits)
 
 
-def propose(claim: Claim, profile: Profile, edits: Sequence[Edit]) -> Iterator[tuple[Edit, ...]]:
+def propose(claim: ParsedContour, profile: Profile, edits: Sequence[Edit]) -> Iterator[tuple[Edit, ...]]:
     """The edits with numbers for the placeholders, with which every check is passed as far as floats can tell, those
     with the most room around them first; where no one function tells, some that lie far apart.
 
@@ -58,7 +58,7 @@ def propose(claim: Claim, profile: Profile, edits: Sequence[Edit]) -> Iterator[t
 
 
 def ends(
-    claim: Claim, profile: Profile, edits: Sequence[Edit], is_accepted: Callable[[tuple[Edit, ...]], bool]
+    claim: ParsedContour, profile: Profile, edits: Sequence[Edit], is_accepted: Callable[[tuple[Edit, ...]], bool]
 ) -> Iterator[str]:
     """From which number to which one, around that of an example, the equations and the rules accept the edits: a side
     on which no end is found is left out; nothing if several words are added, or no function tells.
@@ -93,7 +93,7 @@ def ends(
         yield f"{word} {at(first)}"
 
 
-def _last(claim: Claim, profile: Profile, name: str, good: float, bad: float) -> float:
+def _last(claim: ParsedContour, profile: Profile, name: str, good: float, bad: float) -> float:
     """The last value that is passed on the way from one that is to one that is not."""
     step = _increment(claim, name)
     while abs(bad - good) > 1.5 * step:
@@ -113,7 +113,7 @@ def _numbered(edit: Edit, text: str) -> Edit:
     return dataclasses.replace(edit, text=text)
 
 
-def _name_of(claim: Claim, edit: Edit) -> str:
+def _name_of(claim: ParsedContour, edit: Edit) -> str:
     """The given that an added word states."""
     words = claim.words.items()
     return next(
@@ -121,7 +121,7 @@ def _name_of(claim: Claim, edit: Edit) -> str:
     )
 
 
-def _one(claim: Claim, profile: Profile, name: str) -> list[Array]:
+def _one(claim: ParsedContour, profile: Profile, name: str) -> list[Array]:
     """Stretches of numbers for one given that are passed, shape (numbers, 1), the longest first."""
     grid = _grid(claim, profile, name)
     passed = passed_rows(profile, {name: grid})
@@ -137,7 +137,7 @@ def _one(claim: Claim, profile: Profile, name: str) -> list[Array]:
     return [grid[part, numpy.newaxis] for part in sorted(parts, key=len, reverse=True)]
 
 
-def _closer(claim: Claim, profile: Profile, name: str, grid: Array) -> Array:
+def _closer(claim: ParsedContour, profile: Profile, name: str, grid: Array) -> Array:
     """And the numbers about those with which the other words agree best, as those of a circle with its point, if there
     are words that need not be there."""
     agreement = agreement_rows(profile, {name: grid})
@@ -152,7 +152,7 @@ def _closer(claim: Claim, profile: Profile, name: str, grid: Array) -> Array:
     return numpy.unique(numpy.rint(numpy.concatenate([grid, *about]) / step) * step)
 
 
-def _several(claim: Claim, profile: Profile, names: Sequence[str]) -> Iterator[Array]:
+def _several(claim: ParsedContour, profile: Profile, names: Sequence[str]) -> Iterator[Array]:
     """Combinations of numbers for several givens that are passed, shape (1, givens): first those of few decimals, those
     of lengths that are usual in this contour first."""
     rng, reach = numpy.random.default_rng(SEED), _reach(profile, names)
@@ -191,7 +191,7 @@ def _start_of(profile: Profile, name: str) -> float:
     return float(profile.start.values[axis] or 0) if axis is not None else 0.0
 
 
-def _grid(claim: Claim, profile: Profile, name: str, coarse: float = 0.0) -> Array:
+def _grid(claim: ParsedContour, profile: Profile, name: str, coarse: float = 0.0) -> Array:
     """The numbers that are looked through for a given, mm (X as radius) or degrees, at the least increments: dense
     about what is near, up to several times the contour's size. Coarse ones differ by about so many mm, or 15 degrees.
     """
@@ -209,14 +209,14 @@ def _grid(claim: Claim, profile: Profile, name: str, coarse: float = 0.0) -> Arr
     return numpy.unique(numpy.rint((_start_of(profile, name) + steps) / step) * step)
 
 
-def _increment(claim: Claim, name: str) -> float:
+def _increment(claim: ParsedContour, name: str) -> float:
     """The least increment of a given's word, mm (X as radius)."""
     row, unit = claim.lexicon.addresses[claim.words[name].address], claim.after.unit
     step = float(claim.lexicon.numbers.step(row.unit, unit)) * float(unit.in_mm)
     return step / 2 if row.is_diameter else step
 
 
-def _write(claim: Claim, name: str, values: Array) -> str:
+def _write(claim: ParsedContour, name: str, values: Array) -> str:
     """A word for a value among those of a run, with as few decimals as one in its middle half can have."""
     row, unit = claim.lexicon.addresses[claim.words[name].address], claim.after.unit
     scale = 1.0
@@ -230,6 +230,6 @@ def _write(claim: Claim, name: str, values: Array) -> str:
     return _text(claim, name, number / scale)
 
 
-def _text(claim: Claim, name: str, value: float) -> str:
+def _text(claim: ParsedContour, name: str, value: float) -> str:
     """A word for a value, mm (X as radius) or degrees."""
     return write_word(claim.words[name].address, value, claim.lexicon, claim.after.unit)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from msgspec import Struct, field
 from msgspec.structs import replace
 
-from contoursolve.analysis import Verdict
+from contoursolve.analysis import Determinacy
 from contoursolve.diagnosis.wording import (
     angle_text,
     join,
@@ -27,14 +27,14 @@ from contoursolve.diagnostics.finding import Basis, Diagnostic, Label
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import FACT, Word
 from contoursolve.geometry import Length, Profile, Radius, Role, Unit, assemble
-from contoursolve.reading import Claim, Trouble
+from contoursolve.reading import ParsedContour, ReadIssue
 from contoursolve.reading.rules import Offence, Rule
 from contoursolve.solving import (
     BESIDE,
+    Note,
+    NoteKind,
     Refusal,
     RefusalKind,
-    Remark,
-    RemarkKind,
     Solution,
     compare,
     lookup,
@@ -103,7 +103,7 @@ class Context(Struct, frozen=True):
         return {name: word.text for name, word in self.words.items()}
 
 
-def context_of(claim: Claim, rules: tuple[Rule, ...]) -> Context:
+def context_of(claim: ParsedContour, rules: tuple[Rule, ...]) -> Context:
     """The context of a contour; it begins where its first block does, and rows of its own roles come first."""
     return Context(_own_first(rules, claim.form.roles), claim.after.unit, claim.words, claim.blocks[0].span)
 
@@ -157,7 +157,7 @@ def _named(words: Sequence[Word], names: Mapping[str, Word]) -> Iterable[tuple[s
     return ((known.get(id(word), word.address), word.text) for word in words)
 
 
-def explain_offence(context: Context, offence: Offence, claim: Claim) -> Diagnostic:
+def explain_offence(context: Context, offence: Offence, claim: ParsedContour) -> Diagnostic:
     """A rule on combinations that holds."""
     givens = claim.givens
     words = [context.words[name] for name in offence.names if name in context.words]
@@ -171,7 +171,7 @@ def explain_offence(context: Context, offence: Offence, claim: Claim) -> Diagnos
     return report(context, offence.rule, Basis.RULE, words, comparison="", within=join(within), lacking=lacking)
 
 
-def _lacking(claim: Claim, prefix: str) -> list[str]:
+def _lacking(claim: ParsedContour, prefix: str) -> list[str]:
     """The fewest addresses whose words make a block, by the prefix of its names, one that states an element."""
     options = [option for slot in claim.form.combinations for option in slot]
     own = [[name for name in option if name.startswith(prefix) and name in claim.vocabulary] for option in options]
@@ -211,7 +211,7 @@ def explain_ignored(context: Context, offence: Offence, profile: Profile, soluti
     return report(context, offence.rule, Basis.NUMERICAL, [word], values, [label], comparison=comparison)
 
 
-def explain_missing(context: Context, profile: Profile, verdict: Verdict, claim: Claim) -> Diagnostic:
+def explain_missing(context: Context, profile: Profile, verdict: Determinacy, claim: ParsedContour) -> Diagnostic:
     """Unknowns that no word determines, and the words that speak about them."""
     free = set(verdict.free)
     stated = {fact.given for fact in profile.facts}
@@ -236,7 +236,7 @@ def explain_missing(context: Context, profile: Profile, verdict: Verdict, claim:
     completions = "; or ".join(ways) or "add a word for it"
     return report(
         context,
-        context.row(Trouble.UNDERDETERMINED),
+        context.row(ReadIssue.UNDERDETERMINED),
         Basis.SYMBOLIC,
         [],
         free=unknowns_text(shown, profile),
@@ -244,18 +244,18 @@ def explain_missing(context: Context, profile: Profile, verdict: Verdict, claim:
     )
 
 
-def _address(name: str, claim: Claim) -> str:
+def _address(name: str, claim: ParsedContour) -> str:
     """The address that would state something, with the line of its block where there are several."""
     address, index = claim.vocabulary[name]
     return address if len(claim.blocks) == 1 else f"{address} in line {claim.blocks[index].line}"
 
 
 _IN_DEGREES = {RefusalKind.LINE_REVERSED}
-_OF_A_WORD = {RefusalKind.WORDS_DISAGREE, RemarkKind.WORDS_AGREE}
+_OF_A_WORD = {RefusalKind.WORDS_DISAGREE, NoteKind.WORDS_AGREE}
 
 
 def explain_result(
-    context: Context, event: Refusal | Remark, profile: Profile, alternatives: Alternatives | None = None
+    context: Context, event: Refusal | Note, profile: Profile, alternatives: Alternatives | None = None
 ) -> Diagnostic:
     """A refusal or a remark of the solver; `alternatives` is what a search found."""
     givens = [profile.givens[name] for name in event.givens if name in profile.givens]
@@ -281,7 +281,7 @@ def explain_result(
         fields["off"] = length_text(values["off_by_mm"], context.unit)
         if is_word and givens[0].unit is Unit.DEGREE and words and words[0].address == FACT and "expected" in values:
             fields["off"] = angle_text(abs(values["expected"] - values["actual"]))
-    if event.kind is RemarkKind.SEVERAL:
+    if event.kind is NoteKind.SEVERAL:
         fields["count"] = f"{event.values['actual']:.0f}"
     notes: tuple[str, ...] = ()
     if event.kind in _AGAINST_OTHERS:
@@ -358,7 +358,7 @@ def _named_in(word: Word, profile: Profile) -> str:
 
 
 def _rooms(
-    event: Refusal | Remark, values: dict[str, float], words: Sequence[Word], profile: Profile
+    event: Refusal | Note, values: dict[str, float], words: Sequence[Word], profile: Profile
 ) -> list[tuple[str, str]]:
     """For either of two words for corners that overlap, in the order of the words, which the values then have, too:
     what to write if the other one stays, and its label; for one of them if the other one cannot stay."""
@@ -396,7 +396,7 @@ def _causes(asked: Word, profile: Profile) -> Iterator[str]:
 _AGAINST_OTHERS = (*_OF_A_WORD, RefusalKind.FACT_DISAGREES)
 
 
-def _others(event: Refusal | Remark, profile: Profile) -> dict[str, str]:
+def _others(event: Refusal | Note, profile: Profile) -> dict[str, str]:
     """What a word or a fact is held against, by name where facts are stated besides words, and its verbs."""
     words: list[Word] = []
     if profile.is_extended:
@@ -435,7 +435,7 @@ def _search_notes(profile: Profile, alternatives: Alternatives) -> Iterator[str]
 def explain_singular(context: Context, names: Sequence[str], loose: Sequence[str], profile: Profile) -> Diagnostic:
     """Facts that do not fix what they are about at their values, though they would at others."""
     words = [word for word in (profile.givens[name].word for name in names) if word]
-    rule, free = context.row(Trouble.FACTS_SINGULAR), unknowns_text(loose, profile)
+    rule, free = context.row(ReadIssue.FACTS_SINGULAR), unknowns_text(loose, profile)
     return report(context, rule, Basis.NUMERICAL, words, free=free, do="do" if len(words) > 1 else "does")
 
 
@@ -447,7 +447,7 @@ def explain_crossing(context: Context, profile: Profile, contour: Contour) -> It
         start, place = (place_text(profile, scalars_of({"": at})) for at in (contour.start, crossing.at))
         fields: dict[str, Any] = {"subject": crossing.element.name, "start": start, "place": place}
         values = {"limit": 0.0, "actual": radius, "off_by_mm": abs(radius)}
-        yield report(context, context.row(Trouble.AXIS_CROSSED), Basis.NUMERICAL, [], values, **fields)
+        yield report(context, context.row(ReadIssue.AXIS_CROSSED), Basis.NUMERICAL, [], values, **fields)
 
 
 def explain_beyond(context: Context, profile: Profile, solution: Solution, contour: Contour) -> Iterator[Diagnostic]:
@@ -459,4 +459,4 @@ def explain_beyond(context: Context, profile: Profile, solution: Solution, conto
         whole = "line" if isinstance(element, LineSegment) else "circle"
         place = place_text(profile, scalars_of({"": at}))
         fields: dict[str, Any] = {"element": element.name, "whole": whole, "place": place}
-        yield report(context, context.row(Trouble.FACT_BEYOND), Basis.NUMERICAL, [word] if word else [], **fields)
+        yield report(context, context.row(ReadIssue.FACT_BEYOND), Basis.NUMERICAL, [word] if word else [], **fields)

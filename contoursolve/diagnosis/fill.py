@@ -8,7 +8,7 @@ from contoursolve import gcode
 from contoursolve.diagnosis.edits import write_word
 from contoursolve.diagnosis.examine import Answer, Filled, Policy, examine
 from contoursolve.gcode import FACT
-from contoursolve.reading import Claim, State
+from contoursolve.reading import ParsedContour, State
 from contoursolve.reading.dialect import Dialect
 from contoursolve.solving.contour import Contour
 
@@ -36,7 +36,7 @@ def fill_in(answer: Answer, before: State, dialect: Dialect) -> Filled | None:
         for line in range(first, answer.claim.blocks[-1].line + 1)
     )
     claim = dialect.find(blocks, 0, before, dialect.modes)
-    if not isinstance(claim, Claim) or not words:
+    if not isinstance(claim, ParsedContour) or not words:
         return None
     again = examine(claim, dialect.rules, Policy.ENFORCE)
     if again.contour is None or answer.contour is None:

@@ -12,18 +12,18 @@ from contoursolve.diagnostics.finding import Basis, Diagnostic, Severity
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import Word, lookalike_at
 from contoursolve.geometry import Given, Length, Unit
-from contoursolve.reading import Claim, Lexicon, Position, Trouble, WithoutPoint
+from contoursolve.reading import Lexicon, ParsedContour, Position, ReadIssue, WithoutPoint
 
 _FULL_TURN, _MANY_INCREMENTS = 360, 1_000
 """A number that is no larger says a direction in degrees, or a length under 1 mm in least increments."""
 
 
-def without_point(context: Context, claim: Claim, findings: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
+def without_point(context: Context, claim: ParsedContour, findings: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
     """Words that are read in least increments because they have no decimal point: each where others have one, and all
     together where none has and the values are hardly meant like this."""
     counted = _counted(context, claim)
     words = list(counted)
-    rule = context.row(Trouble.POINT_MISSING)
+    rule = context.row(ReadIssue.POINT_MISSING)
     if any(given.word and given.word.number and given.word.has_point for given in claim.givens.values()):
         for word, value in counted.items():
             yield report(context, rule, Basis.RULE, [word], are="is", have="has", actual=value)
@@ -41,7 +41,7 @@ def without_point(context: Context, claim: Claim, findings: Iterable[Diagnostic]
         )
 
 
-def start_without_point(context: Context, claim: Claim, findings: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
+def start_without_point(context: Context, claim: ParsedContour, findings: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
     """The words before a contour that put its start less than 1 mm from zero because they have no decimal point, where
     other words have one, or those of the contour are hardly meant like this, either."""
     places = [claim.before.axes[axis] for axis in claim.before.plane.axes]
@@ -49,7 +49,7 @@ def start_without_point(context: Context, claim: Claim, findings: Iterable[Diagn
     if not words or any(each.value is None for each in places):
         return
     stated = (*(given.word for given in claim.givens.values()), *(each.word for each in places))
-    is_suspected = any(each.about is Trouble.POINT_MISSING for each in findings)
+    is_suspected = any(each.about is ReadIssue.POINT_MISSING for each in findings)
     if is_suspected or any(word.has_point for word in stated if word):
         yield _start_counted(context, claim, [words[span] for span in sorted(words)])
 
@@ -74,13 +74,13 @@ def readings(word: Word, lexicon: Lexicon, unit: Length) -> tuple[str, str, str]
     return actual, expected, word.address + f"{number * step:f}".rstrip("0")
 
 
-def _start_counted(context: Context, claim: Claim, words: Sequence[Word]) -> Diagnostic:
+def _start_counted(context: Context, claim: ParsedContour, words: Sequence[Word]) -> Diagnostic:
     """That words of the start point count least increments."""
     several = len(words) > 1
     actual, expected, same = zip(*(readings(word, claim.lexicon, claim.before.unit) for word in words), strict=True)
     return report(
         context,
-        context.row(Trouble.START_IN_INCREMENTS),
+        context.row(ReadIssue.START_IN_INCREMENTS),
         Basis.RULE,
         words,
         have="have" if several else "has",
@@ -92,10 +92,10 @@ def _start_counted(context: Context, claim: Claim, words: Sequence[Word]) -> Dia
     )
 
 
-def tell_points(context: Context, claim: Claim, findings: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
+def tell_points(context: Context, claim: ParsedContour, findings: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
     """Findings, the errors about a word that lacks its point with how it was read, before what else may be done."""
     findings = list(findings)
-    lacking = {label.span for each in findings if each.about is Trouble.POINT_MISSING for label in each.labels}
+    lacking = {label.span for each in findings if each.about is ReadIssue.POINT_MISSING for label in each.labels}
     counted = (
         {word: value for word, value in _counted(context, claim).items() if word.span in lacking} if lacking else {}
     )
@@ -110,7 +110,7 @@ def tell_points(context: Context, claim: Claim, findings: Iterable[Diagnostic]) 
         yield replace(finding, notes=notes + finding.notes, help=f"write {meant} if that is meant; else {finding.help}")
 
 
-def _counted(context: Context, claim: Claim) -> Mapping[Word, str]:
+def _counted(context: Context, claim: ParsedContour) -> Mapping[Word, str]:
     """The words of a contour that count least increments, each with its value in the order of the block."""
     counted = {}
     pointless = [each for each in claim.givens.values() if each.word and not each.word.has_point]
@@ -131,7 +131,7 @@ def _place(given: Given) -> Span:
     return given.word.span if given.word else Span(0, 0, 0)
 
 
-def _is_slip(claim: Claim, words: Sequence[Word], *, has_error: bool) -> bool:
+def _is_slip(claim: ParsedContour, words: Sequence[Word], *, has_error: bool) -> bool:
     """Whether words without any point mean what they say: their angles would be directions in degrees, or without
     an angle a block that is refused would have no length of 1 mm."""
     angles = [word for word in words if claim.lexicon.addresses[word.address].unit is Unit.DEGREE]

@@ -13,7 +13,7 @@ from contoursolve.diagnosis.typo_fixes import mistyped_codes
 from contoursolve.diagnosis.wording import join
 from contoursolve.diagnostics.finding import Applicability, Basis, Diagnostic, Fix
 from contoursolve.gcode import Block, Word, find_lookalikes, lookalike_at, parse_block
-from contoursolve.reading import Claim, Effect, State, Trouble, codes_of
+from contoursolve.reading import Effect, ParsedContour, ReadIssue, State, codes_of
 from contoursolve.reading.dialect import Dialect
 
 _LINES = (0, 1)
@@ -48,7 +48,7 @@ def explain_commas(
         text = "" if word.address.startswith(",") else respelled(word, addresses)
         if not text:
             continue
-        finding = report(context, context.row(Trouble.COMMA_MISSING), Basis.RULE, [word], meant=text)
+        finding = report(context, context.row(ReadIssue.COMMA_MISSING), Basis.RULE, [word], meant=text)
         edit = Edit(EditKind.CHANGE, word.address, word.span, word.text, text)
         found, replacement = _read(dialect, blocks, [edit], before)
         fixes = tuple(_tried(dialect, found, [edit], replacement))
@@ -72,7 +72,7 @@ def explain_codes(
             found, replacement = _read(dialect, blocks, [edit], before)
             fixes = tuple(_tried(dialect, found, [edit], replacement))
             if fixes:
-                finding = report(context, context.row(Trouble.CODE_MISTYPED), Basis.RULE, [word], meant=text)
+                finding = report(context, context.row(ReadIssue.CODE_MISTYPED), Basis.RULE, [word], meant=text)
                 yield replace(finding, fixes=fixes)
 
 
@@ -96,20 +96,22 @@ def explain_letters(
     if not blamed:
         words = [Word(each.address, None, False, each.old, each.span) for each in meant]
         text = join([each.new for each in meant])
-        row = context.row(Trouble.LETTER_FOR_DIGIT)
+        row = context.row(ReadIssue.LETTER_FOR_DIGIT)
         yield replace(report(context, row, Basis.RULE, words, meant=text), fixes=fixes)
     for each in findings:
         yield replace(each, fixes=fixes) if blamed and each is blamed[0] else each
 
 
-def _read(dialect: Dialect, blocks: Sequence[Block], edits: Sequence[Edit], before: State) -> tuple[Claim | None, str]:
+def _read(
+    dialect: Dialect, blocks: Sequence[Block], edits: Sequence[Edit], before: State
+) -> tuple[ParsedContour | None, str]:
     """The contour that begins with the first of some blocks when it is edited, if one does; and its text then."""
     (text,) = apply_edits(blocks[:1], edits)
     found = dialect.find([parse_block(text, blocks[0].line), *blocks[1:]], 0, before, dialect.modes)
-    return (found if isinstance(found, Claim) and found.form.is_contour else None), text
+    return (found if isinstance(found, ParsedContour) and found.form.is_contour else None), text
 
 
-def _tried(dialect: Dialect, found: Claim | None, edits: Sequence[Edit], replacement: str) -> Iterator[Fix]:
+def _tried(dialect: Dialect, found: ParsedContour | None, edits: Sequence[Edit], replacement: str) -> Iterator[Fix]:
     """The edits as a fix, if they make a contour that is solved."""
     if found is not None and examine(found, dialect.rules, Policy.ENFORCE, depth=Depth.VERDICT).contour:
         yield Fix("; ".join(map(str, edits)), replacement, Applicability.CHANGES_CONTOUR)

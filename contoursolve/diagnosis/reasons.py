@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from functools import lru_cache
 from itertools import pairwise
 
-from contoursolve.analysis import judge, order
+from contoursolve.analysis import analyse, order
 from contoursolve.diagnosis.wording import angle_text, join, length_text, limit_text, place_text
 from contoursolve.diagnostics.finding import Diagnostic, Freedom
 from contoursolve.gcode import FACT
@@ -148,7 +148,7 @@ def _placed_before(profile: Profile, finding: Diagnostic) -> Iterator[str]:
     for element, block in zip(profile.figure.path, profile.blocks, strict=True):
         if block.line == finding.span.line and element.tail != profile.figure.start:
             system = assemble(profile)
-            verdict = judge(system)
+            verdict = analyse(system)
             if not verdict.is_determined:
                 return
             wanted = {scalar(element.tail, axis) for axis in (FIRST, SECOND)}

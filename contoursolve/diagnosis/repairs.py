@@ -52,7 +52,7 @@ from contoursolve.diagnosis.typo_fixes import (
 from contoursolve.diagnostics.finding import Diagnostic, Severity
 from contoursolve.gcode import Block, FaultKind, Word
 from contoursolve.geometry import Given, Profile, Radius, Role, Unit
-from contoursolve.reading import Claim, Form, State, read
+from contoursolve.reading import ContourForm, ParsedContour, State, read
 from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.rules import Rule, check
 from contoursolve.solving import RefusalKind, Status, lookup
@@ -156,7 +156,7 @@ def _slips_of(
     yield slips(answer, OF_DIGITS, [claim.words[name] for name in claim.words if name in sizes and is_missed])
 
 
-def _against_neighbours(words: Iterable[Word], claim: Claim) -> Iterator[Word]:
+def _against_neighbours(words: Iterable[Word], claim: ParsedContour) -> Iterator[Word]:
     """Words of another sign than those of the same address in the lines right before and behind."""
     lines = [block.line for block in claim.blocks]
     values = {(word.address, lines.index(word.span.line)): word.number for word in claim.words.values() if word.number}
@@ -168,7 +168,7 @@ def _against_neighbours(words: Iterable[Word], claim: Claim) -> Iterator[Word]:
             yield word
 
 
-def _agreeing(claim: Claim, name: str) -> Iterator[tuple[Edit, ...]]:
+def _agreeing(claim: ParsedContour, name: str) -> Iterator[tuple[Edit, ...]]:
     """A word as a slip explains it, with about the value that the others leave it."""
     value = _Geometry.of(claim, frozenset(claim.givens) - {name}).implied(claim, name)
     if value is not None:
@@ -188,7 +188,7 @@ class _Geometry(Struct, frozen=True):
     fixed: Mapping[str, float]
 
     @classmethod
-    def of(cls, claim: Claim, kept: frozenset[str] | None = None) -> "_Geometry":
+    def of(cls, claim: ParsedContour, kept: frozenset[str] | None = None) -> "_Geometry":
         names = frozenset(claim.givens)
         profile = read(claim, names - (names if kept is None else kept))
         affine = affine_facts(profile, profile.facts)
@@ -203,7 +203,7 @@ class _Geometry(Struct, frozen=True):
         affine = self.affine
         return affine is not None and len(affine.facts) >= len(affine.unknowns) and bool(affine.freedoms())
 
-    def implied(self, claim: Claim, name: str) -> float | None:
+    def implied(self, claim: ParsedContour, name: str) -> float | None:
         """The value (mm or degrees) that a word would have."""
         at = lookup(self.profile, dict(self.fixed))
         for row in claim.form.facts:
@@ -269,7 +269,7 @@ def _legal_sets(
 
 
 def _replacing(
-    claim: Claim, dialect: Dialect, conflicts: Iterable[Circuit], extra: frozenset[str], blocks: frozenset[str]
+    claim: ParsedContour, dialect: Dialect, conflicts: Iterable[Circuit], extra: frozenset[str], blocks: frozenset[str]
 ) -> Iterator[tuple[Edit, ...]]:
     """Each word of a contradiction dropped, and the rest completed with other words."""
     present = frozenset(claim.words)
@@ -283,7 +283,7 @@ def _replacing(
                 yield from ((drop(claim.words[name]), *edits) for edits in product(*added))
 
 
-def _corrections(claim: Claim, dialect: Dialect) -> Iterator[tuple[str, list[Edit]]]:
+def _corrections(claim: ParsedContour, dialect: Dialect) -> Iterator[tuple[str, list[Edit]]]:
     """Words whose value a rule refuses, with the values that mean the same or were meant."""
     for offence in check(dialect.rules, claim.form.roles, claim.stated()):
         if offence.rule.when is None or not offence.rule.when.reads_values:
@@ -302,7 +302,7 @@ def _corrections(claim: Claim, dialect: Dialect) -> Iterator[tuple[str, list[Edi
                 yield name, [change(word, write_word(word.address, value, lexicon, unit)) for value in values]
 
 
-def _additions(claim: Claim, dialect: Dialect, name: str, geometries: Iterable[_Geometry]) -> list[Edit]:
+def _additions(claim: ParsedContour, dialect: Dialect, name: str, geometries: Iterable[_Geometry]) -> list[Edit]:
     """A word added: with the value that the geometry fixes, each sign of a choice, or a placeholder."""
     address, index = claim.vocabulary[name]
     texts = [f"{address}-1", f"{address}1"] if name in claim.form.choices else [address + PLACEHOLDER]
@@ -314,7 +314,7 @@ def _additions(claim: Claim, dialect: Dialect, name: str, geometries: Iterable[_
     return [Edit(EditKind.ADD, address, text=text, line=claim.blocks[index].line) for text in texts]
 
 
-def _other_corners(claim: Claim, at_fault: list[str]) -> Iterator[tuple[Edit, ...]]:
+def _other_corners(claim: ParsedContour, at_fault: list[str]) -> Iterator[tuple[Edit, ...]]:
     """Each corner at fault as it is, without its word, or with the word for its other shape."""
     options: list[list[tuple[Edit, ...]]] = []
     for row in claim.form.corners:
@@ -329,14 +329,14 @@ def _other_corners(claim: Claim, at_fault: list[str]) -> Iterator[tuple[Edit, ..
             yield edits
 
 
-def is_clean(form: Form, rules: tuple[Rule, ...], names: frozenset[str], circumstances: frozenset[str]) -> bool:
+def is_clean(form: ContourForm, rules: tuple[Rule, ...], names: frozenset[str], circumstances: frozenset[str]) -> bool:
     """Whether no rule refuses or ignores something in the combination of words, whatever their values."""
     return not check(rules, form.roles, dict.fromkeys(names | circumstances))
 
 
 @lru_cache(maxsize=4096)
 def smallest_changes(
-    form: Form,
+    form: ContourForm,
     rules: tuple[Rule, ...],
     present: frozenset[str],
     extra: frozenset[str],
@@ -380,7 +380,7 @@ def smallest_changes(
     return tuple(union for union in unions if union)
 
 
-def _is_chain(form: Form) -> bool:
+def _is_chain(form: ContourForm) -> bool:
     """Whether it has more blocks than a rule sees at once."""
     return (
         len(form.combinations) > LARGEST_ROLE and len({prefix for role in form.roles for prefix in role.prefixes}) > 1
@@ -419,7 +419,7 @@ def _smallest(
     return tuple(found)
 
 
-def _is_clean_set(claim: Claim, rules: tuple[Rule, ...]) -> bool:
+def _is_clean_set(claim: ParsedContour, rules: tuple[Rule, ...]) -> bool:
     return is_clean(claim.form, rules, frozenset(claim.words), claim.circumstances)
 
 
@@ -516,7 +516,7 @@ def _slips(answer: Answer, dialect: Dialect, whole: _Geometry) -> Iterator[tuple
                 yield from ((change(word, text),) for text in dict.fromkeys(texts) if text != word.text)
 
 
-def _sizes(claim: Claim) -> set[str]:
+def _sizes(claim: ParsedContour) -> set[str]:
     """The words that give a corner its size."""
     return {name for row in claim.form.corners for name in row.shapes}
 

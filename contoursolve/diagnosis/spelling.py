@@ -12,11 +12,11 @@ from contoursolve.diagnostics.finding import Basis, Diagnostic, Label
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import Block, Fault, Lookalike, Word, find_lookalikes, lookalike_at, mended
 from contoursolve.geometry import CornerShape, Length
-from contoursolve.reading import Claim, Lexicon, Position, Trouble
+from contoursolve.reading import Lexicon, ParsedContour, Position, ReadIssue
 from contoursolve.tolerance import LARGEST
 
 
-def explain_spelling(context: Context, claim: Claim) -> Iterator[Diagnostic]:
+def explain_spelling(context: Context, claim: ParsedContour) -> Iterator[Diagnostic]:
     """What keeps the words of a contour from being read: nothing can be said of what they mean then."""
     words = [word for block in claim.blocks for word in block.words]
     for block in claim.blocks:
@@ -29,32 +29,34 @@ def explain_spelling(context: Context, claim: Claim) -> Iterator[Diagnostic]:
 def explain_unmarked(context: Context, block: Block) -> Iterator[Diagnostic]:
     """Comments that look like facts and are not read as such."""
     for directive in block.unmarked:
-        rule = context.row(Trouble.FACT_UNMARKED)
+        rule = context.row(ReadIssue.FACT_UNMARKED)
         yield report(replace(context, place=directive.span), rule, Basis.RULE, [], fact=directive.text)
 
 
 def explain_asked_outside(context: Context, block: Block) -> Iterator[Diagnostic]:
     """Words that ask for something in a block that is no contour."""
     for word in (word for word in block.words if word.is_asked):
-        yield report(context, context.row(Trouble.ASKED_NOTHING), Basis.RULE, [word], allowed="words of contour blocks")
+        yield report(
+            context, context.row(ReadIssue.ASKED_NOTHING), Basis.RULE, [word], allowed="words of contour blocks"
+        )
 
 
 def explain_start_units(context: Context, unit: Length, block: Block) -> Diagnostic:
     """A start point in another unit than that of the contour."""
-    rule, units = context.row(Trouble.START_UNITS), {Length.MM: "mm", Length.INCH: "inches"}
+    rule, units = context.row(ReadIssue.START_UNITS), {Length.MM: "mm", Length.INCH: "inches"}
     codes = {Length.MM: "G21", Length.INCH: "G20"}
     fields = {"was": units[context.unit], "unit": units[unit], "code": codes[unit], "start": block.text.strip()}
     return report(context, rule, Basis.RULE, [], None, (), **fields)
 
 
-def _explain_asked(context: Context, claim: Claim) -> Iterator[Diagnostic]:
+def _explain_asked(context: Context, claim: ParsedContour) -> Iterator[Diagnostic]:
     for word in unanswerable(claim):
         names = _answerable(claim)
         allowed = ", ".join(dict.fromkeys(claim.vocabulary[name][0] for name in claim.vocabulary if name in names))
-        yield report(context, context.row(Trouble.ASKED_NOTHING), Basis.RULE, [word], allowed=allowed)
+        yield report(context, context.row(ReadIssue.ASKED_NOTHING), Basis.RULE, [word], allowed=allowed)
 
 
-def unanswerable(claim: Claim) -> list[Word]:
+def unanswerable(claim: ParsedContour) -> list[Word]:
     """Words that ask for something that is not part of a contour."""
     asking = [word for block in claim.blocks for word in block.words if word.is_asked]
     if not asking:
@@ -63,7 +65,7 @@ def unanswerable(claim: Claim) -> list[Word]:
     return [word for word in asking if word not in answered and word not in claim.unknown]
 
 
-def _answerable(claim: Claim) -> set[str]:
+def _answerable(claim: ParsedContour) -> set[str]:
     """The names that state facts, sizes or choices."""
     sizes = {name for row in claim.form.corners for name in row.shapes}
     return {row.fact.given for row in claim.form.facts} | sizes | set(claim.form.choices)
@@ -123,7 +125,7 @@ _NEVER_MEANT = ("L", "O")
 """Letters that look like digits and state nothing about a contour on any control."""
 
 
-def meant_words(claim: Claim) -> tuple[Lookalike, ...]:
+def meant_words(claim: ParsedContour) -> tuple[Lookalike, ...]:
     """The words of a contour that slips keep from being read, in order."""
     found: dict[Span, Lookalike] = {}
     for block in claim.blocks:
@@ -158,7 +160,7 @@ def _ask(meant: Lookalike) -> str:
     return f"letter{plural} {letters} in {meant.old}: did you mean the digit{plural} {digits} ({meant.new})?"
 
 
-def torn_codes(claim: Claim) -> tuple[Lookalike, ...]:
+def torn_codes(claim: ParsedContour) -> tuple[Lookalike, ...]:
     """The G codes of a contour that slips keep from being read: what the words are is not known then."""
     return tuple(each for each in meant_words(claim) if each.is_code)
 
@@ -175,15 +177,15 @@ def explain_words(
         same = [word for word in words if word.address == address and word.span.line == line]
         if address == "G":
             same = [word for word in same if word.number in numbers]
-        yield report(context, context.row(Trouble.REPEATED_ADDRESS), Basis.RULE, same)
+        yield report(context, context.row(ReadIssue.REPEATED_ADDRESS), Basis.RULE, same)
     for word in words:
         value = lexicon.value(word, context.unit) if word.address in lexicon.addresses else None
         if value is not None and abs(value) > _LARGEST:
             limit = length_text(LARGEST, context.unit)
-            yield report(context, context.row(Trouble.VALUE_TOO_LARGE), Basis.RULE, [word], limit=limit)
+            yield report(context, context.row(ReadIssue.VALUE_TOO_LARGE), Basis.RULE, [word], limit=limit)
 
 
-def _explain_unknown(context: Context, claim: Claim) -> Iterator[Diagnostic]:
+def _explain_unknown(context: Context, claim: ParsedContour) -> Iterator[Diagnostic]:
     if not claim.unknown:
         return
     form, torn, mendable = claim.form, torn_codes(claim), meant_words(claim)
@@ -194,7 +196,7 @@ def _explain_unknown(context: Context, claim: Claim) -> Iterator[Diagnostic]:
         here = lookalike_at(torn, word.span)
         if any(each.span.line == word.span.line and each is not here for each in torn):
             continue
-        rule, other = context.row(Trouble.UNKNOWN_ADDRESS), respelled(word, form.allowed)
+        rule, other = context.row(ReadIssue.UNKNOWN_ADDRESS), respelled(word, form.allowed)
         meant = lookalike_at(mendable, word.span)
         other = "" if meant else other
         sizes = _roundings(claim) if word.address == "R" else []
@@ -208,7 +210,7 @@ def _explain_unknown(context: Context, claim: Claim) -> Iterator[Diagnostic]:
         yield replace(finding, message=_ask(meant)) if meant else finding
 
 
-def _roundings(claim: Claim) -> list[str]:
+def _roundings(claim: ParsedContour) -> list[str]:
     """The addresses of roundings of a contour."""
     shapes = ((name, shape) for row in claim.form.corners for name, shape in row.shapes.items())
     # Under G11 and G12 a corner has the word of a line.
@@ -226,7 +228,7 @@ def respelled(word: Word, allowed: Container[str]) -> str:
     return "" if other not in allowed else text.replace(",", "", 1).strip() if has_comma else f",{text}"
 
 
-def explain_start(context: Context, claim: Claim) -> Diagnostic:
+def explain_start(context: Context, claim: ParsedContour) -> Diagnostic:
     """Which axes of the start point are unknown, and which line made them so."""
     unknown = [axis for axis in claim.before.plane.axes if claim.before.axes[axis].value is None]
     places = [claim.before.axes[axis] for axis in unknown]
@@ -235,7 +237,7 @@ def explain_start(context: Context, claim: Claim) -> Diagnostic:
         reasons["G91 is active, and an increment from an unknown position gives none"] = None
     finding = report(
         context,
-        context.row(Trouble.POSITION_UNKNOWN),
+        context.row(ReadIssue.POSITION_UNKNOWN),
         Basis.RULE,
         [],
         axes=" and ".join(unknown),
@@ -252,8 +254,8 @@ def _on_line(place: Position) -> str:
     return f" (line {place.span.line})" if place.span.line else " (--start)"
 
 
-def explain_skippable(context: Context, claim: Claim) -> Iterator[Diagnostic]:
+def explain_skippable(context: Context, claim: ParsedContour) -> Iterator[Diagnostic]:
     """A contour that depends on whether a block is skipped."""
     skippable = {block.is_skippable for block in claim.blocks}
     if len(skippable) > 1 or any(claim.before.axes[axis].is_skippable for axis in claim.before.plane.axes):
-        yield report(context, context.row(Trouble.SKIPPABLE_START), Basis.RULE, [])
+        yield report(context, context.row(ReadIssue.SKIPPABLE_START), Basis.RULE, [])

@@ -12,7 +12,7 @@ from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnostics.finding import Severity
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import Word
-from contoursolve.reading import Claim
+from contoursolve.reading import ParsedContour
 from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.rules import check, is_refused_by_values
 
@@ -57,7 +57,7 @@ def is_blamed(answer: Answer, name: str) -> bool:
     return answer.claim.words[name].span in _blamed(answer)
 
 
-def words_of(claim: Claim, name: str) -> list[Word]:
+def words_of(claim: ParsedContour, name: str) -> list[Word]:
     """The word that states a given, and those that state it again."""
     word = claim.words[name]
     again = [each for each in claim.repeated if each.address == word.address and each.span.line == word.span.line]
@@ -110,7 +110,7 @@ class _Combination:
     """A contour, equal to others with the same words, and the same values where these tell what may be left out."""
 
     key: Hashable
-    claim: Claim = field(compare=False)
+    claim: ParsedContour = field(compare=False)
     dialect: Dialect = field(compare=False)
 
 
@@ -155,12 +155,12 @@ def _subsets(names: Iterable[str]) -> Iterator[frozenset[str]]:
     return map(frozenset, chain.from_iterable(combinations(names, size) for size in range(1, len(names) + 1)))
 
 
-def _is_alike(found: Claim | None, claim: Claim) -> bool:
+def _is_alike(found: ParsedContour | None, claim: ParsedContour) -> bool:
     """Whether the rules see the same form in the same circumstances."""
     return found is not None and found.form is claim.form and found.circumstances == claim.circumstances
 
 
-def _read_without(words: _Combination, names: frozenset[str]) -> Claim | None:
+def _read_without(words: _Combination, names: frozenset[str]) -> ParsedContour | None:
     """The same blocks without some words; None if they are not one contour any more."""
     claim, dialect = words.claim, words.dialect
     dropped = {word.span for name in names for word in words_of(claim, name)}
@@ -168,4 +168,4 @@ def _read_without(words: _Combination, names: frozenset[str]) -> Claim | None:
         replace(block, words=tuple(word for word in block.words if word.span not in dropped)) for block in claim.blocks
     ]
     found = dialect.find(blocks, 0, claim.before, dialect.modes)
-    return found if isinstance(found, Claim) and len(found.blocks) == len(blocks) else None
+    return found if isinstance(found, ParsedContour) and len(found.blocks) == len(blocks) else None

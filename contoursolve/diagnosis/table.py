@@ -6,12 +6,12 @@ from itertools import combinations
 
 from msgspec import Struct
 
-from contoursolve.analysis import judge
+from contoursolve.analysis import analyse
 from contoursolve.diagnosis.wording import unknowns_text
 from contoursolve.diagnostics.finding import Severity
 from contoursolve.gcode import parse
 from contoursolve.geometry import Corner, Length, Profile, assemble
-from contoursolve.reading import Claim, Form, Sample, advance, read
+from contoursolve.reading import ContourForm, ParsedContour, Sample, advance, read
 from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.rules import check
 from contoursolve.solving import is_closed, points_with_two_solutions
@@ -49,7 +49,7 @@ class Row(Struct, frozen=True):
         return f"{words} | {legality} | {determinacy}"
 
 
-def tabulate(form: Form, dialect: Dialect) -> Iterator[Row]:
+def tabulate(form: ContourForm, dialect: Dialect) -> Iterator[Row]:
     """One row for every set of the optional words of a form's sample, smallest sets first."""
     sample = _sample(form)
     texts = [word for block in sample.blocks for word in _OPTIONAL.findall(block)]
@@ -58,7 +58,7 @@ def tabulate(form: Form, dialect: Dialect) -> Iterator[Row]:
             yield _row(form, dialect, frozenset(chosen))
 
 
-def _row(form: Form, dialect: Dialect, chosen: frozenset[str]) -> Row:
+def _row(form: ContourForm, dialect: Dialect, chosen: frozenset[str]) -> Row:
     sample = _sample(form)
     lines = [_OPTIONAL.sub(lambda word: word[1] if word[1] in chosen else "", block) for block in sample.blocks]
     state = advance(dialect.initial_state(Length.MM), parse(sample.before).blocks[0], dialect.modes)
@@ -66,13 +66,13 @@ def _row(form: Form, dialect: Dialect, chosen: frozenset[str]) -> Row:
     claim = dialect.find(blocks, 0, state, dialect.modes)
     words = [(number, word) for number, block in enumerate(blocks, 1) for word in block.words if word.address != "G"]
     addresses = tuple(f"{number}:" * (len(blocks) > 1) + word.address for number, word in words)
-    if not isinstance(claim, Claim) or claim.form is not form:
-        other = claim.form.name if isinstance(claim, Claim) else "nothing"
+    if not isinstance(claim, ParsedContour) or claim.form is not form:
+        other = claim.form.name if isinstance(claim, ParsedContour) else "nothing"
         return Row(addresses, (), (), (), (), "", other)
     offences = check(dialect.rules, form.roles, claim.stated())
     ignored = tuple(offence.rule.ignores for offence in offences if offence.rule.ignores)
     profile = read(claim, frozenset(ignored))
-    verdict = judge(assemble(profile))
+    verdict = analyse(assemble(profile))
     refusing = [offence.rule for offence in offences if not offence.rule.ignores]
     return Row(
         addresses=addresses,
@@ -84,7 +84,7 @@ def _row(form: Form, dialect: Dialect, chosen: frozenset[str]) -> Row:
     )
 
 
-def _sample(form: Form) -> Sample:
+def _sample(form: ContourForm) -> Sample:
     if form.sample is None:
         raise ValueError(f"the form {form.name} has no sample")
     return form.sample
@@ -93,7 +93,7 @@ def _sample(form: Form) -> Sample:
 def _faults(profile: Profile) -> Iterator[str]:
     """What keeps the facts from determining one contour."""
     system = assemble(profile)
-    verdict = judge(system)
+    verdict = analyse(system)
     if verdict.free:
         yield f"free: {unknowns_text(verdict.free, profile)}"
     # A circle may have more points than it needs; what counts is what words say.

@@ -16,7 +16,7 @@ from contoursolve.diagnostics.finding import Severity
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import FACT, Word, lookalike_at, mended
 from contoursolve.geometry import CornerShape, Unit
-from contoursolve.reading import Claim, Effect, Modes, Trouble, WithoutPoint
+from contoursolve.reading import Effect, Modes, ParsedContour, ReadIssue, WithoutPoint
 
 _WORD = re.compile(r"(?P<address>,?[ \t]*[A-Za-z])[ \t]*(?P<sign>[+-]?)(?P<number>\d+\.?\d*|\.\d+)", re.ASCII)
 _DECIMALS = 3
@@ -35,7 +35,7 @@ _NEAR = dict(zip("1234567890", ("2", "13", "24", "35", "46", "57", "68", "79", "
 class Typed(Struct, frozen=True):
     """A word as it was typed, in parts, and the contour that it stands in."""
 
-    claim: Claim | None
+    claim: ParsedContour | None
     word: Word
     address: str
     sign: str
@@ -114,7 +114,7 @@ def _neighbour(typed: Typed) -> Iterator[str]:
             yield f"{address}{typed.sign}{typed.number}"
 
 
-def _shapes(claim: Claim) -> dict[str, CornerShape]:
+def _shapes(claim: ParsedContour) -> dict[str, CornerShape]:
     """The addresses that give corners a size, each with its shape."""
     shapes = {name: shape for row in claim.form.corners for name, shape in row.shapes.items()}
     return {claim.vocabulary[name][0]: shape for name, shape in shapes.items() if name in claim.vocabulary}
@@ -203,7 +203,7 @@ CODE = Slip("", lambda _: iter(()), is_of_digits=False, is_of_numbers=False)
 SLIPS = (*FEW, CODE, *OF_DIGITS, ROUND)
 
 
-def texts_of(slip: Slip, word: Word, claim: Claim) -> Iterator[str]:
+def texts_of(slip: Slip, word: Word, claim: ParsedContour) -> Iterator[str]:
     """What a word may have been meant to be if a slip happened to it."""
     typed = _typed(word, claim)
     if typed is None or (slip.is_of_digits and _is_sign(word, claim)):
@@ -238,7 +238,7 @@ def other_codes(answer: Answer, modes: Modes) -> Iterator[tuple[Edit, ...]]:
     yield from ((change(word, text),) for word in words for text in mistyped_codes(word, modes))
 
 
-def recognise(edit: Edit, claim: Claim) -> Slip | None:
+def recognise(edit: Edit, claim: ParsedContour) -> Slip | None:
     """The most plausible slip that explains a change of a word; None if no slip does."""
     if edit.kind is not EditKind.CHANGE or edit.span is None or edit.address == FACT:
         return None
@@ -250,7 +250,7 @@ def recognise(edit: Edit, claim: Claim) -> Slip | None:
     return next((slip for slip in SLIPS if edit.text in texts_of(slip, word, claim)), None)
 
 
-def explained(word: Word, value: float, claim: Claim) -> Iterator[str]:
+def explained(word: Word, value: float, claim: ParsedContour) -> Iterator[str]:
     """What a word may have been meant to be with about this value, mm (radius) or degrees."""
     unit = claim.after.unit
     for slip in SLIPS:
@@ -318,13 +318,13 @@ def point_slips(answer: Answer) -> Iterator[tuple[Edit, ...]]:
     """Points in the words that are said to lack one: in all of them, then in each."""
     yield from missing_points(answer)
     lacking = {
-        label.span for each in answer.diagnostics if each.about is Trouble.POINT_MISSING for label in each.labels
+        label.span for each in answer.diagnostics if each.about is ReadIssue.POINT_MISSING for label in each.labels
     }
     words = [word for word in answer.claim.words.values() if word.span in lacking]
     yield from slips(answer, (POINT_LOST,), words)
 
 
-def _typed(word: Word, claim: Claim) -> Typed | None:
+def _typed(word: Word, claim: ParsedContour) -> Typed | None:
     match = _WORD.fullmatch(word.text.strip())
     return None if match is None else Typed(claim, word, match["address"], match["sign"], match["number"])
 
@@ -336,15 +336,15 @@ def _says_the_same(text: str, typed: str) -> bool:
     )
 
 
-def _is_known(address: str, claim: Claim) -> bool:
+def _is_known(address: str, claim: ParsedContour) -> bool:
     name = address.replace(" ", "").upper()
     return name in claim.lexicon.addresses and name in claim.form.allowed
 
 
-def _is_sign(word: Word, claim: Claim) -> bool:
+def _is_sign(word: Word, claim: ParsedContour) -> bool:
     return _unit(word, claim) is Unit.SIGN
 
 
-def _unit(word: Word, claim: Claim) -> Unit | None:
+def _unit(word: Word, claim: ParsedContour) -> Unit | None:
     row = claim.lexicon.addresses.get(word.address)
     return row.unit if row else None

@@ -7,7 +7,7 @@ import numpy
 from msgspec import Struct
 from numpy.typing import NDArray
 
-from contoursolve.analysis import judge
+from contoursolve.analysis import analyse
 from contoursolve.families.case_classes import CaseClass, asked_of
 from contoursolve.families.row_boxes import Place, RowBoxes
 from contoursolve.families.spec import Places, stretches
@@ -27,7 +27,7 @@ from contoursolve.solving.checks import (
     check_residuals,
 )
 from contoursolve.solving.compile import compile_path
-from contoursolve.solving.row_outcome import Code, Verdict, code_of, reason_of
+from contoursolve.solving.row_outcome import Code, RowOutcome, code_of, reason_of
 from contoursolve.solving.step_equations import Kernel, make_kernel
 from contoursolve.tolerance import LENGTH
 
@@ -77,7 +77,7 @@ class BranchRows:
     def __init__(self, case: CaseClass) -> None:
         self.case = case
         self.system: System = case.system
-        basis = judge(self.system).basis
+        basis = analyse(self.system).basis
         facts = [self.system.facts[index] for index in basis]
         facts += [fact for index, fact in enumerate(self.system.facts) if index not in basis]
         self.boxes = RowBoxes(case)
@@ -196,7 +196,7 @@ class BranchRows:
         known = {name: each if each.size == 1 else each[pairs.rows] for name, each in given.items()} | {**pairs.signs}
         scalars, is_bad = self._follow(pairs, known)
         size = pairs.rows.size
-        verdict = Verdict(self.checks, _run(self.function, {**known, **scalars}, size), size)
+        verdict = RowOutcome(self.checks, _run(self.function, {**known, **scalars}, size), size)
         status, reason = verdict.status, verdict.reason
         settled.again |= count(is_bad | verdict.again | (reason == reason_of(RefusalKind.NOT_VERIFIED))) > 0
         status[(status == Code.OVERDETERMINED) & (reason != 0)] = Code.NO_SOLUTION

@@ -12,7 +12,7 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
-from contoursolve.analysis import judge
+from contoursolve.analysis import analyse
 from contoursolve.diagnosis.examine import MOST_CHOICES, Answer, count_choices
 from contoursolve.diagnosis.wording import join
 from contoursolve.diagnostics.finding import Basis
@@ -23,8 +23,8 @@ from contoursolve.geometry import FIRST, SECOND, CornerShape, Profile, Question,
 from contoursolve.numeric.charts import Following
 from contoursolve.numeric.columns import Array, difference, directions
 from contoursolve.numeric.inputs import COSINE, SINE
-from contoursolve.reading import Trouble
-from contoursolve.solving import RemarkKind, Solution, Status, is_closed, points_with_two_solutions
+from contoursolve.reading import ReadIssue
+from contoursolve.solving import NoteKind, Solution, Status, is_closed, points_with_two_solutions
 from contoursolve.solving.checks import Check, compile_checks
 from contoursolve.solving.compile import Machine, compile_system
 from contoursolve.solving.numbers import axes_of, inputs_of
@@ -194,7 +194,7 @@ class CaseClass(Struct, frozen=True, eq=False):
         if not self.is_closed:
             return settle(profile).solution
         solution = solve(profile, is_proven=False)
-        touches = any(remark.kind is RemarkKind.TOUCHES for remark in solution.remarks)
+        touches = any(remark.kind is NoteKind.TOUCHES for remark in solution.remarks)
         if not touches or count_choices(profile) > MOST_CHOICES:
             return solution
         return settle(profile).solution
@@ -288,9 +288,9 @@ def _verdict(answer: Answer) -> Status | None:
     errors = errors_of(answer)
     is_refused = any(each.basis is Basis.RULE for each in errors)
     system = assemble(answer.profile)
-    is_loose = not judge(system).is_determined
+    is_loose = not analyse(system).is_determined
     is_structural = is_loose or any(
-        each.basis is Basis.STRUCTURAL or each.about is Trouble.CORNER_NEGATIVE for each in errors
+        each.basis is Basis.STRUCTURAL or each.about is ReadIssue.CORNER_NEGATIVE for each in errors
     )
     if not is_refused and not is_structural:
         return None
@@ -416,7 +416,7 @@ def fill_row(case: CaseClass, values: Mapping[str, float], row: int, table: Resu
     for name, pair in pairs.items():
         for letter, value in zip(letters, pair, strict=True):
             table[f"{name}.{letter}"][row] = value
-    touching = {remark.subject for remark in solution.remarks if remark.kind is RemarkKind.TOUCHES}
+    touching = {remark.subject for remark in solution.remarks if remark.kind is NoteKind.TOUCHES}
     for point, side in sides_of_choice(case).items():
         table[f"branch.{point}"][row] = 0 if point in touching else side
 

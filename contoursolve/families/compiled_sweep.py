@@ -35,7 +35,7 @@ from contoursolve.numeric.columns import ROWS, Array, ColumnFunction, Columns, c
 from contoursolve.numeric.expressions import where
 from contoursolve.solving import RefusalKind
 from contoursolve.solving.checks import NO_PLACE, compile_checks
-from contoursolve.solving.row_outcome import Code, Verdict, code_of, reason_of
+from contoursolve.solving.row_outcome import Code, RowOutcome, code_of, reason_of
 
 Table = dict[str, NDArray[Any]]
 Target = slice | Places
@@ -151,7 +151,7 @@ class _ClassRows:
         if not isinstance(target, slice):
             for output, name in names.items():
                 table[name][target] = out[output]
-        verdict = Verdict(self.case.checks, out, rows)
+        verdict = RowOutcome(self.case.checks, out, rows)
         self._note(verdict.is_clear, verdict.status, verdict.reason, target, table)
         again = numpy.flatnonzero(verdict.again)
         at = again + target.start if isinstance(target, slice) else target[again]
@@ -186,7 +186,7 @@ class _ClassRows:
         for signs in product((1.0, -1.0), repeat=len(sides)):
             function.fix(sides, signs)
             out = function.evaluate(rows)
-            verdict = Verdict(self.case.checks, out, rows)
+            verdict = RowOutcome(self.case.checks, out, rows)
             is_path = verdict.is_clear
             again |= verdict.again
             for _, is_one in half_circles(self.case, out):

@@ -16,7 +16,7 @@ from contoursolve.families.free_words import check_block
 from contoursolve.families.range_pieces import Onset, RangePiece, RangeSearch
 from contoursolve.families.spec import BlockOptions, called, errors_of, first_error, spec_of
 from contoursolve.geometry import Line
-from contoursolve.solving import RefusalKind, RemarkKind
+from contoursolve.solving import NoteKind, RefusalKind
 from contoursolve.solving.checks import Check
 
 ASIDE = (1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4)
@@ -201,7 +201,7 @@ def _reason(
     beyond = "at" if near[0].is_value else "above" if way > 0 else "below"
     there = outside if outside is not None else (near[0].low + near[0].high) / 2
     failure, event = failure_of(search.answer_at(there))
-    if event is RemarkKind.SEVERAL:
+    if event is NoteKind.SEVERAL:
         # Another solution becomes a contour, too.
         return replace(failure, text=f"{failure.message}: {limit}"), False
     kind = event if isinstance(event, RefusalKind) else None

@@ -28,7 +28,7 @@ from contoursolve.families.spec import (
 from contoursolve.gcode import FACT, Word
 from contoursolve.geometry import Given, Profile, Unit
 from contoursolve.numeric.columns import Array
-from contoursolve.reading import Trouble
+from contoursolve.reading import ReadIssue
 from contoursolve.reading.rules import Value
 from contoursolve.solving import Status
 from contoursolve.solving.row_outcome import Codes
@@ -47,7 +47,7 @@ def value_of(word: Word, answer: Answer) -> float:
 def kind_of(word: Word, answer: Answer) -> tuple[Unit, bool]:
     """What a word of a block or of the start point, or a fact, states, and whether it is a diameter. Raises FamilyError
     where nothing tells, or a fact cannot be read."""
-    unread = next((each for each in answer.diagnostics if each.about is Trouble.FACT_UNREADABLE), None)
+    unread = next((each for each in answer.diagnostics if each.about is ReadIssue.FACT_UNREADABLE), None)
     if unread is not None:
         raise FamilyError(unread.message)
     row = answer.claim.lexicon.addresses.get(word.address) or next(iter(stated_by(word, answer.profile)), None)
@@ -219,7 +219,7 @@ def _weight(refusals: Refusals) -> tuple[int, int]:
     return len(refusals), sum(len(words) for _, _, words in refusals)
 
 
-_USELESS = (Trouble.FACT_UNREADABLE, Trouble.FACT_IMPOSSIBLE)
+_USELESS = (ReadIssue.FACT_UNREADABLE, ReadIssue.FACT_IMPOSSIBLE)
 """Findings about facts that cannot be used, whatever they rest on."""
 
 

@@ -8,7 +8,7 @@ from typing import Unpack
 import numpy
 from msgspec import Struct
 
-from contoursolve.analysis import judge
+from contoursolve.analysis import analyse
 from contoursolve.diagnosis.edits import write_word
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.wording import join, value_text
@@ -177,7 +177,7 @@ def _moved_by(answer: Answer, goal: Goal, error: NotMovedError) -> str:
 def _check_open(answer: Answer) -> None:
     """Raise FamilyError where further facts cannot be used, or leave something open, whatever the values."""
     if answer.profile.is_extended and answer.contour is None:
-        is_open = not judge(assemble(answer.profile)).is_determined
+        is_open = not analyse(assemble(answer.profile)).is_determined
         error = first_error(answer)
         if error and (is_open or answer.status is Status.REJECTED):
             raise FamilyError(error)

@@ -21,7 +21,7 @@ from contoursolve.families.spec import BlockOptions, FamilyError, Template, call
 from contoursolve.families.subdivision import bisect
 from contoursolve.geometry import Unit
 from contoursolve.numeric.intervals import Array
-from contoursolve.solving import RefusalKind, RemarkKind
+from contoursolve.solving import NoteKind, RefusalKind
 from contoursolve.tolerance import LENGTH
 
 Point = tuple[float, float]
@@ -213,7 +213,7 @@ class _RegionSearch(FreeWords):
     def _reason(self, field: Field, case: CaseClass, number: int, there: Point, *, is_gap: bool) -> Reason:
         """What fails beyond a line, at values there."""
         failure, event = failure_of(self.answer_at(*there)) if not is_gap else NO_FAILURE
-        if event is RemarkKind.SEVERAL:
+        if event is NoteKind.SEVERAL:
             return failure
         check, checks, refusal = field.checks[number], field.checks, event if isinstance(event, RefusalKind) else None
         if refusal is not None and not same(check.kind, refusal):

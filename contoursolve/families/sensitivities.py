@@ -12,7 +12,7 @@ from typing import Unpack
 import numpy
 from msgspec import Struct
 
-from contoursolve.analysis import judge
+from contoursolve.analysis import analyse
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnostics.display import Shown
 from contoursolve.families.case_classes import CaseClass, case_in, half_circles, results_of
@@ -24,7 +24,7 @@ from contoursolve.numeric.angle import direction
 from contoursolve.numeric.expressions import Compiled, Tape
 from contoursolve.numeric.inputs import COSINE, SIDE, SINE, lookup
 from contoursolve.numeric.intervals import Array
-from contoursolve.solving import RemarkKind, Solution, Status
+from contoursolve.solving import NoteKind, Solution, Status
 from contoursolve.solving.compile import compile_path
 from contoursolve.tolerance import RESIDUAL
 
@@ -265,7 +265,7 @@ def _compile(system: System) -> tuple[Tape, Compiled]:
     for name in system.unknowns:
         tape.input(name)
     at = lookup(system, tape, {})
-    basis = [system.facts[index] for index in judge(system).basis]
+    basis = [system.facts[index] for index in analyse(system).basis]
     for row, fact in enumerate(basis):
         tape.output(f"{row}", fact.residual(at))
     return tape, tape.slopes([f"{row}" for row in range(len(basis))], tape.inputs)
@@ -301,7 +301,7 @@ def _check(solution: Solution | None, answer: Answer) -> None:
         raise FamilyError(
             f"{_UNSOLVED[status]}{f': {error}' if error else ''}; only a contour that is solved has derivatives"
         )
-    if any(remark.kind in (RemarkKind.TOUCHES, RemarkKind.DOUBLE) for remark in solution.remarks):
+    if any(remark.kind in (NoteKind.TOUCHES, NoteKind.DOUBLE) for remark in solution.remarks):
         raise FamilyError("two solutions have become one, so that no derivative exists")
 
 

@@ -23,7 +23,7 @@ from contoursolve.geometry import Length
 from contoursolve.numeric.columns import Array
 from contoursolve.program.pipeline import Result, run
 from contoursolve.program.recognise import UnknownControlError, choose
-from contoursolve.reading import Trouble
+from contoursolve.reading import ReadIssue
 from contoursolve.reading.dialect import Dialect
 from contoursolve.tolerance import LARGEST
 
@@ -375,7 +375,7 @@ class SweepSpec(Struct, frozen=True):
         dialect = choose(self.control, program, dict(self.settings))
         if dialect is None:
             unread = run(program, None, unit, policy, start=start)
-            if any(each.about is not Trouble.NO_CONTOUR for each in errors_of(unread)):
+            if any(each.about is not ReadIssue.NO_CONTOUR for each in errors_of(unread)):
                 raise RefusedError(unread)
             choices = ", ".join(DIALECTS)
             raise UnknownControlError(f"the block does not tell its control; name it; choose from {choices}")

@@ -22,7 +22,7 @@ from contoursolve.families.subdivision import SAMPLES, SECTIONS, Fineness, bisec
 from contoursolve.gcode import Word, read_directive
 from contoursolve.geometry import Figure, Length, Plane, Unit
 from contoursolve.numeric.intervals import Array, Intervals
-from contoursolve.reading import Lexicon, Trouble, WithoutPoint
+from contoursolve.reading import Lexicon, ReadIssue, WithoutPoint
 from contoursolve.solving import Point, Status
 from contoursolve.solving.contour import Contour
 
@@ -263,7 +263,7 @@ def asked_values(template: Template, word: str, goal: Goal, answer: Answer) -> t
     return list(_values(result.answers[0], typed)), list(_doubts(result.answers[0]))
 
 
-_UNREAD = (Trouble.FACT_UNREADABLE, Trouble.FACT_IMPOSSIBLE)
+_UNREAD = (ReadIssue.FACT_UNREADABLE, ReadIssue.FACT_IMPOSSIBLE)
 
 
 def _values(found: Answer, typed: Word) -> Iterator[float]:

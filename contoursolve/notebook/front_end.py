@@ -18,7 +18,7 @@ from contoursolve.output.findings import effect_of, finding_pieces
 from contoursolve.output.html import bounded, short, worst_of
 from contoursolve.output.listing import sources_of
 from contoursolve.pictures import Theme, draw_answer
-from contoursolve.reading import Trouble
+from contoursolve.reading import ReadIssue
 
 MOST_FINDINGS, MOST_FIXES, MOST_SOLUTIONS = 12, 8, 24
 
@@ -192,7 +192,7 @@ def _frame(exploration: Exploration, word: Word) -> str:
 def range_of(exploration: Exploration, field: Mapping[str, Any]) -> Data:
     """The ranges of the word of a field, and the ends that its slider needs to show them; nothing for a word of which
     no range can be told."""
-    if any(finding.about is Trouble.UNDERDETERMINED for finding in exploration.result.diagnostics):
+    if any(finding.about is ReadIssue.UNDERDETERMINED for finding in exploration.result.diagnostics):
         return {}  # whatever this word says, others are missing
     low, high = field["low"], field["high"]
     within = (low - (high - low) / 2, high + (high - low) / 2) if field["unit"] == "deg" else None

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from contoursolve.analysis import Group, judge, order
+from contoursolve.analysis import Group, analyse, order
 from contoursolve.diagnosis.examine import Answer, list_alternatives
 from contoursolve.diagnosis.wording import angle_text, join, length_text, unknowns_text
 from contoursolve.gcode import FACT
@@ -35,7 +35,7 @@ def construction_lines(answer: Answer) -> list[str]:
     if not profile.start.is_known:
         return ["  construction: the start point is not known"]
     system = assemble(profile)
-    verdict = judge(system)
+    verdict = analyse(system)
     if not verdict.is_determined:
         return [f"  construction: nothing determines {unknowns_text(verdict.free, profile)}"]
     groups = order(system, tuple(system.facts[index] for index in verdict.basis))

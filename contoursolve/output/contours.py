@@ -13,7 +13,7 @@ from contoursolve.gcode import FACT, Word
 from contoursolve.geometry import Length, Turn, Unit
 from contoursolve.output.plain_text import Table, columns, printable
 from contoursolve.program.pipeline import Result
-from contoursolve.reading import Convention, Form
+from contoursolve.reading import ContourForm, Convention
 from contoursolve.solving.contour import ArcSegment
 
 _VERDICT = {Verdict.PASSED: "passed", Verdict.FOUND: "see finding", Verdict.NOT_RUN: "not run"}
@@ -162,7 +162,7 @@ def given_table(answer: Answer) -> Table:
     return Table("What was given", ("word", "value", "unit", "meaning"), rows, left=(0, 2, 3))
 
 
-def _meaning(name: str, word: Word, answer: Answer, form: Form) -> str:
+def _meaning(name: str, word: Word, answer: Answer, form: ContourForm) -> str:
     row = answer.claim.lexicon.addresses.get(word.address)
     return form.meanings.get(name) or (row.meaning if row else "")
 

@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping
 from contoursolve.diagnostics.finding import Applicability, Diagnostic, Fix, Label
 from contoursolve.gcode import FaultKind
 from contoursolve.output.plain_text import cells, printable
-from contoursolve.reading import Trouble
+from contoursolve.reading import ReadIssue
 
 WIDTH = 100
 """Characters of a program line shown around the place."""
@@ -25,7 +25,7 @@ def effect_of(fix: Fix, finding: Diagnostic) -> str:
     """What applying a fix does, in words; what could not be read was no contour that it could change."""
     if fix.effect:
         return fix.effect
-    is_unread = isinstance(finding.about, FaultKind) or finding.about is Trouble.UNKNOWN_ADDRESS
+    is_unread = isinstance(finding.about, FaultKind) or finding.about is ReadIssue.UNKNOWN_ADDRESS
     if is_unread and fix.applicability is Applicability.CHANGES_CONTOUR:
         return "makes it readable"
     return APPLICABILITY[fix.applicability]

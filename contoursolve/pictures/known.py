@@ -11,7 +11,7 @@ from math import hypot, isfinite
 from msgspec import Struct, field
 from msgspec.structs import replace
 
-from contoursolve.analysis import judge
+from contoursolve.analysis import analyse
 from contoursolve.analysis.identities import is_affine
 from contoursolve.geometry import (
     FIRST,
@@ -124,7 +124,7 @@ def in_part(profile: Profile) -> Known:
     centres through known points."""
     system = assemble(profile)
     figure = system.figure
-    basis = [system.facts[index] for index in judge(system).basis]
+    basis = [system.facts[index] for index in analyse(system).basis]
     plain = [fact for fact in basis if is_affine([fact])]
     affine = affine_facts(with_facts(profile, plain), plain) if plain else None
     values = {name: value for name, value in affine.fixed_by(plain).items() if is_usable(value)} if affine else {}
@@ -171,7 +171,7 @@ def complete(profile: Profile, singular: Sequence[str] = ()) -> Known:
     """A contour with what its words leave free put somewhere, so that the control would make it if that can be;
     `singular` is what they leave free at their values only."""
     known = in_part(profile)
-    free = judge(assemble(profile)).free
+    free = analyse(assemble(profile)).free
     if len(free) > MOST_FREE:
         return known
     size = _drawing_size(profile)
@@ -203,7 +203,7 @@ def _completions(
     """The profile with further facts that determine it, and the points that these are about."""
     names = [name for name in singular if _is_placeable(name, profile)]
     extended, moves = _with(profile, dict.fromkeys(names, 0.0)), _moves(profile)
-    while free := judge(assemble(extended)).free:
+    while free := analyse(assemble(extended)).free:
         open_ = [
             name for name in free if name not in names and name not in known.scalars and _is_placeable(name, profile)
         ]

@@ -10,7 +10,7 @@ from math import inf, isfinite
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.analysis import judge
+from contoursolve.analysis import analyse
 from contoursolve.diagnosis.examine import MOST_CHOICES, Answer, count_choices
 from contoursolve.diagnostics.finding import Diagnostic, Severity
 from contoursolve.diagnostics.source import Span
@@ -43,8 +43,8 @@ from contoursolve.pictures.known import (
 from contoursolve.pictures.scene import Trail, word_text
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import SAME, distance
-from contoursolve.reading import Trouble
-from contoursolve.solving import Point, Refusal, RefusalKind, RemarkKind, is_closed, points_with_two_solutions, solve
+from contoursolve.reading import ReadIssue
+from contoursolve.solving import NoteKind, Point, Refusal, RefusalKind, is_closed, points_with_two_solutions, solve
 from contoursolve.solving.ambiguity import said_twice
 from contoursolve.solving.compile import compile_system
 from contoursolve.solving.contour import ArcSegment, LineSegment, Segment
@@ -143,13 +143,13 @@ def _roles(answer: Answer, blamed: frozenset[Span]) -> dict[str, Role]:
 
 def _blamed(answer: Answer) -> Iterator[Span]:
     """The words and facts that errors are about; not those beside which a word is missing."""
-    is_short = any(finding.about is Trouble.UNDERDETERMINED for finding in answer.diagnostics)
+    is_short = any(finding.about is ReadIssue.UNDERDETERMINED for finding in answer.diagnostics)
     claim = answer.claim
     words = {word.span: word.address for word in (*claim.words.values(), *claim.unknown, *claim.repeated)}
     words |= {directive.span: FACT for directive in claim.directives}
     for finding in answer.diagnostics:
         is_refusal = isinstance(finding.about, RefusalKind)
-        if finding.severity is not Severity.ERROR or isinstance(finding.about, RemarkKind):
+        if finding.severity is not Severity.ERROR or isinstance(finding.about, NoteKind):
             continue
         if is_refusal or not (is_short and _misses_words(finding, answer)):
             spans = (label.span for label in finding.labels if label.span in words)
@@ -181,7 +181,7 @@ def find_known(answer: Answer) -> Known:
             solution = solve(profile, is_proven=False) if is_closed(system) else None
         if solution is not None and solution.points:
             return known_of(solution)
-    verdict = judge(system)
+    verdict = analyse(system)
     if profile.is_extended:
         # Of several solutions, among which nothing chooses, the first.
         first = next((item.solution for item in items if item.is_path), None)

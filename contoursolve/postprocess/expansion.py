@@ -21,7 +21,7 @@ from contoursolve.program.batch import Batch
 from contoursolve.program.lines import Lines
 from contoursolve.program.pipeline import attach, walk
 from contoursolve.program.solve_queue import Step
-from contoursolve.reading import State, Trouble, apply_modes, motion_of, words_of
+from contoursolve.reading import ReadIssue, State, apply_modes, motion_of, words_of
 from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.follow import blocks_of
 from contoursolve.reading.modal_dependence import (
@@ -45,7 +45,7 @@ _NAMES = tuple(f"G{code:02}" for code in range(4))
 """The codes of motions as they are written."""
 
 
-_TOLD = (Trouble.TEXT_OUTSIDE, Trouble.LETTER_FOR_DIGIT, Trouble.CODE_MISTYPED, Trouble.COMMA_MISSING)
+_TOLD = (ReadIssue.TEXT_OUTSIDE, ReadIssue.LETTER_FOR_DIGIT, ReadIssue.CODE_MISTYPED, ReadIssue.COMMA_MISSING)
 """What is told about lines that stay: they may be cut in another way than they are meant."""
 
 

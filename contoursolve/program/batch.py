@@ -13,7 +13,7 @@ from contoursolve.diagnosis.missing_point import is_counted_start, without_point
 from contoursolve.gcode import Word
 from contoursolve.geometry import Length, Line, Profile, System, assemble
 from contoursolve.numeric.expressions import Compiled, inverse_norms
-from contoursolve.reading import Claim, Form, WithoutPoint
+from contoursolve.reading import ContourForm, ParsedContour, WithoutPoint
 from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.rules import Rule, is_refused_by_values
 from contoursolve.solving import Status
@@ -23,7 +23,7 @@ from contoursolve.solving.compile import Machine, compile_system
 from contoursolve.solving.contour import trace
 from contoursolve.solving.numbers import inputs_of, sizes_of, solution_at
 from contoursolve.solving.plan import LineCircleStep, TwoCirclesStep
-from contoursolve.solving.row_outcome import Code, Verdict
+from contoursolve.solving.row_outcome import Code, RowOutcome
 from contoursolve.solving.solution import Proof, up_to_one_digit
 from contoursolve.solving.solve import ROUNDING
 from contoursolve.tolerance import AGREEMENT, ERROR_BOUND_WARNING, LARGEST, LENGTH, TOUCHING
@@ -72,7 +72,7 @@ class Batch(Struct):
         """The rules of the control."""
         return self.dialect.rules
 
-    def solve(self, claims: Sequence[Claim], examine: Sequence[Callable[[], Answer]]) -> list[Answer]:
+    def solve(self, claims: Sequence[ParsedContour], examine: Sequence[Callable[[], Answer]]) -> list[Answer]:
         """The answers to contours whose start is known; `examine` gives that to each of them."""
         answers: dict[int, Answer] = {}
         groups: dict[Hashable, list[int]] = {}
@@ -103,7 +103,7 @@ class Batch(Struct):
             kind = Kind(answer, system, machine, checked.checks, checked.tape.finish(), tuple(wanted))
             self.kinds.setdefault(key, kind)
 
-    def _key(self, claim: Claim) -> Hashable:
+    def _key(self, claim: ParsedContour) -> Hashable:
         """What contours of one kind have in common; None where more than the words and their values counts."""
         if claim.unknown or claim.repeated:
             return None
@@ -143,7 +143,7 @@ class Batch(Struct):
             *sharp,
         )
 
-    def _lacks_points(self, claim: Claim) -> bool:
+    def _lacks_points(self, claim: ParsedContour) -> bool:
         """Whether there is something to say of numbers without points."""
         for given in claim.givens.values():
             if given.word is not None and not given.word.has_point:
@@ -151,14 +151,14 @@ class Batch(Struct):
         return False
 
     @staticmethod
-    def _is_large(word: Word, claim: Claim) -> bool:
+    def _is_large(word: Word, claim: ParsedContour) -> bool:
         """Whether a number is larger than any control travels."""
         if word.address not in claim.lexicon.addresses:
             return False
         value = claim.lexicon.value(word, claim.after.unit)
         return value is None or abs(value) > LARGEST
 
-    def _solve(self, kind: Kind, claims: Sequence[Claim]) -> list[Answer | None]:
+    def _solve(self, kind: Kind, claims: Sequence[ParsedContour]) -> list[Answer | None]:
         """The answers to contours of a kind, as far as nothing speaks against them."""
         profiles = [_profile_of(claim, kind.answer.profile) for claim in claims]
         found = _evaluate(kind, [inputs_of(profile, kind.system) for profile in profiles])
@@ -168,7 +168,7 @@ class Batch(Struct):
         ]
 
     def _answer(
-        self, kind: Kind, claim: Claim, profile: Profile, out: Mapping[str, float], bound: float
+        self, kind: Kind, claim: ParsedContour, profile: Profile, out: Mapping[str, float], bound: float
     ) -> Answer | None:
         like, bound = kind.answer, up_to_one_digit(bound)
         certificate = certify(profile, kind.system, out, bound) if self.is_proven else None
@@ -194,7 +194,7 @@ class Batch(Struct):
         )
 
 
-def _profile_of(claim: Claim, like: Profile) -> Profile:
+def _profile_of(claim: ParsedContour, like: Profile) -> Profile:
     """The profile of a claim that differs from another one in its values alone."""
     return Profile(
         form=like.form,
@@ -210,7 +210,7 @@ def _profile_of(claim: Claim, like: Profile) -> Profile:
 
 
 @lru_cache(maxsize=4096)
-def _sizes(form: Form) -> tuple[str, ...]:
+def _sizes(form: ContourForm) -> tuple[str, ...]:
     """The words that are sizes of corners."""
     return tuple(word for row in form.corners for word in row.shapes)
 
@@ -234,7 +234,7 @@ def _evaluate(kind: Kind, inputs: Sequence[Mapping[str, float]]) -> list[tuple[d
 def _examine(kind: Kind, out: Columns, rows: int) -> tuple[NDArray[numpy.bool_], NDArray[numpy.float64]]:
     """Which rows are solved without anything to say of them, and bounds of the errors of those, mm."""
     figure, plan = kind.system.figure, kind.machine.plan
-    verdict = Verdict(kind.checks, out, rows)
+    verdict = RowOutcome(kind.checks, out, rows)
     plain = (verdict.status == Code.SOLVED) & (verdict.reason == 0) & ~verdict.again
     for element in figure.path:
         if isinstance(element, Line):

@@ -36,7 +36,7 @@ from contoursolve.program.recognise import what_shows
 from contoursolve.program.solve_queue import Pending, Previous, Queue, Step, Together
 from contoursolve.program.stream import Line, View, go_on, pass_plainly
 from contoursolve.program.tape_markers import Marks
-from contoursolve.reading import Claim, State, Trouble, advance, advance_plainly, is_plain, next_place
+from contoursolve.reading import ParsedContour, ReadIssue, State, advance, advance_plainly, is_plain, next_place
 from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.follow import contours_of, state_facts
 
@@ -175,7 +175,7 @@ class Run:
 
 def without_contour(finding: Diagnostic) -> Diagnostic:
     """The finding as `check` reports it: that there is nothing to solve is a warning then."""
-    return replace(finding, severity=Severity.WARNING) if finding.about is Trouble.NO_CONTOUR else finding
+    return replace(finding, severity=Severity.WARNING) if finding.about is ReadIssue.NO_CONTOUR else finding
 
 
 def walk(
@@ -297,7 +297,7 @@ class _Examiner:
             block = view[0]
             found = dialect.find(view, 0, state, dialect.modes)
             after = 1
-            if isinstance(found, Claim):
+            if isinstance(found, ParsedContour):
                 after += found.blocks[-1].line - block.line
             if not is_whole and not (view.says_something(after) and view.holds(after + _BEHIND)):
                 # Whether a contour goes on is known at the next block that says something.
@@ -307,7 +307,7 @@ class _Examiner:
             blocks_of_step = (block,) if after == 1 else tuple(view[:after])
             for each in blocks_of_step:
                 self.diagnostics += self.marks.look(each)
-            if isinstance(found, Claim) and found.form.is_contour:
+            if isinstance(found, ParsedContour) and found.form.is_contour:
                 self._check_units(start, found)
                 step = Step(blocks_of_step, state, findings=self._findings())
                 pending = self.queue.add(found, step, view, after, self.previous)
@@ -317,7 +317,7 @@ class _Examiner:
             else:
                 before = state
                 state = advance(state, block, dialect.modes)
-                if isinstance(found, Claim):
+                if isinstance(found, ParsedContour):
                     # Read as a contour is, but none.
                     answer = self._examine(found, Pending(found, Step((), before), view, after))
                     self.diagnostics += answer.diagnostics if answer.start.is_known else ()
@@ -375,7 +375,7 @@ class _Examiner:
         findings, self.diagnostics = tuple(self.diagnostics), []
         return findings
 
-    def _examine(self, found: Claim, pending: Pending) -> Answer:
+    def _examine(self, found: ParsedContour, pending: Pending) -> Answer:
         """The answer to a contour, with the values that it asks for filled in."""
         dialect, blocks, after, state = self.dialect, pending.view, pending.after, pending.step.before
         if dialect is None:
@@ -388,7 +388,7 @@ class _Examiner:
 
             answer = replace(answer, filled=fill_in(answer, state, dialect))
         # A path across the spindle axis is as the words say it.
-        told = (each for each in answer.diagnostics if each.about is not Trouble.AXIS_CROSSED)
+        told = (each for each in answer.diagnostics if each.about is not ReadIssue.AXIS_CROSSED)
         has_findings = any(each.severity is not Severity.INFO for each in told)
         if has_findings and self.depth is not Depth.VERDICT:
             # Most programs need no diagnosis, and none should wait for its import.
@@ -396,14 +396,14 @@ class _Examiner:
 
             answer = diagnose(answer, dialect, self.policy, blocks[after : after + _BEHIND], pending.previous)
         elif self.depth is not Depth.VERDICT and any(
-            each.about is Trouble.POINT_MISSING for each in answer.diagnostics
+            each.about is ReadIssue.POINT_MISSING for each in answer.diagnostics
         ):
             from contoursolve.diagnosis.diagnose import mend_points  # noqa: PLC0415
 
             answer = mend_points(answer, dialect)
         return answer
 
-    def _check_units(self, start: Program | None, found: Claim) -> None:
+    def _check_units(self, start: Program | None, found: ParsedContour) -> None:
         """Whether a contour is in the units in which the start point was stated apart from the program."""
         if start and found.after.unit is not self.start_unit:
             place = Context(self.rules, self.start_unit, place=start.blocks[0].span)
@@ -418,7 +418,7 @@ class _Examiner:
         others = ((name, what_shows(blocks, each)) for name, each in DIALECTS.items() if own not in (None, name))
         triggers += [f"{sign} is for {name}: try --control {name}" for name, sign in others if sign]
         context = Context(self.rules, self.unit)
-        return report(context, context.row(Trouble.NO_CONTOUR), Basis.RULE, [], triggers="; ".join(triggers))
+        return report(context, context.row(ReadIssue.NO_CONTOUR), Basis.RULE, [], triggers="; ".join(triggers))
 
     def _check_block(self, block: Block) -> None:
         context = Context(self.rules, self.unit, place=block.span)
@@ -428,7 +428,7 @@ class _Examiner:
         self.diagnostics += explain_unmarked(context, block)
         for directive in block.directives:
             place = Context(self.rules, self.unit, place=directive.span)
-            self.diagnostics.append(report(place, place.row(Trouble.FACT_NOWHERE), Basis.RULE, []))
+            self.diagnostics.append(report(place, place.row(ReadIssue.FACT_NOWHERE), Basis.RULE, []))
         self.diagnostics += explain_asked_outside(context, block) if self.dialect else ()
         if self.dialect:
             lexicon = self.dialect.modes.lexicon

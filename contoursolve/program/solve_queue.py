@@ -13,7 +13,7 @@ from contoursolve.diagnosis.wording import join
 from contoursolve.diagnostics.finding import Diagnostic, Severity
 from contoursolve.gcode import Block, Passage
 from contoursolve.program.stream import View
-from contoursolve.reading import Awaited, Claim, Modes, Position, State, Trouble, leave
+from contoursolve.reading import Awaited, Modes, ParsedContour, Position, ReadIssue, State, leave
 from contoursolve.reading.dialect import Dialect
 from contoursolve.solving.contour import Contour
 
@@ -36,7 +36,7 @@ class Step(Struct, frozen=True):
 class Together(Protocol):
     """Solves many contours at once."""
 
-    def solve(self, claims: Sequence[Claim], examine: Sequence[Callable[[], Answer]]) -> Sequence[Answer]:
+    def solve(self, claims: Sequence[ParsedContour], examine: Sequence[Callable[[], Answer]]) -> Sequence[Answer]:
         """The answers to contours whose start is known, the same as `examine` gives to each of them."""
 
 
@@ -47,7 +47,9 @@ Previous = tuple[Sequence[Block], State]
 class Pending:
     """A contour that is found and not solved yet, in a state, and what follows it."""
 
-    def __init__(self, contour: Claim, step: Step, view: View, after: int, previous: Previous | None = None) -> None:
+    def __init__(
+        self, contour: ParsedContour, step: Step, view: View, after: int, previous: Previous | None = None
+    ) -> None:
         self.contour, self.step, self.view, self.after, self.previous = contour, step, view, after, previous
         self.wave = max([each.wave for each in step.before.axes.values() if isinstance(each, Awaited)], default=0)
         """How many contours in a row have to be solved before."""
@@ -59,12 +61,14 @@ class Queue:
     """The contours of one program that are pending; `examine` gives the answer to one of them by itself."""
 
     def __init__(
-        self, dialect: Dialect, together: Together | None, examine: Callable[[Claim, Pending], Answer]
+        self, dialect: Dialect, together: Together | None, examine: Callable[[ParsedContour, Pending], Answer]
     ) -> None:
         self.dialect, self.together, self.examine = dialect, together, examine
         self.pending: list[Pending] = []
 
-    def add(self, contour: Claim, step: Step, view: View, after: int, previous: Previous | None = None) -> Pending:
+    def add(
+        self, contour: ParsedContour, step: Step, view: View, after: int, previous: Previous | None = None
+    ) -> Pending:
         """A contour that begins a view and ends before its block `after`; without company, it is solved at once."""
         pending = Pending(contour, step, view, after, previous)
         self.pending.append(pending)
@@ -120,7 +124,7 @@ class Queue:
         return state.move({axis: Awaited(partial(find, axis), pending.wave + 1) for axis in axes})
 
 
-def _after(claim: Claim, modes: Modes, answer: Answer) -> State:
+def _after(claim: ParsedContour, modes: Modes, answer: Answer) -> State:
     """The state that a contour leaves."""
     if answer.contour is not None:
         return leave(claim, answer.contour.end, modes)
@@ -135,9 +139,9 @@ def _after(claim: Claim, modes: Modes, answer: Answer) -> State:
     return leave(claim, None, modes, f"this contour waits for {lines} not solved")
 
 
-def _awaited(claim: Claim, answer: Answer) -> Position | None:
+def _awaited(claim: ParsedContour, answer: Answer) -> Position | None:
     """What made the start of a contour unknown, if nothing else is wrong with it."""
     errors = [each.about for each in answer.diagnostics if each.severity is Severity.ERROR]
     places = [claim.before.axes[axis] for axis in claim.before.plane.axes]
     unknown = [each for each in places if each.value is None and each.span is not None]
-    return unknown[0] if unknown and errors == [Trouble.POSITION_UNKNOWN] else None
+    return unknown[0] if unknown and errors == [ReadIssue.POSITION_UNKNOWN] else None

@@ -9,7 +9,7 @@ from contoursolve.diagnosis.explain import Context, report
 from contoursolve.diagnostics.finding import Basis, Diagnostic
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import Block, Passage
-from contoursolve.reading import Trouble, words_of
+from contoursolve.reading import ReadIssue, words_of
 
 _OUTSIDE_COMMENTS = re.compile(r"\([^)]*\)?|;.*|(?P<mark>%)")
 
@@ -84,7 +84,7 @@ class Marks:
             yield self._outside(self.after, "behind", "ends", self.before[1])
 
     def _outside(self, span: Span, side: str, does: str, line: int) -> Diagnostic:
-        rule, place = self.context.row(Trouble.TEXT_OUTSIDE), replace(self.context, place=span)
+        rule, place = self.context.row(ReadIssue.TEXT_OUTSIDE), replace(self.context, place=span)
         return report(place, rule, Basis.RULE, [], side=side, does=does, mark=f"line {line}")
 
 

@@ -123,7 +123,7 @@ class Sample:
 
 
 @dataclass(frozen=True, slots=True)
-class Form:
+class ContourForm:
     """One way of describing a contour.
 
     `points` and `radii` are unknown as soon as some fact mentions them. `facts` are in order of
@@ -167,14 +167,16 @@ class Form:
         return self is other
 
 
-def stated_sets(form: Form) -> Iterator[frozenset[str]]:
+def stated_sets(form: ContourForm) -> Iterator[frozenset[str]]:
     """Every combination of givens that a form may be stated by."""
     for choice in product(*form.combinations):
         yield frozenset(name for names in choice for name in names)
 
 
 @lru_cache(maxsize=8192)
-def lay_out(form: Form, stated: frozenset[str], sharp: frozenset[str], asked: frozenset[str] = frozenset()) -> Layout:
+def lay_out(
+    form: ContourForm, stated: frozenset[str], sharp: frozenset[str], asked: frozenset[str] = frozenset()
+) -> Layout:
     """The layout that a form makes of the givens that are stated; a corner whose size is asked for is there, too.
 
     `sharp` are the corner words of value 0, which make no corner.

@@ -6,12 +6,12 @@ from dataclasses import dataclass, replace
 from contoursolve.diagnostics.finding import Diagnostic
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Length, Plane
-from contoursolve.reading.contour_form import Assumption, Form, Setting
+from contoursolve.reading.contour_form import Assumption, ContourForm, Setting
 from contoursolve.reading.modal_state import Modes, Position, State
-from contoursolve.reading.parsed_contour import Claim
+from contoursolve.reading.parsed_contour import ParsedContour
 from contoursolve.reading.rules import Rule
 
-Finder = Callable[[Sequence[Block], int, State, Modes], Claim | None]
+Finder = Callable[[Sequence[Block], int, State, Modes], ParsedContour | None]
 """(blocks, index, state before the block, modes) to the contour that begins at this block, if any."""
 
 
@@ -48,7 +48,7 @@ class Dialect:
     title: str
     modes: Modes
     plane: Plane
-    forms: tuple[Form, ...]
+    forms: tuple[ContourForm, ...]
     rules: tuple[Rule, ...]
     find: Finder
     signs: Callable[[Block], Sequence[Word]]

@@ -8,9 +8,9 @@ from msgspec.structs import replace
 from contoursolve.gcode import Block, Directive, Program, Word
 from contoursolve.reading.lexicon import Effect
 from contoursolve.reading.modal_state import Modes, State, advance, apply_modes, codes_of
-from contoursolve.reading.parsed_contour import Claim, leave
+from contoursolve.reading.parsed_contour import ParsedContour, leave
 
-Finder = Callable[[Sequence[Block], int, State, Modes], Claim | None]
+Finder = Callable[[Sequence[Block], int, State, Modes], ParsedContour | None]
 """(blocks, index, state before the block, modes) to the contour that begins at this block, if any."""
 
 End = tuple[float, float] | None
@@ -23,8 +23,8 @@ def contours_of(
     modes: Modes,
     state: State,
     start: Program | None = None,
-    end_of: Callable[[Claim], End] = lambda _: None,
-) -> Iterator[tuple[Claim, int]]:
+    end_of: Callable[[ParsedContour], End] = lambda _: None,
+) -> Iterator[tuple[ParsedContour, int]]:
     """Every contour of a program, with the index of the block behind it; the next one begins where `end_of` says.
 
     `start` are blocks that state the start point apart from the program.
@@ -68,7 +68,7 @@ class ContourBlock(Struct, frozen=True):
         return self.names is None or element in self.names
 
 
-def blocks_of(claim: Claim, before: State, modes: Modes) -> Iterator[ContourBlock]:
+def blocks_of(claim: ParsedContour, before: State, modes: Modes) -> Iterator[ContourBlock]:
     """The blocks of a contour that begins in a state."""
     for number, block in enumerate(claim.blocks):
         before, names = apply_modes(before, block, modes), None

@@ -11,12 +11,12 @@ from msgspec.structs import replace
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import Block, Directive, Word
 from contoursolve.geometry import Choice, Fact, Given, Layout, Plane, Profile, Question, Radius, Side
-from contoursolve.reading.contour_form import Assumption, Convention, Form, lay_out
+from contoursolve.reading.contour_form import Assumption, ContourForm, Convention, lay_out
 from contoursolve.reading.lexicon import Lexicon
 from contoursolve.reading.modal_state import Modes, Position, State, apply_modes, positions
 
 
-class Trouble(Enum):
+class ReadIssue(Enum):
     """What can keep a program or a contour from being read, apart from its characters."""
 
     REPEATED_ADDRESS = "repeated-address"
@@ -61,7 +61,7 @@ class Selector(Struct, frozen=True):
 
 
 @dataclass(frozen=True, slots=True)
-class Claim:
+class ParsedContour:
     """A contour before any check.
 
     `words` are the words by the name of the given that they state; `givens` their values in mm or
@@ -69,7 +69,7 @@ class Claim:
     state at the start point, `after` the state with the modes of all its blocks.
     """
 
-    form: Form
+    form: ContourForm
     lexicon: Lexicon
     blocks: tuple[Block, ...]
     before: State
@@ -121,7 +121,7 @@ class Claim:
         return tuple(each for each in self.form.assumptions if each.carries(self.form.roles, stated))
 
 
-def read(claim: Claim, ignored: frozenset[str]) -> Profile:
+def read(claim: ParsedContour, ignored: frozenset[str]) -> Profile:
     """The profile of a claim, without the facts that the control ignores."""
     names = frozenset(claim.givens)
     sharp = frozenset(
@@ -146,7 +146,7 @@ def read(claim: Claim, ignored: frozenset[str]) -> Profile:
     )
 
 
-def unused_words(claim: Claim, profile: Profile) -> list[Word]:
+def unused_words(claim: ParsedContour, profile: Profile) -> list[Word]:
     """The words with a value that states nothing about the contour and chooses nothing."""
     used = {fact.given for fact in (*profile.facts, *profile.ignored)}
     used |= {choice.given for choice in claim.choices} | {question.name for question in profile.questions}
@@ -157,7 +157,7 @@ def unused_words(claim: Claim, profile: Profile) -> list[Word]:
     return [word for word in words if word not in beside]
 
 
-def _questions(claim: Claim, asked: frozenset[str], layout: Layout) -> Iterator[Question]:
+def _questions(claim: ParsedContour, asked: frozenset[str], layout: Layout) -> Iterator[Question]:
     """The words that are asked for, each with the fact that it would state about what there is."""
     if not asked:
         return
@@ -172,14 +172,14 @@ def _questions(claim: Claim, asked: frozenset[str], layout: Layout) -> Iterator[
             yield _question(claim, name, Radius(name, f"{corner.name}.radius"))
 
 
-def _question(claim: Claim, name: str, fact: Fact) -> Question:
+def _question(claim: ParsedContour, name: str, fact: Fact) -> Question:
     word = claim.words[name]
     row = claim.lexicon.addresses[word.address]
     return Question(name, fact, row.unit, word, row.is_diameter)
 
 
 def leave(
-    claim: Claim, end: tuple[float, float] | None, modes: Modes, reason: str = "", cause: Span | None = None
+    claim: ParsedContour, end: tuple[float, float] | None, modes: Modes, reason: str = "", cause: Span | None = None
 ) -> State:
     """The modes of a contour's blocks, and the position where it ends, mm.
 
@@ -204,7 +204,7 @@ def leave(
     return lost.move(positions(told, _axis_words(last, modes), modes, last.is_skippable))
 
 
-def _move_beside(state: State, claim: Claim, modes: Modes) -> State:
+def _move_beside(state: State, claim: ParsedContour, modes: Modes) -> State:
     """The state with the axes outside the plane where the words of a contour's blocks lead."""
     here = claim.before
     for block in claim.blocks:
@@ -219,7 +219,7 @@ def end_of_contour(value: float, span: Span, *, is_skippable: bool = False) -> P
     return Position(Decimal(value), "the end of this contour", span, is_skippable)
 
 
-def next_place(blocks: Sequence[Block], claim: Claim, modes: Modes) -> tuple[Decimal, Decimal] | None:
+def next_place(blocks: Sequence[Block], claim: ParsedContour, modes: Modes) -> tuple[Decimal, Decimal] | None:
     """Where the next block with words ends, mm, if it is a line and both its coordinates are known."""
     block = next((block for block in blocks if block.words), None)
     if block is None or block.faults:

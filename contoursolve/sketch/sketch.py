@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping
 from decimal import Decimal, InvalidOperation
 from numbers import Integral, Real
 
-from contoursolve.analysis import judge
+from contoursolve.analysis import analyse
 from contoursolve.geometry import (
     Arc,
     Circle,
@@ -261,7 +261,7 @@ class Sketch:
         """Every way to draw the sketch. Raises GrammarError or StatementError as `profile`."""
         profile, questions = self._stated()
         system = assemble(profile)
-        verdict = judge(system)
+        verdict = analyse(system)
         numbers = [fact.given.removeprefix("fact ") for fact in (system.facts[index] for index in verdict.tied)]
         ties = tuple(sorted({int(number) - 1 for number in numbers if number.isdigit()}))
         if not verdict.is_determined:

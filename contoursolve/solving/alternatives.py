@@ -8,7 +8,7 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.analysis import judge, order
+from contoursolve.analysis import analyse, order
 from contoursolve.geometry import (
     FIRST,
     SECOND,
@@ -42,12 +42,12 @@ from contoursolve.solving.path import check_path
 from contoursolve.solving.solution import (
     Certificate,
     CornerSolution,
+    Note,
+    NoteKind,
     Point,
     Proof,
     Refusal,
     RefusalKind,
-    Remark,
-    RemarkKind,
     Solution,
     Status,
 )
@@ -98,7 +98,7 @@ def find_alternatives(profile: Profile) -> Alternatives:
     """Every solution of a profile whose system is determined and whose start is known."""
     system = assemble(profile)
     enumeration = enumerate_solutions(profile, system)
-    basis = tuple(system.facts[index] for index in judge(system).basis)
+    basis = tuple(system.facts[index] for index in analyse(system).basis)
     groups = order(system, basis)
     with ball.precision(ball.WORKING):
         prover = Prover(system, groups, ground_of(profile))
@@ -153,8 +153,8 @@ def _alternative(profile: Profile, system: System, prover: Prover, found: Found)
     gap = 0.0 if any(name.rpartition(".")[0] not in centers for name in found.doubles) else None
     if gap is not None:
         subject = _touching(system, found)
-        kind = RemarkKind.TOUCHES if sides.get(subject) == BOTH else RemarkKind.DOUBLE
-        remarks.append(Remark(kind, subject, (), {}))
+        kind = NoteKind.TOUCHES if sides.get(subject) == BOTH else NoteKind.DOUBLE
+        remarks.append(Note(kind, subject, (), {}))
     radius = radius_of(boxes, scalars) if proof is not Proof.UNKNOWN or found.doubles else inf
     certificate = Certificate(proof, radius, "", gap)
     if proof is Proof.UNKNOWN:
@@ -181,11 +181,11 @@ def _doubtful(found: Found, radius: float, gap: float | None) -> Certificate:
     return Certificate(Proof.UNKNOWN, radius, "no box about it could be proven to hold one solution", gap)
 
 
-def _status(refusals: list[Refusal], remarks: list[Remark]) -> Status:
+def _status(refusals: list[Refusal], remarks: list[Note]) -> Status:
     if refusals:
         found = {refusal.kind.status for refusal in refusals}
         return next(status for status in Status if status in found)
-    agrees = any(remark.kind is RemarkKind.WORDS_AGREE for remark in remarks)
+    agrees = any(remark.kind is NoteKind.WORDS_AGREE for remark in remarks)
     return Status.OVERDETERMINED if agrees else Status.SOLVED
 
 
@@ -241,11 +241,11 @@ def _sizes(profile: Profile, scalars: Mapping[str, float]) -> dict[str, float]:
 
 def _compare(
     profile: Profile, system: System, at: Values, scalars: Mapping[str, float]
-) -> tuple[list[Refusal], list[Remark]]:
+) -> tuple[list[Refusal], list[Note]]:
     """Every original equation in exact arithmetic; what was not needed must agree as well as words can."""
     refusals: list[Refusal] = []
-    remarks: list[Remark] = []
-    basis = judge(system).basis
+    remarks: list[Note] = []
+    basis = analyse(system).basis
     floats = Values(
         {**scalars, **{name: ball.middle(value) for name, value in at.scalars.items()}},
         {name: ball.middle(value) for name, value in at.amounts.items()},
@@ -402,12 +402,12 @@ def decide(alternatives: Alternatives, profile: Profile) -> Solution:
     paths = [item for item in eligible if item.is_path]
     count = {"actual": float(len(paths))}
     if len(paths) > 1:
-        return Solution(Status.AMBIGUOUS, remarks=(Remark(RemarkKind.SEVERAL, "", (), count),))
+        return Solution(Status.AMBIGUOUS, remarks=(Note(NoteKind.SEVERAL, "", (), count),))
     if paths:
         solution = _without_selecting(paths[0].solution, alternatives)
         if alternatives.is_complete:
             return solution
-        return replace(solution, remarks=(*solution.remarks, Remark(RemarkKind.COUNT_OPEN, "", (), count)))
+        return replace(solution, remarks=(*solution.remarks, Note(NoteKind.COUNT_OPEN, "", (), count)))
     return _refused(eligible, alternatives)
 
 
@@ -422,9 +422,9 @@ def _without_selecting(solution: Solution, alternatives: Alternatives) -> Soluti
     remarks = tuple(
         remark
         for remark in solution.remarks
-        if remark.kind is not RemarkKind.WORDS_AGREE or remark.subject not in selecting
+        if remark.kind is not NoteKind.WORDS_AGREE or remark.subject not in selecting
     )
-    agrees = any(remark.kind is RemarkKind.WORDS_AGREE for remark in remarks)
+    agrees = any(remark.kind is NoteKind.WORDS_AGREE for remark in remarks)
     return replace(solution, status=Status.OVERDETERMINED if agrees else Status.SOLVED, remarks=remarks)
 
 

@@ -7,7 +7,7 @@ from decimal import Decimal
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.analysis import Group, judge, order
+from contoursolve.analysis import Group, analyse, order
 from contoursolve.analysis.determinacy import survey
 from contoursolve.analysis.identities import is_affine
 from contoursolve.geometry import (
@@ -31,7 +31,7 @@ from contoursolve.solving.alternatives import Alternative, Alternatives, decide,
 from contoursolve.solving.compare import compare_affine
 from contoursolve.solving.elimination import Obstacle
 from contoursolve.solving.enumerate import enumerate_solutions
-from contoursolve.solving.solution import Refusal, RefusalKind, Remark, RemarkKind, Solution, Status
+from contoursolve.solving.solution import Note, NoteKind, Refusal, RefusalKind, Solution, Status
 from contoursolve.solving.solve import solve
 
 
@@ -83,7 +83,7 @@ def tied_with(system: System, fact: Fact) -> tuple[str, ...]:
     A fact beside the basis can replace exactly those facts of the basis that it is tied with. A fact of the basis
     is tied with the first fact beside it that can replace it.
     """
-    verdict = judge(system)
+    verdict = analyse(system)
     if system.facts.index(fact) in verdict.basis:
         spare = (each for index, each in enumerate(system.facts) if index not in verdict.basis)
         return next((names for names in (tied_with(system, each) for each in spare) if fact.given in names), ())
@@ -164,7 +164,7 @@ def _singular(alternatives: Alternatives) -> list[str]:
 
 def orders_of(profile: Profile) -> Iterator[Profile]:
     """The profile with one of the facts that were not needed put first, so that it is."""
-    basis = judge(assemble(profile)).basis
+    basis = analyse(assemble(profile)).basis
     for index, fact in enumerate(profile.facts):
         if index not in basis:
             rest = (each for each in profile.facts if each is not fact)
@@ -177,7 +177,7 @@ def _disagreement(item: Alternative) -> float:
 
 
 def _groups(system: System) -> tuple[Group, ...]:
-    return order(system, tuple(system.facts[index] for index in judge(system).basis))
+    return order(system, tuple(system.facts[index] for index in analyse(system).basis))
 
 
 def _dead(profile: Profile, groups: tuple[Group, ...]) -> list[Group]:
@@ -186,7 +186,7 @@ def _dead(profile: Profile, groups: tuple[Group, ...]) -> list[Group]:
     def is_dead(number: int) -> bool:
         part = _first(profile, groups[: number + 1])
         system = assemble(part)
-        if not system.unknowns or not judge(system).is_determined:
+        if not system.unknowns or not analyse(system).is_determined:
             return False
         return not enumerate_solutions(part, system).found
 
@@ -228,7 +228,7 @@ def _affine(profile: Profile, groups: tuple[Group, ...], doubtful: list[Group]) 
     """What the solver of ordinary words says of a group, where it and all before it are about such words."""
     part = _first(profile, groups[: groups.index(doubtful[0]) + 1])
     system = assemble(part)
-    if not is_affine(part.facts) or not judge(system).is_determined:
+    if not is_affine(part.facts) or not analyse(system).is_determined:
         return None
     refusals = [each for each in solve(part).refusals if isinstance(each, Refusal)]
     return Solution(refusals[0].kind.status, refusals=tuple(refusals)) if refusals else None
@@ -238,11 +238,11 @@ _COMPARED = (
     RefusalKind.WORDS_DISAGREE,
     RefusalKind.FACT_DISAGREES,
     RefusalKind.RADIUS_DIFFERENCE,
-    RemarkKind.WORDS_AGREE,
+    NoteKind.WORDS_AGREE,
 )
 
 
-def said_twice(profile: Profile) -> tuple[Refusal | Remark, ...]:
+def said_twice(profile: Profile) -> tuple[Refusal | Note, ...]:
     """How the facts that are not needed compare with the others, as far as these determine what they speak about.
 
     Facts about lines are compared whatever the others leave free. Of the others, where they leave several places, the
@@ -252,18 +252,18 @@ def said_twice(profile: Profile) -> tuple[Refusal | Remark, ...]:
     if affine is not None:
         return tuple(compare_affine(profile, affine))
     system = assemble(profile)
-    free = judge(system).free
+    free = analyse(system).free
     part = restrict(profile, (name for name in system.unknowns if name not in free))
-    if len(part.facts) <= len(assemble(part).unknowns) or not judge(assemble(part)).is_determined:
+    if len(part.facts) <= len(assemble(part).unknowns) or not analyse(assemble(part)).is_determined:
         return ()
     items = find_alternatives(part).items
     compared = [tuple(event for event in _events(item) if event.kind in _COMPARED) for item in items]
     return min(compared, key=_disagreements) if compared else ()
 
 
-def _events(item: Alternative) -> tuple[Refusal | Remark, ...]:
+def _events(item: Alternative) -> tuple[Refusal | Note, ...]:
     return (*item.solution.refusals, *item.solution.remarks)
 
 
-def _disagreements(events: tuple[Refusal | Remark, ...]) -> int:
+def _disagreements(events: tuple[Refusal | Note, ...]) -> int:
     return sum(isinstance(event, Refusal) for event in events)

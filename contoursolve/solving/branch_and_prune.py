@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy
 from msgspec import Struct
 
-from contoursolve.analysis import Group, judge
+from contoursolve.analysis import Group, analyse
 from contoursolve.geometry import System
 from contoursolve.numeric import ball, expressions, intervals
 from contoursolve.numeric.ball import Number
@@ -89,7 +89,7 @@ def conditions_of(system: System, group: Group) -> Conditions:
     for name in group.unknowns:
         tape.input(name)
     at = lookup(system, tape, {})
-    true = [system.facts[index] for index in judge(system).basis]
+    true = [system.facts[index] for index in analyse(system).basis]
     zeros = [*(fact.equation(at) for fact in group.facts), *consequences(group.facts, true, at)]
     signs = necessities(system.figure, group.facts, at)
     for number, expression in enumerate((*zeros, *signs)):

@@ -8,7 +8,7 @@ from typing import Any
 import numpy
 from msgspec import Struct
 
-from contoursolve.analysis import judge
+from contoursolve.analysis import analyse
 from contoursolve.geometry import (
     FIRST,
     INCREMENT_OF,
@@ -361,7 +361,7 @@ def agreement_rows(profile: Profile, values: Mapping[str, Array]) -> numpy.ndarr
 def _replay(profile: Profile, values: Mapping[str, Array]) -> list[numpy.ndarray] | None:
     """The outputs of the checks, a column each."""
     system = assemble(profile)
-    if not judge(system).is_determined or not is_closed(system):
+    if not analyse(system).is_determined or not is_closed(system):
         return None
     names, replay = _compile(system)
     inputs: dict[str, float | Array] = {**inputs_of(profile, system)}

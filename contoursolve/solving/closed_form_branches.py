@@ -7,7 +7,7 @@ from typing import Any
 
 from msgspec import Struct
 
-from contoursolve.analysis import Group, judge, order
+from contoursolve.analysis import Group, analyse, order
 from contoursolve.geometry import FIRST, SECOND, ChamferLeg, Fact, Line, Parallel, Radius, System, Values, scalar
 from contoursolve.geometry.lines import moves_of
 from contoursolve.numeric.expressions import (
@@ -89,7 +89,7 @@ def close(system: System) -> ClosedForm:
 class _Closing:
     def __init__(self, system: System) -> None:
         self.system, self.tape = system, Tape()
-        basis = judge(system).basis
+        basis = analyse(system).basis
         self.basis = tuple(system.facts[index] for index in basis)
         self.checks = tuple(fact for index, fact in enumerate(system.facts) if index not in basis)
         self.scalars: dict[str, Any] = {

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator
 from math import hypot, inf, pi
 from typing import Any
 
-from contoursolve.analysis import judge
+from contoursolve.analysis import analyse
 from contoursolve.geometry import (
     FIRST,
     INCREMENT_OF,
@@ -24,7 +24,7 @@ from contoursolve.geometry import (
 from contoursolve.geometry.system import step
 from contoursolve.solving.affine import AffineFacts, Circuit
 from contoursolve.solving.numbers import lookup
-from contoursolve.solving.solution import Refusal, RefusalKind, Remark, RemarkKind
+from contoursolve.solving.solution import Note, NoteKind, Refusal, RefusalKind
 from contoursolve.tolerance import AGREEMENT, RESIDUAL
 
 Increments = Callable[[str], Any]
@@ -103,7 +103,7 @@ def givens_of(fact: Fact, system: System) -> tuple[str, ...]:
     return tuple(each.given for each in system.facts if each.given and set(system.unknowns_of(each)) <= mentioned)
 
 
-def compare_fact(fact: Fact, off: float, profile: Profile, system: System, at: Values) -> Refusal | Remark | None:
+def compare_fact(fact: Fact, off: float, profile: Profile, system: System, at: Values) -> Refusal | Note | None:
     """What to say of a fact that was not needed and is off by so much (mm) at the points that the others give."""
     if isinstance(fact, OnCircle) and not fact.given:
         # The residual is the difference of the radii to first order only.
@@ -114,19 +114,19 @@ def compare_fact(fact: Fact, off: float, profile: Profile, system: System, at: V
         if not off <= fact.slack:
             return Refusal(RefusalKind.RADIUS_DIFFERENCE, fact.point, givens_of(fact, system), values)
         if off > AGREEMENT:
-            return Remark(RemarkKind.RADIUS_DIFFERS, fact.point, givens_of(fact, system), values)
+            return Note(NoteKind.RADIUS_DIFFERS, fact.point, givens_of(fact, system), values)
         return None
     givens = givens_of(fact, system)
     values = compare(fact, profile, at) if fact.given else {"off_by_mm": off}
     is_word = isinstance(fact, Coordinate | Offset | Heading | Radius)
     gap = inf if is_word else abs(values.get("expected", inf) - values.get("actual", inf))
     if off <= allowance(fact, at, increments_of(profile)) or gap <= AGREEMENT:
-        return Remark(RemarkKind.WORDS_AGREE, fact.given, givens, values) if fact.given else None
+        return Note(NoteKind.WORDS_AGREE, fact.given, givens, values) if fact.given else None
     kind = RefusalKind.WORDS_DISAGREE if "expected" in values else RefusalKind.FACT_DISAGREES
     return Refusal(kind, fact.given, givens, values)
 
 
-def compare_affine(profile: Profile, affine: AffineFacts) -> Iterator[Refusal | Remark]:
+def compare_affine(profile: Profile, affine: AffineFacts) -> Iterator[Refusal | Note]:
     """How each fact that the facts before it make unnecessary compares with them, whether they determine everything or
     not: words that say the same, whatever their values, and lines that are parallel, or the same, at these values."""
     system = assemble(profile)
@@ -138,7 +138,7 @@ def compare_affine(profile: Profile, affine: AffineFacts) -> Iterator[Refusal | 
             continue
         fixed = affine.fixed_by(basis)
         off = circuit.off[-1]
-        is_tied = judge(system.keep((*basis, fact))).rank == len(basis)
+        is_tied = analyse(system.keep((*basis, fact))).rank == len(basis)
         if is_tied and fixed.keys() >= {*system.unknowns_of(fact)}:
             event = compare_fact(fact, off, profile, system, lookup(profile, fixed))
             if event is not None:

@@ -7,7 +7,7 @@ from typing import Any
 
 from msgspec import Struct
 
-from contoursolve.analysis import judge
+from contoursolve.analysis import analyse
 from contoursolve.geometry import (
     FIRST,
     INCREMENT_OF,
@@ -60,7 +60,7 @@ class _Builder:
         for axis in (FIRST, SECOND):
             name = scalar(system.figure.start, axis)
             self.scalars[name] = self.tape.input(name)
-        basis = judge(system).basis
+        basis = analyse(system).basis
         self.compared = {
             (fact.point, fact.center)
             for index, fact in enumerate(system.facts)

@@ -7,7 +7,7 @@ from msgspec.structs import replace
 
 from contoursolve.geometry import FIRST, SECOND, Arc, Corner, Figure, Line, Profile
 from contoursolve.solving.compare import increments_of
-from contoursolve.solving.solution import BESIDE, Point, Refusal, RefusalKind, Remark, RemarkKind
+from contoursolve.solving.solution import BESIDE, Note, NoteKind, Point, Refusal, RefusalKind
 from contoursolve.tolerance import LARGEST, LENGTH, REGULAR, RESIDUAL
 
 Outputs = Mapping[str, float]
@@ -20,7 +20,7 @@ def check_path(
     out: Outputs,
     sizes: Mapping[str, float],
     resize: Callable[[Mapping[str, float]], Outputs],
-) -> tuple[list[Refusal], list[Remark]]:
+) -> tuple[list[Refusal], list[Note]]:
     """Everything that speaks against the path between points that satisfy the equations.
 
     `out` are the outputs of a compiled path, `sizes` the sizes of its corners by the words that state them, mm;
@@ -28,7 +28,7 @@ def check_path(
     """
     figure = profile.figure
     refusals = check_range(figure, points)
-    remarks: list[Remark] = []
+    remarks: list[Note] = []
     for element in figure.path if not refusals else ():
         if isinstance(element, Arc):
             if hypot(*_difference(points[element.tail], points[element.head])) <= LENGTH:
@@ -36,7 +36,7 @@ def check_path(
         else:
             refusals += _check_direction(element, out, profile)
             if abs(out[f"length:{element.name}"]) <= LENGTH:
-                remarks.append(Remark(RemarkKind.LINE_VANISHES, element.name))
+                remarks.append(Note(NoteKind.LINE_VANISHES, element.name))
     if not refusals:
         for corner in figure.corners:
             for refusal in _check_corner(corner, profile, points, out, sizes[corner.size]):

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 from msgspec import Struct
 
-from contoursolve.analysis import Group, judge, order
+from contoursolve.analysis import Group, analyse, order
 from contoursolve.geometry import (
     FIRST,
     SECOND,
@@ -98,7 +98,7 @@ def make_plan(system: System) -> Plan:
     Raises NoClosedFormError if a group of facts has no step or a fact holds on either side, ValueError if the system
     is not determined.
     """
-    verdict = judge(system)
+    verdict = analyse(system)
     if not verdict.is_determined:
         raise ValueError(f"not determined: {', '.join(verdict.free)}")
     sides = [side for fact in system.facts for side in fact.sides()]

@@ -50,7 +50,7 @@ def reason_of(kind: RefusalKind | None) -> int:
     return _REASON[kind]
 
 
-class Verdict:
+class RowOutcome:
     """What the checks found, row by row: `status` and `reason` as numbers; and the rows `again` that need the exact
     arithmetic of a single solve: a step that is singular, a line that touches its circle.
 

@@ -123,7 +123,7 @@ class RefusalKind(Enum):
         return Status.NO_SOLUTION
 
 
-class RemarkKind(Enum):
+class NoteKind(Enum):
     """What a user should know about a contour that was solved."""
 
     TOUCHES = "touches"
@@ -163,10 +163,10 @@ class Refusal(Struct, frozen=True):
     """Givens that are not to blame, but leave no more room than the limit."""
 
 
-class Remark(Struct, frozen=True):
+class Note(Struct, frozen=True):
     """One remark about a solved contour, in the same terms as a refusal."""
 
-    kind: RemarkKind
+    kind: NoteKind
     subject: str
     givens: tuple[str, ...] = ()
     values: Mapping[str, float] = field(default_factory=dict)
@@ -199,7 +199,7 @@ class Solution(Struct, frozen=True):
     radii: Mapping[str, float] = field(default_factory=dict)
     corners: Mapping[str, CornerSolution] = field(default_factory=dict)
     refusals: tuple[Refusal, ...] = ()
-    remarks: tuple[Remark, ...] = ()
+    remarks: tuple[Note, ...] = ()
     error_bound: float = 0.0
     certificate: Certificate | None = None
     scalars: Mapping[str, float] = field(default_factory=dict)

@@ -7,7 +7,7 @@ from math import asin, atan2, degrees, dist, hypot, inf, isfinite
 
 from msgspec.structs import replace
 
-from contoursolve.analysis import judge
+from contoursolve.analysis import analyse
 from contoursolve.geometry import (
     FIRST,
     SECOND,
@@ -41,11 +41,11 @@ from contoursolve.solving.plan import (
 )
 from contoursolve.solving.solution import (
     Certificate,
+    Note,
+    NoteKind,
     Point,
     Refusal,
     RefusalKind,
-    Remark,
-    RemarkKind,
     Solution,
     Status,
     up_to_one_digit,
@@ -64,7 +64,7 @@ def solve(profile: Profile, *, is_proven: bool = True) -> Solution:
     if some step has no closed form (see `is_closed`).
     """
     system = assemble(profile)
-    verdict = judge(system)
+    verdict = analyse(system)
     if not verdict.is_determined:
         raise ValueError(f"not determined: {', '.join(verdict.free)}")
     attempt = _Attempt(profile, system)
@@ -86,10 +86,10 @@ def _all_refusals(profile: Profile, answer: Solution) -> Solution:
     return refused(events) if any(isinstance(event, Refusal) for event in events) else answer
 
 
-def refused(events: Iterable[Refusal | Remark]) -> Solution:
+def refused(events: Iterable[Refusal | Note]) -> Solution:
     """The solution that refusals leave, with the words that agree; its status is the first in order."""
     refusals = tuple(event for event in events if isinstance(event, Refusal))
-    agreeing = tuple(event for event in events if isinstance(event, Remark) and event.kind is RemarkKind.WORDS_AGREE)
+    agreeing = tuple(event for event in events if isinstance(event, Note) and event.kind is NoteKind.WORDS_AGREE)
     found = {refusal.kind.status for refusal in refusals} | ({Status.OVERDETERMINED} if agreeing else set())
     status = next(status for status in Status if status in found)
     return Solution(status, refusals=refusals, remarks=agreeing)
@@ -102,7 +102,7 @@ def _orders(system: System, tied: frozenset[Fact]) -> Iterator[System]:
     for chosen in combinations([fact for fact in system.facts if fact in tied], needed):
         first = tuple(fact for fact in system.facts if fact not in tied or fact in chosen)
         basis = system.keep(first)
-        if judge(basis).is_determined and is_closed(basis):
+        if analyse(basis).is_determined and is_closed(basis):
             yield system.keep(first + tuple(fact for fact in system.facts if fact not in first))
 
 
@@ -121,7 +121,7 @@ class _Attempt:
         self.plan = self.machine.plan
         self.out = self.machine.function(inputs_of(profile, system))
         self.refusals: list[Refusal] = []
-        self.remarks: list[Remark] = []
+        self.remarks: list[Note] = []
         self.doubles: dict[int, dict[str, float]] = {}
         self.split = 0.0
         self.stuck: frozenset[Fact] = frozenset()
@@ -155,8 +155,8 @@ class _Attempt:
             return self._refused()
         bound = self._error_bound()
         if not bound - self.split <= ERROR_BOUND_WARNING:
-            self.remarks.append(Remark(RemarkKind.SENSITIVE, "", (), {"limit": ERROR_BOUND_WARNING, "actual": bound}))
-        agrees = any(remark.kind is RemarkKind.WORDS_AGREE for remark in self.remarks)
+            self.remarks.append(Note(NoteKind.SENSITIVE, "", (), {"limit": ERROR_BOUND_WARNING, "actual": bound}))
+        agrees = any(remark.kind is NoteKind.WORDS_AGREE for remark in self.remarks)
         return replace(
             solution_at(self.system, self.profile.start, sizes, self.out),
             status=Status.OVERDETERMINED if agrees else Status.SOLVED,
@@ -168,7 +168,7 @@ class _Attempt:
     def _certificate(self, bound: float) -> Certificate:
         """What is proven of the points and the corners, as they are printed."""
         certificate = certify(self.profile, self.system, self.out, bound)
-        touches = any(remark.kind is RemarkKind.TOUCHES for remark in self.remarks)
+        touches = any(remark.kind is NoteKind.TOUCHES for remark in self.remarks)
         return replace(certificate, gap=0.0) if touches else certificate
 
     def _refused(self) -> Solution:
@@ -249,7 +249,7 @@ class _Attempt:
             if is_center:
                 self._note_half_circle(offset, short, subject, givens)
             else:
-                self.remarks.append(Remark(RemarkKind.TOUCHES, subject, givens, values))
+                self.remarks.append(Note(NoteKind.TOUCHES, subject, givens, values))
         elif not offset < radius:  # true for NaN
             return Refusal(kind, subject, givens, {"off_by_mm": abs(offset - radius), **values})
         return None
@@ -289,7 +289,7 @@ class _Attempt:
         """A half circle whose stated radius is less than half of its chord, within what the words are exact to."""
         if short:
             values = {"limit": half, "actual": half - short, "off_by_mm": short}
-            self.remarks.append(Remark(RemarkKind.HALF_CIRCLE, subject, givens, values))
+            self.remarks.append(Note(NoteKind.HALF_CIRCLE, subject, givens, values))
 
     def _is_half_circle(self, step: TwoCirclesStep, number: int) -> bool:
         """Whether the radius is exactly half the chord from the start point, in decimals, or is taken to be."""

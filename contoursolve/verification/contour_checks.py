@@ -11,7 +11,7 @@ from msgspec.structs import replace
 from contoursolve import gcode
 from contoursolve.gcode import Word
 from contoursolve.geometry import Choice, Coordinate
-from contoursolve.reading import Claim, unused_words
+from contoursolve.reading import ParsedContour, unused_words
 from contoursolve.statements import apply_statements
 from contoursolve.tolerance import AGREEMENT, REGULAR, RESIDUAL
 from contoursolve.verification import rank
@@ -93,7 +93,7 @@ def _check_contour(found: Found, claimed: ClaimedContour, ledger: Ledger) -> boo
     return is_checked or values is not None
 
 
-def _check_place(claim: Claim, claimed: ClaimedContour, ledger: Ledger) -> None:
+def _check_place(claim: ParsedContour, claimed: ClaimedContour, ledger: Ledger) -> None:
     """Where the contour is, and what its blocks say apart from its geometry."""
 
     def compare(name: str, verb: str, own: Iterable[str], its: Iterable[str], *, passed: bool) -> None:

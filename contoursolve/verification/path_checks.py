@@ -15,7 +15,7 @@ from msgspec.structs import replace
 from contoursolve import gcode
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import FIRST, SECOND, Arc, CornerShape, Fact, OnCircle, Unit, line_scalars, scalar
-from contoursolve.reading import Claim
+from contoursolve.reading import ParsedContour
 from contoursolve.tolerance import ERROR_BOUND_WARNING, LENGTH, RESIDUAL
 from contoursolve.verification import rank
 from contoursolve.verification.decode import (
@@ -409,7 +409,7 @@ def check_filled(case: Case, claimed: ClaimedContour, ledger: Ledger) -> None:
                 _check_value(case, claimed.asked, word, value, ledger)
     stripped = tuple(replace(block, directives=()) for block in own)
     again, name = dialect.find(stripped, 0, claim.before, dialect.modes), "the filled blocks make one contour"
-    if not isinstance(again, Claim) or len(again.blocks) != len(blocks):
+    if not isinstance(again, ParsedContour) or len(again.blocks) != len(blocks):
         ledger.require(name, texts, passed=False, remark="they are none")
         return
     other = prepare(replace(case.found, rules="off", claim=again))

@@ -29,7 +29,7 @@ from contoursolve.geometry import (
     line_scalars,
     scalar,
 )
-from contoursolve.reading import Claim, read
+from contoursolve.reading import ParsedContour, read
 from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.rules import Rule
 from contoursolve.reading.rules import check as check_rules
@@ -68,7 +68,7 @@ class Found(Struct, frozen=True):
     if that is known.
     """
 
-    claim: Claim
+    claim: ParsedContour
     claimed: ClaimedContour | None
     start_error: float
     dialect: Dialect
@@ -95,7 +95,7 @@ class Case(Struct, frozen=True):
     is_readable: bool
 
     @property
-    def claim(self) -> Claim:
+    def claim(self) -> ParsedContour:
         """The contour block."""
         return self.found.claim
 
@@ -200,7 +200,7 @@ def _with_half_circles(profile: Profile, system: ResidualSystem) -> ResidualSyst
     return replace(system, amounts=amounts)
 
 
-def _unreadable(claim: Claim) -> list[str]:
+def _unreadable(claim: ParsedContour) -> list[str]:
     """The characters and words of a contour's blocks that have no meaning, whatever the rules are."""
     words = [word for block in claim.blocks for word in block.words]
     faults = [fault for block in claim.blocks for fault in block.faults]
@@ -216,7 +216,7 @@ def _unreadable(claim: Claim) -> list[str]:
     return [*texts, *large, *idle, *(word.text for word in (*claim.repeated, *claim.unknown))]
 
 
-def _offences(claim: Claim, found: Found) -> Iterator[Rule]:
+def _offences(claim: ParsedContour, found: Found) -> Iterator[Rule]:
     """The rules of the control that refuse or ignore words. A word that is asked for may fill a gap, but is never one
     too many."""
     if found.rules == "off":

@@ -9,7 +9,7 @@ from contoursolve import gcode
 from contoursolve.controls import DIALECTS
 from contoursolve.gcode import Block, Directive, Program
 from contoursolve.geometry import Length
-from contoursolve.reading import Claim, next_place
+from contoursolve.reading import ParsedContour, next_place
 from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.follow import contours_of, state_facts
 from contoursolve.verification.contour_checks import check_contour
@@ -148,7 +148,7 @@ def follow(
     blocks, start_error = _with_claimed_facts(program.blocks, claims), 0.0
     apart = sum(each.span.line < 0 for block in program.blocks for each in block.directives)
 
-    def end_of(claim: Claim) -> tuple[float, float] | None:
+    def end_of(claim: ParsedContour) -> tuple[float, float] | None:
         claimed = claims.get(claim.blocks[0].line)
         return claimed.end if claimed and claimed.has_path else None
 

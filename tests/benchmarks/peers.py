@@ -435,7 +435,7 @@ def is_true(case: Case, chain: Chain) -> bool:
     return chain.is_proper and all(abs(miss) < TRUE for miss in residuals(chain, case.facts))
 
 
-def judge(case: Case, attempt: Attempt) -> str:
+def analyse(case: Case, attempt: Attempt) -> str:
     """
     `right`: what it offers is true, and the original is among it. `another`: true, but not the original.
     `wrong`: said to be solved, and some of it is not true; or said to be all, without the original.
@@ -472,7 +472,7 @@ def run_peer(cases: Iterable[Case], adapter: Adapter) -> tuple[list[str], list[f
         except NotExpressibleError:
             classes.append(MUTE)
         else:
-            classes.append(judge(case, attempt))
+            classes.append(analyse(case, attempt))
             seconds.append(attempt.seconds)
     return classes, seconds
 

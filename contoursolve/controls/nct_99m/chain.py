@@ -37,7 +37,7 @@ from contoursolve.geometry import (
     Role,
     Turn,
 )
-from contoursolve.reading import CornerRow, FactRow, Form, Sample
+from contoursolve.reading import ContourForm, CornerRow, FactRow, Sample
 from contoursolve.tolerance import RADIUS_DIFFERENCE
 
 START = "S"
@@ -111,7 +111,7 @@ def names_of(elements: Sequence[Element]) -> tuple[Names, ...]:
 
 
 @lru_cache(maxsize=4096)
-def compose(elements: tuple[Element, ...], slack: float, *, counts_clockwise: bool) -> Form:
+def compose(elements: tuple[Element, ...], slack: float, *, counts_clockwise: bool) -> ContourForm:
     """The form of blocks in a row, where the radii at two points of an arc may differ by so much (mm), and where Q of
     two circles may count clockwise."""
     names = names_of(elements)
@@ -120,7 +120,7 @@ def compose(elements: tuple[Element, ...], slack: float, *, counts_clockwise: bo
     meeting = [(pair_role(*blocks), each) for blocks, each in pairs if blocks[1].is_over]
     facts = (*_stated(elements, names, slack), *_checked(elements, names, slack))
     arcs = [each for element, each in zip(elements, names, strict=True) if element.turn is not None]
-    return Form(
+    return ContourForm(
         name=name,
         title=_TITLES[name],
         roles=(

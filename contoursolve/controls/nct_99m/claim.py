@@ -36,7 +36,7 @@ from contoursolve.controls.nct_99m.lexicon import (
 from contoursolve.diagnostics.source import Evidence, Source
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Choice, Given, OnCircle, Side, Turn, Unit
-from contoursolve.reading import Claim, Convention, Form, Lexicon, Modes, Selector, Setting, State
+from contoursolve.reading import ContourForm, Convention, Lexicon, Modes, ParsedContour, Selector, Setting, State
 from contoursolve.tolerance import RADIUS_DIFFERENCE
 
 CLOCKWISE = "first-met-clockwise"
@@ -89,7 +89,7 @@ class Member(Struct, frozen=True):
     """No G1, G2 or G3 block follows."""
 
 
-def claim_of(members: Sequence[Member], before: State, modes: Modes) -> Claim:
+def claim_of(members: Sequence[Member], before: State, modes: Modes) -> ParsedContour:
     """The contour of blocks in a row."""
     elements = tuple(member.element for member in members)
     counts_clockwise = modes.convention(CIRCLE_CIRCLE_Q).value == CLOCKWISE
@@ -119,7 +119,7 @@ def claim_of(members: Sequence[Member], before: State, modes: Modes) -> Claim:
         holds = {*_circumstances(member, first, is_only=len(members) == 1), *_uncompensated(member, since, modes)}
         circumstances |= {prefix + name for name in holds}
     known = {name: word for name, word in words.items() if word.address in modes.lexicon.addresses}
-    return Claim(
+    return ParsedContour(
         form=form,
         lexicon=modes.lexicon,
         blocks=tuple(member.block for member in members),
@@ -220,7 +220,7 @@ def _uncompensated(member: Member, states: Sequence[State], modes: Modes) -> Ite
         yield UNCOMPENSATED_FREE if modes.convention(COMPENSATION).value == "free" else UNCOMPENSATED
 
 
-def _conventions(form: Form, circumstances: Set[str], modes: Modes) -> Iterator[Convention]:
+def _conventions(form: ContourForm, circumstances: Set[str], modes: Modes) -> Iterator[Convention]:
     """What decides here: a difference of radii has a finding of its own, so that only one that was set is named."""
     if any(name.endswith((UNCOMPENSATED, UNCOMPENSATED_FREE)) for name in circumstances):
         yield modes.convention(COMPENSATION)

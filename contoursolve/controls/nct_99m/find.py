@@ -13,13 +13,13 @@ from contoursolve.controls.nct_99m.claim import Member, claim_of
 from contoursolve.controls.nct_99m.lexicon import AXES, CHAMFER, PARALLEL_TO, PLANES, ROUNDING, Element
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Turn
-from contoursolve.reading import Claim, Effect, Modes, State, apply_modes, codes_of
+from contoursolve.reading import Effect, Modes, ParsedContour, State, apply_modes, codes_of
 
 _TURNS = {2: Turn.CW, 3: Turn.CCW}
 _OWN_USE = (Effect.SINGLE, Effect.NO_MOTION, Effect.PRESET, Effect.CYCLE, Effect.FRAME)
 
 
-def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> Claim | None:
+def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> ParsedContour | None:
     """The contour that begins at a block: everything that is resolved together with it."""
     block = blocks[index]
     if not block.words or not _is_motion(block, state, modes):

@@ -25,9 +25,9 @@ from contoursolve.controls.nct_99m.lexicon import (
 )
 from contoursolve.diagnostics.finding import Alarm, Severity
 from contoursolve.diagnostics.source import Evidence, Source
-from contoursolve.reading import Trouble
+from contoursolve.reading import ReadIssue
 from contoursolve.reading.rules import Rule, Value, all_of, at_most, some
-from contoursolve.solving import RefusalKind, RemarkKind
+from contoursolve.solving import NoteKind, RefusalKind
 
 _ANY = (LINE, ARC, OVER_LINE, OVER_CIRCLE)
 _OVER = (OVER_LINE, OVER_CIRCLE)
@@ -355,7 +355,7 @@ GEOMETRY_RULES = (
         message="{words} is no corner and no angle, and this line is taken as if it were not there",
         help="write {meant} if that is meant",
         source=_manual("16.1, 16.2: ,A ,C ,R have a comma"),
-        about=Trouble.COMMA_MISSING,
+        about=ReadIssue.COMMA_MISSING,
         severity=Severity.WARNING,
         accepted=(_CUT,),
         rejected=(_CUT.replace(",C", "C") + " ,R5\nX80",),
@@ -383,7 +383,7 @@ GEOMETRY_RULES = (
         message="{subject}: two elements only touch, so that both intersections are one point and Q chooses nothing",
         help="a value slightly different splits it in two or loses it: check that tangency is meant",
         source=_manual("16.3.3, p. 129", Evidence.DERIVED),
-        about=RemarkKind.TOUCHES,
+        about=NoteKind.TOUCHES,
         severity=Severity.WARNING,
         accepted=(_GOOD,),
         rejected=(_START + _ARC + "G1 X-50 Y50 ,A180 Q-1",),
@@ -393,7 +393,7 @@ GEOMETRY_RULES = (
         message="{subject}: two contours have become one, because an element just touches; a small change parts them",
         help="check that it is meant to touch",
         source=Source("contoursolve", "further facts", Evidence.ASSUMED),
-        about=RemarkKind.DOUBLE,
+        about=NoteKind.DOUBLE,
         severity=Severity.WARNING,
         accepted=(_GOOD,),
         rejected=(_START + "G3 X? Y50 R50 (contoursolve: X of C = 0)\n" + _LINE,),
@@ -437,7 +437,7 @@ GEOMETRY_RULES = (
         help="correct the point, the centre or the radius",
         source=_manual("p. 26 (4.3): alarm 3011; the allowed difference is a machine parameter", Evidence.ASSUMED),
         severity=Severity.INFO,
-        about=RemarkKind.RADIUS_DIFFERS,
+        about=NoteKind.RADIUS_DIFFERS,
         accepted=(_START + "G3 X-50 Y0 I-50 J0\n" + _LINE,),
         rejected=(_START + "G3 X-49.995 Y0 I-50 J0\n" + _LINE,),
     ),
@@ -447,7 +447,7 @@ GEOMETRY_RULES = (
         help="within the least increments nothing is wrong; the arc ends where its words say",
         source=_manual("16.3.3, p. 130: an example of this shape; that the increments count", Evidence.ASSUMED),
         severity=Severity.INFO,
-        about=RemarkKind.HALF_CIRCLE,
+        about=NoteKind.HALF_CIRCLE,
         accepted=(_GOOD,),
         rejected=(_START + "G3 X-50 Y0 R49.9995\n" + _LINE,),
     ),

@@ -31,9 +31,9 @@ from contoursolve.geometry import (
     Turn,
     Unit,
 )
-from contoursolve.reading import Claim, FactRow, Form, Modes, State, apply_modes
+from contoursolve.reading import ContourForm, FactRow, Modes, ParsedContour, State, apply_modes
 from contoursolve.reading.rules import Rule, at_most, some
-from contoursolve.solving import RefusalKind, RemarkKind
+from contoursolve.solving import NoteKind, RefusalKind
 from contoursolve.tolerance import LENGTH, RADIUS_DIFFERENCE
 
 CENTER, END, RADIUS = "C", "E", "r"
@@ -46,9 +46,9 @@ _ENDS, CENTERS = (("Z", "W"), ("X", "U")), ("K", "I")
 
 
 @cache
-def arc(code: int) -> Form:
+def arc(code: int) -> ContourForm:
     """The form of an arc with G02 or G03."""
-    return Form(
+    return ContourForm(
         name=f"G{code:02}",
         title="arc",
         roles=(Role("arc"),),
@@ -79,7 +79,7 @@ def arc(code: int) -> Form:
 ARC_FORMS = tuple(arc(code) for code in _TURNS)
 
 
-def claim_arc(block: Block, code: int, state: State, modes: Modes) -> Claim | None:
+def claim_arc(block: Block, code: int, state: State, modes: Modes) -> ParsedContour | None:
     """The arc of a block, if it cannot run as stated; None if it can, or if that cannot be known.
 
     Most arcs can, and this tells it in a few operations; what is wrong with the others is found out by their form.
@@ -200,7 +200,7 @@ ARC_RULES = (
         source=manual("circular interpolation; the allowed difference is our choice", Evidence.ASSUMED),
         roles=(_ROLE,),
         severity=Severity.INFO,
-        about=RemarkKind.RADIUS_DIFFERS,
+        about=NoteKind.RADIUS_DIFFERS,
         accepted=(_CENTERED + _BEFORE,),
         rejected=(),
     ),

@@ -16,7 +16,7 @@ from contoursolve.controls.yasnac_lx3.lexicon import (
 )
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Choice, CornerShape, Given
-from contoursolve.reading import Claim, Code, Effect, Form, Modes, State, apply_modes, codes_of
+from contoursolve.reading import Code, ContourForm, Effect, Modes, ParsedContour, State, apply_modes, codes_of
 
 OTHER_G = "other G"
 """States that the block has a G code that uses the axis words itself."""
@@ -47,7 +47,7 @@ def after_cornering(block: Block, state: State, modes: Modes) -> State:
 
 def claim_of(
     block: Block,
-    form: Form,
+    form: ContourForm,
     own: int | None,
     before: State,
     after: State,
@@ -56,7 +56,7 @@ def claim_of(
     supplied: Iterable[Given] = (),
     choices: Iterable[Choice] = (),
     circumstances: Iterable[str] = (),
-) -> Claim:
+) -> ParsedContour:
     """The block as a contour of a form whose G code is `own`.
 
     `refused` are addresses that a rule refuses; `supplied` are givens that the control derives from the words.
@@ -91,7 +91,7 @@ def claim_of(
             unknown.append(word)
     for each in supplied:
         givens[each.name] = each
-    return Claim(
+    return ParsedContour(
         form=form,
         lexicon=lexicon,
         blocks=(block,),
@@ -109,11 +109,11 @@ def claim_of(
 
 
 @lru_cache(maxsize=32)
-def _bevels(form: Form) -> frozenset[str]:
+def _bevels(form: ContourForm) -> frozenset[str]:
     """The words whose meaning is a convention."""
     return frozenset(word for row in form.corners for word, shape in row.shapes.items() if shape in _SHAPES.values())
 
 
 @lru_cache(maxsize=32)
-def _vocabulary(form: Form) -> Mapping[str, tuple[str, int]]:
+def _vocabulary(form: ContourForm) -> Mapping[str, tuple[str, int]]:
     return {row.address: (row.address, 0) for row in ADDRESSES if row.address in form.allowed}

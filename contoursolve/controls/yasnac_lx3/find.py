@@ -17,7 +17,7 @@ from contoursolve.diagnosis.wording import angle_text, length_text, place_text
 from contoursolve.diagnostics.finding import Applicability, Basis, Diagnostic, Fix, Severity
 from contoursolve.gcode import Block, Macro, Word, parse_block
 from contoursolve.geometry import FIRST, SECOND
-from contoursolve.reading import Claim, Code, Effect, Modes, State, Trouble, apply_modes, codes_of, positions
+from contoursolve.reading import Code, Effect, Modes, ParsedContour, ReadIssue, State, apply_modes, codes_of, positions
 from contoursolve.reading.modal_dependence import restate
 from contoursolve.solving import Point
 from contoursolve.solving.contour import Contour
@@ -29,7 +29,7 @@ AXIS_WORDS = frozenset("XUZW")
 _BEVELLING, _ROUNDING, _LINE, _ARC_CODES = 11, 12, 1, (2, 3)
 
 
-def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> Claim | None:
+def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> ParsedContour | None:
     """The contour that a block states by itself, if it states one."""
     block = blocks[index]
     codes = codes_of(block, modes)
@@ -159,7 +159,7 @@ def _left_alone(block: Block, motion: int | None) -> list[Word]:
 
 def _forgotten(name: str, alone: list[Word], block: Block, state: State, context: Context, modes: Modes) -> Diagnostic:
     """Words of multiple cornering without its code."""
-    rule = context.row(Trouble.CODE_FORGOTTEN)
+    rule = context.row(ReadIssue.CODE_FORGOTTEN)
     finding = report(context, rule, Basis.RULE, alone, code=name, stand="stand" if len(alone) > 1 else "stands")
     if name not in CORNERING:
         # Behind G11 and G12 nothing says which of the two is meant.
@@ -178,7 +178,7 @@ def _rapid(name: str, block: Block, context: Context) -> Diagnostic:
     """Axis words alone, under a G00 that was in force before the contour."""
     words = [word for word in block.words if word.address in AXIS_WORDS]
     have = "have" if len(words) > 1 else "has"
-    finding = report(context, context.row(Trouble.RAPID_BEHIND), Basis.RULE, words, code=name, have=have)
+    finding = report(context, context.row(ReadIssue.RAPID_BEHIND), Basis.RULE, words, code=name, have=have)
     fix = Fix("write G01 if this is a cut", restate(block, 1).text, Applicability.CHANGES_CONTOUR)
     return replace(finding, fixes=(fix,))
 
@@ -208,7 +208,7 @@ def _leaving(contour: Contour, state: State, block: Block, context: Context, mod
         "angle": angle_text(turn),
     }
     values = {"expected": 0.0, "actual": turn}
-    yield report(context, context.row(Trouble.LANDING_LEFT), Basis.NUMERICAL, words, values, **fields)
+    yield report(context, context.row(ReadIssue.LANDING_LEFT), Basis.NUMERICAL, words, values, **fields)
 
 
 def _way(state: State, block: Block, end: Point, modes: Modes) -> Point | None:

@@ -9,9 +9,9 @@ from contoursolve.diagnostics.finding import Severity
 from contoursolve.diagnostics.source import Evidence, Source
 from contoursolve.gcode import Block
 from contoursolve.geometry import FIRST, SECOND, Coordinate, CornerShape, Heading, Line, Offset, Role
-from contoursolve.reading import Claim, CornerRow, FactRow, Form, Modes, Sample, State, Trouble
+from contoursolve.reading import ContourForm, CornerRow, FactRow, Modes, ParsedContour, ReadIssue, Sample, State
 from contoursolve.reading.rules import Rule, Value, all_of, at_least, at_most, some
-from contoursolve.solving import RefusalKind, RemarkKind
+from contoursolve.solving import NoteKind, RefusalKind
 
 START, V1, V2 = "S", "V1", "V2"
 
@@ -23,9 +23,9 @@ REFUSED = frozenset("MST")
 
 
 @cache
-def g111(bevel: CornerShape) -> Form:
+def g111(bevel: CornerShape) -> ContourForm:
     """The form of the block, with bevels of a shape."""
-    return Form(
+    return ContourForm(
         name="G111",
         title="taper multiple cornering",
         roles=(Role("G111"),),
@@ -69,7 +69,7 @@ def g111(bevel: CornerShape) -> Form:
 G111 = g111(CornerShape.CHAMFER_AXIS_45)
 
 
-def claim_g111(block: Block, state: State, modes: Modes) -> Claim:
+def claim_g111(block: Block, state: State, modes: Modes) -> ParsedContour:
     """The contour of a block with G111."""
     after = after_cornering(block, state, modes)
     return claim_of(block, g111(bevel_of(modes)), 111, state, after, modes, REFUSED)
@@ -194,7 +194,7 @@ _COMBINATION_RULES = (
         severity=Severity.WARNING,
         roles=(_ROLE,),
         when=all_of("A", "I", "K"),
-        about=Trouble.WORD_IGNORED,
+        about=ReadIssue.WORD_IGNORED,
         ignores="A",
         accepted=(_GOOD,),
         rejected=(_START + "G111 A135. I10. K-12. B180. Z-40.",),
@@ -207,7 +207,7 @@ _COMBINATION_RULES = (
         severity=Severity.WARNING,
         roles=(_ROLE,),
         when=_WHOLE_LINE_2 & at_least(2, "A", "I", "K"),
-        about=Trouble.WORD_IGNORED,
+        about=ReadIssue.WORD_IGNORED,
         ignores="B",
         accepted=(_GOOD, _START + "G111 A180. B120. X100. Z-47."),
         rejected=(_START + "G111 A180. K-30. B120. X100. Z-47.",),
@@ -267,7 +267,7 @@ _GEOMETRY_RULES = (
         help="check that it is meant to touch",
         source=_TOUCHING,
         roles=(_ROLE,),
-        about=RemarkKind.DOUBLE,
+        about=NoteKind.DOUBLE,
         severity=Severity.WARNING,
         accepted=(_GOOD,),
         rejected=("G00 X40. Z0.\nG111 A180. K-30. X100. (contoursolve: length of line 2 = 30)",),
@@ -391,7 +391,7 @@ _FOLLOWING_RULES = (
         help="write {code} into this block, or delete {words}",
         source=manual("2.8.30: G111 is not modal", Evidence.DERIVED),
         roles=(_ROLE, "G112"),
-        about=Trouble.CODE_FORGOTTEN,
+        about=ReadIssue.CODE_FORGOTTEN,
         severity=Severity.WARNING,
         accepted=(
             _GOOD + "\nG111 X160. A180. K-30. B120.",
@@ -410,7 +410,7 @@ _FOLLOWING_RULES = (
         help="write G01 or G00; if {code} leaves G01 in force on your control: --set yasnac-lx3.motion-after=g01",
         source=MOTION_AFTER.source,
         roles=(_ROLE, "G112"),
-        about=Trouble.RAPID_BEHIND,
+        about=ReadIssue.RAPID_BEHIND,
         severity=Severity.WARNING,
         accepted=(
             _GOOD + "\nG01 Z-90.",
@@ -425,7 +425,7 @@ _FOLLOWING_RULES = (
         help="go on along {line}, or give line 2 a sharp end",
         source=manual("2.8.30, p. 137 and 140: corner 2 does not look at the next block", Evidence.DERIVED),
         roles=(_ROLE, "G112"),
-        about=Trouble.LANDING_LEFT,
+        about=ReadIssue.LANDING_LEFT,
         severity=Severity.WARNING,
         accepted=(
             _GOOD + " Q5.\nG01 Z-90.",

@@ -30,9 +30,9 @@ from contoursolve.geometry import (
     Turn,
     Unit,
 )
-from contoursolve.reading import Claim, CornerRow, FactRow, Form, Modes, Sample, State
+from contoursolve.reading import ContourForm, CornerRow, FactRow, Modes, ParsedContour, Sample, State
 from contoursolve.reading.rules import Rule, Value, all_of, at_least, at_most, some
-from contoursolve.solving import RefusalKind, RemarkKind
+from contoursolve.solving import NoteKind, RefusalKind
 
 CENTER, LANDING, RADIUS, WAY = "C", "landing line", "r", "way"
 """LANDING is the foot of the centre on the line on which corner 2 lands, WAY the direction of both lines."""
@@ -49,12 +49,12 @@ _WAYS = {(FIRST, 1): 0, (FIRST, -1): 180, (SECOND, 1): 90, (SECOND, -1): -90}
 
 
 @cache
-def g112(along: int, turn: Turn, bevel: CornerShape) -> Form:
+def g112(along: int, turn: Turn, bevel: CornerShape) -> ContourForm:
     """The form of the block: lines along an axis, an arc that turns so, bevels of a shape."""
     across = 1 - along
     absolute, increment = ("X", "U") if along == FIRST else ("Z", "W")
     axis, other = ("Z", "X") if along == FIRST else ("X", "Z")
-    return Form(
+    return ContourForm(
         name="G112",
         title=f"circular-arc multiple cornering, {'turning' if along == FIRST else 'facing'}",
         roles=(Role("G112"), Role(TURNING if along == FIRST else FACING)),
@@ -104,7 +104,7 @@ _SAMPLES = (
 G112_FORMS = tuple(g112(along, Turn.CW, CornerShape.CHAMFER_AXIS_45) for along in (FIRST, SECOND))
 
 
-def claim_g112(block: Block, state: State, modes: Modes) -> Claim:
+def claim_g112(block: Block, state: State, modes: Modes) -> ParsedContour:
     """The contour of a block with G112, which is not modal (assumed, as G111)."""
     after = after_cornering(block, state, modes)
     addresses = {word.address for word in block.words}
@@ -126,7 +126,7 @@ def claim_g112(block: Block, state: State, modes: Modes) -> Claim:
     return dataclasses.replace(claim, limits=_limits(draft, 1 - along, aside, beyond))
 
 
-def _value(claim: Claim, name: str) -> Decimal | None:
+def _value(claim: ParsedContour, name: str) -> Decimal | None:
     return claim.givens[name].value if name in claim.givens else None
 
 
@@ -134,7 +134,7 @@ def _sign(value: Decimal | None) -> int:
     return (value > 0) - (value < 0) if value is not None else 0
 
 
-def _landing(claim: Claim, across: int, aside: Decimal | None) -> Decimal | None:
+def _landing(claim: ParsedContour, across: int, aside: Decimal | None) -> Decimal | None:
     """How far the landing line lies from the centre, in the positive sense of its axis, mm; None where unknown."""
     absolute, increment = (("Z", "W"), ("X", "U"))[across]
     start = claim.before.start().values[across]
@@ -146,7 +146,7 @@ def _landing(claim: Claim, across: int, aside: Decimal | None) -> Decimal | None
     return place - start - aside if place is not None and start is not None else None
 
 
-def _limits(claim: Claim, across: int, aside: Decimal | None, beyond: Decimal | None) -> dict[str, Decimal]:
+def _limits(claim: ParsedContour, across: int, aside: Decimal | None, beyond: Decimal | None) -> dict[str, Decimal]:
     """Where the words put the landing line through the centre, each by itself."""
     if aside is None or beyond is None:
         return {}
@@ -363,7 +363,7 @@ _GEOMETRY_RULES = (
         source=_WAY,
         severity=Severity.INFO,
         roles=(_ROLE,),
-        about=RemarkKind.TOUCHES,
+        about=NoteKind.TOUCHES,
         accepted=(_GOOD,),
         rejected=(_START + "G112 U-40. I10. K-50. R30.",),
     ),

@@ -10,7 +10,7 @@ from contoursolve.diagnostics.finding import Alarm
 from contoursolve.diagnostics.source import Evidence
 from contoursolve.gcode import Block
 from contoursolve.geometry import FIRST, SECOND, Coordinate, CornerShape, Given, Level, Line, Offset, Role, Unit
-from contoursolve.reading import Claim, CornerRow, FactRow, Form, Modes, Sample, State, apply_modes
+from contoursolve.reading import ContourForm, CornerRow, FactRow, Modes, ParsedContour, Sample, State, apply_modes
 from contoursolve.reading.rules import Rule, Value, all_of, at_most, some
 from contoursolve.solving import RefusalKind
 
@@ -26,10 +26,10 @@ _WORDS = ((("Z", "W"), "I", "X"), (("X", "U"), "K", "Z"))
 
 
 @cache
-def leaving(code: int, along: int) -> Form:
+def leaving(code: int, along: int) -> ContourForm:
     """The form of a block with or under a G code, along an axis."""
     (absolute, increment), letter, other = _WORDS[along]
-    return Form(
+    return ContourForm(
         name=f"G{code:02}",
         title=f"{_TITLES[code]}, along {'ZX'[along]}",
         roles=(Role("leaving"), Role((ALONG_Z, ALONG_X)[along])),
@@ -64,7 +64,7 @@ _SAMPLES = ("Z-20. {I8.} {K8.} {U50.} {W-20.} {X80.}", "X80. {I7.} {K-7.} {U50.}
 LEAVING_FORMS = tuple(leaving(code, along) for code in _TITLES for along in (FIRST, SECOND))
 
 
-def claim_leaving(block: Block, code: int, state: State, modes: Modes) -> Claim:
+def claim_leaving(block: Block, code: int, state: State, modes: Modes) -> ParsedContour:
     """The contour of a block that moves along one axis with a corner, with or under G11, G12 or G01."""
     addresses = {word.address for word in block.words}
     along = FIRST if addresses & {"Z", "W"} or ("I" in addresses and not addresses & {"X", "U"}) else SECOND
