@@ -1,7 +1,11 @@
-"""What holds for every test."""
+"""What holds for every test: its options, and what it needs besides Python packages."""
 
+import shutil
 import signal
 import sys
+from importlib.util import find_spec
+
+import pytest
 
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     # A shell ignores interrupts in what it starts in the background, and so would every child of a test.
@@ -9,3 +13,27 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 
 # For the syntax of IRIs jsonschema builds dozens of parsers when it is imported, which takes seconds. No test has them.
 sys.modules.setdefault("rfc3987_syntax", None)
+
+PROGRAMS = {
+    "interpreter": (("rs274",), "rs274 (Debian: apt-get install linuxcnc-uspace)"),
+    "browser": (("chromium", "chromium-browser"), "chromium (Debian: apt-get install chromium)"),
+}
+"""The programs of which tests with a marker need one, and how to get them."""
+
+PACKAGES = {"browser": ("playwright", "jupyterlab", "ipykernel", "anywidget", "htpy")}
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    group = parser.getgroup("contoursolve")
+    group.addoption("--insist", action="store_true", help="fail where a program or a package is missing, not skip")
+    group.addoption("--sarif-schema", metavar="FILE", help="the SARIF 2.1.0 schema, which our output is held against")
+    group.addoption("--screenshots", metavar="FOLDER", help="where tests with a browser leave what they saw")
+
+
+def pytest_runtest_setup(item: pytest.Item) -> None:
+    for marker, (names, advice) in PROGRAMS.items():
+        if item.get_closest_marker(marker) is not None:
+            missing = [] if any(map(shutil.which, names)) else [advice]
+            missing += [name for name in PACKAGES.get(marker, ()) if find_spec(name) is None]
+            if missing:
+                (pytest.fail if item.config.getoption("--insist") else pytest.skip)(f"needs {', '.join(missing)}")

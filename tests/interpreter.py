@@ -10,15 +10,7 @@ from pathlib import Path
 from tempfile import mkdtemp
 from typing import NamedTuple
 
-import pytest
-
 RS274 = shutil.which("rs274")
-REQUIRED = bool(os.environ.get("CONTOURSOLVE_RS274"))
-
-needs_rs274 = pytest.mark.skipif(
-    RS274 is None and not REQUIRED,
-    reason="rs274 is not installed (Debian package linuxcnc-uspace); CONTOURSOLVE_RS274=1 makes this an error",
-)
 
 _CALL = re.compile(r"\b(STRAIGHT_TRAVERSE|STRAIGHT_FEED|ARC_FEED|SELECT_PLANE|MESSAGE)\((.*)\)")
 _AXES = {"XY": (0, 1), "XZ": (2, 0), "YZ": (1, 2)}
@@ -57,7 +49,7 @@ def _run(program: str, folder: Path) -> list[list[Motion]]:
     file.write_text(program, encoding="utf-8", newline="")
     tools.write_text(_TOOLS)
     (folder / "program.var").touch()
-    assert RS274, "rs274 is required here (CONTOURSOLVE_RS274), and it is not installed"
+    assert RS274
     done = subprocess.run(
         [RS274, "-t", str(tools), "-v", str(folder / "program.var"), "-g", str(file)],
         capture_output=True,

@@ -11,7 +11,6 @@ import time
 import urllib.error
 import urllib.request
 from contextlib import contextmanager
-from importlib.util import find_spec
 from pathlib import Path
 from urllib.parse import urlsplit
 
@@ -19,15 +18,8 @@ import pytest
 
 import contoursolve
 
-IS_WANTED = os.environ.get("CONTOURSOLVE_BROWSER") == "1"
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
-MISSING = [
-    *([] if CHROMIUM else ["chromium (Debian: apt-get install chromium)"]),
-    *(name for name in ("playwright", "jupyterlab", "ipykernel", "anywidget", "htpy") if find_spec(name) is None),
-]
-pytestmark = pytest.mark.skipif(
-    bool(MISSING) and not IS_WANTED, reason=f"a browser test needs {', '.join(MISSING)}; CONTOURSOLVE_BROWSER=1 insists"
-)
+pytestmark = pytest.mark.browser
 
 HOUSE = Path(contoursolve.__file__).parent.parent
 PROGRAMS = HOUSE / "notebooks" / "programs"
@@ -56,8 +48,8 @@ def browser():
 
 
 @pytest.fixture
-def artefacts(tmp_path):
-    folder = Path(os.environ.get("CONTOURSOLVE_ARTEFACTS") or tmp_path)
+def artefacts(request, tmp_path):
+    folder = Path(request.config.getoption("--screenshots") or tmp_path)
     folder.mkdir(parents=True, exist_ok=True)
     return folder
 

@@ -1,7 +1,6 @@
 """Findings for other tools: SARIF, GitHub's annotations, exit statuses and the summary of many files."""
 
 import json
-import os
 import re
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
@@ -44,11 +43,12 @@ def sarif(*paths: str) -> dict:
 # SARIF ------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", [BROKEN, CLEAN, WARNED, NOTHING, "", "G111 A1,5\n", "%\nG111 A#1 \u00e9\n"])
-def test_sarif_holds_against_its_schema(text, save):
-    path = os.environ.get("CONTOURSOLVE_SARIF_SCHEMA")
+def test_sarif_holds_against_its_schema(text, save, request):
+    path = request.config.getoption("--sarif-schema")
     if not path:
-        pytest.skip("set CONTOURSOLVE_SARIF_SCHEMA to the file of the SARIF 2.1.0 schema to validate against it")
+        pytest.skip("--sarif-schema names the file of the SARIF 2.1.0 schema, to validate against it")
     schema = json.loads(Path(path).read_text(encoding="utf-8"))
     log = json.loads(check(save(text), "--control", "yasnac-lx3", "--format", "sarif").output)
     jsonschema.validators.validator_for(schema)(schema).validate(log)

@@ -15,7 +15,7 @@ from click.testing import CliRunner
 from examples import law
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from interpreter import RefusedError, assert_path, interpret, needs_rs274
+from interpreter import RefusedError, assert_path, interpret
 
 import contoursolve
 from contoursolve.api import only_findings
@@ -52,7 +52,7 @@ def expand(text, **options):
 # --- The judge: LinuxCNC runs what we write, and goes where the contour goes (more in test_interpreted.py) ---
 
 
-@needs_rs274
+@pytest.mark.interpreter
 @pytest.mark.parametrize("name", ["shaft", "roller", "plate", "cover", "unusual"])
 @pytest.mark.parametrize("arcs", ["center", "radius"])
 def test_linuxcnc_runs_our_programs_without_the_lines_that_it_is_said_not_to_know(name, arcs, tmp_path):
@@ -92,7 +92,7 @@ def test_linuxcnc_runs_our_programs_without_the_lines_that_it_is_said_not_to_kno
             pytest.fail(f"no motions go along the contour of line {answer.lines[0]}")
 
 
-@needs_rs274
+@pytest.mark.interpreter
 @pytest.mark.parametrize(("unit", "scale"), [("G21", 1), ("G20", 25.4)])
 def test_linuxcnc_sees_the_same_contour_in_inches(unit, scale, tmp_path):
     text = f"{unit} F10\nG00 X4. Z0.\nG111 X10. A180. K-3. B120. P.5 Q.5\nM30\n"
@@ -198,7 +198,7 @@ def test_with_few_decimals_every_arc_is_still_one(post, arcs, decimals, unit):
         assert [each for each in reasons if "radius of the arc is" in each or "too small" in each] == []
 
 
-@needs_rs274
+@pytest.mark.interpreter
 @pytest.mark.parametrize("arcs", ["center", "radius"])
 @pytest.mark.parametrize("decimals", [1, 2, 3, 4])
 def test_linuxcnc_runs_arcs_with_few_decimals(arcs, decimals, tmp_path):
@@ -490,7 +490,7 @@ def test_a_code_that_a_control_of_ones_own_reads_as_the_target_does_is_not_read_
     assert contoursolve.expand(text, post="linuxcnc").text is None
 
 
-@needs_rs274
+@pytest.mark.interpreter
 @pytest.mark.parametrize("machine", Machine)
 @pytest.mark.parametrize("stride", [15, pytest.param(1, marks=pytest.mark.slow)])
 def test_linuxcnc_stops_at_every_code_of_which_no_row_says_what_it_does(machine, stride, tmp_path):
@@ -504,7 +504,7 @@ def test_linuxcnc_stops_at_every_code_of_which_no_row_says_what_it_does(machine,
                 interpret(f"{opening} F100\nG00 X40. Z0.\nG{code} {words}\nM2\n", tmp_path)
 
 
-@needs_rs274
+@pytest.mark.interpreter
 def test_linuxcnc_runs_a_turning_cycle_as_it_is_said_to(tmp_path):
     written = contoursolve.expand(f"F100\n{TURNED}M30\n", post="linuxcnc", keep_untranslated=True).text
     through = [motion for motion in interpret(written, tmp_path) if abs(motion.end - (-40 + 45.5j)) < 1e-9]
@@ -965,7 +965,7 @@ def open_in_linuxcnc(file, folder):
     return done.returncode, done.stdout, "\n".join(said), steps
 
 
-@needs_rs274
+@pytest.mark.interpreter
 @pytest.mark.skipif(sys.platform == "win32", reason="LinuxCNC has a shell")
 def test_linuxcnc_opens_an_old_program_through_the_filter(tmp_path):
     old = tmp_path / "an old one's.nc"

@@ -1,6 +1,4 @@
-"""Random rows of families against closed forms of their own; CONTOURSOLVE_ROWS sets how many slow tests take."""
-
-import os
+"""Random rows of families against closed forms of their own."""
 
 import numpy as np
 import pytest
@@ -8,7 +6,7 @@ from oracle_columns import JUDGED, circle_line, g111
 
 from contoursolve.families import Code, family
 
-ROWS, PART = int(os.environ.get("CONTOURSOLVE_ROWS", "200000")), 500_000
+ROWS, PART = 200_000, 500_000
 """Of a form, and of it at once."""
 
 FARTHEST = 1e6  # mm, in X by diameter or radius; between its half and its double nothing is judged

@@ -4,7 +4,6 @@ The mutations work on windows of a few lines around each contour, not on whole p
 is about 60 lines of which a mutation touches one, so windows try 15 times as many in the same time.
 """
 
-import os
 import random
 import re
 import string
@@ -28,7 +27,7 @@ PROGRAMS = {
     path.name: (path.read_text(), "nct-99m" if "NCT" in path.read_text() else "yasnac-lx3")
     for path in sorted((Path(__file__).parent.parent / "notebooks" / "programs").glob("*.nc"))
 }
-MUTANTS = int(os.environ.get("CONTOURSOLVE_MUTANTS", "100"))
+MUTANTS = 100
 """Of one seed. A failing one names its seed, so that one failure is repeated in seconds."""
 
 GAP = 1e-9
@@ -183,7 +182,7 @@ def test_mutated_contours_are_answered(seed):
             raise AssertionError(f"solve({text!r}, control={control!r}, rules={rules!r})") from error
 
 
-MANY, EVERY = int(os.environ.get("CONTOURSOLVE_MANY", "20000")), 200
+MANY, EVERY = 20_000, 200
 """How many mutants of one seed are read, of which two in five are judged; and of how many one goes all the way."""
 
 LINE = 2.0

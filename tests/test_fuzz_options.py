@@ -1,6 +1,5 @@
 """Options that nobody would give: every command ends with a status of its own, and never in a traceback."""
 
-import os
 import random
 import resource
 import string
@@ -11,7 +10,7 @@ from click.testing import CliRunner
 
 from contoursolve.cli import main
 
-OPTIONS = int(os.environ.get("CONTOURSOLVE_OPTIONS", "50000"))
+OPTIONS = 50_000
 SHARDS = 10
 """A failing shard names its seed, so that one failure is repeated in seconds."""
 

@@ -11,7 +11,7 @@ from fanuc import read
 from generate_lx3 import FORMS as ARC_FORMS
 from generate_lx3 import random_g11, random_g112
 from generate_nct import FORMS, Drawn, random_chain, random_cornered, random_pair
-from interpreter import assert_path, interpret_all, needs_rs274
+from interpreter import assert_path, interpret_all
 from oracle import Element, g111
 
 import contoursolve
@@ -140,7 +140,7 @@ def within(each: Drawing, post: str) -> float:
     return 1.5e-4 + 1e-4 if "G20" in each.shows else 1.5e-3
 
 
-@needs_rs274
+@pytest.mark.interpreter
 @pytest.mark.parametrize(
     ("post", "arcs"),
     [

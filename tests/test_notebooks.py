@@ -51,6 +51,7 @@ def test_there_is_one_notebook_of_each_number():
     assert [path.name[:2] for path in NOTEBOOKS] == NAMES
 
 
+@pytest.mark.notebook
 @pytest.mark.parametrize(
     "path",
     [NOTEBOOKS[0], *(pytest.param(path, marks=pytest.mark.slow) for path in NOTEBOOKS[1:])],

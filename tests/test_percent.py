@@ -4,7 +4,7 @@ from random import Random
 
 import pytest
 from click.testing import CliRunner
-from interpreter import interpret, needs_rs274
+from interpreter import interpret
 
 import contoursolve
 from contoursolve.cli import main
@@ -45,7 +45,7 @@ def test_the_first_line_outside_is_named_on_either_side(control):
         assert all(each.severity.value == "warning" for each in found)
 
 
-@needs_rs274
+@pytest.mark.interpreter
 def test_linuxcnc_runs_what_is_not_named(tmp_path):
     compared = 0
     for kinds, text in programs(60):

@@ -1,6 +1,5 @@
 """Records in notebooks: text, HTML and SVG of any block, whatever stands in it."""
 
-import os
 import random
 import re
 import subprocess
@@ -19,7 +18,7 @@ from contoursolve.output import html as style
 from contoursolve.solving.contour import ArcSegment
 from contoursolve.solving.enumerate import Effort
 
-BLOCKS = int(os.environ.get("CONTOURSOLVE_RICH", "14"))
+BLOCKS = 14
 """Of one seed."""
 LARGEST = 400_000
 """Characters of one kind of data of one block."""

@@ -8,7 +8,6 @@ to install it. What is not installed is named below the others.
 """
 
 import importlib.util
-import os
 import signal
 import sys
 from cmath import exp
@@ -364,7 +363,7 @@ class LeastSquares:
 # contoursolve
 
 
-PATIENCE = float(os.environ.get("CONTOURSOLVE_PATIENCE", "5"))
+PATIENCE = 10.0
 """Seconds after which our own solver is interrupted, and has failed."""
 
 

@@ -1,6 +1,5 @@
-"""Memory of families, each measured in a process of its own; CONTOURSOLVE_ROWS sets how many rows (1,000,000)."""
+"""Memory of families, each measured in a process of its own."""
 
-import os
 import sys
 
 import pytest
@@ -9,7 +8,7 @@ pytest.importorskip("pyarrow")
 from growth import run
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the peak is read from /proc")
-ROWS = int(os.environ.get("CONTOURSOLVE_ROWS", "1000000"))
+ROWS = 1_000_000
 
 
 def test_a_result_takes_at_most_200_mb_more_than_itself(capsys: pytest.CaptureFixture[str]) -> None:

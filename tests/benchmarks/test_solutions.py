@@ -1,9 +1,5 @@
-"""What all solutions and their proof cost, and how often they are found, beside peers: pytest tests/benchmarks.
+"""What all solutions and their proof cost, and how often they are found, beside peers: pytest tests/benchmarks."""
 
-CONTOURSOLVE_CASES sets how many chains are drawn (300), CONTOURSOLVE_PATIENCE after how many seconds one is given up.
-"""
-
-import os
 import sys
 from collections import Counter
 from pathlib import Path
@@ -21,7 +17,7 @@ import contoursolve
 from contoursolve import Sketch
 from contoursolve.solving.solution import Certificate, Proof
 
-CASES = int(os.environ.get("CONTOURSOLVE_CASES", "300"))
+CASES = 300
 
 TAPER = ("G00 X40. Z0.\nG111 X100. A180. K-30. B120. P5. Q5.", "yasnac-lx3")
 PAIR = ("G17 G90 G41 G0 X0 Y0\nG3 I50 J0\nG1 X60 Y100 ,A80 Q1", "nct-99m")
