@@ -321,6 +321,25 @@ def test_one_mistake_in_a_long_chain_is_repaired_near_it(text, fix, trials, deco
     assert len(decompositions) <= 900
 
 
+@pytest.mark.parametrize(
+    ("chain", "fixes"),
+    [
+        ("G1 X80 ,R90\nG1 Y50", ["write ,R50 for ,R90 (another digit)", "delete ,R90"]),
+        ("G1 X80 ,R50\nG1 Y50 ,C20\nG1 X0", ["write ,R30 for ,R50 (another digit)", "delete ,R50", "delete ,C20"]),
+        ("G1 X80 ,R5\nG1 X90 ,R5\nG1 Y50", ["delete ,R5"]),
+    ],
+    ids=["lines are left", "a contour and a line", "a contour is left"],
+)
+def test_a_corner_that_cannot_be_made_may_be_left_out_though_it_parts_the_contour(chain, fixes):
+    start = "G17 G90 G0 X0 Y0"
+    result = solve(f"{start}\n{chain}", control="nct-99m")
+    found = [fix for finding in result.diagnostics for fix in finding.fixes]
+    assert [fix.description.partition(" -> ")[0] for fix in found] == fixes
+    for fix in found:
+        mended = solve(f"{start}\n{fix.replacement}", control="nct-99m")
+        assert not [each for each in mended.diagnostics if each.code != "no-contour"]
+
+
 def test_many_mistakes_in_a_long_chain_are_not_tried_in_every_combination():
     """Each of 40 lines lacks a word, and three would do: 3**40 combinations, all of them too many changes."""
     result = solve("\n".join(["G17 G90 G41 D0 G0 X0 Y0", *["G1 ,A30 ,R1", "G1 ,A-30 ,R1"] * 20]), control="nct-99m")

@@ -28,11 +28,11 @@ from contoursolve.diagnostics.finding import Applicability, Diagnostic, Severity
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import Block, parse_block
 from contoursolve.geometry import Profile, assemble
-from contoursolve.reading import ParsedContour, ReadIssue, State, advance, read
+from contoursolve.reading import ParsedContour, ReadIssue, State, advance, leave, read
 from contoursolve.reading.dialect import Dialect
-from contoursolve.solving import NoteKind, Status
+from contoursolve.solving import NoteKind, Point, Status
 from contoursolve.solving.affine import affine_facts
-from contoursolve.solving.contour import Contour
+from contoursolve.solving.contour import Contour, LineSegment, Segment
 from contoursolve.solving.plan import is_closed
 from contoursolve.tolerance import AGREEMENT
 
@@ -288,7 +288,10 @@ def _solve_edited(claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ...
         example = _example(claim, dialect, edits, before)
         return Repair(edits, replacement, Applicability.PLACEHOLDER, None, 0.0, example=example) if example else None
     answer = examine_edited(claim, dialect, edits, before)
-    if answer is None or answer.contour is None or not _is_settled(answer, edits):
+    if answer is None:
+        contour = _path_in_parts(claim, dialect, edits) if _is_about_corners(edits, claim) else None
+        return _without_corners(edits, replacement, contour, before) if contour else None
+    if answer.contour is None or not _is_settled(answer, edits):
         return None
     # No change of the block moves its start.
     findings = [each for each in answer.diagnostics if each.severity is not Severity.INFO and not _is_before(each)]
@@ -308,6 +311,58 @@ def _solve_edited(claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ...
     return Repair(
         edits, replacement, applicability, answer.contour, deviation, warnings, is_exact=is_exact, drawbacks=drawbacks
     )
+
+
+def _is_about_corners(edits: tuple[Edit, ...], claim: ParsedContour) -> bool:
+    """Whether all that is done is to leave corners out."""
+    sizes = {name for row in claim.form.corners for name in row.shapes if name in claim.words}
+    corners = {claim.words[name].span for name in sizes}
+    return all(edit.kind is EditKind.DROP and edit.span in corners for edit in edits)
+
+
+def _without_corners(edits: tuple[Edit, ...], replacement: str, contour: Contour, before: Before) -> Repair:
+    """The repair that parts a contour into several, and lines between them."""
+    deviation = contour.deviation(before.contour) if before.contour else float("inf")
+    drawbacks = tuple(_drawbacks(contour, before.contour))
+    return Repair(edits, replacement, Applicability.CHANGES_CONTOUR, contour, deviation, drawbacks=drawbacks)
+
+
+def _path_in_parts(claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ...]) -> Contour | None:
+    """The path of blocks that are several contours, or plain lines, without the corners that are dropped. None where
+    one of them is not sound, or more than lines and contours is left."""
+    blocks = [
+        parse_block(text, block.line)
+        for text, block in zip(apply_edits(claim.blocks, edits), claim.blocks, strict=True)
+    ]
+    state, index, elements = claim.before, 0, list[Segment]()
+    start = here = _place(state)
+    while index < len(blocks) and here is not None:
+        part = dialect.find(blocks, index, state, dialect.modes)
+        if isinstance(part, ParsedContour):
+            answer = examine(part, dialect.rules, Policy.ENFORCE, lambda: None)
+            is_sound = all(each.severity is Severity.INFO for each in answer.diagnostics)
+            if not (part.form.is_contour and is_sound and answer.status is Status.SOLVED and answer.contour):
+                return None
+            elements += answer.contour.elements
+            state, index = leave(part, answer.contour.end, dialect.modes), index + len(part.blocks)
+        else:
+            state, index = advance(state, blocks[index], dialect.modes), index + 1
+            there = _place(state)
+            if there is None or state.motion != _LINE:
+                return None
+            elements += [LineSegment(f"line {index}", here, there)] if there != here else []
+        here = _place(state)
+    return Contour(start, here, {}, tuple(elements), claim.before.plane) if start and here else None
+
+
+_LINE = 1
+"""The motion code of a line."""
+
+
+def _place(state: State) -> Point | None:
+    """Where the tool is in the plane, mm, if that is known."""
+    first, second = state.start().values
+    return None if first is None or second is None else (float(first), float(second))
 
 
 def _drops_more(edit: Edit, claim: ParsedContour) -> bool:
