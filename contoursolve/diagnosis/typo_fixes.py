@@ -214,6 +214,9 @@ def texts_of(slip: Slip, word: Word, claim: ParsedContour) -> Iterator[str]:
             continue
         if _LEADING.search(text):
             continue
+        if not match["number"].strip("0.") and match["address"] in _shapes(claim):
+            # Nobody writes a corner of no size.
+            continue
         if len(match["number"].partition(".")[2]) <= max(_DECIMALS, len(typed.number.partition(".")[2])):
             yield text
 
