@@ -519,3 +519,12 @@ def test_fixes_do_not_depend_on_the_values_of_a_block_before():
 
     assert fixes("-190.") == []
     assert fixes("-157.141638") == ["G112 Z-157.141638 R13.021413 K-6.178 I42.488466"]
+
+
+def test_a_forgotten_code_is_the_first_fix_and_no_help_tells_to_delete_what_it_reads():
+    result = solve("G01 X40. Z0. F.2\nG111 X100. A180. K-30. B120.\nX160. A180. K-30. B120.")
+    unknown = [each for each in result.diagnostics if each.code == "address-unknown"]
+    assert [each.help for each in unknown] == ["add G111", "add G111"]
+    assert unknown[0].fixes[0].replacement == "G111 X160. A180. K-30. B120."
+    behind = next(each for each in result.diagnostics if each.code == "g111-forgotten")
+    assert behind.fixes[0].replacement == unknown[0].fixes[0].replacement

@@ -10,9 +10,10 @@ from msgspec import Struct
 
 from contoursolve.diagnosis.wording import shorten
 from contoursolve.diagnostics.source import Evidence, Source, Span
-from contoursolve.gcode import FACT, Block, Directive, read_directive
+from contoursolve.gcode import FACT, Block, Directive, parse_block, read_directive
 from contoursolve.geometry import Length, Unit
 from contoursolve.reading import Lexicon, WithoutPoint
+from contoursolve.reading.modal_dependence import restate
 
 PLACEHOLDER = "?"
 """Stands for a number that the block does not give."""
@@ -161,7 +162,7 @@ def apply_edits(blocks: Iterable[Block], edits: Iterable[Edit]) -> tuple[str, ..
                 text = before.rstrip(" ") + after if before.strip() else before + after.lstrip(" ")
         for edit in edits:
             if edit.kind is EditKind.ADD and edit.line == block.line:
-                text = _insert(text, edit.text)
+                text = _with_code(text, edit.text) if edit.address == "G" else _insert(text, edit.text)
         is_fact_dropped = any(edit.address == FACT and not edit.text for edit in own)
         texts.append(_with_moved(_tidy(text) if is_fact_dropped else text, own))
     return tuple(texts)
@@ -196,6 +197,11 @@ def _tidy(text: str) -> str:
     text = re.sub(r"(\(\s*+contoursolve\s*+:)\s*+(?:;\s*+)++", r"\1 ", text, flags=re.IGNORECASE)
     text = re.sub(r"(?<!\s)\s*+\(\s*+contoursolve\s*+:\s*+\)", "", text, flags=re.IGNORECASE)
     return re.sub(r"(?<!\s)\s*+;(?:\s*+;)*(\s*+[);])", r"\1", text)
+
+
+def _with_code(text: str, code: str) -> str:
+    """A G code added before the first word that is more than a number."""
+    return restate(parse_block(text, 1), int(code.removeprefix("G"))).text
 
 
 def _insert(text: str, word: str) -> str:

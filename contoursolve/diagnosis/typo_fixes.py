@@ -234,11 +234,16 @@ def mistyped_codes(word: Word, modes: Modes) -> list[str]:
 
 def other_codes(answer: Answer, modes: Modes) -> Iterator[tuple[Edit, ...]]:
     """The G codes of a contour as those of other contours that they may have been meant to be; none of a code that its
-    block repeats, because the other one would stay."""
+    block repeats, because the other one would stay. And a code that may have been forgotten, where words mean nothing
+    without it."""
     words = [word for block in answer.claim.blocks for word in block.words]
     times = Counter((word.span.line, word.address, word.number) for word in words)
     words = [word for word in words if times[word.span.line, word.address, word.number] == 1]
     yield from ((change(word, text),) for word in words for text in mistyped_codes(word, modes))
+    codes = [f"G{number}" for number, code in modes.codes.items() if code.effect is Effect.CONTOUR]
+    lines = dict.fromkeys(word.span.line for word in answer.claim.unknown)
+    for line in sorted(lines.keys() - {word.span.line for word in words if word.address == "G"}):
+        yield from ((Edit(EditKind.ADD, "G", text=code, line=line),) for code in codes)
 
 
 def recognise(edit: Edit, claim: ParsedContour) -> Slip | None:
