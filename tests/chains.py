@@ -8,7 +8,6 @@ A place is a complex number: real is X, imaginary is Y, both in mm. Angles are d
 (True, True)
 """
 
-import dataclasses
 from cmath import exp, phase
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
@@ -17,17 +16,10 @@ from decimal import Decimal
 from functools import cached_property
 from math import copysign, degrees, hypot, inf, pi, radians, remainder, tau
 from random import Random
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy
-from msgspec import Struct, structs
-
-
-def replace(record: Any, **changes: Any) -> Any:
-    """A record with some fields changed; those of the tests are dataclasses, most of the package are not."""
-    change = structs.replace if isinstance(record, Struct) else dataclasses.replace
-    return change(record, **changes)
-
+from records import replace
 
 POINT_KINDS = ("x of point", "y of point")
 KINDS = (

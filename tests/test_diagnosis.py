@@ -3,7 +3,6 @@
 The equations are written down a second time here, as rows of a matrix, and every subset of words is tried.
 """
 
-import dataclasses
 import re
 from collections import Counter
 from dataclasses import dataclass, field
@@ -18,17 +17,10 @@ from typing import Any
 import mpmath
 import numpy
 import pytest
-from msgspec import Struct, structs
+from records import replace
 
 from contoursolve import Answer, completions, parse, solve, what_if
 from contoursolve.diagnostics.finding import Applicability, Severity, Verdict
-
-
-def replace(record: Any, **changes: Any) -> Any:
-    """A record with some fields changed; those of the tests are dataclasses, most of the package are not."""
-    change = structs.replace if isinstance(record, Struct) else dataclasses.replace
-    return change(record, **changes)
-
 
 START = "X40. Z0."
 AGREEMENT = 0.001

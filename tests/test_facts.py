@@ -4,7 +4,6 @@ The laws hold at random places, whether or not the fact is true there. The drawi
 oracle, and it is the oracle that measures what comes back.
 """
 
-import dataclasses
 import json
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Mapping
@@ -22,7 +21,7 @@ import pytest
 from chains import KINDS, Chain, Fact, distance_between, form_residuals, measure, random_chain, random_facts
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from msgspec import Struct, structs
+from records import replace
 from sketches import chain_of, sketch_of
 
 from contoursolve import Sketch, solve
@@ -79,13 +78,6 @@ from contoursolve.statements import (
     write_statement,
 )
 from contoursolve.statements.apply import vocabulary_of
-
-
-def replace(record: Any, **changes: Any) -> Any:
-    """A record with some fields changed; those of the tests are dataclasses, most of the package are not."""
-    change = structs.replace if isinstance(record, Struct) else dataclasses.replace
-    return change(record, **changes)
-
 
 # Laws of equations ----------------------------------------------------------------------------------------
 

@@ -5,7 +5,6 @@ policy, so that the laws are tested on every verdict. Answers are alike if statu
 elements are equal, and all coordinates to 1e-9 mm.
 """
 
-import dataclasses
 from collections import Counter
 from dataclasses import dataclass
 from decimal import Decimal
@@ -17,17 +16,10 @@ import pytest
 from examples import law
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from msgspec import Struct, structs
 from oracle import PLANES
+from records import replace
 
 from contoursolve import Answer, ArcSegment, solve
-
-
-def replace(record: Any, **changes: Any) -> Any:
-    """A record with some fields changed; those of the tests are dataclasses, most of the package are not."""
-    change = structs.replace if isinstance(record, Struct) else dataclasses.replace
-    return change(record, **changes)
-
 
 TOLERANCE = 1e-9
 """mm."""

@@ -1,31 +1,22 @@
 """Drawings for CAD: what was written is read back with ezdxf and held against the contours."""
 
-import dataclasses
 import io
 import subprocess
 import sys
 from math import cos, hypot, radians, sin
 from pathlib import Path
-from typing import Any
 
 import ezdxf
 import pytest
 from click.testing import CliRunner
 from ezdxf import recover
-from msgspec import Struct, structs
+from records import replace
 
 import contoursolve
 from contoursolve.cli import main
 from contoursolve.geometry import Turn
 from contoursolve.output.dxf import CONSTRUCTION, layer_name, to_dxf
 from contoursolve.solving.contour import ArcSegment
-
-
-def replace(record: Any, **changes: Any) -> Any:
-    """A record with some fields changed; those of the tests are dataclasses, most of the package are not."""
-    change = structs.replace if isinstance(record, Struct) else dataclasses.replace
-    return change(record, **changes)
-
 
 PROGRAMS = Path(__file__).parent.parent / "notebooks" / "programs"
 CIRCLE = "G17 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q-1"

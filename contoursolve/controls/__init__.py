@@ -8,7 +8,8 @@ from contoursolve.controls.common import COMMON_RULES
 from contoursolve.controls.nct_99m import NCT_99M
 from contoursolve.controls.plain import PLAIN
 from contoursolve.controls.yasnac_lx3 import YASNAC_LX3
-from contoursolve.reading.dialect import Dialect, Finder
+from contoursolve.reading.dialect import Dialect
+from contoursolve.reading.follow import Finder
 
 DIALECTS = {dialect.name: dialect for dialect in (YASNAC_LX3, NCT_99M)}
 

@@ -497,10 +497,10 @@ def _with_ends(repair: Repair, claim: ParsedContour, dialect: Dialect, before: B
 
 def _stated(claim: ParsedContour, before: Before) -> Profile | None:
     """The profile of a contour with its further facts; None if one of them cannot be used."""
-    from contoursolve.statements import apply_statements  # noqa: PLC0415 - few blocks state more than their words
-
     profile = read(claim, frozenset())
     if not profile.is_extended:
         return profile
+    from contoursolve.statements import apply_statements  # noqa: PLC0415 - few blocks state more than their words
+
     profile, faults = apply_statements(profile, claim.directives, lambda: before.next_place)
     return None if faults else profile

@@ -109,9 +109,7 @@ class Edit:
     @property
     def reason(self) -> Why:
         """Why it is proposed."""
-        return {EditKind.DROP: Why.NOT_NEEDED, EditKind.ADD: Why.MISSING, EditKind.MOVE: Why.AGREES}.get(
-            self.kind, self.why
-        )
+        return _REASONS.get(self.kind, self.why)
 
     def __str__(self) -> str:
         old, text = (self._shown(each) for each in (self.old, self.text))

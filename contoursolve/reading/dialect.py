@@ -7,13 +7,9 @@ from contoursolve.diagnostics.finding import Diagnostic
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Length, Plane
 from contoursolve.reading.contour_form import Assumption, ContourForm, Setting
+from contoursolve.reading.follow import Finder
 from contoursolve.reading.modal_state import Modes, Position, State
-from contoursolve.reading.parsed_contour import ParsedContour
 from contoursolve.reading.rules import Rule
-
-Finder = Callable[[Sequence[Block], int, State, Modes], ParsedContour | None]
-"""(blocks, index, state before the block, modes) to the contour that begins at this block, if any."""
-
 
 Follower = Callable[..., Iterator[Diagnostic]]
 """(name of the form, path or None, what gives the state behind it, lines behind it with their numbers, context of
