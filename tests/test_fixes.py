@@ -142,3 +142,25 @@ def test_a_fix_that_keeps_the_contour_keeps_every_element():
                             numbers = zip(one, other, strict=True)
                             assert all(a == pytest.approx(b, abs=1e-3) if a != b else True for a, b in numbers)
     assert kept > 5
+
+
+def test_a_corner_that_misses_by_rounding_gets_the_last_digit_first():
+    """The round end of a slot at 25 degrees: its width is 20 mm, its corners are rounded to 0.001 mm."""
+    text = "G17 G90 G0 X0 Y0\nG1 X72.505 Y33.809 ,R10\nX64.053 Y51.935 ,R10\nX-8.452 Y18.126"
+    (finding,) = solve(text, control="nct-99m").diagnostics
+    assert finding.fixes[0].description.startswith("write ,R9.999 for ,R10")
+    assert "X-72.505" not in finding.fixes[1].description
+
+
+def test_q_is_the_fix_where_a_line_and_a_circle_only_touch():
+    text = "G17 G90 G0 X-50 Y50\nG1 G41 D1 X-20 Y50\nG1 ,A0\nG3 X50 Y0 I0 J0 R50"
+    (finding,) = solve(text, control="nct-99m").diagnostics
+    assert finding.code == "nct-q-missing"
+    assert [fix.description.partition(" ->")[0] for fix in finding.fixes] == ["add Q-1", "add Q1"]
+
+
+@pytest.mark.parametrize("text", ["G00 X4O. Z0.\nG111 A180. K-30. B120. X100.", "G00 X4l.\nG111 W0. A180. I5. B120."])
+def test_a_coordinate_that_is_read_in_part_leaves_the_position_unknown(text):
+    codes = [each.code for each in solve(text, control="yasnac-lx3").diagnostics]
+    assert codes[-1] == "position-unknown"
+    assert "start-in-increments" not in codes

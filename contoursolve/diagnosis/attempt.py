@@ -244,7 +244,7 @@ def _is_alike(repair: Repair, other: Repair) -> bool:
     return repair.slips == other.slips and [edit.span for edit in repair.edits] == [edit.span for edit in other.edits]
 
 
-_STRONG = (Why.SLIP, Why.FITS)
+_STRONG = (Why.ROUNDED, Why.SLIP, Why.FITS)
 _SEVERAL, _DECIMALS, _LONG = 5, 3, 6
 _LARGE = "more than twice as large"
 _ACROSS = "across the spindle axis"
@@ -296,6 +296,9 @@ def _solve_edited(claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ...
     # No change of the block moves its start.
     findings = [each for each in answer.diagnostics if each.severity is not Severity.INFO and not _is_before(each)]
     rules = [each for each in findings if (answer.profile.is_extended and _is_rule(each)) or _is_crossing(each)]
+    if all(edit.kind is EditKind.ADD and edit.address in _choices(claim) for edit in edits):
+        # Either sign makes the contour where two elements only touch.
+        rules += [each for each in findings if each.about is NoteKind.TOUCHES]
     if not all(each in rules or _now_agrees(each, before) for each in findings):
         return None
     if answer.contour.crossing is not None and before.codes == {each.code for each in rules if _is_crossing(each)}:
@@ -311,6 +314,11 @@ def _solve_edited(claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ...
     return Repair(
         edits, replacement, applicability, answer.contour, deviation, warnings, is_exact=is_exact, drawbacks=drawbacks
     )
+
+
+def _choices(claim: ParsedContour) -> set[str]:
+    """The addresses of words of which only the sign counts."""
+    return {claim.vocabulary[name][0] for name in claim.form.choices if name in claim.vocabulary}
 
 
 def _is_about_corners(edits: tuple[Edit, ...], claim: ParsedContour) -> bool:

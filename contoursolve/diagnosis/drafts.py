@@ -15,6 +15,7 @@ from contoursolve.gcode import FACT, FaultKind, Word, find_lookalikes, lookalike
 from contoursolve.geometry import Given, Length, Unit
 from contoursolve.reading import Lexicon, ParsedContour, ReadIssue
 from contoursolve.solving import BESIDE, RefusalKind
+from contoursolve.tolerance import INCREMENT
 
 _FEW = 8
 """Slips of which each is tried alone; each of many would take time by the square of a line's length."""
@@ -111,7 +112,12 @@ def _written(answer: Answer, sizes: Iterable[Mapping[Span, float]]) -> Iterator[
             continue
         text = write_word(word.address, copysign(size, given.value), claim.lexicon, unit, AT_MOST)
         if Decimal(text.removeprefix(word.address)):
-            yield change(word, text, Why.FITS)
+            is_rounded = float(abs(given.value)) - size < _ROUNDED
+            yield change(word, text, Why.ROUNDED if is_rounded else Why.FITS)
+
+
+_ROUNDED = 2 * INCREMENT
+"""mm. What rounding both ends of a line and the corner to the least increment may take from the corner."""
 
 
 def moving(claim: ParsedContour, drafts: Iterable[tuple[Edit, ...]]) -> Iterator[tuple[Edit, ...]]:

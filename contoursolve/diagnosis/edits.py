@@ -79,17 +79,19 @@ def errand_of(address: str, text: str) -> Errand | None:
 class Why(IntEnum):
     """Why an edit is proposed, the reason that a colleague would think of first before the others."""
 
-    SLIP = 0
+    ROUNDED = 0
+    """It differs by what rounding explains."""
+    SLIP = 1
     """A slip of typing explains it."""
-    AGREES = 1
+    AGREES = 2
     """It agrees with the other words."""
-    FITS = 2
+    FITS = 3
     """It is the largest value that fits."""
-    OTHER = 3
+    OTHER = 4
     """It is another word or value with which there is a contour."""
-    MISSING = 4
+    MISSING = 5
     """The word is missing."""
-    NOT_NEEDED = 5
+    NOT_NEEDED = 6
     """The word is one too many."""
 
 

@@ -1,5 +1,5 @@
 """Stretches of a block that are almost a word: letters for digits (l and I for 1, O for 0), a comma for the point,
-a point or a sign too many."""
+a point, a sign or an equals sign too many."""
 
 import re
 from bisect import bisect_right
@@ -13,7 +13,7 @@ from contoursolve.gcode.word import Block, FaultKind
 _DIGITS = str.maketrans("lI|Oo", "11100")
 _NUMBER = r"(?:[-+0-9.lI|Oo]|,(?=[\d.,]|[ \t]*+(?:[;(]|$)))++"
 _SEARCH = re.compile(
-    rf"\([^)]*+\)?+|;.*+|,?+[A-Za-z][ \t]*+(?:[-+]++[ \t]++)?(?P<number>{_NUMBER})"
+    rf"\([^)]*+\)?+|;.*+|,?+[A-Za-z][ \t]*+(?:=[ \t]*+)?(?:[-+]++[ \t]++)?(?P<number>{_NUMBER})"
     r"(?P<text>(?=[A-Za-z](?![ \t]*+[+-]?+[.\dlI|Oo])))?+"
 )
 """A comment; or an address and what may be its number, and whether it goes on as a text does."""
@@ -99,6 +99,11 @@ def mended(word: str) -> str:
     return address + number if _WORD.fullmatch(address + number) else ""
 
 
+def _equals(number: str, _: str) -> str:
+    """No equals sign behind the address, which other controls have."""
+    return number.lstrip().removeprefix("=").lstrip() if number.lstrip().startswith("=") else number
+
+
 def _sign(number: str, _: str) -> str:
     """One sign, before the digits: of several, a minus."""
     match = _SIGNS.fullmatch(number)
@@ -124,5 +129,5 @@ def _points(number: str, _: str) -> str:
 
 _SIGNS = re.compile(r"(?P<blank>[ \t]*+)(?P<before>[-+]*+)[ \t]*+(?P<digits>[0-9.,]++)(?P<behind>[-+]*+)")
 _IN_A_ROW = re.compile(r"\.{2,}")
-_MENDING: tuple[Callable[[str, str], str], ...] = (_sign, _comma, _points)
+_MENDING: tuple[Callable[[str, str], str], ...] = (_equals, _sign, _comma, _points)
 """What is mended in the text behind an address, one after the other."""

@@ -10,7 +10,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnostics.source import Span
-from contoursolve.gcode import Block, FaultKind, Macro, Passage, Word, find_words
+from contoursolve.gcode import Block, FaultKind, Macro, Passage, Word, find_lookalikes, find_words, lookalike_at
 from contoursolve.geometry import Length, Plane, Start
 from contoursolve.reading.contour_form import Convention, Setting
 from contoursolve.reading.lexicon import Code, Effect, Lexicon
@@ -272,10 +272,12 @@ def _effect(state: State, codes: Sequence[Code | Word], modes: Modes) -> tuple[E
 
 
 def _lost_by_faults(block: Block, modes: Modes) -> dict[str, Span]:
-    """The axes whose words could not be read."""
+    """The axes whose words could not be read, or are read in part, as X4O. is."""
     lost: dict[str, Span] = {}
+    meant = find_lookalikes(block) if block.faults else ()
     for fault in block.faults:
-        row = modes.lexicon.addresses.get(fault.address)
+        torn = lookalike_at(meant, fault.span)
+        row = modes.lexicon.addresses.get(torn.address if torn else fault.address)
         if fault.kind is FaultKind.BLOCK_TOO_LONG:
             lost.update(dict.fromkeys(modes.axes, fault.span))
         elif row and row.axis and fault.kind is not FaultKind.COMMENT_NOT_CLOSED:
