@@ -941,8 +941,8 @@ def _read(descriptor):
 
 def open_in_linuxcnc(file, folder):
     """What LinuxCNC's screen AXIS does with a file whose ending its INI file names: the status, the program that it
-    loads, what it tells the user, and how the bar moves. The lines of the INI file are those of the README."""
-    text = PROGRAMS.parent.parent.joinpath("README.md").read_text()
+    loads, what it tells the user, and how the bar moves. The lines of the INI file are those of docs/programs.md."""
+    text = PROGRAMS.parent.parent.joinpath("docs", "programs.md").read_text()
     ini = ConfigParser()
     ini.read_string(re.search(r"^    \[FILTER\]\n(?:    .+\n)+", text, re.MULTILINE)[0].replace("    ", ""))
     assert ini["FILTER"]["PROGRAM_EXTENSION"].startswith(f"{file.suffix} ")

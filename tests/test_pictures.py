@@ -730,16 +730,6 @@ def test_plot_of_a_png_without_resvg_says_what_to_install(tmp_path, monkeypatch)
     assert not (tmp_path / "a.png").exists()
 
 
-@pytest.mark.parametrize(
-    ("name", "block", "start"),
-    [("g111", BLOCK, START), ("refused", "N310 G111 A180. K-20. P4. B90. X66. D0.5", "X60. Z-55.")],
-)
-def test_the_pictures_of_the_readme_are_what_the_command_draws(tmp_path, name, block, start):
-    target = tmp_path / "a.svg"
-    plot("--block", block, "--start", start, "--theme", "page", "-o", target)
-    assert target.read_bytes() == (PROGRAMS[0].parent.parent / "pictures" / f"{name}.svg").read_bytes()
-
-
 def test_what_words_fix_at_no_value_is_drawn_as_free():
     text = "G111 A180. I0 B120. X100."
     (answer,) = contoursolve.solve(text, start=START, rules="off").answers

@@ -1,28 +1,138 @@
-"""The README shows what the commands print."""
+"""README.md and the pages in docs/: what their commands print, what their code does, and where their links lead.
+
+A command stands in an indented block after `$`, and what it prints stands below. One line `...` there stands for any
+lines. A block of code below `<!-- file: NAME -->` is a file that the commands of this page find in their folder. A
+picture that a command writes is the one in `notebooks/pictures` if that has its name.
+"""
 
 import re
 import shlex
+import shutil
 from pathlib import Path
 
 import pytest
+from click import Context
 from click.testing import CliRunner
 
 from contoursolve.cli import main
 
-README = (Path(__file__).parent.parent / "README.md").read_text(encoding="utf-8")
-SHOWN = re.findall(r"^    \$ contoursolve (.*)\n((?:    .*\n|\n(?=    (?!\$)))*)", README, re.MULTILINE)
+ROOT = Path(__file__).parent.parent
+PICTURES = ROOT / "notebooks" / "pictures"
+README = "README.md"
+MOST_WORDS = 1_800
+"""So many words has README.md at most; what is more belongs on a page of docs/."""
+
+PAGES = {
+    path.relative_to(ROOT).as_posix(): path.read_text(encoding="utf-8")
+    for path in [ROOT / README, *sorted((ROOT / "docs").glob("*.md"))]
+}
+SHOWN = [
+    pytest.param(page, command, output, id=f"{page}-{number}")
+    for page, text in PAGES.items()
+    for number, (command, output) in enumerate(
+        re.findall(r"^    \$ contoursolve (.*)\n((?:    .*\n|\n(?=    (?!\$)))*)", text, re.MULTILINE), 1
+    )
+]
+CODE = [page for page, text in PAGES.items() if "```python\n" in text]
 
 
-def test_the_readme_shows_commands() -> None:
-    assert len(SHOWN) >= 2
+def test_every_command_on_the_pages_is_run_by_the_next_test() -> None:
+    assert {each.values[0] for each in SHOWN} >= {README, "docs/machinists.md", "docs/programs.md"}
+    for page, text in PAGES.items():
+        indented = re.findall(r"```(?s:.*?)```|(^    (?:.*\$ )?contoursolve .*)", text, re.MULTILINE)
+        assert sum(map(bool, indented)) == sum(each.values[0] == page for each in SHOWN), page
 
 
-@pytest.mark.parametrize(("command", "output"), SHOWN)
-def test_a_command_prints_what_the_readme_shows(command: str, output: str) -> None:
-    printed = CliRunner().invoke(main, shlex.split(command)).output
-    assert [line.removeprefix("    ") for line in output.rstrip().split("\n")] == printed.rstrip().split("\n")
+@pytest.mark.parametrize(("page", "command", "output"), SHOWN)
+def test_a_command_prints_what_the_page_shows(tmp_path, monkeypatch, page, command, output) -> None:
+    for folder in ("programs", "conversions"):
+        shutil.copytree(ROOT / "notebooks" / folder, tmp_path / "notebooks" / folder)
+    for name, content in re.findall(r"<!-- file: (\S+) -->\n+```\w*\n(.*?)```", PAGES[page], re.DOTALL):
+        (tmp_path / name).write_text(content, encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.syspath_prepend(tmp_path)
+    done = None
+    for part in command.split(" | contoursolve "):
+        done = CliRunner().invoke(main, shlex.split(part), input=done and done.stdout)
+    shown = [line.removeprefix("    ") for line in output.rstrip().split("\n")]
+    printed = done.output.rstrip().split("\n")
+    if "..." in shown:
+        place = shown.index("...")
+        printed[place : len(printed) - len(shown[place + 1 :])] = ["..."]
+    assert shown == printed
+    for picture in tmp_path.glob("*.svg"):
+        if (PICTURES / picture.name).exists():
+            assert picture.read_bytes() == (PICTURES / picture.name).read_bytes()
 
 
-def test_the_code_of_the_readme_runs() -> None:
-    for code in re.findall(r"```python\n(.*?)```", README, re.DOTALL):
-        exec(compile(code, "README.md", "exec"), {})
+def test_every_picture_is_drawn_by_a_command_but_the_one_that_shows_measurements() -> None:
+    shown = {Path(link).name for text in PAGES.values() for link in links(text) if link.endswith(".svg")}
+    drawn = {each.values[1].split()[-1] for each in SHOWN if each.values[1].endswith(".svg")}
+    assert shown - drawn == {"family_growth.svg"}
+
+
+@pytest.mark.parametrize("page", CODE)
+def test_the_code_of_the_page_runs(page) -> None:
+    for code in re.findall(r"```python\n(.*?)```", PAGES[page], re.DOTALL):
+        exec(compile(code, page, "exec"), {})
+
+
+# --- the README -----------------------------------------------------------------------------------------
+
+
+def test_the_readme_is_short() -> None:
+    assert len(PAGES[README].split()) <= MOST_WORDS
+
+
+def test_the_line_for_windows_does_what_the_other_one_does() -> None:
+    (elsewhere,) = re.findall(r"^<!-- main-job -->\n```sh\n(.*)\n```$", PAGES[README], re.MULTILINE)
+    (windows,) = re.findall(r"^```powershell\n(.*)\n```$", PAGES[README], re.MULTILINE)
+    meant = elsewhere.replace("python3", "py").replace(".venv/bin/", ".venv/Scripts/").replace("/", "\\")
+    assert windows == meant.replace(" && ", "; ")  # PowerShell 5.1 does not know &&
+
+
+def test_the_readme_has_every_command_in_its_table() -> None:
+    named = re.findall(r"^\| `contoursolve (\w+)", PAGES[README], re.MULTILINE)
+    assert sorted(named) == sorted(main.list_commands(Context(main)))
+
+
+# --- links ----------------------------------------------------------------------------------------------
+
+
+def prose(text: str) -> str:
+    """A page without its code."""
+    return re.sub(r"```(?s:.*?)```|`[^`\n]*`|^    .*$", "", text, flags=re.MULTILINE)
+
+
+def links(text: str) -> list[str]:
+    """Where a page leads: the targets of its links and pictures, but those on the web."""
+    return [each for each in re.findall(r"\]\(([^)\s]+)\)", prose(text)) if "://" not in each]
+
+
+def anchors(text: str) -> list[str]:
+    """The anchors that GitHub gives the headings of a page."""
+    headings = re.findall(r"^#+ (.+)$", re.sub(r"```.*?```", "", text, flags=re.DOTALL), re.MULTILINE)
+    return [re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings]
+
+
+@pytest.mark.parametrize("page", [*PAGES, "CONTRIBUTING.md"])
+def test_every_link_leads_to_a_file_of_the_repository_and_to_a_heading_in_it(page) -> None:
+    source = ROOT / page
+    for link in links(source.read_text(encoding="utf-8")):
+        name, _, anchor = link.partition("#")
+        target = (source.parent / name).resolve() if name else source
+        assert target.is_file(), link
+        assert target.is_relative_to(ROOT), link
+        assert not anchor or anchor in anchors(target.read_text(encoding="utf-8")), link
+
+
+def test_no_two_headings_of_a_page_have_one_anchor() -> None:
+    for page, text in PAGES.items():
+        found = anchors(text)
+        assert len(found) == len(set(found)), page
+
+
+def test_the_first_page_and_the_readme_lead_to_every_page() -> None:
+    others = {page for page in PAGES if page != README}
+    assert {f"docs/{link}" for link in links(PAGES["docs/index.md"])} >= others - {"docs/index.md"}
+    assert set(links(PAGES[README])) >= others
