@@ -50,7 +50,6 @@ def test_a_command_prints_what_the_page_shows(tmp_path, monkeypatch, page, comma
     for name, content in re.findall(r"<!-- file: (\S+) -->\n+```\w*\n(.*?)```", PAGES[page], re.DOTALL):
         (tmp_path / name).write_text(content, encoding="utf-8")
     monkeypatch.chdir(tmp_path)
-    monkeypatch.syspath_prepend(tmp_path)
     done = None
     for part in command.split(" | contoursolve "):
         done = CliRunner().invoke(main, shlex.split(part), input=done and done.stdout)
