@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -15,7 +16,7 @@ from contoursolve.diagnostics.finding import Diagnostic
 from contoursolve.gcode import STANDARD_INPUT, Directive, Program, UnreadableProgramError
 from contoursolve.geometry import Length
 from contoursolve.postprocess.numbering import Numbers
-from contoursolve.program.pipeline import Result, Run, without_contour
+from contoursolve.program.pipeline import Result, Run
 from contoursolve.program.project import find_settings
 from contoursolve.program.recognise import choose
 from contoursolve.reading.dialect import Dialect
@@ -30,7 +31,6 @@ __all__ = [
     "check",
     "check_file",
     "expand",
-    "only_findings",
     "parse",
     "read_program",
     "solve",
@@ -101,6 +101,8 @@ def solve(
     """
     if not isinstance(text, str):
         raise TypeError(f"the program is a text (str), not {type(text).__name__}; solve_file reads a file")
+    if _FILE.fullmatch(text):
+        raise ValueError(f"{text} is the name of a file, not its text: call solve_file({text!r})")
     program = gcode.parse(text, name)
     return solve_program(
         program,
@@ -112,6 +114,10 @@ def solve(
         facts=facts,
         settings=settings,
     )
+
+
+_FILE = re.compile(r"[^\n]*\.(?:nc|ngc|cnc|tap|txt|mpf|spf|eia|min|h|gcode|iso)", re.IGNORECASE)
+"""What is meant to be the name of a program. No block ends so: what stands behind a point is a digit."""
 
 
 def check(
@@ -127,7 +133,7 @@ def check(
 ) -> tuple[Diagnostic, ...]:
     """The findings about a program; arguments and errors as for `solve`.
 
-    A program without a contour block gets a warning here, where `solve` has an error.
+    A program without a contour block gets a warning.
 
     >>> [each.code for each in check("G00 X40. Z0.\\nG111 X100. A180. B120.")]
     ['g111-line-1', 'words-missing']
@@ -135,7 +141,7 @@ def check(
     found = solve(
         text, control=control, start=start, units=units, rules=rules, facts=facts, settings=settings, name=name
     )
-    return only_findings(found).diagnostics
+    return found.diagnostics
 
 
 def solve_file(
@@ -166,7 +172,7 @@ def check_file(
     settings: Mapping[str, str] | None = None,
 ) -> tuple[Diagnostic, ...]:
     """The findings about a file, with arguments and errors as for `solve_file`."""
-    return only_findings(solve_file(path, control=control, units=units, rules=rules, settings=settings)).diagnostics
+    return solve_file(path, control=control, units=units, rules=rules, settings=settings).diagnostics
 
 
 def solve_program(
@@ -229,11 +235,6 @@ def _facts(facts: Iterable[str | Statement]) -> list[Directive]:
 def _fact(fact: str | Statement, line: int) -> Directive:
     text = fact if isinstance(fact, str) else str(fact)
     return replace(gcode.read_directive(text, line), statement=None if isinstance(fact, str) else fact)
-
-
-def only_findings(result: Result) -> Result:
-    """The result as `check` reports it: that there is nothing to solve is then a warning."""
-    return replace(result, diagnostics=tuple(map(without_contour, result.diagnostics)))
 
 
 def expand(

@@ -506,7 +506,7 @@ def test_the_end_where_a_second_contour_begins_says_so():
     found = feasible(block, "K", within=(-1000, 0), **options)
     touching, rest = found.intervals
     assert touching.low.value == touching.high.value == -35, "there both are one"
-    assert "2 contours satisfy the block" in rest.low.reason.text
+    assert "2 contours fit the block" in rest.low.reason.text
     # From there on the one that runs down would run against B120.
     assert rest.low.value == pytest.approx(-((35**2 - 30**2) ** 0.5), abs=1e-9)
     assert "2 contours" in found.refusal

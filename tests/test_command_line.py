@@ -13,6 +13,7 @@ import pytest
 from click.testing import CliRunner
 from jsonschema import Draft202012Validator
 
+from contoursolve import solve
 from contoursolve.cli import main
 from contoursolve.controls import DIALECTS
 
@@ -144,7 +145,7 @@ def test_text_of_a_solved_block_has_words_points_elements_and_a_summary():
         ("corner 2", "G03", "-50.2073", "100.0000"),
     ):
         assert any(all(word in line for word in words) for line in output.splitlines()), words
-    assert output.splitlines()[-1] == "1 contour (1 solved); nothing found"
+    assert output.splitlines()[-1] == "1 contour solved; no problems"
 
 
 def test_text_of_a_refused_block_marks_the_word_and_says_what_to_do():
@@ -154,7 +155,7 @@ def test_text_of_a_refused_block_marks_the_word_and_says_what_to_do():
     listing = lines.index(next(line for line in lines if line.startswith("1 | ")))
     column = lines[listing].index("A180.")
     assert lines[listing + 1][column : column + 5] == "^^^^^"
-    assert any("help: add I or K" in line for line in lines)
+    assert any("fix [fill in]: add K?" in line for line in lines)
     assert any("Table 2.34 (printed)" in line for line in lines)
 
 
@@ -202,17 +203,17 @@ def test_a_code_that_is_almost_one_is_asked_about():
 def test_solve_says_for_which_control_it_read_and_what_shows_that(save):
     line = ("--block", "G1 X30 ,A45", "--start", "X0 Y0")
     for arguments, told in (
-        (ONE, "yasnac-lx3: G111 in line 1 shows it"),
-        (line, "nct-99m: ,A45 in line 1 shows it"),
+        (ONE, "YASNAC LX3 lathe control (from G111 in program line 1)"),
+        (line, "NCT 99M and 2000M milling controls (from ,A45 in program line 1)"),
         (
             ("--block", "G11 Z-20. I8.", "--start", "X30. Z0.", "--control", "yasnac-lx3"),
-            "yasnac-lx3: G11 in line 1 shows",
+            "YASNAC LX3 lathe control (from G11 in program line 1)",
         ),
-        ((save(GOOD), "--control", "nct-99m"), "nct-99m, as was asked for"),
+        ((save(GOOD), "--control", "nct-99m"), "NCT 99M and 2000M milling controls (as asked for)"),
     ):
         _, output, _ = run("solve", *arguments)
-        assert output.splitlines()[-2].startswith(f"read as {told}")
-    assert "read as" not in run("solve", "--block", "X1")[1]
+        assert output.splitlines()[-2].startswith(f"control: {told}")
+    assert "control:" not in run("solve", "--block", "X1")[1]
 
 
 def test_every_column_of_numbers_has_its_unit():
@@ -480,7 +481,7 @@ BAD = {
 }
 LONG = ("5,000 bad lines", "1 MB of an open comment")
 """Seconds are spent on them."""
-WARNINGS = {"comment-not-closed"}
+WARNINGS = {"comment-not-closed", "no-contour"}
 
 
 @pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.slow] * (name in LONG)) for name in BAD])
@@ -516,11 +517,23 @@ def test_listing_of_a_huge_program_is_quick_and_its_lines_are_short(name, save):
     assert time.process_time() - began < 20
 
 
-def test_program_without_a_contour_is_an_error_to_solve_and_a_warning_to_check(save):
-    path = save("G00 X40. Z0.\n")
-    assert run("solve", path)[0] == 1
-    status, output, _ = run("check", path)
+@pytest.mark.parametrize("command", ["solve", "check"])
+def test_a_program_that_only_looks_as_if_it_had_a_contour_could_not_be_examined(save, command):
+    status, output, _ = run(command, save("G00 X40. Z0.\n"))
     assert (status, output.startswith("warning[no-contour]")) == (0, True)
+    status, output, _ = run(command, save("G17 G90 G0 X0 Y0\nG1 X50 A30\nG1 X10 Y20\n"))
+    assert (status, output.startswith("error[control-unknown]")) == (2, True)
+    assert "control not recognised; with --control nct-99m: A30 has no comma" in output
+    status, output, _ = run(command, save("G17 G90 G0 X0 Y0\nG1 X30 ,C10\nX40 Y40\n"), "--control", "yasnac-lx3")
+    assert (status, output.startswith("error[no-contour]")) == (2, True)
+
+
+def test_what_is_no_file_but_a_block_is_told_where_blocks_are_given():
+    _, _, errors = run("solve", "G111 A180. K-30.")
+    assert errors.endswith('no such file; a block is given by --block "G111 A180. K-30."\n')
+    assert run("solve", "shaft 2.nc")[2].endswith("no such file\n")
+    with pytest.raises(ValueError, match="call solve_file"):
+        solve("shaft.nc")
 
 
 UNREAD = {
@@ -793,7 +806,7 @@ def test_the_other_control_is_named_with_the_words_that_show_it(save):
     _, output, _ = run("check", save(chamfer), "--control", "yasnac-lx3")
     (advice,) = (line for line in output.splitlines() if "= help" in line)
     assert "G111" in advice
-    assert advice.endswith(",C10 in line 2 is for nct-99m: try --control nct-99m")
+    assert advice.endswith(",C10 in program line 2 is for nct-99m: try --control nct-99m")
     assert len(advice) < 200
     _, _, errors = run("check", save(both))
-    assert "yasnac-lx3 by G111 in line 2, nct-99m by ,C10 in line 1" in errors
+    assert "yasnac-lx3 by G111 in program line 2, nct-99m by ,C10 in program line 1" in errors

@@ -78,7 +78,7 @@ def test_a_i_and_k_that_disagree_are_named_with_what_each_would_have_to_be(rules
     assert (set(tie.addresses), tie.is_conflict) == ({"A", "I", "K"}, True)
     assert tie.off_by_mm == pytest.approx(2)
     notes = " ".join(finding.notes)
-    assert all(text in notes for text in ("I 12.000 mm", "K -10.000 mm", "A 140.194 deg", "2.000 mm apart"))
+    assert all(text in notes for text in ("I12.", "K-10.", "A140.194", "2.000 mm apart"))
     drops = {fix.replacement for fix in finding.fixes if fix.description.startswith("delete")}
     assert drops == {"G111 I10. K-12. B180. Z-40.", "G111 A135. K-12. B180. Z-40.", "G111 A135. I10. B180. Z-40."}
 

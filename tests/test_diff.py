@@ -12,7 +12,7 @@ from click.testing import CliRunner
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from contoursolve.api import only_findings, read_program
+from contoursolve.api import read_program
 from contoursolve.cli import main
 from contoursolve.comparison import follow
 from contoursolve.controls.plain import LINUXCNC as LINUXCNC_CONTROL
@@ -448,5 +448,5 @@ def at(step, place):
 
 
 def steps_of(file):
-    result = only_findings(run(read_program(file), LINUXCNC_CONTROL, Length.MM, Policy.ENFORCE))
+    result = run(read_program(file), LINUXCNC_CONTROL, Length.MM, Policy.ENFORCE)
     return follow(result, LINUXCNC_CONTROL, Length.MM, ("X", "Y", "Z")).steps

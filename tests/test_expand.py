@@ -18,7 +18,6 @@ from hypothesis import strategies as st
 from interpreter import RefusedError, assert_path, interpret
 
 import contoursolve
-from contoursolve.api import only_findings
 from contoursolve.cli import main
 from contoursolve.comparison import compare, follow
 from contoursolve.controls import DIALECTS, YASNAC_LX3
@@ -193,7 +192,7 @@ def test_with_few_decimals_every_arc_is_still_one(post, arcs, decimals, unit):
         if written.summary.misread:
             continue
         dialect = (DIALECTS | TARGET_CONTROLS)[TARGETS[post][written.control == "nct-99m"]]
-        result = only_findings(solved(parse(written.text), dialect, Length(unit), Policy.ENFORCE))
+        result = solved(parse(written.text), dialect, Length(unit), Policy.ENFORCE)
         reasons = [each.reason for each in follow(result, dialect, Length(unit), dialect.modes.axes).unfollowed]
         assert [each for each in reasons if "radius of the arc is" in each or "too small" in each] == []
 
@@ -687,7 +686,7 @@ def test_a_program_that_is_read_as_a_stream_has_the_same_contours(program, batch
 def path_of(text, control):
     """The path of a program; blocks that are not solved are a part of it, with the modes that they rely on."""
     dialect = DIALECTS[control]
-    result = only_findings(solved(parse(text), dialect, Length.MM, Policy.ENFORCE))
+    result = solved(parse(text), dialect, Length.MM, Policy.ENFORCE)
     return follow(result, dialect, Length.MM, dialect.modes.axes)
 
 

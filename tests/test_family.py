@@ -421,7 +421,7 @@ def test_a_sweep_counts_what_becomes_of_the_contours():
         ("G11l X100. A180. K-30. B120.", "letter l in G11l: did you mean the digit 1", "write G111 for G11l"),
         ("G1ll X100. A180. K-30. B120.", "letter l in G1ll: did you mean the digit 1", "write G111 for G1ll"),
         ("G111 X100. A180.", "line 2 needs two of B, X or U, Z or W", "add B?"),
-        ("G111 X100. A180. K-30. B120. P?", "nothing determines corner 1", "give P? a value"),
+        ("G111 X100. A180. K-30. B120. P?", "radius of corner 1 is still open", "give P? a value"),
         ("G111 X100. A180. K-30. B120. P-5.", "P-5. is negative", "write P5. for P-5."),
     ],
 )

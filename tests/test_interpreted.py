@@ -15,7 +15,6 @@ from interpreter import assert_path, interpret_all
 from oracle import Element, g111
 
 import contoursolve
-from contoursolve.api import only_findings
 from contoursolve.comparison import Path, compare, follow
 from contoursolve.controls import DIALECTS, PLAIN
 from contoursolve.diagnosis.examine import Policy
@@ -198,5 +197,5 @@ def hide(comment: re.Match[str]) -> str:
 
 def path_of(text: str, control: str) -> Path:
     dialect = {**DIALECTS, **PLAIN}[control]
-    result = only_findings(run(parse(text), dialect, Length.MM, Policy.ENFORCE))
+    result = run(parse(text), dialect, Length.MM, Policy.ENFORCE)
     return follow(result, dialect, Length.MM, ("X", "Y", "Z"))

@@ -687,7 +687,10 @@ def test_plot_writes_an_svg_of_the_whole_program_with_its_name(tmp_path, monkeyp
     assert "shaft.svg: 7 contours" in output
     written = Path("shaft.svg").read_bytes()
     assert written == draw_result(contoursolve.solve_file(SHAFT)).svg.encode()
+    assert plot(SHAFT)[0] == 0
+    Path("shaft.svg").write_text("mine")
     assert plot(SHAFT)[0] == 2
+    assert Path("shaft.svg").read_text() == "mine"
     assert plot(SHAFT, "--force")[0] == 0
     assert plot("--block", BLOCK, "--start", START)[0] == 0
     assert Path("contour.svg").is_file()
@@ -716,7 +719,7 @@ def test_plot_draws_what_cannot_be_solved_and_says_so(tmp_path):
     status, output = plot("--block", "G111 X100. A180. K-30. B180.", "--start", START, "-o", target)
     assert status == 1
     assert "30 apart" in target.read_text()
-    assert "1 contour (1 no-solution)" in output
+    assert "1 contour without a solution" in output
     status, output = plot("--block", "G00 X1.", "--start", START, "--control", "yasnac-lx3", "-o", tmp_path / "no.svg")
     assert status == 1
     assert "no.svg: not written" in output

@@ -168,7 +168,7 @@ def test_where_nothing_is_solved_nothing_is_written(tmp_path):
     target = tmp_path / "part.dxf"
     status, output = plot("--block", "G111 A180. B120. X100.", "--start", "X40. Z0.", "-o", target)
     assert status == 1
-    assert "words-missing" in output
+    assert "g111-line-1" in output
     assert "part.dxf: not written" in output
     assert not target.exists()
     status, output = plot(PROGRAMS / "shaft_broken.nc", "-o", target)

@@ -43,13 +43,13 @@ def test_every_command_on_the_pages_is_run_by_the_next_test() -> None:
         assert sum(map(bool, indented)) == sum(each.values[0] == page for each in SHOWN), page
 
 
-@pytest.mark.parametrize(("page", "command", "output"), SHOWN)
-def test_a_command_prints_what_the_page_shows(tmp_path, monkeypatch, page, command, output) -> None:
-    for folder in ("programs", "conversions"):
-        shutil.copytree(ROOT / "notebooks" / folder, tmp_path / "notebooks" / folder)
+def compare(folder, monkeypatch, page, command, output) -> tuple[list[str], list[str]]:
+    """The lines that a page shows for a command, and those that it prints in a folder, shortened alike."""
+    for name in ("programs", "conversions"):
+        shutil.copytree(ROOT / "notebooks" / name, folder / "notebooks" / name)
     for name, content in re.findall(r"<!-- file: (\S+) -->\n+```\w*\n(.*?)```", PAGES[page], re.DOTALL):
-        (tmp_path / name).write_text(content, encoding="utf-8")
-    monkeypatch.chdir(tmp_path)
+        (folder / name).write_text(content, encoding="utf-8")
+    monkeypatch.chdir(folder)
     done = None
     for part in command.split(" | contoursolve "):
         done = CliRunner().invoke(main, shlex.split(part), input=done and done.stdout)
@@ -58,6 +58,12 @@ def test_a_command_prints_what_the_page_shows(tmp_path, monkeypatch, page, comma
     if "..." in shown:
         place = shown.index("...")
         printed[place : len(printed) - len(shown[place + 1 :])] = ["..."]
+    return shown, printed
+
+
+@pytest.mark.parametrize(("page", "command", "output"), SHOWN)
+def test_a_command_prints_what_the_page_shows(tmp_path, monkeypatch, page, command, output) -> None:
+    shown, printed = compare(tmp_path, monkeypatch, page, command, output)
     assert shown == printed
     for picture in tmp_path.glob("*.svg"):
         if (PICTURES / picture.name).exists():

@@ -181,14 +181,21 @@ def test_a_page_that_nobody_named_has_the_name_of_its_program(tmp_path, monkeypa
     monkeypatch.chdir(tmp_path)
     code, output = run(PROGRAMS[0])
     assert (code, output.splitlines()[-1]) == (0, f"{PROGRAMS[0].stem}.html written")
+    assert run(PROGRAMS[0])[0] == 0
+    page = tmp_path / f"{PROGRAMS[0].stem}.html"
+    page.write_text("mine")
     assert "exists; give --force to replace it" in run(PROGRAMS[0])[1]
+    assert page.read_text() == "mine"
     run("-", input="G00 X40. Z0.\nG111 X100. A180. K-30. B120.")
     assert {each.name for each in tmp_path.iterdir()} == {f"{PROGRAMS[0].stem}.html", "contour.html"}
 
 
 def test_of_a_program_without_a_contour_the_command_writes_no_page_and_says_why(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    for text, said in (("", "error[no-contour]: nothing to solve"), ("GX1", "error[number-missing]: G has no number")):
+    for text, said in (
+        ("", "[no-contour]: nothing to solve"),
+        ("GX1", "[number-missing]: G has no number"),
+    ):
         code, output = run("-", input=text)
         assert (code, output.splitlines()[-1]) == (1, "contour.html: not written")
         assert said in output

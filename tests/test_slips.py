@@ -94,7 +94,7 @@ def test_a_letter_for_a_digit_is_asked_about_and_nothing_is_said_that_follows_fr
     code, message = ASKED[text]
     assert (finding.code, finding.message) == (code, message)
     assert all("delete" not in fix.description for fix in finding.fixes)
-    assert any("fix [makes it readable]: write" in line for line in finding_lines(finding, "", {}))
+    assert any("fix [typing error]: write" in line for line in finding_lines(finding, "", {}))
 
 
 def test_a_code_with_a_letter_is_not_taken_for_another_code():

@@ -28,7 +28,7 @@ from contoursolve.diagnostics.extras import MissingExtraError, need
 from contoursolve.diagnostics.json_text import json_text
 from contoursolve.families import FamilyError, RefusedError, name_of
 from contoursolve.gcode.files import CannotWriteError
-from contoursolve.output.listing import lines_of_findings
+from contoursolve.output.listing import lines_of_findings, short_findings
 from contoursolve.program.pipeline import FactPlaceError
 from contoursolve.program.project import SettingError
 from contoursolve.program.recognise import UnknownControlError
@@ -87,7 +87,7 @@ def usage() -> Iterator[None]:
         yield
     except RefusedError as error:
         result = error.result
-        for line in lines_of_findings(result, result.diagnostics, style_of_output()):
+        for line in lines_of_findings(result, short_findings(result), style_of_output()):
             say(line, err=True)
         raise CouldNotRunError("the block is refused, whatever the values that vary; nothing was computed") from None
     except (FamilyError, SettingError, FactPlaceError, MissingExtraError, CannotWriteError) as error:

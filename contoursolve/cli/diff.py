@@ -4,7 +4,6 @@ from collections.abc import Sequence
 
 import click
 
-from contoursolve.api import only_findings
 from contoursolve.cli.options import (
     FOUND_ERRORS,
     CouldNotRunError,
@@ -19,12 +18,14 @@ from contoursolve.cli.options import (
 from contoursolve.cli.printing import print_lines, say, style_of_output
 from contoursolve.controls import DIALECTS, PLAIN
 from contoursolve.diagnosis.examine import Policy
+from contoursolve.diagnostics.finding import Severity
 from contoursolve.gcode import Program
 from contoursolve.geometry import Length
-from contoursolve.output.listing import lines_of_findings
+from contoursolve.output.listing import lines_of_findings, short_findings
 from contoursolve.program.pipeline import Result, run
 from contoursolve.program.project import SettingError, configure
 from contoursolve.program.recognise import UnknownControlError, recognise
+from contoursolve.reading import ReadIssue
 from contoursolve.reading.dialect import Dialect
 
 _ANY_CONTROL = (*DIALECTS, *PLAIN)
@@ -94,15 +95,15 @@ def diff(
         before = sides[0][1] if sides else None
         is_kept = control is not None and before is not None and _reads_what_shows_others(before, program)
         dialect = _dialect_of(program, own or (before if is_kept else None), before, assignments)
-        result = only_findings(run(program, dialect, Length(unit), Policy(rules)))
+        result = run(program, dialect, Length(unit), Policy(rules))
         sides.append((result, dialect, Length(unit)))
     results = [result for result, _, _ in sides]
-    if any(result.has_errors for result in results):
+    if any(map(_has_no_path, results)):
         if format_ == "json":
             click.echo(differences.refusal_to_json(results))
         else:
             for result in results:
-                print_lines(lines_of_findings(result, result.diagnostics, style_of_output()))
+                print_lines(lines_of_findings(result, short_findings(result), style_of_output()))
             say("not compared: a program that has errors has no path")
         context.exit(FOUND_ERRORS)
     axes = tuple(sorted({axis for _, dialect, _ in sides for axis in dialect.modes.axes}))
@@ -139,3 +140,9 @@ def _dialect_of(
         raise CouldNotRunError(f"{program.name}: {error}; say which with --control or --new-control") from None
     choices = "|".join(_ANY_CONTROL)
     raise CouldNotRunError(f"{program.name}: no block shows the control; say which with --control {choices}")
+
+
+def _has_no_path(result: Result) -> bool:
+    """Whether a program has errors; that it has no contour is none here."""
+    errors = (each for each in result.diagnostics if each.severity is Severity.ERROR)
+    return any(each.about is not ReadIssue.NO_CONTOUR for each in errors)

@@ -171,6 +171,11 @@ def common_options(command: Callable[..., None]) -> Callable[..., None]:
     return command
 
 
+def explain_option(what: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    """The option that asks for more than the short text."""
+    return click.option("--explain", "is_explained", is_flag=True, help=f"Also print {what}.")
+
+
 def load(paths: Sequence[str], blocks: tuple[str, ...], start: str | None) -> list[Callable[[], Program]]:
     """How to get each program that is asked for; a file is read when its turn comes."""
     if blocks and paths:

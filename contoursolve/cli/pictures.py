@@ -14,7 +14,7 @@ from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.wording import count
 from contoursolve.diagnostics.extras import MissingExtraError, importing
 from contoursolve.gcode.files import CannotWriteError, check_target, write_whole
-from contoursolve.output.listing import lines_of_findings, summary_line
+from contoursolve.output.listing import lines_of_findings, short_findings, summary_line
 from contoursolve.pictures import Picture, Theme, draw_answer, draw_result
 from contoursolve.program.pipeline import Result
 
@@ -44,6 +44,19 @@ def check_picture(target: Path, *, is_forced: bool) -> None:
         raise CouldNotRunError(str(error)) from None
 
 
+def _may_replace(target: Path, output: Path | None, *, is_forced: bool) -> bool:
+    """Whether a file may be replaced: one of the name that nobody chose, if it was written here before."""
+    if is_forced or output is not None or not target.is_file():
+        return is_forced
+    with target.open("rb") as file:
+        beginning = file.read(_BEGINNING)
+    return any(mark in beginning for mark in _MARKS)
+
+
+_BEGINNING = 1024
+_MARKS = (b'<svg xmlns="http://www.w3.org/2000/svg" id="cs-', b'<meta name="generator" content="contoursolve ')
+"""How the drawings and pages of this tool begin."""
+
 _DXF = ".dxf"
 
 Written = tuple[Path, bytes, str]
@@ -62,7 +75,9 @@ Written = tuple[Path, bytes, str]
 @click.option("--line", type=click.IntRange(1), help="Draw the contour that this line of PROGRAM belongs to, alone.")
 @click.option("--each", "is_each", is_flag=True, help="Draw every contour in a file of its own: OUT-LINE.svg.")
 @theme_option
-@click.option("--force", "is_forced", is_flag=True, help="Replace drawings that exist.")
+@click.option(
+    "--force", "is_forced", is_flag=True, help="Replace drawings that exist; without -o, its own are replaced anyway."
+)
 @common_options
 @click.pass_context
 def plot(
@@ -107,20 +122,20 @@ def plot(
     source = Path(program) if program else None
     try:
         if not is_each:
-            check_target(target, source, is_forced=is_forced)
+            check_target(target, source, is_forced=_may_replace(target, output, is_forced=is_forced))
         result = examine(loader(), start, assignments, options)
-        print_lines(lines_of_findings(result, result.diagnostics, style_of_output()))
+        print_lines(lines_of_findings(result, short_findings(result), style_of_output()))
         if kind == _DXF:
             files = _drawings_for_cad(result, target)
         else:
             files = list(_pictures(result, target, line, Theme(theme), is_each=is_each))
         for path, _, _ in files if is_each else ():
-            check_target(path, source, is_forced=is_forced)
+            check_target(path, source, is_forced=_may_replace(path, output, is_forced=is_forced))
         for path, data, _ in files:
             write_whole(path, [data], keeps_backup=False)
     except (CannotWriteError, MissingExtraError) as error:
         raise CouldNotRunError(str(error)) from None
-    say(summary_line([result]))
+    say(summary_line(result))
     for path, _, content in files:
         say(f"{path}: {content}")
     if not files:
@@ -178,7 +193,9 @@ def _drawings_for_cad(result: Result, target: Path) -> list[Written]:
     type=click.Path(path_type=Path),
     help="The page to write; without it, one with the name of PROGRAM in this folder.",
 )
-@click.option("--force", "is_forced", is_flag=True, help="Replace the page if it exists.")
+@click.option(
+    "--force", "is_forced", is_flag=True, help="Replace the page if it exists; without -o, its own is replaced anyway."
+)
 @common_options
 @click.pass_context
 def report(
@@ -209,11 +226,12 @@ def report(
     try:
         with importing("report", "a report"):
             from contoursolve.output.report import report_page  # noqa: PLC0415 - needs an extra
-        check_target(target, Path(program) if program else None, is_forced=is_forced)
+        may_replace = _may_replace(target, output, is_forced=is_forced)
+        check_target(target, Path(program) if program else None, is_forced=may_replace)
         result = examine(loader(), start, assignments, options)
         if not result.answers:
-            print_lines(lines_of_findings(result, result.diagnostics, style_of_output()))
-            say(f"{summary_line([result])}\n{target}: not written")
+            print_lines(lines_of_findings(result, short_findings(result), style_of_output()))
+            say(f"{summary_line(result)}\n{target}: not written")
             context.exit(FOUND_ERRORS)
         with click.progressbar(
             length=len(result.answers), label="drawing", file=sys.stderr, hidden=not sys.stderr.isatty()
@@ -222,6 +240,6 @@ def report(
             write_whole(target, (piece.encode("utf-8", "replace") for piece in pieces), keeps_backup=False)
     except (CannotWriteError, MissingExtraError) as error:
         raise CouldNotRunError(str(error)) from None
-    say(summary_line([result]))
+    say(summary_line(result))
     say(f"{target} written")
     context.exit(FOUND_ERRORS if result.has_errors else 0)

@@ -6,8 +6,15 @@ from typing import Any
 import click
 
 from contoursolve import __version__
-from contoursolve.api import only_findings
-from contoursolve.cli.options import COULD_NOT_RUN, FOUND_ERRORS, CouldNotRunError, common_options, follow, load
+from contoursolve.cli.options import (
+    COULD_NOT_RUN,
+    FOUND_ERRORS,
+    CouldNotRunError,
+    common_options,
+    explain_option,
+    follow,
+    load,
+)
 from contoursolve.cli.printing import print_lines, print_pieces, say, style_of_output
 from contoursolve.diagnostics.finding import Severity
 from contoursolve.output.document import Findings, Shelf, stream_json
@@ -27,7 +34,7 @@ from contoursolve.reading.dialect import Dialect
     show_default=True,
     help="What to print; json is in mm, with X as radius.",
 )
-@click.option("--explain", "is_explained", is_flag=True, help="Also print the construction, step by step.")
+@explain_option("the construction, the checks, every reason and every fix")
 @click.pass_context
 def solve(
     context: click.Context,
@@ -57,7 +64,12 @@ def solve(
     else:
         print_lines(stream_listing(run, tally, style_of_output(), is_explained=is_explained))
         print_lines(closing_lines(run.frame, tally))
-    context.exit(FOUND_ERRORS if tally.severities[Severity.ERROR] else 0)
+    context.exit(_status(tally, tally.severities[Severity.ERROR]))
+
+
+def _status(tally: Totals, found: int) -> int:
+    """The exit status where so many findings count."""
+    return COULD_NOT_RUN if tally.unexamined else FOUND_ERRORS if found else 0
 
 
 @click.command(short_help="Report findings only, for any number of programs.")
@@ -78,6 +90,7 @@ def solve(
     show_default=True,
     help="The least finding that makes the exit status 1.",
 )
+@explain_option("every reason and every fix")
 @click.pass_context
 def check(
     context: click.Context,
@@ -87,6 +100,7 @@ def check(
     start: str | None,
     format_: str,
     fail_on: str,
+    is_explained: bool,
     assignments: tuple[str, ...],
     **options: Any,
 ) -> None:
@@ -112,11 +126,11 @@ def check(
                 continue
             done += 1
             if format_ == "text":
-                print_lines(stream_findings(run, tally, style_of_output()))
+                print_lines(stream_findings(run, tally, style_of_output(), is_explained=is_explained))
             elif format_ == "json":
                 document.add(run, tally)
             else:
-                results.append(only_findings(run.collect()))
+                results.append(run.collect())
                 for finding in results[-1].diagnostics:
                     tally.count(finding)
     if failed and not done:
@@ -136,5 +150,5 @@ def check(
         case _:
             say(tally.line(done))
     failing = {"error": (Severity.ERROR,), "warning": (Severity.ERROR, Severity.WARNING), "never": ()}[fail_on]
-    is_failing = any(tally.severities[each] for each in failing)
-    context.exit(COULD_NOT_RUN if failed else FOUND_ERRORS if is_failing else 0)
+    found = sum(tally.severities[each] for each in failing)
+    context.exit(COULD_NOT_RUN if failed else _status(tally, found))

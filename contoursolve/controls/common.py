@@ -1,7 +1,7 @@
 """The rows of the catalogue that hold for every control: characters, words, positions, geometry."""
 
 from contoursolve.diagnostics.finding import Severity
-from contoursolve.diagnostics.source import Evidence, Source
+from contoursolve.diagnostics.source import OWN, Evidence, Source
 from contoursolve.gcode import FaultKind
 from contoursolve.reading import ReadIssue
 from contoursolve.reading.rules import Rule
@@ -12,7 +12,7 @@ _START = "G00 X40. Z0.\n"
 
 
 def _own(place: str) -> Source:
-    return Source("contoursolve", place, Evidence.ASSUMED)
+    return Source(OWN, place, Evidence.ASSUMED)
 
 
 _GRAMMAR = _own("grammar of a word: an address and a number")
@@ -217,13 +217,22 @@ READING_RULES = (
         accepted=(_GOOD,),
         rejected=("G00 X40. Z0.\nG01 Z-30. F0.2",),
     ),
+    Rule(
+        code="control-unknown",
+        message="control not recognised; with --control {control}: {finding}",
+        help="name the control by --control {control}, or in contoursolve.toml",
+        source=_READING,
+        about=ReadIssue.CONTROL_UNKNOWN,
+        accepted=(_GOOD,),
+        rejected=("G17 G90 G0 X0 Y0\nG1 X50 A30\nG1 X10 Y20",),
+    ),
 )
 
 SYSTEM_RULES = (
     Rule(
         code="words-missing",
-        message="words are missing: nothing determines {free}",
-        help="{completions}",
+        message="{open}: {completions}",
+        help="or state a fact about it: `contoursolve facts` lists them",
         source=_GEOMETRY,
         about=ReadIssue.UNDERDETERMINED,
         accepted=(_GOOD,),
@@ -249,7 +258,7 @@ SYSTEM_RULES = (
     ),
     Rule(
         code="corner-nowhere",
-        message="{words}: nothing tells which line {subject} lands on",
+        message="{words}: {subject} needs the last line by its angle and one coordinate",
         help="give the last line by its angle and one coordinate",
         source=_GEOMETRY,
         about=ReadIssue.CORNER_NOWHERE,
@@ -258,7 +267,7 @@ SYSTEM_RULES = (
     ),
     Rule(
         code="several-contours",
-        message="{count} contours satisfy the block, and nothing chooses between them",
+        message="{count} contours fit the block, and no word chooses one",
         help="add the word or the fact that chooses: `contoursolve solve` lists them, each with what selects it",
         source=_GEOMETRY,
         about=NoteKind.SEVERAL,
@@ -267,7 +276,7 @@ SYSTEM_RULES = (
     ),
     Rule(
         code="count-open",
-        message="this contour satisfies the block, but whether it is the only one is not proven",
+        message="this contour fits the block; whether another one fits, too, is not proven",
         help="state one more fact, or simpler ones",
         source=_GEOMETRY,
         about=NoteKind.COUNT_OPEN,
@@ -277,7 +286,7 @@ SYSTEM_RULES = (
     ),
     Rule(
         code="no-point",
-        message="nothing satisfies {words}{together}: there is no such {things}",
+        message="no {things} fits {words}{together}",
         help="change one of the values; every combination of sides has been tried, so this is proven",
         source=_GEOMETRY,
         about=RefusalKind.NO_POINT,
@@ -286,7 +295,7 @@ SYSTEM_RULES = (
     ),
     Rule(
         code="search-unfinished",
-        message="undecided: no {things} was found to satisfy {words}{together}, and that there is none is not proven",
+        message="undecided: the search found no {things} for {words}{together}, and did not prove that there is none",
         help="{advice}",
         source=_GEOMETRY,
         about=RefusalKind.SEARCH_UNFINISHED,
@@ -375,7 +384,7 @@ SYSTEM_RULES = (
     Rule(
         code="words-conflict",
         message="{words} disagrees with {others} by {off}: it states {actual}, {they} {give} {expected}",
-        help="delete it, or write {expected}",
+        help="delete it, or write {meant}",
         source=_GEOMETRY,
         about=RefusalKind.WORDS_DISAGREE,
         accepted=(_GOOD,),
@@ -392,7 +401,7 @@ SYSTEM_RULES = (
     ),
     Rule(
         code="words-redundant",
-        message="{words} says what {others} {say} already",
+        message="{words} repeats {others}",
         help="delete it",
         source=_GEOMETRY,
         about=NoteKind.WORDS_AGREE,
@@ -420,7 +429,7 @@ SYSTEM_RULES = (
     ),
     Rule(
         code="contour-sensitive",
-        message="the points are known to {actual} only: the block is close to a singular case",
+        message="the points are sure to {actual} only: a small change of a word moves them far",
         help="choose words that fix the points more firmly, such as coordinates instead of angles",
         source=_GEOMETRY,
         about=NoteKind.SENSITIVE,

@@ -6,12 +6,12 @@ They end the rules of a control: rows of its own about the same events stand bef
 from enum import Enum
 
 from contoursolve.diagnostics.finding import Severity
-from contoursolve.diagnostics.source import Evidence, Source
+from contoursolve.diagnostics.source import OWN, Evidence, Source
 from contoursolve.reading import ReadIssue
 from contoursolve.reading.rules import Rule
 from contoursolve.solving import NoteKind, RefusalKind
 
-_SOURCE = Source("contoursolve", "the geometry of lines, arcs and corners", Evidence.ASSUMED)
+_SOURCE = Source(OWN, "the geometry of lines, arcs and corners", Evidence.ASSUMED)
 
 _MILL = "G17 G90 G0 X0 Y0\n"
 _CUT = _MILL + "G1 X30 ,C10\nX40 Y40"
@@ -32,7 +32,7 @@ def _row(
 GEOMETRY_RULES = (
     _row(
         RefusalKind.LINES_PARALLEL,
-        "no point satisfies {words} together: the lines are parallel and {off} apart",
+        "{words} fit no point: the lines are parallel and {off} apart",
         "change an angle or a point",
         _LINES,
         _LINES.replace(",A225", ",A150"),
@@ -88,7 +88,7 @@ GEOMETRY_RULES = (
     ),
     _row(
         RefusalKind.LINE_REVERSED,
-        "{subject} would run against {words}: its end lies {off} behind its start",
+        "{words} points away from the end of {subject}, which lies {off} behind its start",
         "check the signs: as its ends lie, it would run at {expected}",
         _ARC + _LINE,
         _ARC + "G1 X-50 Y42.857 ,A-8.13 Q-1",
@@ -190,7 +190,7 @@ GEOMETRY_RULES = (
     ),
     _row(
         ReadIssue.COMMA_MISSING,
-        "{words} is no corner and no angle without its comma, and this line is taken as if it were not there",
+        "{words} has no comma, so the control ignores it",
         "write {meant} if that is meant",
         _CUT,
         _CUT.replace(",C", "C") + " ,R5\nX80",

@@ -206,7 +206,7 @@ def _reasons(
         yield from freedom_reasons(profile, [each for each in diagnosis.freedoms if each.point not in lost])
     if finding.about in _ABOUT_RADII:
         identities = (tie.identity for tie in diagnosis.ties)
-        yield from (f"these words are tied: {each}" for each in identities if 0 < len(each) <= SHOWN)
+        yield from (each for each in identities if 0 < len(each) <= SHOWN)
     yield from path_reasons(profile, affine, finding)
 
 

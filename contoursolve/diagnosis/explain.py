@@ -17,8 +17,10 @@ from contoursolve.diagnosis.wording import (
     join,
     length_limit,
     length_text,
+    open_text,
     place_text,
     shorten,
+    statement_text,
     tell_apart,
     unknowns_text,
     value_text,
@@ -224,7 +226,8 @@ def explain_missing(context: Context, profile: Profile, verdict: Determinacy, cl
     corners = tuple(f"{corner.name}." for corner in profile.figure.corners if f"{corner.name}.radius" in free)
     shown = [name for name in verdict.free if not name.startswith(corners) or name.endswith(".radius")]
     addresses = dict.fromkeys(_address(name, claim) for name in able if name in claim.vocabulary)
-    ways = [f"words that say something about it: {', '.join(addresses)}"] if addresses else []
+    open_count = len(assemble(profile).unknowns) - verdict.rank
+    ways = [_adding(list(addresses), open_count)] if addresses else []
     if profile.is_extended:
         open_sizes = [
             question.word.text
@@ -232,16 +235,25 @@ def explain_missing(context: Context, profile: Profile, verdict: Determinacy, cl
             if isinstance(question.fact, Radius) and question.fact.radius in free
         ]
         ways += [f"give {' or '.join(open_sizes)} a value"] if open_sizes else []
-        ways.append("state a fact about it ('contoursolve facts' lists them)")
-    completions = "; or ".join(ways) or "add a word for it"
+    completions = "; or ".join(ways) or "state a fact about it"
     return report(
         context,
         context.row(ReadIssue.UNDERDETERMINED),
         Basis.SYMBOLIC,
         [],
-        free=unknowns_text(shown, profile),
+        open=open_text(shown, profile),
         completions=completions,
     )
+
+
+_NUMBERS = {1: "one", 2: "two", 3: "three"}
+
+
+def _adding(addresses: Sequence[str], number: int) -> str:
+    """To add so many of these words."""
+    if number >= len(addresses) or number not in _NUMBERS:
+        return f"add {join(addresses)}"
+    return f"add {_NUMBERS[number]} of {', '.join(addresses)}"
 
 
 def _address(name: str, claim: ParsedContour) -> str:
@@ -281,6 +293,8 @@ def explain_result(
         fields["off"] = length_text(values["off_by_mm"], context.unit)
         if is_word and givens[0].unit is Unit.DEGREE and words and words[0].address == FACT and "expected" in values:
             fields["off"] = angle_text(abs(values["expected"] - values["actual"]))
+    if is_word and "expected" in values:
+        fields["meant"] = statement_text(givens[0], values["expected"], profile)
     if event.kind is NoteKind.SEVERAL:
         fields["count"] = f"{event.values['actual']:.0f}"
     notes: tuple[str, ...] = ()
@@ -397,19 +411,22 @@ _AGAINST_OTHERS = (*_OF_A_WORD, RefusalKind.FACT_DISAGREES)
 
 
 def _others(event: Refusal | Note, profile: Profile) -> dict[str, str]:
-    """What a word or a fact is held against, by name where facts are stated besides words, and its verbs."""
-    words: list[Word] = []
-    if profile.is_extended:
-        from contoursolve.solving.ambiguity import tied_with  # noqa: PLC0415 - few blocks state more than their words
+    """The words and facts from which a word or a fact follows, or else all others, and their verbs."""
+    from contoursolve.solving.ambiguity import tied_with  # noqa: PLC0415 - few blocks say anything twice
 
-        system = assemble(profile)
-        facts = [fact for fact in profile.facts if fact.given == event.subject]
-        names = [name for fact in facts for name in tied_with(system, fact) if name != event.subject]
-        words = [word for word in (profile.givens[name].word for name in dict.fromkeys(names)) if word]
+    system = assemble(profile)
+    facts = [fact for fact in profile.facts if fact.given == event.subject]
+    names = [name for fact in facts for name in tied_with(system, fact) if name != event.subject]
+    words = [word for word in (profile.givens[name].word for name in dict.fromkeys(names)) if word]
     if len(words) == 1:
-        return {"others": words[0].text, "they": words[0].text, "give": "gives", "say": "says"}
-    text = join([word.text for word in words]) or "the other words"
-    return {"others": text, "they": "they", "give": "give", "say": "say"}
+        return {"others": words[0].text, "they": words[0].text, "give": "gives"}
+    are_named = profile.is_extended or len(words) <= _FEW
+    text = join([word.text for word in words]) if are_named and words else "the other words"
+    return {"others": text, "they": "they", "give": "give"}
+
+
+_FEW = 4
+"""Words that a message names; beyond it, they are the others."""
 
 
 # By name: the obstacles belong to the search, which few blocks need.

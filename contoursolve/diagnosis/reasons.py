@@ -2,14 +2,14 @@
 
 import json
 import pkgutil
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from functools import lru_cache
 from itertools import pairwise
 
 from contoursolve.analysis import analyse, order
-from contoursolve.diagnosis.wording import angle_text, join, length_text, limit_text, place_text
+from contoursolve.diagnosis.wording import angle_text, join, length_text, limit_text, place_text, statement_text
 from contoursolve.diagnostics.finding import Diagnostic, Freedom
-from contoursolve.gcode import FACT
 from contoursolve.geometry import FIRST, SECOND, Arc, Fact, Heading, Line, Profile, assemble, scalar
 from contoursolve.solving import RefusalKind, lookup
 from contoursolve.solving.affine import AffineFacts, Circuit
@@ -28,6 +28,10 @@ def identity(profile: Profile, facts: Iterable[Fact]) -> str:
     for number, axis in enumerate(profile.plane.axes):
         formula = formula.replace(scalar(profile.figure.start, number), f"{axis}start")
     return formula
+
+
+_DIFFERENCE = re.compile(r"= -(\w+) \+ (\w+)$")
+_STARTS = re.compile(r"\b(\w)start\b")
 
 
 @lru_cache(maxsize=1)
@@ -62,17 +66,17 @@ def conflict_reasons(profile: Profile, affine: AffineFacts, circuit: Circuit) ->
             f"and {given.word.text if given.word else 'what is not written'} puts it at "
             f"{place_text(profile, {scalar(point, axis): own})}: {ending}"
         )
+    agreeing = [text for fact in circuit.facts if (text := _agreeing(profile, affine, circuit, fact))]
+    if disagrees and agreeing:
+        yield f"change one: {', '.join(agreeing[:-1])}{' or ' if len(agreeing) > 1 else ''}{agreeing[-1]}"
     formula = identity(profile, circuit.facts)
     if formula:
         radius = " (X and U as radius)" if "tan" in formula and ("X" in formula or "U" in formula) else ""
-        yield f"these words are tied: {formula}{radius}"
-    agreeing = [_agreeing(profile, affine, circuit, fact) for fact in circuit.facts]
-    if disagrees and any(agreeing):
-        yield f"any one of these would agree with the others: {', '.join(filter(None, agreeing))}"
+        yield _STARTS.sub(r"start \1", _DIFFERENCE.sub(r"= \2 minus \1", formula)) + radius
 
 
 def _agreeing(profile: Profile, affine: AffineFacts, circuit: Circuit, fact: Fact) -> str:
-    """The value with which one fact of a circuit would agree with the others."""
+    """One fact of a circuit as it would be written to agree with the others."""
     fixed = affine.fixed_by([other for other in circuit.facts if other is not fact])
     at = lookup(profile, fixed)
     if not fact.given or not all(name in at.scalars for name in fact.reads()):
@@ -80,15 +84,7 @@ def _agreeing(profile: Profile, affine: AffineFacts, circuit: Circuit, fact: Fac
     value, given = fact.implied(at), profile.givens[fact.given]
     if value is None or given.word is None:
         return ""
-    if given.word.address == FACT:
-        name = given.word.text.partition("=")[0].strip()
-    else:
-        name = given.word.address
-        if len({each.word.span.line for each in profile.givens.values() if each.word}) > 1:
-            name += f" (line {given.word.span.line})"
-    if isinstance(fact, Heading):
-        return f"{name} {angle_text(value)}"
-    return f"{name} {length_text(value * (2 if given.is_diameter else 1), profile.unit)}"
+    return statement_text(given, value * (2 if given.is_diameter else 1), profile)
 
 
 def freedom_reasons(profile: Profile, freedoms: Sequence[Freedom]) -> Iterator[str]:
@@ -109,7 +105,7 @@ def path_reasons(profile: Profile, affine: AffineFacts | None, finding: Diagnost
     if values.get("needed", -1.0) >= 0:
         element = "element" if any(isinstance(each, Arc) for each in profile.figure.path) else "line"
         yield (
-            f"because the {element} has {length_text(values['available'], profile.unit)}, and the corner takes "
+            f"the {element} is {length_text(values['available'], profile.unit)} long; the corner takes "
             f"{length_text(values['needed'], profile.unit)} of it"
         )
     yield from _placed_before(profile, finding)

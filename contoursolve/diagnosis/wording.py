@@ -3,7 +3,8 @@
 from collections.abc import Callable, Mapping, Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Decimal
 
-from contoursolve.geometry import CornerShape, Length, Plane, Profile
+from contoursolve.gcode import FACT
+from contoursolve.geometry import CornerShape, Given, Length, Plane, Profile, Unit
 from contoursolve.solving import Status
 
 SHOWN = 60
@@ -50,6 +51,22 @@ def value_text(value: float, unit: str, more: int = 0) -> str:
     return f"{_number(value, 4 + more)} in" if unit == "inch" else f"{_number(value, 3 + more)} {unit}"
 
 
+def number_text(value: float, kind: Unit, unit: Length) -> str:
+    """A value in mm or degrees as a word of the program would have it: `12.` or `140.194`."""
+    is_inch = kind is not Unit.DEGREE and unit is Length.INCH
+    return (f"{value / 25.4:z.4f}" if is_inch else f"{value:z.3f}").rstrip("0")
+
+
+def statement_text(given: Given, value: float, profile: Profile) -> str:
+    """A word or a fact as it would be written with another value (mm, a diameter for what is one, or degrees), with
+    its line where there are several."""
+    number, word = number_text(value, given.unit, profile.unit), given.word
+    if word is None or word.address == FACT:
+        return f"{word.text.partition('=')[0].strip() if word else given.name} = {number}"
+    lines = {each.word.span.line for each in profile.givens.values() if each.word}
+    return f"{word.address}{number}" + (f" (line {word.span.line})" if len(lines) > 1 else "")
+
+
 MOST_DECIMALS = 12
 """Decimals more than usual; beyond them, values differ by rounding alone."""
 
@@ -68,6 +85,12 @@ _PARTS = {"cos": "direction", "sin": "direction", "off": "place", "radius": "rad
 
 def unknowns_text(names: Sequence[str], profile: Profile) -> str:
     """Unknown scalars in the user's words: `V1 (Z and X)`, `line 2 (direction)`."""
+    parts = _things(names, profile)
+    return join([f"{thing} ({join(list(shown))})" if shown else thing for thing, shown in parts.items()])
+
+
+def _things(names: Sequence[str], profile: Profile) -> dict[str, dict[str, None]]:
+    """The parts of each thing that unknown scalars are; none of what is a thing itself."""
     things: dict[str, dict[str, None]] = {}
     for name in names:
         thing, _, part = name.rpartition(".")
@@ -76,7 +99,22 @@ def unknowns_text(names: Sequence[str], profile: Profile) -> str:
         if part == "radius" and shapes and CornerShape.FILLET not in shapes:
             shown = "size"
         things.setdefault(thing if shown else name, {}).update({shown: None} if shown else {})
-    return join([f"{thing} ({join(list(parts))})" if parts else thing for thing, parts in things.items()])
+    return things
+
+
+def open_text(names: Sequence[str], profile: Profile) -> str:
+    """That unknown scalars are still open: `V1 is still open in Z and X`, `the direction of line 2 is still open`."""
+    parts = _things(names, profile)
+    axes = {*profile.plane.axes}
+    texts = [
+        f"{thing} in {join(list(shown))}" if {*shown} <= axes else f"the {join(list(shown))} of {thing}"
+        for thing, shown in parts.items()
+        if shown
+    ] + [thing for thing, shown in parts.items() if not shown]
+    if len(texts) == 1:
+        thing, into, where = texts[0].partition(" in ")
+        return f"{thing} is still open{into}{where}"
+    return f"{join(texts)} are still open"
 
 
 def place_text(profile: Profile, scalars: dict[str, float]) -> str:
@@ -161,11 +199,17 @@ def short_name(unit: str) -> str:
     return "in" if unit == "inch" else unit
 
 
-def count(number: int, noun: str) -> str:
+def count(number: int, noun: str, several: str = "") -> str:
     """A number with its noun: `1 error`, `2 errors`."""
-    return f"{number} {noun}{'' if number == 1 else 's'}"
+    return f"{number} {noun if number == 1 else several or noun + 's'}"
 
 
 def statuses_text(statuses: Mapping[Status, int]) -> str:
     """How many contours have each status, the best first."""
-    return ", ".join(f"{statuses[each]} {each.value}" for each in reversed(Status) if statuses.get(each))
+    return ", ".join(
+        f"{statuses[each]} {_STATUSES.get(each, each.value)}" for each in reversed(Status) if statuses.get(each)
+    )
+
+
+_STATUSES = {Status.NO_SOLUTION: "without a solution"}
+"""In a sentence, where that is another word."""

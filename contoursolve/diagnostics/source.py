@@ -17,12 +17,21 @@ class Evidence(Enum):
     """Our choice where the pages that we have are silent."""
 
 
+OWN = "contoursolve"
+"""In place of a manual: what no manual says."""
+
+
 class Source(Struct, frozen=True):
     """The manual, the place in it, and the grade of the evidence."""
 
     manual: str
     place: str
     evidence: Evidence
+
+    @property
+    def is_of_manual(self) -> bool:
+        """Whether it is a place in a manual, and not what we know of geometry ourselves."""
+        return self.manual != OWN
 
     def __str__(self) -> str:
         return f"{self.manual}, {self.place} ({self.evidence.value})"

@@ -16,6 +16,7 @@ from contoursolve.gcode.text import (
     STANDARD_INPUT,
     UnreadableProgramError,
     is_folder,
+    no_such_file,
     reason_of,
     standard_input,
 )
@@ -82,7 +83,7 @@ def open_tape(path: str | Path) -> Iterator[Tape]:
     try:
         data = _spool() if name == STANDARD_INPUT else Path(path).open("rb")  # noqa: SIM115 - closed below
     except FileNotFoundError:
-        raise UnreadableProgramError(f"{name}: no such file") from None
+        raise UnreadableProgramError(no_such_file(name)) from None
     except (OSError, ValueError) as error:
         if is_folder(name):  # Windows answers "permission denied" for a directory
             raise UnreadableProgramError(f"{name} is a directory, not a program file") from None

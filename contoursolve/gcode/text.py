@@ -1,6 +1,7 @@
 """The text of programs: files and bytes as they come from controls, tapes and DOS."""
 
 import errno
+import re
 import sys
 from pathlib import Path
 from typing import BinaryIO
@@ -18,12 +19,22 @@ class UnreadableProgramError(ValueError):
     """A file that is missing, is no file, or is not text; the message says which."""
 
 
+def no_such_file(name: str) -> str:
+    """What to say of a name that leads nowhere, which may be a block."""
+    is_block = _BLOCK.match(name) is not None
+    return f"{name}: no such file" + (f'; a block is given by --block "{name}"' if is_block else "")
+
+
+_BLOCK = re.compile(r"(?:[Nn]\d+ ?)?[Gg]\d+ ?[A-Za-z,]|[A-Za-z],?-?\d+\.? [A-Za-z,]")
+"""How a block begins."""
+
+
 def read_bytes(path: str, wanted: str = "a file") -> bytes:
     """The bytes of a file; `-` is standard input. Raises UnreadableProgramError; `wanted` is what should be there."""
     try:
         return standard_input().read() if path == STANDARD_INPUT else Path(path).read_bytes()
     except FileNotFoundError:
-        raise UnreadableProgramError(f"{path}: no such file") from None
+        raise UnreadableProgramError(no_such_file(path)) from None
     except (OSError, ValueError) as error:
         if is_folder(path):  # Windows answers "permission denied" for a directory
             raise UnreadableProgramError(f"{path} is a directory, not {wanted}") from None

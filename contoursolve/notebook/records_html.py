@@ -84,7 +84,7 @@ def _result(result: Result) -> Iterator[h.Node]:
     if len(items) > MOST_ITEMS:
         rest = f"and {len(items) - MOST_ITEMS} more: 'answers' and 'diagnostics' of the result hold all of them, "
         yield h.p[f"{rest}and 'contoursolve report' makes a page"]
-    yield h.p[summary_line([result])]
+    yield h.p[summary_line(result, is_explained=True)]
 
 
 def _answer(answer: Answer) -> Iterator[h.Node]:

@@ -45,7 +45,7 @@ def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False)
         lines += ["", f"  filled in (the contour moves by {small(answer.filled.deviation)}):"]
         lines += [f"    {printable(text.strip())}" for text in answer.filled.blocks]
     lines += _solution_lines(answer)
-    if answer.contour is None and answer.diagnosis:
+    if is_explained and answer.contour is None and answer.diagnosis:
         lines += ["", *check_table(answer.diagnosis).lines()]
     return [*lines, ""]
 

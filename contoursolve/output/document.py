@@ -10,7 +10,7 @@ from contoursolve.diagnostics.finding import Diagnosis, Diagnostic
 from contoursolve.diagnostics.json_text import json_text, members, plain
 from contoursolve.diagnostics.source import Span
 from contoursolve.output.listing import Totals, findings_of
-from contoursolve.program.pipeline import Result, Run, without_contour
+from contoursolve.program.pipeline import Result, Run
 from contoursolve.solving import Point
 from contoursolve.solving.contour import ArcSegment, Contour, Segment
 from contoursolve.solving.solution import Certificate, Proof
@@ -50,15 +50,12 @@ def _in_list(answer: Answer) -> str:
     return _indented(_contour(answer), 2)
 
 
-def _shelving(
-    run: Run, tally: Totals, shelf: "Shelf", number: int, about: Mapping[str, Any], *, is_check: bool = False
-) -> Iterator[Answer]:
+def _shelving(run: Run, tally: Totals, shelf: "Shelf", number: int, about: Mapping[str, Any]) -> Iterator[Answer]:
     """The contours of a run, whose findings go to a shelf."""
     for item in run:
-        tally.count(item, is_check=is_check)
+        tally.count(item)
         for finding in findings_of(item):
-            shown = without_contour(finding) if is_check else finding
-            text = _indented({**about, **finding_data(shown, run.frame)}, 2)
+            text = _indented({**about, **finding_data(finding, run.frame)}, 2)
             shelf.put((number, rank(finding), isinstance(item, Answer)), text)
         if isinstance(item, Answer):
             yield item
@@ -106,11 +103,11 @@ class Findings:
         if frame.start or frame.facts:
             result = run.collect()
             contours = len(result.answers)
-            for place, finding in enumerate(map(without_contour, result.diagnostics)):
+            for place, finding in enumerate(result.diagnostics):
                 tally.count(finding)
                 self.shelf.put((number, place), _indented({**about, **finding_data(finding, result)}, 2))
         else:
-            contours = sum(1 for _ in _shelving(run, tally, self.shelf, number, about, is_check=True))
+            contours = sum(1 for _ in _shelving(run, tally, self.shelf, number, about))
         self._programs.append({**about, "control": frame.control, "contours": contours})
 
     def pieces(self) -> Iterator[str]:

@@ -53,7 +53,7 @@ def range_table(found: Feasible) -> Table:
 
 def _end_cells(end: End, unit: str, way: int) -> tuple[str, str]:
     if end.reason is None:
-        return written(end.value, unit, way), "the range that was looked at"
+        return written(end.value, unit, way), "end of the range searched"
     text = end.reason.text if end.is_verified else f"{end.reason.text} (not confirmed on both sides)"
     return written(end.value, unit, way), text if end.is_included else f"{text}; this value itself has none"
 
@@ -224,7 +224,7 @@ def spread_lines(found: Tolerances) -> Iterator[str]:
         spreads = [(label, each, 2 if is_diameter else 1) for label, each, is_diameter in pairs]
         worst = ", ".join(f"{label} {length_in(each.worst * times, unit)}" for label, each, times in spreads)
         typical = ", ".join(f"{label} {length_in(each.typical * times, unit)}" for label, each, times in spreads)
-        yield f"off by at worst {worst}; in the root of the sum of squares {typical}"
+        yield f"off by at worst {worst}; statistically (RSS) {typical}"
     if limits is not None and not isnan(limits.low[0]):
         lowest, highest = (measured(at, found.plane, unit) for at in (limits.low, limits.high))
         solved = f"{limits.count - limits.without} of {limits.count}" if limits.without else f"all {limits.count}"

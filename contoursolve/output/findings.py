@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 
+from contoursolve.diagnosis.wording import count
 from contoursolve.diagnostics.finding import Applicability, Diagnostic, Fix, Label
 from contoursolve.gcode import FaultKind
 from contoursolve.output.plain_text import cells, printable
@@ -10,13 +11,13 @@ from contoursolve.reading import ReadIssue
 WIDTH = 100
 """Characters of a program line shown around the place."""
 
-SHOWN_FIXES = 4
-"""Fixes shown in text."""
+SHOWN_NOTES, SHOWN_FIXES = 2, 2
+"""Reasons and fixes shown where nobody asks for all."""
 
 APPLICABILITY = {
     Applicability.SAFE: "same contour",
     Applicability.CHANGES_CONTOUR: "changes the contour",
-    Applicability.PLACEHOLDER: "needs a number",
+    Applicability.PLACEHOLDER: "fill in",
 }
 """What applying a fix does, in words."""
 
@@ -27,7 +28,7 @@ def effect_of(fix: Fix, finding: Diagnostic) -> str:
         return fix.effect
     is_unread = isinstance(finding.about, FaultKind) or finding.about is ReadIssue.UNKNOWN_ADDRESS
     if is_unread and fix.applicability is Applicability.CHANGES_CONTOUR:
-        return "makes it readable"
+        return "typing error"
     return APPLICABILITY[fix.applicability]
 
 
@@ -43,13 +44,18 @@ def plain(text: str, _role: str) -> str:
     return text
 
 
-def finding_lines(finding: Diagnostic, name: str, sources: Mapping[int, str], style: Style = plain) -> list[str]:
-    """The lines of one finding; `sources` are the texts of the program's lines by number, as far as they are known."""
-    lines = finding_pieces(finding, name, sources)
+def finding_lines(
+    finding: Diagnostic, name: str, sources: Mapping[int, str], style: Style = plain, *, is_explained: bool = False
+) -> list[str]:
+    """The lines of one finding, explained with all that is known about it; `sources` are the texts of the program's
+    lines by number, as far as they are known."""
+    lines = finding_pieces(finding, name, sources, is_explained=is_explained)
     return ["".join(style(text, role) if role else text for text, role in line) for line in lines]
 
 
-def finding_pieces(finding: Diagnostic, name: str, sources: Mapping[int, str]) -> list[list[Piece]]:
+def finding_pieces(
+    finding: Diagnostic, name: str, sources: Mapping[int, str], *, is_explained: bool = True
+) -> list[list[Piece]]:
     """The same lines, each as the pieces that a style may set apart."""
     role = finding.severity.value
     gutter = max((len(_margin(label.span.line)) for label in finding.labels), default=1)
@@ -75,18 +81,23 @@ def finding_pieces(finding: Diagnostic, name: str, sources: Mapping[int, str]) -
         primary = finding.labels[0]
         lines += [[*bar, (" ", ""), *marks] for marks in _marks(labels, shift, primary, text, role)]
     foot: list[Piece] = [(" " * (gutter + 1), ""), ("=", "frame")]
-    lines += [[*foot, (f" {note}", "")] for note in finding.notes]
-    if finding.help and not any(fix.applicability is Applicability.SAFE for fix in finding.fixes):
+    notes = finding.notes if is_explained else finding.notes[:SHOWN_NOTES]
+    fixes = finding.fixes if is_explained else finding.fixes[:SHOWN_FIXES]
+    lines += [[*foot, (f" {note}", "")] for note in notes]
+    # A fix says what the help says, with its number; a help that the message says already says nothing.
+    is_said = finding.message.endswith(finding.help) or bool(fixes if not is_explained else ())
+    if finding.help and not is_said and not any(fix.applicability is Applicability.SAFE for fix in fixes):
         lines.append([*foot, (f" help: {finding.help}", "")])
-    for fix in finding.fixes[:SHOWN_FIXES]:
+    for fix in fixes:
         lines.append([*foot, (f" fix [{effect_of(fix, finding)}]: {fix.description}", "")])
         if fix.applicability is not Applicability.PLACEHOLDER:
             shown = (printable(line.strip())[:WIDTH] for line in fix.replacement.split("\n"))
             lines += [[(f"{' ' * (gutter + 4)} {line}", "")] for line in shown]
-    if len(finding.fixes) > SHOWN_FIXES:
-        more = len(finding.fixes) - SHOWN_FIXES
-        lines.append([*foot, (f" and {more} more fixes (--format json lists all)", "")])
-    lines.append([*foot, (f" source: {finding.source}", "")])
+    if len(finding.fixes) > len(fixes):
+        more = len(finding.fixes) - len(fixes)
+        lines.append([*foot, (f" {count(more, 'more fix', 'more fixes')}: --explain lists all", "")])
+    if is_explained or finding.source.is_of_manual:
+        lines.append([*foot, (f" source: {finding.source}", "")])
     if finding.alarm:
         lines.append([*foot, (f" control: alarm {finding.alarm.number} ({finding.alarm.evidence.value})", "")])
     # A message may quote what a fact says.

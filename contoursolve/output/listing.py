@@ -1,7 +1,7 @@
 """A whole result as text: contours with their findings in the order of the program, and what was examined in all."""
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from heapq import heappop, heappush
 from typing import Any, TypeVar
 
@@ -14,8 +14,9 @@ from contoursolve.diagnosis.wording import count, statuses_text
 from contoursolve.diagnostics.finding import Diagnostic, Fix, Severity
 from contoursolve.output.contours import contour_lines
 from contoursolve.output.findings import Style, finding_lines
-from contoursolve.program.pipeline import Result, Run, without_contour
+from contoursolve.program.pipeline import Result, Run
 from contoursolve.program.recognise import what_shows
+from contoursolve.reading import ReadIssue
 from contoursolve.solving import Status
 
 
@@ -36,27 +37,45 @@ def stream_listing(run: Run, tally: "Totals", style: Style, *, is_explained: boo
     """The same of a stream."""
 
     def key(item: Answer | Diagnostic) -> Any:
-        tally.count(item)
+        tally.count(item, is_explained=is_explained)
         return (item.lines[0], True) if isinstance(item, Answer) else (item.span.line, False, rank(item))
 
     return _listing_lines(_in_order((key(item), item) for item in run), run.frame, style, is_explained=is_explained)
 
 
-def stream_findings(run: Run, tally: "Totals", style: Style) -> Iterator[str]:
+def stream_findings(run: Run, tally: "Totals", style: Style, *, is_explained: bool = False) -> Iterator[str]:
     """The findings of a stream, as `check` reports them."""
 
     def items() -> Iterator[tuple[Any, Diagnostic]]:
         for item in run:
-            tally.count(item, is_check=True)
-            for finding in findings_of(item):
-                yield (rank(finding), isinstance(item, Answer)), without_contour(finding)
+            tally.count(item, is_explained=is_explained)
+            for finding in findings_of(item, is_explained=is_explained):
+                yield (rank(finding), isinstance(item, Answer)), finding
 
-    return lines_of_findings(run.frame, _in_order(items()), style)
+    return lines_of_findings(run.frame, _in_order(items()), style, is_explained=is_explained)
 
 
-def findings_of(item: Answer | Diagnostic) -> tuple[Diagnostic, ...]:
-    """The findings about a contour; a finding itself."""
-    return item.diagnostics if isinstance(item, Answer) else (item,)
+def findings_of(item: Answer | Diagnostic, *, is_explained: bool = True) -> tuple[Diagnostic, ...]:
+    """The findings about a contour, unless they are explained without what repeats an error; a finding itself."""
+    if not isinstance(item, Answer):
+        return (item,)
+    has_error = any(each.severity is Severity.ERROR for each in item.diagnostics)
+    if is_explained or not has_error:
+        return item.diagnostics
+    return tuple(
+        each
+        for each in item.diagnostics
+        if each.severity is not Severity.INFO or each.about is not ReadIssue.UNDERDETERMINED
+    )
+
+
+def short_findings(result: Result) -> list[Diagnostic]:
+    """The findings of a result without what repeats an error."""
+    every, shown = (
+        {id(each) for answer in result.answers for each in findings_of(answer, is_explained=is_explained)}
+        for is_explained in (True, False)
+    )
+    return [each for each in result.diagnostics if id(each) not in every - shown]
 
 
 _Item = TypeVar("_Item")
@@ -82,18 +101,23 @@ def _listing_lines(
     for item in items:
         if isinstance(item, Answer):
             yield from contour_lines(item, result, is_explained=is_explained)
-        yield from lines_of_findings(result, findings_of(item), style)
+        yield from lines_of_findings(
+            result, findings_of(item, is_explained=is_explained), style, is_explained=is_explained
+        )
 
 
-def lines_of_findings(result: Result, findings: Iterable[Diagnostic], style: Style) -> Iterator[str]:
+def lines_of_findings(
+    result: Result, findings: Iterable[Diagnostic], style: Style, *, is_explained: bool = False
+) -> Iterator[str]:
     """The lines of findings, each with the program's lines that it marks."""
     told: tuple[Fix, ...] = ()
     for finding in findings:
         shown = finding
         if told and finding.fixes == told:
-            shown = replace(finding, fixes=(), notes=(*finding.notes, "fixes: those above mend this, too"))
+            shown = replace(finding, fixes=(), notes=("the fixes above mend this, too", *finding.notes))
         told = finding.fixes or told
-        yield from finding_lines(shown, result.program.name, sources_of(result, finding), style)
+        sources = sources_of(result, finding)
+        yield from finding_lines(shown, result.program.name, sources, style, is_explained=is_explained)
 
 
 def sources_of(result: Result, finding: Diagnostic) -> dict[int, str]:
@@ -113,13 +137,16 @@ def closing_lines(result: Result, tally: "Totals | None" = None) -> Iterator[str
     if result.control is not None:
         own = DIALECTS.get(result.control)
         sign = what_shows(result.program.blocks, own) if own else ""
-        yield f"read as {result.control}" + (f": {sign} shows it" if sign else ", as was asked for")
-    yield (tally or _tally([result])).line(1)
+        yield f"control: {own.title if own else result.control}" + f" ({f'from {sign}' if sign else 'as asked for'})"
+    yield (tally or _tally(result, is_explained=True)).line(1)
 
 
-def summary_line(results: Sequence[Result]) -> str:
-    """What was examined and what was found; nothing examined is not the same as nothing found."""
-    return _tally(results).line(len(results))
+def summary_line(result: Result, *, is_explained: bool = False) -> str:
+    """What was examined in a program and what was found; nothing examined is not the same as nothing found."""
+    return _tally(result, is_explained=is_explained).line(1)
+
+
+_UNEXAMINED = (ReadIssue.NO_CONTOUR, ReadIssue.CONTROL_UNKNOWN)
 
 
 class Totals(Struct, frozen=True):
@@ -127,24 +154,31 @@ class Totals(Struct, frozen=True):
 
     statuses: Counter[Status] = field(default_factory=Counter)
     severities: Counter[Severity] = field(default_factory=Counter)
+    unexamined: Counter[str] = field(default_factory=Counter)
+    """Programs that look as if they had contours, but for no control that was tried."""
 
-    def count(self, item: Answer | Diagnostic, *, is_check: bool = False) -> None:
-        """Count a contour with its findings, or a finding, for `check` as it reports them."""
+    def count(self, item: Answer | Diagnostic, *, is_explained: bool = True) -> None:
+        """Count a contour with its findings, or a finding."""
         if isinstance(item, Answer):
             self.statuses[item.status] += 1
-        self.severities.update((without_contour(f) if is_check else f).severity for f in findings_of(item))
+        findings = findings_of(item, is_explained=is_explained)
+        self.severities.update(each.severity for each in findings)
+        self.unexamined.update(
+            each.code for each in findings if each.about in _UNEXAMINED and each.severity is Severity.ERROR
+        )
 
     def line(self, programs: int) -> str:
         """What was examined in some programs, and what was found."""
-        total, solved = self.statuses.total(), statuses_text(self.statuses)
+        total, statuses = self.statuses.total(), statuses_text(self.statuses)
         found = ", ".join(count(self.severities[each], each.value) for each in Severity if self.severities[each])
-        examined = f"{count(total, 'contour')} ({solved})" if total else "no contour examined"
+        each_status = statuses.partition(" ")[2] if len(+self.statuses) == 1 else ""
+        told = f"{count(total, 'contour')} {each_status}" if each_status else f"{count(total, 'contour')}: {statuses}"
         several = f"{count(programs, 'program')}, " if programs > 1 else ""
-        return f"{several}{examined}; {found or 'nothing found'}"
+        return f"{several}{told if total else 'no contour examined'}; {found or 'no problems'}"
 
 
-def _tally(results: Sequence[Result]) -> Totals:
+def _tally(result: Result, *, is_explained: bool) -> Totals:
+    findings = result.diagnostics if is_explained else short_findings(result)
     return Totals(
-        Counter(answer.status for result in results for answer in result.answers),
-        Counter(finding.severity for result in results for finding in result.diagnostics),
+        Counter(answer.status for answer in result.answers), Counter(finding.severity for finding in findings)
     )

@@ -103,7 +103,7 @@ def _page(result: Result, version: str, progress: Progress) -> h.Element:
             h.style[Markup(page_style() + style_rules("report.css"))],  # our own files
         ],
         h.body(".contoursolve")[
-            h.header[h.h1[name], h.p(".lead")[summary_line([result])], _conditions(result)],
+            h.header[h.h1[name], h.p(".lead")[summary_line(result, is_explained=True)], _conditions(result)],
             h.nav(aria_label="Parts of this page")[
                 h.a(href="#contours")["Contours"],
                 h.a(href="#program")["Program"],

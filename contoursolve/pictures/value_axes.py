@@ -203,4 +203,4 @@ def _remarks(found: Feasible) -> Iterator[tuple[str, Role]]:
     if not found.intervals:
         yield "there is a contour for no value", Role.INK
     elif not ends:
-        yield "there is a contour for every value that was looked at", Role.INK
+        yield "every value searched makes a contour", Role.INK

@@ -173,11 +173,6 @@ class Run:
         return replace(self.frame, answers=tuple(answers), diagnostics=tuple(sorted(everything, key=rank)))
 
 
-def without_contour(finding: Diagnostic) -> Diagnostic:
-    """The finding as `check` reports it: that there is nothing to solve is a warning then."""
-    return replace(finding, severity=Severity.WARNING) if finding.about is ReadIssue.NO_CONTOUR else finding
-
-
 def walk(
     blocks: Iterable[Line],
     dialect: Dialect,
@@ -195,6 +190,9 @@ def walk(
 
 _FAULTS_OF_NO_CONSEQUENCE = (FaultKind.STRAY_CHARACTER,)
 """Faults that are only worth a warning in a block that is not a contour."""
+
+_LOOKED_AT = 1_000
+"""Lines of a program in which the words of a control are looked for."""
 
 _NEAR = 8
 """Blocks at a place that are looked at together for what may have been meant there."""
@@ -411,14 +409,34 @@ class _Examiner:
         self.start_unit = found.after.unit
 
     def nothing_to_solve(self, blocks: Sequence[Block]) -> Diagnostic:
-        """The finding that a program has no contour block."""
+        """The finding that a program has no contour block: a warning where nothing in it looks like one."""
         own = self.dialect.name if self.dialect else None
+        if self.dialect is None and self.depth is not Depth.VERDICT:
+            for name, dialect in DIALECTS.items():
+                for slip in self._slips_as(dialect, blocks):
+                    context = Context(self.rules, self.unit, place=slip.span)
+                    row = context.row(ReadIssue.CONTROL_UNKNOWN)
+                    return report(context, row, Basis.RULE, [], control=name, finding=slip.message)
         controls = (self.dialect,) if self.dialect else DIALECTS.values()
         triggers = [f"of {each.name}: {each.contours}" for each in controls]
         others = ((name, what_shows(blocks, each)) for name, each in DIALECTS.items() if own not in (None, name))
-        triggers += [f"{sign} is for {name}: try --control {name}" for name, sign in others if sign]
+        signs = [f"{sign} is for {name}: try --control {name}" for name, sign in others if sign]
         context = Context(self.rules, self.unit)
-        return report(context, context.row(ReadIssue.NO_CONTOUR), Basis.RULE, [], triggers="; ".join(triggers))
+        row = context.row(ReadIssue.NO_CONTOUR)
+        finding = report(context, row, Basis.RULE, [], triggers="; ".join(triggers + signs))
+        return finding if signs else replace(finding, severity=Severity.WARNING)
+
+    def _slips_as(self, dialect: Dialect, blocks: Sequence[Block]) -> Iterator[Diagnostic]:
+        """The words that make a contour for a control with their comma, in the first lines of a program."""
+        from contoursolve.diagnosis.other_readings import explain_commas  # noqa: PLC0415 - few programs need it
+
+        state, addresses = dialect.initial_state(self.unit), dialect.modes.lexicon.addresses
+        for index, block in enumerate(blocks[:_LOOKED_AT]):
+            before, state = state, advance(state, block, dialect.modes)
+            if any(f",{word.address}" in addresses for word in block.words):
+                context = Context(dialect.rules, self.unit, place=block.span)
+                found = explain_commas(context, dialect, blocks[index : index + _NEAR], (before, state))
+                yield from (each for each in found if each.fixes)
 
     def _check_block(self, block: Block) -> None:
         context = Context(self.rules, self.unit, place=block.span)

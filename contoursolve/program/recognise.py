@@ -64,7 +64,7 @@ def what_shows(blocks: Iterable[Block], dialect: Dialect) -> str:
 def sign_of(block: Block, dialect: Dialect) -> str:
     """What shows that a block is for a control; empty if nothing does."""
     words = dialect.signs(block)
-    return f"{join([word.text.strip() for word in words])} in line {block.line}" if words else ""
+    return f"{join([word.text.strip() for word in words])} in program line {block.line}" if words else ""
 
 
 def first_sign(blocks: Iterable[Block]) -> Dialect | None:

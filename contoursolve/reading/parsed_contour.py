@@ -32,6 +32,7 @@ class ReadIssue(Enum):
     POSITION_UNKNOWN = "position-unknown"
     SKIPPABLE_START = "skippable-start"
     NO_CONTOUR = "no-contour"
+    CONTROL_UNKNOWN = "control-unknown"
     TEXT_OUTSIDE = "text-outside"
     UNDERDETERMINED = "underdetermined"
     CORNER_TWICE = "corner-twice"

@@ -352,7 +352,7 @@ COMBINATION_RULES = (
 GEOMETRY_RULES = (
     Rule(
         code="nct-comma-missing",
-        message="{words} is no corner and no angle, and this line is taken as if it were not there",
+        message="{words} has no comma, so the control ignores it",
         help="write {meant} if that is meant",
         source=_manual("16.1, 16.2: ,A ,C ,R have a comma"),
         about=ReadIssue.COMMA_MISSING,
@@ -453,7 +453,7 @@ GEOMETRY_RULES = (
     ),
     Rule(
         code="nct-reversed",
-        message="the line would run against {words}: it would end {off} behind where it begins; the control "
+        message="{words} points away from the end of the line, which lies {off} behind its start; the control "
         "gives no alarm and makes the wrong motion",
         help="check the signs: as its ends lie, the line would run at {expected}; next to a circle the other angle "
         "also exchanges the meanings of Q",
@@ -491,7 +491,7 @@ GEOMETRY_RULES = (
     ),
     Rule(
         code="nct-parallel",
-        message="no point satisfies {words} together: the lines are parallel and {off} apart",
+        message="{words} fit no point: the lines are parallel and {off} apart",
         help="change an angle or a point",
         source=_GEOMETRY,
         about=RefusalKind.LINES_PARALLEL,

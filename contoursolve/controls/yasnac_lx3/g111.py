@@ -274,7 +274,7 @@ _GEOMETRY_RULES = (
     ),
     Rule(
         code="g111-parallel",
-        message="no point satisfies {words} together: the lines are parallel and {off} apart",
+        message="{words} fit no point: the lines are parallel and {off} apart",
         help="change an angle, or give the point by its distances I and K",
         source=manual("2.8.30, p. 146: no intersection", Evidence.DERIVED),
         alarm=_GEOMETRY,
@@ -296,7 +296,7 @@ _GEOMETRY_RULES = (
     ),
     Rule(
         code="g111-reversed",
-        message="{subject} would run against {words}: its end lies {off} behind its start",
+        message="{words} points away from the end of {subject}, which lies {off} behind its start",
         help="check the signs: as its ends lie, it would run at {expected}",
         source=manual("2.8.30, p. 146: moves away", Evidence.DERIVED),
         alarm=_GEOMETRY,

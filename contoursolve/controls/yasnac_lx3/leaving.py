@@ -150,7 +150,7 @@ LEAVING_RULES = (
     ),
     Rule(
         code="g11-corner-letter",
-        message="{words:I} is along X, and so is the move: the corner that leaves it is written with K",
+        message="for an X move write K, not {words:I}",
         help="write K for {words:I}",
         source=_PAGE,
         roles=(ALONG_X,),
@@ -160,7 +160,7 @@ LEAVING_RULES = (
     ),
     Rule(
         code="g11-corner-letter-z",
-        message="{words:K} is along Z, and so is the move: the corner that leaves it is written with I",
+        message="for a Z move write I, not {words:K}",
         help="write I for {words:K}",
         source=_PAGE,
         roles=(ALONG_Z,),
