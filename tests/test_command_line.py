@@ -810,3 +810,36 @@ def test_the_other_control_is_named_with_the_words_that_show_it(save):
     assert len(advice) < 200
     _, _, errors = run("check", save(both))
     assert "yasnac-lx3 by G111 in program line 2, nct-99m by ,C10 in program line 1" in errors
+
+
+def test_contours_behind_a_refused_one_are_checked_from_where_its_best_fix_ends(save):
+    lines = (
+        "G00 X40. Z0.",
+        "G111 A180. K-30. B120. X60. P50.",
+        "G111 A180. K-10. B120. X100. Q3.",
+        "G111 A180. K-10. B120. X120. Q300.",
+        "G111 A180. K-10. B120. X140.",
+    )
+    path = save("\n".join(lines))
+    document = solve_json(path)
+    # What rests on an assumption is no contour.
+    assert [each["status"] for each in document["contours"]] == ["no-solution", *["underdetermined"] * 3]
+    assert all(each["end"] is None for each in document["contours"])
+    told = [(each["code"], each["line"]) for each in document["diagnostics"]]
+    errors = [("g111-corner-too-large", 2), ("g111-corner-too-large", 4)]
+    behind = [(code, line) for code in ("position-unknown", "start-assumed") for line in (3, 4, 5)]
+    assert sorted(told) == sorted([*errors, *behind])
+    _, output, _ = run("check", path)
+    # 20 mm is the largest P; with it line 2 ends at the same point.
+    assert "checked from Z-35.7735 X60.0000 mm, where the best fix of line 2 ends" in output
+    # The same findings as with the best fixes written.
+    mended = [line.replace("P50.", "P20.").replace("Q300.", "Q20.") for line in lines]
+    assert run("check", save("\n".join(mended)))[1] == "4 contours solved; no problems\n"
+
+
+def test_contours_of_which_nobody_knows_where_they_begin_are_counted(save):
+    path = save("G00 X40. Z0.\nG111 A180. B120. X100.\nG111 A180. K-10. B120. X120.\nG111 A180. K-10. B120. X130.\n")
+    _, output, _ = run("check", path)
+    assert "contour-waits" not in output
+    assert output.splitlines()[-1].endswith("1 error; 2 contours wait for an end point")
+    assert run("solve", path)[1].count("not checked: it waits for the end point of line 2") == 2

@@ -240,6 +240,6 @@ def report(
             write_whole(target, (piece.encode("utf-8", "replace") for piece in pieces), keeps_backup=False)
     except (CannotWriteError, MissingExtraError) as error:
         raise CouldNotRunError(str(error)) from None
-    say(summary_line(result))
+    say(summary_line(result, is_explained=True))
     say(f"{target} written")
     context.exit(FOUND_ERRORS if result.has_errors else 0)

@@ -1,7 +1,7 @@
 """A whole result as text: contours with their findings in the order of the program, and what was examined in all."""
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from heapq import heappop, heappush
 from typing import Any, TypeVar
 
@@ -17,7 +17,7 @@ from contoursolve.output.findings import Style, finding_lines
 from contoursolve.program.pipeline import Result, Run
 from contoursolve.program.recognise import what_shows
 from contoursolve.reading import ReadIssue
-from contoursolve.solving import Status
+from contoursolve.solving import NoteKind, Status
 
 
 def listed(result: Result) -> list[Diagnostic | Answer]:
@@ -50,6 +50,9 @@ def stream_findings(run: Run, tally: "Totals", style: Style, *, is_explained: bo
         for item in run:
             tally.count(item, is_explained=is_explained)
             for finding in findings_of(item, is_explained=is_explained):
+                if finding.about is ReadIssue.CONTOUR_WAITS and not is_explained:
+                    # They are counted in one line.
+                    continue
                 yield (rank(finding), isinstance(item, Answer)), finding
 
     return lines_of_findings(run.frame, _in_order(items()), style, is_explained=is_explained)
@@ -59,14 +62,26 @@ def findings_of(item: Answer | Diagnostic, *, is_explained: bool = True) -> tupl
     """The findings about a contour, unless they are explained without what repeats an error; a finding itself."""
     if not isinstance(item, Answer):
         return (item,)
-    has_error = any(each.severity is Severity.ERROR for each in item.diagnostics)
-    if is_explained or not has_error:
+    if is_explained:
         return item.diagnostics
-    return tuple(
-        each
-        for each in item.diagnostics
-        if each.severity is not Severity.INFO or each.about is not ReadIssue.UNDERDETERMINED
-    )
+    errors = [each for each in item.diagnostics if each.severity is Severity.ERROR]
+    waits = any(each.about in _WAITS for each in item.diagnostics)
+    return tuple(each for each in item.diagnostics if not _is_repeated(each, errors, waits=waits))
+
+
+_WAITS = (ReadIssue.START_ASSUMED, ReadIssue.CONTOUR_WAITS)
+
+
+def _is_repeated(finding: Diagnostic, errors: Sequence[Diagnostic], *, waits: bool) -> bool:
+    """Whether a finding says what another one of the same contour says."""
+    match finding.about:
+        case ReadIssue.POSITION_UNKNOWN:
+            return waits
+        case ReadIssue.UNDERDETERMINED:
+            return bool(errors) and finding.severity is Severity.INFO
+        case NoteKind.WORDS_AGREE:
+            return any({*finding.addresses} <= {*each.addresses} for each in errors)
+    return False
 
 
 def short_findings(result: Result) -> list[Diagnostic]:
@@ -156,13 +171,17 @@ class Totals(Struct, frozen=True):
     severities: Counter[Severity] = field(default_factory=Counter)
     unexamined: Counter[str] = field(default_factory=Counter)
     """Programs that look as if they had contours, but for no control that was tried."""
+    waiting: Counter[Status] = field(default_factory=Counter)
+    """Contours that are not checked, because nobody knows where they begin."""
 
     def count(self, item: Answer | Diagnostic, *, is_explained: bool = True) -> None:
         """Count a contour with its findings, or a finding."""
         if isinstance(item, Answer):
             self.statuses[item.status] += 1
+            is_waiting = any(each.about is ReadIssue.CONTOUR_WAITS for each in item.diagnostics)
+            self.waiting.update([item.status] * is_waiting)
         findings = findings_of(item, is_explained=is_explained)
-        self.severities.update(each.severity for each in findings)
+        self.severities.update(each.severity for each in findings if each.about is not ReadIssue.CONTOUR_WAITS)
         self.unexamined.update(
             each.code for each in findings if each.about in _UNEXAMINED and each.severity is Severity.ERROR
         )
@@ -173,8 +192,10 @@ class Totals(Struct, frozen=True):
         found = ", ".join(count(self.severities[each], each.value) for each in Severity if self.severities[each])
         each_status = statuses.partition(" ")[2] if len(+self.statuses) == 1 else ""
         told = f"{count(total, 'contour')} {each_status}" if each_status else f"{count(total, 'contour')}: {statuses}"
+        number = self.waiting.total()
         several = f"{count(programs, 'program')}, " if programs > 1 else ""
-        return f"{several}{told if total else 'no contour examined'}; {found or 'no problems'}"
+        waiting = f"; {count(number, 'contour waits', 'contours wait')} for an end point" if number else ""
+        return f"{several}{told if total else 'no contour examined'}; {found or 'no problems'}{waiting}"
 
 
 def _tally(result: Result, *, is_explained: bool) -> Totals:

@@ -149,7 +149,8 @@ class Run:
             program, facts = attach(program, dialect, unit, start, facts)
         control, settings = (dialect.name, dialect.modes.settings) if dialect else (None, {})
         self.frame = Result(program, control, (), (), start, tuple(facts), settings, policy)
-        self._examiner = _Examiner(dialect, unit, policy, depth, together)
+        goes_on = depth is Depth.FULL
+        self._examiner = _Examiner(dialect, unit, policy, depth, together, goes_on=goes_on)
 
     def __iter__(self) -> Iterator[Answer | Diagnostic]:
         program, examiner, is_told = self.frame.program, self._examiner, False
@@ -215,7 +216,14 @@ class _Examiner:
     """One pass over one program: the modal state as it goes, and the findings outside contours."""
 
     def __init__(
-        self, dialect: Dialect | None, unit: Length, policy: Policy, depth: Depth, together: Together | None = None
+        self,
+        dialect: Dialect | None,
+        unit: Length,
+        policy: Policy,
+        depth: Depth,
+        together: Together | None = None,
+        *,
+        goes_on: bool = False,
     ) -> None:
         self.dialect = dialect
         self.unit = unit
@@ -230,7 +238,7 @@ class _Examiner:
         may be part of the contour there."""
         self.start_unit = unit
         """In which a start point that is stated apart counts, until a contour has another unit."""
-        self.queue = Queue(dialect or DIALECTS["yasnac-lx3"], together, self._examine)
+        self.queue = Queue(dialect or DIALECTS["yasnac-lx3"], together, self._examine, goes_on=goes_on)
 
     def steps(self, blocks: Iterable[Line], start: Program | None) -> Iterator[Step]:
         """Every block and every contour, in order; without a dialect, only what is found."""

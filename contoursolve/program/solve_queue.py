@@ -1,19 +1,20 @@
 """Contours that are found and not solved yet: together, as soon as it is known where they begin."""
 
 from collections.abc import Callable, Sequence
-from functools import partial
-from typing import Protocol, cast
+from decimal import Decimal
+from functools import cache, partial
+from typing import Any, Protocol, cast
 
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.examine import Answer
-from contoursolve.diagnosis.explain import Context
-from contoursolve.diagnosis.wording import join
-from contoursolve.diagnostics.finding import Diagnostic, Severity
-from contoursolve.gcode import Block, Passage
+from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine
+from contoursolve.diagnosis.explain import Context, context_of, report
+from contoursolve.diagnosis.wording import join, measured
+from contoursolve.diagnostics.finding import Applicability, Basis, Diagnostic, Severity
+from contoursolve.gcode import Block, Passage, parse_block
 from contoursolve.program.stream import View
-from contoursolve.reading import Awaited, Modes, ParsedContour, Position, ReadIssue, State, leave
+from contoursolve.reading import Awaited, Modes, ParsedContour, Position, ReadIssue, State, advance, leave
 from contoursolve.reading.dialect import Dialect
 from contoursolve.solving.contour import Contour
 
@@ -58,12 +59,18 @@ class Pending:
 
 
 class Queue:
-    """The contours of one program that are pending; `examine` gives the answer to one of them by itself."""
+    """The contours of one program that are pending; `examine` gives the answer to one of them by itself. If it
+    `goes_on`, those behind one that is refused are checked from where its best fix ends."""
 
     def __init__(
-        self, dialect: Dialect, together: Together | None, examine: Callable[[ParsedContour, Pending], Answer]
+        self,
+        dialect: Dialect,
+        together: Together | None,
+        examine: Callable[[ParsedContour, Pending], Answer],
+        *,
+        goes_on: bool = False,
     ) -> None:
-        self.dialect, self.together, self.examine = dialect, together, examine
+        self.dialect, self.together, self.examine, self.goes_on = dialect, together, examine, goes_on
         self.pending: list[Pending] = []
 
     def add(
@@ -84,18 +91,69 @@ class Queue:
         self.pending = []
         for _, ready in sorted(waves.items()):
             claimed = [(each, each.contour) for each in ready]
-            examine = [partial(self.examine, claim, each) for each, claim in claimed]
+            each_alone = [partial(self.examine, claim, each) for each, claim in claimed]
             answers = (
-                [once() for once in examine]
+                [once() for once in each_alone]
                 if self.together is None
-                else self.together.solve([claim for _, claim in claimed], examine)
+                else self.together.solve([claim for _, claim in claimed], each_alone)
             )
             for (each, claim), answer in zip(claimed, answers, strict=True):
-                step = each.step
-                each.left = partial(_after, claim, self.dialect.modes, answer)
+                step, origin = each.step, _awaited(claim, answer)
+                told, tried = self._check_on(each, answer) if self.goes_on and origin else (answer, answer)
+                end = partial(self._end_of_fix, tried) if self.goes_on else _nowhere
+                each.left = cache(partial(_after, claim, self.dialect.modes, answer, origin, end))
                 behind = self._behind(each, claim.form.name, answer.contour, each.left)
-                told = replace(answer, diagnostics=(*answer.diagnostics, *behind)) if behind else answer
+                told = replace(told, diagnostics=(*told.diagnostics, *behind)) if behind else told
                 each.step = Step(step.blocks, step.before, told, step.findings)
+
+    def _check_on(self, each: Pending, answer: Answer) -> tuple[Answer, Answer]:
+        """The answer to a contour whose start is not known, with what is found if it begins where the best fix of the
+        contour before ends; and the answer to it from there."""
+        before = each.contour.before
+        lost = {axis: before.axes[axis] for axis in before.plane.axes if before.axes[axis].value is None}
+        lines = join([str(line) for line in dict.fromkeys(place.span.line for place in lost.values() if place.span)])
+        if not all(place.reason.startswith(_WAITS) for place in lost.values()):
+            return answer, answer
+        state = before.move({axis: Position(place.assumed, place.reason, place.span) for axis, place in lost.items()})
+        found = self.dialect.find(each.view, 0, state, self.dialect.modes) if state.start().is_known else None
+        if not isinstance(found, ParsedContour):
+            return self._with_start(answer, ReadIssue.CONTOUR_WAITS, (), line=lines), answer
+        tried = self.examine(found, each)
+        first, second = (float(value or 0) for value in state.start().values)
+        place = measured((first, second), state.plane, found.after.unit)
+        told = self._with_start(answer, ReadIssue.START_ASSUMED, tried.diagnostics, line=lines, place=place)
+        return told, tried
+
+    def _with_start(self, answer: Answer, about: ReadIssue, others: tuple[Diagnostic, ...], **fields: Any) -> Answer:
+        """The answer with another finding about its start, and others."""
+        context = context_of(answer.claim, self.dialect.rules)
+        start = report(context, context.row(about), Basis.RULE, [], **fields)
+        return replace(
+            answer,
+            diagnostics=(*answer.diagnostics, start, *(each for each in others if each not in answer.diagnostics)),
+        )
+
+    def _end_of_fix(self, answer: Answer) -> tuple[float, float] | None:
+        """Where a contour ends, mm: its own end, or with the first fix of its first error that leaves nothing open."""
+        if answer.contour is not None:
+            return answer.contour.end
+        errors = (each for each in answer.diagnostics if each.severity is Severity.ERROR)
+        fixes = (fix for each in errors for fix in each.fixes if fix.applicability is not Applicability.PLACEHOLDER)
+        fix = next(fixes, None)
+        if fix is None or not answer.start.is_known:
+            return None
+        claim, modes, index = answer.claim, self.dialect.modes, 0
+        blocks = [parse_block(text, claim.blocks[0].line) for text in fix.replacement.split("\n")]
+        state, end = claim.before, None
+        while index < len(blocks):
+            found = self.dialect.find(blocks, index, state, modes)
+            if isinstance(found, ParsedContour):
+                contour = examine(found, self.dialect.rules, Policy.ENFORCE, lambda: None, Depth.VERDICT).contour
+                end = contour.end if contour else None
+                state, index = leave(found, end, modes), index + len(found.blocks)
+            else:
+                state, index = advance(state, blocks[index], modes), index + 1
+        return end
 
     def _behind(
         self, each: Pending, form: str, contour: Contour | None, left: Callable[[], State]
@@ -124,11 +182,37 @@ class Queue:
         return state.move({axis: Awaited(partial(find, axis), pending.wave + 1) for axis in axes})
 
 
-def _after(claim: ParsedContour, modes: Modes, answer: Answer) -> State:
-    """The state that a contour leaves."""
+_WAITS = "this contour waits for"
+
+
+def _nowhere() -> None:
+    """No point."""
+
+
+def _after(
+    claim: ParsedContour,
+    modes: Modes,
+    answer: Answer,
+    origin: Position | None,
+    find_end: Callable[[], tuple[float, float] | None],
+) -> State:
+    """The state that a contour leaves; `origin` is what made its start unknown, `find_end` finds where its best fix
+    ends."""
     if answer.contour is not None:
         return leave(claim, answer.contour.end, modes)
-    origin = _awaited(claim, answer)
+    state = _lost(claim, modes, answer, origin)
+    ends = zip(claim.after.plane.axes, find_end() or (), strict=False)
+    lost = {axis: (state.axes[axis], value) for axis, value in ends if state.axes[axis].value is None}
+    return state.move(
+        {
+            axis: Position(None, place.reason, place.span, place.is_skippable, place.word, Decimal(repr(value)))
+            for axis, (place, value) in lost.items()
+        }
+    )
+
+
+def _lost(claim: ParsedContour, modes: Modes, answer: Answer, origin: Position | None) -> State:
+    """The state that a contour without a path leaves."""
     if origin is not None:
         return leave(claim, None, modes, origin.reason, origin.span)
     lines = (
@@ -136,7 +220,7 @@ def _after(claim: ParsedContour, modes: Modes, answer: Answer) -> State:
         if len(answer.lines) == 1
         else f"lines {join(list(map(str, answer.lines)))}, which are"
     )
-    return leave(claim, None, modes, f"this contour waits for {lines} not solved")
+    return leave(claim, None, modes, f"{_WAITS} {lines} not solved")
 
 
 def _awaited(claim: ParsedContour, answer: Answer) -> Position | None:

@@ -31,6 +31,8 @@ class Position:
     """The block that set it begins with `/`."""
     word: Word | None = None
     """The axis word that set it, where one did."""
+    assumed: Decimal | None = None
+    """Where it would be, mm, if the contour that lost it had its best fix."""
 
 
 class Awaited(Position):
@@ -85,6 +87,10 @@ class Awaited(Position):
     @property
     def word(self) -> Word | None:
         return self.found().word
+
+    @property
+    def assumed(self) -> Decimal | None:
+        return self.found().assumed
 
 
 _DEEPEST = 50

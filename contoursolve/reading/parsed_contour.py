@@ -30,6 +30,8 @@ class ReadIssue(Enum):
     CODE_MISTYPED = "code-mistyped"
     VALUE_TOO_LARGE = "value-too-large"
     POSITION_UNKNOWN = "position-unknown"
+    START_ASSUMED = "start-assumed"
+    CONTOUR_WAITS = "contour-waits"
     SKIPPABLE_START = "skippable-start"
     NO_CONTOUR = "no-contour"
     CONTROL_UNKNOWN = "control-unknown"
