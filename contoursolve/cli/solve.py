@@ -53,6 +53,8 @@ def solve(
     several contours satisfy a block, all of them. A word with ? for its value, such as P?, is worked out from the
     other words and from facts.
 
+    Exit status: 0 no error, 1 an error is found, 2 nothing could be examined.
+
     \b
     contoursolve solve shaft.nc
     contoursolve solve --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0."
@@ -105,6 +107,9 @@ def check(
     **options: Any,
 ) -> None:
     """Report the findings about each PROGRAM (files, or - for standard input), without the contours.
+
+    Each finding has two reasons and two fixes at most; --explain shows all. Exit status: 0 no error, 1 an error is
+    found (see --fail-on), 2 a program could not be examined.
 
     \b
     contoursolve check shaft.nc flange.nc

@@ -317,8 +317,7 @@ _WAY_RULES = (
     ),
     Rule(
         code="g112-backs-up",
-        message="{words}: line 1 and the line on which corner 2 lands lie on opposite sides of the centre, so the arc "
-        "between them would have to turn back",
+        message="{words}: line 1 and the line of corner 2 lie on opposite sides of the centre; the arc would turn back",
         help="put both lines on one side of the centre, or change the sign of I or K",
         source=_WAY,
         alarm=_GEOMETRY,
@@ -330,8 +329,8 @@ _WAY_RULES = (
     ),
     Rule(
         code="g112-side-open",
-        message="{words}: line 1 and the line on which corner 2 lands both lead through the centre, so nothing tells "
-        "on which side of it the arc runs",
+        message="{words}: line 1 and the line of corner 2 lead through the centre; no word says on which side the arc "
+        "runs",
         help="move the centre or the line on which corner 2 lands",
         source=_WAY,
         alarm=_GEOMETRY,

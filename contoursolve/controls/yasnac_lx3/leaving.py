@@ -130,7 +130,7 @@ LEAVING_RULES = (
     ),
     Rule(
         code="g11-corner-missing",
-        message="under G11 and G12, a block along Z needs I, which tells how far and to which side the corner leaves",
+        message="under G11 and G12, a block along Z needs I: how far the corner leaves, and to which side",
         help="add I, or write G00 or G01 for a move without a corner",
         source=_PAGE,
         roles=(ALONG_Z,),
@@ -140,7 +140,7 @@ LEAVING_RULES = (
     ),
     Rule(
         code="g11-corner-missing-x",
-        message="under G11 and G12, a block along X needs K, which tells how far and to which side the corner leaves",
+        message="under G11 and G12, a block along X needs K: how far the corner leaves, and to which side",
         help="add K, or write G00 or G01 for a move without a corner",
         source=_PAGE,
         roles=(ALONG_X,),
