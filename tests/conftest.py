@@ -20,7 +20,10 @@ PROGRAMS = {
 }
 """The programs of which tests with a marker need one, and how to get them."""
 
-PACKAGES = {"browser": ("playwright", "jupyterlab", "ipykernel", "anywidget", "htpy")}
+PACKAGES = {
+    "browser": ("playwright", "jupyterlab", "ipykernel", "anywidget", "htpy"),
+    "site": ("zensical", "mkdocstrings_handlers"),
+}
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -31,9 +34,10 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_runtest_setup(item: pytest.Item) -> None:
-    for marker, (names, advice) in PROGRAMS.items():
+    for marker in dict.fromkeys((*PROGRAMS, *PACKAGES)):
         if item.get_closest_marker(marker) is not None:
-            missing = [] if any(map(shutil.which, names)) else [advice]
+            names, advice = PROGRAMS.get(marker, ((), ""))
+            missing = [advice] if names and not any(map(shutil.which, names)) else []
             missing += [name for name in PACKAGES.get(marker, ()) if find_spec(name) is None]
             if missing:
                 (pytest.fail if item.config.getoption("--insist") else pytest.skip)(f"needs {', '.join(missing)}")

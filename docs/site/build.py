@@ -1,0 +1,211 @@
+"""Build the documentation site: `python docs/site/build.py` writes it to build/site/html, or to html in a named folder.
+
+Its pages are README.md and the pages of docs/, a page for each control with all its rules, the reference of the public
+names, and the notebooks. All but the first are made here from the tables, docstrings and notebooks. Needs the extra
+`docs`.
+"""
+
+import json
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from html import escape
+from os.path import relpath
+from pathlib import Path
+
+import contoursolve
+from contoursolve import pictures
+from contoursolve.controls import DIALECTS
+from contoursolve.reading.dialect import Dialect
+from contoursolve.reading.rules import Rule
+
+ROOT = Path(__file__).parents[2]
+OUTPUT = Path(sys.argv[1] if sys.argv[1:] else ROOT / "build" / "site").resolve()
+PAGES = OUTPUT / "pages"
+SITE = OUTPUT / "html"
+
+STAGED = {
+    ROOT / "README.md": "overview.md",
+    ROOT / "CONTRIBUTING.md": "contributing.md",
+    ROOT / "CHANGELOG.md": "changes.md",
+    **{path: path.name for path in sorted((ROOT / "docs").glob("*.md"))},
+    **{path: f"notebooks/{path.stem}.md" for path in sorted((ROOT / "notebooks").glob("*.ipynb"))},
+    **{path: f"pictures/{path.name}" for path in sorted((ROOT / "notebooks" / "pictures").iterdir())},
+}
+"""Where on the site each file of the repository stands."""
+
+
+def main() -> None:
+    """Write the pages, and have zensical make the site of them; a warning of it is an error."""
+    for folder in (PAGES, SITE):
+        shutil.rmtree(folder, ignore_errors=True)
+    for source, name in STAGED.items():
+        if source.suffix == ".md":
+            write(name, with_links(source.read_text(encoding="utf-8"), source))
+        elif source.suffix == ".ipynb":
+            write(name, notebook_page(source))
+        else:
+            write(name, source.read_bytes())
+    write("rules/index.md", "\n".join(rules_index()))
+    for dialect in DIALECTS.values():
+        write(f"rules/{dialect.name}.md", "\n".join(rules_page(dialect)))
+    write("reference.md", "\n".join(reference_page()))
+
+    settings = OUTPUT / "zensical.toml"
+    for path in (settings, settings.with_name("doctests.py")):
+        shutil.copy(Path(__file__).with_name(path.name), path)
+    named = set(re.findall(r'"([\w/-]+\.md)"', settings.read_text(encoding="utf-8")))
+    written = {path.relative_to(PAGES).as_posix() for path in PAGES.rglob("*.md")}
+    if named != written:
+        sys.exit(f"docs/site/zensical.toml and the pages differ: {', '.join(sorted(named ^ written))}")
+    command = [sys.executable, "-m", "zensical", "build", "--strict", "--config-file", settings.name]
+    subprocess.run(command, cwd=OUTPUT, check=True)
+    for page in SITE.rglob("*.html"):
+        page.write_bytes(with_own_worker(page.read_bytes(), "../" * (len(page.relative_to(SITE).parts) - 1)))
+    shutil.copy(Path(__file__).with_name("worker.js"), SITE / "assets")
+
+
+def with_own_worker(page: bytes, up: str) -> bytes:
+    """A page whose search in files needs no other host: zensical loads a script from one."""
+    return re.sub(rb'"https://[^"]*/iframe-worker/shim"', f'"{up}assets/worker.js"'.encode(), page)
+
+
+def write(name: str, content: str | bytes) -> None:
+    """One file among the pages."""
+    path = PAGES / name
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(content.encode() if isinstance(content, str) else content)
+
+
+def with_links(text: str, source: Path) -> str:
+    """A page of the repository, with its links leading to where their targets stand on the site."""
+    here = Path(STAGED[source]).parent
+
+    def moved(link: re.Match[str]) -> str:
+        name, hash_sign, anchor = (link[1] or "").partition("#")
+        if "://" in name or not name:
+            return link[0]  # code, another host, or a place on this page
+        target = STAGED[(source.parent / name).resolve()]
+        return f"]({Path(relpath(target, here)).as_posix()}{hash_sign}{anchor})"
+
+    code = r"```(?s:.*?)```|`[^`\n]*`|^    .*$"
+    return re.sub(rf"{code}|\]\(([^)\s]+)\)", moved, text, flags=re.MULTILINE)
+
+
+# Notebooks ---------------------------------------------------------------------------------------------------
+
+
+def notebook_page(path: Path) -> str:
+    """A notebook as a page: its text, its code, and what it printed and drew when it was last executed."""
+    lines: list[str] = []
+    for number, cell in enumerate(json.loads(path.read_text(encoding="utf-8"))["cells"]):
+        source = "".join(cell["source"])
+        lines += [with_links(source, path), ""] if cell["cell_type"] == "markdown" else [*fenced(source, "python"), ""]
+        for output in cell.get("outputs", ()):
+            data = output.get("data", {})
+            drawn = "".join(data.get("image/svg+xml", ""))
+            if drawn:
+                name = f"{path.stem}-{number}.svg"
+                write(f"notebooks/{name}", drawn)
+                title = re.search("<title[^>]*>(.*?)</title>", drawn)
+                lines += [f"![{title[1] if title else path.stem}]({name})", ""]
+            else:
+                lines += [*fenced("".join(output.get("text", data.get("text/plain", ""))), "text"), ""]
+    return "\n".join(lines)
+
+
+def fenced(text: str, language: str) -> Iterator[str]:
+    """A block of code."""
+    yield f"````{language}"
+    yield text.rstrip("\n")
+    yield "````"
+
+
+# Rules -------------------------------------------------------------------------------------------------------
+
+
+def rules_index() -> Iterator[str]:
+    """The page that leads to the rules of each control."""
+    yield "# Every rule\n"
+    yield "Each control has a page. Each rule has wrong blocks, right ones, its source, and the grade of the source:\n"
+    yield "| grade | meaning |\n|---|---|"
+    yield "| printed | read on a page of the control's manual |"
+    yield "| derived | follows from printed facts by geometry or symmetry |"
+    yield "| assumed | our choice where the pages that we have are silent |\n"
+    yield "| control | rules | printed | derived | assumed |\n|---|--:|--:|--:|--:|"
+    for dialect in DIALECTS.values():
+        grades = [rule.source.evidence.value for rule in dialect.rules]
+        counts = [len(grades), *map(grades.count, ("printed", "derived", "assumed"))]
+        yield f"| [{dialect.title}]({dialect.name}.md) | {' | '.join(map(str, counts))} |"
+    yield "\n`contoursolve rules` lists them in the terminal, `contoursolve explain CODE` prints one of them."
+
+
+def rules_page(dialect: Dialect) -> Iterator[str]:
+    """All rules of a control, its settings and its assumptions."""
+    rules = sorted(dialect.rules, key=lambda rule: rule.code)
+    yield f"# {dialect.title}\n"
+    yield f"All {len(rules)} rules of `{dialect.name}`, those that hold for every control among them.\n"
+    yield "| rule | severity | grade | alarm |\n|---|---|---|---|"
+    for rule in rules:
+        alarm = f"{rule.alarm.number} ({rule.alarm.evidence.value})" if rule.alarm else ""
+        yield f"| [{rule.code}](#{rule.code}) | {rule.severity.value} | {rule.source.evidence.value} | {alarm} |"
+    for rule in rules:
+        yield from rule_section(rule)
+    yield "\n## Settings { #settings }\n"
+    yield "What the manual leaves open, and you can choose:\n"
+    for setting in dialect.settings:
+        yield f"* **{plain(setting.meaning)}** ({plain(str(setting.source))})"
+        for value, meaning in setting.values.items():
+            default = ", the default" if value == setting.default else ""
+            yield f"    * `--set {dialect.name}.{setting.name}={value}`{default}: {plain(meaning)}"
+        if setting.bounds:
+            yield f"    * {plain(setting.choices(''))}"
+    yield "\n## Assumptions { #assumptions }\n"
+    for each in dialect.assumptions:
+        yield f"* `{each.name}`: {plain(each.meaning)} ({plain(str(each.source))})"
+
+
+def rule_section(rule: Rule) -> Iterator[str]:
+    """One rule: what it says, what to do, its source with the grade, wrong blocks and right ones."""
+    yield f"\n## {rule.code} {{ #{rule.code} }}\n"
+    yield f"{rule.severity.value.capitalize()}: {plain(rule.title)}\n"
+    yield f"* What to do: {plain(rule.advice)}"
+    if rule.note:
+        yield f"* Good to know: {plain(rule.note)}"
+    yield f"* Source: {plain(str(rule.source))}"
+    if rule.alarm:
+        yield f"* Alarm: {rule.alarm.number} ({rule.alarm.evidence.value})"
+    for title, examples in (("Wrong", rule.rejected), ("Right", rule.accepted)):
+        for example in examples:
+            yield f"\n{title}:\n"
+            yield from fenced(example, "text")
+
+
+def plain(text: str) -> str:
+    """Text of the tables as text of a page, whose gaps `<word>` are no HTML."""
+    return re.sub(r"([\\`*_\[\]|])", r"\\\1", escape(text, quote=False))
+
+
+# Reference ---------------------------------------------------------------------------------------------------
+
+
+def reference_page() -> Iterator[str]:
+    """The public names, whose docstrings mkdocstrings shows."""
+    groups: dict[str, list[str]] = {"Functions": [], "Records": [], "Errors": []}
+    for name in contoursolve.__all__:
+        each = getattr(contoursolve, name)
+        kind = "Functions" if not isinstance(each, type) else "Errors" if issubclass(each, Exception) else "Records"
+        groups[kind].append(f"contoursolve.{name}")
+    groups["Pictures"] = [f"contoursolve.pictures.{name}" for name in pictures.__all__]
+
+    yield "# Reference\n"
+    yield "The public names of `contoursolve`. [In Python](python.md) shows how they work together."
+    for kind, names in groups.items():
+        yield f"\n## {kind}\n"
+        yield from (f"::: {name}\n" for name in names)
+
+
+if __name__ == "__main__":
+    main()
