@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 import yaml
+from click import Context
 from click.testing import CliRunner
 
 import contoursolve
@@ -59,7 +60,7 @@ def test_the_hook_runs_a_command_that_exists() -> None:
     program, command = hook["entry"].split()
     assert program in entry_points(group="console_scripts").names
     assert program in PROJECT["scripts"]
-    assert command in main.commands if hasattr(main, "commands") else command in main.list_commands(None)
+    assert command in main.list_commands(Context(main))
     assert hook["language"] == "python"
 
 
