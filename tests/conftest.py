@@ -6,6 +6,7 @@ import sys
 from importlib.util import find_spec
 
 import pytest
+from hypothesis import settings
 
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     # A shell ignores interrupts in what it starts in the background, and so would every child of a test.
@@ -13,6 +14,11 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 
 # For the syntax of IRIs jsonschema builds dozens of parsers when it is imported, which takes seconds. No test has them.
 sys.modules.setdefault("rfc3987_syntax", None)
+
+# How many examples a law takes by default, and as a slow test.
+settings.register_profile("dev", max_examples=10, deadline=None, derandomize=True)
+settings.register_profile("ci", settings.get_profile("dev"), max_examples=80)
+settings.load_profile("dev")
 
 PROGRAMS = {
     "interpreter": (("rs274",), "rs274 (Debian: apt-get install linuxcnc-uspace)"),

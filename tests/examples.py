@@ -1,24 +1,67 @@
-"""Laws of whatever hypothesis draws: held against few examples by default, and against many as a slow test."""
+"""How many cases a test takes: a few by default, and the others as slow tests."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Container, Iterable
+from functools import reduce
+from inspect import Parameter, Signature, signature
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from _pytest.mark import ParameterSet
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 
 def law(
-    *strategies: st.SearchStrategy[Any], few: int = 20, many: int = 80, derandomize: bool = True
-) -> Callable[[Callable[..., None]], Callable[[int], None]]:
-    """In the place of `given`."""
+    *strategies: st.SearchStrategy[Any],
+    few: int | None = None,
+    many: int | None = None,
+    derandomize: bool = True,
+    examples: Iterable[tuple[Any, ...]] = (),
+) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    """In the place of `given`: held against the few examples of the profile dev by default, and against the many of the
+    profile ci as a slow test, and always against `examples`. Parameters before those of the strategies are fixtures."""
+    dev, ci = settings.get_profile("dev"), settings.get_profile("ci")
+    counts = {"few": few or dev.max_examples, "many": many or ci.max_examples}
 
-    def hold(check: Callable[..., None]) -> Callable[[int], None]:
-        @pytest.mark.parametrize("count", [few, pytest.param(many, marks=pytest.mark.slow)])
-        def test(count: int) -> None:
-            settings(derandomize=derandomize, deadline=None, max_examples=count)(given(*strategies)(check))()
+    def hold(check: Callable[..., None]) -> Callable[..., None]:
+        @pytest.mark.parametrize("count", ["few", pytest.param("many", marks=pytest.mark.slow)])
+        def test(count: str, **fixtures: Any) -> None:
+            profile = settings(dev, derandomize=derandomize, max_examples=counts[count])
+            held = reduce(lambda test, each: example(*each)(test), examples, given(*strategies)(check))
+            profile(held)(**fixtures)
 
+        names = list(signature(check).parameters)[: -len(strategies)]
+        wanted = [Parameter(name, Parameter.POSITIONAL_OR_KEYWORD) for name in ("count", *names)]
+        test.__signature__ = Signature(wanted)  # type: ignore[attr-defined]
         test.__doc__ = check.__doc__
         return test
 
     return hold
+
+
+def some_of(
+    names: str | tuple[str, ...],
+    cases: Iterable[Any],
+    *,
+    one_in: int = 1,
+    only: Container[Any] | None = None,
+    **options: Any,
+) -> pytest.MarkDecorator:
+    """In the place of `pytest.mark.parametrize`: all cases are slow but the first of each `one_in`, or, if so told, but
+    `only` those with these ids or first values. Cases that are slow anyway do not count."""
+    is_single = isinstance(names, str) and "," not in names
+    taken, number = list[ParameterSet](), 0
+    for each in cases:
+        case = each if isinstance(each, ParameterSet) else pytest.param(*([each] if is_single else each))
+        if all(mark.name != "slow" for mark in case.marks):
+            is_kept = number % one_in == 0 if only is None else case.id in only or case.values[0] in only
+            number += 1
+            if not is_kept:
+                case = pytest.param(*case.values, marks=(*case.marks, pytest.mark.slow), id=case.id)
+        taken.append(case)
+    return pytest.mark.parametrize(names, taken, **options)
+
+
+def few_and_many(few: Any, many: Any, name: str = "count", **options: Any) -> pytest.MarkDecorator:
+    """One case by default, and one more as a slow test."""
+    return pytest.mark.parametrize(name, [few, pytest.param(many, marks=pytest.mark.slow)], **options)

@@ -238,7 +238,7 @@ def test_every_drawn_g111_contour_is_found_again(stride: int) -> None:
     assert_drawings_come_back(cases, LATHE)
 
 
-@pytest.mark.parametrize("count", [200, pytest.param(2_000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [60, pytest.param(2_000, marks=pytest.mark.slow)])
 def test_g111_is_refused_or_solved_as_the_sheet_says_whatever_its_words(count: int) -> None:
     rng = Random(145)
     blocks = [random_words(rng) for _ in range(count)]
@@ -248,7 +248,7 @@ def test_g111_is_refused_or_solved_as_the_sheet_says_whatever_its_words(count: i
     assert min(compared[status] for status in ("solved", "rejected", "no-solution")) > 0.1 * count
 
 
-@pytest.mark.parametrize("stride", [31, pytest.param(5, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("stride", [93, pytest.param(5, marks=pytest.mark.slow)])
 def test_g111_along_the_axes_and_at_45_degrees_is_judged_as_the_sheet_says(stride: int) -> None:
     """Corners that fit exactly, bevels along a line, corners on the rectangle, second lines along an axis."""
     rng = Random(2_36)
@@ -387,7 +387,7 @@ def test_every_drawn_arc_and_line_is_found_again(times: int) -> None:
     assert_drawings_come_back(cases, MILL)
 
 
-@pytest.mark.parametrize("count", [200, pytest.param(1_000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [60, pytest.param(1_000, marks=pytest.mark.slow)])
 def test_an_arc_and_line_are_refused_or_solved_as_the_sheet_says_whatever_their_words(count: int) -> None:
     rng = Random(3014)
     compared = assert_verdicts_agree([random_pair(rng) for _ in range(count)], MILL)
@@ -395,7 +395,7 @@ def test_an_arc_and_line_are_refused_or_solved_as_the_sheet_says_whatever_their_
     assert min(compared[status] for status in ("solved", "rejected", "no-solution", "conflicting")) > 0.05 * count
 
 
-@pytest.mark.parametrize("stride", [13, pytest.param(2, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("stride", [39, pytest.param(2, marks=pytest.mark.slow)])
 def test_an_arc_and_line_on_round_numbers_are_judged_as_the_sheet_says(stride: int) -> None:
     """Tangents, lines through the centre or the start, half circles, ends on the circle."""
     rng = Random(50)

@@ -10,6 +10,7 @@ from random import Random
 
 import numpy
 import pytest
+from examples import some_of
 
 import contoursolve
 from contoursolve.pictures import draw_result
@@ -167,7 +168,7 @@ def test_lines_that_are_parallel_only_at_their_values_contradict_themselves_by_r
 START = "X40. Z0."
 
 
-@pytest.mark.parametrize(
+@some_of(
     ("block", "missing", "against", "off", "status"),
     [
         ("Z-27.727 W-4.211 A180. B-152.", "words-missing", "words-conflict", 23.516, "conflicting"),
@@ -175,6 +176,7 @@ START = "X40. Z0."
         ("X100. Z-50. A180. K-30. B120. P5. Q5.", "corner-nowhere", "words-conflict", 2.321, "conflicting"),
         ("A180. I5.", "words-missing", "g111-parallel", 5.0, "underdetermined"),
     ],
+    one_in=2,
 )
 def test_what_is_missing_and_what_contradicts_itself_have_a_finding_each(block, missing, against, off, status):
     answer = contoursolve.solve(f"G111 {block}", start=START, rules="off").answers[0]

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
+from examples import some_of
 from jsonschema import Draft202012Validator
 
 from contoursolve import solve
@@ -108,7 +109,12 @@ def test_exit_status_is_0_without_errors_1_with_errors_and_2_if_it_could_not_run
 
 
 @pytest.mark.parametrize(
-    ("status", "arguments"), [pytest.param(0, (SHAFT,), marks=pytest.mark.slow), (1, (BROKEN,)), (2, ("nothing.nc",))]
+    ("status", "arguments"),
+    [
+        pytest.param(0, (SHAFT,), marks=pytest.mark.slow),
+        pytest.param(1, (BROKEN,), marks=pytest.mark.slow),
+        (2, ("nothing.nc",)),
+    ],
 )
 def test_exit_status_of_a_process_is_the_same(status, arguments):
     assert run_process("solve", *arguments)[0] == status
@@ -340,7 +346,7 @@ def gap(a, b):
     return hypot(a[0] - b[0], a[1] - b[1])
 
 
-@pytest.mark.parametrize("rules", ["enforce", "warn", "off"])
+@some_of("rules", ["enforce", "warn", "off"], one_in=3)
 @pytest.mark.parametrize("path", [SHAFT, BROKEN, PLATE], ids=["shaft", "broken", "plate"])
 def test_json_of_a_program_keeps_the_contract(path, rules):
     check_document(solve_json(path, "--rules", rules), Path(path).read_text())
@@ -368,8 +374,8 @@ def test_json_of_a_circle_and_a_line_names_its_branch_and_turns_the_right_way():
         assert 0 < (end - begin) % tau < tau / 2
 
 
-@pytest.mark.parametrize("circle", ["I-5000 J0", "X-5000 Y0 I-5000 J0", "X0 Y5000 R5000", "X-5000 Y0 R5000"])
-@pytest.mark.parametrize("height", ["4999.99", "4999.999999", "4999.9999999999"])
+@some_of("circle", ["I-5000 J0", "X-5000 Y0 I-5000 J0", "X0 Y5000 R5000", "X-5000 Y0 R5000"], one_in=2)
+@some_of("height", ["4999.99", "4999.999999", "4999.9999999999"], one_in=2)
 def test_radius_of_the_certificate_bounds_the_error_of_a_line_that_almost_touches(circle, height):
     blocks = ("G17 G41 G0 X5000 Y0", f"G3 {circle}", f"G1 X-6000 Y{height} ,A180 Q-1")
     (contour,) = solve_json(*(part for block in blocks for part in ("--block", block)))["contours"]
@@ -484,7 +490,7 @@ LONG = ("5,000 bad lines", "1 MB of an open comment")
 WARNINGS = {"comment-not-closed", "no-contour"}
 
 
-@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.slow] * (name in LONG)) for name in BAD])
+@some_of("name", [pytest.param(name, marks=[pytest.mark.slow] * (name in LONG)) for name in BAD], one_in=4)
 def test_bad_input_gives_one_clear_finding(name, save):
     text, expected = BAD[name]
     path, began = save(text), time.process_time()
@@ -499,13 +505,14 @@ def test_bad_input_gives_one_clear_finding(name, save):
     assert is_harmless or not any(each["end"] for each in document["contours"])
 
 
-@pytest.mark.parametrize(
+@some_of(
     "name",
     [
         pytest.param(name, marks=[pytest.mark.slow] * (name in LONG))
         for name, (text, _) in BAD.items()
         if len(text) > 30_000
     ],
+    one_in=4,
 )
 def test_listing_of_a_huge_program_is_quick_and_its_lines_are_short(name, save):
     text, _ = BAD[name]
@@ -551,7 +558,7 @@ UNREAD = {
 
 @pytest.mark.parametrize(
     "name",
-    [pytest.param(name, marks=[] if name in ("explain", "bad usage") else pytest.mark.slow) for name in UNREAD],
+    [pytest.param(name, marks=[] if name == "bad usage" else pytest.mark.slow) for name in UNREAD],
 )
 def test_the_exit_status_is_the_same_if_nobody_reads_the_output(name):
     command = [sys.executable, "-m", "contoursolve", *UNREAD[name]]

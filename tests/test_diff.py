@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
-from hypothesis import given, settings
+from examples import law, some_of
 from hypothesis import strategies as st
 
 from contoursolve.api import read_program
@@ -96,8 +96,8 @@ def test_the_slip_of_the_conversion_in_the_notebooks_is_the_only_one(diff):
     assert diff(SHAFT, converted.replace("X59.775", "X59.757"))["verdict"] == "equal"
 
 
-@pytest.mark.parametrize(
-    ("program", "by_hand"), [(SHAFT, SHAFT_BY_HAND), (PLATE, PLATE_BY_HAND)], ids=["shaft", "plate"]
+@some_of(
+    ("program", "by_hand"), [(SHAFT, SHAFT_BY_HAND), (PLATE, PLATE_BY_HAND)], ids=["shaft", "plate"], only=("plate",)
 )
 def test_every_coordinate_by_hand_that_is_off_by_a_hundredth_is_found(diff, program, by_hand):
     whole = replaced(program, **by_hand)
@@ -313,8 +313,7 @@ def write(drawing, turned=(), split=()):
 PLAIN = ("--control", "linuxcnc")
 
 
-@settings(max_examples=60, deadline=None)
-@given(pieces, st.data())
+@law(pieces, st.data(), derandomize=False)
 def test_dividing_lines_and_arcs_changes_nothing(diff, drawing, data):
     parts = [data.draw(st.sets(st.integers(0, len(drawing) - 1))) for _ in range(2)]
     one, other = (write(drawing, split=each) for each in parts)
@@ -325,8 +324,7 @@ def test_dividing_lines_and_arcs_changes_nothing(diff, drawing, data):
     assert (back["verdict"], back["largest_deviation"]["mm"]) == ("equal", found["largest_deviation"]["mm"])
 
 
-@settings(max_examples=40, deadline=None)
-@given(pieces, st.data())
+@law(pieces, st.data(), derandomize=False)
 def test_every_coordinate_that_is_changed_by_a_hundredth_is_found(diff, drawing, data):
     one = write(drawing)
     other = write(drawing, split=data.draw(st.sets(st.integers(0, len(drawing) - 1))))
@@ -339,8 +337,7 @@ def test_every_coordinate_that_is_changed_by_a_hundredth_is_found(diff, drawing,
         assert found["verdict"] == "different"
 
 
-@settings(max_examples=40, deadline=None)
-@given(pieces, st.data())
+@law(pieces, st.data(), derandomize=False)
 def test_an_arc_the_other_way_round_is_found(diff, drawing, data):
     arcs = [number for number, (_, _, sweep) in enumerate(drawing) if sweep is not None]
     if arcs:

@@ -8,6 +8,7 @@ from urllib.parse import unquote, urlsplit
 import jsonschema
 import pytest
 from click.testing import CliRunner, Result
+from examples import some_of
 
 from contoursolve import solve
 from contoursolve.cli import main
@@ -147,10 +148,11 @@ def test_github_prints_no_finding_where_there_is_none(save):
 # Exit statuses and the summary ------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("format_", ["text", "json", "sarif", "github"])
-@pytest.mark.parametrize(
+@some_of("format_", ["text", "json", "sarif", "github"], one_in=2)
+@some_of(
     ("text", "fails_on"),
     [(BROKEN, {"error", "warning"}), (WARNED, {"warning"}), (NOTHING, {"warning"}), (CLEAN, set())],
+    one_in=2,
 )
 def test_fail_on_names_the_least_finding_that_fails(text, fails_on, format_, save):
     path = save(text)

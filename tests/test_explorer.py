@@ -12,6 +12,7 @@ from importlib.resources import files
 from pathlib import Path
 
 import pytest
+from examples import some_of
 
 import contoursolve
 from contoursolve import Status
@@ -117,7 +118,7 @@ def test_each_solution_can_be_selected_and_is_then_the_contour(text, facts, opti
 TANGENT = "line 2 tangent to circle (Z-40. X120. R10.)"
 
 
-@pytest.mark.parametrize(
+@some_of(
     ("text", "facts", "stays"),
     [
         ("G111 X100. A180. K-30. B?", (TANGENT,), ()),
@@ -125,6 +126,7 @@ TANGENT = "line 2 tangent to circle (Z-40. X120. R10.)"
         ("G111 A180. K-30. B?", ("X of V2 = 100", TANGENT), ("X of V2 = 100",)),
     ],
     ids=["one", "two", "one and what is stated besides"],
+    one_in=3,
 )
 def test_a_selected_value_takes_the_place_of_the_facts_that_asked_for_it(text, facts, stays):
     now = explore.begin(text, facts, **START)
@@ -178,7 +180,11 @@ def act(now, rng):
 
 @pytest.mark.parametrize(
     "text",
-    [WHOLE, pytest.param(f"{PAIR} Q-1", marks=pytest.mark.slow), "G112 X60. I10. K-8. R10. P1. Q1."],
+    [
+        WHOLE,
+        pytest.param(f"{PAIR} Q-1", marks=pytest.mark.slow),
+        pytest.param("G112 X60. I10. K-8. R10. P1. Q1.", marks=pytest.mark.slow),
+    ],
     ids=["G111", "pair", "G112"],
 )
 @pytest.mark.parametrize("times", [2, pytest.param(4, marks=pytest.mark.slow)])
@@ -220,6 +226,7 @@ def test_a_range_on_a_slider_ends_where_single_solves_say_so():
     assert range_of(explore.begin(f"{PAIR} Q-1"), {**field(explore.begin(f"{PAIR} Q-1"), "Q")}) == {}
 
 
+@pytest.mark.slow
 def test_an_update_takes_less_than_50_ms_of_python():
     now = explore.begin(WHOLE, **START)
     times = []

@@ -19,7 +19,7 @@ import casadi
 import numpy
 import pytest
 from chains import KINDS, Chain, Fact, distance_between, form_residuals, measure, random_chain, random_facts
-from hypothesis import given, settings
+from examples import law, some_of
 from hypothesis import strategies as st
 from records import replace
 from sketches import chain_of, sketch_of
@@ -205,7 +205,7 @@ def name_of(fact: Any) -> str:
     return "-".join([type(fact).__name__, *details, *between])
 
 
-def law(*exceptions: type) -> Callable[[Any], Any]:
+def of_each_fact(*exceptions: type) -> Callable[[Any], Any]:
     facts = [fact for fact in FACTS if not isinstance(fact, exceptions)]
     return pytest.mark.parametrize("fact", facts, ids=name_of)
 
@@ -217,7 +217,7 @@ def test_every_kind_of_equation_has_its_laws_tested() -> None:
     assert {kind for kind in exported - {geometry.Fact} if hasattr(kind, "residual")} == {type(fact) for fact in FACTS}
 
 
-@law()
+@of_each_fact()
 def test_a_residual_depends_on_every_scalar_that_is_listed_and_on_no_other(fact: Any) -> None:
     moving = set()
     for seed in range(5):
@@ -227,21 +227,21 @@ def test_a_residual_depends_on_every_scalar_that_is_listed_and_on_no_other(fact:
     assert len(fact.reads()) == len(set(fact.reads()))
 
 
-@law()
+@of_each_fact()
 def test_an_equation_looks_up_nothing_that_is_not_listed(fact: Any) -> None:
     place = random_place(1)
     known = {name: value for name, value in place.scalars().items() if name in fact.reads()}
     assert fact.equation(place.lookup(known)) == fact.equation(place.lookup())
 
 
-@law()
+@of_each_fact()
 def test_a_sense_looks_up_nothing_that_is_not_listed(fact: Any) -> None:
     place = random_place(1)
     known = {name: value for name, value in place.scalars().items() if name in fact.sense_reads()}
     assert fact.senses(place.lookup(known)) == fact.senses(place.lookup())
 
 
-@law()
+@of_each_fact()
 def test_the_derivative_of_casadi_is_the_central_difference(fact: Any) -> None:
     names = tuple(random_place(0).scalars())
     symbols = {name: casadi.SX.sym(name) for name in names}
@@ -257,7 +257,7 @@ def test_the_derivative_of_casadi_is_the_central_difference(fact: Any) -> None:
             assert slope == pytest.approx(expected[name], abs=1e-6, rel=1e-6), name
 
 
-@law()
+@of_each_fact()
 def test_the_equation_is_the_residual_times_something_positive(fact: Any) -> None:
     """So that both are zero at the same places, and have the same sign everywhere else."""
     for seed in range(20):
@@ -265,7 +265,7 @@ def test_the_equation_is_the_residual_times_something_positive(fact: Any) -> Non
         assert float(fact.equation(place.lookup())) / residual(fact, place) > 1e-3
 
 
-@law()
+@of_each_fact()
 def test_the_equation_is_zero_where_the_residual_is(fact: Any) -> None:
     for seed in range(2):
         place = random_place(seed)
@@ -333,7 +333,7 @@ def scaled(place: Place, by: float) -> Place:
     )
 
 
-@law()
+@of_each_fact()
 def test_a_shift_of_everything_changes_nothing(fact: Any) -> None:
     for seed in range(20):
         place = random_place(seed)
@@ -342,7 +342,7 @@ def test_a_shift_of_everything_changes_nothing(fact: Any) -> None:
         assert senses(fact, there) == pytest.approx(senses(fact, place), abs=1e-9)
 
 
-@law(*OF_AN_AXIS)
+@of_each_fact(*OF_AN_AXIS)
 def test_a_rotation_of_everything_changes_nothing(fact: Any) -> None:
     for seed in range(20):
         place = random_place(seed)
@@ -351,7 +351,7 @@ def test_a_rotation_of_everything_changes_nothing(fact: Any) -> None:
         assert senses(fact, there) == pytest.approx(senses(fact, place), abs=1e-9)
 
 
-@law()
+@of_each_fact()
 def test_a_mirror_image_with_its_sides_swapped_is_as_true(fact: Any) -> None:
     for seed in range(20):
         place = random_place(seed)
@@ -360,7 +360,7 @@ def test_a_mirror_image_with_its_sides_swapped_is_as_true(fact: Any) -> None:
         assert senses(swapped, there) == pytest.approx(senses(fact, place), abs=1e-9)
 
 
-@law()
+@of_each_fact()
 def test_the_residual_scales_with_the_drawing(fact: Any) -> None:
     for seed in range(20):
         place = random_place(seed)
@@ -370,8 +370,7 @@ def test_the_residual_scales_with_the_drawing(fact: Any) -> None:
         assert [each > 0 for each in senses(fact, there)] == [each > 0 for each in senses(fact, place)]
 
 
-@given(st.integers(0, 2**32))
-@settings(derandomize=True, deadline=None, max_examples=50)
+@law(st.integers(0, 2**32))
 def test_the_implied_value_makes_a_fact_true_in_its_sense(seed: int) -> None:
     place = random_place(seed)
     for fact in FACTS:
@@ -391,7 +390,7 @@ def test_the_implied_value_makes_a_fact_true_in_its_sense(seed: int) -> None:
         assert all(each > 0 for each in senses(fact, there)), fact
 
 
-@law()
+@of_each_fact()
 def test_what_states_no_value_implies_none(fact: Any) -> None:
     implied = fact.implied(random_place(1).lookup())
     assert (implied is None) == (not fact.given)
@@ -574,7 +573,7 @@ def essence(program: str, *facts: Any, start: str = START) -> dict[str, Any]:
     return {**contour, "asked": asked, "codes": codes}
 
 
-@pytest.mark.parametrize(("block", "facts"), PROGRAMS)
+@some_of(("block", "facts"), PROGRAMS, one_in=3)
 def test_the_order_of_words_and_facts_does_not_matter(block: str, facts: tuple[str, ...]) -> None:
     expected = essence(block, *facts)
     code, *words = block.split()
@@ -582,7 +581,7 @@ def test_the_order_of_words_and_facts_does_not_matter(block: str, facts: tuple[s
         assert essence(" ".join((code, *reversed(words))), *order) == expected
 
 
-@pytest.mark.parametrize(("block", "facts"), PROGRAMS)
+@some_of(("block", "facts"), PROGRAMS, one_in=3)
 def test_facts_mean_the_same_in_a_comment_apart_and_as_objects(block: str, facts: tuple[str, ...]) -> None:
     expected = essence(block, *facts)
     inside = [fact.replace("(", "[").replace(")", "]") for fact in facts]
@@ -599,7 +598,7 @@ def test_a_statement_is_what_its_text_says(fact: str, statement: Any) -> None:
     assert read_statement(fact, vocabulary_of(profile)) == statement
 
 
-@pytest.mark.parametrize(("block", "facts"), PROGRAMS)
+@some_of(("block", "facts"), PROGRAMS, one_in=3)
 def test_a_shift_of_everything_shifts_the_contour(block: str, facts: tuple[str, ...]) -> None:
     """By 7 mm along Z and 6 mm of diameter along X; words and facts that state a place move with it."""
 

@@ -10,6 +10,7 @@ import flint
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from examples import some_of
 
 import contoursolve
 from contoursolve.cli import main
@@ -125,7 +126,7 @@ def expected_points(answer):
                 yield from ((f"{element.name}.{name}.{axis}", value) for axis, value in zip(axes, pair, strict=True))
 
 
-@pytest.mark.parametrize("name", CASES)
+@some_of("name", CASES, one_in=3)
 @pytest.mark.parametrize("count", [60, pytest.param(400, marks=pytest.mark.slow)])
 def test_a_row_of_a_family_is_the_single_solve_of_its_block(name, count):
     block, options, ranges = CASES[name]
@@ -172,7 +173,8 @@ def test_the_number_of_threads_changes_nothing():
         assert one[name].tobytes() == two[name].tobytes(), name
 
 
-@pytest.mark.parametrize("name", ["of facts", pytest.param("a search", marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["of facts", "a search"])
 def test_nor_where_balls_prove_what_is_found(name, monkeypatch):
     """The number of their bits is one for the whole process."""
     monkeypatch.setattr("contoursolve.families.evaluate.STRETCH", 30)
@@ -279,7 +281,7 @@ def filled(block, options, values):
     return text_of(block, words, words.values()), options | {"facts": facts, "start": start}
 
 
-@pytest.mark.parametrize("name", SEVERAL)
+@some_of("name", SEVERAL, one_in=4)
 @pytest.mark.parametrize("share", [0.25, pytest.param(1, marks=pytest.mark.slow)])
 def test_facts_choices_and_start_points_vary_as_words_do(name, share):
     block, options, ranges = SEVERAL[name]
@@ -415,7 +417,7 @@ def test_a_sweep_counts_what_becomes_of_the_contours():
     assert data["statuses"][-1]["reasons"] == {"corner-too-large": 1}
 
 
-@pytest.mark.parametrize(
+@some_of(
     ("block", "finding", "fix"),
     [
         ("G11l X100. A180. K-30. B120.", "letter l in G11l: did you mean the digit 1", "write G111 for G11l"),
@@ -424,6 +426,7 @@ def test_a_sweep_counts_what_becomes_of_the_contours():
         ("G111 X100. A180. K-30. B120. P?", "radius of corner 1 is still open", "give P? a value"),
         ("G111 X100. A180. K-30. B120. P-5.", "P-5. is negative", "write P5. for P-5."),
     ],
+    one_in=3,
 )
 def test_a_block_that_is_refused_whatever_the_values_says_so_as_solve_does(block, finding, fix):
     start = ("--start", START)
@@ -479,6 +482,7 @@ def test_where_no_row_has_a_contour_the_reason_of_most_is_named_with_a_row():
     assert json.loads(run(*ON_BLOCK, "--vary", "P=5,60", "--format", "json")[1])["example"] is None
 
 
+@pytest.mark.slow
 def test_more_contours_than_anybody_means_are_not_begun(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     grid = ("--vary", "A=0:360:0.001", "--vary", "B=0:360:0.001")
@@ -621,7 +625,7 @@ def test_a_sweep_that_makes_no_sense_is_one_line_and_status_2(arguments, message
     assert message in errors
 
 
-@pytest.mark.parametrize(
+@some_of(
     ("block", "options"),
     [
         (BLOCK, LATHE),
@@ -635,6 +639,7 @@ def test_a_sweep_that_makes_no_sense_is_one_line_and_status_2(arguments, message
             MILL,
         ),
     ],
+    one_in=5,
 )
 def test_derivatives_are_central_differences(block, options):
     slopes = sensitivity(block, **options).slopes

@@ -8,12 +8,13 @@ import random
 import re
 import string
 from decimal import Decimal
+from functools import cache
 from math import hypot, isfinite
 from pathlib import Path
 from time import process_time
 
 import pytest
-from hypothesis import given, settings
+from examples import law
 from hypothesis import strategies as st
 
 from contoursolve import Result, Severity, Status, parse, solve
@@ -27,8 +28,6 @@ PROGRAMS = {
     path.name: (path.read_text(), "nct-99m" if "NCT" in path.read_text() else "yasnac-lx3")
     for path in sorted((Path(__file__).parent.parent / "notebooks" / "programs").glob("*.nc"))
 }
-MUTANTS = 100
-"""Of one seed. A failing one names its seed, so that one failure is repeated in seconds."""
 
 GAP = 1e-9
 """mm."""
@@ -40,8 +39,7 @@ SKIP = re.compile(r"[ \t]*/[1-9]?(?![0-9])")
 COMMENTS = re.compile(r"\([^)]*\)|;.*")
 
 
-@given(ANYTHING)
-@settings(max_examples=200, deadline=None, derandomize=True)
+@law(ANYTHING, few=60, many=200)
 def test_every_character_is_in_a_word_a_fault_a_comment_or_blank(text):
     program = parse(text)
     assert "\n".join(block.text for block in program.blocks) == re.sub(r"\r\n?", "\n", text).removesuffix("\n")
@@ -65,8 +63,7 @@ def test_every_character_is_in_a_word_a_fault_a_comment_or_blank(text):
                 assert BLANKS.fullmatch(COMMENTS.sub("", piece)), piece
 
 
-@given(ANYTHING, st.sampled_from(sorted(DIALECTS)), st.sampled_from(["enforce", "warn", "off"]))
-@settings(max_examples=400, deadline=None, derandomize=True)
+@law(ANYTHING, st.sampled_from(sorted(DIALECTS)), st.sampled_from(["enforce", "warn", "off"]), few=60, many=400)
 def test_arbitrary_text_is_answered(text, control, rules):
     check(solve(text, control=control, rules=rules), text)
 
@@ -140,6 +137,7 @@ def mutate(text: str, draw: random.Random) -> str:
             return "\n".join(lines)
 
 
+@cache
 def windows() -> list[tuple[str, str]]:
     """(lines before, the lines of one or two contours with those between, control)."""
     found = []
@@ -159,14 +157,13 @@ def windows() -> list[tuple[str, str]]:
     return found
 
 
-WINDOWS = windows()
-
-
-@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(1, 16))])
-def test_mutated_contours_are_answered(seed):
+@pytest.mark.parametrize(
+    ("seed", "mutants"), [(0, 30), *(pytest.param(seed, 100, marks=pytest.mark.slow) for seed in range(16))]
+)
+def test_mutated_contours_are_answered(seed, mutants):
     draw = random.Random(seed)
-    for count in range(MUTANTS):
-        text, control = draw.choice(WINDOWS)
+    for count in range(mutants):
+        text, control = draw.choice(windows())
         for _ in range(draw.choice((1, 1, 1, 2, 3, 8))):
             text = mutate(text, draw) or " "
         rules = draw.choice(("enforce", "enforce", "warn", "off"))
@@ -194,7 +191,7 @@ LINE = 2.0
 def test_many_mutated_contours_are_judged(seed):
     draw = random.Random(seed)
     for count in range(MANY):
-        text, control = draw.choice(WINDOWS)
+        text, control = draw.choice(windows())
         for _ in range(draw.choice((1, 1, 2, 2, 3, 8))):
             text = mutate(text, draw) or " "
         rules, depth = draw.choice((*["enforce"] * 8, "warn", "off")), "full" if count % EVERY == 0 else "verdict"
@@ -226,6 +223,6 @@ def test_mutated_whole_programs_are_answered(count):
 
 
 def test_windows_cover_every_contour_and_most_are_solved():
-    answers = [solve(text, control=control).answers[0] for text, control in WINDOWS]
+    answers = [solve(text, control=control).answers[0] for text, control in windows()]
     assert len(answers) == sum(len(solve(text, control=control).answers) for text, control in PROGRAMS.values())
     assert sum(answer.status is Status.SOLVED for answer in answers) == 9 + 7 + 6 + 6 + 1 + 3

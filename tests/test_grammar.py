@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 from click.testing import CliRunner
-from hypothesis import example, given, settings
+from examples import law
 from hypothesis import strategies as st
 
 from contoursolve import solve
@@ -298,8 +298,7 @@ def answered(arguments: Sequence[str]) -> None:
     assert run(*arguments) == first
 
 
-@given(st.text(max_size=40) | fact_texts())
-@settings(max_examples=500, deadline=None, derandomize=True)
+@law(st.text(max_size=40) | fact_texts(), few=50, many=500)
 def test_any_text_is_a_statement_or_a_grammar_error(text: str) -> None:
     found = None
     try:
@@ -314,8 +313,7 @@ FREE = ("G111 A180. B120. X100. P5. Q5.", "G111 A180. K-30. B120. P? Q5.", WHOLE
 """Every line has its direction, so that solving takes steps in closed form."""
 
 
-@given(st.sampled_from(FREE), st.lists(fact_texts(), min_size=1, max_size=2), st.booleans())
-@settings(max_examples=20, deadline=None, derandomize=True)
+@law(st.sampled_from(FREE), st.lists(fact_texts(), min_size=1, max_size=2), st.booleans(), few=5)
 def test_any_fact_about_a_block_is_answered(block: str, facts: list[str], is_comment: bool) -> None:
     if is_comment:
         arguments = ["--block", f"{block} (contoursolve: {'; '.join(facts)})"]
@@ -347,16 +345,18 @@ def asked(word: str) -> str:
     return re.sub(r"[-\d.]+$", "?", word)
 
 
-@given(st.lists(st.sampled_from(ASKABLE), min_size=1, max_size=12, unique=True), st.randoms(use_true_random=False))
-@settings(max_examples=15, deadline=None, derandomize=True)
-@example(list(ASKABLE[:12]), None)
+@law(
+    st.lists(st.sampled_from(ASKABLE), min_size=1, max_size=12, unique=True),
+    st.randoms(use_true_random=False),
+    examples=[(list(ASKABLE[:12]), None)],
+    few=5,
+)
 def test_a_question_mark_may_stand_in_any_word_of_a_taper(words: list[str], rng: Any) -> None:
     texts = [asked(word) if rng is None or rng.random() < 0.4 else word for word in words]
     answered(["solve", "--block", " ".join(("G111", *texts)), *START, "--control", "yasnac-lx3"])
 
 
-@given(st.randoms(use_true_random=False))
-@settings(max_examples=60, deadline=None, derandomize=True)
+@law(st.randoms(use_true_random=False))
 def test_a_question_mark_may_stand_in_any_word_of_a_pair(rng: Any) -> None:
     kept = [[word for word in words if rng.random() < 0.9] for words in MILL_WORDS]
     lines = [" ".join(asked(word) if rng.random() < 0.25 else word for word in words) for words in kept]

@@ -6,6 +6,7 @@ from random import Random
 
 import numpy as np
 import pytest
+from examples import few_and_many
 
 import contoursolve
 from contoursolve.families import Code, family
@@ -32,11 +33,12 @@ def test_a_bevel_at_a_taper_onto_a_cylinder_is_inside_within_the_increment_of_x(
         assert answer.diagnostics[0].values["off_by_mm"] == pytest.approx(outside)
 
 
+@few_and_many(60, 400)
 @pytest.mark.parametrize("unit", ["mm", "inch"])
-def test_every_taper_onto_a_cylinder_with_x_rounded_to_the_increment_is_accepted(unit):
+def test_every_taper_onto_a_cylinder_with_x_rounded_to_the_increment_is_accepted(count, unit):
     draw, decimals, scale = Random(1), *((3, 1.0) if unit == "mm" else (4, 1 / 25.4))
     step = 10.0**-decimals
-    for _ in range(400):
+    for _ in range(count):
         angle, k = round(draw.uniform(92, 134), 3), round(-draw.uniform(5, 40) * scale, decimals)
         start = round(draw.uniform(10, 80) * scale, decimals)
         x = round(start + 2 * k * tan(radians(angle)), decimals)
@@ -68,9 +70,10 @@ def half_circle(draw):
     return text, size, abs(end - begin) / 2
 
 
-def test_every_half_circle_by_r_with_rounded_numbers_is_one():
+@few_and_many(60, 300)
+def test_every_half_circle_by_r_with_rounded_numbers_is_one(count):
     draw, rounded = Random(2), 0
-    for _ in range(300):
+    for _ in range(count):
         text, size, half = half_circle(draw)
         answer = answer_to(text.format(size), depth="verdict")
         assert answer.status.value == "solved", (text.format(size), [each.message for each in answer.diagnostics])
@@ -85,7 +88,7 @@ def test_every_half_circle_by_r_with_rounded_numbers_is_one():
         finding = answer_to(text.format(half - 0.0025), depth="verdict").diagnostics[0]
         assert finding.code == "nct-radius-too-small", text
         assert finding.values["limit"] - finding.values["actual"] == pytest.approx(finding.values["off_by_mm"])
-    assert rounded > 60
+    assert rounded > count / 5
 
 
 def test_a_rounded_half_circle_is_verified():

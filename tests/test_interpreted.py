@@ -7,6 +7,7 @@ from random import Random
 from typing import NamedTuple
 
 import pytest
+from examples import some_of
 from fanuc import read
 from generate_lx3 import FORMS as ARC_FORMS
 from generate_lx3 import random_g11, random_g112
@@ -164,7 +165,7 @@ def test_linuxcnc_runs_every_program_where_it_was_drawn(post, arcs, tmp_path):
         assert_path(motions[1:], path, within(each, post))
 
 
-@pytest.mark.parametrize("arcs", ["center", "radius"])
+@some_of("arcs", ["center", "radius"], one_in=2)
 def test_a_fanuc_control_runs_every_program_where_it_was_drawn(arcs):
     for each, text in zip(drawings(), expanded("fanuc", arcs), strict=True):
         motions = list(read(text, is_lathe=each.control == LX3))
@@ -172,7 +173,7 @@ def test_a_fanuc_control_runs_every_program_where_it_was_drawn(arcs):
         assert_path(motions[1:], path, within(each, "fanuc"))
 
 
-@pytest.mark.parametrize("post", ["same", "linuxcnc", "fanuc"])
+@some_of("post", ["same", "linuxcnc", "fanuc"], one_in=2)
 @pytest.mark.parametrize("stride", [5, pytest.param(1, marks=pytest.mark.slow)])
 def test_diff_finds_every_program_equal_and_each_coordinate_that_is_off_by_a_hundredth(post, stride):
     rng = Random(10)

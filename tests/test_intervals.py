@@ -9,6 +9,7 @@ import casadi
 import mpmath
 import numpy
 import pytest
+from examples import few_and_many
 from mpmath import mp, mpf
 
 from contoursolve.numeric import intervals
@@ -46,11 +47,12 @@ OPERATIONS: dict[str, tuple[Callable[..., Any], Callable[..., Any]]] = {
 }
 
 
+@few_and_many(300, 3000)
 @pytest.mark.parametrize("name", OPERATIONS)
-def test_the_interval_of_a_result_holds_every_result(name: str) -> None:
+def test_the_interval_of_a_result_holds_every_result(count: int, name: str) -> None:
     of_intervals, exact = OPERATIONS[name]
     random = Random(name)
-    first, second = ([random_interval(random) for _ in range(3_000)] for _ in range(2))
+    first, second = ([random_interval(random) for _ in range(count)] for _ in range(2))
     with numpy.errstate(all="ignore"):
         found = of_intervals(as_intervals(first), as_intervals(second))
     with mp.workdps(400):
@@ -73,15 +75,16 @@ EQUATIONS: dict[str, Callable[..., Any]] = {
 }
 
 
+@few_and_many(300, 3000)
 @pytest.mark.parametrize("name", EQUATIONS)
-def test_what_satisfies_an_equation_stays_in_the_box(name: str) -> None:
+def test_what_satisfies_an_equation_stays_in_the_box(count: int, name: str) -> None:
     """The right side is an input that holds the exact value at a point of the box."""
     random = Random(name)
     x, y, right = (casadi.SX.sym(each) for each in "xyr")
     equation = casadi.Function("f", [casadi.vertcat(x, y, right)], [EQUATIONS[name](x, y) - right])
     boxes, points, values = [], [], []
     with mp.workdps(60):
-        while len(boxes) < 3_000:
+        while len(boxes) < count:
             box = [random_interval(random) for _ in range(2)]
             point = [inside(random, each) for each in box]
             try:

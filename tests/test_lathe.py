@@ -9,6 +9,7 @@ from math import cos, radians, sin
 
 import pytest
 from click.testing import CliRunner
+from examples import few_and_many, some_of
 from generate_lx3 import FORMS, random_g11, random_g112
 from generate_nct import disturbed
 from oracle_lx3 import WORD, contours
@@ -90,10 +91,11 @@ def test_forms_of_this_control_show_that_a_program_is_for_it():
         assert contoursolve.solve(MANUAL + block).control == "yasnac-lx3"
 
 
-def test_g112_is_the_drawing_it_was_written_from():
+@few_and_many(3, 12)
+def test_g112_is_the_drawing_it_was_written_from(count):
     rng = random.Random(112)
     for form, one, two in product(FORMS, ("", "P", "C"), ("", "Q", "D")):
-        for _ in range(12):
+        for _ in range(count):
             drawn = random_g112(rng, form, one, two)
             (answer,) = solve(drawn.text).answers
             assert_same(answer, drawn.elements, drawn.points)
@@ -179,7 +181,7 @@ def test_laws_of_the_forms(drawn):
     ]
 
 
-@pytest.mark.parametrize(
+@some_of(
     ("block", "status", "code"),
     [
         ("G112 U0 I10. K0 R30.", "no-solution", "g112-no-way"),
@@ -199,6 +201,7 @@ def test_laws_of_the_forms(drawn):
         ("G11 U10. K5.001", "no-solution", "g11-corner-too-large"),
         ("G12 X110. W-5. K5.", "rejected", "g11-both-axes"),
     ],
+    one_in=3,
 )
 def test_what_cannot_be_made_is_refused_by_name(block, status, code):
     result = solve(MANUAL + block)
@@ -391,7 +394,7 @@ G01 X100. Z-50. F.2|G112 U0 I10. K-50. P5. Q5. R30.|X120. Z-150.|g111-landing-le
 """
 
 
-@pytest.mark.parametrize("row", BEHIND.split("\n")[1:-1])
+@some_of("row", BEHIND.split("\n")[1:-1], one_in=5)
 def test_the_block_behind_multiple_cornering_is_looked_at(row):
     *lines, expected = row.split("|")
     text = "\n".join(lines)
@@ -460,6 +463,7 @@ def table(form):
     return {words - shared: row for words, row in found.items()}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("form", "letters", "needed", "either"),
     [

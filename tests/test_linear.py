@@ -10,6 +10,7 @@ import time
 from collections.abc import Callable
 
 import pytest
+from examples import some_of
 
 from contoursolve import check, expand, parse
 from contoursolve.controls import DIALECTS
@@ -142,9 +143,10 @@ def hold_against_length(shape: tuple[str, str, str], short: int, control: str) -
     assert much <= 3 * TIMES * little + 0.005, texts[0]
 
 
-@pytest.mark.parametrize(
+@some_of(
     ("shape", "short"),
     [pytest.param(*each.values, id=each.id, marks=[pytest.mark.slow] * (each.id in LONG_JUDGED)) for each in EVERY],
+    one_in=6,
 )
 def test_time_goes_by_the_length_of_a_line(shape, short):
     hold_against_length(shape, short, "yasnac-lx3")

@@ -31,7 +31,8 @@ def long_program(lines: int) -> str:
 
 
 @pytest.mark.parametrize("arguments", [
-    ("check",), ("solve", "--format", "json"),
+    ("check",),
+    pytest.param(("solve", "--format", "json"), marks=pytest.mark.slow),
     *(pytest.param(each, marks=pytest.mark.slow) for each in (("check", "--format", "json"), ("solve",))),
     pytest.param(("check", "--format", "github"), marks=pytest.mark.slow),
 ])  # fmt: skip

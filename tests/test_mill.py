@@ -17,6 +17,7 @@ from random import Random
 from typing import Any
 
 import pytest
+from examples import some_of
 from generate_nct import FORMS, Drawn, disturbed, random_chain, random_cornered, random_pair
 from oracle import PLANES
 from oracle_corners import miss
@@ -110,7 +111,7 @@ def assert_drawn(drawn: Drawn) -> None:
     assert miss(drawn.elements, drawn.points, contour) < CLOSE, drawn.text
 
 
-@pytest.mark.parametrize(("form", "corner"), tuple(product(FORMS, ("", "C", "R"))))
+@some_of(("form", "corner"), tuple(product(FORMS, ("", "C", "R"))), one_in=2)
 @pytest.mark.parametrize("instances", COUNTS)
 def test_every_drawn_pair_is_found_again(form, corner, instances):
     rng = Random(f"{form}{corner}")
@@ -123,7 +124,7 @@ def test_every_drawn_pair_is_found_again(form, corner, instances):
     assert min(kinds[turn] for turn in ("cw", "ccw")) > instances // 7 or form == "line-line"
 
 
-@pytest.mark.parametrize("plane", PLANES)
+@some_of("plane", PLANES, one_in=3)
 @pytest.mark.parametrize("instances", COUNTS)
 def test_every_drawn_path_with_corners_is_found_again(plane, instances):
     rng = Random(plane)
@@ -270,7 +271,7 @@ def spoil(program: Sequence[str], kind: str) -> tuple[list[str], int]:
     return lines, index + 1
 
 
-@pytest.mark.parametrize(
+@some_of(
     ("kind", "code"),
     [
         ("no Q", "nct-q-missing"),
@@ -278,6 +279,7 @@ def spoil(program: Sequence[str], kind: str) -> tuple[list[str], int]:
         ("off its circle", "nct-radius-difference"),
         ("corner twice", "nct-two-corners"),
     ],
+    only=("no Q", "corner twice"),
 )
 @pytest.mark.parametrize("blocks", [7, pytest.param(13, marks=pytest.mark.slow)])
 def test_a_mistake_in_a_long_chain_is_found_in_its_block_and_soon(kind, code, blocks):

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from random import Random
 
 import pytest
+from examples import some_of
 from generate_nct import FORMS, Drawn, random_chain, random_cornered, random_pair
 
 from contoursolve import solve
@@ -138,7 +139,7 @@ def off(found: Contour, original: Contour, image: Callable[[complex], complex], 
     return worst
 
 
-@pytest.mark.parametrize("name", LAWS)
+@some_of("name", LAWS, one_in=2)
 def test_an_image_of_a_program_makes_the_image_of_its_contour(name: str) -> None:
     change, image, before = LAWS[name]
     for drawn in DRAWN:

@@ -8,6 +8,7 @@ from random import Random
 
 import numpy
 import pytest
+from examples import few_and_many, some_of
 from generate_lx3 import FORMS as LATHE_FORMS
 from generate_lx3 import random_g11, random_g112
 from generate_nct import FORMS, disturbed, draw_path, random_chain, random_cornered, random_pair
@@ -64,7 +65,7 @@ def grown(path: list[Element], radius: float, steps: int = 60) -> complex:
     return center
 
 
-@pytest.mark.parametrize("kinds", PAIRS)
+@some_of("kinds", PAIRS, one_in=4)
 def test_a_fillet_is_the_one_that_grows_out_of_its_corner(kinds):
     rng = Random(81)
     made = 0
@@ -89,7 +90,7 @@ def test_a_fillet_is_the_one_that_grows_out_of_its_corner(kinds):
     assert made > 200
 
 
-@pytest.mark.parametrize("kinds", PAIRS)
+@some_of("kinds", PAIRS, one_in=4)
 def test_the_largest_fillet_uses_an_element_up_or_has_nowhere_to_grow(kinds):
     rng = Random(3084)
     reasons: Counter[str] = Counter()
@@ -187,15 +188,16 @@ def assert_same(drawn, found):
     assert all(abs(found.points[name] - at) < CLOSE for name, at in drawn.points.items()), drawn.text
 
 
-def test_every_drawn_run_is_read_back_from_its_text():
+@few_and_many(1, 5, "times")
+def test_every_drawn_run_is_read_back_from_its_text(times):
     rng = Random(16)
     drawings = [
         random_pair(rng, form, plane, corner)
         for form, plane, corner in product(FORMS, PLANES, ("", "C", "R"))
-        for _ in range(30)
+        for _ in range(6 * times)
     ]
-    drawings += [random_chain(rng, 1 + k % 20, plane) for plane in PLANES for k in range(200)]
-    drawings += [random_cornered(rng, plane) for plane in PLANES for _ in range(300)]
+    drawings += [random_chain(rng, 1 + k % 20, plane) for plane in PLANES for k in range(40 * times)]
+    drawings += [random_cornered(rng, plane) for plane in PLANES for _ in range(60 * times)]
     covered: Counter[str] = Counter()
     for drawn in drawings:
         (found,) = runs(drawn.program)
@@ -208,7 +210,7 @@ def test_every_drawn_run_is_read_back_from_its_text():
         *("over-defined arc Q-", "over-defined arc Q+", "over-defined arc Q+ ,R", "over-defined arc Q- ,C G91"),
         *("line by one coordinate and ,A", "line by one coordinate and ,A ,C G91"),
     ):
-        assert covered[kind] >= 10, kind
+        assert covered[kind] >= 2 * times, kind
 
 
 def test_the_drawings_of_one_seed_are_the_same_bytes():
@@ -286,11 +288,12 @@ def test_the_bevels_of_the_sheet_end_as_its_drawing_says():
     assert [element.end for each in found for element in each.elements] == [-12 + 15j, -20 + 23j, -20 + 33j, -27 + 40j]
 
 
-def test_every_drawn_arc_with_corners_is_read_back_from_its_text():
+@few_and_many(45, 120)
+def test_every_drawn_arc_with_corners_is_read_back_from_its_text(count):
     rng = Random(112)
     covered: Counter[tuple[str, ...]] = Counter()
     for form, one, two in product(LATHE_FORMS, ("", "P", "C"), ("", "Q", "D")):
-        for _ in range(120):
+        for _ in range(count):
             drawn = random_g112(rng, form, one, two)
             (found,) = contours(drawn.program)
             assert_same(drawn, found)

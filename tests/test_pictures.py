@@ -13,6 +13,7 @@ from xml.etree import ElementTree
 import numpy
 import pytest
 from click.testing import CliRunner
+from examples import few_and_many, some_of
 from test_fuzz import mutate, windows
 from test_rules import examine, examples
 
@@ -35,7 +36,6 @@ from contoursolve.pictures.theme import DARK_COLORS, DASHES, LIGHT_COLORS, Role
 from contoursolve.solving.contour import ArcSegment
 
 PROGRAMS = sorted((Path(__file__).parent.parent / "notebooks" / "programs").glob("*.nc"))
-RANDOM = 20
 """Blocks of one seed."""
 """Random blocks that are drawn; 2,000 for a thorough run."""
 
@@ -100,7 +100,7 @@ def check(picture: Picture) -> ElementTree.Element:
     return tree
 
 
-@pytest.mark.parametrize("name", KINDS)
+@some_of("name", KINDS, one_in=3)
 def test_every_kind_of_contour_is_drawn_with_labels_apart(name):
     (answer,) = answers_of(name)
     for theme in Theme:
@@ -110,7 +110,7 @@ def test_every_kind_of_contour_is_drawn_with_labels_apart(name):
             assert word.text.strip() in shown
 
 
-@pytest.mark.parametrize("path", PROGRAMS, ids=lambda path: path.stem)
+@some_of("path", PROGRAMS, ids=lambda path: path.stem, one_in=3)
 def test_labels_of_all_programs_in_the_repository_stand_apart(path):
     result = contoursolve.solve_file(path)
     check(draw_result(result))
@@ -131,7 +131,7 @@ def test_contours_that_begin_at_one_place_share_a_label_beside_the_path():
     assert [word for word in words if "line" in word] == ["1, 2, 3, 4  lines 5, 8, 11, 14"]
 
 
-@pytest.mark.parametrize("block", ["G111 A180.", "G111 A180. B120.", "G111 B-120.", "G111 A170. B100. P5."])
+@some_of("block", ["G111 A180.", "G111 A180. B120.", "G111 B-120.", "G111 A170. B100. P5."], one_in=2)
 def test_what_is_free_is_drawn_whatever_way_the_words_lead(block):
     (answer,) = contoursolve.solve(block, start="X40. Z0.").answers
     assert "end (free)" in words_in(draw_answer(answer))
@@ -184,11 +184,13 @@ def random_block(draw: random.Random) -> tuple[str, str]:
 HOSTILE = "(]]></svg><script>alert[1]</script> & \" ' \x0b \ud800 \u202e $x^2$ {0} %s \\ <!-- )"
 
 
-@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(1, 8))])
-def test_random_blocks_of_every_status_are_drawn(seed):
+@pytest.mark.parametrize(
+    ("seed", "count"), [(0, 8), *(pytest.param(seed, 20, marks=pytest.mark.slow) for seed in range(8))]
+)
+def test_random_blocks_of_every_status_are_drawn(seed, count):
     draw, statuses = random.Random(seed), set()
     near = windows()
-    for number in range(RANDOM):
+    for number in range(count):
         if number % 2:
             text, start = random_block(draw)
             result = contoursolve.solve(
@@ -205,7 +207,7 @@ def test_random_blocks_of_every_status_are_drawn(seed):
         for answer in result.answers:
             statuses.add(answer.status.value)
             check(draw_answer(answer, theme=draw.choice(list(Theme))))
-    assert len(statuses) > 3
+    assert len(statuses) > min(3, count // 8)
 
 
 def labels(picture: Picture) -> list[str]:
@@ -240,7 +242,7 @@ def roles_of(name: str) -> dict[str, Role]:
     return {run.text.strip(): run.role for text in sheet.drawing if isinstance(text, Text) for run in text.runs}
 
 
-@pytest.mark.parametrize(
+@some_of(
     ("name", "text", "role"),
     [
         ("solved", "A180.", Role.GIVEN),
@@ -261,6 +263,7 @@ def roles_of(name: str) -> dict[str, Role]:
         ("circle-line", "Q-1", Role.GIVEN),
         ("G18", ",A171.87", Role.GIVEN),
     ],
+    one_in=4,
 )
 def test_each_word_and_each_gap_is_shown_in_its_state(name, text, role):
     assert roles_of(name).get(text) is role
@@ -300,10 +303,11 @@ def test_states_are_told_apart_without_colour():
     assert len({DASHES.get(role, ()) for role in states}) == len(states)
 
 
-def test_several_pictures_stand_in_one_page():
+@few_and_many(6, 100)
+def test_several_pictures_stand_in_one_page(count):
     names = [
         each.get("id")
-        for name in KINDS
+        for name in list(KINDS)[:count]
         for each in check(draw_answer(answers_of(name)[0], theme=Theme.PAGE)).iter()
         if each.get("id")
     ]
@@ -386,6 +390,7 @@ def test_svg_needs_no_package_and_png_names_the_one_it_needs(monkeypatch):
         draw_answer(answers_of("solved")[0]).png()
 
 
+@pytest.mark.slow
 def test_a_picture_takes_less_than_25_ms_of_the_processor():
     for name in ("solved", "ignored", "ambiguous", "G112"):
         (answer,) = answers_of(name)
@@ -515,7 +520,7 @@ REGIONS = {
 }
 
 
-TWO_REGIONS = [pytest.param(n, marks=[pytest.mark.slow] * (n not in ("a gap", "a rule"))) for n in REGIONS]
+TWO_REGIONS = [pytest.param(n, marks=[pytest.mark.slow] * (n != "a gap")) for n in REGIONS]
 
 
 @pytest.mark.parametrize("name", TWO_REGIONS)
@@ -640,7 +645,7 @@ def sweep(*arguments):
 
 
 def test_sweep_draws_one_word_as_a_fan_and_two_as_a_map(tmp_path):
-    one = ("--vary", "A=120:250:0.5", "--vary", "Q=5")
+    one = ("--vary", "A=120:250:2", "--vary", "Q=5")
     status, output = sweep(*one, "--plot", tmp_path / "fan.svg")
     assert (status, "fan.svg written" in output) == (0, True)
     assert "21 contours" in (tmp_path / "fan.svg").read_text()
@@ -651,7 +656,7 @@ def test_sweep_draws_one_word_as_a_fan_and_two_as_a_map(tmp_path):
     assert status == 0
     assert (tmp_path / "map.png").read_bytes().startswith(b"\x89PNG")
     family = contoursolve.family(
-        BLOCK, start=START, vary={"A": numpy.arange(120, 250.1, 0.5), "P": numpy.arange(1, 60.1, 0.5), "Q": [5.0]}
+        BLOCK, start=START, vary={"A": numpy.arange(120, 250.1, 2), "P": numpy.arange(1, 60.1, 0.5), "Q": [5.0]}
     )
     told = ", ".join(f"{number:,} {status.value}" for status, number in family.summary().items())
     assert draw_family_map(family).title == f"A and P: {told}"

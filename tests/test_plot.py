@@ -97,6 +97,7 @@ def test_nothing_of_the_programs_text_enters_the_drawing():
     assert to_dxf(contoursolve.solve(text).answers) == to_dxf(contoursolve.solve(INCH).answers)
 
 
+@pytest.mark.slow
 def test_the_same_program_gives_the_same_bytes_in_every_process(tmp_path):
     files = [tmp_path / "a.dxf", tmp_path / "b.DXF"]
     for seed, file in zip((0, 4), files, strict=True):

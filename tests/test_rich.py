@@ -9,6 +9,7 @@ from xml.etree import ElementTree
 
 import pandas
 import pytest
+from examples import some_of
 
 import contoursolve
 from contoursolve import Status
@@ -18,8 +19,6 @@ from contoursolve.output import html as style
 from contoursolve.solving.contour import ArcSegment
 from contoursolve.solving.enumerate import Effort
 
-BLOCKS = 14
-"""Of one seed."""
 LARGEST = 400_000
 """Characters of one kind of data of one block."""
 
@@ -138,11 +137,13 @@ def random_block(random):
     return f"G17 G41 G0 X{scale:.4f} Y0\nG3 X{-scale:.4f} Y0 R{scale:.4f}\n{line}", "nct-99m"
 
 
-@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(1, 10))])
-def test_any_block_is_shown_as_text_html_and_svg_that_hold_nothing_but_what_they_should(seed):
+@pytest.mark.parametrize(
+    ("seed", "blocks"), [(0, 5), *(pytest.param(seed, 14, marks=pytest.mark.slow) for seed in range(10))]
+)
+def test_any_block_is_shown_as_text_html_and_svg_that_hold_nothing_but_what_they_should(seed, blocks):
     rng = random.Random(f"rich {seed}")
     seen = set()
-    for number in range(BLOCKS):
+    for number in range(blocks):
         text, control = random_block(rng)
         rules = rng.choice(("enforce", "warn", "off"))
         result = contoursolve.solve(text, control=control, rules=rules, name=rng.choice(HOSTILE))
@@ -155,7 +156,7 @@ def test_any_block_is_shown_as_text_html_and_svg_that_hold_nothing_but_what_they
                 assert result is not record or again._repr_mimebundle_() == data
         for record in (result.program, *result.program.blocks):
             check(record._repr_mimebundle_())
-    assert len(seen) >= 3, seen
+    assert len(seen) >= blocks / 5, seen
 
 
 HARD = "straight part of line 2 = 5; corner 1 tangent to line [Z-70. X30. A90.]"
@@ -171,7 +172,7 @@ UNUSUAL = {
 }
 
 
-@pytest.mark.parametrize("status", UNUSUAL, ids=lambda status: status.value)
+@some_of("status", UNUSUAL, ids=lambda status: status.value, one_in=3)
 def test_a_contour_of_each_status_has_a_picture_and_a_table_beside_it(status, monkeypatch):
     text, rules = UNUSUAL[status]
     if status is Status.UNDECIDED:
@@ -247,7 +248,7 @@ QUESTIONS = {
 
 
 @pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=[pytest.mark.slow] * name.startswith("region")) for name in QUESTIONS]
+    "name", [pytest.param(name, marks=[pytest.mark.slow] * (name not in ("range", "tolerances"))) for name in QUESTIONS]
 )
 def test_what_is_asked_about_families_shows_itself_with_every_reason_and_value(name):
     ask = QUESTIONS[name]
@@ -295,6 +296,7 @@ def test_questions_are_told_as_the_terminal_tells_them():
         assert QUESTIONS[name](WHOLE, {"start": "X40. Z0."})._repr_mimebundle_()[TEXT] == printed.rstrip()
 
 
+@pytest.mark.slow
 def test_a_large_program_stays_small():
     text = "G00 X40. Z0.\n" + "G111 A180. K-3. B120. X60. P1.\nG00 X40. Z0.\n" * 400
     data = contoursolve.solve(text)._repr_mimebundle_()

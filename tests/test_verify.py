@@ -16,6 +16,7 @@ import generate_lx3
 import generate_nct
 import pytest
 from click.testing import CliRunner
+from examples import some_of
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -179,7 +180,7 @@ def failures(receipt: dict[str, Any]) -> list[str]:
 # --- Right results ---------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@some_of(
     ("words", "status"),
     [
         ("G111 A180. K-30. B120. X100. U60.", "overdetermined"),
@@ -191,6 +192,7 @@ def failures(receipt: dict[str, Any]) -> list[str]:
         # Says too much, and cannot be made either: without a path.
         ("G111 A0 I0 K-30. B120. X100. U60.", "overdetermined"),
     ],
+    one_in=3,
 )
 def test_overdetermined_contours_are_held_against_all_their_words(desk, words, status):
     result = desk.solve(LATHE + words, "--rules", "off")
@@ -393,7 +395,7 @@ def test_random_programs_of_every_form_are_right(desk, count):
     assert count < 25 or statuses >= {"solved", "no-solution", "conflicting"}
 
 
-@pytest.mark.parametrize(
+@some_of(
     ("name", "setting", "value"),
     [
         ("two circles", "nct-99m.circle-circle-q", "right-is-negative"),
@@ -401,6 +403,7 @@ def test_random_programs_of_every_form_are_right(desk, count):
         ("two bevels", "yasnac-lx3.bevel", "length"),
         ("bevel and rounding", "yasnac-lx3.bevel", "setback"),
     ],
+    one_in=2,
 )
 def test_the_program_is_read_with_the_settings_that_the_result_names(desk, name, setting, value):
     other = desk.solve(SAMPLES[name])
@@ -467,7 +470,7 @@ def test_a_certificate_covers_what_the_points_show(desk):
     assert {"what": "the certificate", "why": "it names no radius"} in receipt["contours"][0]["not_checked"]
 
 
-@pytest.mark.parametrize(
+@some_of(
     ("text", "other"),
     [
         (PROGRAM, PROGRAM.replace(*change))
@@ -525,6 +528,7 @@ def test_a_certificate_covers_what_the_points_show(desk):
             ("Y42.857", "Y80"),
         )
     ],
+    one_in=4,
 )
 def test_a_program_that_was_changed_afterwards_is_found(desk, text, other):
     result = desk.solve(text)
@@ -654,7 +658,7 @@ STANDINGS = {
 
 
 @pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=[pytest.mark.slow] * (n % 6 > 0)) for n, name in enumerate(STANDINGS)]
+    "name", [pytest.param(name, marks=[pytest.mark.slow] * (n % 12 > 0)) for n, name in enumerate(STANDINGS)]
 )
 def test_the_status_of_a_contour_is_worked_out_from_its_words(desk, name):
     """The statuses are those that the manuals' rules and the geometry give, under the rules and without them."""
@@ -686,7 +690,7 @@ ONE_LINE = {
 }
 
 
-@pytest.mark.parametrize("name", ONE_LINE)
+@some_of("name", ONE_LINE, one_in=3)
 def test_two_lines_that_are_one_leave_their_meeting_open(desk, name):
     status = "no-solution" if "parallel" in name else "underdetermined"
     result = desk.solve("G17 G90 G42 D1 G0 X0 Y0\n" + ONE_LINE[name], "--control", "nct-99m")
@@ -703,7 +707,7 @@ def test_two_lines_that_are_one_leave_their_meeting_open(desk, name):
 BOTH_AT_ONCE = ["Z-27.727 W-4.211 A180. B-152.", "A137. I10. K-10.", "U61. X100. A180. K-30.", "U60. X100. A180. K-30."]
 
 
-@pytest.mark.parametrize("words", [*BOTH_AT_ONCE, "A180. K-30. B120. X100. Z-47. Q5."])
+@some_of("words", [*BOTH_AT_ONCE, "A180. K-30. B120. X100. Z-47. Q5."], one_in=3)
 def test_words_that_lack_something_and_contradict_each_other_conflict(desk, words):
     result = desk.solve(f"{LATHE}G111 {words}", "--rules", "off")
     status = result["contours"][0]["status"]
@@ -1111,7 +1115,7 @@ def test_filled_blocks_are_the_program_with_the_values(desk, name):
                 assert is_wrong([*blocks[:at], changed_word, *blocks[at + 1 :]])
 
 
-@pytest.mark.parametrize(
+@some_of(
     ("name", "old", "new"),
     [
         ("length of line 1", "= 30", "= 30.0001"),
@@ -1136,6 +1140,7 @@ def test_filled_blocks_are_the_program_with_the_values(desk, name):
         ("R and Q choose", "R50", "R-50"),
         ("R and Q choose", "Q-1", "Q1"),
     ],
+    one_in=4,
 )
 def test_a_program_with_facts_that_was_changed_afterwards_is_found(desk, name, old, new):
     result = solved(desk, name)
@@ -1167,7 +1172,7 @@ def some(every: int) -> list[Any]:
     return [pytest.param(name, marks=[pytest.mark.slow] * (n % every > 0)) for n, name in enumerate(CLAIMS)]
 
 
-@pytest.mark.parametrize("name", some(2))
+@pytest.mark.parametrize("name", some(6))
 def test_what_solve_says_is_right(desk, name):
     result = solved(desk, name)
     receipt = desk.receipt(result)
@@ -1184,7 +1189,7 @@ MOST = 8
 """Changes of a program; each of a longer one takes so much longer to verify."""
 
 
-@pytest.mark.parametrize("name", some(4))
+@pytest.mark.parametrize("name", some(14))
 def test_nothing_that_a_contour_claims_can_be_changed(desk, name):
     """Not a number by a millionth, no sign, no truth: neither by itself nor with its like in the list of solutions."""
     result = solved(desk, name)
