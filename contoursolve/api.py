@@ -281,6 +281,7 @@ def expand(
     from contoursolve.postprocess.expansion import OPENING, expand_lines, lines_of_facts, opening_of  # noqa: PLC0415
     from contoursolve.postprocess.expansion_report import Expansion, Options, Summary, left_unread  # noqa: PLC0415
     from contoursolve.postprocess.post_processors import Arcs, Numbering, find_post  # noqa: PLC0415
+    from contoursolve.program.lines import Lines  # noqa: PLC0415
 
     program = gcode.parse(text, name)
     dialect = choose(control, program, settings)
@@ -296,14 +297,13 @@ def expand(
     further = lines_of_facts(program, dialect, unit, beginning, _facts(facts))
     pieces = list(
         expand_lines(
-            gcode.split_lines(text),
+            Lines(gcode.split_lines(text), dialect, further, is_certain=True),
             dialect,
             options,
             summary,
             unit=unit,
             policy=policy,
             start=beginning,
-            facts=further,
             numbers=Numbers(gcode.split_lines(text)) if numbering is Numbering.ALL else None,
         )
     )

@@ -159,7 +159,15 @@ def _taper(start: complex, words: Words, outcome: Outcome) -> None:
         direction if direction is not None else line / abs(line) if abs(line) > ON else 0j
         for line, direction in ((line1, a), (line2, b))
     )
+    _cornered(start, words, (v1, v2), (u1, u2), outcome)
 
+
+def _cornered(
+    start: complex, words: Words, points: tuple[complex, complex], ways: tuple[complex, complex], outcome: Outcome
+) -> None:
+    """The path by two lines with corners at their ends."""
+    (v1, v2), (u1, u2) = points, ways
+    line1, line2 = v1 - start, v2 - v1
     first = second = None
     if words.get("C") or words.get("P"):
         outcome.need_length(abs(line1))  # a corner joins two lines, neither of which is a point

@@ -49,7 +49,16 @@ def drawings() -> list[Drawing]:
     return found
 
 
-def _all(rng: Random) -> Iterator[tuple[str, str, list[Element], int, set[str]]]:
+Case = tuple[str, str, list[Element], int, set[str]]
+
+
+def _all(rng: Random) -> Iterator[Case]:
+    yield from _on_a_lathe(rng)
+    for plane in (17, 18, 19):
+        yield from _on_a_mill(rng, plane)
+
+
+def _on_a_lathe(rng: Random) -> Iterator[Case]:
     for line_1 in ("AI", "AK", "IK"):
         for line_2 in ("BX", "BU", "BZ", "BW", "XZ", "UW", "XW"):
             for corners in ("", "C", "P") if "B" not in line_2 else ("", "C", "P", "D", "Q", "CD", "CQ", "PD", "PQ"):
@@ -64,18 +73,20 @@ def _all(rng: Random) -> Iterator[tuple[str, str, list[Element], int, set[str]]]
     for count in range(24):
         drawn = random_g11(rng, 1 + count % 4)
         yield LX3, drawn.text, list(drawn.elements), 18, {kind[:3] for kind in drawn.kind}
-    for plane in (17, 18, 19):
-        for form in FORMS:
-            for corner in ("", "C", "R"):
-                yield _nct(random_pair(rng, form, plane, corner), form, f",{corner}" if corner else "sharp")
-        for length in (2, 3, 4, 5):
-            yield _nct(random_chain(rng, length, plane), f"chain of {length + 1}")
-        for _ in range(10):
-            drawn = random_cornered(rng, plane)
-            yield _nct(drawn, "16.2" if len(drawn.kind) == 1 else "16.1")
 
 
-def _nct(drawn: Drawn, *shows: str) -> tuple[str, str, list[Element], int, set[str]]:
+def _on_a_mill(rng: Random, plane: int) -> Iterator[Case]:
+    for form in FORMS:
+        for corner in ("", "C", "R"):
+            yield _nct(random_pair(rng, form, plane, corner), form, f",{corner}" if corner else "sharp")
+    for length in (2, 3, 4, 5):
+        yield _nct(random_chain(rng, length, plane), f"chain of {length + 1}")
+    for _ in range(10):
+        drawn = random_cornered(rng, plane)
+        yield _nct(drawn, "16.2" if len(drawn.kind) == 1 else "16.1")
+
+
+def _nct(drawn: Drawn, *shows: str) -> Case:
     parts = {part for kind in drawn.kind for part in (kind.split(" ,")[0], *re.findall(r",[CR]|G91", kind))}
     return NCT, drawn.text, list(drawn.elements), drawn.plane, {*shows, *parts, f"G{drawn.plane}"}
 

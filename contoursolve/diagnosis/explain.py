@@ -317,6 +317,15 @@ def explain_result(
             told += _for_both(values, profile.unit)
         fields["smaller"] = ", or ".join(told) or f"make the corners smaller by {fields['off']} of it in all"
     finding = report(context, context.row(event.kind), Basis.NUMERICAL, words, values, labels, **fields)
+    if isinstance(event, Refusal):
+        finding = _with_what_helps(finding, event, values, asked, profile)
+    return replace(finding, notes=notes)
+
+
+def _with_what_helps(
+    finding: Diagnostic, event: Refusal, values: Mapping[str, float], asked: Sequence[Word], profile: Profile
+) -> Diagnostic:
+    """The finding with what its row cannot say: the largest bevel, what takes the room, where an answer comes from."""
     if event.kind is RefusalKind.BEVEL_IN_BAND and "limit" in values:
         _, shown = _largest(values["limit"], profile.unit)
         finding = replace(
@@ -324,16 +333,16 @@ def explain_result(
             labels=(Label(finding.span, f"at most {shown}"), *finding.labels[1:]),
             help=f"write at most {shown}, or {finding.help}",
         )
-    if isinstance(event, Refusal) and event.beside and "together" in values:
+    if event.beside and "together" in values:
         takers = [given.word for name in event.beside if (given := profile.givens.get(name)) and given.word]
         finding = replace(
             finding, labels=(*finding.labels, *(Label(word.span, "takes all the room") for word in takers))
         )
-    if asked and isinstance(event, Refusal):
+    if asked:
         causes = list(dict.fromkeys(text for word in asked for text in _causes(word, profile)))
         advice = f"change what that follows from: {join(causes)}" if causes else "change what that follows from"
         finding = replace(finding, help=advice, labels=tuple(replace(each, text="") for each in finding.labels))
-    return replace(finding, notes=notes)
+    return finding
 
 
 def _length(unit: Length, value: float, more: int) -> str:

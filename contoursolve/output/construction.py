@@ -114,9 +114,12 @@ def _phrase(fact: Fact, group: Group, profile: Profile) -> str:
             other = tail if f"{head}.0" in group.unknowns or f"{head}.1" in group.unknowns else head
             return f"on the line through {other} at {angle_text(float(given.value))}{word}"
         case OnCircle(point=point, center=center, radius=radius):
-            if radius in group.unknowns:
-                return f"the circle about {center} passes through {point}"
-            return f"{point} on the circle about {center}"
+            is_free = radius in group.unknowns
+            return (
+                f"the circle about {center} passes through {point}"
+                if is_free
+                else f"{point} on the circle about {center}"
+            )
         case Radius() if given is not None:
             return f"radius {length_text(float(given.value), unit)}{word}"
         case Through(line=line, point=point):

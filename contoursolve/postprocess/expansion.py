@@ -1,7 +1,7 @@
 """A program with its contours written as plain G-code, and everything else byte for byte as it was."""
 
 from collections import deque
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from decimal import Decimal
 from itertools import chain
 
@@ -50,7 +50,7 @@ _TOLD = (ReadIssue.TEXT_OUTSIDE, ReadIssue.LETTER_FOR_DIGIT, ReadIssue.CODE_MIST
 
 
 def expand_lines(
-    lines: Iterable[str],
+    lines: Lines,
     dialect: Dialect,
     options: Options,
     summary: Summary,
@@ -58,19 +58,16 @@ def expand_lines(
     unit: Length = Length.MM,
     policy: Policy = Policy.ENFORCE,
     start: Program | None = None,
-    facts: Mapping[int, tuple[Directive, ...]] | None = None,
-    is_certain: bool = True,
     numbers: Numbers | None = None,
 ) -> Iterator[str | object]:
     """The lines of a program (each with its end) with every contour replaced, and `OPENING` once.
 
-    `facts` are further facts by line; `numbers` are those of the whole program, where every line is to have one.
-    Unless the control `is_certain`, raises UnknownControlError if some block is for another one.
+    `numbers` are those of the whole program, where every line is to have one. Unless the control of the lines is
+    certain, raises UnknownControlError if some block is for another one.
     """
     together = Batch(dialect, policy, is_proven=False)
-    reel = Lines(lines, dialect, facts or {}, is_certain=is_certain)
-    steps = walk(reel.blocks(), dialect, unit, policy, Depth.PATH, start, together)
-    yield from _Expander(dialect, options, summary, reel, numbers).expand(steps)
+    steps = walk(lines.blocks(), dialect, unit, policy, Depth.PATH, start, together)
+    yield from _Expander(dialect, options, summary, lines, numbers).expand(steps)
 
 
 def lines_of_facts(

@@ -15,6 +15,7 @@ from contoursolve.postprocess.expansion import OPENING, expand_lines, lines_of_f
 from contoursolve.postprocess.expansion_report import Left, Options, Summary, left_unread
 from contoursolve.postprocess.numbering import Numbers
 from contoursolve.postprocess.post_processors import Numbering
+from contoursolve.program.lines import Lines
 from contoursolve.program.project import configure
 from contoursolve.program.recognise import find_dialect, first_sign
 from contoursolve.reading.dialect import Dialect
@@ -45,7 +46,7 @@ class Rewritten(Struct, frozen=True):
             yield chunk
 
 
-def rewrite(
+def rewrite(  # noqa: PLR0913 - takes what the command takes
     tape: Tape,
     body: IO[bytes],
     options: Options,
@@ -75,15 +76,13 @@ def rewrite(
         dialect = configure(dialect, settings)
         places = lines_of_facts(parse(tape.read(), tape.name), dialect, unit, start, facts) if facts else {}
         lines = expand_lines(
-            tape.lines(),
+            Lines(tape.lines(), dialect, places, is_certain=control is not None),
             dialect,
             options,
             summary,
             unit=unit,
             policy=policy,
             start=start,
-            facts=places,
-            is_certain=control is not None,
             numbers=Numbers(tape.lines()) if options.numbering is Numbering.ALL else None,
         )
     held: list[str] = []

@@ -105,14 +105,8 @@ class Batch(Struct):
 
     def _key(self, claim: ParsedContour) -> Hashable:
         """What contours of one kind have in common; None where more than the words and their values counts."""
-        if claim.unknown or claim.repeated:
+        if claim.unknown or claim.repeated or not self._is_plain(claim):
             return None
-        for block in claim.blocks:
-            if block.faults or block.directives or block.unmarked or block.is_skippable:
-                return None
-            for word in block.words:
-                if word.number is None or (not -_SMALL <= word.number <= _SMALL and self._is_large(word, claim)):
-                    return None
         before, after = claim.before, claim.after
         for axis in before.plane.axes:
             position = before.axes[axis]
@@ -142,6 +136,16 @@ class Batch(Struct):
             before.plane.code,
             *sharp,
         )
+
+    def _is_plain(self, claim: ParsedContour) -> bool:
+        """Whether its blocks hold nothing but words with numbers that a control travels."""
+        for block in claim.blocks:
+            if block.faults or block.directives or block.unmarked or block.is_skippable:
+                return False
+            for word in block.words:
+                if word.number is None or (not -_SMALL <= word.number <= _SMALL and self._is_large(word, claim)):
+                    return False
+        return True
 
     def _lacks_points(self, claim: ParsedContour) -> bool:
         """Whether there is something to say of numbers without points."""

@@ -255,25 +255,40 @@ class _Examiner:
         self.queue.settle()
         yield from (other.step if isinstance(other, Pending) else other for other in window)
 
-    def _walk(self, blocks: Iterable[Line], start: Program | None) -> Iterator[Step | Pending]:
-        """Every block and every contour, in order, contours as they are found."""
-        if self.dialect is None:
-            read, is_shown = cast("Sequence[Block]", blocks), False
-            for index, block in enumerate(read):
-                self.diagnostics += self.marks.look(block)
-                self._check_block(block)
-                # One line is enough: with that mended, the control is known.
-                is_shown = is_shown or (has_lookalike_code(block) and self._check_letters_of_any(read, index, start))
-            self.diagnostics += self.marks.finish()
-            none = DIALECTS["yasnac-lx3"].initial_state(self.unit)
-            yield Step((), none, findings=self._findings())
-            return
-        dialect = self.dialect
+    def _begin(self, dialect: Dialect, start: Program | None) -> State:
+        """The modal state before a program, behind the block that states its start point apart."""
         state = dialect.initial_state(self.unit)
         for block in start.blocks if start else ():
             self._check_block(block)
             state = advance(state, block, dialect.modes)
         self.start_unit = state.unit
+        return state
+
+    def _end(self, state: State) -> Iterator[Step]:
+        """What is told at the end of a program."""
+        self.diagnostics += self.marks.finish()
+        if self.diagnostics:
+            yield Step((), state, findings=self._findings())
+
+    def _look_at_all(self, blocks: Sequence[Block], start: Program | None) -> Step:
+        """What is found without a control."""
+        is_shown = False
+        for index, block in enumerate(blocks):
+            self.diagnostics += self.marks.look(block)
+            self._check_block(block)
+            # One line is enough: with that mended, the control is known.
+            is_shown = is_shown or (has_lookalike_code(block) and self._check_letters_of_any(blocks, index, start))
+        self.diagnostics += self.marks.finish()
+        none = DIALECTS["yasnac-lx3"].initial_state(self.unit)
+        return Step((), none, findings=self._findings())
+
+    def _walk(self, blocks: Iterable[Line], start: Program | None) -> Iterator[Step | Pending]:
+        """Every block and every contour, in order, contours as they are found."""
+        if self.dialect is None:
+            yield self._look_at_all(cast("Sequence[Block]", blocks), start)
+            return
+        dialect = self.dialect
+        state = self._begin(dialect, start)
         is_whole, index, size = isinstance(blocks, Sequence), 0, _FIRST
         held: list[Line] = list(blocks) if is_whole else []
         rest = iter(() if is_whole else blocks)
@@ -283,9 +298,7 @@ class _Examiner:
                 held, index, is_whole = [*held[index:], *more], 0, not more
                 continue
             if index >= len(held):
-                self.diagnostics += self.marks.finish()
-                if self.diagnostics:
-                    yield Step((), state, findings=self._findings())
+                yield from self._end(state)
                 return
             if isinstance(held[index], Passage):
                 passed = pass_plainly(held, index, moves=is_plain(state), joins=dialect.has_runs)
@@ -311,8 +324,7 @@ class _Examiner:
                 held, index, is_whole = [*held[index:], *more], 0, not more
                 continue
             blocks_of_step = (block,) if after == 1 else tuple(view[:after])
-            for each in blocks_of_step:
-                self.diagnostics += self.marks.look(each)
+            self.diagnostics += (finding for each in blocks_of_step for finding in self.marks.look(each))
             if isinstance(found, ParsedContour) and found.form.is_contour:
                 self._check_units(start, found)
                 step = Step(blocks_of_step, state, findings=self._findings())

@@ -36,25 +36,22 @@ def consequences(facts: Sequence[Fact], true: Sequence[Fact], at: Lookup) -> Ite
     circles = [fact for fact in true if isinstance(fact, OnCircle)]
     radius_of = {(fact.point, fact.center): fact.radius for fact in circles}
     on_line = {(fact.line, fact.point) for fact in true if isinstance(fact, Through)}
-    feet: dict[tuple[str, str], list[str]] = {}
-    for fact in true:
-        if isinstance(fact, Foot):
-            feet.setdefault((fact.line, fact.center), []).append(fact.point)
+    feet = [fact for fact in true if isinstance(fact, Foot)]
     read = {name for fact in facts for name in fact.reads()}
     for fact in facts:
         match fact:
-            case ArcLength(tail=tail, head=head, center=center, radius=radius):
-                if radius == radius_of.get((tail, center)) == radius_of.get((head, center)):
-                    yield from _arc(fact, at)
+            case ArcLength(tail=tail, head=head, center=center, radius=radius) if (
+                radius == radius_of.get((tail, center)) == radius_of.get((head, center))
+            ):
+                yield from _arc(fact, at)
             case TurnBetween(first=first, second=second):
                 ends = [each for each in (first, second) if isinstance(each, Tangent)]
                 if all(radius_of.get((each.point, each.center)) == each.radius for each in ends):
                     yield from _turn(fact, at)
-            case Extent(line=line, tail=tail, head=head):
-                if {(line, tail), (line, head)} <= on_line:
-                    yield from _span(fact, at)
+            case Extent(line=line, tail=tail, head=head) if {(line, tail), (line, head)} <= on_line:
+                yield from _span(fact, at)
             case TangentLine(line=line, center=center):
-                for point in feet.get((line, center), ()):
+                for point in (foot.point for foot in feet if (foot.line, foot.center) == (line, center)):
                     if (line, point) in on_line and set(both(point)) <= read:
                         yield from _spoke(fact, point, at)
             case TangentCircles(first=(one, size), second=(other, other_size)):
@@ -64,17 +61,25 @@ def consequences(facts: Sequence[Fact], true: Sequence[Fact], at: Lookup) -> Ite
             case Contact(point=point, first=one, second=other):
                 radii = [radius_of.get((point, center), "") for center in (one, other)]
                 if all(radius in read for radius in radii):
-                    # From one centre through the point to the other: r1 to the point, r1 + side * r2 in all.
-                    first_radius, second_radius = map(at.radius, radii)
-                    part, whole = step(at, one, point), step(at, one, other)
-                    for axis in (FIRST, SECOND):
-                        yield part[axis] * (first_radius + fact.side * second_radius) - whole[axis] * first_radius
-    for one_end, other_end in combinations([fact for fact in facts if isinstance(fact, OnCircle)], 2):
+                    yield from _contact(fact, radii, at)
+    yield from _chords([fact for fact in facts if isinstance(fact, OnCircle)], at)
+
+
+def _chords(ends: Sequence[OnCircle], at: Lookup) -> Iterator[Any]:
+    """The centre of a circle lies on the perpendicular bisector of every two of its points."""
+    for one_end, other_end in combinations(ends, 2):
         if (one_end.center, one_end.radius) == (other_end.center, other_end.radius):
-            # The centre lies on the perpendicular bisector.
             spokes = [step(at, one_end.center, each.point) for each in (one_end, other_end)]
             chord = step(at, one_end.point, other_end.point)
             yield dot(chord, (spokes[0][0] + spokes[1][0], spokes[0][1] + spokes[1][1]))
+
+
+def _contact(fact: Contact, radii: Sequence[str], at: Lookup) -> Iterator[Any]:
+    """From one centre through the point to the other: r1 to the point, r1 + side * r2 in all."""
+    first, second = map(at.radius, radii)
+    part, whole = step(at, fact.first, fact.point), step(at, fact.first, fact.second)
+    for axis in (FIRST, SECOND):
+        yield part[axis] * (first + fact.side * second) - whole[axis] * first
 
 
 def _arc(fact: ArcLength, at: Lookup) -> Iterator[Any]:

@@ -15,7 +15,7 @@ from contoursolve.controls.yasnac_lx3.lexicon import (
     UNCHANGED,
 )
 from contoursolve.gcode import Block, Word
-from contoursolve.geometry import Choice, CornerShape, Given
+from contoursolve.geometry import CornerShape, Given
 from contoursolve.reading import Code, ContourForm, Effect, Modes, ParsedContour, State, apply_modes, codes_of
 
 OTHER_G = "other G"
@@ -54,8 +54,6 @@ def claim_of(
     modes: Modes,
     refused: frozenset[str] = frozenset(),
     supplied: Iterable[Given] = (),
-    choices: Iterable[Choice] = (),
-    circumstances: Iterable[str] = (),
 ) -> ParsedContour:
     """The block as a contour of a form whose G code is `own`.
 
@@ -102,8 +100,6 @@ def claim_of(
         vocabulary=_vocabulary(form),
         unknown=tuple(unknown),
         repeated=tuple(repeated),
-        circumstances=frozenset(circumstances),
-        choices=tuple(choices),
         conventions=() if stated.keys().isdisjoint(_bevels(form)) else (modes.convention(BEVEL),),
     )
 

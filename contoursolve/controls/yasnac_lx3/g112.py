@@ -120,10 +120,13 @@ def claim_g112(block: Block, state: State, modes: Modes) -> ParsedContour:
     turns = way * (side or -_sign(beyond)) * (1 if along == FIRST else -1)
     form = g112(along, Turn.CCW if turns > 0 else Turn.CW, bevel_of(modes))
     # The arc begins where line 1 meets it first, and ends beyond its centre (derived).
-    choices = [Choice(V1, Side.NEARER, ""), Choice(V2, Side.FARTHER, "")]
-    circumstances = _circumstances(side, beyond)
-    claim = claim_of(block, form, 112, state, after, modes, REFUSED, supplied, choices, circumstances)
-    return dataclasses.replace(claim, limits=_limits(draft, 1 - along, aside, beyond))
+    choices = (Choice(V1, Side.NEARER, ""), Choice(V2, Side.FARTHER, ""))
+    return dataclasses.replace(
+        claim_of(block, form, 112, state, after, modes, REFUSED, supplied),
+        choices=choices,
+        circumstances=frozenset(_circumstances(side, beyond)),
+        limits=_limits(draft, 1 - along, aside, beyond),
+    )
 
 
 def _value(claim: ParsedContour, name: str) -> Decimal | None:
