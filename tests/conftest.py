@@ -28,8 +28,10 @@ PROGRAMS = {
 
 PACKAGES = {
     "browser": ("playwright", "jupyterlab", "ipykernel", "anywidget", "htpy"),
+    "notebook": ("nbclient", "nbformat", "ipykernel"),
     "site": ("zensical", "mkdocstrings_handlers"),
 }
+"""The packages that tests with a marker need."""
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -40,10 +42,14 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_runtest_setup(item: pytest.Item) -> None:
-    for marker in dict.fromkeys((*PROGRAMS, *PACKAGES)):
-        if item.get_closest_marker(marker) is not None:
-            names, advice = PROGRAMS.get(marker, ((), ""))
-            missing = [advice] if names and not any(map(shutil.which, names)) else []
-            missing += [name for name in PACKAGES.get(marker, ()) if find_spec(name) is None]
-            if missing:
-                (pytest.fail if item.config.getoption("--insist") else pytest.skip)(f"needs {', '.join(missing)}")
+    own = {mark.name for mark in item.iter_markers()}
+    missing = [advice for marker in own & PROGRAMS.keys() for advice in missing_of(*PROGRAMS[marker])]
+    packages = {name for marker in own & PACKAGES.keys() for name in PACKAGES[marker]}
+    packages |= {name for mark in item.iter_markers("needs") for name in mark.args}
+    missing += [name for name in sorted(packages) if find_spec(name) is None]
+    if missing:
+        (pytest.fail if item.config.getoption("--insist") else pytest.skip)(f"needs {', '.join(missing)}")
+
+
+def missing_of(names: tuple[str, ...], advice: str) -> list[str]:
+    return [] if any(map(shutil.which, names)) else [advice]

@@ -36,7 +36,9 @@ def processes():
 
 @contextmanager
 def loky():
-    pool = pytest.importorskip("loky").ProcessPoolExecutor(2)
+    from loky import ProcessPoolExecutor  # noqa: PLC0415 - skipped without it
+
+    pool = ProcessPoolExecutor(2)
     try:
         yield pool
     finally:
@@ -45,7 +47,8 @@ def loky():
 
 @contextmanager
 def dask():
-    distributed = pytest.importorskip("distributed")
+    import distributed  # noqa: PLC0415 - skipped without it
+
     options = {"host": "127.0.0.1", "dashboard_address": None, "processes": True, "threads_per_worker": 1}
     with distributed.LocalCluster(n_workers=2, **options) as cluster, distributed.Client(cluster) as client:
         yield client.get_executor()
@@ -62,8 +65,8 @@ def here():
     [
         pytest.param(lambda: ThreadPoolExecutor(2), id="threads"),
         pytest.param(processes, id="processes", marks=pytest.mark.slow),
-        pytest.param(loky, id="loky", marks=pytest.mark.slow),
-        pytest.param(dask, id="dask", marks=pytest.mark.slow),
+        pytest.param(loky, id="loky", marks=[pytest.mark.slow, pytest.mark.needs("loky")]),
+        pytest.param(dask, id="dask", marks=[pytest.mark.slow, pytest.mark.needs("distributed")]),
     ],
 )
 def test_any_executor_gives_the_same_bytes(pool, here):
@@ -112,7 +115,6 @@ def test_a_part_that_is_cut_off_is_solved_again_and_leaves_no_file_open(tmp_path
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "step", "most"), [("family.parquet", "0.15", 4), ("family.csv", "0.1", 6)])
 def test_a_sweep_that_was_killed_goes_on_and_ends_with_the_same_bytes(name, step, most, tmp_path, monkeypatch):
-    pytest.importorskip("pyarrow")
     asked = [*SWEEP[:-1], f"P=0:60:{step}", "-o", name]
     unbroken, broken = tmp_path / "unbroken", tmp_path / "broken"
     for folder in (unbroken, broken):
@@ -180,7 +182,6 @@ def test_whoever_stops_a_sweep_does_not_wait_for_what_its_threads_have_under_way
 @pytest.mark.parametrize(("name", "step"), [("a.csv", "5"), ("a.parquet", "0.5")])
 def test_two_sweeps_into_one_file_at_once_leave_it_whole(name, step, tmp_path):
     """Each has files of its own; whichever is whole first removes what both have finished."""
-    pytest.importorskip("pyarrow")
     alone, both = tmp_path / "alone", tmp_path / "both"
     for folder in (alone, both):
         folder.mkdir()
@@ -217,7 +218,6 @@ def test_a_file_that_somebody_else_has_written_meanwhile_is_not_replaced(tmp_pat
 @pytest.mark.skipif(os.name != "posix", reason="links need rights on Windows, and permissions are others there")
 @pytest.mark.parametrize("name", ["family.parquet", "family.csv"])
 def test_a_sweep_keeps_permissions_and_follows_links_as_a_report_does(name, tmp_path):
-    pytest.importorskip("pyarrow")
     (tmp_path / "there").mkdir()
     real, link = tmp_path / "there" / name, tmp_path / name
     real.touch(0o640)
@@ -257,9 +257,8 @@ def test_another_sweep_does_not_go_on_where_one_was_killed(tmp_path, monkeypatch
 
 
 @pytest.mark.slow
+@pytest.mark.needs("distributed")
 def test_a_sweep_runs_on_the_cluster_of_a_scheduler(tmp_path):
-    pytest.importorskip("distributed")
-    pytest.importorskip("pyarrow")
     file = tmp_path / "scheduler.json"
     environment = os.environ | {"PYTHONPATH": str(Path(contoursolve.__file__).parents[1])}
 
@@ -288,8 +287,8 @@ def test_a_sweep_runs_on_the_cluster_of_a_scheduler(tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.needs("distributed")
 def test_a_scheduler_that_goes_away_ends_the_sweep(tmp_path):
-    pytest.importorskip("distributed")
     file = tmp_path / "scheduler.json"
     command = [sys.executable, "-m", "distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0"]
     options = {"cwd": tmp_path, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
@@ -308,8 +307,8 @@ def test_a_scheduler_that_goes_away_ends_the_sweep(tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.needs("distributed")
 def test_a_scheduler_that_does_not_answer_is_one_line_and_status_2(tmp_path):
-    pytest.importorskip("distributed")
     with start(*SWEEP, "--dask", "tcp://127.0.0.1:1", cwd=tmp_path) as child:
         _, errors = child.communicate()
     assert (child.returncode, errors.count("\n")) == (2, 1), errors

@@ -287,6 +287,8 @@ def test_whatever_fails_is_told_and_answered(widget, monkeypatch):
     assert (widget.text, widget.view["number"], widget.view["trouble"]) == (WHOLE, 1, "RuntimeError: no")
 
 
+@pytest.mark.slow
+@pytest.mark.needs("nbconvert", "nbformat")
 def test_without_a_kernel_the_picture_is_there(widget):
     from nbconvert import HTMLExporter  # noqa: PLC0415 - slow to import
     from nbformat import v4  # noqa: PLC0415

@@ -337,7 +337,6 @@ def test_the_start_point_must_be_known():
 
 
 def test_families_go_to_arrow_parquet_and_xarray(tmp_path):
-    pytest.importorskip("pyarrow")
     from pyarrow import parquet  # noqa: PLC0415
 
     found = family(BLOCK, start=START, vary={"A": [170, 180, 190], "P": [1, 60]})
@@ -347,7 +346,6 @@ def test_families_go_to_arrow_parquet_and_xarray(tmp_path):
     again = parquet.read_table(tmp_path / "family.parquet")
     assert again.schema.equals(table.schema, check_metadata=True)
     check_table(again, found)
-    pytest.importorskip("xarray")
     data = found.to_xarray()
     assert dict(data.sizes) == {"A": 3, "P": 2}
     assert float(data["V2.X"].sel(A=180, P=1)) == found["V2.X"][1, 0]
@@ -366,8 +364,6 @@ def check_table(table, found):
 
 def test_every_column_names_its_unit_as_in_one_row_words_and_points_differ():
     """X4. is a diameter in inches; the end point is a radius in mm."""
-    pytest.importorskip("pyarrow")
-    pytest.importorskip("xarray")
     block, options = "G111 X4. A180. K-1.2 B120. P.2 Q.2", {"start": "X1.6 Z0.", "units": "inch"}
     found = family(block, vary={"X": [4.0], "A": [180.0], "start.Z": [0.0]}, **options)
     assert (found["X"].item(), found["V2.X"].item()) == (4.0, pytest.approx(2 * 25.4))
@@ -533,7 +529,6 @@ def test_values_come_from_a_column_of_a_file(tmp_path, monkeypatch):
     assert run(*ON_BLOCK, "--vary", "A=@in.csv", "--vary", "P=@in.csv:radius", "--paired", "-o", "out.csv")[0] == 0
     rows = [line.split(",") for line in (tmp_path / "out.csv").read_text().splitlines()]
     assert [row[:3] for row in rows[1:]] == [["170.0", "1.0", "solved"], ["180.5", "60.0", "no-solution"]]
-    pytest.importorskip("pyarrow")
     found.to_parquet(tmp_path / "in.parquet")
     assert read_range("P=@in.parquet")[1].tolist() == [1, 60]
 
@@ -554,7 +549,6 @@ def test_values_come_from_a_column_of_a_file(tmp_path, monkeypatch):
     ],
 )
 def test_a_column_that_is_none_is_one_line_and_status_2(text, message, tmp_path, monkeypatch):
-    pytest.importorskip("pyarrow")
     from pyarrow import parquet, table  # noqa: PLC0415
 
     monkeypatch.chdir(tmp_path)
@@ -590,7 +584,6 @@ def test_a_sweep_writes_every_row(tmp_path):
             assert np.array_equal(numbers, found[name].ravel(), equal_nan=True), name
     status, _, errors = run(*ON_BLOCK, *vary, "-o", target)
     assert (status, "give --force" in errors) == (2, True)
-    pytest.importorskip("pyarrow")
     from pyarrow import parquet  # noqa: PLC0415
 
     files = [tmp_path / f"{workers}.parquet" for workers in (1, 2)]
