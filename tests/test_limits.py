@@ -13,9 +13,9 @@ from typing import NamedTuple
 
 import pytest
 from click.testing import CliRunner
+from generate_g111 import SHAPES, draw_g111
 from generate_lx3 import random_g11, random_g112
 from generate_nct import FORMS, random_chain, random_cornered, random_pair
-from test_backwards import SHAPES, draw_g111
 
 from contoursolve import feasible, solve
 from contoursolve.cli import main

@@ -14,7 +14,7 @@ import numpy
 import pytest
 from click.testing import CliRunner
 from examples import few_and_many, some_of
-from test_fuzz import mutate, windows
+from mutations import mutate, windows
 from test_rules import examine, examples
 
 import contoursolve
