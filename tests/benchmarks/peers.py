@@ -26,7 +26,7 @@ from typing import Any, NamedTuple, Protocol
 import numpy
 from scipy.optimize import least_squares
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
+sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
 from by_planegcs import solve_in_plane
 from chains import (
     Chain,

@@ -2,15 +2,12 @@
 
 import sys
 from collections import Counter
-from pathlib import Path
 from time import perf_counter
 from typing import Any
 
 import pytest
 from peers import ADAPTERS, ANOTHER, FAILED, RIGHT, WRONG, Case, Ours, random_cases, run_peer, run_peers, table
 from pytest_benchmark.fixture import BenchmarkFixture
-
-sys.path.insert(0, str(Path(__file__).parents[1]))
 from sketches import chain_case
 
 import contoursolve

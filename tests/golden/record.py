@@ -185,7 +185,7 @@ SEEN = (
 
 def generated() -> Iterator[Case]:
     """Programs of every form: sound, with a slip of typing, and spoilt."""
-    sys.path.insert(0, str(FOLDER.parent))
+    sys.path.insert(0, str(ROOT / "tests" / "support"))
     import generate_slips  # noqa: PLC0415 - only when records are made
     import generate_typing  # noqa: PLC0415
 

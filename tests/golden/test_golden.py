@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from golden.record import GROUPS, Case, load, run
+from record import GROUPS, Case, load, run
 
 STRIDE = 100
 """Of the records, one in so many is compared by default, and all in the slow part."""

@@ -20,7 +20,7 @@ from contoursolve.diagnosis.examine import Policy
 from contoursolve.geometry import Length
 from contoursolve.program.pipeline import run
 
-PROGRAMS = Path(__file__).parent.parent / "notebooks" / "programs"
+PROGRAMS = Path(__file__).parents[2] / "notebooks" / "programs"
 SHAFT, PLATE = (PROGRAMS.joinpath(name).read_text() for name in ("shaft.nc", "plate.nc"))
 
 

@@ -1,4 +1,4 @@
-"""Executes the notebooks, each in a kernel of its own: `python tests/run_notebooks.py [NOTEBOOK...]`.
+"""Executes the notebooks, each in a kernel of its own: `python tests/external/run_notebooks.py [NOTEBOOK...]`.
 
 Writes their outputs into them, or with `--into FOLDER` into copies there.
 """
@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     import nbformat  # takes seconds, and whoever collects tests imports this module
 
-FOLDER = Path(__file__).parent.parent / "notebooks"
+FOLDER = Path(__file__).parents[2] / "notebooks"
 NOTEBOOKS = sorted(FOLDER.glob("*.ipynb"))
 SECONDS = 300
 """For one cell, on a loaded machine."""

@@ -28,7 +28,7 @@ from contoursolve.gcode import parse
 from contoursolve.geometry.system import Equation
 from contoursolve.verification import CannotVerifyError, Document, Verdict, residuals, verify
 
-PROGRAMS = Path(__file__).parent.parent / "notebooks" / "programs"
+PROGRAMS = Path(__file__).parents[2] / "notebooks" / "programs"
 ROOM = Path(contoursolve.__file__).parent / "verification"
 FORBIDDEN = "solving analysis numeric diagnosis program output api try_edits"
 """Of `geometry` it knows the kinds of facts and what they are about, of `reading` which words are refused."""

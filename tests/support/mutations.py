@@ -13,7 +13,7 @@ from contoursolve import solve
 
 PROGRAMS = {
     path.name: (path.read_text(), "nct-99m" if "NCT" in path.read_text() else "yasnac-lx3")
-    for path in sorted((Path(__file__).parent.parent / "notebooks" / "programs").glob("*.nc"))
+    for path in sorted((Path(__file__).parents[2] / "notebooks" / "programs").glob("*.nc"))
 }
 
 

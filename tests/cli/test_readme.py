@@ -16,7 +16,7 @@ from click.testing import CliRunner
 
 from contoursolve.cli import main
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[2]
 PICTURES = ROOT / "notebooks" / "pictures"
 README = "README.md"
 MOST_WORDS = 1_800

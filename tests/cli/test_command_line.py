@@ -18,7 +18,7 @@ from contoursolve import solve
 from contoursolve.cli import main
 from contoursolve.controls import DIALECTS
 
-PROGRAMS = Path(__file__).parent.parent / "notebooks" / "programs"
+PROGRAMS = Path(__file__).parents[2] / "notebooks" / "programs"
 SHAFT, BROKEN, PLATE = (str(PROGRAMS / name) for name in ("shaft.nc", "shaft_broken.nc", "plate.nc"))
 ONE = ("--block", "G111 X100. A180. K-30. B120. P5. Q5.", "--start", "X40. Z0.")
 

@@ -63,7 +63,7 @@ def test_a_notebook_runs_and_shows_what_this_version_gives(path, executed):
     assert again.exists(), errors
     both = [list(shown(read(each), with_linuxcnc=RS274 is not None)) for each in (path, again)]
     difference = list(difflib.unified_diff(*both, "in the repository", "now", lineterm="", n=1))
-    advice = f"python tests/run_notebooks.py notebooks/{path.name} writes what is shown now"
+    advice = f"python tests/external/run_notebooks.py notebooks/{path.name} writes what is shown now"
     assert not difference, "\n".join(line[:300] for line in [*difference[:60], advice])
 
 

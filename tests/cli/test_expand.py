@@ -33,7 +33,7 @@ from contoursolve.program.pipeline import walk
 from contoursolve.reading import Effect
 from contoursolve.solving.contour import ArcSegment, LineSegment
 
-PROGRAMS = Path(__file__).parent.parent / "notebooks" / "programs"
+PROGRAMS = Path(__file__).parents[2] / "notebooks" / "programs"
 TAPER = "G111 A180. K-30. B120. X100."
 START = "G00 X40. Z0.\n"
 WITHIN = 2e-4

@@ -35,7 +35,7 @@ from contoursolve.pictures.svg import PIXELS
 from contoursolve.pictures.theme import DARK_COLORS, DASHES, LIGHT_COLORS, Role
 from contoursolve.solving.contour import ArcSegment
 
-PROGRAMS = sorted((Path(__file__).parent.parent / "notebooks" / "programs").glob("*.nc"))
+PROGRAMS = sorted((Path(__file__).parents[2] / "notebooks" / "programs").glob("*.nc"))
 """Blocks of one seed."""
 """Random blocks that are drawn; 2,000 for a thorough run."""
 

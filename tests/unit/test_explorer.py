@@ -22,7 +22,7 @@ from contoursolve.notebook.front_end import range_of, view_of
 WHOLE = "G111 X100. A180. K-30. B120. P5. Q5."
 START = {"start": "X40. Z0."}
 PAIR = "G17 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87"
-PROGRAMS = Path(__file__).parent.parent / "notebooks" / "programs"
+PROGRAMS = Path(__file__).parents[2] / "notebooks" / "programs"
 UPDATE = 0.05
 """Seconds of the processor for a change and all that is shown of it."""
 

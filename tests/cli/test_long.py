@@ -13,7 +13,7 @@ from contoursolve.cli import main
 from contoursolve.gcode import lexer
 from contoursolve.output import listing
 
-PROGRAMS = sorted((Path(__file__).parent.parent / "notebooks" / "programs").glob("*.nc"))
+PROGRAMS = sorted((Path(__file__).parents[2] / "notebooks" / "programs").glob("*.nc"))
 MOST = 300_000
 """KB that a program of 1,000,000 lines may take; one of 200,000 takes no more than a part of it."""
 

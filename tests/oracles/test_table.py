@@ -12,7 +12,7 @@ from click.testing import CliRunner
 
 from contoursolve.cli import main
 
-TABLES = Path(__file__).parent / "cases" / "tables"
+TABLES = Path(__file__).parent / "tables"
 LETTERS = "ABCDIKPQUWXZ"
 EQUATIONS = "AIKBXUZW"
 NOT_MIXED = ("XU", "ZW", "CP", "DQ")

@@ -16,7 +16,7 @@ from contoursolve.cli import main
 from contoursolve.output.contours import path_table
 from contoursolve.output.report import report_page
 
-PROGRAMS = sorted((Path(__file__).parent.parent / "notebooks" / "programs").glob("*.nc"))
+PROGRAMS = sorted((Path(__file__).parents[2] / "notebooks" / "programs").glob("*.nc"))
 BROKEN = next(path for path in PROGRAMS if path.stem == "shaft_broken")
 HOSTILE = "</style><script>alert(1)</script><img src=x onerror=alert(1)> &amp; \" ' \u202e \x07"
 VOID = ("meta",)
