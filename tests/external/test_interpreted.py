@@ -7,7 +7,7 @@ from random import Random
 from typing import NamedTuple
 
 import pytest
-from examples import some_of
+from examples import few_and_many, some_of
 from fanuc import read
 from generate_lx3 import FORMS as ARC_FORMS
 from generate_lx3 import random_g11, random_g112
@@ -127,10 +127,10 @@ def test_every_form_of_both_controls_is_among_the_programs():
     assert len(drawings()) >= AT_LEAST
 
 
-def expanded(post: str, arcs: str) -> list[str]:
-    """The programs for a target, and that it knows all that is in them."""
+def expanded(post: str, arcs: str, stride: int = 1) -> list[str]:
+    """The programs for a target, one in so many of them, and that it knows all that is in them."""
     programs = []
-    for each in drawings():
+    for each in drawings()[::stride]:
         expansion = contoursolve.expand(each.text, post=post, arcs=arcs, control=each.control)
         assert expansion.text is not None, (each.text, expansion.summary.left)
         text = expansion.text
@@ -176,9 +176,10 @@ def test_linuxcnc_runs_every_program_where_it_was_drawn(post, arcs, tmp_path):
         assert_path(motions[1:], path, within(each, post))
 
 
-@some_of("arcs", ["center", "radius"], one_in=2)
-def test_a_fanuc_control_runs_every_program_where_it_was_drawn(arcs):
-    for each, text in zip(drawings(), expanded("fanuc", arcs), strict=True):
+@pytest.mark.parametrize("arcs", ["center", "radius"])
+@few_and_many(5, 1, "stride")
+def test_a_fanuc_control_runs_every_program_where_it_was_drawn(arcs, stride):
+    for each, text in zip(drawings()[::stride], expanded("fanuc", arcs, stride), strict=True):
         motions = list(read(text, is_lathe=each.control == LX3))
         path = [(part.start, part.end, part.center, part.turn) for part in each.path]
         assert_path(motions[1:], path, within(each, "fanuc"))

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from record import GROUPS, Case, load, run
 
-STRIDE = 100
+STRIDE = 150
 """Of the records, one in so many is compared by default, and all in the slow part."""
 
 CASES = [

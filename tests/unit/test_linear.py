@@ -146,7 +146,7 @@ def hold_against_length(shape: tuple[str, str, str], short: int, control: str) -
 @some_of(
     ("shape", "short"),
     [pytest.param(*each.values, id=each.id, marks=[pytest.mark.slow] * (each.id in LONG_JUDGED)) for each in EVERY],
-    one_in=6,
+    one_in=10,
 )
 def test_time_goes_by_the_length_of_a_line(shape, short):
     hold_against_length(shape, short, "yasnac-lx3")
