@@ -312,14 +312,18 @@ def explain_result(
     if event.kind is RefusalKind.CORNERS_OVERLAP:
         rooms = _rooms(event, values, words, profile)
         labels = [label for _, label in rooms]
-        told = [advice for advice, _ in rooms if advice]
-        if rooms and not any(advice.startswith("write") for advice in told):
-            told += _for_both(values, profile.unit)
-        fields["smaller"] = ", or ".join(told) or f"make the corners smaller by {fields['off']} of it in all"
+        smaller = _smaller([advice for advice, _ in rooms if advice], values, profile) if rooms else ""
+        fields["smaller"] = smaller or f"make the corners smaller by {fields['off']} of it in all"
     finding = report(context, context.row(event.kind), Basis.NUMERICAL, words, values, labels, **fields)
     if isinstance(event, Refusal):
         finding = _with_what_helps(finding, event, values, asked, profile)
     return replace(finding, notes=notes)
+
+
+def _smaller(told: list[str], values: Mapping[str, float], profile: Profile) -> str:
+    """How to make corners that overlap smaller: one of them, or both."""
+    is_told = any(advice.startswith("write") for advice in told)
+    return ", or ".join([*told, *(() if is_told else _for_both(values, profile.unit))])
 
 
 def _with_what_helps(

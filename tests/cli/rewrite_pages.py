@@ -1,5 +1,5 @@
 """Writes what the commands of README.md and docs/ print now into these pages, and the pictures that they draw:
-`python tests/rewrite_pages.py`."""
+`python tests/cli/rewrite_pages.py`."""
 
 from pathlib import Path
 from tempfile import TemporaryDirectory
