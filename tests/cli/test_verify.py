@@ -1172,7 +1172,7 @@ def some(every: int) -> list[Any]:
     return [pytest.param(name, marks=[pytest.mark.slow] * (n % every > 0)) for n, name in enumerate(CLAIMS)]
 
 
-@pytest.mark.parametrize("name", some(6))
+@pytest.mark.parametrize("name", some(12))
 def test_what_solve_says_is_right(desk, name):
     result = solved(desk, name)
     receipt = desk.receipt(result)

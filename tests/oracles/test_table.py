@@ -90,6 +90,7 @@ def free_and_tied(letters: frozenset[str]) -> tuple[frozenset[str], frozenset[st
     return frozenset(free), frozenset(tied)
 
 
+@pytest.mark.slow
 def test_tables_are_the_reviewed_ones():
     assert tables() == {path.stem: path.read_text(encoding="utf-8") for path in TABLES.glob("*.txt")}
 

@@ -10,7 +10,7 @@ import flint
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from examples import some_of
+from examples import few_and_many, some_of
 
 import contoursolve
 from contoursolve.cli import main
@@ -166,8 +166,9 @@ def test_a_grid_has_an_axis_for_each_word_and_the_rows_of_its_columns():
     assert sum(grid.summary().values()) == len(grid) == a.size * p.size
 
 
-def test_the_number_of_threads_changes_nothing():
-    vary = {"A": np.linspace(90, 270, 400), "P": np.linspace(0, 30, 200)}
+@few_and_many(100, 400)
+def test_the_number_of_threads_changes_nothing(count):
+    vary = {"A": np.linspace(90, 270, count), "P": np.linspace(0, 30, count // 2)}
     one, two = (family(BLOCK, start=START, vary=vary, workers=workers) for workers in (1, 2))
     for name in one.names:
         assert one[name].tobytes() == two[name].tobytes(), name

@@ -281,19 +281,23 @@ def test_ranges_and_regions_without_an_end_or_a_contour_are_drawn():
         assert "figure" in Page(data[HTML]).tags
 
 
-def test_questions_are_told_as_the_terminal_tells_them():
+@some_of(
+    ("name", "arguments"),
+    [
+        ("range", ("range", "--word", "P")),
+        ("region", ("range", "--word", "A", "--word", "P", "--within", "150:210", "--within", "1:60")),
+        ("found", ("find", "--word", "B", "--bring", "end Z-50.")),
+        ("tolerances", ("sensitivity", "--tolerance", "A=0.1", "--tolerance", "K=0.02")),
+    ],
+    only=("range", "tolerances"),
+)
+def test_questions_are_told_as_the_terminal_tells_them(name, arguments):
     from click.testing import CliRunner  # noqa: PLC0415
 
     from contoursolve.cli import main  # noqa: PLC0415
 
-    for name, arguments in {
-        "range": ("range", "--word", "P"),
-        "region": ("range", "--word", "A", "--word", "P", "--within", "150:210", "--within", "1:60"),
-        "found": ("find", "--word", "B", "--bring", "end Z-50."),
-        "tolerances": ("sensitivity", "--tolerance", "A=0.1", "--tolerance", "K=0.02"),
-    }.items():
-        printed = CliRunner().invoke(main, [*arguments, "--block", WHOLE, "--start", "X40. Z0."]).output
-        assert QUESTIONS[name](WHOLE, {"start": "X40. Z0."})._repr_mimebundle_()[TEXT] == printed.rstrip()
+    printed = CliRunner().invoke(main, [*arguments, "--block", WHOLE, "--start", "X40. Z0."]).output
+    assert QUESTIONS[name](WHOLE, {"start": "X40. Z0."})._repr_mimebundle_()[TEXT] == printed.rstrip()
 
 
 @pytest.mark.slow
