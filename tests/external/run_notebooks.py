@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 
 FOLDER = Path(__file__).parents[2] / "notebooks"
 NOTEBOOKS = sorted(FOLDER.glob("*.ipynb"))
+CHECKS = Path(__file__).parent / "notebook_checks"
+"""What must hold after each notebook, by its number; a reader of the notebook does not need it."""
+
 SECONDS = 300
 """For one cell, on a loaded machine."""
 
@@ -32,6 +35,8 @@ def execute(path: Path) -> "nbformat.NotebookNode":
     from nbclient import NotebookClient  # noqa: PLC0415
 
     notebook = nbformat.read(path, as_version=4)
+    check = nbformat.v4.new_code_cell((CHECKS / f"check_{path.name[:2]}.py").read_text(encoding="utf-8"))
+    notebook.cells.append(check)
     client = NotebookClient(
         notebook,
         timeout=SECONDS,
@@ -42,6 +47,7 @@ def execute(path: Path) -> "nbformat.NotebookNode":
         store_widget_state=False,
     )
     client.execute()
+    notebook.cells.remove(check)
     notebook.metadata["language_info"] = {"name": "python"}
     for cell in notebook.cells:
         for output in cell.get("outputs", ()):

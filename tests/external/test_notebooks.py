@@ -3,13 +3,14 @@
 import difflib
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 from interpreter import RS274
-from run_notebooks import NOTEBOOKS
+from run_notebooks import CHECKS, NOTEBOOKS
 
 RUNNER = Path(__file__).parent / "run_notebooks.py"
 NAMES = ["01", "02", "03", "04", "05", "06", "07"]
@@ -68,7 +69,7 @@ def test_a_notebook_runs_and_shows_what_this_version_gives(path, executed):
 
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
-def test_a_notebook_is_small_tells_nothing_of_a_machine_and_ends_with_asserts(path):
+def test_a_notebook_is_small_tells_nothing_of_a_machine_is_checked_and_says_what_comes_next(path):
     text, notebook = path.read_text(encoding="utf-8"), read(path)
     assert len(text.encode()) < MOST_BYTES
     code = [cell for cell in notebook["cells"] if cell["cell_type"] == "code"]
@@ -76,7 +77,12 @@ def test_a_notebook_is_small_tells_nothing_of_a_machine_and_ends_with_asserts(pa
     assert len({cell["id"] for cell in notebook["cells"]}) == len(notebook["cells"])
     assert set(notebook["metadata"]) == {"kernelspec", "language_info"}
     assert {output.get("name") for cell in code for output in cell["outputs"]} <= {None, "stdout"}
-    assert any(line.lstrip().startswith("assert ") for line in code[-1]["source"])
+    assert "\nassert " in (CHECKS / f"check_{path.name[:2]}.py").read_text(encoding="utf-8")
+    last = "".join(notebook["cells"][-1]["source"])
+    assert "Next" in last
+    assert all((path.parent / link).is_file() for link in re.findall(r"\]\((.*?)\)", last))
+    rooms = re.findall(r"`((?:contoursolve|tests|notebooks)/[\w./]+)`", text)
+    assert all((path.parents[1] / each).exists() for each in rooms), rooms
     assert notebook["cells"][0]["source"][0].startswith("# ")
     assert "?" in "".join(notebook["cells"][0]["source"])
     for private in (str(Path.home()), str(Path.cwd()), " at 0x", "site-packages"):

@@ -1,0 +1,30 @@
+"""What must hold after notebook 04 has run, in its kernel."""
+
+from math import atan2, cos, degrees, radians, tan
+
+# By hand: at A180. line 1 is 30 mm long, and a rounding takes P * tan(30 deg) of it.
+rounding = contoursolve.feasible(BLOCK, "P", start=START)
+assert abs(rounding.intervals[0].high.value - 30 / tan(radians(30))) < 1e-9
+assert rounding.is_complete
+
+# By hand, for other A: line 1 is 30 / cos(180 - A) long, and the corner turns by A - 120.
+limit = next(each for each in region.boundaries if "line 1" in each.reason.text)
+for A, P in limit.points:
+    assert abs(P * tan(radians(A - 120) / 2) - 30 / cos(radians(180 - A))) < 1e-6
+assert region.is_complete
+
+# The map says the same: in the row A180., the rounding fits up to there and no further.
+row = family["status"][(values["A"] == 180).argmax()]
+assert ((row == 0) == (values["P"] <= 30 / tan(radians(30)))).all()
+
+# By hand: line 2 ends 5 * tan(30 deg) before Z-50., and so begins 0.359 mm above X40.
+rise = 30 - tan(radians(60)) * (20 - 5 * tan(radians(30)))
+assert abs(wanted.hits[0].value - (180 - degrees(atan2(rise, 30)))) < 1e-9
+assert (len(wanted.hits), wanted.is_complete) == (1, True)
+
+# By hand: V1 moves by 30 mm a radian of A, and line 2 then ends 30 / tan(60 deg) sooner; X moves only with X.
+slopes = {each.word: each.slope for each in off.effects}
+assert abs(slopes["A"][0] + radians(30) / tan(radians(60))) < 1e-9
+assert abs(slopes["X"][1] - 0.5) < 1e-9  # X is a diameter
+assert abs(slopes["K"][0] - 1) < 1e-9
+assert slopes["P"] == (0, 0)

@@ -1,0 +1,16 @@
+"""What must hold after notebook 05 has run, in its kernel."""
+
+assert expansion.summary.left == []
+assert expansion.summary.unfamiliar == []
+assert expansion.summary.deviation < 1e-4
+assert all(answer.status.value == "solved" for answer in result.answers)
+
+# By hand: the line at 120 degrees goes from Y-10 to Y20, so it ends 30 / tan(60 deg) to the left of X60.
+assert "G01 X42.6795 Y20" in after
+
+if motions is not None:
+    ways = [(x, y) for _, x, y in motions]
+    for answer in result.answers:
+        for element in answer.contour.elements:
+            x, y = element.end
+            assert min(max(abs(x - at[0]), abs(y - at[1])) for at in ways) < 2e-4
