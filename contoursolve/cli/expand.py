@@ -31,6 +31,7 @@ from contoursolve.gcode import UnreadableProgramError
 from contoursolve.gcode.files import CannotWriteError, Tape, check_target, open_tape, tape_of, write_whole
 from contoursolve.geometry import Length
 from contoursolve.output.findings import Style, finding_lines, plain
+from contoursolve.output.listing import without_repeated
 from contoursolve.postprocess.expansion_report import Options, Summary
 from contoursolve.postprocess.post_processors import POSTS, Arcs, Numbering, Post, Risk
 from contoursolve.postprocess.rewrite import Rewritten, rewrite
@@ -290,7 +291,7 @@ def _report_left(summary: Summary, name: str, style: Style) -> None:
     for left in summary.left:
         if all(finding.severity is not Severity.ERROR for finding in left.diagnostics):
             say(f"{style('error', 'error')}: line {left.lines[0]}: {left.reason}", err=True)
-        for finding in left.diagnostics:
+        for finding in without_repeated(left.diagnostics):
             here = tuple(label for label in finding.labels if label.span.line in left.sources)
             lines = finding_lines(replace(finding, labels=here), name, left.sources, style)
             say("\n".join(lines), err=True)

@@ -95,7 +95,7 @@ def finding_pieces(
             lines += [[(f"{' ' * (gutter + 4)} {line}", "")] for line in shown]
     if len(finding.fixes) > len(fixes):
         more = len(finding.fixes) - len(fixes)
-        lines.append([*foot, (f" {count(more, 'more fix', 'more fixes')}: --explain lists all", "")])
+        lines.append([*foot, (f" {count(more, 'more fix', 'more fixes')}: contoursolve check --explain lists all", "")])
     if is_explained or finding.source.is_of_manual:
         lines.append([*foot, (f" source: {finding.source}", "")])
     if finding.alarm:

@@ -62,11 +62,14 @@ def findings_of(item: Answer | Diagnostic, *, is_explained: bool = True) -> tupl
     """The findings about a contour, unless they are explained without what repeats an error; a finding itself."""
     if not isinstance(item, Answer):
         return (item,)
-    if is_explained:
-        return item.diagnostics
-    errors = [each for each in item.diagnostics if each.severity is Severity.ERROR]
-    waits = any(each.about in _WAITS for each in item.diagnostics)
-    return tuple(each for each in item.diagnostics if not _is_repeated(each, errors, waits=waits))
+    return item.diagnostics if is_explained else without_repeated(item.diagnostics)
+
+
+def without_repeated(findings: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:
+    """The findings about one contour without those that say what another one says."""
+    errors = [each for each in findings if each.severity is Severity.ERROR]
+    waits = any(each.about in _WAITS for each in findings)
+    return tuple(each for each in findings if not _is_repeated(each, errors, waits=waits))
 
 
 _WAITS = (ReadIssue.START_ASSUMED, ReadIssue.CONTOUR_WAITS)
@@ -190,12 +193,15 @@ class Totals(Struct, frozen=True):
         """What was examined in some programs, and what was found."""
         total, statuses = self.statuses.total(), statuses_text(self.statuses)
         found = ", ".join(count(self.severities[each], each.value) for each in Severity if self.severities[each])
-        each_status = statuses.partition(" ")[2] if len(+self.statuses) == 1 else ""
-        told = f"{count(total, 'contour')} {each_status}" if each_status else f"{count(total, 'contour')}: {statuses}"
         number = self.waiting.total()
-        several = f"{count(programs, 'program')}, " if programs > 1 else ""
         waiting = f"; {count(number, 'contour waits', 'contours wait')} for an end point" if number else ""
-        return f"{several}{told if total else 'no contour examined'}; {found or 'no problems'}{waiting}"
+        several = f"{count(programs, 'program')}, " if programs > 1 else ""
+        told = f"{found or 'no problems'}{waiting}"
+        if not total:
+            return f"{several}no contour examined; {told}"
+        if len(+self.statuses) > 1:
+            return f"{several}{count(total, 'contour')}: {statuses}; {told}"
+        return f"{several}{count(total, 'contour')} {statuses.partition(' ')[2]}, {told}"
 
 
 def _tally(result: Result, *, is_explained: bool) -> Totals:

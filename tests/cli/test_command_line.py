@@ -151,7 +151,7 @@ def test_text_of_a_solved_block_has_words_points_elements_and_a_summary():
         ("corner 2", "G03", "-50.2073", "100.0000"),
     ):
         assert any(all(word in line for word in words) for line in output.splitlines()), words
-    assert output.splitlines()[-1] == "1 contour solved; no problems"
+    assert output.splitlines()[-1] == "1 contour solved, no problems"
 
 
 def test_text_of_a_refused_block_marks_the_word_and_says_what_to_do():
@@ -841,7 +841,7 @@ def test_contours_behind_a_refused_one_are_checked_from_where_its_best_fix_ends(
     assert "checked from Z-35.7735 X60.0000 mm, where the best fix of line 2 ends" in output
     # The same findings as with the best fixes written.
     mended = [line.replace("P50.", "P20.").replace("Q300.", "Q20.") for line in lines]
-    assert run("check", save("\n".join(mended)))[1] == "4 contours solved; no problems\n"
+    assert run("check", save("\n".join(mended)))[1] == "4 contours solved, no problems\n"
 
 
 def test_contours_of_which_nobody_knows_where_they_begin_are_counted(save):

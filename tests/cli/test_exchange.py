@@ -170,9 +170,9 @@ def test_fail_on_never_still_tells_that_it_could_not_run(save):
 
 def test_summary_of_several_files_tells_nothing_found_from_nothing_examined(save):
     clean, nothing, broken = save(CLEAN, "1.nc"), save(NOTHING, "2.nc"), save(BROKEN, "3.nc")
-    assert check(clean).output == "1 contour solved; no problems\n"
+    assert check(clean).output == "1 contour solved, no problems\n"
     assert check(nothing).output.splitlines()[-1] == "no contour examined; 1 warning"
-    assert check(clean, clean).output == "2 programs, 2 contours solved; no problems\n"
+    assert check(clean, clean).output == "2 programs, 2 contours solved, no problems\n"
     last = check(clean, nothing, broken).output.splitlines()[-1]
     assert last == "3 programs, 3 contours: 2 solved, 1 without a solution; 1 error, 2 warnings"
 
