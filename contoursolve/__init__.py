@@ -26,6 +26,7 @@ if TYPE_CHECKING:
         solve_program,
     )
     from contoursolve.diagnosis.examine import Answer, Depth, Policy
+    from contoursolve.diagnosis.solutions import Listing, list_solutions
     from contoursolve.diagnostics.extras import MissingExtraError
     from contoursolve.diagnostics.finding import Basis, Diagnosis, Diagnostic, Severity
     from contoursolve.families import (
@@ -45,6 +46,7 @@ if TYPE_CHECKING:
     )
     from contoursolve.gcode import Block, Program, Word
     from contoursolve.notebook import explore
+    from contoursolve.output.construction import construction_lines
     from contoursolve.postprocess.expansion_report import Expansion
     from contoursolve.program.pipeline import Result
     from contoursolve.program.recognise import UnknownControlError
@@ -75,6 +77,7 @@ __all__ = [
     "Feasible",
     "Found",
     "LineSegment",
+    "Listing",
     "MissingExtraError",
     "Policy",
     "Program",
@@ -91,11 +94,13 @@ __all__ = [
     "check",
     "check_file",
     "completions",
+    "construction_lines",
     "expand",
     "explore",
     "family",
     "feasible",
     "find_word",
+    "list_solutions",
     "parse",
     "read_program",
     "region",
@@ -112,7 +117,9 @@ _ROOMS = {
     "diagnostics.finding": ("Basis", "Diagnosis", "Diagnostic", "Severity"),
     "controls": ("Dialect",),
     "diagnosis.examine": ("Answer", "Depth", "Policy"),
+    "diagnosis.solutions": ("Listing", "list_solutions"),
     "diagnostics.extras": ("MissingExtraError",),
+    "output.construction": ("construction_lines",),
     "postprocess.expansion_report": ("Expansion",),
     "families": (
         "Family",

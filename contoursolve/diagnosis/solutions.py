@@ -58,7 +58,21 @@ class Listing(Struct, frozen=True):
 
 
 def list_solutions(answer: Answer) -> Listing | None:
-    """The solutions of a contour; None if nothing was solved."""
+    """Every solution of a contour, each with what selects it and how sure it is.
+
+    Args:
+        answer: one of `Result.answers`.
+
+    Returns:
+        `solutions`, whether these are all (`is_complete`) and by which method, `doubts` where they may not be, and what
+        chose the control's own. None if nothing was solved.
+
+    >>> import contoursolve
+    >>> answer = contoursolve.solve("G111 X100. A180. K-30. B120. P5. Q5.", start="X40. Z0.").answers[0]
+    >>> listing = list_solutions(answer)
+    >>> len(listing.solutions), listing.is_complete
+    (1, True)
+    """
     alternatives = list_alternatives(answer)
     if alternatives is None:
         if answer.contour is None or answer.certificate is None:
