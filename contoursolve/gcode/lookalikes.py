@@ -101,7 +101,8 @@ def mended(word: str) -> str:
 
 def _equals(number: str, _: str) -> str:
     """No equals sign behind the address, which other controls have."""
-    return number.lstrip().removeprefix("=").lstrip() if number.lstrip().startswith("=") else number
+    text = number.lstrip()
+    return text[1:].lstrip() if text.startswith("=") else number
 
 
 def _sign(number: str, _: str) -> str:

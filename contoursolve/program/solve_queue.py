@@ -14,8 +14,9 @@ from contoursolve.diagnosis.wording import join, measured
 from contoursolve.diagnostics.finding import Applicability, Basis, Diagnostic, Severity
 from contoursolve.gcode import Block, Passage, parse_block
 from contoursolve.program.stream import View
-from contoursolve.reading import Awaited, Modes, ParsedContour, Position, ReadIssue, State, advance, leave
+from contoursolve.reading import Awaited, Modes, ParsedContour, Position, ReadIssue, State, leave
 from contoursolve.reading.dialect import Dialect
+from contoursolve.reading.follow import End, contours_of
 from contoursolve.solving.contour import Contour
 
 
@@ -98,7 +99,7 @@ class Queue:
                 else self.together.solve([claim for _, claim in claimed], each_alone)
             )
             for (each, claim), answer in zip(claimed, answers, strict=True):
-                step, origin = each.step, _awaited(claim, answer)
+                step, origin = each.step, _awaited(claim, answer) if answer.contour is None else None
                 told, tried = self._check_on(each, answer) if self.goes_on and origin else (answer, answer)
                 end = partial(self._end_of_fix, tried) if self.goes_on else _nowhere
                 each.left = cache(partial(_after, claim, self.dialect.modes, answer, origin, end))
@@ -133,7 +134,7 @@ class Queue:
             diagnostics=(*answer.diagnostics, start, *(each for each in others if each not in answer.diagnostics)),
         )
 
-    def _end_of_fix(self, answer: Answer) -> tuple[float, float] | None:
+    def _end_of_fix(self, answer: Answer) -> End:
         """Where a contour ends, mm: its own end, or with the first fix of its first error that leaves nothing open."""
         if answer.contour is not None:
             return answer.contour.end
@@ -142,18 +143,18 @@ class Queue:
         fix = next(fixes, None)
         if fix is None or not answer.start.is_known:
             return None
-        claim, modes, index = answer.claim, self.dialect.modes, 0
-        blocks = [parse_block(text, claim.blocks[0].line) for text in fix.replacement.split("\n")]
-        state, end = claim.before, None
-        while index < len(blocks):
-            found = self.dialect.find(blocks, index, state, modes)
-            if isinstance(found, ParsedContour):
-                contour = examine(found, self.dialect.rules, Policy.ENFORCE, lambda: None, Depth.VERDICT).contour
-                end = contour.end if contour else None
-                state, index = leave(found, end, modes), index + len(found.blocks)
-            else:
-                state, index = advance(state, blocks[index], modes), index + 1
-        return end
+        claim, ends = answer.claim, list[End]()
+        texts = enumerate(fix.replacement.split("\n"), claim.blocks[0].line)
+        blocks = [parse_block(text, line) for line, text in texts]
+
+        def end_of(found: ParsedContour) -> End:
+            contour = examine(found, self.dialect.rules, Policy.ENFORCE, lambda: None, Depth.VERDICT).contour
+            ends.append(contour.end if contour else None)
+            return ends[-1]
+
+        for _ in contours_of(blocks, self.dialect.find, self.dialect.modes, claim.before, end_of=end_of):
+            pass
+        return ends[-1] if ends else None
 
     def _behind(
         self, each: Pending, form: str, contour: Contour | None, left: Callable[[], State]
@@ -194,7 +195,7 @@ def _after(
     modes: Modes,
     answer: Answer,
     origin: Position | None,
-    find_end: Callable[[], tuple[float, float] | None],
+    find_end: Callable[[], End],
 ) -> State:
     """The state that a contour leaves; `origin` is what made its start unknown, `find_end` finds where its best fix
     ends."""
