@@ -1,9 +1,7 @@
 """The NCT 99M and 2000M milling controls, from chapter 16 of their Programmer's Manual."""
 
 from contoursolve.controls.common import COMMON_RULES
-from contoursolve.controls.nct_99m.chain import FORMS
-from contoursolve.controls.nct_99m.claim import SETTINGS
-from contoursolve.controls.nct_99m.find import find
+from contoursolve.controls.nct_99m.language import FIND, FORMS, SETTINGS
 from contoursolve.controls.nct_99m.lexicon import CODES, MODES, XY, YZ, ZX
 from contoursolve.controls.nct_99m.rules import COMBINATION_RULES, GEOMETRY_RULES
 from contoursolve.gcode import Block, Word
@@ -42,7 +40,7 @@ NCT_99M = Dialect(
     plane=XY,
     forms=FORMS,
     rules=COMMON_RULES + COMBINATION_RULES + GEOMETRY_RULES,
-    find=find,
+    find=FIND,
     signs=_signs,
     contours="blocks with ,A ,C or ,R, arcs with R, and blocks over-defined by ,A or by end, centre and R",
     settings=SETTINGS,

@@ -2,10 +2,20 @@
 
 from decimal import Decimal
 
-from msgspec import Struct
-
+from contoursolve.controls.chain.language import (
+    ARC,
+    FEED,
+    FOLLOWED,
+    LINE,
+    NEGATIVE_RADIUS,
+    ON_PARALLEL_AXES,
+    ONE_CENTER,
+    OVER_CIRCLE,
+    OVER_LINE,
+    STATED_POINT,
+)
 from contoursolve.diagnostics.source import Evidence, Source
-from contoursolve.geometry import Length, Plane, Turn, Unit
+from contoursolve.geometry import Length, Plane, Unit
 from contoursolve.reading import Address, Assumption, Code, Effect, Lexicon, Modes, NumberFormat, WithoutPoint
 from contoursolve.reading.rules import Condition, Value, some
 
@@ -84,67 +94,13 @@ MODES = Modes(
     calls=frozenset({98, 99}),
 )
 
-
-LINE, ARC = "line", "arc"
-OVER_LINE, OVER_CIRCLE = "over-defined line", "over-defined circle"
-"""The roles of single blocks."""
-LINE_LINE, LINE_CIRCLE, CIRCLE_LINE, CIRCLE_CIRCLE = "line-line", "line-circle", "circle-line", "circle-circle"
-"""The roles of two blocks that meet in a computed intersection (16.3.1 to 16.3.4)."""
-
-ALONE, OTHER_PLANE, RAPID = "@alone", "@other-plane", "@rapid"
 UNCOMPENSATED, UNCOMPENSATED_FREE = "@uncompensated", "@uncompensated-free"
 """Over-defined without compensation where that is required, and where a setting frees it."""
-FOLLOWED = "@followed"
-"""The next block is over-defined, so that this one ends in a computed intersection."""
-LAST = "@last"
-"""No G1, G2 or G3 block follows."""
-FEED, NEGATIVE_RADIUS, ONE_CENTER = "@feed", "@negative-radius", "@one-center"
-"""A feed in the block; an over-defined circle with a negative R; one of the two distances to the centre."""
-ON_PARALLEL_AXES = "@parallel"
-"""A parallel axis stands for an axis of the plane."""
-ONLY = "@only"
-"""The only block of its contour."""
+
 BESIDE = tuple(f"beside-{axis}" for axis in AXES)
 """Words that move an axis outside the plane, each with its axis."""
-ORDINARY = "@ordinary"
-"""The control calculates nothing for it."""
-
-POINT = "point"
-"""Stated as soon as a block that ends in an intersection has a coordinate: then it states a point of its element."""
-
-AIMED = "aimed"
-"""Stated instead of it if the same line has an angle, too: both then say where it runs."""
 
 CHAMFER, ROUNDING = ",C", ",R"
-
-
-class Element(Struct, frozen=True):
-    """One block: a line, or an arc of a sense.
-
-    `is_over` tells that it is over-defined: it begins in a computed intersection, and what it states is absolute.
-    `is_followed` tells that the next block is, so that it ends in one.
-    """
-
-    turn: Turn | None
-    is_over: bool
-    is_followed: bool
-
-    @property
-    def role(self) -> str:
-        """Which rules speak about it."""
-        if self.turn is None:
-            return OVER_LINE if self.is_over else LINE
-        return OVER_CIRCLE if self.is_over else ARC
-
-
-def pair_role(first: Element, second: Element) -> str:
-    """Which rules speak about two blocks that meet in a computed intersection."""
-    if first.turn is None:
-        return LINE_LINE if second.turn is None else LINE_CIRCLE
-    return CIRCLE_LINE if second.turn is None else CIRCLE_CIRCLE
-
-
-_POINT = ("first", "first-step", "second", "second-step")
 
 
 def _row(name: str, meaning: str, place: str, roles: tuple[str, ...], when: Condition) -> Assumption:
@@ -157,7 +113,7 @@ ASSUMPTIONS = (
         "the point of a circle that has I, J or K may be left out before an over-defined block",
         "16.3.3, p. 129: the format has a point",
         (ARC,),
-        some("center-first", "center-second") & ~some(*_POINT) & some(FOLLOWED),
+        some("center-first", "center-second") & ~some(*STATED_POINT) & some(FOLLOWED),
     ),
     _row(
         "sign-of-radius",

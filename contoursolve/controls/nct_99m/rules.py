@@ -2,10 +2,9 @@
 
 from decimal import Decimal
 
-from contoursolve.controls.nct_99m.lexicon import (
+from contoursolve.controls.chain.language import (
     ALONE,
     ARC,
-    BESIDE,
     CIRCLE_CIRCLE,
     CIRCLE_LINE,
     FOLLOWED,
@@ -13,16 +12,16 @@ from contoursolve.controls.nct_99m.lexicon import (
     LINE,
     LINE_CIRCLE,
     LINE_LINE,
-    MANUAL,
     ONLY,
     ORDINARY,
     OTHER_PLANE,
     OVER_CIRCLE,
     OVER_LINE,
     RAPID,
-    SINGLE_BLOCK,
-    UNCOMPENSATED,
+    STATED_CENTER,
+    STATED_POINT,
 )
+from contoursolve.controls.nct_99m.lexicon import BESIDE, MANUAL, SINGLE_BLOCK, UNCOMPENSATED
 from contoursolve.diagnostics.finding import Alarm, Severity
 from contoursolve.diagnostics.source import Evidence, Source
 from contoursolve.reading import ReadIssue
@@ -44,9 +43,6 @@ _CIRCLES = _START + "G3 X-50 Y0 I-50 J0\nG3 X-40 Y60 I-40 J20 R40 Q-1"
 _CUT = "G17 G90 G0 X0 Y0\nG1 X30 ,C10\nX40 Y40"
 _ROUNDED = "G17 G90 G0 X0 Y0\nG1 X30 ,R8\nG3 X0 Y30 R30"
 _BY_ANGLE = "G17 G90 G0 X0 Y0\nG1 X30 ,A45"
-
-_CENTERS = ("center-first", "center-second")
-_POINT = ("first", "first-step", "second", "second-step")
 
 
 def _manual(place: str, evidence: Evidence = Evidence.PRINTED) -> Source:
@@ -128,7 +124,7 @@ COMBINATION_RULES = (
         "begins where the block before it ends",
         source=_manual("p. 128, 16.3.2", Evidence.DERIVED),
         roles=(OVER_CIRCLE,),
-        when=some("Q") & ~all_of("first", "second", *_CENTERS, "R"),
+        when=some("Q") & ~all_of("first", "second", *STATED_CENTER, "R"),
         accepted=(_TO_CIRCLE,),
         rejected=tuple(_TO_CIRCLE.replace(word, "") for word in (" R50", " J-10", " X20")),
     ),
@@ -160,7 +156,7 @@ COMBINATION_RULES = (
         source=_manual("p. 26 (4.3): alarm 3014"),
         alarm=_CIRCLE,
         roles=(ARC,),
-        when=at_most(0, _CENTERS, "R"),
+        when=at_most(0, STATED_CENTER, "R"),
         accepted=(_GOOD, _CENTERED),
         rejected=(_START + "G3 X-50 Y0\n" + _LINE, _START + "G3 X-50 Y0"),
     ),
@@ -170,7 +166,7 @@ COMBINATION_RULES = (
         help="keep one of them; to begin it in an intersection (16.3), give its end, its centre (absolute), R and Q",
         source=_manual("16.3.3, p. 129"),
         roles=(ARC,),
-        when=all_of(_CENTERS, "R") & ~some(ALONE),
+        when=all_of(STATED_CENTER, "R") & ~some(ALONE),
         accepted=(_GOOD, _CENTERED, _TO_CIRCLE),
         rejected=(_START + "G3 X-50 I-50 J0 R50\n" + _LINE,),
     ),
@@ -181,7 +177,7 @@ COMBINATION_RULES = (
         source=_manual("p. 26 (4.3): alarm 3012"),
         alarm=_CIRCLE_R,
         roles=(ARC,),
-        when=some("R") & ~some(*_POINT),
+        when=some("R") & ~some(*STATED_POINT),
         accepted=(_GOOD,),
         rejected=(_START + "G3 R50\n" + _LINE, _START + "G3 R50"),
     ),
@@ -212,7 +208,7 @@ COMBINATION_RULES = (
         help="delete it; a rounding is ,R",
         source=_manual("16.3: the formats", Evidence.DERIVED),
         roles=(LINE, OVER_LINE),
-        when=some(*_CENTERS, "wrong-center", "R"),
+        when=some(*STATED_CENTER, "wrong-center", "R"),
         accepted=(_GOOD,),
         rejected=(_GOOD + " R5",),
     ),
@@ -255,7 +251,7 @@ COMBINATION_RULES = (
         help="keep ,A alone, or the point alone",
         source=_manual("16.3.1: the formats of N1", Evidence.DERIVED),
         roles=(LINE,),
-        when=all_of(",A", _POINT) & some(FOLLOWED),
+        when=all_of(",A", STATED_POINT) & some(FOLLOWED),
         accepted=(_LINES, _LINES.replace("G1 ,A150", "G1 X50 Y33.094")),
         rejected=(_LINES.replace("G1 ,A150", "G1 X50 ,A150"),),
     ),
@@ -265,7 +261,7 @@ COMBINATION_RULES = (
         help="add ,A or a point of the line",
         source=_manual("16.3.1: the formats of N1", Evidence.DERIVED),
         roles=(LINE,),
-        when=at_most(0, ",A", _POINT) & some(FOLLOWED),
+        when=at_most(0, ",A", STATED_POINT) & some(FOLLOWED),
         accepted=(_LINES,),
         rejected=(_LINES.replace("G1 ,A150", "G1 ,C5"),),
     ),
@@ -276,7 +272,7 @@ COMBINATION_RULES = (
         "line by both coordinates and ,A, an arc by its end, its centre and R",
         source=_manual("16.2, p. 120"),
         roles=(LINE,),
-        when=some(",A") & ~some(*_POINT) & ~some(FOLLOWED),
+        when=some(",A") & ~some(*STATED_POINT) & ~some(FOLLOWED),
         accepted=(_BY_ANGLE, _LINES),
         rejected=("G17 G90 G0 X0 Y0\nG1 ,A45", _LINES.replace("Y20 ", "")),
     ),

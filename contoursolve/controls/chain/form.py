@@ -1,70 +1,30 @@
-"""NCT chapter 16: the forms, composed of their elements: any number of blocks in a row that are solved together."""
+"""The forms of a language: any number of blocks in a row that are solved together, composed of their elements."""
 
 from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from itertools import pairwise
 
 from msgspec import Struct
-from msgspec.structs import replace
 
-from contoursolve.controls.nct_99m.lexicon import (
-    AIMED,
-    ASSUMPTIONS,
-    AXES,
-    CHAMFER,
-    CIRCLE_CIRCLE,
-    CIRCLE_LINE,
-    LINE_CIRCLE,
-    LINE_LINE,
-    POINT,
-    ROUNDING,
-    SINGLE_BLOCK,
-    Element,
-    pair_role,
-)
+from contoursolve.controls.chain.language import AIMED, LINE_LINE, POINT, Element, Joining, Language, pair_role
 from contoursolve.geometry import (
     FIRST,
     SECOND,
     Arc,
     Collinear,
     Coordinate,
-    CornerShape,
     Heading,
     Line,
     Offset,
     OnCircle,
     Radius,
     Role,
-    Turn,
 )
-from contoursolve.reading import ContourForm, CornerRow, FactRow, Sample
-from contoursolve.tolerance import RADIUS_DIFFERENCE
+from contoursolve.reading import ContourForm, CornerRow, FactRow, Modes
 
 START = "S"
 
-ALLOWED = frozenset({"N", "G", "F", "S", "T", "M", "D", "H", *AXES, "I", "J", "K", "R", ",A", ",C", ",R", "Q"})
-
 _ORDERS = (("first", FIRST), ("second", SECOND))
-
-_TITLES = {
-    LINE_LINE: "linear-linear intersection",
-    LINE_CIRCLE: "linear-circular intersection",
-    CIRCLE_LINE: "circular-linear intersection",
-    CIRCLE_CIRCLE: "circular-circular intersection",
-    "line-angle": "line by its angle and one coordinate",
-    "corners": "chamfers and roundings",
-    "chain": "chain of intersections",
-    "arc": "arc",
-}
-
-
-_SIGNS = {
-    LINE_LINE: "chooses nothing",
-    LINE_CIRCLE: "which intersection along the line before: negative the nearer, positive the farther",
-    CIRCLE_LINE: "which intersection along the line: negative the nearer, positive the farther",
-    CIRCLE_CIRCLE: "which intersection of the two circles",
-}
-"""What the sign of Q chooses."""
 
 
 class Names(Struct, frozen=True):
@@ -110,19 +70,27 @@ def names_of(elements: Sequence[Element]) -> tuple[Names, ...]:
     return tuple(found)
 
 
+def compose(language: Language, elements: tuple[Element, ...], modes: Modes) -> ContourForm:
+    """The form of blocks in a row with the settings of a control: by how much the radii at two points of an arc may
+    differ, whether the intersections of two circles count clockwise, whether lines must run as their angles say."""
+    return _compose(
+        language, elements, modes.radius_difference, language.counts_clockwise(modes), language.is_ray(modes)
+    )
+
+
 @lru_cache(maxsize=4096)
-def compose(elements: tuple[Element, ...], slack: float, *, counts_clockwise: bool) -> ContourForm:
-    """The form of blocks in a row, where the radii at two points of an arc may differ by so much (mm), and where Q of
-    two circles may count clockwise."""
+def _compose(
+    language: Language, elements: tuple[Element, ...], slack: float, counts_clockwise: bool, is_ray: bool
+) -> ContourForm:
     names = names_of(elements)
     name = _form_name(elements)
     pairs = list(zip(pairwise(elements), pairwise(names), strict=True))
     meeting = [(pair_role(*blocks), each) for blocks, each in pairs if blocks[1].is_over]
-    facts = (*_stated(elements, names, slack), *_checked(elements, names, slack))
+    facts = (*_stated(language, elements, names, slack), *_checked(elements, names, slack))
     arcs = [each for element, each in zip(elements, names, strict=True) if element.turn is not None]
     return ContourForm(
         name=name,
-        title=_TITLES[name],
+        title=language.titles[name],
         roles=(
             *(Role(element.role, (each.prefix,)) for element, each in zip(elements, names, strict=True)),
             *(Role(role, (first.prefix, second.prefix)) for role, (first, second) in meeting),
@@ -132,7 +100,7 @@ def compose(elements: tuple[Element, ...], slack: float, *, counts_clockwise: bo
         radii=tuple(each.radius for each in arcs),
         facts=facts,
         path=tuple(
-            _path(element, each, counts_clockwise=counts_clockwise)
+            _path(language, element, each, counts_clockwise=counts_clockwise, is_ray=is_ray)
             for element, each in zip(elements, names, strict=True)
         ),
         corners=tuple(
@@ -141,23 +109,27 @@ def compose(elements: tuple[Element, ...], slack: float, *, counts_clockwise: bo
                 first.head,
                 first.element,
                 second.element,
-                {
-                    f"{first.prefix}{CHAMFER}": CornerShape.CHAMFER_SETBACK,
-                    f"{first.prefix}{ROUNDING}": CornerShape.FILLET,
-                },
+                {f"{first.prefix}{word}": shape for word, shape in language.corners.items()},
             )
             for number, (first, second) in enumerate(pairwise(names), 1)
         ),
         intersections=tuple(each.head for each in names[:-1]),
-        allowed=ALLOWED,
-        combinations=tuple(_combinations(element, each.prefix) for element, each in zip(elements, names, strict=True)),
-        choices=tuple(f"{second.prefix}Q" for role, (_, second) in meeting if role != LINE_LINE),
-        sample=_SAMPLES.get(elements),
-        meanings=dict(_meanings(elements, names)),
-        corner_note=SINGLE_BLOCK,
-        assumptions=ASSUMPTIONS,
+        allowed=language.allowed,
+        combinations=tuple(
+            _combinations(language, element, each.prefix) for element, each in zip(elements, names, strict=True)
+        ),
+        choices=tuple(f"{second.prefix}{language.selector}" for role, (_, second) in meeting if role != LINE_LINE),
+        sample=language.samples.get(elements),
+        meanings=dict(_meanings(language, elements, names)),
+        corner_note=language.corner_note,
+        assumptions=language.assumptions,
         is_contour=name != "arc",
     )
+
+
+def forms_of(language: Language, modes: Modes) -> tuple[ContourForm, ...]:
+    """A form of each kind, for tables."""
+    return tuple(compose(language, elements, modes) for elements in language.samples)
 
 
 def _form_name(elements: Sequence[Element]) -> str:
@@ -168,18 +140,19 @@ def _form_name(elements: Sequence[Element]) -> str:
     return pair_role(*elements) if len(elements) == 2 else "chain"  # noqa: PLR2004 - a pair
 
 
-def _path(element: Element, names: Names, *, counts_clockwise: bool) -> Line | Arc:
+def _path(language: Language, element: Element, names: Names, *, counts_clockwise: bool, is_ray: bool) -> Line | Arc:
     if element.turn is None:
         toward = names.own if element.is_followed and not element.is_over else None
-        return Line(names.element, names.tail, names.head, f"{names.prefix},A", toward)
+        heading = f"{names.prefix}{language.angle}" if is_ray else None
+        return Line(names.element, names.tail, names.head, heading, toward)
     counts = counts_clockwise and element.is_over
     return Arc(names.element, names.tail, names.head, names.center, names.radius, element.turn, counts)
 
 
-def _stated(elements: Sequence[Element], names: Sequence[Names], slack: float) -> Iterator[FactRow]:
+def _stated(language: Language, elements: Sequence[Element], names: Sequence[Names], slack: float) -> Iterator[FactRow]:
     """What the blocks state, in the order in which it is believed."""
     for element, each in zip(elements, names, strict=True):
-        yield from _own_facts(element, each)
+        yield from _own_facts(language, element, each)
     for element, each in zip(elements, names, strict=True):
         if element.turn is not None:
             for point in (each.tail, each.head)[: 1 + element.is_followed]:
@@ -194,7 +167,7 @@ def _checked(elements: Sequence[Element], names: Sequence[Names], slack: float) 
             yield FactRow(OnCircle(each.own, each.center, each.radius, slack=slack), needs)
 
 
-def _own_facts(element: Element, names: Names) -> Iterator[FactRow]:
+def _own_facts(language: Language, element: Element, names: Names) -> Iterator[FactRow]:
     q = names.prefix
     if element.turn is not None:
         for order, axis in _ORDERS:
@@ -208,10 +181,10 @@ def _own_facts(element: Element, names: Names) -> Iterator[FactRow]:
         yield FactRow(Radius(f"{q}R", names.radius), (f"{q}R",))
     for order, axis in _ORDERS:
         yield FactRow(Coordinate(f"{q}{order}", names.own, axis), (f"{q}{order}",))
-        if not element.is_over:
+        if not element.is_over or language.joining is Joining.OPEN:
             yield FactRow(Offset(f"{q}{order}-step", names.own, names.tail, axis), (f"{q}{order}-step",))
     if element.turn is None:
-        angle = f"{q},A"
+        angle = f"{q}{language.angle}"
         if element.is_over:
             yield FactRow(Heading(angle, names.tail, names.own), (angle,))
             if element.is_followed:
@@ -223,16 +196,17 @@ def _own_facts(element: Element, names: Names) -> Iterator[FactRow]:
                 yield FactRow(Collinear(names.tail, names.own, names.head), (q + POINT,))
 
 
-def _combinations(element: Element, prefix: str) -> tuple[tuple[str, ...], ...]:
+def _combinations(language: Language, element: Element, prefix: str) -> tuple[tuple[str, ...], ...]:
     """What a block may state, as far as the equations tell it apart."""
     point = (POINT,) if element.is_followed and not element.is_over else ()
     ends = tuple((first, second, *point) for first in _ways("first", element) for second in _ways("second", element))
     if element.turn is None:
-        one = ((name, ",A") for order, _ in _ORDERS for name in _ways(order, element))
+        angle = language.angle
+        one = ((name, angle) for order, _ in _ORDERS for name in _ways(order, element))
         aimed = (AIMED,) if element.is_followed else ()
-        options = (*ends, (",A",), *((*ways, *aimed) for ways in one))
+        options = (*ends, (angle,), *((*ways, *aimed) for ways in one))
         if element.is_over:
-            options = (("first", "second", ",A"),)
+            options = (("first", "second", angle),)
     elif element.is_over:
         options = (("center-first", "center-second", "R", "first", "second"),)
     else:
@@ -245,7 +219,7 @@ def _ways(order: str, element: Element) -> tuple[str, ...]:
     return (order,) if element.is_over else (order, f"{order}-step")
 
 
-def _meanings(elements: Sequence[Element], names: Sequence[Names]) -> Iterator[tuple[str, str]]:
+def _meanings(language: Language, elements: Sequence[Element], names: Sequence[Names]) -> Iterator[tuple[str, str]]:
     for element, each in zip(elements, names, strict=True):
         thing = "line" if element.turn is None else "circle"
         numbered = each.element if each.element[-1].isdigit() else f"the {each.element}"
@@ -258,33 +232,5 @@ def _meanings(elements: Sequence[Element], names: Sequence[Names]) -> Iterator[t
         if element.turn is not None and element.is_over:
             yield f"{each.prefix}R", "radius"
     for (before, after), (_, each) in zip(pairwise(elements), pairwise(names), strict=True):
-        if after.is_over:
-            yield f"{each.prefix}Q", _SIGNS[pair_role(before, after)]
-
-
-_LINE, _ARC = Element(None, False, False), Element(Turn.CCW, False, False)
-_TO_LINE, _TO_ARC = replace(_LINE, is_followed=True), replace(_ARC, is_followed=True)
-_OVER_LINE, _OVER_CIRCLE = replace(_LINE, is_over=True), replace(_ARC, is_over=True)
-_FROM = "G17 G90 G41 G0 X50 Y0"
-
-_N1_ARC = "G3 {X-50.0} {Y0} {I-50} {J0} {R50} {,C2} {,R2}"
-
-_SAMPLES: dict[tuple[Element, ...], Sample] = {
-    (_LINE,): Sample(_FROM, ("G1 {X90} {Y40.0} ,A45",)),
-    (_LINE, _ARC): Sample(_FROM, ("G1 {X80} {Y0} {,A0} {,C2} ,R8", "G3 X50 {Y30} {I-30} {J0} {R30}")),
-    (_TO_LINE, _OVER_LINE): Sample(
-        "G17 G90 G41 G0 X90 Y10", ("G1 {X50} {Y33.094} {,A150} {,C2} {,R2}", "G1 X10 Y20 ,A225 {Q1}")
-    ),
-    (_TO_LINE, _OVER_CIRCLE): Sample(
-        "G17 G90 G42 G0 X100 Y20", ("G1 {X-30} {Y-20} {,A197.103} {,C2} {,R2}", "G3 X20 Y40 I20 J-10 R50 {Q-1}")
-    ),
-    (_TO_ARC, _OVER_LINE): Sample(_FROM, (_N1_ARC, "G1 X-50 Y42.857 ,A171.87 {Q-1}")),
-    (_TO_ARC, _OVER_CIRCLE): Sample(_FROM, (_N1_ARC, "G3 X-40 Y60 I-40 J20 R40 {Q-1}")),
-    (_TO_LINE, replace(_OVER_LINE, is_followed=True), _OVER_CIRCLE): Sample(
-        "G17 G90 G41 G0 X90 Y10",
-        ("G1 {X50} {Y33.094} {,A150} {,R2}", "G1 X10 Y20 ,A225 {Q1.0} {,C2}", "G3 X-40 Y-20 I-20 J-20 R20 {Q1}"),
-    ),
-}
-"""Programs for the tables of words, one for each kind of form."""
-
-FORMS = tuple(compose(elements, RADIUS_DIFFERENCE, counts_clockwise=False) for elements in _SAMPLES)
+        if after.is_over and language.selector:
+            yield f"{each.prefix}{language.selector}", language.selects[pair_role(before, after)]

@@ -1,0 +1,11 @@
+"""Contours of lines and arcs in a row, one element a block, as most controls write them.
+
+A `Language` of a control comes in: its words, and what makes two blocks meet in a computed intersection. Its reader and
+its forms go out. Begin with `language`.
+"""
+
+from contoursolve.controls.chain.find import ChainFinder
+from contoursolve.controls.chain.form import compose, forms_of
+from contoursolve.controls.chain.language import Element, Joining, Language, Member, pair_role
+
+__all__ = ["ChainFinder", "Element", "Joining", "Language", "Member", "compose", "forms_of", "pair_role"]

@@ -1,0 +1,210 @@
+"""What the blocks of a contour state, with what the control supplies, and what their signs choose."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from decimal import Decimal
+
+from msgspec.structs import replace
+
+from contoursolve.controls.chain.form import Names, compose, names_of
+from contoursolve.controls.chain.language import (
+    AIMED,
+    ALONE,
+    FEED,
+    FOLLOWED,
+    LAST,
+    LINE_LINE,
+    NEGATIVE_RADIUS,
+    ON_PARALLEL_AXES,
+    ONE_CENTER,
+    ONLY,
+    ORDINARY,
+    OTHER_PLANE,
+    POINT,
+    RAPID,
+    Element,
+    Joining,
+    Language,
+    Member,
+    pair_role,
+)
+from contoursolve.gcode import Word
+from contoursolve.geometry import Choice, Given, Side, Turn, Unit
+from contoursolve.reading import Modes, ParsedContour, Selector, State
+
+
+def claim_of(language: Language, members: Sequence[Member], before: State, modes: Modes) -> ParsedContour:
+    """The contour of blocks in a row."""
+    elements = tuple(member.element for member in members)
+    form = compose(language, elements, modes)
+    names = names_of(elements)
+    first = members[0].here
+    words: dict[str, Word] = {}
+    repeated: list[Word] = []
+    givens: dict[str, Given] = {}
+    vocabulary: dict[str, tuple[str, int]] = {}
+    circumstances: set[str] = set()
+    for index, member in enumerate(members):
+        called = _calls(language, member)
+        prefix = f"{index + 1}:"
+        vocabulary |= {prefix + name: (address, index) for address, name in called.items()}
+        own: dict[str, Word] = {}
+        for word in member.block.words:
+            code = word.number if word.address == "G" else ""
+            name = called.get(word.address, f"{word.address}{code}")
+            if name in own and word.address != "M":
+                repeated.append(word)
+            own.setdefault(name, word)
+        own_givens = _givens(language, own, member, modes)
+        words |= {prefix + name: word for name, word in own.items()}
+        givens |= {prefix + name: replace(given, name=prefix + name) for name, given in own_givens.items()}
+        since = (before, *(each.here for each in members))[max(index - 1, 0) : index + 2]
+        holds = {
+            *_circumstances(language, member, first, is_only=len(members) == 1),
+            *language.circumstances(member, since, modes),
+        }
+        circumstances |= {prefix + name for name in holds}
+    known = {name: word for name, word in words.items() if word.address in modes.lexicon.addresses}
+    return ParsedContour(
+        form=form,
+        lexicon=modes.lexicon,
+        blocks=tuple(member.block for member in members),
+        before=replace(before, plane=first.plane, unit=first.unit),
+        after=members[-1].here,
+        words=known,
+        givens=givens,
+        vocabulary=vocabulary,
+        unknown=tuple(word for word in words.values() if word.address not in form.allowed),
+        repeated=tuple(repeated),
+        circumstances=frozenset(circumstances),
+        choices=tuple(_choices(language, elements, names, known, modes)),
+        selectors=tuple(_selectors(language, elements, names, known, modes)),
+        is_end_absolute=elements[-1].is_over,
+        selected=language.planes.get(members[-1].here.plane.code),
+        conventions=tuple(language.conventions(form, circumstances, modes)),
+    )
+
+
+def _calls(language: Language, member: Member) -> dict[str, str]:
+    """What a block's addresses state, without the number of the block."""
+    plane, addresses = member.here.plane, language.lexicon.addresses
+    is_absolute = member.element.is_over and language.joining is Joining.OVER_DEFINED
+    called = {address: address for address, row in addresses.items() if not row.axis}
+    centers = {center: f"center-{order}" for center, order in zip(plane.centers, _ORDERS, strict=True)}
+    called |= {address: centers.get(address, "wrong-center") for address in ("I", "J", "K") if address in addresses}
+    called |= {address: f"beside-{address}" for address, row in addresses.items() if row.axis not in ("", *plane.axes)}
+    for axis, order in zip(plane.axes, _ORDERS, strict=True):
+        for address, row in addresses.items():
+            if row.axis == axis:
+                is_step = row.is_increment or (member.here.is_incremental and not is_absolute)
+                called[address] = order + ("-step" if is_step else "")
+    return called
+
+
+_ORDERS = ("first", "second")
+
+
+def _givens(language: Language, words: Mapping[str, Word], member: Member, modes: Modes) -> dict[str, Given]:
+    """The values of a block's words, with those that the control supplies. R counts by its size: its sign picks the
+    centre of an ordinary arc, and means nothing in an over-defined circle (assumed)."""
+    stated = {
+        name: given
+        for name, word in words.items()
+        if word.address in modes.lexicon.addresses
+        for given in (modes.lexicon.given(name, word, member.here.unit),)
+        if given is not None
+    }
+    if "R" in stated:
+        stated["R"] = replace(stated["R"], value=abs(stated["R"].value))
+    asked = {name.removesuffix("-step") for name, word in words.items() if word.is_asked}
+    element = member.element
+    if element.is_over:
+        return stated
+    if element.turn is not None:
+        stated |= _supplied("center-", "", stated, asked)
+    ends = {name.removesuffix("-step") for name in stated} & {*_ORDERS}
+    is_partial = element.turn is None and language.angle in words
+    if not is_partial and (ends or not element.is_followed):
+        stated |= _supplied("", "-step", stated, asked, is_always=not element.is_followed)
+    if ends and element.is_followed:
+        name = AIMED if element.turn is None and language.angle in stated else POINT
+        stated[name] = Given(name, Decimal(0), Unit.SIGN, None)
+    return stated
+
+
+def _supplied(
+    what: str, suffix: str, stated: Mapping[str, Given], asked: set[str], *, is_always: bool = False
+) -> dict[str, Given]:
+    """Of a pair, the missing one is no distance from where the element begins (assumed, as for every circle)."""
+    names = [what + order for order in _ORDERS]
+    present = {name.removesuffix("-step") for name in stated} | asked
+    missing = [name for name in names if name not in present]
+    if len(missing) == len(names) and not is_always:
+        return {}
+    return {name + suffix: Given(name + suffix, Decimal(0), Unit.MM, None) for name in missing}
+
+
+def _circumstances(language: Language, member: Member, first: State, *, is_only: bool) -> Iterator[str]:
+    radius = member.block.find("R")
+    is_negative = radius is not None and radius.number is not None and radius.number < 0
+    centers = sum(member.block.find(address) is not None for address in first.plane.centers)
+    holds = {
+        FEED: member.block.find("F") is not None,
+        NEGATIVE_RADIUS: member.element.is_over and is_negative,
+        ONE_CENTER: member.element.turn is not None and not member.element.is_over and centers == 1,
+        ALONE: member.is_alone,
+        OTHER_PLANE: member.here.plane != first.plane,
+        RAPID: member.here.motion == 0,
+        FOLLOWED: member.element.is_followed,
+        LAST: member.is_last,
+        ONLY: is_only,
+        ON_PARALLEL_AXES: member.here.plane.axes != _own_axes(language, member.here),
+        ORDINARY: is_only and member.element.turn is not None,
+    }
+    return (name for name, is_true in holds.items() if is_true)
+
+
+def _own_axes(language: Language, state: State) -> tuple[str, str]:
+    plane = language.planes.get(state.plane.code, state.plane)
+    return plane.axes
+
+
+def _choices(
+    language: Language, elements: Sequence[Element], names: Sequence[Names], words: Mapping[str, Word], modes: Modes
+) -> Iterator[Choice]:
+    """R's sign picks the centre of an ordinary arc: the shorter arc for a positive one. Q's sign picks the
+    intersection in which its block begins."""
+    previous: Element | None = None
+    for element, each in zip(elements, names, strict=True):
+        radius, sign = f"{each.prefix}R", f"{each.prefix}{language.selector}"
+        size = words[radius].number if radius in words else None
+        if element.turn is not None and not element.is_over and size is not None:
+            yield Choice(each.center, _center_side(element.turn, is_short=size > 0), radius)
+        chosen = words[sign].number if sign in words else None
+        if previous is not None and element.is_over and chosen:
+            role = pair_role(previous, element)
+            if role != LINE_LINE and language.choose_side is not None:
+                yield Choice(each.tail, language.choose_side(role, chosen < 0, modes), sign)
+        previous = element
+
+
+def _center_side(turn: Turn, *, is_short: bool) -> Side:
+    return Side.LEFT if is_short == (turn is Turn.CCW) else Side.RIGHT
+
+
+def _selectors(
+    language: Language, elements: Sequence[Element], names: Sequence[Names], words: Mapping[str, Word], modes: Modes
+) -> Iterator[Selector]:
+    """Q chooses an intersection, and the sign of a stated R a centre."""
+    previous: Element | None = None
+    for element, each in zip(elements, names, strict=True):
+        role = pair_role(previous, element) if previous is not None and element.is_over else LINE_LINE
+        if role != LINE_LINE and language.choose_side is not None:
+            for is_negative, number in ((True, "-1"), (False, "1")):
+                side = language.choose_side(role, is_negative, modes)
+                yield Selector(each.tail, side, f"{language.selector}{number}")
+        word = words.get(f"{each.prefix}R")
+        if element.turn is not None and not element.is_over and word is not None and word.number is not None:
+            size = word.text.lstrip("Rr +-")
+            yield Selector(each.center, _center_side(element.turn, is_short=True), f"R{size}")
+            yield Selector(each.center, _center_side(element.turn, is_short=False), f"R-{size}")
+        previous = element

@@ -1,0 +1,148 @@
+"""How a control writes lines and arcs in a row, and the names that its rules and assumptions use."""
+
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from enum import Enum
+
+from msgspec import Struct
+
+from contoursolve.gcode import Block
+from contoursolve.geometry import CornerShape, Plane, Side, Turn
+from contoursolve.reading import Assumption, ContourForm, Convention, Lexicon, Modes, Sample, State
+
+LINE, ARC = "line", "arc"
+OVER_LINE, OVER_CIRCLE = "over-defined line", "over-defined circle"
+"""The roles of single blocks; the over-defined ones begin in a computed intersection."""
+LINE_LINE, LINE_CIRCLE, CIRCLE_LINE, CIRCLE_CIRCLE = "line-line", "line-circle", "circle-line", "circle-circle"
+"""The roles of two blocks that meet in a computed intersection."""
+
+ALONE, OTHER_PLANE, RAPID = "@alone", "@other-plane", "@rapid"
+FOLLOWED = "@followed"
+"""This block ends in a computed intersection with the next one."""
+LAST = "@last"
+"""It has a corner, and no G1, G2 or G3 block follows."""
+FEED, NEGATIVE_RADIUS, ONE_CENTER = "@feed", "@negative-radius", "@one-center"
+"""A feed in the block; an over-defined circle with a negative R; one of the two distances to the centre."""
+ON_PARALLEL_AXES = "@parallel"
+"""A parallel axis stands for an axis of the plane."""
+ONLY = "@only"
+"""The only block of its contour."""
+ORDINARY = "@ordinary"
+"""The control calculates nothing for it."""
+
+POINT = "point"
+"""Stated as soon as a block that ends in an intersection has a coordinate: then it states a point of its element."""
+AIMED = "aimed"
+"""Stated instead of it if the same line has an angle, too: both then say where it runs."""
+
+STATED_POINT = ("first", "first-step", "second", "second-step")
+STATED_CENTER = ("center-first", "center-second")
+"""What a block's coordinates and its I, J and K are called, by the axes of the plane; steps are increments."""
+
+
+class Element(Struct, frozen=True):
+    """One block: a line, or an arc of a sense.
+
+    `is_over` tells that it begins in a computed intersection, `is_followed` that it ends in one.
+    """
+
+    turn: Turn | None
+    is_over: bool
+    is_followed: bool
+
+    @property
+    def role(self) -> str:
+        """Which rules speak about it."""
+        if self.turn is None:
+            return OVER_LINE if self.is_over else LINE
+        return OVER_CIRCLE if self.is_over else ARC
+
+
+def pair_role(first: Element, second: Element) -> str:
+    """Which rules speak about two blocks that meet in a computed intersection."""
+    if first.turn is None:
+        return LINE_LINE if second.turn is None else LINE_CIRCLE
+    return CIRCLE_LINE if second.turn is None else CIRCLE_CIRCLE
+
+
+class Member(Struct, frozen=True):
+    """One block of a contour: its element, the states before and after its G codes, whether it can stand here."""
+
+    block: Block
+    element: Element
+    before: State
+    here: State
+    is_alone: bool = False
+    """Over-defined, but no G1, G2 or G3 block is right before it."""
+    is_last: bool = False
+    """No G1, G2 or G3 block follows."""
+
+
+class Joining(Enum):
+    """What makes two blocks meet in a computed intersection."""
+
+    OVER_DEFINED = "the second block states more than an element from a known point needs"
+    OPEN = "the first block is a line by its angle alone"
+
+
+def _nothing(*_: object) -> Iterable[str]:
+    return ()
+
+
+def _no_conventions(*_: object) -> Iterable[Convention]:
+    return ()
+
+
+def _never(_: Modes) -> bool:
+    return False
+
+
+def _always(_: Modes) -> bool:
+    return True
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Language:
+    """How a control writes lines and arcs in a row.
+
+    `planes` by their G code; `allowed` are the addresses that may stand in a block of a contour; `corners` the shape
+    that each corner word gives the corner behind its block. `titles` are those of forms, by role or form name.
+    """
+
+    lexicon: Lexicon
+    planes: Mapping[str, Plane]
+    allowed: frozenset[str]
+    joining: Joining
+    titles: Mapping[str, str]
+    angle: str = ",A"
+    corners: Mapping[str, CornerShape] = field(
+        default_factory=lambda: {",C": CornerShape.CHAMFER_SETBACK, ",R": CornerShape.FILLET}
+    )
+    selector: str = ""
+    """The address whose sign chooses an intersection."""
+    selects: Mapping[str, str] = field(default_factory=dict)
+    """What it chooses, by the role of two blocks."""
+    parallel: Mapping[str, str] = field(default_factory=dict)
+    """The parallel axis of each axis, where it may stand beside an angle."""
+    checks_arcs: bool = False
+    """Whether an arc for which the control calculates nothing is checked, too."""
+    corner_note: str = ""
+    """What the control does at each corner that it inserts, half a sentence without a full stop."""
+    assumptions: tuple[Assumption, ...] = ()
+    samples: Mapping[tuple[Element, ...], Sample] = field(default_factory=dict)
+    """Programs for the tables of words, one for each kind of form."""
+    circumstances: Callable[[Member, Sequence[State], Modes], Iterable[str]] = _nothing
+    """(member, states before the block before it, before it and behind it, modes) to what else holds of it."""
+    conventions: Callable[[ContourForm, Collection[str], Modes], Iterable[Convention]] = _no_conventions
+    """(form, circumstances, modes) to the settings on which the reading rests."""
+    choose_side: Callable[[str, bool, Modes], Side] | None = None
+    """(role of two blocks, whether the selector is negative, modes) to the intersection that it chooses."""
+    counts_clockwise: Callable[[Modes], bool] = _never
+    """Whether the intersections of two circles count clockwise along the first."""
+    is_ray: Callable[[Modes], bool] = _always
+    """Whether an angle is the direction of travel; else a line may run against it, too."""
+
+    @property
+    def axes(self) -> tuple[str, ...]:
+        """The addresses of its axes, and of increments along them."""
+        return tuple(row.address for row in self.lexicon.addresses.values() if row.axis)
