@@ -99,7 +99,7 @@ def words_table(answer: Answer) -> h.Element:
 
 def path_element(answer: Answer) -> h.Element | None:
     """Every named point and every element of the path, in the unit and the axes of the program."""
-    return table_of(path_table(answer)) if answer.contour is not None else None
+    return table_of(path_table(answer.contour, answer.unit)) if answer.contour is not None else None
 
 
 def solutions_table(answer: Answer) -> Iterator[h.Node]:

@@ -225,7 +225,11 @@ def test_families_rules_and_paths_show_themselves():
     assert SVG not in alone._repr_mimebundle_()
     check(alone._repr_mimebundle_())
     contour = contoursolve.solve(WHOLE, start="X40. Z0.").answers[0].contour
-    assert "-50.2073" in "".join(check(contour._repr_mimebundle_()).words)
+    words = check(contour._repr_mimebundle_()).words
+    assert {"-50.2073", "X dia [mm]", "100.0000"} <= {*words}  # as the control writes X
+    slopes = contoursolve.sensitivity(WHOLE, start="X40. Z0.")
+    (row,) = (line.split() for line in str(slopes).split("\n") if "V2.X" in line)
+    assert (row[:3], slopes.slopes["V2.X"]["X"]) == (["V2.X", "dia", "1.0000"], 0.5)
     for dialect in DIALECTS.values():
         for rule in dialect.rules:
             assert rule.code in "".join(check(rule._repr_mimebundle_()).words)
