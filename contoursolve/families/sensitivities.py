@@ -19,7 +19,7 @@ from contoursolve.families.case_classes import CaseClass, case_in, half_circles,
 from contoursolve.families.free_words import check_block, factor_of
 from contoursolve.families.spec import BlockOptions, FamilyError, call, first_error, spec_of
 from contoursolve.gcode import Word
-from contoursolve.geometry import Given, Profile, System, Unit, assemble
+from contoursolve.geometry import Given, Plane, Profile, System, Unit, assemble
 from contoursolve.numeric.angle import direction
 from contoursolve.numeric.expressions import Compiled, Tape
 from contoursolve.numeric.inputs import COSINE, SIDE, SINE, lookup
@@ -49,9 +49,10 @@ class Spread(Struct, frozen=True):
 class Sensitivity(Shown, Struct, frozen=True):
     """The derivatives of a contour: `slopes[result][word]` in mm for each unit of the word as it is written, so that a
     diameter counts as such; NaN where a word parts two places that have become one, as in a half circle. The results
-    have the names that they have in a `Family`."""
+    have the names that they have in a `Family`, X of a lathe as radius."""
 
     slopes: Mapping[str, Mapping[str, float]]
+    plane: Plane
 
     def spread(self, tolerances: Mapping[str, float]) -> dict[str, Spread]:
         """How far each result moves when the words are off by up to these tolerances, as written. Raises FamilyError
@@ -117,7 +118,7 @@ def slopes_of(answer: Answer) -> Sensitivity:
     values = {name: float(word.number or 0) for name, word in words.items()}
     case = case_in(answer, words, values)
     if not case.is_closed or case.profile.is_extended:
-        return Sensitivity(_implicit(answer, words))
+        return Sensitivity(_implicit(answer, words), answer.plane)
     _check(case.solve(values) if case.status is None else None, answer)
     inputs = {name: value for name, value in case.numbers().items() if name in case.machine.tape.inputs}
     outputs, singular = results_of(case), _singular(case, inputs)
@@ -126,7 +127,8 @@ def slopes_of(answer: Answer) -> Sensitivity:
         (case.profile.givens[name], each.word, nan if each.word in singular else float(each.factor))
         for name, each in case.free.items()
     ]
-    return Sensitivity({result: _by_word(rates[output], stated, words) for result, (output, _) in outputs.items()})
+    slopes = {result: _by_word(rates[output], stated, words) for result, (output, _) in outputs.items()}
+    return Sensitivity(slopes, answer.plane)
 
 
 def _slopes(tape: Tape, outputs: Sequence[str], inputs: Mapping[str, float]) -> Rates:

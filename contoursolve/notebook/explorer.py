@@ -87,13 +87,7 @@ class Explorer(anywidget.AnyWidget):
         return {**view, "number": number, "trouble": trouble, "is_new": is_new, "frames": frames}
 
     def _repr_mimebundle_(self, **options: Any) -> tuple[dict[str, Any], dict[str, Any]]:
-        """The widget, and beside it for whoever has no kernel the picture of the contour and its text.
-
-        HTML is only there where nothing can be drawn: viewers prefer it, and some take pictures out of it.
-        """
+        """The widget, and beside it for whoever has no kernel the picture of the contour and its text."""
         shown = super()._repr_mimebundle_(**options)
         data, metadata = shown if isinstance(shown, tuple) else (shown or {}, {})
-        static = bundle(self._exploration.answer or self._exploration.result)
-        if "image/svg+xml" in static:
-            static.pop("text/html", None)
-        return {**data, **static}, metadata
+        return {**data, **bundle(self._exploration.answer or self._exploration.result)}, metadata

@@ -161,8 +161,8 @@ def _solutions(answer: Answer) -> Data:
 
 def _path(answer: Answer) -> list[Sequence[str]]:
     """The table of the path, its header first."""
-    path = path_table(answer)
-    return [path.header, *path.rows] if path.rows else []
+    path = path_table(answer.contour, answer.unit) if answer.contour is not None else None
+    return [path.header, *path.rows] if path else []
 
 
 # Ranges ------------------------------------------------------------------------------------------------------

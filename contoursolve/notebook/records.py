@@ -1,7 +1,7 @@
 """Records as a notebook shows them: the terminal's text always, HTML and a picture where they can be made."""
 
 import sys
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from importlib import import_module
 from itertools import islice
 from math import isnan
@@ -15,14 +15,14 @@ from contoursolve.diagnostics.finding import Diagnosis, Diagnostic
 from contoursolve.families import Family, Feasible, Found, Region, Sensitivity, Tolerances
 from contoursolve.gcode import Block, Program, Word
 from contoursolve.output.catalogue import rule_lines
-from contoursolve.output.contours import check_table
+from contoursolve.output.contours import check_table, path_table
 from contoursolve.output.families import found_lines, range_lines, region_lines, tolerances_lines
 from contoursolve.output.findings import finding_lines, plain
 from contoursolve.output.listing import closing_lines, listing_lines
 from contoursolve.output.plain_text import Table, printable
 from contoursolve.program.pipeline import Result
 from contoursolve.reading.rules import Rule
-from contoursolve.solving.contour import ArcSegment, Contour
+from contoursolve.solving.contour import Contour
 
 MOST_ROWS = 200
 """Rows of a table."""
@@ -145,25 +145,7 @@ def diagnosis_tables(diagnosis: Diagnosis) -> Iterator[Table]:
 
 
 def _contour(contour: Contour) -> list[str]:
-    return contour_table(contour).lines("")
-
-
-def contour_table(contour: Contour) -> Table:
-    """The named points and the elements with their end points, in mm, X of a lathe as radius."""
-    names = axis_labels(contour.plane, "radius")
-    header = ("element", "kind", *(f"{name} [mm]" for name in names), *(f"center {name}" for name in names), "radius")
-
-    def row(name: str, kind: str, *values: float) -> tuple[str, ...]:
-        return (name, kind, *(f"{value:.4f}" for value in values), *[""] * (len(header) - 2 - len(values)))
-
-    rows = [row(name, "point", *at) for name, at in contour.points.items()]
-    rows.append(row("start", "", *contour.start))
-    for each in contour.elements:
-        if isinstance(each, ArcSegment):
-            rows.append(row(each.name, f"arc {each.turn.value}", *each.end, *each.center, each.radius))
-        else:
-            rows.append(row(each.name, "line", *each.end))
-    return Table("The path", header, rows, left=(0, 1))
+    return path_table(contour).lines("")
 
 
 def _block(block: Block) -> Iterator[str]:
@@ -227,12 +209,17 @@ def _sensitivity(found: Sensitivity) -> Iterator[str]:
 
 
 def slope_table(found: Sensitivity) -> Table:
-    """By how much each word moves each result; `none` where no derivative exists."""
-    words = next(iter(found.slopes.values()), {})
-    rows = [
-        (result, *("none" if isnan(slope) else f"{slope + 0.0:.4f}" for slope in slopes.values()))
-        for result, slopes in islice(found.slopes.items(), MOST_ROWS)
-    ]
+    """By how much each word moves each result, as the control writes it; `none` where no derivative exists."""
+    words, plane = next(iter(found.slopes.values()), {}), found.plane
+    axes = dict(zip(plane.axes, zip(axis_labels(plane), plane.diameters, strict=True), strict=True))
+
+    def row(result: str, slopes: Mapping[str, float]) -> tuple[str, ...]:
+        head, dot, axis = result.rpartition(".")
+        label, is_diameter = axes.get(axis, (axis, False))
+        moved = (slope * (2 if is_diameter else 1) + 0.0 for slope in slopes.values())
+        return (f"{head}{dot}{label}", *("none" if isnan(each) else f"{each:.4f}" for each in moved))
+
+    rows = [row(*each) for each in islice(found.slopes.items(), MOST_ROWS)]
     return Table("how far each result moves, mm for each unit of a word as it is written", ("result", *words), rows)
 
 

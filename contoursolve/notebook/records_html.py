@@ -15,7 +15,6 @@ from contoursolve.families import Family, Feasible, Found, Region, Sensitivity, 
 from contoursolve.gcode import Block
 from contoursolve.notebook.records import (
     bounded,
-    contour_table,
     controls_of,
     diagnosis_tables,
     family_tables,
@@ -24,7 +23,7 @@ from contoursolve.notebook.records import (
     text_of,
     word_table,
 )
-from contoursolve.output.contours import check_table, form_text
+from contoursolve.output.contours import check_table, form_text, path_table
 from contoursolve.output.families import (
     effect_table,
     found_table,
@@ -118,7 +117,7 @@ def _diagnosis(diagnosis: Diagnosis) -> Iterator[h.Node]:
 
 
 def _contour(contour: Contour) -> h.Node:
-    return table_of(contour_table(contour))
+    return table_of(path_table(contour))
 
 
 def _block(block: Block) -> Iterator[h.Node]:

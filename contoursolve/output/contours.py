@@ -14,7 +14,7 @@ from contoursolve.geometry import Length, Turn, Unit
 from contoursolve.output.plain_text import Table, columns, printable
 from contoursolve.program.pipeline import Result
 from contoursolve.reading import ContourForm, Convention
-from contoursolve.solving.contour import ArcSegment
+from contoursolve.solving.contour import ArcSegment, Contour
 
 _VERDICT = {Verdict.PASSED: "passed", Verdict.FOUND: "see finding", Verdict.NOT_RUN: "not run"}
 
@@ -38,7 +38,7 @@ def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False)
         if answer.contour and answer.profile.figure.corners and answer.claim.form.corner_note:
             lines.append(f"    {answer.claim.form.corner_note}")
     if answer.contour:
-        path = path_table(answer)
+        path = path_table(answer.contour, answer.unit)
         lines += ["", *columns([("", "", *path.header[2:]), *path.rows], path.left)]
         lines += [line for text in resting_texts(answer, result.control or "") for line in ("", f"  {text}")]
     if answer.filled:
@@ -206,26 +206,22 @@ def _asked_text(asked: AskedValue, answer: Answer) -> str:
 # The path ----------------------------------------------------------------------------------------------------
 
 
-def path_table(answer: Answer) -> Table:
-    """The named points, and the elements with their end points, in the unit and the axes of the program."""
-    contour, plane, unit = answer.contour, answer.plane, short_name(answer.unit.value)
-    elements = contour.elements if contour is not None else ()
-    has_arc = any(isinstance(element, ArcSegment) for element in elements)
-    names = [f"{label} [{unit}]" for label in axis_labels(plane)]
-    heads = [*names, *([*(f"center {name}" for name in names), f"radius [{unit}]"] if has_arc else [])]
+def path_table(contour: Contour, unit: Length = Length.MM) -> Table:
+    """The named points, and the elements with their end points, in a unit and as the control writes the axes."""
+    has_arc, written = any(isinstance(each, ArcSegment) for each in contour.elements), short_name(unit.value)
+    names = [f"{label} [{written}]" for label in axis_labels(contour.plane)]
+    heads = [*names, *([*(f"center {name}" for name in names), f"radius [{written}]"] if has_arc else [])]
     blank = [""] * (len(heads) - 2)
 
     def point(at: tuple[float, float]) -> list[str]:
-        return coordinate_texts(at, plane, answer.unit)
+        return coordinate_texts(at, contour.plane, unit)
 
-    rows: list[tuple[str, ...]] = []
-    if contour is not None:
-        rows += [(name, "point", *point(at), *blank) for name, at in contour.points.items()]
-        rows.append(("start", "", *point(contour.start), *blank))
-    for element in elements:
+    rows: list[tuple[str, ...]] = [(name, "point", *point(at), *blank) for name, at in contour.points.items()]
+    rows.append(("start", "", *point(contour.start), *blank))
+    for element in contour.elements:
         if isinstance(element, ArcSegment):
             code = "G02" if element.turn is Turn.CW else "G03"
-            arc = [*point(element.center), length_of(element.radius, answer.unit)]
+            arc = [*point(element.center), length_of(element.radius, unit)]
             rows.append((element.name, code, *point(element.end), *arc))
         else:
             rows.append((element.name, "G01", *point(element.end), *blank))

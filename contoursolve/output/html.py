@@ -78,10 +78,12 @@ def short(text: str) -> str:
     return shown if len(shown) <= WIDEST else f"{shown[: WIDEST - 4]} ..."
 
 
-def figure(record: Drawable) -> h.Element:
-    """The picture; where it cannot be drawn the page says so, and its tables say the same."""
+def figure(record: Drawable, *, is_inline: bool = False) -> h.Element:
+    """The picture, as an image or as an element of SVG; where it cannot be drawn the page says so, and its tables say
+    the same."""
     try:
-        return h.figure[Markup(draw(record, theme=Theme.PAGE).svg)]  # our own painter escapes
+        drawn = draw(record, theme=Theme.PAGE)
+        return h.figure[Markup(drawn.svg if is_inline else drawn._repr_html_())]  # our own painter escapes
     except Exception as error:  # numbers that nobody draws must not keep the rest from the reader
         return h.p[f"This cannot be drawn ({type(error).__name__})."]
 
@@ -97,7 +99,7 @@ def words_table(answer: Answer) -> h.Element:
 
 def path_element(answer: Answer) -> h.Element | None:
     """Every named point and every element of the path, in the unit and the axes of the program."""
-    return table_of(path_table(answer)) if answer.contour is not None else None
+    return table_of(path_table(answer.contour, answer.unit)) if answer.contour is not None else None
 
 
 def solutions_table(answer: Answer) -> Iterator[h.Node]:
@@ -208,7 +210,10 @@ def style_rules(name: str = "style.css") -> str:
 @lru_cache
 def notebook_style() -> str:
     """The style sheet for an output of a notebook, in the notebook's own theme."""
-    light, dark = (_declarations(colors, _NOTEBOOK_COLORS) for colors in (LIGHT, DARK))
+    light, dark = (
+        f"color-scheme: {scheme}; {_declarations(colors, _NOTEBOOK_COLORS)}"
+        for scheme, colors in (("light", LIGHT), ("dark", DARK))
+    )
     themed = "".join(
         f"{', '.join(f'{page} .contoursolve' for page in pages)} {{ {declared} }}\n"
         for pages, declared in ((_LIGHT_PAGES, light), (_DARK_PAGES, dark))

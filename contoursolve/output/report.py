@@ -151,7 +151,7 @@ def _contours(result: Result, places: Places, progress: Progress) -> h.Element |
     return h.section(id="contours")[
         h.h2["Contours"],
         table("Every contour, with what became of it", header, rows),
-        figure(result) if len(result.answers) > 1 else None,
+        figure(result, is_inline=True) if len(result.answers) > 1 else None,
         (_contour(answer, number, result, places, progress) for number, answer in enumerate(result.answers, 1)),
     ]
 
@@ -167,7 +167,7 @@ def _contour(answer: Answer, number: int, result: Result, places: Places, progre
                 for block in answer.profile.blocks
             )
         ],
-        h.div(".beside")[figure(answer), h.div[path or words, *remarks(answer, result.control or "")]],
+        h.div(".beside")[figure(answer, is_inline=True), h.div[path or words, *remarks(answer, result.control or "")]],
         found,
         solutions_table(answer),
         words if path else None,

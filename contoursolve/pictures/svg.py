@@ -5,12 +5,13 @@ of HTML a style sheet overrules them, under an identity that is made of the pict
 """
 
 import struct
+from base64 import b64encode
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cache
 from hashlib import sha256
 from math import pi, tau
-from xml.sax.saxutils import escape
+from xml.sax.saxutils import escape, quoteattr
 from zlib import crc32
 
 from contoursolve.diagnostics.extras import MissingExtraError, importing
@@ -47,6 +48,12 @@ class Picture:
     def _repr_svg_(self) -> str:
         """The drawing, as a notebook asks for it."""
         return self.svg
+
+    def _repr_html_(self) -> str:
+        """The drawing as an image. A notebook that nobody trusts shows it, and takes elements of SVG out."""
+        drawn = b64encode(self.svg.encode()).decode()
+        told = quoteattr(_known(self.description))
+        return f'<img src="data:image/svg+xml;base64,{drawn}" width="{self.width:.0f}" alt={told}>'
 
     def png(self, dpi: float = DPI) -> bytes:
         """The drawing as PNG, light for a page. Raises MissingExtraError without resvg or without a font for it,

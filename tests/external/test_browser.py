@@ -218,6 +218,38 @@ def test_in_jupyterlab_a_slider_moves_the_path_and_a_finding_comes_and_goes(brow
         page.close()
 
 
+SHOWING = "window.jupyterapp.shell.currentWidget.content.widgets.filter(cell => cell.model.outputs?.length)"
+WIDTHS = "images => Promise.all(images.map(image => image.decode().then(() => image.naturalWidth)))"
+
+
+@pytest.mark.slow
+def test_in_jupyterlab_a_notebook_that_nobody_trusts_or_runs_shows_its_pictures(browser, tmp_path, artefacts):
+    document = json.loads(NOTEBOOK.read_text(encoding="utf-8"))
+    shown = contoursolve.solve("G111 X100. A180. K-30. B120. P60.", start="X40. Z0.")._repr_mimebundle_()
+    output = {"output_type": "display_data", "metadata": {}, "data": shown}
+    cell = {"cell_type": "code", "metadata": {}, "execution_count": 1, "id": "browser", "source": "solve"}
+    document["cells"].append({**cell, "outputs": [output]})
+    outputs = [each.get("data", {}) for cell in document["cells"] for each in cell.get("outputs", ())]
+    pictures = sum("image/svg+xml" in data for data in outputs)
+    assert pictures >= 4
+    (tmp_path / "unknown.ipynb").write_text(json.dumps(document), encoding="utf-8")
+    with jupyterlab(tmp_path) as address:
+        watched = Watched(browser, viewport={"width": 1400, "height": 1500})
+        page = watched.page
+        page.goto(address("unknown.ipynb"))
+        page.wait_for_function(LOADED)
+        page.wait_for_function(IDLE)
+        assert page.evaluate(f"{SHOWING}.map(cell => cell.model.trusted)") == [False] * len(outputs)
+        images = page.locator(".jp-OutputArea-output img")
+        images.last.wait_for()
+        assert images.evaluate_all(WIDTHS) == [760] * pictures
+        assert page.locator(".jp-OutputArea-output svg").count() == 0
+        images.last.scroll_into_view_if_needed()
+        page.screenshot(path=artefacts / "jupyterlab-untrusted.png")
+        watched.check()
+        page.close()
+
+
 OVERFLOW = "document.documentElement.scrollWidth - document.documentElement.clientWidth"
 PAPER = "getComputedStyle(document.body).backgroundColor"
 

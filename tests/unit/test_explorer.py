@@ -294,7 +294,7 @@ def test_without_a_kernel_the_picture_is_there(widget):
     from nbformat import v4  # noqa: PLC0415
 
     data, _ = widget._repr_mimebundle_()
-    assert {"application/vnd.jupyter.widget-view+json", "text/plain", "image/svg+xml"} == set(data)
+    assert {"application/vnd.jupyter.widget-view+json", "text/plain", "text/html", "image/svg+xml"} == set(data)
     cell = v4.new_code_cell("explore", outputs=[v4.new_output("display_data", data)])
     page, _ = HTMLExporter(embed_images=True).from_notebook_node(v4.new_notebook(cells=[cell]))
     pictures = map(b64decode, re.findall(r'<img[^>]* src="data:image/svg\+xml;base64,([^"]+)', page))

@@ -4,6 +4,7 @@ import random
 import re
 import subprocess
 import sys
+from base64 import b64decode
 from html.parser import HTMLParser
 from xml.etree import ElementTree
 
@@ -48,7 +49,8 @@ PICTURE = {
     "g",
 }
 LAYOUT = {"div", "section", "figure", "p", "pre", "code", "span", "h3", "h4", "details", "summary", "a"}
-TAGS = PICTURE | LAYOUT | {"table", "caption", "thead", "tbody", "tr", "th", "td"}
+TAGS = LAYOUT | {"img", "style", "table", "caption", "thead", "tbody", "tr", "th", "td"}
+IMAGE = "data:image/svg+xml;base64,"
 WHOLE = "G111 X100. A180. K-30. B120. P5. Q5."
 BROKEN = "N310 G111 A180. K-20. P4. B90. X66. D0.5"
 
@@ -95,18 +97,20 @@ def check(data, has_picture=None):
     assert set(page.tags) <= TAGS
     assert [name for name, _ in page.attributes if name.startswith("on")] == []
     links = [value for name, value in page.attributes if name in ("href", "src", "xlink:href")]
-    assert all(link.startswith("#") for link in links)
+    images = [b64decode(link.removeprefix(IMAGE)).decode() for link in links if link.startswith(IMAGE)]
+    assert len(images) == page.tags.count("img")
+    assert all(link.startswith(("#", IMAGE)) for link in links)
     assert not re.search(r"https?://(?!www\.w3\.org/2000/svg)", "".join(value or "" for _, value in page.attributes))
     assert data[HTML].count("<table") or not has_picture
-    if SVG in data:
-        root = ElementTree.fromstring(data[SVG])
+    for drawn in {*images, data.get(SVG, "")} - {""}:
+        root = ElementTree.fromstring(drawn)
         names = {element.tag.rpartition("}")[2].lower() for element in root.iter()}
         assert names <= PICTURE
         spoken = root.get("aria-labelledby").split()
         by_name = {element.get("id"): element.text for element in root.iter()}
         assert all(by_name[name].strip() for name in spoken)
     if has_picture:
-        assert SVG in data
+        assert data[SVG] in images
     return page
 
 
@@ -183,7 +187,7 @@ def test_a_contour_of_each_status_has_a_picture_and_a_table_beside_it(status, mo
     assert answer.status is status
     for record in (result, answer):
         page = check(record._repr_mimebundle_(), has_picture=True)
-        assert {"figure", "svg", "table", "caption"} <= set(page.tags)
+        assert {"figure", "img", "table", "caption"} <= set(page.tags)
         shown = "".join(page.words)
         assert status.value in shown
         assert all(finding.message in shown for finding in answer.diagnostics)
@@ -221,7 +225,11 @@ def test_families_rules_and_paths_show_themselves():
     assert SVG not in alone._repr_mimebundle_()
     check(alone._repr_mimebundle_())
     contour = contoursolve.solve(WHOLE, start="X40. Z0.").answers[0].contour
-    assert "-50.2073" in "".join(check(contour._repr_mimebundle_()).words)
+    words = check(contour._repr_mimebundle_()).words
+    assert {"-50.2073", "X dia [mm]", "100.0000"} <= {*words}  # as the control writes X
+    slopes = contoursolve.sensitivity(WHOLE, start="X40. Z0.")
+    (row,) = (line.split() for line in str(slopes).split("\n") if "V2.X" in line)
+    assert (row[:3], slopes.slopes["V2.X"]["X"]) == (["V2.X", "dia", "1.0000"], 0.5)
     for dialect in DIALECTS.values():
         for rule in dialect.rules:
             assert rule.code in "".join(check(rule._repr_mimebundle_()).words)
