@@ -23,7 +23,6 @@ from contoursolve.cli.options import (
     units_option,
 )
 from contoursolve.cli.printing import say, style_of_output
-from contoursolve.controls import DIALECTS
 from contoursolve.diagnostics.extras import MissingExtraError, need
 from contoursolve.diagnostics.json_text import json_text
 from contoursolve.families import FamilyError, RefusedError, name_of
@@ -93,7 +92,7 @@ def usage() -> Iterator[None]:
     except (FamilyError, SettingError, FactPlaceError, MissingExtraError, CannotWriteError) as error:
         raise CouldNotRunError(str(error)) from None
     except UnknownControlError as error:
-        raise CouldNotRunError(f"{error}; say which with --control {'|'.join(DIALECTS)}") from None
+        raise CouldNotRunError(f"{error}; say which with --control {'|'.join(error.choices)}") from None
 
 
 def read_within(text: str) -> tuple[float, float]:

@@ -131,7 +131,7 @@ def _dialect_of(
     try:
         settings = settings_of(folder_of(program), assignments)
         named = {**DIALECTS, **PLAIN}[control] if isinstance(control, str) else control
-        dialect = named or recognise(program) or otherwise
+        dialect = named or recognise(program.blocks) or otherwise
         if dialect is not None:
             return configure(dialect, settings)
     except SettingError as error:

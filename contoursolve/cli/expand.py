@@ -23,7 +23,6 @@ from contoursolve.cli.options import (
     units_option,
 )
 from contoursolve.cli.printing import say, style_of_output
-from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis.examine import Policy
 from contoursolve.diagnosis.wording import count
 from contoursolve.diagnostics.finding import Severity
@@ -256,7 +255,7 @@ def _rewrite(
     except (SettingError, UnreadableProgramError) as error:
         raise CouldNotRunError(str(error)) from None
     except UnknownControlError as error:
-        raise CouldNotRunError(f"{name}: {error}; say which with --control {'|'.join(DIALECTS)}") from None
+        raise CouldNotRunError(f"{name}: {error}; say which with --control {'|'.join(error.choices)}") from None
     except FactPlaceError as error:
         raise CouldNotRunError(f"{name}: {error}") from None
 

@@ -216,7 +216,7 @@ def follow(program: Program, start: str | None, assignments: Sequence[str], opti
     except SettingError as error:
         raise CouldNotRunError(str(error)) from None
     except UnknownControlError as error:
-        raise CouldNotRunError(f"{program.name}: {error}; say which with --control {'|'.join(DIALECTS)}") from None
+        raise CouldNotRunError(f"{program.name}: {error}; say which with --control {'|'.join(error.choices)}") from None
     except FactPlaceError as error:
         raise CouldNotRunError(f"{program.name}: {error}") from None
 

@@ -189,6 +189,14 @@ GEOMETRY_RULES = (
         Severity.INFO,
     ),
     _row(
+        ReadIssue.ANGLE_OPPOSITE,
+        "{words}: {subject} runs the other way, at {expected}; the control takes the angle of a line either way",
+        "write {expected} if the way is meant; else correct the end of the line",
+        "G00 X0 Z0.\nG01 X60. ,A90.",
+        "G00 X0 Z0.\nG01 X60. ,A-90.",
+        Severity.WARNING,
+    ),
+    _row(
         ReadIssue.COMMA_MISSING,
         "{words} has no comma, so the control ignores it",
         "write {meant} if that is meant",

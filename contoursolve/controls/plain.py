@@ -14,7 +14,6 @@ from contoursolve.reading import Address, Code, Effect, Lexicon, Modes, NumberFo
 from contoursolve.reading.dialect import Dialect
 
 LINUXCNC_MANUAL = Source("LinuxCNC User Manual", "G-codes; lathe user information", Evidence.PRINTED)
-FANUC_MANUAL = Source("Fanuc 0i operator's manuals", "list of G codes, code system A for lathes", Evidence.ASSUMED)
 
 
 class Centers(Enum):
@@ -46,7 +45,7 @@ SWITCHES: Mapping[str, Mapping[Decimal, Switch]] = {
 codes with a point that change nothing here."""
 
 LATHE = Plane("G18", ("Z", "X"), ("K", "I"), (False, True))
-_PLANES = {
+PLANES = {
     17: Plane("G17", ("X", "Y"), ("I", "J")),
     18: Plane("G18", ("Z", "X"), ("K", "I")),
     19: Plane("G19", ("Y", "Z"), ("J", "K")),
@@ -69,14 +68,14 @@ def lexicon(
     return Lexicon({row.address: row for row in rows}, numbers)
 
 
-def _codes(source: Source, rows: Mapping[Effect, Mapping[int, str]], *, has_planes: bool) -> dict[int, Code]:
+def code_rows(source: Source, rows: Mapping[Effect, Mapping[int, str]], planes: Mapping[int, Plane]) -> dict[int, Code]:
+    """Tables of codes by their effect, with those of units and planes."""
     codes = [Code(number, effect, meaning, source) for effect, row in rows.items() for number, meaning in row.items()]
     codes += [
         Code(20, Effect.UNITS, "inches", source, unit=Length.INCH),
         Code(21, Effect.UNITS, "millimetres", source, unit=Length.MM),
     ]
-    if has_planes:
-        codes += [Code(number, Effect.PLANE, "plane", source, plane=plane) for number, plane in _PLANES.items()]
+    codes += [Code(number, Effect.PLANE, "plane", source, plane=plane) for number, plane in planes.items()]
     return {code.number: code for code in codes}
 
 
@@ -88,11 +87,11 @@ _EVERYWHERE: dict[Effect, dict[int, str]] = {
     Effect.SINGLE: {28: "reference point return", 30: "other reference point return", 53: "machine coordinates"},
     Effect.NONE: {96: "constant surface speed", 97: "spindle speed", 98: "feed or return", 99: "feed or return"},
 }
-_DRILLING = dict.fromkeys((73, *range(81, 90)), "drilling cycle")
-_G90 = {Effect.ABSOLUTE: {90: "absolute coordinates"}, Effect.INCREMENTAL: {91: "incremental coordinates"}}
+DRILLING = dict.fromkeys((73, *range(81, 90)), "drilling cycle")
+ABSOLUTE_CODES = {Effect.ABSOLUTE: {90: "absolute coordinates"}, Effect.INCREMENTAL: {91: "incremental coordinates"}}
 
 
-def _with(*tables: Mapping[Effect, Mapping[int, str]]) -> dict[Effect, dict[int, str]]:
+def merge(*tables: Mapping[Effect, Mapping[int, str]]) -> dict[Effect, dict[int, str]]:
     """Tables of codes in one; where two have a code, the later one counts."""
     rows: dict[Effect, dict[int, str]] = {}
     for table in (_EVERYWHERE, *tables):
@@ -101,13 +100,13 @@ def _with(*tables: Mapping[Effect, Mapping[int, str]]) -> dict[Effect, dict[int,
     return rows
 
 
-_LINUXCNC_CODES = _codes(
+_LINUXCNC_CODES = code_rows(
     LINUXCNC_MANUAL,
-    _with(
-        _G90,
+    merge(
+        ABSOLUTE_CODES,
         {
             Effect.MOTION: {33: "thread"},
-            Effect.CYCLE: _DRILLING,
+            Effect.CYCLE: DRILLING,
             Effect.CANCEL: {80: "end of cycle"},
             Effect.PRESET: {92: "coordinate setting"},
             Effect.FRAME: {52: "local coordinate system"},
@@ -116,48 +115,10 @@ _LINUXCNC_CODES = _codes(
             | dict.fromkeys((93, 94, 95), "kind of feed"),
         },
     ),
-    has_planes=True,
+    PLANES,
 )
-_FANUC_LATHE_CODES = _codes(
-    FANUC_MANUAL,
-    _with(
-        {
-            Effect.MOTION: {32: "thread", 34: "thread of variable lead"},
-            Effect.NO_MOTION: {22: "stored limit on", 23: "stored limit off"},
-            Effect.SINGLE: {27: "reference point check", 31: "skip", 36: "tool offset X", 37: "tool offset Z"}
-            | {65: "macro call", 66: "modal macro call", 67: "end of modal macro call"}
-            | dict.fromkeys(range(70, 77), "cycle"),
-            Effect.CYCLE: {90: "turning cycle", 92: "thread cycle", 94: "facing cycle"},
-            Effect.PRESET: {50: "coordinate setting or spindle limit"},
-            Effect.NONE: {18: "plane Z X"},
-        }
-    ),
-    has_planes=False,
-)
-_FANUC_MILL_CODES = _codes(
-    FANUC_MANUAL,
-    _with(
-        _G90,
-        {
-            Effect.MOTION: {33: "thread"},
-            Effect.NO_MOTION: {22: "stored limit on", 23: "stored limit off"},
-            Effect.SINGLE: {27: "reference point check", 29: "return from reference point", 31: "skip"}
-            | {37: "length measurement", 65: "macro call", 66: "modal macro call", 67: "end of modal macro call"},
-            Effect.CYCLE: _DRILLING | {74: "drilling cycle", 76: "drilling cycle"},
-            Effect.CANCEL: {80: "end of cycle"},
-            Effect.PRESET: {92: "coordinate setting"},
-            Effect.FRAME: {15: "end of polar coordinates", 16: "polar coordinates", 50: "end of scaling"}
-            | {51: "scaling", 52: "local coordinate system", 68: "rotation", 69: "end of rotation"},
-            Effect.NONE: {43: "length compensation", 44: "length compensation", 49: "no length compensation"}
-            | {9: "exact stop", 61: "exact stop", 64: "cutting", 94: "feed a minute", 95: "feed a revolution"},
-        },
-    ),
-    has_planes=True,
-)
-
 _AS_WRITTEN = NumberFormat(WithoutPoint.AS_WRITTEN, LINUXCNC_MANUAL)
-_INCREMENTS = NumberFormat(WithoutPoint.LEAST_INCREMENTS, FANUC_MANUAL)
-_CALLS = frozenset({98, 99})
+CALLS = frozenset({98, 99})
 
 
 def _no_contour(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> None:
@@ -171,27 +132,7 @@ def _plain(name: str, title: str, modes: Modes, plane: Plane) -> Dialect:
 LINUXCNC = _plain(
     "linuxcnc",
     "LinuxCNC, mills and lathes",
-    Modes(
-        lexicon(LINUXCNC_MANUAL, _AS_WRITTEN, "XYZ", {}, is_diameter=False), _LINUXCNC_CODES, ("X", "Y", "Z"), _CALLS
-    ),
-    _PLANES[17],
+    Modes(lexicon(LINUXCNC_MANUAL, _AS_WRITTEN, "XYZ", {}, is_diameter=False), _LINUXCNC_CODES, ("X", "Y", "Z"), CALLS),
+    PLANES[17],
 )
-FANUC_LATHE = _plain(
-    "fanuc-lathe",
-    "Fanuc lathes, G-code system A",
-    Modes(
-        lexicon(FANUC_MANUAL, _INCREMENTS, "XZ", {"U": "X", "W": "Z"}, is_diameter=True),
-        _FANUC_LATHE_CODES,
-        ("Z", "X"),
-        _CALLS,
-    ),
-    LATHE,
-)
-FANUC_MILL = _plain(
-    "fanuc-mill",
-    "Fanuc mills",
-    Modes(lexicon(FANUC_MANUAL, _INCREMENTS, "XYZ", {}, is_diameter=False), _FANUC_MILL_CODES, ("X", "Y", "Z"), _CALLS),
-    _PLANES[17],
-)
-
-PLAIN = {dialect.name: dialect for dialect in (LINUXCNC, FANUC_LATHE, FANUC_MILL)}
+PLAIN = {LINUXCNC.name: LINUXCNC}

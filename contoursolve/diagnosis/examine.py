@@ -21,6 +21,7 @@ from contoursolve.diagnosis.explain import (
     explain_ignored,
     explain_missing,
     explain_offence,
+    explain_opposite,
     explain_result,
     explain_singular,
     report,
@@ -217,6 +218,7 @@ def examine(
     contour = trace(profile, solution) if is_path else None
     if contour is not None:
         notebook.findings += explain_crossing(context, profile, contour)
+        notebook.findings += explain_opposite(context, profile, contour)
         notebook.findings += explain_beyond(context, profile, solution, contour) if claim.directives else ()
     touching = {remark.subject for remark in solution.remarks if remark.kind is NoteKind.TOUCHES}
     shown = {*profile.intersections} - touching

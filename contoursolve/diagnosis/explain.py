@@ -43,7 +43,7 @@ from contoursolve.solving import (
     scalars_of,
 )
 from contoursolve.solving.compare import allowance, increments_of
-from contoursolve.solving.contour import Contour, LineSegment
+from contoursolve.solving.contour import Contour, LineSegment, against_angles
 
 if TYPE_CHECKING:
     from contoursolve.solving.alternatives import Alternatives
@@ -478,6 +478,17 @@ def explain_crossing(context: Context, profile: Profile, contour: Contour) -> It
         fields: dict[str, Any] = {"subject": crossing.element.name, "start": start, "place": place}
         values = {"limit": 0.0, "actual": radius, "off_by_mm": abs(radius)}
         yield report(context, context.row(ReadIssue.AXIS_CROSSED), Basis.NUMERICAL, [], values, **fields)
+
+
+def explain_opposite(context: Context, profile: Profile, contour: Contour) -> Iterator[Diagnostic]:
+    """Lines that run against the angle that states them, on a control on which that is no direction of travel."""
+    for name, line in against_angles(profile, contour):
+        given = profile.givens[name]
+        actual = float(given.value)
+        expected = actual - 180 if actual > 0 else actual + 180
+        fields: dict[str, Any] = {"subject": line.name, "expected": angle_text(expected)}
+        rule, words = context.row(ReadIssue.ANGLE_OPPOSITE), [given.word] if given.word else []
+        yield report(context, rule, Basis.NUMERICAL, words, {"actual": actual, "expected": expected}, **fields)
 
 
 def explain_beyond(context: Context, profile: Profile, solution: Solution, contour: Contour) -> Iterator[Diagnostic]:

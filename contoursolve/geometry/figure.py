@@ -166,6 +166,8 @@ class Corner(Struct, frozen=True):
     after: str | None = None
     lands_parallel_to: int | None = None
     lands_on: str | None = None
+    guard: float = 0.0
+    """Sine of the change of direction up to which the control makes no corner there."""
 
 
 class Circle(Struct, frozen=True):

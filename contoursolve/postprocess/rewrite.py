@@ -16,8 +16,8 @@ from contoursolve.postprocess.expansion_report import Left, Options, Summary, le
 from contoursolve.postprocess.numbering import Numbers
 from contoursolve.postprocess.post_processors import Numbering
 from contoursolve.program.lines import Lines
-from contoursolve.program.project import configure
-from contoursolve.program.recognise import find_dialect, first_sign
+from contoursolve.program.project import CONTROL, configure
+from contoursolve.program.recognise import Recogniser, find_dialect
 from contoursolve.reading.dialect import Dialect
 
 _BATCH = 1 << 16
@@ -65,8 +65,10 @@ def rewrite(  # noqa: PLR0913 - takes what the command takes
     held in memory, to see which contour they are about.
     """
     unread: list[Left] = []
+    control = control or (settings or {}).get(CONTROL)
+    recogniser = Recogniser()
     named = find_dialect(control) if isinstance(control, str) else control
-    dialect = named or first_sign(_blocks(tape, unread))
+    dialect = named or _recognise(recogniser, _blocks(tape, unread))
     summary = Summary()
     body.write(tape.mark)
     if dialect is None:
@@ -76,7 +78,7 @@ def rewrite(  # noqa: PLR0913 - takes what the command takes
         dialect = configure(dialect, settings)
         places = lines_of_facts(parse(tape.read(), tape.name), dialect, unit, start, facts) if facts else {}
         lines = expand_lines(
-            Lines(tape.lines(), dialect, places, is_certain=control is not None),
+            Lines(tape.lines(), dialect, places, is_certain=control is not None or not recogniser.is_sure),
             dialect,
             options,
             summary,
@@ -103,6 +105,15 @@ def rewrite(  # noqa: PLR0913 - takes what the command takes
     body.write(tape.encode("".join(held)))
     opening = opening_of(options, dialect, unit, summary) if dialect else ""
     return Rewritten(body, place, tape.encode(opening), dialect.name if dialect else None, summary)
+
+
+def _recognise(recogniser: Recogniser, blocks: Iterable[Block]) -> Dialect | None:
+    """The control that blocks are for. Where its words are its own, it is known at once."""
+    for block in blocks:
+        recogniser.look(block)
+        if recogniser.is_sure:
+            break
+    return recogniser.find()
 
 
 def _blocks(tape: Tape, unread: list[Left]) -> Iterator[Block]:

@@ -20,7 +20,7 @@ from contoursolve.solving import Status
 from contoursolve.solving.certify import certify
 from contoursolve.solving.checks import Check, compile_checks
 from contoursolve.solving.compile import Machine, compile_system
-from contoursolve.solving.contour import trace
+from contoursolve.solving.contour import against_angles, trace
 from contoursolve.solving.numbers import inputs_of, sizes_of, solution_at
 from contoursolve.solving.plan import LineCircleStep, TwoCirclesStep
 from contoursolve.solving.row_outcome import Code, RowOutcome
@@ -179,7 +179,7 @@ class Batch(Struct):
         if certificate is not None and certificate.proof not in (Proof.EXACT, Proof.UNIQUE):
             return None
         contour = trace(profile, solution_at(kind.system, profile.start, sizes_of(profile), out))
-        if contour.crossing is not None:
+        if contour.crossing is not None or any(True for _ in against_angles(profile, contour)):
             return None
         return Answer(
             form=like.form,

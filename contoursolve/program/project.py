@@ -1,6 +1,9 @@
 """The project file: settings of the controls for all programs of a folder and the folders in it.
 
-`contoursolve.toml`, or the table `tool.contoursolve` of `pyproject.toml`, with one table a control:
+`contoursolve.toml`, or the table `tool.contoursolve` of `pyproject.toml`: the control, if programs do not show it, and
+one table a control:
+
+    control = "fanuc-mill"
 
     [nct-99m]
     circle-circle-q = "right-is-negative"
@@ -14,6 +17,9 @@ from contoursolve.controls import DIALECTS
 from contoursolve.reading.dialect import Dialect
 
 OWN, SHARED = "contoursolve.toml", "pyproject.toml"
+
+CONTROL = "control"
+"""The name of what is no setting of a control, but names the control for which programs are."""
 
 
 class SettingError(ValueError):
@@ -65,6 +71,8 @@ def _configured(settings: Mapping[str, str], controls: Mapping[str, Dialect]) ->
     """The controls that settings are about, with these values."""
     values: dict[str, dict[str, str]] = {}
     for full, value in settings.items():
+        if full == CONTROL:
+            continue
         control, _, name = full.partition(".")
         if control not in controls or not name:
             raise SettingError(f"there is no setting {full!r}; write CONTROL.NAME, such as {_example()}")
@@ -133,6 +141,11 @@ def _text(file: Path) -> str:
 def _settings(table: Mapping[str, Any], file: Path) -> dict[str, str]:
     settings: dict[str, str] = {}
     for control, own in table.items():
+        if control == CONTROL and own in DIALECTS:
+            settings[CONTROL] = own
+            continue
+        if control == CONTROL:
+            raise SettingError(f"{file}: there is no control {own!r}; choose from {', '.join(DIALECTS)}")
         if not isinstance(own, dict):
             raise SettingError(f"{file}: {control!r} stands in no table; write [CONTROL] above it, such as [nct-99m]")
         for name, value in own.items():

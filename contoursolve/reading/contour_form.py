@@ -11,6 +11,7 @@ from msgspec.structs import replace
 
 from contoursolve.diagnostics.source import Evidence, Source
 from contoursolve.geometry import Arc, Corner, CornerShape, Fact, Figure, Layout, Line, Role
+from contoursolve.reading.lexicon import WithoutPoint
 from contoursolve.reading.rules import Condition, Stated
 
 
@@ -28,6 +29,8 @@ class Setting:
     default: str
     source: Source
     bounds: tuple[Decimal, Decimal] | None = None
+    without_point: Mapping[str, WithoutPoint] = field(default_factory=dict)
+    """Where it decides what a number without a decimal point means: that, by its value."""
 
     def choices(self, value: str) -> str:
         """What it can be, if it cannot have this value; else empty."""
@@ -159,6 +162,8 @@ class ContourForm:
     """What the control does at each corner that it inserts, half a sentence without a full stop."""
     assumptions: tuple[Assumption, ...] = ()
     """What its blocks may rest on."""
+    guard: float = 0.0
+    """Sine of the change of direction up to which the control makes no corner."""
 
     def __hash__(self) -> int:
         return hash(self.name)
@@ -198,19 +203,21 @@ def lay_out(
         tuple(point for point in form.points if point in mentioned | ends),
         tuple(radius for radius in form.radii if radius in mentioned),
         tuple(path),
-        tuple(corner for row in form.corners for corner in _corners(row, stated, asked, sharp)),
+        tuple(corner for row in form.corners for corner in _corners(form, row, stated, asked, sharp)),
         lines=tuple(line for line in form.lines if line.heading is None or line.heading in stated),
     )
     return Layout(figure, facts)
 
 
-def _corners(row: CornerRow, stated: frozenset[str], asked: frozenset[str], sharp: frozenset[str]) -> list[Corner]:
+def _corners(
+    form: ContourForm, row: CornerRow, stated: frozenset[str], asked: frozenset[str], sharp: frozenset[str]
+) -> list[Corner]:
     """The corner of a row: none without its word, several if several words are stated."""
     told = [[axis for names, axis in row.landing if which & set(names)] for which in (stated, asked)]
     landing = told[0] or told[1]
     axis = landing[0] if len(landing) == 1 else None
     return [
-        Corner(row.name, row.at, shape, word, row.before, row.after, axis, row.lands_on)
+        Corner(row.name, row.at, shape, word, row.before, row.after, axis, row.lands_on, form.guard)
         for word, shape in row.shapes.items()
         if word in stated | asked and word not in sharp
     ]

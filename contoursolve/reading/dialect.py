@@ -48,13 +48,16 @@ class Dialect:
     rules: tuple[Rule, ...]
     find: Finder
     signs: Callable[[Block], Sequence[Word]]
-    """The words of a block by which it can only be meant for this control."""
+    """The words of a block that make a contour for this control."""
     contours: str = ""
     """What shows a contour block, for a reader."""
     settings: tuple[Setting, ...] = ()
     """Conventions on which the manual is silent."""
     has_runs: bool = True
     """Whether a contour may be several blocks in a row."""
+    excludes: Callable[[Block, int], bool] | None = None
+    """(block, number of the plane in force) to whether the program cannot be for this control, though it has words of
+    it; None where its words are its own."""
     follow: Follower | None = None
     """What is wrong with the block behind a contour, though it is no part of it."""
 
@@ -68,7 +71,7 @@ class Dialect:
 
         Raises ValueError, naming what there is, if there is no such setting or no such value.
         """
-        known = {setting.name: setting for setting in self.settings}
+        known, lexicon = {setting.name: setting for setting in self.settings}, self.modes.lexicon
         for name, value in values.items():
             if name not in known:
                 names = ", ".join(known) or "none"
@@ -76,7 +79,10 @@ class Dialect:
             choices = known[name].choices(value)
             if choices:
                 raise ValueError(f"{self.name}.{name} cannot be {value!r}; {choices}")
-        return replace(self, modes=replace(self.modes, settings={**self.modes.settings, **values}))
+            if value in known[name].without_point:
+                numbers = replace(lexicon.numbers, without_point=known[name].without_point[value])
+                lexicon = replace(lexicon, numbers=numbers)
+        return replace(self, modes=replace(self.modes, lexicon=lexicon, settings={**self.modes.settings, **values}))
 
     def initial_state(self, unit: Length) -> State:
         """The state before the first block: the position is not known, nothing is compensated."""

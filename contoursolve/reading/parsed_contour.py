@@ -50,6 +50,7 @@ class ReadIssue(Enum):
     ASKED_NOTHING = "asked-nothing"
     WORD_UNUSED = "word-unused"
     AXIS_CROSSED = "axis-crossed"
+    ANGLE_OPPOSITE = "angle-opposite"
     CODE_FORGOTTEN = "code-forgotten"
     RAPID_BEHIND = "rapid-behind"
     LANDING_LEFT = "landing-left"

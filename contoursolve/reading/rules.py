@@ -107,6 +107,54 @@ class Value(Condition):
         return tuple(name for name in self.names if name in stated and self.holds({name: stated[name]}))
 
 
+@dataclass(frozen=True, slots=True)
+class Along(Condition):
+    """Some of these angles, in degrees, lies within a limit of a direction or of its opposite."""
+
+    names: tuple[str, ...]
+    direction: int
+    within: Decimal
+
+    @property
+    def reads_values(self) -> bool:  # type: ignore[override]
+        return True
+
+    def holds(self, stated: Stated) -> bool:
+        return bool(self.offenders(stated))
+
+    def offenders(self, stated: Stated) -> tuple[str, ...]:
+        values = ((name, stated.get(name)) for name in self.names)
+        return tuple(name for name, value in values if value is not None and self._is_along(value))
+
+    def _is_along(self, value: Decimal) -> bool:
+        return _apart(value, Decimal(self.direction)) <= self.within
+
+
+@dataclass(frozen=True, slots=True)
+class Parallel(Condition):
+    """Two angles, in degrees, differ by no more than a limit, or by that from half a turn."""
+
+    names: tuple[str, str]
+    within: Decimal
+
+    @property
+    def reads_values(self) -> bool:  # type: ignore[override]
+        return True
+
+    def holds(self, stated: Stated) -> bool:
+        first, second = (stated.get(name) for name in self.names)
+        return first is not None and second is not None and _apart(first, second) <= self.within
+
+    def offenders(self, stated: Stated) -> tuple[str, ...]:
+        return self.names if self.holds(stated) else ()
+
+
+def _apart(first: Decimal, second: Decimal) -> Decimal:
+    """The angle between two lines, from 0 to 90 degrees."""
+    apart = (first - second) % 180
+    return min(abs(apart), 180 - abs(apart))
+
+
 def some(*names: str) -> Condition:
     """At least one of the names is stated."""
     return Count((names,), least=1)

@@ -1,6 +1,6 @@
 """The solved path: lines and arcs with all their numbers, checked once more as a path."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from math import atan2, cos, degrees, hypot, pi, radians, sin, tau
 from typing import NamedTuple
@@ -8,7 +8,7 @@ from typing import NamedTuple
 from msgspec import Struct
 
 from contoursolve.diagnostics.display import Shown
-from contoursolve.geometry import Line, Plane, Profile, Turn
+from contoursolve.geometry import Heading, Line, Plane, Profile, Turn
 from contoursolve.solving.solution import Point, Solution
 from contoursolve.tolerance import AGREEMENT, LENGTH
 
@@ -197,3 +197,14 @@ def trace(profile: Profile, solution: Solution) -> Contour:
                 here = add(ArcSegment(corner.name, here, built.end, built.center, built.radius, turn))
     shown = {name: points[name] for name in profile.figure.points if name in profile.intersections}
     return Contour(start, here, shown, tuple(elements), profile.plane)
+
+
+def against_angles(profile: Profile, contour: Contour) -> Iterator[tuple[str, LineSegment]]:
+    """The givens of angles that are no direction of travel, each with the line that runs against it."""
+    path = {(each.tail, each.head): each for each in profile.figure.path if isinstance(each, Line)}
+    segments = {each.name: each for each in contour.elements if isinstance(each, LineSegment)}
+    for fact in profile.facts:
+        line = path.get((fact.tail, fact.head)) if isinstance(fact, Heading) else None
+        segment = segments.get(line.name) if line is not None and line.heading is None else None
+        if segment is not None and cos(radians(segment.angle - float(profile.givens[fact.given].value))) < 0:
+            yield fact.given, segment

@@ -91,8 +91,8 @@ def _check_corner(
             return refuse(RefusalKind.CORNER_TOO_LARGE, limit=0.0, actual=size)
     if out.get(f"landing:{corner.name}") == 0:
         return refuse(RefusalKind.LANDING_UNKNOWN)
-    if abs(out[f"turn:{corner.name}"]) <= REGULAR:
-        straight = out[f"cosine:{corner.name}"] > 0
+    straight = out[f"cosine:{corner.name}"] > 0
+    if abs(out[f"turn:{corner.name}"]) <= (max(REGULAR, corner.guard) if straight else REGULAR):
         return refuse(RefusalKind.CORNER_STRAIGHT if straight else RefusalKind.CORNER_REVERSES)
     if corner.shape.share:
         outside = [excess for excess, give in _outside_rectangle(corner, profile, points) if excess > give + LENGTH]

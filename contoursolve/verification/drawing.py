@@ -181,7 +181,7 @@ class _Drawing:
         turn = _cross(arriving.along, leaving.along)
         if min(self.room[path[number].name], self.room[corner.after] if corner.after else inf) <= LENGTH:
             self.against.append(f"{corner.name} is on an element of no length")
-        elif abs(turn) <= REGULAR or not abs(leaving.along) > 0:
+        elif abs(turn) <= self.smooth(corner, arriving, leaving) or not abs(leaving.along) > 0:
             self.against.append(f"{corner.name} is between elements of one direction")
         elif corner.shape.share and self.is_outside(corner, number, increments):
             self.against.append(f"{corner.name} is outside of the rectangle that its lines span")
@@ -200,6 +200,11 @@ class _Drawing:
             if name is not None:
                 self.room[name] -= part
         return move
+
+    def smooth(self, corner: Corner, arriving: _Edge, leaving: _Edge) -> float:
+        """Up to which change of direction, as a sine, there is no corner; the guard counts where the path goes on."""
+        goes_on = (arriving.along.conjugate() * leaving.along).real > 0
+        return max(REGULAR, corner.guard) if goes_on else REGULAR
 
     def landing(self, corner: Corner, number: int) -> complex:
         """The direction of an axis-parallel line that a last corner lands on: the way that the path advances."""

@@ -4,7 +4,8 @@ Two blocks belong together where they meet in an intersection that the control c
 corner.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from itertools import count
 
 from msgspec.structs import replace
@@ -38,7 +39,7 @@ class ChainFinder:
         position = index
         while members[0].here.motion in (1, 2, 3):
             last = members[-1]
-            following = _next(blocks, position)
+            following = self._next(blocks, position)
             if following is None or not self._is_motion(blocks[following], last.here, modes):
                 break
             here = self._apply(last.here, blocks[following], modes)
@@ -75,6 +76,18 @@ class ChainFinder:
             return here
         named = tuple(parallel[axis] if axis in moved else axis for axis in axes)
         return replace(here, plane=replace(here.plane, axes=(named[0], named[1])))
+
+    def _next(self, blocks: Sequence[Block], index: int) -> int | None:
+        """The index of the next block that says something, and is none that a contour may have between its blocks."""
+        for other in count(index + 1):  # the length of what is read ahead is not known without counting
+            try:
+                block = blocks[other]
+            except IndexError:
+                return None
+            codes = {word.number for word in block.words if word.address == "G"}
+            if _has_words(block) and not (codes and codes <= self.language.passes):
+                return other
+        return None
 
     def _is_motion(self, block: Block, state: State, modes: Modes) -> bool:
         """Whether the block's axis words are the end of a motion with G0 to G3."""
@@ -151,18 +164,6 @@ class ChainFinder:
         return "R" in stated or not stated & {*here.plane.centers} or not _ends_where_it_begins(block, here, modes)
 
 
-def _next(blocks: Sequence[Block], index: int) -> int | None:
-    """The index of the next block that says something."""
-    for other in count(index + 1):  # the length of what is read ahead is not known without counting
-        try:
-            block = blocks[other]
-        except IndexError:
-            return None
-        if _has_words(block):
-            return other
-    return None
-
-
 def _has_words(block: Block) -> bool:
     return bool(block.faults or block.macro) or any(word.address not in ("N", "O") for word in block.words)
 
@@ -183,3 +184,34 @@ def _ends_where_it_begins(block: Block, here: State, modes: Modes) -> bool:
 
 def _words(*blocks: Block) -> Iterator[Word]:
     return (word for block in blocks for word in block.words)
+
+
+def looks_milled(language: Language) -> Callable[[Block, int], bool]:
+    """What tells of a block that its program is not for a lathe with these words."""
+    return partial(_is_unlike, language, _is_milled)
+
+
+def looks_turned(language: Language) -> Callable[[Block, int], bool]:
+    """What tells of a block that its program is not for a mill with these words: in the plane of X and Y, in which a
+    mill begins, Z has no part in a contour."""
+    return partial(_is_unlike, language, _is_turned)
+
+
+_WORDS = frozenset({",A", ",C", ",R"})
+
+
+def _is_unlike(language: Language, is_other: Callable[[Block, int], bool], block: Block, plane: int) -> bool:
+    stated = {word.address for word in block.words}
+    return bool(stated & _WORDS - language.lexicon.addresses.keys()) or is_other(block, plane)
+
+
+def _is_milled(block: Block, _: int) -> bool:
+    """G90 is a turning cycle of a lathe, but not beside a motion or a plane."""
+    codes = {word.number for word in block.words if word.address == "G"}
+    is_absolute = 90 in codes and bool(codes & {0, 1, 18})  # noqa: PLR2004 - as its code is printed
+    return bool(codes & {17, 19, 91}) or is_absolute or block.find("Y") is not None
+
+
+def _is_turned(block: Block, plane: int) -> bool:
+    stated = {word.address for word in block.words}
+    return plane == 17 and bool(stated & {"Z", "W"} and stated & _WORDS)  # noqa: PLR2004 - as its code is printed

@@ -72,15 +72,15 @@ def names_of(elements: Sequence[Element]) -> tuple[Names, ...]:
 
 def compose(language: Language, elements: tuple[Element, ...], modes: Modes) -> ContourForm:
     """The form of blocks in a row with the settings of a control: by how much the radii at two points of an arc may
-    differ, whether the intersections of two circles count clockwise, whether lines must run as their angles say."""
-    return _compose(
-        language, elements, modes.radius_difference, language.counts_clockwise(modes), language.is_ray(modes)
-    )
+    differ, whether the intersections of two circles count clockwise, whether lines must run as their angles say, and
+    how smooth a joint has no corner."""
+    counts_clockwise, is_ray = language.counts_clockwise(modes), language.is_ray(modes)
+    return _compose(language, elements, modes.radius_difference, counts_clockwise, is_ray, language.guard(modes))
 
 
 @lru_cache(maxsize=4096)
 def _compose(
-    language: Language, elements: tuple[Element, ...], slack: float, counts_clockwise: bool, is_ray: bool
+    language: Language, elements: tuple[Element, ...], slack: float, counts_clockwise: bool, is_ray: bool, guard: float
 ) -> ContourForm:
     names = names_of(elements)
     name = _form_name(elements)
@@ -124,6 +124,7 @@ def _compose(
         corner_note=language.corner_note,
         assumptions=language.assumptions,
         is_contour=name != "arc",
+        guard=guard,
     )
 
 
@@ -143,7 +144,7 @@ def _form_name(elements: Sequence[Element]) -> str:
 def _path(language: Language, element: Element, names: Names, *, counts_clockwise: bool, is_ray: bool) -> Line | Arc:
     if element.turn is None:
         toward = names.own if element.is_followed and not element.is_over else None
-        heading = f"{names.prefix}{language.angle}" if is_ray else None
+        heading = f"{names.prefix}{language.angle}" if is_ray and language.angle else None
         return Line(names.element, names.tail, names.head, heading, toward)
     counts = counts_clockwise and element.is_over
     return Arc(names.element, names.tail, names.head, names.center, names.radius, element.turn, counts)
@@ -183,7 +184,7 @@ def _own_facts(language: Language, element: Element, names: Names) -> Iterator[F
         yield FactRow(Coordinate(f"{q}{order}", names.own, axis), (f"{q}{order}",))
         if not element.is_over or language.joining is Joining.OPEN:
             yield FactRow(Offset(f"{q}{order}-step", names.own, names.tail, axis), (f"{q}{order}-step",))
-    if element.turn is None:
+    if element.turn is None and language.angle:
         angle = f"{q}{language.angle}"
         if element.is_over:
             yield FactRow(Heading(angle, names.tail, names.own), (angle,))
@@ -204,7 +205,7 @@ def _combinations(language: Language, element: Element, prefix: str) -> tuple[tu
         angle = language.angle
         one = ((name, angle) for order, _ in _ORDERS for name in _ways(order, element))
         aimed = (AIMED,) if element.is_followed else ()
-        options = (*ends, (angle,), *((*ways, *aimed) for ways in one))
+        options = (*ends, (angle,), *((*ways, *aimed) for ways in one)) if angle else ends
         if element.is_over:
             options = (("first", "second", angle),)
     elif element.is_over:

@@ -101,6 +101,10 @@ def _always(_: Modes) -> bool:
     return True
 
 
+def _no_guard(_: Modes) -> float:
+    return 0.0
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Language:
     """How a control writes lines and arcs in a row.
@@ -141,6 +145,10 @@ class Language:
     """Whether the intersections of two circles count clockwise along the first."""
     is_ray: Callable[[Modes], bool] = _always
     """Whether an angle is the direction of travel; else a line may run against it, too."""
+    guard: Callable[[Modes], float] = _no_guard
+    """Sine of the change of direction up to which the control makes no corner."""
+    passes: frozenset[int] = frozenset()
+    """G codes of blocks that may stand between two blocks of a contour."""
 
     @property
     def axes(self) -> tuple[str, ...]:

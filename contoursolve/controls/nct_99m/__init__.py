@@ -1,7 +1,8 @@
 """The NCT 99M and 2000M milling controls, from chapter 16 of their Programmer's Manual."""
 
+from contoursolve.controls.chain import looks_turned
 from contoursolve.controls.common import COMMON_RULES
-from contoursolve.controls.nct_99m.language import FIND, FORMS, SETTINGS
+from contoursolve.controls.nct_99m.language import FIND, FORMS, LANGUAGE, SETTINGS
 from contoursolve.controls.nct_99m.lexicon import CODES, MODES, XY, YZ, ZX
 from contoursolve.controls.nct_99m.rules import COMBINATION_RULES, GEOMETRY_RULES
 from contoursolve.gcode import Block, Word
@@ -44,4 +45,5 @@ NCT_99M = Dialect(
     signs=_signs,
     contours="blocks with ,A ,C or ,R, arcs with R, and blocks over-defined by ,A or by end, centre and R",
     settings=SETTINGS,
+    excludes=looks_turned(LANGUAGE),
 )

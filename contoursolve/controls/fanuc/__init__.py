@@ -1,0 +1,98 @@
+"""Fanuc and Haas lathes and mills: `,A ,C ,R` in lines and arcs in a row.
+
+Their words, languages and rules come in; four controls go out. Begin with `language`.
+"""
+
+from contoursolve.controls.chain import ChainFinder, Language, forms_of, looks_milled, looks_turned
+from contoursolve.controls.common import COMMON_RULES
+from contoursolve.controls.fanuc.language import (
+    FANUC_LATHE_LANGUAGE,
+    FANUC_MILL_LANGUAGE,
+    HAAS_LATHE_LANGUAGE,
+    HAAS_LATHE_SETTINGS,
+    HAAS_MILL_LANGUAGE,
+    HAAS_MILL_SETTINGS,
+    LATHE_SETTINGS,
+    MILL_SETTINGS,
+)
+from contoursolve.controls.fanuc.lexicon import HAAS_LATHE_MODES, HAAS_MILL_MODES, LATHE_MODES, MILL_MODES
+from contoursolve.controls.fanuc.rules import (
+    FANUC_LATHE_RULES,
+    FANUC_MILL_RULES,
+    HAAS_LATHE_RULES,
+    HAAS_MILL_RULES,
+)
+from contoursolve.controls.plain import LATHE, PLANES
+from contoursolve.gcode import Block, Word
+from contoursolve.reading import Modes, Setting
+from contoursolve.reading.dialect import Dialect
+from contoursolve.reading.rules import Rule
+
+
+def _signs(block: Block) -> tuple[Word, ...]:
+    if "," not in block.text:
+        return ()
+    return tuple(word for word in block.words if word.address in (",A", ",C", ",R"))
+
+
+def _control(
+    name: str,
+    title: str,
+    modes: Modes,
+    language: Language,
+    rules: tuple[Rule, ...],
+    settings: tuple[Setting, ...],
+    contours: str,
+) -> Dialect:
+    is_lathe = name.endswith("lathe")
+    return Dialect(
+        name=name,
+        title=title,
+        modes=modes,
+        plane=LATHE if is_lathe else PLANES[17],
+        forms=forms_of(language, modes),
+        rules=COMMON_RULES + rules,
+        find=ChainFinder(language),
+        signs=_signs,
+        contours=contours,
+        settings=settings,
+        excludes=looks_milled(language) if is_lathe else looks_turned(language),
+    )
+
+
+FANUC_LATHE = _control(
+    "fanuc-lathe",
+    "Fanuc lathes, G-code system A",
+    LATHE_MODES,
+    FANUC_LATHE_LANGUAGE,
+    FANUC_LATHE_RULES,
+    LATHE_SETTINGS,
+    "lines with ,A ,C or ,R",
+)
+FANUC_MILL = _control(
+    "fanuc-mill",
+    "Fanuc mills",
+    MILL_MODES,
+    FANUC_MILL_LANGUAGE,
+    FANUC_MILL_RULES,
+    MILL_SETTINGS,
+    "lines and arcs with ,C or ,R",
+)
+HAAS_LATHE = _control(
+    "haas-lathe",
+    "Haas lathes",
+    HAAS_LATHE_MODES,
+    HAAS_LATHE_LANGUAGE,
+    HAAS_LATHE_RULES,
+    HAAS_LATHE_SETTINGS,
+    "lines with A, and lines with ,C or ,R",
+)
+HAAS_MILL = _control(
+    "haas-mill",
+    "Haas mills",
+    HAAS_MILL_MODES,
+    HAAS_MILL_LANGUAGE,
+    HAAS_MILL_RULES,
+    HAAS_MILL_SETTINGS,
+    "lines with ,C or ,R",
+)

@@ -1,0 +1,196 @@
+"""Fanuc and Haas as languages of lines and arcs in a row, with their settings."""
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import replace as replace_fields
+from decimal import Decimal
+from math import radians, sin
+
+from msgspec.structs import replace
+
+from contoursolve.controls.chain import Element, Joining, Language, Member
+from contoursolve.controls.chain.language import LINE_LINE
+from contoursolve.controls.fanuc.lexicon import (
+    CORNERS,
+    DRAWING,
+    HAAS,
+    HAAS_LATHE_WORDS,
+    HAAS_MILL_WORDS,
+    LATHE_PLANES,
+    LATHE_WORDS,
+    MILL_WORDS,
+)
+from contoursolve.controls.plain import LATHE, PLANES
+from contoursolve.diagnostics.source import Evidence, Source
+from contoursolve.geometry import Heading, Turn
+from contoursolve.reading import ContourForm, Convention, Modes, Sample, Setting, State, WithoutPoint
+
+GUARD = Decimal(1)
+"""Degrees: the angles within which a control computes no vertex and makes no corner."""
+
+WRONG_PLANE, UNGUARDED = "@wrong-plane", "@unguarded"
+STRICT_ANGLE, COMPENSATION_CHANGES = "@strict-angle", "@compensation-changes"
+STRAIGHT_ONLY = "@straight-only"
+"""Corners stand between lines alone."""
+
+
+def _assumed(manual: str, place: str) -> Source:
+    return Source(manual, place, Evidence.ASSUMED)
+
+
+def _number(manual: str) -> Setting:
+    return Setting(
+        name="number",
+        meaning="what a number without a decimal point means",
+        values={
+            "increment": "least increments: 0.001 mm, 0.0001 inch, 0.001 deg",
+            "calculator": "mm, inches and degrees, as with a point",
+        },
+        default="increment",
+        source=_assumed(manual, "a machine parameter"),
+        without_point={"increment": WithoutPoint.LEAST_INCREMENTS, "calculator": WithoutPoint.AS_WRITTEN},
+    )
+
+
+def _angle_sense(manual: str) -> Setting:
+    return Setting(
+        name="angle-sense",
+        meaning="whether a line may run against its angle",
+        values={
+            "line": "it may: the angle is that of the line, either way",
+            "ray": "it may not: the angle is the direction of travel",
+        },
+        default="line",
+        source=_assumed(manual, "not described"),
+    )
+
+
+def _guard(manual: str) -> Setting:
+    return Setting(
+        name="guard-deg",
+        meaning="how close two directions may come",
+        values={
+            "1": "within 1 deg no vertex is computed, no coordinate is found, and no corner is made",
+            "0": "only where they are the same",
+        },
+        default="1",
+        source=_assumed(manual, "1 deg is printed for a sibling"),
+    )
+
+
+REDUNDANT_ANGLE = Setting(
+    name="redundant-angle",
+    meaning="an angle beside both coordinates, behind a line that has an end",
+    values={"check": "it may stand there if it agrees", "error": "it must not stand there"},
+    default="check",
+    source=_assumed(DRAWING, "not described"),
+)
+ARCS = Setting(
+    name="arcs",
+    meaning="corners beside arcs",
+    values={"off": "corners stand between lines alone", "on": "corners stand beside arcs, too"},
+    default="off",
+    source=_assumed(HAAS, "some releases have them"),
+)
+
+LATHE_SETTINGS = (_number(DRAWING), _angle_sense(DRAWING), _guard(DRAWING), REDUNDANT_ANGLE)
+MILL_SETTINGS = (_number(CORNERS), _guard(CORNERS))
+HAAS_LATHE_SETTINGS = (_number(HAAS), _angle_sense(HAAS), _guard(HAAS))
+HAAS_MILL_SETTINGS = (_number(HAAS), _guard(HAAS), ARCS)
+
+
+def _is_ray(modes: Modes) -> bool:
+    return modes.settings.get("angle-sense") == "ray"
+
+
+def _guarded(modes: Modes) -> bool:
+    return modes.settings.get("guard-deg") != "0"
+
+
+def _guard_sine(modes: Modes) -> float:
+    return sin(radians(float(GUARD))) if _guarded(modes) else 0.0
+
+
+def _circumstances(member: Member, _: Sequence[State], modes: Modes) -> Iterator[str]:
+    holds = {
+        WRONG_PLANE: member.here.plane.diameters != (False, False) and member.here.plane.code != LATHE.code,
+        UNGUARDED: not _guarded(modes),
+        STRICT_ANGLE: modes.settings.get("redundant-angle") == "error",
+        COMPENSATION_CHANGES: member.before.compensation != member.here.compensation,
+    }
+    return (name for name, is_true in holds.items() if is_true)
+
+
+def _haas_mill_circumstances(member: Member, states: Sequence[State], modes: Modes) -> Iterator[str]:
+    yield from _circumstances(member, states, modes)
+    if modes.convention(ARCS).value == "off":
+        yield STRAIGHT_ONLY
+
+
+def _lathe_conventions(form: ContourForm, _: Collection[str], modes: Modes) -> Iterator[Convention]:
+    """Whether a line may run against its angle matters where there is one."""
+    if any(isinstance(row.fact, Heading) for row in form.facts) and _is_ray(modes):
+        yield Convention(LATHE_SETTINGS[1], "ray")
+
+
+TITLES: Mapping[str, str] = {
+    LINE_LINE: "vertex of two lines by their angles",
+    "line-angle": "line by its angle and one coordinate",
+    "corners": "chamfers and roundings",
+    "chain": "chain of lines by their angles",
+    "arc": "arc",
+}
+_COMMON = ("N", "G", "F", "S", "T", "M", "D", "H", "P", "E", "R", "I", "J", "K", ",C", ",R")
+
+_LINE, _ARC = Element(None, False, False), Element(Turn.CCW, False, False)
+_OPEN, _CLOSING = replace(_LINE, is_followed=True), replace(_LINE, is_over=True)
+_ON_LATHE, _ON_MILL = "G00 X20. Z0.", "G17 G90 G00 X0 Y0"
+
+FANUC_LATHE_LANGUAGE = Language(
+    lexicon=LATHE_WORDS,
+    planes={plane.code: plane for plane in LATHE_PLANES.values()},
+    allowed=frozenset({*_COMMON, "X", "Z", "U", "W", ",A"}),
+    joining=Joining.OPEN,
+    titles=TITLES,
+    samples={
+        (_LINE,): Sample(_ON_LATHE, ("G01 {X40.} {Z-17.3205} ,A150.",)),
+        (_LINE, _LINE): Sample(_ON_LATHE, ("G01 {X20.} {Z-20.} {,A180.} {,C2.} ,R3.", "{X40.} {Z-20.} {,A90.}")),
+        (_OPEN, _CLOSING): Sample(_ON_LATHE, ("G01 {X20.} {Z-20.} ,A180. {,C2.} {,R3.}", "{X60.} {Z-47.} {,A120.}")),
+        (_OPEN, _CLOSING, _LINE): Sample(
+            _ON_LATHE, ("G01 ,A180. {,C2.} {,R3.}", "{X60.} {Z-47.} ,A120. {,C1.} ,R2.", "{Z-60.} {X60.}")
+        ),
+    },
+    circumstances=_circumstances,
+    conventions=_lathe_conventions,
+    is_ray=_is_ray,
+    guard=_guard_sine,
+    passes=frozenset({4}),
+)
+FANUC_MILL_LANGUAGE = Language(
+    lexicon=MILL_WORDS,
+    planes={plane.code: plane for plane in PLANES.values()},
+    allowed=frozenset({*_COMMON, "X", "Y", "Z"}),
+    joining=Joining.OPEN,
+    titles=TITLES,
+    angle="",
+    samples={
+        (_LINE, _LINE): Sample(_ON_MILL, ("G01 {X40.} {Y0} {,C6.} ,R5.", "{X60.} {Y20.}")),
+        (_LINE, _ARC): Sample(_ON_MILL, ("G01 {X40.} {Y0} {,C6.} ,R5.", "G03 {X60.} {Y20.} {I0} {J20.} {R20.}")),
+    },
+    circumstances=_circumstances,
+    guard=_guard_sine,
+    passes=frozenset({4}),
+)
+
+HAAS_LATHE_LANGUAGE = replace_fields(
+    FANUC_LATHE_LANGUAGE,
+    lexicon=HAAS_LATHE_WORDS,
+    angle="A",
+    allowed=FANUC_LATHE_LANGUAGE.allowed - {",A"} | {"A"},
+    samples={
+        (_LINE,): Sample(_ON_LATHE, ("G01 {X40.} {Z-17.3205} A150.",)),
+        (_LINE, _LINE): Sample(_ON_LATHE, ("G01 {X20.} {Z-20.} {,C2.} ,R3.", "{X40.} {Z-20.}")),
+    },
+)
+HAAS_MILL_LANGUAGE = replace_fields(
+    FANUC_MILL_LANGUAGE, lexicon=HAAS_MILL_WORDS, circumstances=_haas_mill_circumstances
+)

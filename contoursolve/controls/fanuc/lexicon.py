@@ -1,0 +1,105 @@
+"""Fanuc and Haas: addresses, numbers, planes and G codes of lathes and mills."""
+
+from msgspec.structs import replace
+
+from contoursolve.controls.plain import (
+    ABSOLUTE_CODES,
+    CALLS,
+    DRILLING,
+    LATHE,
+    PLANES,
+    code_rows,
+    lexicon,
+    merge,
+)
+from contoursolve.diagnostics.source import Evidence, Source
+from contoursolve.geometry import Unit
+from contoursolve.reading import Address, Effect, Lexicon, Modes, NumberFormat, WithoutPoint
+
+FANUC_MANUAL = Source("Fanuc 0i operator's manuals", "list of G codes, code system A for lathes", Evidence.ASSUMED)
+DRAWING = "FANUC lathe, direct drawing dimensions"
+CORNERS = "FANUC mill, optional angle chamfering and corner rounding"
+HAAS = "Haas operator's manual, corner rounding and chamfering"
+
+_INCREMENTS = NumberFormat(WithoutPoint.LEAST_INCREMENTS, FANUC_MANUAL)
+
+LATHE_PLANES = {17: replace(LATHE, code="G17"), 18: LATHE, 19: replace(LATHE, code="G19")}
+"""A lathe has Z and X alone, whatever plane is selected."""
+
+_LATHE_CODES = code_rows(
+    FANUC_MANUAL,
+    merge(
+        {
+            Effect.MOTION: {32: "thread", 34: "thread of variable lead"},
+            Effect.NO_MOTION: {22: "stored limit on", 23: "stored limit off"},
+            Effect.SINGLE: {27: "reference point check", 31: "skip", 36: "tool offset X", 37: "tool offset Z"}
+            | {65: "macro call", 66: "modal macro call", 67: "end of modal macro call"}
+            | dict.fromkeys(range(70, 77), "cycle"),
+            Effect.CYCLE: {90: "turning cycle", 92: "thread cycle", 94: "facing cycle"},
+            Effect.PRESET: {50: "coordinate setting or spindle limit"},
+        }
+    ),
+    LATHE_PLANES,
+)
+_MILL_CODES = code_rows(
+    FANUC_MANUAL,
+    merge(
+        ABSOLUTE_CODES,
+        {
+            Effect.MOTION: {33: "thread"},
+            Effect.NO_MOTION: {22: "stored limit on", 23: "stored limit off"},
+            Effect.SINGLE: {27: "reference point check", 29: "return from reference point", 31: "skip"}
+            | {37: "length measurement", 65: "macro call", 66: "modal macro call", 67: "end of modal macro call"},
+            Effect.CYCLE: DRILLING | {74: "drilling cycle", 76: "drilling cycle"},
+            Effect.CANCEL: {80: "end of cycle"},
+            Effect.PRESET: {92: "coordinate setting"},
+            Effect.FRAME: {15: "end of polar coordinates", 16: "polar coordinates", 50: "end of scaling"}
+            | {51: "scaling", 52: "local coordinate system", 68: "rotation", 69: "end of rotation"},
+            Effect.NONE: {43: "length compensation", 44: "length compensation", 49: "no length compensation"}
+            | {9: "exact stop", 61: "exact stop", 64: "cutting", 94: "feed a minute", 95: "feed a revolution"},
+        },
+    ),
+    PLANES,
+)
+
+
+def _with(words: Lexicon, *rows: Address) -> Lexicon:
+    return Lexicon({**words.addresses, **{row.address: row for row in rows}}, words.numbers)
+
+
+def _source(manual: str, place: str, evidence: Evidence = Evidence.PRINTED) -> Source:
+    return Source(manual, place, evidence)
+
+
+_TURNED = lexicon(FANUC_MANUAL, _INCREMENTS, "XZ", {"U": "X", "W": "Z"}, is_diameter=True)
+_MILLED = lexicon(FANUC_MANUAL, _INCREMENTS, "XYZ", {}, is_diameter=False)
+
+_ANGLE = "angle of the line, from +Z, counter-clockwise"
+_LEG, _ROUND = "chamfer: the distance of both its ends from the virtual corner", "rounding"
+LATHE_WORDS = _with(
+    _TURNED,
+    Address(",A", _ANGLE, Unit.DEGREE, _source(DRAWING, "block patterns")),
+    Address(",C", _LEG, Unit.MM, _source(DRAWING, "block patterns 4 to 8")),
+    Address(",R", _ROUND, Unit.MM, _source(DRAWING, "block patterns 3 to 8")),
+)
+MILL_WORDS = _with(
+    _MILLED,
+    Address(",C", _LEG, Unit.MM, _source(CORNERS, "sample program")),
+    Address(",R", _ROUND, Unit.MM, _source(CORNERS, "sample program")),
+)
+HAAS_LATHE_WORDS = _with(
+    _TURNED,
+    Address("A", _ANGLE, Unit.DEGREE, _source(HAAS, "recalled", Evidence.ASSUMED)),
+    Address(",C", _LEG, Unit.MM, _source(HAAS, "example")),
+    Address(",R", _ROUND, Unit.MM, _source(HAAS, "example")),
+)
+HAAS_MILL_WORDS = _with(
+    _MILLED,
+    Address(",C", _LEG, Unit.MM, _source(HAAS, "lathe's example", Evidence.ASSUMED)),
+    Address(",R", _ROUND, Unit.MM, _source(HAAS, "lathe's example", Evidence.ASSUMED)),
+)
+
+LATHE_MODES = Modes(LATHE_WORDS, _LATHE_CODES, ("Z", "X"), CALLS)
+MILL_MODES = Modes(MILL_WORDS, _MILL_CODES, ("X", "Y", "Z"), CALLS)
+HAAS_LATHE_MODES = Modes(HAAS_LATHE_WORDS, _LATHE_CODES, ("Z", "X"), CALLS)
+HAAS_MILL_MODES = Modes(HAAS_MILL_WORDS, _MILL_CODES, ("X", "Y", "Z"), CALLS)

@@ -1,0 +1,434 @@
+"""Fanuc and Haas: which words may be combined, and what has no solution."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from decimal import Decimal
+from enum import Enum
+
+from contoursolve.controls.chain.language import (
+    ARC,
+    FOLLOWED,
+    LAST,
+    LINE,
+    LINE_LINE,
+    OTHER_PLANE,
+    OVER_LINE,
+    RAPID,
+    STATED_CENTER,
+    STATED_POINT,
+)
+from contoursolve.controls.fanuc.language import (
+    COMPENSATION_CHANGES,
+    GUARD,
+    STRAIGHT_ONLY,
+    STRICT_ANGLE,
+    UNGUARDED,
+    WRONG_PLANE,
+)
+from contoursolve.controls.fanuc.lexicon import CORNERS, DRAWING, HAAS
+from contoursolve.controls.geometry_rules import GEOMETRY_RULES
+from contoursolve.diagnostics.finding import Alarm, Severity
+from contoursolve.diagnostics.source import Evidence, Source
+from contoursolve.reading import ReadIssue
+from contoursolve.reading.rules import Along, Parallel, Rule, Value, all_of, some
+from contoursolve.solving import RefusalKind
+
+_ANY = (LINE, OVER_LINE, ARC)
+_CORNER = (",C", ",R")
+_FIRST, _SECOND = ("first", "first-step"), ("second", "second-step")
+_ALARM_LIST = "alarm list"
+
+
+@dataclass(frozen=True, slots=True)
+class _Machine:
+    """Whose rules they are: the start of their codes, the manual, the angle's address, whether alarms are known; and
+    for the examples a start, a line, and a line that turns off from it."""
+
+    prefix: str
+    manual: str
+    angle: str
+    has_alarms: bool
+    start: str
+    line: str
+    turn: str
+
+    @property
+    def cut(self) -> str:
+        """A program with a corner."""
+        return f"{self.start}G01 {self.line} ,C5.\n{self.turn}"
+
+    def source(self, place: str, evidence: Evidence = Evidence.PRINTED) -> Source:
+        """A place of its manual; what is printed for Fanuc is assumed of a relative."""
+        return Source(self.manual, place, evidence if self.has_alarms else Evidence.ASSUMED)
+
+    def alarm(self, number: str, evidence: Evidence = Evidence.PRINTED) -> Alarm | None:
+        """An alarm as older controls print it; newer ones print PS and four digits."""
+        return Alarm(number, evidence) if self.has_alarms else None
+
+
+_TURNING, _MILLING = "G00 X20. Z0.\n", "G17 G90 G00 X0 Y0\n"
+_FANUC_LATHE = _Machine("fanuc", DRAWING, ",A", True, _TURNING, "Z-20.", "X40. Z-30.")
+_FANUC_MILL = _Machine("fanuc", CORNERS, "", True, _MILLING, "X30.", "X40. Y40.")
+_HAAS_LATHE = _Machine("haas", HAAS, "A", False, _TURNING, "Z-20.", "X40. Z-30.")
+_HAAS_MILL = _Machine("haas", HAAS, "", False, _MILLING, "X30.", "X40. Y40.")
+
+_ARC_BEHIND = _MILLING + "G01 X40. ,C6.\nG02 X60. Y20. I20. J0"
+
+
+def _corner_rules(machine: _Machine) -> tuple[Rule, ...]:
+    """The rows about ,C and ,R."""
+    cut, two = machine.cut, Alarm("053 TOO MANY ADDRESS COMMANDS", Evidence.ASSUMED)
+    return (
+        Rule(
+            code=f"{machine.prefix}-two-corners",
+            message="{words}: a block takes ,C or ,R, not both",
+            help="keep one of them",
+            source=machine.source("not described", Evidence.ASSUMED),
+            alarm=two if machine.has_alarms else None,
+            roles=_ANY,
+            when=all_of(*_CORNER),
+            accepted=(cut,),
+            rejected=(cut.replace(",C5.", ",C5. ,R5."),),
+        ),
+        Rule(
+            code=f"{machine.prefix}-corner-without-next",
+            message="{words}: a corner needs an element behind it, and none follows",
+            help="put the next element right behind it, or delete it",
+            source=machine.source(_ALARM_LIST),
+            alarm=machine.alarm("051 or 052 (no move, or no cutting move, behind a corner)"),
+            roles=_ANY,
+            when=some(*_CORNER) & some(LAST) & ~some(RAPID),
+            accepted=(cut, cut.replace("\n" + machine.turn, "\nG04 P500\n" + machine.turn)),
+            rejected=(cut.replace("\n" + machine.turn, "\nM8\n" + machine.turn), cut.replace("5.\n", "5.\nG00 ")),
+        ),
+        Rule(
+            code=f"{machine.prefix}-corner-rapid",
+            message="{words}: the control makes a corner in a cutting move, not in G00",
+            help="write G01",
+            source=machine.source("the function", Evidence.DERIVED),
+            roles=_ANY,
+            when=some(*_CORNER) & some(RAPID),
+            accepted=(cut,),
+            rejected=(cut.replace("G01 ", ""),),
+        ),
+        Rule(
+            code=f"{machine.prefix}-corner-negative",
+            message="{words}: a chamfer or a rounding has no sign",
+            help="delete the minus sign: the elements tell on which side the corner lies",
+            source=machine.source("not described", Evidence.ASSUMED),
+            roles=_ANY,
+            when=Value(_CORNER, least=Decimal(0)),
+            accepted=(cut,),
+            rejected=(cut.replace(",C5.", ",C-5."),),
+        ),
+        Rule(
+            code=f"{machine.prefix}-corner-compensation",
+            message="{words}: a block that switches G40, G41 or G42 takes no corner",
+            help="switch the compensation in a block before",
+            source=machine.source(_ALARM_LIST),
+            alarm=machine.alarm("039 CHF/CNR NOT ALLOWED IN NRC"),
+            roles=_ANY,
+            when=some(*_CORNER) & some(COMPENSATION_CHANGES),
+            accepted=(cut, cut.replace("G00", "G42 G00")),
+            rejected=(cut.replace("G01", "G42 G01"),),
+        ),
+        Rule(
+            code=f"{machine.prefix}-center-on-line",
+            message="{words}: a line has no centre and no radius",
+            help="delete it; a rounding is ,R",
+            source=machine.source("the function", Evidence.DERIVED),
+            roles=(LINE, OVER_LINE),
+            when=some(*STATED_CENTER, "wrong-center", "R"),
+            accepted=(cut,),
+            rejected=(cut + " R5.",),
+        ),
+    )
+
+
+def _mill_rules(machine: _Machine) -> tuple[Rule, ...]:
+    """The rows about planes and arcs."""
+    cut = machine.cut
+    return (
+        Rule(
+            code=f"{machine.prefix}-corner-outside-plane",
+            message="{words} moves an axis outside the plane of the contour",
+            help="move that axis in a block of its own",
+            source=machine.source("only in the selected plane"),
+            roles=_ANY,
+            when=some("beside-X", "beside-Y", "beside-Z"),
+            accepted=(cut,),
+            rejected=(cut.replace("X30.", "X30. Z-5."),),
+        ),
+        Rule(
+            code=f"{machine.prefix}-plane-changes",
+            message="the plane changes inside the contour",
+            help="select the plane before its first block",
+            source=machine.source("not behind a plane change"),
+            roles=_ANY,
+            when=some(OTHER_PLANE),
+            accepted=(cut,),
+            rejected=(cut.replace("X40. Y40.", "G18 X40. Z40."),),
+        ),
+    )
+
+
+_ARC_RULES = (
+    Rule(
+        code="fanuc-center-and-radius",
+        message="{words}: the arc has both a centre and a radius",
+        help="keep one of them",
+        source=_FANUC_MILL.source("arcs", Evidence.ASSUMED),
+        roles=(ARC,),
+        when=all_of(STATED_CENTER, "R"),
+        accepted=(_ARC_BEHIND,),
+        rejected=(_ARC_BEHIND + " R20.",),
+    ),
+    Rule(
+        code="fanuc-circle-undefined",
+        message="the arc has neither a centre nor a radius",
+        help="add I, J or K of the plane, or R",
+        source=_FANUC_MILL.source("arcs", Evidence.ASSUMED),
+        roles=(ARC,),
+        when=~some(*STATED_CENTER, "R"),
+        accepted=(_ARC_BEHIND,),
+        rejected=(_ARC_BEHIND.replace(" I20. J0", ""),),
+    ),
+    Rule(
+        code="fanuc-radius-without-end",
+        message="{words}: with R the arc needs its end",
+        help="add the coordinates of its end, or give the centre instead",
+        source=_FANUC_MILL.source("arcs", Evidence.ASSUMED),
+        roles=(ARC,),
+        when=some("R") & ~some(*STATED_POINT),
+        accepted=(_ARC_BEHIND,),
+        rejected=(_ARC_BEHIND.replace("X60. Y20. I20. J0", "R20."),),
+    ),
+)
+
+
+def _straight_only(machine: _Machine) -> Rule:
+    """The row that forbids corners beside arcs."""
+    is_lathe = machine.start == _TURNING
+    arc = "G02 X40. Z-30. R10." if is_lathe else "G02 X40. Y10. R10."
+    return Rule(
+        code=f"{machine.prefix}-arc",
+        message="{words}: this control makes corners between lines alone, and this is an arc",
+        help="end the contour before the arc, or write its lines and corners out",
+        source=machine.source("block patterns; alarm list" if is_lathe else "corners between two lines"),
+        alarm=machine.alarm("052 (the block behind a corner is not G01)"),
+        roles=(ARC,),
+        when=some(*STATED_POINT, *STATED_CENTER, "R", *_CORNER) & some(STRAIGHT_ONLY),
+        accepted=(machine.cut,),
+        rejected=(machine.cut.replace(machine.turn, arc),),
+    )
+
+
+def _angle_rules(machine: _Machine) -> tuple[Rule, ...]:
+    """The rows about a line by its angle and one coordinate, on a lathe."""
+    angle = machine.angle
+    good = f"{machine.start}G01 X40. {angle}150."
+    return (
+        Rule(
+            code=f"{machine.prefix}-plane",
+            message="the contour is not in the plane of Z and X",
+            help="write G18 before it",
+            source=machine.source(_ALARM_LIST),
+            alarm=machine.alarm("212 ILLEGAL PLANE SELECT"),
+            roles=_ANY,
+            when=some(WRONG_PLANE),
+            accepted=(good, "G18 " + good),
+            rejected=("G17 " + good,),
+        ),
+        Rule(
+            code=f"{machine.prefix}-angle-rapid",
+            message="{words}: the control works out a line by its angle in G01, not in G00",
+            help="write G01",
+            source=machine.source("block patterns", Evidence.DERIVED),
+            roles=(LINE, OVER_LINE),
+            when=some(angle) & some(RAPID),
+            accepted=(good,),
+            rejected=(good.replace("G01 ", ""),),
+        ),
+        Rule(
+            code=f"{machine.prefix}-angle-along-z",
+            message="{words}: the line runs along Z to within 1 deg, so X does not say where it ends",
+            help="give its end by Z",
+            source=machine.source("alarm list; the 1 deg is recalled", Evidence.ASSUMED),
+            alarm=machine.alarm("057 (the end of the block is not found)"),
+            roles=(LINE,),
+            when=some(*_SECOND) & ~some(*_FIRST) & Along((angle,), 0, GUARD) & ~some(UNGUARDED),
+            accepted=(good,),
+            rejected=(good.replace("150.", "180."), good.replace("150.", "179.5")),
+        ),
+        Rule(
+            code=f"{machine.prefix}-angle-along-x",
+            message="{words}: the line runs along X to within 1 deg, so Z does not say where it ends",
+            help="give its end by X",
+            source=machine.source("alarm list; the 1 deg is recalled", Evidence.ASSUMED),
+            alarm=machine.alarm("057 (the end of the block is not found)"),
+            roles=(LINE,),
+            when=some(*_FIRST) & ~some(*_SECOND) & Along((angle,), 90, GUARD) & ~some(UNGUARDED),
+            accepted=(good,),
+            rejected=(f"{machine.start}G01 Z-20. {angle}90.",),
+        ),
+        Rule(
+            code=f"{machine.prefix}-angle-range",
+            message="{words} is more than a turn; it is taken as {within}, the same direction",
+            help="write {within} if that is meant",
+            source=machine.source("not described", Evidence.ASSUMED),
+            severity=Severity.WARNING,
+            roles=(LINE, OVER_LINE),
+            when=Value((angle,), least=Decimal(-360), most=Decimal(360)),
+            accepted=(good,),
+            rejected=(good.replace("150.", "510."),),
+        ),
+    )
+
+
+_VERTEX = _TURNING + "G01 ,A180. ,R3.\nX60. Z-47. ,A120."
+_ANGLED = _TURNING + "G01 X40. ,A150."
+
+_VERTEX_RULES = (
+    Rule(
+        code="fanuc-closing-incomplete",
+        message="the line before has an angle and no end, so this block needs X, Z and ,A: {lacking} is missing",
+        help="add {lacking}; U and W do not stand for X and Z here",
+        source=_FANUC_LATHE.source("block patterns 2 to 8"),
+        alarm=_FANUC_LATHE.alarm("056 (no end point, or no angle, behind a line by its angle alone)"),
+        roles=(OVER_LINE,),
+        when=~all_of("first", "second", ",A"),
+        accepted=(_VERTEX,),
+        rejected=(
+            *(_VERTEX.replace(word, "") for word in (" ,A120.", " Z-47.", "X60. ")),
+            _VERTEX.replace("Z-47.", "W-47."),
+        ),
+    ),
+    Rule(
+        code="fanuc-end-missing",
+        message="{words} alone does not say where the line ends",
+        help="add X or Z; or let a line with X, Z and ,A follow, which it meets",
+        source=_FANUC_LATHE.source("block patterns 1 and 2"),
+        alarm=_FANUC_LATHE.alarm("056 (no end point behind a line by its angle alone)"),
+        roles=(LINE,),
+        when=some(",A") & ~some(*STATED_POINT) & ~some(FOLLOWED),
+        accepted=(_VERTEX, _ANGLED),
+        rejected=(_TURNING + "G01 ,A150.\nM8", _TURNING + "G01 ,A150.\nG02 X40. Z-30. R10."),
+    ),
+    Rule(
+        code="fanuc-angles-parallel",
+        message="{words}: the two lines are parallel to within 1 deg, so the control computes no vertex",
+        help="correct one of the angles",
+        source=_FANUC_LATHE.source("alarm list; the 1 deg is recalled", Evidence.ASSUMED),
+        alarm=_FANUC_LATHE.alarm("058 (the end of the block is not found)"),
+        roles=(LINE_LINE,),
+        when=Parallel(("1:,A", "2:,A"), GUARD) & ~some("1:" + UNGUARDED),
+        accepted=(_VERTEX,),
+        rejected=(_VERTEX.replace("120.", "180."), _VERTEX.replace("120.", "0.5")),
+    ),
+    Rule(
+        code="fanuc-angle-redundant",
+        message="{words}: the line has both its end and an angle, and the line before has an end",
+        help="delete {words:,A}",
+        source=_FANUC_LATHE.source("not described", Evidence.ASSUMED),
+        roles=(LINE,),
+        when=all_of(_FIRST, _SECOND, ",A") & some(STRICT_ANGLE),
+        accepted=(_ANGLED,),
+        rejected=(),
+    ),
+)
+
+_NO_VERTEX = Rule(
+    code="haas-end-missing",
+    message="{words} alone does not say where the line ends; this control meets no two lines by their angles",
+    help="add X or Z",
+    source=_HAAS_LATHE.source("not described"),
+    roles=(LINE,),
+    when=some("A") & ~some(*STATED_POINT),
+    accepted=(_TURNING + "G01 X40. A150.",),
+    rejected=(_TURNING + "G01 A150.\nX60. Z-47. A120.", _TURNING + "G01 A150.\nM8"),
+)
+
+
+def _geometry(machine: _Machine, examples: Mapping[Enum, tuple[str, str]]) -> tuple[Rule, ...]:
+    """The rows about geometry with a control's alarm and with examples of its own."""
+    rows = {rule.about: rule for rule in GEOMETRY_RULES}
+    too_large = machine.alarm("055 MISSING MOVE VALUE IN CHF/CNR")
+    straight = replace(
+        rows[RefusalKind.CORNER_STRAIGHT],
+        code=f"{machine.prefix}-corner-straight",
+        message="{words}: the elements of {subject} go on within 1 deg, and there the control makes no corner",
+        help="delete {words}: the control leaves it out without an alarm",
+        source=machine.source("printed for a sibling", Evidence.ASSUMED),
+        accepted=(machine.cut,),
+        rejected=(machine.cut.replace(machine.turn, "Z-40. X20.2" if machine.angle else "X60. Y0.3"),),
+    )
+    large = (RefusalKind.CORNER_TOO_LARGE, RefusalKind.CORNERS_OVERLAP)
+    told: dict[Enum, tuple[str, str]] = {
+        RefusalKind.CORNER_TOO_LARGE: (machine.cut, machine.cut.replace(",C5.", ",C31.")),
+        RefusalKind.CORNER_REVERSES: (machine.cut, machine.cut.replace(machine.turn, machine.line.replace("0.", "."))),
+        **examples,
+    }
+    return (
+        straight,
+        *(
+            replace(
+                rows[about],
+                code=f"{machine.prefix}-{rows[about].code}",
+                source=machine.source(_ALARM_LIST) if about in large else rows[about].source,
+                alarm=too_large if about in large else None,
+                accepted=(accepted,),
+                rejected=(rejected,),
+            )
+            for about, (accepted, rejected) in told.items()
+        ),
+    )
+
+
+_MILLED_TWICE = _MILLING + "G01 X30. ,C20.\nY30. ,C20.\nX60."
+_TURNED_TWICE = _TURNING + "G01 Z-20. ,R9.\nX40. ,C2.\nZ-50."
+_MILL_EXAMPLES: dict[Enum, tuple[str, str]] = {
+    RefusalKind.CORNERS_OVERLAP: (_MILLED_TWICE.replace("20.", "10."), _MILLED_TWICE),
+    RefusalKind.RADIUS_TOO_SMALL: (_ARC_BEHIND, _ARC_BEHIND.replace("I20. J0", "R10.")),
+    RefusalKind.RADIUS_DIFFERENCE: (_ARC_BEHIND, _ARC_BEHIND.replace("I20.", "I18.")),
+}
+
+
+def _lathe_examples(machine: _Machine) -> dict[Enum, tuple[str, str]]:
+    angled = f"{_TURNING}G01 X40. {machine.angle}150."
+    return {
+        RefusalKind.CORNERS_OVERLAP: (_TURNED_TWICE.replace("R9.", "R8."), _TURNED_TWICE),
+        ReadIssue.ANGLE_OPPOSITE: (angled, angled.replace("150.", "-30.")),
+    }
+
+
+_ENDING = tuple(GEOMETRY_RULES)
+FANUC_LATHE_RULES = (
+    *_corner_rules(_FANUC_LATHE),
+    _straight_only(_FANUC_LATHE),
+    *_angle_rules(_FANUC_LATHE),
+    *_VERTEX_RULES,
+    *_geometry(_FANUC_LATHE, _lathe_examples(_FANUC_LATHE)),
+    *_ENDING,
+)
+FANUC_MILL_RULES = (
+    *_corner_rules(_FANUC_MILL),
+    *_mill_rules(_FANUC_MILL),
+    *_ARC_RULES,
+    *_geometry(_FANUC_MILL, _MILL_EXAMPLES),
+    *_ENDING,
+)
+HAAS_LATHE_RULES = (
+    *_corner_rules(_HAAS_LATHE),
+    _straight_only(_HAAS_LATHE),
+    *_angle_rules(_HAAS_LATHE),
+    _NO_VERTEX,
+    *_geometry(_HAAS_LATHE, _lathe_examples(_HAAS_LATHE)),
+    *_ENDING,
+)
+HAAS_MILL_RULES = (
+    *_corner_rules(_HAAS_MILL),
+    *_mill_rules(_HAAS_MILL),
+    _straight_only(_HAAS_MILL),
+    *_geometry(_HAAS_MILL, {RefusalKind.CORNERS_OVERLAP: _MILL_EXAMPLES[RefusalKind.CORNERS_OVERLAP]}),
+    *_ENDING,
+)
