@@ -369,7 +369,9 @@ def _examine_geometry(
     solution, alternatives = _solve(profile, context, notebook, depth)
     events: list[Refusal | Note] = [*solution.refusals, *solution.remarks]
     for event in events:
-        if not is_refused or event.kind in _ABOUT_WORDS:
+        # A rule about the angles of the block has said that it has no vertex.
+        is_said = event.kind is RefusalKind.LINES_PARALLEL and Status.NO_SOLUTION in notebook.statuses
+        if not is_refused or (event.kind in _ABOUT_WORDS and not is_said):
             notebook.add(explain_result(context, event, profile, alternatives))
             notebook.statuses.add(solution.status)
     return (Solution(solution.status), None) if is_refused else (solution, alternatives)

@@ -132,6 +132,11 @@ def join(texts: Sequence[str]) -> str:
     return " and ".join(filter(None, (", ".join(texts[:-1]), *texts[-1:])))
 
 
+def either(texts: Sequence[str]) -> str:
+    """Texts as a choice in a sentence: `A, B or C`."""
+    return " or ".join(filter(None, (", ".join(texts[:-1]), *texts[-1:])))
+
+
 def shorten(text: str) -> str:
     """A text for a message, cut where it is very long."""
     return text if len(text) <= SHOWN else text[: SHOWN - 4] + " ..."

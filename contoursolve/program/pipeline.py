@@ -17,6 +17,7 @@ from contoursolve.diagnosis.spelling import (
     explain_unmarked,
     explain_words,
 )
+from contoursolve.diagnosis.wording import either
 from contoursolve.diagnostics.display import Shown
 from contoursolve.diagnostics.finding import Basis, Diagnostic, Severity
 from contoursolve.diagnostics.source import Span
@@ -440,7 +441,14 @@ class _Examiner:
         controls = (self.dialect,) if self.dialect else DIALECTS.values()
         triggers = [f"of {each.name}: {each.contours}" for each in controls]
         others = ((name, what_shows(blocks, each)) for name, each in DIALECTS.items() if own not in (None, name))
-        signs = [f"{sign} is for {name}: try --control {name}" for name, sign in others if sign]
+        by_sign: dict[str, list[str]] = {}
+        for name, sign in others:
+            by_sign.setdefault(sign, []).append(name)
+        signs = [
+            f"{sign} is for {either(names)}: try --control {names[0] if len(names) == 1 else 'with one of them'}"
+            for sign, names in by_sign.items()
+            if sign
+        ]
         context = Context(self.rules, self.unit)
         row = context.row(ReadIssue.NO_CONTOUR)
         finding = report(context, row, Basis.RULE, [], triggers="; ".join(triggers + signs))

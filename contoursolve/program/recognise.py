@@ -1,10 +1,10 @@
 """For which control a program is: as its name says, or as its blocks show."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 from contoursolve.controls import DIALECTS
-from contoursolve.diagnosis.wording import join
-from contoursolve.gcode import Block, Program
+from contoursolve.diagnosis.wording import either, join
+from contoursolve.gcode import Block, Program, Word
 from contoursolve.program.project import CONTROL, check_settings, configure
 from contoursolve.reading.dialect import Dialect
 
@@ -47,37 +47,56 @@ class Recogniser:
     def __init__(self) -> None:
         self.signs: dict[str, str] = {}
         """What first showed each control, by its name."""
-        self._excluded: set[str] = set()
-        self._plane = 17
+        self._own: set[str] = set()
+        """The controls that words of their own showed."""
+        self._shared: set[str] = set()
+        """The words that several controls have."""
+        self._is_plane_selected = self._is_milled = self._is_turned = False
 
     def look(self, block: Block) -> None:
         """Take a block into account."""
-        codes = (word.number for word in block.words if word.address == "G")
-        self._plane = next((int(code) for code in codes if code in _PLANES), self._plane)
+        stated = {word.address for word in block.words}
+        codes = {word.number for word in block.words if word.address == "G"}
+        self._shared |= stated & _SHARED
+        self._is_plane_selected |= bool(codes & _PLANES)
+        # G90 is a turning cycle of a lathe, but not beside a motion or a plane.
+        is_absolute = _ABSOLUTE in codes and bool(codes & _BESIDE_ABSOLUTE)
+        self._is_milled |= is_absolute or bool(codes & _OF_A_MILL) or "Y" in stated
+        self._is_turned |= not self._is_plane_selected and bool(stated & {"Z", "W"} and stated & _SHARED)
         for name, dialect in DIALECTS.items():
-            if name not in self.signs:
-                sign = sign_of(block, dialect)
-                if sign:
-                    self.signs[name] = sign
-            if dialect.excludes and name not in self._excluded and dialect.excludes(block, self._plane):
-                self._excluded.add(name)
+            if name not in self._own:
+                words = dialect.signs(block)
+                if words:
+                    self.signs.setdefault(name, _sign(words, block))
+                if any(word.address not in _SHARED for word in words):
+                    self._own.add(name)
 
     @property
     def is_sure(self) -> bool:
-        """Whether the words that showed a control are its own."""
-        return any(DIALECTS[name].excludes is None for name in self.signs)
+        """Whether a word that only one control has showed it."""
+        return bool(self._own)
 
     def find(self) -> Dialect | None:
         """The control; None if no block shows it. Raises UnknownControlError if they show more than one."""
-        fitting = [name for name in DIALECTS if name in self.signs and name not in self._excluded]
-        if len(fitting) == 1:
+        fitting = [name for name in DIALECTS if name in (self._own or self.signs) and self._fits(DIALECTS[name])]
+        if len(fitting) == 1 and (fitting == [*self._own] or not self._own):
             return DIALECTS[fitting[0]]
         if self.signs:
             raise several_controls({name: self.signs[name] for name in fitting or self.signs})
         return None
 
+    def _fits(self, dialect: Dialect) -> bool:
+        """Whether it has all the words, and is for such a machine: a program for a mill that selects no plane has
+        contours in X and Y."""
+        if not self._shared <= dialect.modes.lexicon.addresses.keys():
+            return False
+        is_lathe = any(dialect.plane.diameters)
+        return not self._is_milled if is_lathe else self._is_milled or not self._is_turned
 
-_PLANES = (17, 18, 19)
+
+_SHARED = frozenset({",A", ",C", ",R"})
+_PLANES, _OF_A_MILL = frozenset({17, 18, 19}), frozenset({17, 19, 91})
+_ABSOLUTE, _BESIDE_ABSOLUTE = 90, frozenset({0, 1, 18})
 
 
 def recognise(blocks: Iterable[Block]) -> Dialect | None:
@@ -97,7 +116,7 @@ def several_controls(signs: Mapping[str, str]) -> UnknownControlError:
     for name in DIALECTS:
         if name in signs:
             by_sign.setdefault(signs[name], []).append(name)
-    places = "; ".join(f"{' or '.join(names)} by {sign}" for sign, names in by_sign.items())
+    places = "; ".join(f"{either(names)} by {sign}" for sign, names in by_sign.items())
     reads = "; ".join(f"{name} has {DIALECTS[name].contours}" for name in DIALECTS if name in signs)
     return UnknownControlError(
         f"the program looks like more than one control ({places}); {reads}",
@@ -113,4 +132,8 @@ def what_shows(blocks: Iterable[Block], dialect: Dialect) -> str:
 def sign_of(block: Block, dialect: Dialect) -> str:
     """What shows that a block is for a control; empty if nothing does."""
     words = dialect.signs(block)
-    return f"{join([word.text.strip() for word in words])} in program line {block.line}" if words else ""
+    return _sign(words, block) if words else ""
+
+
+def _sign(words: Sequence[Word], block: Block) -> str:
+    return f"{join([word.text.strip() for word in words])} in program line {block.line}"

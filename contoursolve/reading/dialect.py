@@ -55,9 +55,6 @@ class Dialect:
     """Conventions on which the manual is silent."""
     has_runs: bool = True
     """Whether a contour may be several blocks in a row."""
-    excludes: Callable[[Block, int], bool] | None = None
-    """(block, number of the plane in force) to whether the program cannot be for this control, though it has words of
-    it; None where its words are its own."""
     follow: Follower | None = None
     """What is wrong with the block behind a contour, though it is no part of it."""
 

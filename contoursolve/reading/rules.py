@@ -48,6 +48,10 @@ class Both(Condition):
     first: Condition
     second: Condition
 
+    @property
+    def reads_values(self) -> bool:  # type: ignore[override]
+        return self.first.reads_values or self.second.reads_values
+
     def holds(self, stated: Stated) -> bool:
         return self.first.holds(stated) and self.second.holds(stated)
 
@@ -60,6 +64,10 @@ class Unless(Condition):
     """The opposite of a condition; it points at nothing."""
 
     condition: Condition
+
+    @property
+    def reads_values(self) -> bool:  # type: ignore[override]
+        return self.condition.reads_values
 
     def holds(self, stated: Stated) -> bool:
         return not self.condition.holds(stated)

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
-from examples import law, some_of
+from examples import control_of, law, some_of
 from hypothesis import strategies as st
 from interpreter import RefusedError, assert_path, interpret
 
@@ -304,7 +304,7 @@ def test_an_element_that_rounds_to_nothing_is_left_out_and_its_deviation_counted
     ],
 )
 def test_a_contour_is_replaced(text, lines):
-    assert expand(text) == lines
+    assert expand(text, control=control_of(text)) == lines
 
 
 def test_the_original_block_stays_as_a_comment_that_nothing_ends():

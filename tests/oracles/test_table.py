@@ -21,9 +21,9 @@ NOT_MIXED = ("XU", "ZW", "CP", "DQ")
 @lru_cache(maxsize=1)
 def tables() -> dict[str, str]:
     """What the command prints, by form: lines of the form and, first, their header."""
-    outcome = CliRunner().invoke(main, ["rules", "--table"])
-    assert outcome.exit_code == 0
-    parts = outcome.output.rstrip("\n").split("\n\n")
+    outcomes = [CliRunner().invoke(main, ["rules", "--table", "--control", name]) for name in ("yasnac-lx3", "nct-99m")]
+    assert {outcome.exit_code for outcome in outcomes} == {0}
+    parts = [part for outcome in outcomes for part in outcome.output.rstrip("\n").split("\n\n")]
     return {_name(part): part.strip("\n") + "\n" for part in parts}
 
 

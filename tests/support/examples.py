@@ -62,6 +62,11 @@ def some_of(
     return pytest.mark.parametrize(names, taken, **options)
 
 
+def control_of(text: str) -> str:
+    """The first two controls of a test's program: others read words of the mill, too."""
+    return "nct-99m" if text.startswith("G17") or "\nG17" in text else "yasnac-lx3"
+
+
 def few_and_many(few: Any, many: Any, name: str = "count", **options: Any) -> pytest.MarkDecorator:
     """One case by default, and one more as a slow test."""
     return pytest.mark.parametrize(name, [few, pytest.param(many, marks=pytest.mark.slow)], **options)

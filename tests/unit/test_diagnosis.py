@@ -17,7 +17,7 @@ from typing import Any
 import mpmath
 import numpy
 import pytest
-from examples import few_and_many, some_of
+from examples import control_of, few_and_many, some_of
 from records import replace
 
 from contoursolve import Answer, completions, parse, solve, what_if
@@ -999,7 +999,8 @@ def test_of_two_corners_that_overlap_each_is_told_how_large_it_may_be_if_the_oth
     text, *sizes = OVERLAPPING[name]
     step, mm, unit = ("0.0001", "25.4", "in") if text.startswith("G20") else ("0.001", "1", "mm")
 
-    (error,) = solve(text.format(*sizes)).answers[0].diagnostics
+    control = control_of(text)
+    (error,) = solve(text.format(*sizes), control=control).answers[0].diagnostics
     assert error.code.endswith("corners-overlap")
     for index, key in enumerate(("limit_first", "limit_second")):
         own = sizes[index]
@@ -1011,7 +1012,7 @@ def test_of_two_corners_that_overlap_each_is_told_how_large_it_may_be_if_the_oth
         for size in (largest + Decimal(step), largest):
             words = [*sizes]
             words[index] = f"{own.rstrip('0123456789.')}{size}"
-            outcomes.append(solve(text.format(*words)).answers[0].contour is not None)
+            outcomes.append(solve(text.format(*words), control=control).answers[0].contour is not None)
         assert outcomes == [False, True]
         block = text.format(*words).partition("\n")[2]
         assert numbers_of(block) in [numbers_of(fix.replacement) for fix in error.fixes]

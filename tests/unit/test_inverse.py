@@ -226,7 +226,9 @@ def run(*arguments):
 def test_a_goal_is_read_as_the_control_reads_words():
     on_lathe = [find_word(BLOCK, "A", goal, start=START).hits for goal in ("end Z-50.", "end Z-50000")]
     assert on_lathe[0] == on_lathe[1]
-    on_mill = [find_word("G1 X30 ,A45", ",A", goal, start="X50 Y0").hits for goal in ("end Y20.", "end Y20")]
+    on_mill = [
+        find_word("G1 X30 ,A45", ",A", goal, start="X50 Y0", control="nct-99m").hits for goal in ("end Y20.", "end Y20")
+    ]
     assert on_mill[0] == on_mill[1]
     assert on_mill[0][0].point == pytest.approx((30, 20))
 

@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 import pytest
 from click.testing import CliRunner
+from examples import control_of
 from generate_g111 import SHAPES, draw_g111
 from generate_lx3 import random_g11, random_g112
 from generate_nct import FORMS, random_chain, random_cornered, random_pair
@@ -41,7 +42,7 @@ class Limit(NamedTuple):
 
 def corners_blamed(text: str) -> tuple[list[Limit], set[tuple[int, int]], bool]:
     """The limits that findings about corners show, the places that they blame, and whether there is a contour."""
-    (answer,) = solve(text, depth="verdict").answers
+    (answer,) = solve(text, depth="verdict", control=control_of(text)).answers
     limits, places = [], set()
     for finding in answer.diagnostics:
         for label in finding.labels if finding.about in OF_CORNERS else ():
@@ -153,7 +154,7 @@ def count_tight_limits(seed: int, count: int) -> Counter[str]:
     rng, found = Random(seed), Counter()
     for kind in islice(cycle(KINDS), count):
         text = KINDS[kind](rng)
-        if len(solve(text, depth="verdict").answers) == 1:
+        if len(solve(text, depth="verdict", control=control_of(text)).answers) == 1:
             found[kind] += assert_limits_are_tight(text)
     return found
 
@@ -195,7 +196,7 @@ ROOMS = {
 def test_a_corner_is_told_what_its_neighbours_leave_for_it(name):
     text, expected = ROOMS[name]
     lines = text.split("\n")
-    (answer,) = solve(text).answers
+    (answer,) = solve(text, control=control_of(text)).answers
     labels = [label for finding in answer.diagnostics for label in finding.labels]
     words = [lines[each.span.line - 1][each.span.column - 1 : each.span.end_column - 1] for each in labels]
     assert dict(zip(words, (each.text for each in labels), strict=True)) == expected
@@ -218,7 +219,7 @@ FIRST = {
 @pytest.mark.parametrize("name", FIRST)
 def test_a_corner_that_does_not_fit_gets_the_largest_size_first(name):
     text, expected = FIRST[name]
-    fixes = [fix.description for finding in solve(text).diagnostics for fix in finding.fixes]
+    fixes = [fix.description for finding in solve(text, control=control_of(text)).diagnostics for fix in finding.fixes]
     for told, meant in zip(fixes, expected, strict=False):
         assert told.startswith((f"write {meant} for", meant)), fixes
 
@@ -243,7 +244,7 @@ def with_value(text: str, word: str, value: Decimal) -> str:
 
 
 def has_contour(text: str) -> bool:
-    answers = solve(text, depth="verdict").answers
+    answers = solve(text, depth="verdict", control=control_of(text)).answers
     return len(answers) == 1 and answers[0].contour is not None
 
 

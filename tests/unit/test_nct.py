@@ -379,7 +379,9 @@ def test_single_block_stops_are_named_where_corners_are_explained():
         assert text in CliRunner().invoke(main, ["explain", code]).output
     corner, plain = "G17 G90 G0 X0 Y0\nG1 X30 ,C10\nX40 Y40", LINES
     for program, is_told in ((corner, True), (plain, False)):
-        assert (text in CliRunner().invoke(main, ["solve", "-", "--explain"], input=program).output) is is_told
+        assert (
+            text in CliRunner().invoke(main, ["solve", "-", "--explain", "--control", "nct-99m"], input=program).output
+        ) is is_told
 
 
 @pytest.mark.parametrize(

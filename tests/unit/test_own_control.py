@@ -203,7 +203,7 @@ def test_the_other_commands_take_them_too(run):
     Path("r.json").write_text(result, encoding="utf-8")
     assert run("verify", "p.nc", "r.json", *mine)[0] == 0
     told = run("verify", "p.nc", "r.json")[1]
-    assert "unknown control 'mine'; choose from yasnac-lx3, nct-99m, or name the tables" in told
+    assert f"unknown control 'mine'; choose from {', '.join(DIALECTS)}, or name the tables" in told
     assert "--control MODULE:NAME" in told
     assert run("check", "p.nc", "--format", "sarif", *mine)[0] == 0
     broken = run("check", "--block", PAIR.replace("Q-1", ",R2 ,C2"), "--format", "sarif", *mine)

@@ -747,7 +747,7 @@ def test_what_words_fix_at_no_value_is_drawn_as_free():
 
 def test_a_crowded_drawing_says_what_it_leaves_out():
     blocks = [f"G1 X{10 * (number + 1)} Y{7 * (number % 2)} ,R1" for number in range(40)]
-    (answer,) = contoursolve.solve("G17 G90 G0 X0 Y0\n" + "\n".join([*blocks, "G1 X500 Y0"])).answers
+    (answer,) = contoursolve.solve("G17 G90 G0 X0 Y0\n" + "\n".join([*blocks, "G1 X500 Y0"]), control="nct-99m").answers
     picture = draw_answer(answer)
     check(picture)
     assert any("words are not drawn" in text for text in labels(picture))

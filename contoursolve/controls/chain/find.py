@@ -4,8 +4,7 @@ Two blocks belong together where they meet in an intersection that the control c
 corner.
 """
 
-from collections.abc import Callable, Iterator, Sequence
-from functools import partial
+from collections.abc import Iterator, Sequence
 from itertools import count
 
 from msgspec.structs import replace
@@ -184,34 +183,3 @@ def _ends_where_it_begins(block: Block, here: State, modes: Modes) -> bool:
 
 def _words(*blocks: Block) -> Iterator[Word]:
     return (word for block in blocks for word in block.words)
-
-
-def looks_milled(language: Language) -> Callable[[Block, int], bool]:
-    """What tells of a block that its program is not for a lathe with these words."""
-    return partial(_is_unlike, language, _is_milled)
-
-
-def looks_turned(language: Language) -> Callable[[Block, int], bool]:
-    """What tells of a block that its program is not for a mill with these words: in the plane of X and Y, in which a
-    mill begins, Z has no part in a contour."""
-    return partial(_is_unlike, language, _is_turned)
-
-
-_WORDS = frozenset({",A", ",C", ",R"})
-
-
-def _is_unlike(language: Language, is_other: Callable[[Block, int], bool], block: Block, plane: int) -> bool:
-    stated = {word.address for word in block.words}
-    return bool(stated & _WORDS - language.lexicon.addresses.keys()) or is_other(block, plane)
-
-
-def _is_milled(block: Block, _: int) -> bool:
-    """G90 is a turning cycle of a lathe, but not beside a motion or a plane."""
-    codes = {word.number for word in block.words if word.address == "G"}
-    is_absolute = 90 in codes and bool(codes & {0, 1, 18})  # noqa: PLR2004 - as its code is printed
-    return bool(codes & {17, 19, 91}) or is_absolute or block.find("Y") is not None
-
-
-def _is_turned(block: Block, plane: int) -> bool:
-    stated = {word.address for word in block.words}
-    return plane == 17 and bool(stated & {"Z", "W"} and stated & _WORDS)  # noqa: PLR2004 - as its code is printed

@@ -3,7 +3,7 @@
 Their words, languages and rules come in; four controls go out. Begin with `language`.
 """
 
-from contoursolve.controls.chain import ChainFinder, Language, forms_of, looks_milled, looks_turned
+from contoursolve.controls.chain import ChainFinder, Language, forms_of
 from contoursolve.controls.common import COMMON_RULES
 from contoursolve.controls.fanuc.language import (
     FANUC_LATHE_LANGUAGE,
@@ -44,19 +44,17 @@ def _control(
     settings: tuple[Setting, ...],
     contours: str,
 ) -> Dialect:
-    is_lathe = name.endswith("lathe")
     return Dialect(
         name=name,
         title=title,
         modes=modes,
-        plane=LATHE if is_lathe else PLANES[17],
+        plane=LATHE if name.endswith("lathe") else PLANES[17],
         forms=forms_of(language, modes),
         rules=COMMON_RULES + rules,
         find=ChainFinder(language),
         signs=_signs,
         contours=contours,
         settings=settings,
-        excludes=looks_milled(language) if is_lathe else looks_turned(language),
     )
 
 

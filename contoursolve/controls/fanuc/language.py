@@ -120,6 +120,11 @@ def _circumstances(member: Member, _: Sequence[State], modes: Modes) -> Iterator
     return (name for name, is_true in holds.items() if is_true)
 
 
+def _straight_circumstances(member: Member, states: Sequence[State], modes: Modes) -> Iterator[str]:
+    yield from _circumstances(member, states, modes)
+    yield STRAIGHT_ONLY
+
+
 def _haas_mill_circumstances(member: Member, states: Sequence[State], modes: Modes) -> Iterator[str]:
     yield from _circumstances(member, states, modes)
     if modes.convention(ARCS).value == "off":
@@ -153,13 +158,13 @@ FANUC_LATHE_LANGUAGE = Language(
     titles=TITLES,
     samples={
         (_LINE,): Sample(_ON_LATHE, ("G01 {X40.} {Z-17.3205} ,A150.",)),
-        (_LINE, _LINE): Sample(_ON_LATHE, ("G01 {X20.} {Z-20.} {,A180.} {,C2.} ,R3.", "{X40.} {Z-20.} {,A90.}")),
+        (_LINE, _LINE): Sample(_ON_LATHE, ("G01 {X30.} {Z-20.} {,A165.96} {,C2.} ,R3.", "{X50.} {Z-21.} {,A95.7}")),
         (_OPEN, _CLOSING): Sample(_ON_LATHE, ("G01 {X20.} {Z-20.} ,A180. {,C2.} {,R3.}", "{X60.} {Z-47.} {,A120.}")),
         (_OPEN, _CLOSING, _LINE): Sample(
-            _ON_LATHE, ("G01 ,A180. {,C2.} {,R3.}", "{X60.} {Z-47.} ,A120. {,C1.} ,R2.", "{Z-60.} {X60.}")
+            _ON_LATHE, ("G01 ,A180. {,C2.} {,R3.}", "X60. Z-47. ,A120. {,C1.} ,R2.", "{Z-60.} {X60.0}")
         ),
     },
-    circumstances=_circumstances,
+    circumstances=_straight_circumstances,
     conventions=_lathe_conventions,
     is_ray=_is_ray,
     guard=_guard_sine,
@@ -188,7 +193,7 @@ HAAS_LATHE_LANGUAGE = replace_fields(
     allowed=FANUC_LATHE_LANGUAGE.allowed - {",A"} | {"A"},
     samples={
         (_LINE,): Sample(_ON_LATHE, ("G01 {X40.} {Z-17.3205} A150.",)),
-        (_LINE, _LINE): Sample(_ON_LATHE, ("G01 {X20.} {Z-20.} {,C2.} ,R3.", "{X40.} {Z-20.}")),
+        (_LINE, _LINE): Sample(_ON_LATHE, ("G01 {X30.} {Z-20.} {A165.96} {,C2.} ,R3.", "{X50.} {Z-21.} {A95.7}")),
     },
 )
 HAAS_MILL_LANGUAGE = replace_fields(

@@ -1,8 +1,7 @@
 """The NCT 99M and 2000M milling controls, from chapter 16 of their Programmer's Manual."""
 
-from contoursolve.controls.chain import looks_turned
 from contoursolve.controls.common import COMMON_RULES
-from contoursolve.controls.nct_99m.language import FIND, FORMS, LANGUAGE, SETTINGS
+from contoursolve.controls.nct_99m.language import FIND, FORMS, SETTINGS
 from contoursolve.controls.nct_99m.lexicon import CODES, MODES, XY, YZ, ZX
 from contoursolve.controls.nct_99m.rules import COMBINATION_RULES, GEOMETRY_RULES
 from contoursolve.gcode import Block, Word
@@ -12,6 +11,8 @@ from contoursolve.reading.dialect import Dialect
 
 def _signs(block: Block) -> tuple[Word, ...]:
     shown = {",A", ",C", ",R"} | _over_defining(block)
+    if block.find(",A"):
+        shown |= {"Q"}
     return tuple(word for word in block.words if word.address in shown)
 
 
@@ -45,5 +46,4 @@ NCT_99M = Dialect(
     signs=_signs,
     contours="blocks with ,A ,C or ,R, arcs with R, and blocks over-defined by ,A or by end, centre and R",
     settings=SETTINGS,
-    excludes=looks_turned(LANGUAGE),
 )
