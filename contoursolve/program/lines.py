@@ -6,7 +6,7 @@ from msgspec.structs import replace
 
 from contoursolve.controls import DIALECTS
 from contoursolve.gcode import LONGEST_BLOCK, Block, Directive, Passage, parse_block
-from contoursolve.program.recognise import several_controls, sign_of
+from contoursolve.program.recognise import several_controls, sign_against, sign_of
 from contoursolve.program.stream import Line
 from contoursolve.reading import plain_lines
 from contoursolve.reading.dialect import Dialect
@@ -67,7 +67,7 @@ class Lines:
         if self._others:
             self._own = self._own or sign_of(block, self._dialect)
         for other in self._others:
-            sign = sign_of(block, other)
+            sign = sign_against(block, self._dialect, other)
             if sign:
                 raise several_controls({self._dialect.name: self._own, other.name: sign})
         return block

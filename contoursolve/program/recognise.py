@@ -90,6 +90,8 @@ class Recogniser:
         contours in X and Y."""
         if not self._shared <= dialect.modes.lexicon.addresses.keys():
             return False
+        if dialect.name in self._own:
+            return True
         is_lathe = any(dialect.plane.diameters)
         return not self._is_milled if is_lathe else self._is_milled or not self._is_turned
 
@@ -133,6 +135,13 @@ def sign_of(block: Block, dialect: Dialect) -> str:
     """What shows that a block is for a control; empty if nothing does."""
     words = dialect.signs(block)
     return _sign(words, block) if words else ""
+
+
+def sign_against(block: Block, dialect: Dialect, other: Dialect) -> str:
+    """What shows that a block is for another control, and is no word of this one; empty if nothing does."""
+    own = dialect.modes.lexicon.addresses
+    foreign = [word for word in other.signs(block) if word.address not in _SHARED or word.address not in own]
+    return _sign(foreign, block) if foreign else ""
 
 
 def _sign(words: Sequence[Word], block: Block) -> str:

@@ -182,7 +182,7 @@ def test_a_command_takes_the_tables_of_a_module(run, name):
     status, output = run(*COMMANDS[name], "--control", "tables_of_mine:MINE")
     built_in = run(*COMMANDS[name], "--control", "nct-99m")
     # That a control is shown by the program is only known of those that are built in.
-    shown = f"control: {NCT_99M.title} (from ,A171.87 in program line 3)"
+    shown = f"control: {NCT_99M.title} (from ,A171.87 and Q-1 in program line 3)"
     output = output.replace("control: mine (as asked for)", shown)
     assert (status, output.replace("mine", "nct-99m")) == built_in
     assert status == 0
