@@ -68,8 +68,8 @@ def solve(
 
     Args:
         text: the program, one or more lines.
-        control: `yasnac-lx3` or `nct-99m`, or a control of your own as its tables (see `Dialect`); found from the
-            program where it is clear.
+        control: its name, such as `fanuc-lathe`, or a control of your own as its tables (see `Dialect`); found from
+            the program where it is clear.
         start: words that give the start point, such as `"X40. Z0."`, as the control reads them.
         units: `mm` or `inch`, for numbers before any G20 or G21.
         rules: `enforce`, `warn` or `off` (see `Policy`).

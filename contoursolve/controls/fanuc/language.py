@@ -110,9 +110,10 @@ def _guard_sine(modes: Modes) -> float:
     return sin(radians(float(GUARD))) if _guarded(modes) else 0.0
 
 
-def _circumstances(member: Member, _: Sequence[State], modes: Modes) -> Iterator[str]:
+def _circumstances(member: Member, states: Sequence[State], modes: Modes) -> Iterator[str]:
+    is_first, plane = len(states) == 2, member.here.plane  # noqa: PLR2004 - before it and behind it
     holds = {
-        WRONG_PLANE: member.here.plane.diameters != (False, False) and member.here.plane.code != LATHE.code,
+        WRONG_PLANE: is_first and any(plane.diameters) and plane.code != LATHE.code,
         UNGUARDED: not _guarded(modes),
         STRICT_ANGLE: modes.settings.get("redundant-angle") == "error",
         COMPENSATION_CHANGES: member.before.compensation != member.here.compensation,
