@@ -18,6 +18,7 @@ if TYPE_CHECKING:
         UnreadableProgramError,
         check,
         check_file,
+        convert,
         expand,
         parse,
         read_program,
@@ -47,7 +48,7 @@ if TYPE_CHECKING:
     from contoursolve.gcode import Block, Program, Word
     from contoursolve.notebook import explore
     from contoursolve.output.construction import construction_lines
-    from contoursolve.postprocess.expansion_report import Expansion
+    from contoursolve.postprocess.expansion_report import Conversion, Expansion
     from contoursolve.program.pipeline import Result
     from contoursolve.program.recognise import UnknownControlError
     from contoursolve.reading.dialect import Dialect
@@ -65,6 +66,7 @@ __all__ = [
     "Block",
     "Completion",
     "Contour",
+    "Conversion",
     "Depth",
     "Diagnosis",
     "Diagnostic",
@@ -95,6 +97,7 @@ __all__ = [
     "check_file",
     "completions",
     "construction_lines",
+    "convert",
     "expand",
     "explore",
     "family",
@@ -120,7 +123,7 @@ _ROOMS = {
     "diagnosis.solutions": ("Listing", "list_solutions"),
     "diagnostics.extras": ("MissingExtraError",),
     "output.construction": ("construction_lines",),
-    "postprocess.expansion_report": ("Expansion",),
+    "postprocess.expansion_report": ("Conversion", "Expansion"),
     "families": (
         "Family",
         "FamilyError",

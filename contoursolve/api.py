@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from msgspec.structs import replace
 
@@ -16,13 +16,13 @@ from contoursolve.diagnostics.finding import Diagnostic
 from contoursolve.gcode import STANDARD_INPUT, Directive, Program, UnreadableProgramError
 from contoursolve.geometry import Length
 from contoursolve.postprocess.numbering import Numbers
-from contoursolve.program.pipeline import Result, Run
-from contoursolve.program.project import find_settings
-from contoursolve.program.recognise import choose
+from contoursolve.program.pipeline import Result, Run, run
+from contoursolve.program.project import configure, find_settings
+from contoursolve.program.recognise import choose, find_dialect
 from contoursolve.reading.dialect import Dialect
 
 if TYPE_CHECKING:
-    from contoursolve.postprocess.expansion_report import Expansion
+    from contoursolve.postprocess.expansion_report import Conversion, Expansion
     from contoursolve.postprocess.post_processors import Post
     from contoursolve.statements import Statement
 
@@ -30,6 +30,7 @@ __all__ = [
     "UnreadableProgramError",
     "check",
     "check_file",
+    "convert",
     "expand",
     "parse",
     "read_program",
@@ -311,6 +312,68 @@ def expand(
     written = "".join(opening if piece is OPENING else str(piece) for piece in pieces)
     is_whole = (keep_going or not summary.left) and (keep_untranslated or not summary.misread)
     return Expansion(written if is_whole else None, dialect.name, summary)
+
+
+def convert(
+    text: str,
+    to: str | Dialect,
+    *,
+    comments: bool = True,
+    control: str | Dialect | None = None,
+    units: str = "mm",
+    rules: str = "enforce",
+    settings: Mapping[str, str] | None = None,
+    name: str = "<program>",
+) -> Conversion:
+    """A program with every contour in another control's own words, as far as it has them, and the rest as it was.
+
+    Args:
+        text: the program, with its line ends.
+        to: the other control, such as `fanuc-lathe`, or its tables.
+        comments: whether the original blocks are kept as comments.
+        control: and all others as for `solve`, with the same errors.
+
+    Both programs are read and followed, each as its own control does: `comparison` tells whether they are one path, to
+    within the rounding. `text` is None where they are not, where a contour could not be solved, or where the target
+    would run something else along another path (`summary`). Raises ValueError if the target has no words for contours,
+    or is for another kind of machine.
+
+    >>> print(convert("G00 X40. Z0.\nG111 X100. A180. K-30. B120. P5.", "fanuc-lathe", comments=False).text)
+    G00 X40. Z0.
+    G01 X40. Z-30. ,R5.
+    G01 X100. ,A120.
+    """
+    # Only this function needs them.
+    from contoursolve.comparison import compare, follow  # noqa: PLC0415
+    from contoursolve.postprocess.expansion_report import Conversion  # noqa: PLC0415
+    from contoursolve.postprocess.post_processors import machine_of, post_of  # noqa: PLC0415
+    from contoursolve.postprocess.translate import language_of  # noqa: PLC0415
+
+    target = to if isinstance(to, Dialect) else configure(find_dialect(to), settings)
+    if language_of(target) is None:
+        raise ValueError(f"contours cannot be written in the words of {target.name}: its blocks are of another kind")
+    dialect = choose(control, gcode.parse(text, name), settings)
+    if dialect is not None and machine_of(dialect) is not machine_of(target):
+        kinds = f"{dialect.name} is a {machine_of(dialect).value}, {target.name} a {machine_of(target).value}"
+        raise ValueError(f"a program is converted for the same kind of machine: {kinds}")
+    options: dict[str, Any] = {"units": units, "rules": rules}
+    found = expand(text, post=post_of(target), comments=comments, control=dialect, name=name, **options)
+    if found.text is None or dialect is None:
+        return Conversion(found.text, found.control, target.name, found.summary, None)
+    unit, policy = choice_of(Length, units, "units"), choice_of(Policy, rules, "rules")
+    axes = tuple(sorted({*dialect.modes.axes, *target.modes.axes}))
+    old, new = (
+        follow(run(gcode.parse(program, name), each, unit, policy), each, unit, axes)
+        for program, each in ((text, dialect), (found.text, target))
+    )
+    comparison = compare(old, new, _CONVERTED_WITHIN)
+    is_same = comparison.is_equal
+    return Conversion(found.text if is_same else None, found.control, target.name, found.summary, comparison)
+
+
+_CONVERTED_WITHIN = 0.002
+"""mm. How far apart the paths of a program and of its conversion may be: end points are rounded to 0.001 mm, and a
+corner between rounded lines moves a little more."""
 
 
 def read_program(path: str | Path) -> Program:

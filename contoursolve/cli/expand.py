@@ -138,20 +138,20 @@ def expand(
         raise click.UsageError("name a program (- for standard input), or give --block")
     if start is not None and not blocks:
         raise click.UsageError("--start goes with --block; a PROGRAM states its own positions")
-    target = _target(program, output, is_in_place, is_forced)
+    target = program_itself(program, output) if is_in_place else target_of(program, output, is_forced=is_forced)
     wish = _wish(post, options)
     source = tape_of("".join(f"{block}\n" for block in blocks), "<block>") if blocks else open_tape(program or "-")
     with TemporaryFile() as body:
         with _progress_bar() as progress:
             rewritten = _rewrite(source, body, wish, start, options, progress)
         summary = rewritten.summary
-        _report_left(summary, program or "<block>", style_of_output())
-        _report_misread(summary, POSTS[post], style_of_output(), is_kept=keeps_untranslated)
+        report_left(summary, program or "<block>", style_of_output())
+        report_misread(summary, POSTS[post], style_of_output(), is_kept=keeps_untranslated)
         if summary.left and not keeps_going:
             say("nothing was written (--keep-going expands the others)", err=True)
             context.exit(FOUND_ERRORS)
         if summary.misread and not keeps_untranslated:
-            _report_told(summary, POSTS[post])
+            report_told(summary, POSTS[post])
             say(f"nothing was written: {_BY_HAND} (--keep-untranslated writes it as it is)", err=True)
             context.exit(FOUND_ERRORS)
         if target is None:
@@ -193,8 +193,8 @@ def filter_(context: click.Context, /, program: str, **options: Any) -> None:
     with TemporaryFile() as body:
         wish = _wish("linuxcnc", options)
         rewritten = _rewrite(open_tape(program), body, wish, None, options, progress)
-        _report_left(rewritten.summary, program, plain)
-        _report_misread(rewritten.summary, wish.post, plain, is_kept=False)
+        report_left(rewritten.summary, program, plain)
+        report_misread(rewritten.summary, wish.post, plain, is_kept=False)
         if rewritten.summary.left or rewritten.summary.misread:
             say("nothing was written" + f": {_BY_HAND}" * bool(rewritten.summary.misread), err=True)
             context.exit(FOUND_ERRORS)
@@ -203,13 +203,16 @@ def filter_(context: click.Context, /, program: str, **options: Any) -> None:
     _report_expansion(rewritten.summary, POSTS["linuxcnc"], plain)
 
 
-def _target(program: str | None, output: str | None, is_in_place: bool, is_forced: bool) -> Path | None:
+def program_itself(program: str | None, output: str | None) -> Path:
+    """The file that is replaced by what is written."""
+    if output is not None or program in (None, STANDARD):
+        raise click.UsageError("--in-place takes a file OLD, and no NEW")
+    return Path(str(program))
+
+
+def target_of(program: str | None, output: str | None, *, is_forced: bool) -> Path | None:
     """The file to write to, if any. What may not be written to is told before anything is done."""
     source = None if program in (None, STANDARD) else Path(str(program))
-    if is_in_place:
-        if output is not None or source is None:
-            raise click.UsageError("--in-place takes a file OLD, and no NEW")
-        return source
     if output in (None, STANDARD):
         return None
     target = Path(str(output))
@@ -285,7 +288,7 @@ def _print(rewritten: Rewritten) -> None:
     stream.flush()
 
 
-def _report_left(summary: Summary, name: str, style: Style) -> None:
+def report_left(summary: Summary, name: str, style: Style) -> None:
     """Why contours were not expanded, on standard error."""
     for left in summary.left:
         if all(finding.severity is not Severity.ERROR for finding in left.diagnostics):
@@ -296,14 +299,14 @@ def _report_left(summary: Summary, name: str, style: Style) -> None:
             say("\n".join(lines), err=True)
 
 
-def _report_misread(summary: Summary, post: Post, style: Style, *, is_kept: bool) -> None:
+def report_misread(summary: Summary, post: Post, style: Style, *, is_kept: bool) -> None:
     """What the target would run along another path, on standard error."""
     severity = "warning" if is_kept else "error"
     for each in summary.misread:
         say(f"{style(severity, severity)}: line {each.line}: {each.sentence(post.title)}", err=True)
 
 
-def _report_told(summary: Summary, post: Post) -> None:
+def report_told(summary: Summary, post: Post) -> None:
     """What the target stops at, or reads in another way on the same path, on standard error."""
     for each in summary.unfamiliar:
         if each.risk is Risk.TOLD:
@@ -319,7 +322,7 @@ def _report_expansion(summary: Summary, post: Post, style: Style) -> None:
         say(f"{place}: {style('warning', 'warning')}[{finding.code}]: {finding.message}", err=True)
     if summary.warnings > len(summary.warned):
         say(f"and {count(summary.warnings - len(summary.warned), 'warning')} more", err=True)
-    _report_told(summary, post)
+    report_told(summary, post)
     done = f"{count(summary.replaced, 'contour')} expanded"
     if summary.replaced:
         done += f", at most {summary.deviation:.1g} mm off"

@@ -13,6 +13,7 @@ _COMMANDS = {
     "solve": "solve:solve",
     "expand": "expand:expand",
     "filter": "expand:filter_",
+    "convert": "convert:convert",
     "diff": "diff:diff",
     "plot": "pictures:plot",
     "report": "pictures:report",
