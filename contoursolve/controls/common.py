@@ -189,8 +189,8 @@ READING_RULES = (
     ),
     Rule(
         code="start-assumed",
-        message="checked from {place}, where the best fix of line {line} ends",
-        help="mend line {line} first",
+        message="checked from {place}, where the best fix of program line {line} ends",
+        help="mend program line {line} first",
         source=_READING,
         about=ReadIssue.START_ASSUMED,
         severity=Severity.INFO,
@@ -199,8 +199,8 @@ READING_RULES = (
     ),
     Rule(
         code="contour-waits",
-        message="not checked: it waits for the end point of line {line}",
-        help="mend line {line} first",
+        message="not checked: it waits for the end point of program line {line}",
+        help="mend program line {line} first",
         source=_READING,
         about=ReadIssue.CONTOUR_WAITS,
         severity=Severity.INFO,

@@ -14,6 +14,8 @@ from msgspec.structs import replace
 from contoursolve.analysis import Determinacy
 from contoursolve.diagnosis.wording import (
     angle_text,
+    by_line,
+    element_text,
     join,
     length_limit,
     length_text,
@@ -30,7 +32,7 @@ from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import FACT, Word
 from contoursolve.geometry import Length, Profile, Radius, Role, Unit, assemble
 from contoursolve.reading import ParsedContour, ReadIssue
-from contoursolve.reading.rules import Offence, Rule
+from contoursolve.reading.rules import VERBS, Offence, Rule
 from contoursolve.solving import (
     BESIDE,
     Note,
@@ -134,6 +136,7 @@ def report(
         "present": Present(typed),
         "absent": Absent(typed),
         "address": blamed[0].address if blamed else "",
+        **{several: several if len(blamed) > 1 else one for several, one in VERBS.items()},
         **fields,
     }
     texts = list(labels) + [""] * len(spans)
@@ -206,7 +209,7 @@ def explain_ignored(context: Context, offence: Offence, profile: Profile, soluti
         is_within = values["off_by_mm"] <= allowance(fact, at, increments_of(profile))
         agrees = "; it agrees with them" if is_within else ""
         comparison = agrees or (
-            f"; they make it {tell_apart((expected, values['actual']), angle_text)[0]}, it is off by {angle_text(gap)} "
+            f"; they make it {tell_apart((expected, values['actual']), angle_text)[0]}, so it is off by {angle_text(gap)} "
             f"({length_text(values['off_by_mm'], context.unit)})"
         )
         label = f"ignored; the line runs at {angle_text(expected)}"
@@ -225,9 +228,9 @@ def explain_missing(context: Context, profile: Profile, verdict: Determinacy, cl
     # Of a corner whose size is not determined, nothing is.
     corners = tuple(f"{corner.name}." for corner in profile.figure.corners if f"{corner.name}.radius" in free)
     shown = [name for name in verdict.free if not name.startswith(corners) or name.endswith(".radius")]
-    addresses = dict.fromkeys(_address(name, claim) for name in able if name in claim.vocabulary)
+    absent = dict.fromkeys(claim.vocabulary[name] for name in able if name in claim.vocabulary)
     open_count = len(assemble(profile).unknowns) - verdict.rank
-    ways = [_adding(list(addresses), open_count)] if addresses else []
+    ways = [_adding(list(absent), open_count, claim)] if absent else []
     if profile.is_extended:
         open_sizes = [
             question.word.text
@@ -249,17 +252,14 @@ def explain_missing(context: Context, profile: Profile, verdict: Determinacy, cl
 _NUMBERS = {1: "one", 2: "two", 3: "three"}
 
 
-def _adding(addresses: Sequence[str], number: int) -> str:
-    """To add so many of these words."""
-    if number >= len(addresses) or number not in _NUMBERS:
-        return f"add {join(addresses)}"
-    return f"add {_NUMBERS[number]} of {', '.join(addresses)}"
-
-
-def _address(name: str, claim: ParsedContour) -> str:
-    """The address that would state something, with the line of its block where there are several."""
-    address, index = claim.vocabulary[name]
-    return address if len(claim.blocks) == 1 else f"{address} in line {claim.blocks[index].line}"
+def _adding(absent: Sequence[tuple[str, int]], number: int, claim: ParsedContour) -> str:
+    """To add so many of these words, each an address and its block: with the line where there are several."""
+    lines = {index: claim.blocks[index].line for _, index in absent}
+    where = f" in program line {lines[absent[0][1]]}" if len(claim.blocks) > 1 and len(lines) == 1 else ""
+    words = [address if len(lines) == 1 else f"{address} in program line {lines[index]}" for address, index in absent]
+    if number >= len(words) or number not in _NUMBERS:
+        return f"add {join(words)}{where}"
+    return f"add {_NUMBERS[number]} of {', '.join(words)}{where}"
 
 
 _IN_DEGREES = {RefusalKind.LINE_REVERSED}
@@ -309,11 +309,16 @@ def explain_result(
     if event.kind is RefusalKind.CORNER_TOO_LARGE and isinstance(event, Refusal):
         more, labels = _room(event, values, profile)
         fields |= more
+        # A negative length says that a corner would leave an arc beyond its end.
+        if values.get("needed", -1.0) >= 0:
+            available, needed = (length_text(values[name], context.unit) for name in ("available", "needed"))
+            element = element_text(event.elements[0])
+            notes = (f"{element} is {available} long; {things[0]} takes {needed} of it",)
     if event.kind is RefusalKind.CORNERS_OVERLAP:
         rooms = _rooms(event, values, words, profile)
         labels = [label for _, label in rooms]
         smaller = _smaller([advice for advice, _ in rooms if advice], values, profile) if rooms else ""
-        fields["smaller"] = smaller or f"make the corners smaller by {fields['off']} of it in all"
+        fields["smaller"] = smaller or f"make the corners smaller, to need {fields['off']} less together"
     finding = report(context, context.row(event.kind), Basis.NUMERICAL, words, values, labels, **fields)
     if isinstance(event, Refusal):
         finding = _with_what_helps(finding, event, values, asked, profile)
@@ -344,7 +349,7 @@ def _with_what_helps(
         )
     if asked:
         causes = list(dict.fromkeys(text for word in asked for text in _causes(word, profile)))
-        advice = f"change what that follows from: {join(causes)}" if causes else "change what that follows from"
+        advice = f"change {join(causes)}: the value follows from there" if causes else "change what the value follows from"
         finding = replace(finding, help=advice, labels=tuple(replace(each, text="") for each in finding.labels))
     return finding
 
@@ -359,11 +364,12 @@ def _room(event: Refusal, values: Mapping[str, float], profile: Profile) -> tupl
     others = (profile.givens[name].word for name in event.beside if name in profile.givens)
     beside = join([_named_in(word, profile) for word in others if word])
     beside = f" beside {beside}" if beside else ""
+    where = element_text(event.elements[-1]) if event.elements else "its elements"
     if not largest:
         fits = f"no room is left{beside}" if beside else "nothing fits"
         smaller = ", or ".join(["delete it", *_for_both(values, profile.unit)])
-        return {"limit": shown, "fits": fits, "smaller": smaller}, [f"no room left{beside}"]
-    fields = {"limit": shown, "fits": f"at most {shown} fits", "smaller": f"write at most {shown}"}
+        return {"limit": shown, "fits": fits, "where": where, "smaller": smaller}, [f"no room left{beside}"]
+    fields = {"limit": shown, "fits": f"at most {shown} fits", "where": where, "smaller": f"write at most {shown}"}
     return fields, [f"at most {shown}{beside}"]
 
 
@@ -381,7 +387,7 @@ def _largest(limit: float, unit: Length) -> tuple[Decimal, str]:
 
 def _named_in(word: Word, profile: Profile) -> str:
     """A word, with its line where there are several."""
-    return f"{word.text} (line {word.span.line})" if len(profile.blocks) > 1 else word.text
+    return by_line([(word.text, word.span.line)]) if len(profile.blocks) > 1 else word.text
 
 
 def _rooms(
@@ -402,7 +408,7 @@ def _rooms(
         if word not in sizes:
             rooms.append(("", ""))
         elif largest:
-            rooms.append((f"write at most {shown} for {name} if {other} stays", f"at most {shown} beside {other}"))
+            rooms.append((f"write at most {shown} for {name}", f"at most {shown} beside {other}"))
         else:
             rooms.append((f"delete {name}", f"no room left beside {other}"))
     return rooms
@@ -466,7 +472,7 @@ def explain_singular(context: Context, names: Sequence[str], loose: Sequence[str
     """Facts that do not fix what they are about at their values, though they would at others."""
     words = [word for word in (profile.givens[name].word for name in names) if word]
     rule, free = context.row(ReadIssue.FACTS_SINGULAR), unknowns_text(loose, profile)
-    return report(context, rule, Basis.NUMERICAL, words, free=free, do="do" if len(words) > 1 else "does")
+    return report(context, rule, Basis.NUMERICAL, words, free=free)
 
 
 def explain_crossing(context: Context, profile: Profile, contour: Contour) -> Iterator[Diagnostic]:

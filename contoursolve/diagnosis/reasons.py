@@ -8,7 +8,16 @@ from functools import lru_cache
 from itertools import pairwise
 
 from contoursolve.analysis import analyse, order
-from contoursolve.diagnosis.wording import angle_text, join, length_text, limit_text, place_text, statement_text
+from contoursolve.diagnosis.wording import (
+    angle_text,
+    by_line,
+    element_text,
+    join,
+    length_text,
+    limit_text,
+    place_text,
+    statement_text,
+)
 from contoursolve.diagnostics.finding import Diagnostic, Freedom
 from contoursolve.geometry import FIRST, SECOND, Arc, Fact, Heading, Line, Profile, assemble, scalar
 from contoursolve.solving import RefusalKind, lookup
@@ -44,7 +53,7 @@ def _shipped() -> dict[str, str]:
 def conflict_reasons(profile: Profile, affine: AffineFacts, circuit: Circuit) -> Iterator[str]:
     """Where the facts of a circuit put the point that they are about, and how far apart.
 
-    The last fact that is not an angle is held against the others, because a place can be compared.
+    The last fact that is not an angle is compared with the others, because a place can be compared.
     """
     places = [fact for fact in circuit.facts if not isinstance(fact, Heading)] or list(circuit.facts)
     single = places[-1]
@@ -101,13 +110,6 @@ def freedom_reasons(profile: Profile, freedoms: Sequence[Freedom]) -> Iterator[s
 def path_reasons(profile: Profile, affine: AffineFacts | None, finding: Diagnostic) -> Iterator[str]:
     """What the numbers of a finding about the path come from."""
     values = finding.values
-    # A negative length says that a corner would leave an arc beyond its end.
-    if values.get("needed", -1.0) >= 0:
-        element = "element" if any(isinstance(each, Arc) for each in profile.figure.path) else "line"
-        yield (
-            f"the {element} is {length_text(values['available'], profile.unit)} long; the corner takes "
-            f"{length_text(values['needed'], profile.unit)} of it"
-        )
     yield from _placed_before(profile, finding)
     if "angle_from" in values:
         known = "start" if _ends_on_arc(profile, finding) else "end"
@@ -155,9 +157,8 @@ def _placed_before(profile: Profile, finding: Diagnostic) -> Iterator[str]:
                     wanted |= {name for fact in group.facts for name in system.unknowns_of(fact)}
             words = sorted(profile.words_of(facts), key=lambda word: word.span)
             if words:
-                shown = join(list(dict.fromkeys(f"{word.text} (line {word.span.line})" for word in words)))
-                name = element.name if element.name[-1].isdigit() else f"the {element.name}"
-                yield f"because {name} begins at {element.tail}, where {shown} put it"
+                shown = by_line((word.text, word.span.line) for word in words)
+                yield f"because {element_text(element.name)} begins at {element.tail}, where {shown} put it"
 
 
 def _known(profile: Profile, fixed: dict[str, float], point: str) -> dict[str, float]:

@@ -251,7 +251,7 @@ def _on_line(place: Position) -> str:
     """Where a position was lost, unless the reason says so."""
     if place.span is None or f"line {place.span.line}," in place.reason:
         return ""
-    return f" (line {place.span.line})" if place.span.line else " (--start)"
+    return f" (program line {place.span.line})" if place.span.line else " (--start)"
 
 
 def explain_skippable(context: Context, claim: ParsedContour) -> Iterator[Diagnostic]:

@@ -410,7 +410,7 @@ GEOMETRY_RULES = (
     ),
     Rule(
         code="nct-circle-degenerate",
-        message="{words} define no circle: the radius is 0, or the point is the start point",
+        message="{words} {define} no circle: the radius is 0, or the point is the start point",
         help="give a centre away from the start, or a point away from it",
         source=_manual("p. 26 (4.3): alarm 3012, end equals start"),
         alarm=_CIRCLE_R,
@@ -491,7 +491,7 @@ GEOMETRY_RULES = (
     ),
     Rule(
         code="nct-parallel",
-        message="{words} fit no point: the lines are parallel and {off} apart",
+        message="no {things} fits {words}: the lines are parallel and {off} apart",
         help="change an angle or a point",
         source=_GEOMETRY,
         about=RefusalKind.LINES_PARALLEL,
@@ -500,7 +500,7 @@ GEOMETRY_RULES = (
     ),
     Rule(
         code="nct-not-fixed",
-        message="{words} do not fix {free}: at these values they state the same line",
+        message="{words} {do} not fix {free}: at these values they state the same line",
         help="replace one of them by a word that says where on the line the point is",
         source=_manual("16.2", Evidence.DERIVED),
         about=RefusalKind.NOT_FIXED,
@@ -509,7 +509,7 @@ GEOMETRY_RULES = (
     ),
     Rule(
         code="nct-corner-too-large",
-        message="{subject} does not fit: {words} is {actual}, {fits} on its elements",
+        message="{subject} does not fit: {words} is {actual}, {fits} on {where}",
         help="{smaller}, or make the elements longer",
         source=_manual("16.1; alarm 3084"),
         alarm=_TOO_HIGH,
