@@ -8,13 +8,21 @@ from typing import Any
 import click
 
 from contoursolve import __version__
-from contoursolve.cli.options import FOUND_ERRORS, CouldNotRunError, common_options, examine, load, named_after
-from contoursolve.cli.printing import print_lines, say, style_of_output
+from contoursolve.cli.options import (
+    FOUND_ERRORS,
+    CouldNotRunError,
+    common_options,
+    examine,
+    load,
+    named_after,
+    print_findings,
+)
+from contoursolve.cli.printing import say
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.wording import count
 from contoursolve.diagnostics.extras import MissingExtraError, importing
 from contoursolve.gcode.files import CannotWriteError, check_target, write_whole
-from contoursolve.output.listing import lines_of_findings, short_findings, summary_line
+from contoursolve.output.listing import summary_line
 from contoursolve.pictures import Picture, Theme, draw_answer, draw_result
 from contoursolve.program.pipeline import Result
 
@@ -124,7 +132,7 @@ def plot(
         if not is_each:
             check_target(target, source, is_forced=_may_replace(target, output, is_forced=is_forced))
         result = examine(loader(), start, assignments, options)
-        print_lines(lines_of_findings(result, short_findings(result), style_of_output()))
+        print_findings(result, program)
         if kind == _DXF:
             files = _drawings_for_cad(result, target)
         else:
@@ -230,7 +238,7 @@ def report(
         check_target(target, Path(program) if program else None, is_forced=may_replace)
         result = examine(loader(), start, assignments, options)
         if not result.answers:
-            print_lines(lines_of_findings(result, short_findings(result), style_of_output()))
+            print_findings(result, program)
             say(f"{summary_line(result)}\n{target}: not written")
             context.exit(FOUND_ERRORS)
         with click.progressbar(

@@ -116,7 +116,7 @@ GEOMETRY_RULES = (
     ),
     _row(
         RefusalKind.CORNER_STRAIGHT,
-        "{words}: {subject} joins two elements of the same direction, so there is nothing to round or cut",
+        "{words}: {subject} joins two elements of the same direction, so it is no corner",
         "delete {words}",
         _CUT,
         _CUT.replace("X40 Y40", "X60"),

@@ -209,8 +209,8 @@ def explain_ignored(context: Context, offence: Offence, profile: Profile, soluti
         is_within = values["off_by_mm"] <= allowance(fact, at, increments_of(profile))
         agrees = "; it agrees with them" if is_within else ""
         comparison = agrees or (
-            f"; they make it {tell_apart((expected, values['actual']), angle_text)[0]}, so it is off by {angle_text(gap)} "
-            f"({length_text(values['off_by_mm'], context.unit)})"
+            f"; they make it {tell_apart((expected, values['actual']), angle_text)[0]}, so it is off by "
+            f"{angle_text(gap)} ({length_text(values['off_by_mm'], context.unit)})"
         )
         label = f"ignored; the line runs at {angle_text(expected)}"
     return report(context, offence.rule, Basis.NUMERICAL, [word], values, [label], comparison=comparison)
@@ -309,11 +309,6 @@ def explain_result(
     if event.kind is RefusalKind.CORNER_TOO_LARGE and isinstance(event, Refusal):
         more, labels = _room(event, values, profile)
         fields |= more
-        # A negative length says that a corner would leave an arc beyond its end.
-        if values.get("needed", -1.0) >= 0:
-            available, needed = (length_text(values[name], context.unit) for name in ("available", "needed"))
-            element = element_text(event.elements[0])
-            notes = (f"{element} is {available} long; {things[0]} takes {needed} of it",)
     if event.kind is RefusalKind.CORNERS_OVERLAP:
         rooms = _rooms(event, values, words, profile)
         labels = [label for _, label in rooms]
@@ -322,7 +317,7 @@ def explain_result(
     finding = report(context, context.row(event.kind), Basis.NUMERICAL, words, values, labels, **fields)
     if isinstance(event, Refusal):
         finding = _with_what_helps(finding, event, values, asked, profile)
-    return replace(finding, notes=notes)
+    return replace(finding, notes=finding.notes + notes)
 
 
 def _smaller(told: list[str], values: Mapping[str, float], profile: Profile) -> str:
@@ -342,6 +337,11 @@ def _with_what_helps(
             labels=(Label(finding.span, f"at most {shown}"), *finding.labels[1:]),
             help=f"write at most {shown}, or {finding.help}",
         )
+    # A negative length says that a corner would leave an arc beyond its end.
+    if event.elements and values.get("needed", -1.0) >= 0:
+        available, needed = (length_text(values[name], profile.unit) for name in ("available", "needed"))
+        note = f"{element_text(event.elements[0])} is {available} long; {event.subject} takes {needed} of it"
+        finding = replace(finding, notes=(note,))
     if event.beside and "together" in values:
         takers = [given.word for name in event.beside if (given := profile.givens.get(name)) and given.word]
         finding = replace(
@@ -349,7 +349,7 @@ def _with_what_helps(
         )
     if asked:
         causes = list(dict.fromkeys(text for word in asked for text in _causes(word, profile)))
-        advice = f"change {join(causes)}: the value follows from there" if causes else "change what the value follows from"
+        advice = f"change {join(causes) or 'another word'}: the value follows from there"
         finding = replace(finding, help=advice, labels=tuple(replace(each, text="") for each in finding.labels))
     return finding
 

@@ -77,7 +77,7 @@ def by_line(texts: Iterable[tuple[str, int]]) -> str:
 
 def element_text(name: str) -> str:
     """An element in a sentence: `line 1`, `the arc`."""
-    return name if name[-1].isdigit() else f"the {name}"
+    return f"the {name}" if name.islower() and name.isalpha() else name
 
 
 MOST_DECIMALS = 12

@@ -146,7 +146,7 @@ def _check_room(
         crowd = [corner for corner in figure.corners if corner.name in blamed or corner.size in full]
         together = {"together": _largest_together(crowd, figure, sizes, resize)}
     refusals = []
-    for kind, subject, corners, values, short in found:
+    for kind, subject, corners, values, blocked in found:
         largest, givens = [limits[corner.name] for corner in corners], tuple(corner.size for corner in corners)
         beside = largest[0][1] if kind is RefusalKind.CORNER_TOO_LARGE else ()
         keys = ("limit",) if kind is RefusalKind.CORNER_TOO_LARGE else BESIDE
@@ -157,7 +157,7 @@ def _check_room(
         )
         every = {**values, **dict(zip(keys, told, strict=False)), **together}
         known = {name: value for name, value in every.items() if value == value}
-        elements = (*short, largest[0][2] or short[0]) if short else ()
+        elements = (*blocked, largest[0][2] or blocked[0]) if blocked else ()
         refusals.append(Refusal(kind, subject, givens, known, beside, elements))
     return refusals
 

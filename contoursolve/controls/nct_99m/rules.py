@@ -531,7 +531,7 @@ GEOMETRY_RULES = (
     ),
     Rule(
         code="nct-no-corner",
-        message="{words}: {subject} joins two elements of the same direction, so there is nothing to round or cut",
+        message="{words}: {subject} joins two elements of the same direction, so it is no corner",
         help="delete {words}",
         source=_manual("16.1: not described", Evidence.ASSUMED),
         about=RefusalKind.CORNER_STRAIGHT,

@@ -177,7 +177,7 @@ _COMBINATION_RULES = (
     ),
     Rule(
         code="g111-corner-2-without-b",
-        message="{words:D Q}: corner 2 is not available, because the control ignores {words:B}: X(U) and Z(W) give line 2",
+        message="{words:D Q}: corner 2 is not available: the control ignores {words:B}, and X(U) and Z(W) give line 2",
         help="delete {words:D Q}, or one of X(U) and Z(W)",
         source=manual("2.8.30, p. 140 (vi) and (iii)", Evidence.DERIVED),
         alarm=_COMBINATION,
@@ -329,7 +329,7 @@ _GEOMETRY_RULES = (
     ),
     Rule(
         code="g111-no-corner",
-        message="{words}: {subject} joins two lines of the same direction, so there is nothing to round or bevel",
+        message="{words}: {subject} joins two lines of the same direction, so it is no corner",
         help="delete {words}",
         source=manual("2.8.30, p. 146: no intersection", Evidence.DERIVED),
         alarm=_GEOMETRY,

@@ -404,7 +404,7 @@ _GEOMETRY_RULES = (
     ),
     Rule(
         code="g112-no-corner",
-        message="{words}: at {subject} the line touches the arc, so there is nothing to round or bevel",
+        message="{words}: at {subject} the line touches the arc, so it is no corner",
         help="delete {words}",
         source=_FITS,
         alarm=_GEOMETRY,
