@@ -74,9 +74,9 @@ def diff(
 ) -> None:
     """Tell whether OLD and NEW describe the same path, and if not, where they differ first.
 
-    Contours are solved, and all moves by G0 to G3 followed, in either program as its own control reads them. A line or
-    an arc may be divided differently. What is not followed, such as cycles and subprograms, must be the same word by
-    word, and is listed. Feeds, leads, speeds, tools, offsets, dwells and M functions are not compared.
+    diff solves the contours and follows all moves by G0 to G3. It reads either program as its own control does. Either
+    program may divide a line or an arc. diff does not follow cycles, subprograms and the like: they must be the same
+    word by word, and it lists them. It does not compare feeds, leads, speeds, tools, offsets, dwells and M functions.
 
     Exit status: 0 the same path, 1 not the same or not solved, 2 could not run.
 

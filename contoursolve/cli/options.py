@@ -169,7 +169,7 @@ def common_options(command: Callable[..., None]) -> Callable[..., None]:
     for option in reversed(
         (
             apart_options,
-            control_option("The control. Without it, the control is found from the program where that is clear."),
+            control_option("The control. Without it, contoursolve finds it from the program where that is clear."),
             units_option,
             rules_option,
             settings_option,

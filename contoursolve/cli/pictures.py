@@ -105,9 +105,9 @@ def plot(
     """Draw the contours of PROGRAM (a file, or - for standard input).
 
     SVG and PNG show a contour with every word as a dimension: given, worked out, ignored, conflicting or still free.
-    One that cannot be solved is drawn, too: what is missing, both places of a point, the line that misses its circle.
-    A program with several contours is drawn as a whole, each with its number and line; --line and --each draw them one
-    by one. PNG needs the extra contoursolve[picture].
+    They show a refused contour, too: what is missing, both places of a point, the line that misses its circle. A
+    program with several contours makes one drawing, each contour with its number and line; --line and --each draw them
+    one by one. PNG needs the extra contoursolve[picture].
 
     DXF is for CAD and needs the extra contoursolve[dxf]: every solved contour in full precision, each element on a
     layer of its own; virtual and computed intersections on the layer construction. The drawing's X and Y are the
@@ -221,7 +221,7 @@ def report(
 
     Every contour with its picture, its elements and its findings with their fixes; the program's text, linked with
     them; and the manual's places with how well each is known. The page opens without a network, in light and dark,
-    and prints. For a program without a contour none is written. Needs the extra contoursolve[report].
+    and prints. report writes none for a program without a contour. Needs the extra contoursolve[report].
 
     \b
     contoursolve report shaft.nc

@@ -136,7 +136,7 @@ READING_RULES = (
     ),
     Rule(
         code="value-variable",
-        message="{words} depends on a macro variable, whose value is known only to the control",
+        message="{words} depends on a macro variable; only the control knows its value",
         help="write the number",
         source=_READING,
         about=ReadIssue.VARIABLE,

@@ -276,7 +276,7 @@ def explain_result(
     values = dict(event.values)
     things = list(dict.fromkeys(name.rpartition(".")[0] or name for name in event.subject.split(",")))
     fields: dict[str, Any] = {
-        "subject": event.subject,
+        "subject": element_text(event.subject),
         "free": unknowns_text(event.subject.split(","), profile),
         "things": join(things) if len(things) <= MOST_THINGS else "contour",
         "together": " together" if len(words) > 1 else "",

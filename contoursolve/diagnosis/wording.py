@@ -77,7 +77,7 @@ def by_line(texts: Iterable[tuple[str, int]]) -> str:
 
 def element_text(name: str) -> str:
     """An element in a sentence: `line 1`, `the arc`."""
-    return f"the {name}" if name.islower() and name.isalpha() else name
+    return f"the {name}" if name in ("arc", "line") else name
 
 
 MOST_DECIMALS = 12

@@ -126,8 +126,8 @@ def find_word(
             no value then, or that of the word if the point is there already.
 
     Where the contour exists, interval arithmetic isolates every zero; each is solved and certified by itself. `doubts`
-    say what it could not decide. Where facts or `?` leave no closed form, it asks for the word as `solve` does, with
-    the goal as one fact more.
+    say what it could not decide. Where facts or `?` leave no closed form, it asks for the word as `solve` does: the
+    goal is one fact more.
 
     >>> found = find_word("G111 X100. A180. K-30. B120. P5. Q5.", "B", "end Z-50.", start="X40. Z0.")
     >>> [(round(each.value, 4), each.block) for each in found.hits]
