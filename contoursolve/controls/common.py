@@ -108,7 +108,7 @@ READING_RULES = (
     Rule(
         code="address-unknown",
         message="{words}: the address {address} has no meaning in this contour ({form})",
-        help="{do}; such a contour is written with {allowed}",
+        help="{advice}; such a contour is written with {allowed}",
         source=_READING,
         about=ReadIssue.UNKNOWN_ADDRESS,
         accepted=(_GOOD,),

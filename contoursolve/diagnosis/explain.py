@@ -238,13 +238,14 @@ def explain_missing(context: Context, profile: Profile, verdict: Determinacy, cl
             if isinstance(question.fact, Radius) and question.fact.radius in free
         ]
         ways += [f"give {' or '.join(open_sizes)} a value"] if open_sizes else []
-    completions = "; or ".join(ways) or "state a fact about it"
+    told = open_text(shown, profile)
+    completions = "; or ".join(ways) or f"state a fact about {'them' if told.endswith('are still open') else 'it'}"
     return report(
         context,
         context.row(ReadIssue.UNDERDETERMINED),
         Basis.SYMBOLIC,
         [],
-        open=open_text(shown, profile),
+        open=told,
         completions=completions,
     )
 

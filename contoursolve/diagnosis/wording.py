@@ -105,13 +105,16 @@ def unknowns_text(names: Sequence[str], profile: Profile) -> str:
 def _things(names: Sequence[str], profile: Profile) -> dict[str, dict[str, None]]:
     """The parts of each thing that unknown scalars are; none of what is a thing itself."""
     things: dict[str, dict[str, None]] = {}
+    arcs = (element for element in profile.figure.path if isinstance(element, Arc))
+    called = {"end": "the end"} | {arc.radius: f"the radius of {element_text(arc.name)}" for arc in arcs}
     for name in names:
         thing, _, part = name.rpartition(".")
         shown = profile.plane.axes[int(part)] if part.isdigit() else _PARTS.get(part, "")
         shapes = {corner.shape for corner in profile.figure.corners if corner.name == thing}
         if part == "radius" and shapes and CornerShape.FILLET not in shapes:
             shown = "size"
-        things.setdefault(thing if shown else name, {}).update({shown: None} if shown else {})
+        own = thing if shown else name
+        things.setdefault(called.get(own, own), {}).update({shown: None} if shown else {})
     return things
 
 
@@ -119,7 +122,6 @@ def open_text(names: Sequence[str], profile: Profile) -> str:
     """That unknown scalars are still open: `V1 is still open in Z and X`, `the direction of line 2 is still open`."""
     parts = _things(names, profile)
     axes = {*profile.plane.axes}
-    radii = {each.radius: element_text(each.name) for each in profile.figure.path if isinstance(each, Arc)}
     for thing, shown in parts.items() if len(parts) == 1 else ():
         if shown and {*shown} <= axes:
             return f"{thing} is still open in {join(list(shown))}"
@@ -127,7 +129,7 @@ def open_text(names: Sequence[str], profile: Profile) -> str:
         f"{thing} ({join(list(shown))})" if {*shown} <= axes else f"the {join(list(shown))} of {thing}"
         for thing, shown in parts.items()
         if shown
-    ] + [f"the radius of {radii[thing]}" if thing in radii else thing for thing, shown in parts.items() if not shown]
+    ] + [thing for thing, shown in parts.items() if not shown]
     return f"{join(texts)} {'is' if len(texts) == 1 else 'are'} still open"
 
 

@@ -188,7 +188,14 @@ VERBS = {"are": "is", "have": "has", "do": "does", "stand": "stands", "leave": "
 """Verbs of a message about words, and as they are of one word."""
 
 _PHRASES = VERBS | {"comparison": "", "fits": "at most <limit> fits", "smaller": "write at most <limit>"}
-_GAPS = {"words": "word", "off": "difference", "subject": "element", "free": "point", "where": "line"}
+_GAPS = {
+    "words": "word",
+    "off": "difference",
+    "subject": "element",
+    "free": "point",
+    "where": "line",
+    "things": "point",
+}
 
 
 @dataclass(frozen=True, slots=True)
