@@ -164,6 +164,8 @@ def _read_column(word: str, text: str) -> Numbers:
         found = (_from_csv if match["kind"].lower() == "csv" else _from_parquet)(file, column)
     except FileNotFoundError:
         raise FamilyError(f"{file}: no such file") from None
+    except FamilyError:
+        raise
     except (OSError, ValueError, csv.Error) as error:
         reason = error.strerror if isinstance(error, OSError) else str(error)
         raise FamilyError(f"{file} cannot be read: {reason}") from None

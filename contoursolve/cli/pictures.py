@@ -178,7 +178,8 @@ def _at(answers: Sequence[Answer], line: int) -> Answer:
         if answer.lines[0] <= line <= answer.lines[-1]:
             return answer
     have = ", ".join(str(answer.lines[0]) for answer in answers)
-    raise CouldNotRunError(f"line {line} belongs to no contour; contours begin in lines {have}")
+    begin = "contours begin in lines" if len(answers) > 1 else "the contour begins in line"
+    raise CouldNotRunError(f"line {line} belongs to no contour; {begin} {have}")
 
 
 def _drawings_for_cad(result: Result, target: Path) -> list[Written]:

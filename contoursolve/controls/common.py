@@ -209,7 +209,7 @@ READING_RULES = (
     ),
     Rule(
         code="start-skippable",
-        message="the contour depends on a block that begins with / and is taken as executed",
+        message="the contour depends on a block that begins with /; contoursolve takes it as executed",
         help="make sure that the contour is right with that block skipped, too",
         source=_READING,
         about=ReadIssue.SKIPPABLE_START,

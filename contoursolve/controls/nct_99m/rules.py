@@ -63,7 +63,7 @@ _TOO_HIGH = Alarm("3084 ,C ,R TOO HIGH", Evidence.PRINTED)
 COMBINATION_RULES = (
     Rule(
         code="nct-compensation-off",
-        message="{words}: intersections are computed only if G41 or G42 is active before the first of the two blocks",
+        message="{words}: the control computes intersections only if G41 or G42 is active before the first of the two blocks",
         help="switch G41 or G42 on before that block; D00 keeps the path where it is",
         source=_manual("16.3: every format and example has it", Evidence.ASSUMED),
         roles=_OVER,
@@ -239,7 +239,7 @@ COMBINATION_RULES = (
     ),
     Rule(
         code="nct-angle-range",
-        message="{words} is more than a turn; it is taken as {within}, the same direction",
+        message="{words} is more than a turn; {within} is the same direction",
         help="write {within} if that is meant",
         source=_manual("16.2, 16.3: the range of ,A is not on the pages that we have", Evidence.ASSUMED),
         severity=Severity.WARNING,
@@ -329,7 +329,7 @@ COMBINATION_RULES = (
     ),
     Rule(
         code="nct-axis-outside-plane",
-        message="{words} moves an axis outside the plane in which the contour is computed",
+        message="{words} moves an axis outside the plane of the contour",
         help="move that axis in a block of its own; only a line by one coordinate and ,A may have one such word",
         source=_ASSUMED,
         roles=_ANY,
