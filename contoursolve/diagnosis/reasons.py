@@ -78,7 +78,7 @@ def conflict_reasons(profile: Profile, affine: AffineFacts, circuit: Circuit) ->
     agreeing = [text for fact in circuit.facts if (text := _agreeing(profile, affine, circuit, fact))]
     if disagrees and agreeing:
         several = f"change one: {', '.join(agreeing[:-1])} or {agreeing[-1]}"
-        yield several if len(agreeing) > 1 else f"write {agreeing[0]}"
+        yield several if len(agreeing) > 1 else f"write {agreeing[0]} instead"
     formula = identity(profile, circuit.facts)
     if formula:
         radius = " (X and U as radius)" if "tan" in formula and ("X" in formula or "U" in formula) else ""
@@ -126,8 +126,8 @@ def path_reasons(profile: Profile, affine: AffineFacts | None, finding: Diagnost
                 tail, head = (_known(profile, fixed, point) for point in (line.tail, line.head))
                 if tail and head:
                     yield (
-                        f"because {element_text(line.name)} goes from {place_text(profile, tail)} to {place_text(profile, head)}, "
-                        f"and {word.text} points the other way"
+                        f"because {element_text(line.name)} goes from {place_text(profile, tail)} to "
+                        f"{place_text(profile, head)}, and {word.text} points the other way"
                     )
 
 

@@ -63,7 +63,8 @@ _TOO_HIGH = Alarm("3084 ,C ,R TOO HIGH", Evidence.PRINTED)
 COMBINATION_RULES = (
     Rule(
         code="nct-compensation-off",
-        message="{words}: the control computes intersections only if G41 or G42 is active before the first of the two blocks",
+        message="{words}: the control computes intersections only with G41 or G42 active before the first of the two "
+        "blocks",
         help="switch G41 or G42 on before that block; D00 keeps the path where it is",
         source=_manual("16.3: every format and example has it", Evidence.ASSUMED),
         roles=_OVER,
