@@ -661,9 +661,9 @@ def test_sweep_draws_one_word_as_a_fan_and_two_as_a_map(tmp_path):
     told = ", ".join(f"{number:,} {status.value}" for status, number in family.summary().items())
     assert draw_family_map(family).title == f"A and P: {told}"
     for wrong, said in (
-        ((*both, "--vary", "X=90,100"), "not 3 words"),
-        (("--vary", "A=170"), "not 0 words"),
-        (("--vary", "A=170,180", "--vary", "P=1,2", "--paired"), "not paired words"),
+        ((*both, "--vary", "X=90,100"), "has 3 words"),
+        (("--vary", "A=170"), "has 0 words"),
+        (("--vary", "A=170,180", "--vary", "P=1,2", "--paired"), "has paired words"),
     ):
         status, output = sweep(*wrong, "--plot", tmp_path / "no.svg")
         assert status == 2
