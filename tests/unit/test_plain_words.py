@@ -20,7 +20,13 @@ FORBIDDEN = re.compile(
     r"\b(of which|(is|are) told|held against|there is nothing|tied|determin(ed|es|ant)|residual|constraint|infeasible|"
     r"degenerate|rank)\b"
 )
-SOLVER = ("diagnosis/diagnose.py", "diagnosis/table.py", "solving/")
+SOLVER = (
+    "diagnosis/diagnose.py",
+    "diagnosis/table.py",
+    "solving/closed_form_branches.py",
+    "solving/plan.py",
+    "solving/solve.py",
+)
 """The layers of `--explain`, the table of all sets of words, errors of programmers: these have the solver's words."""
 
 
