@@ -209,8 +209,8 @@ def explain_ignored(context: Context, offence: Offence, profile: Profile, soluti
         is_within = values["off_by_mm"] <= allowance(fact, at, increments_of(profile))
         agrees = "; it agrees with them" if is_within else ""
         comparison = agrees or (
-            f"; they make it {tell_apart((expected, values['actual']), angle_text)[0]}, so it is off by "
-            f"{angle_text(gap)} ({length_text(values['off_by_mm'], context.unit)})"
+            f"; they make it {tell_apart((expected, values['actual']), angle_text)[0]}, {angle_text(gap)} "
+            f"({length_text(values['off_by_mm'], context.unit)}) away"
         )
         label = f"ignored; the line runs at {angle_text(expected)}"
     return report(context, offence.rule, Basis.NUMERICAL, [word], values, [label], comparison=comparison)
