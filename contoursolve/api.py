@@ -80,8 +80,8 @@ def solve(
         name: what findings call the program.
 
     Returns:
-        Frozen records: `answers`, one for each contour with its status and path (mm, X of a lathe as
-        radius), and `diagnostics`, all findings.
+        Frozen records. `answers` has one for each contour, with its status and path (mm, X of a lathe as radius);
+        `diagnostics` are all findings.
 
     Raises:
         UnknownControlError: the control is unknown, or the program does not tell it.
@@ -263,12 +263,11 @@ def expand(
         post: the target: `same` (the control that the program is for), `linuxcnc` or `fanuc`, or one of your own.
         arcs: `center` (I J K) or `radius` (R).
         decimals: decimals of an end point; the target's own without. Centres and radii have at least those.
-        comments: whether the original blocks are kept as comments.
-        keep_going: whether to expand the other contours where one cannot be expanded.
-        keep_untranslated: whether there is a text although the target would run some of it along another path
-            (`summary.misread`).
-        block_numbers: `first` (the number of a block stands in the first line in its place), or `all` (the others
-            have numbers that the program does not use).
+        comments: whether to keep the original blocks as comments.
+        keep_going: whether to expand the other contours where one fails.
+        keep_untranslated: whether to write what the target would run along another path (`summary.misread`).
+        block_numbers: `first`: of the lines in the place of a block, the first one has its number; `all`: the others
+            have numbers, too, which the program does not use.
         control: and all others as for `solve`, with the same errors.
 
     >>> print(expand("G00 X40. Z0.\\nG111 X100. A180. K-30. B120. C5. F0.2").text)

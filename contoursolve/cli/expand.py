@@ -17,6 +17,7 @@ from contoursolve.cli.options import (
     CouldNotRunError,
     common_options,
     control_option,
+    explaining,
     rules_option,
     settings_of,
     settings_option,
@@ -59,17 +60,16 @@ def wording_options(command: Callable[..., None]) -> Callable[..., None]:
                 "--decimals",
                 type=click.IntRange(1, MOST_DECIMALS),
                 metavar="COUNT",
-                help="Decimals of an end point. Without it, as many as the target has; I J K and R always have at "
-                "least those, so that arcs stay valid.",
+                help="Decimals of an end point; without it, those of the target. I J K and R have at least as many.",
             ),
             click.option(
                 "--block-numbers",
                 type=click.Choice([numbering.value for numbering in Numbering]),
                 default="first",
                 show_default=True,
-                help="Which lines in the place of a block with a number N have one: the first (in the last block of "
-                "a profile that G70 to G73 calls, the last), or all, with numbers that the program neither has nor "
-                "jumps to. No other line is renumbered.",
+                help="Which lines have a number in the place of a block that has one. first: the first line, or the "
+                "last one where G70 to G73 end a profile there. all: every line, with numbers that are still free. "
+                "All other lines keep theirs.",
             ),
             click.option("--no-comments", is_flag=True, help="Do not keep the original blocks as comments."),
         )
@@ -96,13 +96,13 @@ def wording_options(command: Callable[..., None]) -> Callable[..., None]:
     "--keep-going",
     "keeps_going",
     is_flag=True,
-    help="Write the others where a contour cannot be expanded; it stays, below a comment why.",
+    help="Write the others where one contour fails; it stays, below a comment that says why.",
 )
 @click.option(
     "--keep-untranslated",
     "keeps_untranslated",
     is_flag=True,
-    help="Write with a warning what the target would run along another path, such as G90 of a lathe.",
+    help="Warn and write what the target would run along another path, such as G90 of a lathe.",
 )
 @click.pass_context
 def expand(
@@ -121,13 +121,12 @@ def expand(
 ) -> None:
     """Write OLD (a file, or - for standard input) with every contour as plain G00, G01, G02 and G03.
 
-    Everything else stays as it is, byte for byte, and each original block is kept as a comment above what replaces
-    it. End points are rounded first, and then the centre of each arc; the largest deviation is reported. The rest is
-    not translated: what OLD says that the target does not know, and stops at, is named. If a contour cannot be
-    expanded, or the target would run something else along another path, such as a turning cycle as a rapid, nothing is
-    written.
+    Everything else stays as it is, byte for byte. Each original block stays as a comment above what replaces it.
+    Rounding moves the end points first, then the centre of each arc; the largest deviation is printed. expand
+    translates contours alone. It names every word of the rest that the target does not know. It writes nothing where a
+    contour fails, or where the target would run another path: a turning cycle as a rapid, for example.
 
-    Exit status: 0 all contours are expanded, 1 one is left or nothing was written, 2 could not run.
+    Exit status: 0 every contour is expanded, 1 one is left or nothing is written, 2 could not run.
 
     \b
     contoursolve expand shaft.nc -o shaft_plain.nc
@@ -177,9 +176,9 @@ def expand(
 def filter_(context: click.Context, /, program: str, **options: Any) -> None:
     """Write FILE for LinuxCNC to standard output, as LinuxCNC asks a filter to.
 
-    Progress goes to standard error as FILTER_PROGRESS=n. If a contour cannot be expanded, or LinuxCNC would run
-    something else along another path, nothing is written, the findings go to standard error, and the exit status is 1
-    (2: could not run). In LinuxCNC's INI file:
+    Progress goes to standard error as FILTER_PROGRESS=n. filter writes nothing where a contour fails, or where LinuxCNC
+    would run something along another path. The findings then go to standard error, and the exit status is 1 (2: could
+    not run). In LinuxCNC's INI file:
 
     \b
     [FILTER]
@@ -295,7 +294,8 @@ def report_left(summary: Summary, name: str, style: Style) -> None:
             say(f"{style('error', 'error')}: line {left.lines[0]}: {left.reason}", err=True)
         for finding in without_repeated(left.diagnostics):
             here = tuple(label for label in finding.labels if label.span.line in left.sources)
-            lines = finding_lines(replace(finding, labels=here), name, left.sources, style)
+            about = replace(finding, labels=here)
+            lines = finding_lines(about, name, left.sources, style, explaining=explaining(name))
             say("\n".join(lines), err=True)
 
 

@@ -66,8 +66,8 @@ class Summary(Struct):
 
 
 class Expansion(Struct, frozen=True):
-    """A program in plain G-code; `text` is None where a contour could not be expanded, or where the target would run
-    something else along another path."""
+    """A program in plain G-code; `text` is None where a contour fails, or where the target would run something along
+    another path."""
 
     text: str | None
     control: str | None
