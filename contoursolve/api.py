@@ -324,7 +324,9 @@ def convert(
     settings: Mapping[str, str] | None = None,
     name: str = "<program>",
 ) -> Conversion:
-    """A program with every contour in another control's own words, as far as it has them, and the rest as it was.
+    """A program with every contour in another control's own words, as far as it has them.
+
+    All else stays as it was.
 
     Args:
         text: the program, with its line ends.
@@ -332,12 +334,13 @@ def convert(
         comments: whether the original blocks are kept as comments.
         control: and all others as for `solve`, with the same errors.
 
-    Both programs are read and followed, each as its own control does: `comparison` tells whether they are one path, to
-    within the rounding. `text` is None where they are not, where a contour could not be solved, or where the target
-    would run something else along another path (`summary`). Raises ValueError if the target has no words for contours,
-    or is for another kind of machine.
+    Each program is followed as its own control reads it. `comparison` tells whether they are one path, to within the
+    rounding. `text` is None where they are not. It is None where a contour could not be solved, too, and where the
+    target would cut another path (`summary`).
 
-    >>> print(convert("G00 X40. Z0.\nG111 X100. A180. K-30. B120. P5.", "fanuc-lathe", comments=False).text)
+    Raises ValueError if the target has no words for contours, or is for another kind of machine.
+
+    >>> print(convert("G00 X40. Z0.\\nG111 X100. A180. K-30. B120. P5.", "fanuc-lathe", comments=False).text)
     G00 X40. Z0.
     G01 X40. Z-30. ,R5.
     G01 X100. ,A120.

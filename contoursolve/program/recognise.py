@@ -82,7 +82,7 @@ class Recogniser:
         if len(fitting) == 1 and (fitting == [*self._own] or not self._own):
             return DIALECTS[fitting[0]]
         if self.signs:
-            raise several_controls({name: self.signs[name] for name in self._own or fitting or self.signs})
+            raise several_controls({name: self.signs[name] for name in (not self._own and fitting) or self.signs})
         return None
 
     def _fits(self, dialect: Dialect) -> bool:
