@@ -128,7 +128,7 @@ class _Translator:
         exact = [self._coordinate(axis, value) for axis, value in enumerate(end)]
         if is_open:
             # What closes it has both coordinates and the angle.
-            return (*(each or "" for each in exact), f"{self.language.angle}{angle}"), False
+            return (*sorted(each or "" for each in exact), f"{self.language.angle}{angle}"), False
         if all(exact) or angle is None or self.form.is_incremental:
             return None, False
         way = radians(float(self.angles[line.tail, line.head]))
