@@ -3,6 +3,8 @@
 Their words, languages and rules come in; four controls go out. Begin with `language`.
 """
 
+from collections.abc import Callable
+
 from contoursolve.controls.chain import ChainFinder, Language, forms_of
 from contoursolve.controls.common import COMMON_RULES
 from contoursolve.controls.fanuc.language import (
@@ -29,10 +31,16 @@ from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.rules import Rule
 
 
-def _signs(block: Block) -> tuple[Word, ...]:
-    if "," not in block.text:
-        return ()
-    return tuple(word for word in block.words if word.address in (",A", ",C", ",R"))
+def _signs_of(modes: Modes) -> Callable[[Block], tuple[Word, ...]]:
+    """What shows a control: the words with a comma that it has."""
+    own = {address for address in modes.lexicon.addresses if address.startswith(",")}
+
+    def signs(block: Block) -> tuple[Word, ...]:
+        if "," not in block.text:
+            return ()
+        return tuple(word for word in block.words if word.address in own)
+
+    return signs
 
 
 def _control(
@@ -52,7 +60,7 @@ def _control(
         forms=forms_of(language, modes),
         rules=COMMON_RULES + rules,
         find=ChainFinder(language),
-        signs=_signs,
+        signs=_signs_of(modes),
         contours=contours,
         settings=settings,
     )
