@@ -78,6 +78,7 @@ _ARC_BEHIND = _MILLING + "G01 X40. ,C6.\nG02 X60. Y20. I20. J0"
 
 def _corner_rules(machine: _Machine) -> tuple[Rule, ...]:
     """The rows about ,C and ,R."""
+    angle = (machine.angle,) if machine.angle else ()
     cut, two = machine.cut, Alarm("053 TOO MANY ADDRESS COMMANDS", Evidence.ASSUMED)
     return (
         Rule(
@@ -101,6 +102,17 @@ def _corner_rules(machine: _Machine) -> tuple[Rule, ...]:
             when=some(*_CORNER) & some(LAST) & ~some(RAPID),
             accepted=(cut, cut.replace("\n" + machine.turn, "\nG04 P500\n" + machine.turn)),
             rejected=(cut.replace("\n" + machine.turn, "\nM8\n" + machine.turn), cut.replace("5.\n", "5.\nG00 ")),
+        ),
+        Rule(
+            code=f"{machine.prefix}-corner-alone",
+            message="{words} stands in a block that moves nothing, so there is no line to cut",
+            help="write it behind the end of the line before",
+            source=machine.source(_ALARM_LIST, Evidence.DERIVED),
+            alarm=machine.alarm("055 MISSING MOVE VALUE IN CHF/CNR", Evidence.DERIVED),
+            roles=(LINE,),
+            when=some(*_CORNER) & ~some(*STATED_POINT, *angle, "beside-X", "beside-Y", "beside-Z") & ~some(LAST),
+            accepted=(cut,),
+            rejected=(cut.replace(" ,C5.", "\n,C5."),),
         ),
         Rule(
             code=f"{machine.prefix}-corner-rapid",
@@ -340,7 +352,7 @@ _VERTEX_RULES = (
     Rule(
         code="fanuc-angle-redundant",
         message="{words}: the line has both its end and an angle, and the line before has an end",
-        help="delete {words:,A}",
+        help="delete the angle",
         source=_FANUC_LATHE.source("not described", Evidence.ASSUMED),
         roles=(LINE,),
         when=all_of(_FIRST, _SECOND, ",A") & some(STRICT_ANGLE),
