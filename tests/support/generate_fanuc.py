@@ -28,7 +28,11 @@ def random_lathe(rng: Random, lines: int, angle: str = ",A", *, meets: bool = Tr
     for k, element in enumerate(path):
         is_closing, is_open = is_open, False
         if is_closing:
-            words = [_word("X", 2 * element.end.imag), _word("Z", element.end.real), _angle(rng, element, angle, reverses)]
+            words = [
+                _word("X", 2 * element.end.imag),
+                _word("Z", element.end.real),
+                _angle(rng, element, angle, reverses),
+            ]
         elif meets and k + 1 < lines and rng.random() < 0.35:
             is_open = True
             words = [_angle(rng, element, angle, reverses)]
@@ -84,7 +88,9 @@ def disturbed(rng: Random, program: Sequence[str], addresses: Sequence[str]) -> 
         words[index] = words[index].removeprefix(",")
     elif way == "address":
         words[index] = rng.choice(addresses) + words[index].removeprefix(address)
-        if len({re.match(r",?[A-Z]", each)[0] for each in words if each[0] != "G"}) < sum(each[0] != "G" for each in words):
+        if len({re.match(r",?[A-Z]", each)[0] for each in words if each[0] != "G"}) < sum(
+            each[0] != "G" for each in words
+        ):
             words[index] = address + printed(wrong)
     else:
         words[index] = address + printed(wrong)

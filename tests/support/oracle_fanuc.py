@@ -278,4 +278,3 @@ def _examine(chain: Sequence[_Block], machine: Machine, outcome: Outcome) -> Non
 def _reach(element: Element) -> float:
     """An arc that ends where it begins is a full circle."""
     return abs(element.end - element.start) or (element.radius if element.center is not None else 0.0)
-

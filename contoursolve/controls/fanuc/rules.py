@@ -317,7 +317,7 @@ _VERTEX_RULES = (
     ),
     Rule(
         code="fanuc-closing-increment",
-        message="{words}: the line before has an angle and no end, and then U and W do not give the end of this one",
+        message="{words}: behind a line by its angle alone, X and Z give the end, not U and W",
         help="give the end of this line by X and Z",
         source=_FANUC_LATHE.source("block patterns 2 to 8: X and Z are absolute"),
         alarm=_FANUC_LATHE.alarm("056 (no end point behind a line by its angle alone)"),
