@@ -27,7 +27,7 @@ from contoursolve.diagnosis.typo_fixes import (
 from contoursolve.diagnostics.finding import Applicability, Diagnostic, Severity
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import Block, parse_block
-from contoursolve.geometry import Profile, assemble
+from contoursolve.geometry import Heading, Profile, assemble
 from contoursolve.reading import ParsedContour, ReadIssue, State, advance, leave, read
 from contoursolve.reading.dialect import Dialect
 from contoursolve.solving import NoteKind, Point, Status
@@ -322,10 +322,24 @@ def _choices(claim: ParsedContour) -> set[str]:
 
 
 def _is_about_corners(edits: tuple[Edit, ...], claim: ParsedContour) -> bool:
-    """Whether all that is done is to leave corners out."""
+    """Whether all that is done is to leave out corners, and the angles of lines whose ends are stated."""
     sizes = {name for row in claim.form.corners for name in row.shapes if name in claim.words}
-    corners = {claim.words[name].span for name in sizes}
-    return all(edit.kind is EditKind.DROP and edit.span in corners for edit in edits)
+    spans = {claim.words[name].span for name in (*sizes, *_spare_angles(claim))}
+    return all(edit.kind is EditKind.DROP and edit.span in spans for edit in edits)
+
+
+def _spare_angles(claim: ParsedContour) -> Iterator[str]:
+    """The angles of lines that have both coordinates of their end, and begin where the block before ends."""
+    prefixes = {role.prefixes[0] for role in claim.form.roles if role.name == "line"}
+    for row in claim.form.facts:
+        given = row.fact.given or ""
+        prefix = given[: given.find(":") + 1]
+        if isinstance(row.fact, Heading) and given in claim.words and prefix in prefixes:
+            stated = {
+                name.removeprefix(prefix).removesuffix("-step") for name in claim.words if name.startswith(prefix)
+            }
+            if stated >= {"first", "second"}:
+                yield given
 
 
 def _without_corners(edits: tuple[Edit, ...], replacement: str, contour: Contour, before: Before) -> Repair:

@@ -51,6 +51,8 @@ class Recogniser:
         """The controls that words of their own showed."""
         self._shared: set[str] = set()
         """The words that several controls have."""
+        self._axes: set[str] = set()
+        """The axes of a lathe that move."""
         self._is_plane_selected = self._is_milled = self._is_turned = False
 
     def look(self, block: Block) -> None:
@@ -58,6 +60,7 @@ class Recogniser:
         stated = {word.address for word in block.words}
         codes = {word.number for word in block.words if word.address == "G"}
         self._shared |= stated & _SHARED
+        self._axes |= {_TURNED[address] for address in stated & _TURNED.keys()}
         self._is_plane_selected |= bool(codes & _PLANES)
         # G90 is a turning cycle of a lathe, but not beside a motion or a plane.
         is_absolute = _ABSOLUTE in codes and bool(codes & _BESIDE_ABSOLUTE)
@@ -93,10 +96,14 @@ class Recogniser:
         if dialect.name in self._own:
             return True
         is_lathe = any(dialect.plane.diameters)
-        return not self._is_milled if is_lathe else self._is_milled or not self._is_turned
+        # An angle in a program that moves X and Z alone is that of a lathe.
+        is_angle_turned = not self._is_plane_selected and _ANGLE in self._shared and len(self._axes) > 1
+        is_turned = self._is_turned or is_angle_turned
+        return not self._is_milled if is_lathe else self._is_milled or not is_turned
 
 
 _SHARED = frozenset({",A", ",C", ",R"})
+_ANGLE, _TURNED = ",A", {"X": "X", "U": "X", "Z": "Z", "W": "Z"}
 _PLANES, _OF_A_MILL = frozenset({17, 18, 19}), frozenset({17, 19, 91})
 _ABSOLUTE, _BESIDE_ABSOLUTE = 90, frozenset({0, 1, 18})
 

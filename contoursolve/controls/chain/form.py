@@ -6,7 +6,7 @@ from itertools import pairwise
 
 from msgspec import Struct
 
-from contoursolve.controls.chain.language import AIMED, LINE_LINE, POINT, Element, Joining, Language, pair_role
+from contoursolve.controls.chain.language import AIMED, LINE_LINE, POINT, Element, Language, pair_role
 from contoursolve.geometry import (
     FIRST,
     SECOND,
@@ -182,7 +182,7 @@ def _own_facts(language: Language, element: Element, names: Names) -> Iterator[F
         yield FactRow(Radius(f"{q}R", names.radius), (f"{q}R",))
     for order, axis in _ORDERS:
         yield FactRow(Coordinate(f"{q}{order}", names.own, axis), (f"{q}{order}",))
-        if not element.is_over or language.joining is Joining.OPEN:
+        if not element.is_over:
             yield FactRow(Offset(f"{q}{order}-step", names.own, names.tail, axis), (f"{q}{order}-step",))
     if element.turn is None and language.angle:
         angle = f"{q}{language.angle}"

@@ -110,14 +110,20 @@ def _guard_sine(modes: Modes) -> float:
 
 
 def _circumstances(member: Member, states: Sequence[State], modes: Modes) -> Iterator[str]:
-    is_first, plane = len(states) == 2, member.here.plane  # noqa: PLR2004 - before it and behind it
+    is_first = len(states) == 2  # noqa: PLR2004 - no block of the contour is before it
+    is_entered = is_first or not _is_wrong_plane(member.before)
     holds = {
-        WRONG_PLANE: is_first and any(plane.diameters) and plane.code != LATHE.code,
+        WRONG_PLANE: is_entered and _is_wrong_plane(member.here),
         UNGUARDED: not _guarded(modes),
         STRICT_ANGLE: modes.settings.get("redundant-angle") == "error",
         COMPENSATION_CHANGES: member.before.compensation != member.here.compensation,
     }
     return (name for name, is_true in holds.items() if is_true)
+
+
+def _is_wrong_plane(state: State) -> bool:
+    """Whether a lathe is in another plane than that of Z and X."""
+    return any(state.plane.diameters) and state.plane.code != LATHE.code
 
 
 def _straight_circumstances(member: Member, states: Sequence[State], modes: Modes) -> Iterator[str]:

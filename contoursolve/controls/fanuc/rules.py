@@ -36,6 +36,7 @@ from contoursolve.solving import RefusalKind
 _ANY = (LINE, OVER_LINE, ARC)
 _CORNER = (",C", ",R")
 _FIRST, _SECOND = ("first", "first-step"), ("second", "second-step")
+_STEPS = ("first-step", "second-step")
 _ALARM_LIST = "alarm list"
 
 
@@ -77,6 +78,7 @@ _ARC_BEHIND = _MILLING + "G01 X40. ,C6.\nG02 X60. Y20. I20. J0"
 
 def _corner_rules(machine: _Machine) -> tuple[Rule, ...]:
     """The rows about ,C and ,R."""
+    angle = (machine.angle,) if machine.angle else ()
     cut, two = machine.cut, Alarm("053 TOO MANY ADDRESS COMMANDS", Evidence.ASSUMED)
     return (
         Rule(
@@ -100,6 +102,17 @@ def _corner_rules(machine: _Machine) -> tuple[Rule, ...]:
             when=some(*_CORNER) & some(LAST) & ~some(RAPID),
             accepted=(cut, cut.replace("\n" + machine.turn, "\nG04 P500\n" + machine.turn)),
             rejected=(cut.replace("\n" + machine.turn, "\nM8\n" + machine.turn), cut.replace("5.\n", "5.\nG00 ")),
+        ),
+        Rule(
+            code=f"{machine.prefix}-corner-alone",
+            message="{words} stands in a block that moves nothing, so there is no line to cut",
+            help="write it behind the end of the line before",
+            source=machine.source(_ALARM_LIST, Evidence.DERIVED),
+            alarm=machine.alarm("055 MISSING MOVE VALUE IN CHF/CNR", Evidence.DERIVED),
+            roles=(LINE,),
+            when=some(*_CORNER) & ~some(*STATED_POINT, *angle, "beside-X", "beside-Y", "beside-Z") & ~some(LAST),
+            accepted=(cut,),
+            rejected=(cut.replace(" ,C5.", "\n,C5."),),
         ),
         Rule(
             code=f"{machine.prefix}-corner-rapid",
@@ -293,17 +306,25 @@ _ANGLED = _TURNING + "G01 X40. ,A150."
 _VERTEX_RULES = (
     Rule(
         code="fanuc-closing-incomplete",
-        message="the line before has an angle and no end, so this block needs X, Z and ,A: {lacking} is missing",
-        help="add {lacking}; U and W do not stand for X and Z here",
+        message="the line before has an angle and no end, so this block needs X, Z and ,A: it lacks {lacking}",
+        help="add {lacking}",
         source=_FANUC_LATHE.source("block patterns 2 to 8"),
         alarm=_FANUC_LATHE.alarm("056 (no end point, or no angle, behind a line by its angle alone)"),
         roles=(OVER_LINE,),
-        when=~all_of("first", "second", ",A"),
+        when=~all_of("first", "second", ",A") & ~some(*_STEPS),
         accepted=(_VERTEX,),
-        rejected=(
-            *(_VERTEX.replace(word, "") for word in (" ,A120.", " Z-47.", "X60. ")),
-            _VERTEX.replace("Z-47.", "W-47."),
-        ),
+        rejected=tuple(_VERTEX.replace(word, "") for word in (" ,A120.", " Z-47.", "X60. ")),
+    ),
+    Rule(
+        code="fanuc-closing-increment",
+        message="{words}: behind a line by its angle alone, X and Z give the end, not U and W",
+        help="give the end of this line by X and Z",
+        source=_FANUC_LATHE.source("block patterns 2 to 8: X and Z are absolute"),
+        alarm=_FANUC_LATHE.alarm("056 (no end point behind a line by its angle alone)"),
+        roles=(OVER_LINE,),
+        when=some(*_STEPS),
+        accepted=(_VERTEX,),
+        rejected=(_VERTEX.replace("Z-47.", "W-47."), _VERTEX.replace("X60. Z-47.", "U40. W-47.")),
     ),
     Rule(
         code="fanuc-end-missing",
@@ -331,7 +352,7 @@ _VERTEX_RULES = (
     Rule(
         code="fanuc-angle-redundant",
         message="{words}: the line has both its end and an angle, and the line before has an end",
-        help="delete {words:,A}",
+        help="delete the angle",
         source=_FANUC_LATHE.source("not described", Evidence.ASSUMED),
         roles=(LINE,),
         when=all_of(_FIRST, _SECOND, ",A") & some(STRICT_ANGLE),
@@ -365,6 +386,15 @@ def _geometry(machine: _Machine, examples: Mapping[Enum, tuple[str, str]]) -> tu
         accepted=(machine.cut,),
         rejected=(machine.cut.replace(machine.turn, "Z-40. X20.2" if machine.angle else "X60. Y0.3"),),
     )
+    axes = "A and C are axes" if machine.angle.startswith(",") else "C is an axis"
+    comma = replace(
+        rows[ReadIssue.COMMA_MISSING],
+        code=f"{machine.prefix}-comma-missing",
+        message=f"{{words}} has no comma: without one, {axes} and R belongs to an arc",
+        source=machine.source("the function"),
+        accepted=(machine.cut,),
+        rejected=(machine.cut.replace(",C", "C"),),
+    )
     large = (RefusalKind.CORNER_TOO_LARGE, RefusalKind.CORNERS_OVERLAP)
     told: dict[Enum, tuple[str, str]] = {
         RefusalKind.CORNER_TOO_LARGE: (machine.cut, machine.cut.replace(",C5.", ",C31.")),
@@ -373,6 +403,7 @@ def _geometry(machine: _Machine, examples: Mapping[Enum, tuple[str, str]]) -> tu
     }
     return (
         straight,
+        comma,
         *(
             replace(
                 rows[about],

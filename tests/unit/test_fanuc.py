@@ -1,0 +1,434 @@
+"""Fanuc and Haas, fact by fact of the controls' sheets: lines and arcs with ,A ,C ,R, and what is refused."""
+
+import re
+from collections import Counter
+from collections.abc import Sequence
+from math import inf
+from random import Random
+
+import pytest
+from examples import few_and_many, some_of
+from generate_fanuc import disturbed, random_lathe, random_mill
+from oracle import Element
+from oracle_corners import gap
+from oracle_fanuc import Machine, run
+
+from contoursolve import Result, UnknownControlError, check, solve
+from contoursolve.diagnostics.finding import Diagnostic
+from contoursolve.output.document import to_json
+from contoursolve.verification import Document, Verdict, verify
+
+LATHE, MILL, HAAS_LATHE, HAAS_MILL = "fanuc-lathe", "fanuc-mill", "haas-lathe", "haas-mill"
+
+
+def errors(result: Result) -> list[Diagnostic]:
+    return [each for each in result.diagnostics if each.severity.value == "error"]
+
+
+def path(result: Result) -> list[Element]:
+    """All contours of a program, one behind the other."""
+    return [element for answer in result.answers for element in elements(answer)]
+
+
+def elements(answer) -> list[Element]:
+    found = []
+    for each in answer.contour.elements if answer.contour else ():
+        start, end = complex(*each.start), complex(*each.end)
+        if hasattr(each, "center"):
+            found.append(Element("arc", start, end, complex(*each.center), each.radius, each.turn.value))
+        else:
+            found.append(Element("line", start, end))
+    return found
+
+
+def drawn(text: str, share: float) -> list[Element]:
+    """A path as the sheets print it, `X Z` or `X Y` of each end, behind an arc its sense and its centre; `share` is
+    that of X which is a radius."""
+    found: list[Element] = []
+    at: complex | None = None
+    for part in re.split(r" *[;>] *", text):
+        numbers = [float(number) for number in re.findall(r"-?\d+\.?\d*", part)]
+        there = place(numbers, share)
+        if at is not None:
+            turn = next((turn for turn in ("ccw", "cw") if part.startswith(turn + " ")), "")
+            center = place(numbers[2:], share) if turn else None
+            radius = abs(there - center) if center is not None else 0.0
+            found.append(Element("arc" if turn else "line", at, there, center, radius, turn))
+        at = there
+    return found
+
+
+def place(numbers: Sequence[float], share: float) -> complex:
+    """X stands first on a lathe, too; there Z is the first axis."""
+    return complex(numbers[1], numbers[0] / 2) if share == 0.5 else complex(*numbers[:2])
+
+
+# The worked examples of the sheets ---------------------------------------------------------------------------
+
+FL_G1 = "G00 X50. Z50.\nG01 ,A30. F0.3\nX0. Z150. ,A-45."
+FL_G2 = """G00 X0 Z0
+N002 G01 X60. ,A90. ,C1.
+N003 Z-30. ,A180. ,R6.
+N004 X100. ,A90.
+N005 ,A170. ,R20.
+N006 X300. Z-180. ,A112. ,R15.
+N007 Z-230. ,A180."""
+FL_G3 = "G00 X20. Z0\nG01 X40. ,A150.\nZ-30. ,A175."
+FL_G5 = """%
+O1001 (FLANGED STUD, FINISHING)
+N1 G21 G40 G99
+N2 G50 S2500
+N3 T0101 (OD TOOL)
+N4 G96 S180 M03
+N5 G00 X16. Z2.
+N6 G01 Z0 F0.2
+N10 X24. ,C1.5
+N20 Z-18. ,R3. F0.12
+N30 X36. ,A120.
+N40 ,A175. ,R8.
+N50 X60. Z-55. ,A100. ,C2.
+N60 Z-70. ,R2.
+N70 X72.
+N80 G00 X100. Z50. M05
+N90 M30
+%
+"""
+FM_G1 = """G17 G90 G00 X10. Y10.
+G01 X50. F10. ,C5.
+Y25. ,R8.
+G03 X80. Y55. R30. ,R8.
+G01 X50. ,R8.
+Y70. ,C5.
+X10. ,C5.
+Y10."""
+FM_G2 = "G17 G90 G00 X0 Y0\nG01 X40. ,C6.\nG02 X60. Y20. I20. J0"
+FM_G3 = """%
+O2001 (PLATE OUTSIDE)
+G21 G17 G40 G49 G80 G90
+T03 M06
+G54 S2400 M03
+G43 H03 Z50.
+G00 X-40. Y-10. M08
+G01 Z-6. F120.
+N5 Y0 F300.
+N10 Y25. ,C6.
+N20 X10. ,R5.
+N30 G02 X40. Y5. R25. ,R4.
+N40 G01 Y-25. ,R8.
+N50 X-10. Y-40. ,C4.
+N60 X-40. Y-25. ,R6.
+N70 Y0
+G00 Z50. M09
+M30
+%
+"""
+HM_G1 = "G20 G00 X0 Z0\nG01 X1.0 ,C0.05 F0.01\nZ-0.75 ,R0.1\nX2.0 ,R0.125\nZ-1.5"
+
+EXAMPLES = {
+    "FL-G1": (None, FL_G1, "50 50; 104.90381 97.54809; 0 150"),
+    "FL-G2": (
+        None,
+        FL_G2,
+        "0 0; 58 0; 60 -1; 60 -24 > cw 72 -30 72 -24; 100 -30; 137.7644 -137.0863 > cw 162.1725 -152.1570 177.1567 "
+        "-133.6134; 281.2382 -176.2099 > ccw 300 -190.1176 270 -190.1176; 300 -230",
+    ),
+    "FL-G3": (None, FL_G3, "20 0; 40 -17.32051; 42.21862 -30"),
+    "FL-G5": (
+        None,
+        FL_G5,
+        "16 0; 21 0; 24 -1.5; 24 -16.2679 > cw 27 -18.8660 30 -16.2679; 36 -21.4641; 40.5139 -47.2611 > cw 53.6746 "
+        "-54.4423 56.4530 -46.5639; 56.0608 -54.6527; 60 -57; 60 -68 > cw 64 -70 64 -68; 72 -70",
+    ),
+    "FM-G1": (
+        MILL,
+        FM_G1,
+        "10 10; 45 10; 50 15; 50 17.8516 > cw 56.3158 25.6724 58 17.8516; ccw 77.9462 44.0909 50 55; "
+        "ccw 70.4939 55 70.4939 47; 58 55 > cw 50 63 58 63; 50 65; 45 70; 15 70; 10 65; 10 10",
+    ),
+    "FM-G2": (MILL, FM_G2, "0 0; 34 0; 40.9 5.9321; cw 60 20 60 0"),
+    "FM-G3": (
+        MILL,
+        FM_G3,
+        "-40 0; -40 19; -34 25; 9.4795 25 > ccw 10.4649 25.0981 9.4795 30; cw 39.9253 5.3982 15.3923 0.5885; "
+        "cw 40 4.6287 36 4.6287; 40 -19.0478 > cw 34.2988 -26.7104 32 -19.0478; -6.1687 -38.8506; -13.5777 -38.2111; "
+        "-36.6833 -26.6584 > cw -40 -21.2918 -34 -21.2918; -40 0",
+    ),
+    "HM-G1": (
+        HAAS_LATHE,
+        HM_G1,
+        "0 0; 22.86 0; 25.4 -1.27; 25.4 -16.51 > cw 30.48 -19.05 30.48 -16.51; 44.45 -19.05 > "
+        "ccw 50.8 -22.225 44.45 -22.225; 50.8 -38.1",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_a_worked_example_comes_out_as_the_sheet_prints_it(name):
+    control, text, expected = EXAMPLES[name]
+    result = solve(text, control=control)
+    assert errors(result) == []
+    is_lathe = result.control.endswith("lathe")
+    assert {answer.status.value for answer in result.answers} == {"solved"}
+    assert gap(drawn(expected, 0.5 if is_lathe else 1), path(result)) < 1.1e-4
+    documents = Document("program", text.encode()), Document("result", to_json(result).encode())
+    assert verify(*documents).verdict is Verdict.VERIFIED
+
+
+def test_the_program_of_the_lathe_tells_its_control_and_that_of_the_mill_asks():
+    assert solve(FL_G5).control == LATHE
+    with pytest.raises(UnknownControlError) as caught:
+        solve(FM_G3)
+    assert set(caught.value.choices) >= {MILL, HAAS_MILL, "nct-99m"}
+    assert not {"yasnac-lx3", LATHE, HAAS_LATHE} & {*caught.value.choices}
+
+
+@some_of(
+    ("control", "text", "code", "alarm"),
+    [
+        (LATHE, "G00 X50. Z50.\nG01 ,A30.\nX0. Z150.", "fanuc-closing-incomplete", "056"),
+        (LATHE, "G00 X50. Z50.\nG01 ,A30.\nX0. W100. ,A-45.", "fanuc-closing-increment", "056"),
+        (LATHE, "G00 X50. Z50.\nG01 ,A30.\nU-50. W100. ,A-45.", "fanuc-closing-increment", "056"),
+        (LATHE, "G00 X50. Z50.\nG01 ,A30.\nX0. U50. Z150. ,A-45.", "fanuc-closing-increment", "056"),
+        (LATHE, "G00 X50. Z50.\nG01 ,A30.\nX0. ,A-45.", "fanuc-closing-incomplete", "056"),
+        (LATHE, "G00 X50. Z50.\nG01 ,A30.\nX0. Z150.\nG00 X60.", "fanuc-closing-incomplete", "056"),
+        (LATHE, "G00 X50. Z50.\nG01 ,A30.\nM08\nX0. Z150. ,A-45.", "fanuc-end-missing", "056"),
+        (LATHE, "G00 X50. Z50.\nG01 ,A30.\nG02 X60. Z80. R100.", "fanuc-end-missing", "056"),
+        (LATHE, "G00 X50. Z0\nG01 Z-20. ,A90.", "fanuc-angle-along-x", "057"),
+        (LATHE, "G00 X50. Z0\nG01 Z-20. ,A-90.9", "fanuc-angle-along-x", "057"),
+        (LATHE, "G00 X50. Z0\nG01 X60. ,A180.", "fanuc-angle-along-z", "057"),
+        (LATHE, "G00 X50. Z0\nG01 X60. ,A0.9", "fanuc-angle-along-z", "057"),
+        (LATHE, "G00 X50. Z0\nG01 ,A150.\nX80. Z-40. ,A150.9", "fanuc-angles-parallel", "058"),
+        (LATHE, "G00 X50. Z0\nG01 ,A150.\nX80. Z-40. ,A-30.", "fanuc-angles-parallel", "058"),
+        (LATHE, "G17\n" + FL_G1, "fanuc-plane", "212"),
+        (LATHE, "G00 X50. Z0\nG01 Z-20. ,R5.\nM05", "fanuc-corner-without-next", "051"),
+        (LATHE, "G00 X50. Z0\nG01 Z-20. ,R5.\nG32 X60. F1.", "fanuc-corner-without-next", "052"),
+        (LATHE, "G00 X50. Z0\nG01 Z-20. ,R5.\nG02 X60. Z-25. R5.", "fanuc-arc", "052"),
+        (LATHE, "G00 X50. Z0\nG02 X60. Z-5. R5. ,R1.\nG01 Z-25.", "fanuc-arc", "052"),
+        (LATHE, "G00 X50. Z0\nG01 Z-20. ,R20.1\nX100.", "fanuc-corner-too-large", "055"),
+        (LATHE, "G00 X50. Z0\nG01 Z-20.\n,R2.\nX100.", "fanuc-corner-alone", "055"),
+        (LATHE, "G00 X50. Z0\nG01 Z-20. ,R5. ,C5.\nX100.", "fanuc-two-corners", "053"),
+        (LATHE, "G00 X50. Z0\nG42 G01 Z-20. ,R5.\nX100.", "fanuc-corner-compensation", "039"),
+        (LATHE, "G00 X50. Z0\nG01 Z-20. ,R-5.\nX100.", "fanuc-corner-negative", None),
+        (LATHE, "G00 X50. Z0\nG00 Z-20. ,R5.\nX100.", "fanuc-corner-rapid", None),
+        (LATHE, "G00 X50. Z0\nG01 Z-20. ,R5.\nZ-40.", "fanuc-corner-straight", None),
+        (MILL, FM_G1.replace("Y25. ,R8.", "Y25. ,R30."), "fanuc-corner-too-large", "055"),
+        (MILL, "G17 G90 G00 X0 Y0\nG01 X50. ,C5.\nM30", "fanuc-corner-without-next", "051"),
+        (MILL, "G17 G90 G00 X0 Y0\nG01 X50. ,C5.\nG00 Y20.", "fanuc-corner-without-next", "052"),
+        (MILL, "G17 G90 G00 X0 Y0\nG01 X20. ,R2.\nX50.", "fanuc-corner-straight", None),
+        (MILL, "G17 G90 G00 X0 Y0\nG01 X20. ,R2.\nX50. Y.5", "fanuc-corner-straight", None),
+        (MILL, "G17 G90 G00 X0 Y0\nG02 X20. Y20. I20. J0 ,R2.\nG01 X60. Y20.5", "fanuc-corner-straight", None),
+        (MILL, "G17 G90 G00 X0 Y0\nG01 X50. ,R20.\nY30. ,R11.\nX90.", "fanuc-corners-overlap", "055"),
+        (MILL, "G17 G90 G00 X0 Y0\nG01 X50. ,C5. ,R5.\nY30.", "fanuc-two-corners", "053"),
+        (MILL, "G17 G90 G00 X0 Y0\nG41 D1 G01 X50. ,C5.\nY30.", "fanuc-corner-compensation", "039"),
+        (MILL, "G17 G90 G00 X0 Y0\nG01 X50. ,C5.\nG18 X60. Z-5.", "fanuc-plane-changes", None),
+        (MILL, "G17 G90 G00 X0 Y0\nG01 X50. ,C5. Z-2.\nY20.", "fanuc-corner-outside-plane", None),
+        (MILL, "G17 G90 G00 X0 Y0\nG01 X50. ,A45. ,C5.\nY20.", "address-unknown", None),
+        (MILL, FM_G2 + " R20.", "fanuc-center-and-radius", None),
+        (MILL, FM_G2.replace(" I20. J0", ""), "fanuc-circle-undefined", None),
+        (HAAS_LATHE, "G00 X50. Z50.\nG01 A30.\nX0. Z150. A-45.", "haas-end-missing", None),
+        (HAAS_LATHE, "G00 X50. Z0\nG01 Z-20. ,R5.\nG02 X60. Z-25. R5.", "haas-arc", None),
+        (HAAS_MILL, FM_G2, "haas-arc", None),
+        (HAAS_MILL, "G17 G90 G00 X0 Y0\nG01 X50. ,C5. ,R5.\nY30.", "haas-two-corners", None),
+        (HAAS_MILL, "G17 G90 G00 X0 Y0\nG01 X50. ,C51.\nY30.", "haas-corner-too-large", None),
+    ],
+    one_in=2,
+)
+def test_what_the_sheets_call_an_error_is_one_finding_with_their_alarm(control, text, code, alarm):
+    result = solve(text, control=control)
+    assert [each.code for each in errors(result) if each.about is None or each.code == code][:1] == [code]
+    finding = errors(result)[0]
+    assert (finding.alarm.number[:3] if finding.alarm and alarm != "052" else alarm) == alarm
+    assert alarm is None or alarm in finding.alarm.number
+    assert result.answers[0].contour is None
+    for sentence in re.split(r"[.:;]\s", f"{finding.message}. {finding.help}. "):
+        assert len(sentence.split()) <= 20, sentence
+    documents = Document("program", text.encode()), Document("result", to_json(result).encode())
+    assert verify(*documents).verdict is not Verdict.FAILED
+
+
+@pytest.mark.parametrize("control", [LATHE, MILL, HAAS_LATHE, HAAS_MILL])
+def test_a_corner_exactly_as_long_as_the_move_is_accepted_and_a_zero_one_is_none(control):
+    start, second = ("G00 X40. Z0", "X120.") if control.endswith("lathe") else ("G17 G90 G00 Z0 X0 Y0", "Y40.")
+    first = "Z-20." if control.endswith("lathe") else "X20."
+    for word in (",R20.", ",C20."):
+        result = solve(f"{start}\nG01 {first} {word}\n{second}", control=control)
+        assert [answer.status.value for answer in result.answers] == ["solved"]
+        assert len(path(result)) == 2
+    for word in (",R0", ",C0."):
+        (answer,) = solve(f"{start}\nG01 {first} {word}\n{second}", control=control).answers
+        assert [each.name for each in answer.contour.elements] == ["line 1", "line 2"]
+
+
+# Seen in real text ------------------------------------------------------------------------------------------
+
+
+@some_of(
+    "text",
+    [
+        "G1X50.,R5.F100\nY40.",
+        "G1 X50. F100 ,R5.\nY40.",
+        "G1 X50. ,R5. F100\nY40.",
+        "g1 x50. ,r5. f100\ny40.",
+        "G1(edge)X50.(c),R5.(r)\nY40.",
+        "G1 X 50. , R 5.\nY 40.",
+        "G1 ,R5. X50.\nY40.",
+        "N10G1X+50.,R+5.\nN20Y40.",
+        "G1 X50. ,R5.\nG04 P500\nY40.",
+        "G1 X50. ,R5.\nG4 X1.5\nY40.",
+        "G1 X50. ,R5.\n(corner)\n\nY40.",
+        "G1 X50. ,R5.\nN30 G04 P500 (wait)\nN31 G04 P500\nY40.",
+        "/G1 X50. ,R5.\nY40.",
+        "G1 X50000 ,R5000\nY40000",
+    ],
+    one_in=2,
+)
+@pytest.mark.parametrize("control", [MILL, HAAS_MILL])
+def test_the_same_corner_is_read_however_it_is_written(control, text):
+    result = solve("G17 G90 G00 X0 Y0\n" + text, control=control)
+    assert errors(result) == []
+    assert gap(drawn("0 0; 45 0 > ccw 50 5 45 5; 50 40", 1), path(result)) < 1e-9
+
+
+@some_of(
+    ("control", "text", "found", "fix"),
+    [
+        (MILL, "G1 Y100 R10\nX50.", "R10", "G1 Y100 ,R10"),
+        (MILL, "g1x.375c.063\ny1.", "c.063", "g1x.375,c.063"),
+        (MILL, "G1 X50. R10.\nY60.", "R10.", "G1 X50. ,R10."),
+        (HAAS_MILL, "G1 X50. R2.\nY60.", "R2.", "G1 X50. ,R2."),
+        (HAAS_LATHE, "G1 Z-50. C2.\nX60.", "C2.", "G1 Z-50. ,C2."),
+        (LATHE, "G1 X50. A150.\nZ-60.", "A150.", "G1 X50. ,A150."),
+        (LATHE, "G1 Z-50. R10.\nX60.", "R10.", "G1 Z-50. ,R10."),
+    ],
+    one_in=2,
+)
+def test_a_lost_comma_is_told_with_what_the_letter_means_without_it(control, text, found, fix):
+    start = "G00 X40. Z0\n" if control.endswith("lathe") else "G17 G90 G00 X0 Y0\n"
+    (finding,) = [each for each in check(start + text, control=control) if each.code.endswith("comma-missing")]
+    assert finding.message.startswith(f"{found} has no comma: without one, ")
+    assert "C is an axis" in finding.message or "A and C are axes" in finding.message
+    assert [each.replacement for each in finding.fixes] == [fix]
+    assert len(finding.message.split()) <= 20
+
+
+@some_of(
+    ("text", "code", "fix"),
+    [
+        ("G01 Z-20. ,R25.\nX60.", "fanuc-corner-too-large", "G01 Z-20. ,R20.\nX60."),
+        ("G01 Z-20. ,C-5.\nX60.", "fanuc-corner-negative", "G01 Z-20. ,C5.\nX60."),
+        ("G01 Z-20. ,C5. ,R5.\nX60.", "fanuc-two-corners", "G01 Z-20. ,R5.\nX60."),
+        ("G01 Z-20. ,C5.\nZ-40.", "fanuc-corner-straight", "G01 Z-20.\nZ-40."),
+        ("G01 ,A180.\nX60. Z-47. A120.", "fanuc-closing-incomplete", "G01 ,A180.\nX60. Z-47. ,A120."),
+        ("G01 ,A180.\nX60. Z-47. ,A-120.", "fanuc-angle-opposite", "G01 ,A180.\nX60. Z-47. ,A120."),
+        ("G01 X40. Z-17.3205 ,A150.", "words-redundant", "G01 X40. Z-17.3205"),
+        ("G01 X40. Z-17. ,A150.", "words-conflict", "G01 X40. Z-17."),
+        ("G01 X40. Z-17. ,A150. ,R2.\nZ-40.", "words-conflict", "G01 X40. Z-17. ,R2.\nZ-40."),
+    ],
+)
+def test_the_first_fix_is_what_a_colleague_would_name(text, code, fix):
+    found = [each for each in check("G00 X20. Z0.\n" + text, control=LATHE) if each.fixes]
+    assert found[0].code == code
+    assert found[0].fixes[0].replacement == fix
+
+
+def test_an_angle_that_is_missing_behind_an_open_line_is_asked_for_with_a_value_that_fits():
+    (finding,) = [each for each in check("G00 X20. Z0.\nG01 ,A180.\nX60. Z-47.", control=LATHE) if each.fixes]
+    assert finding.message.endswith("it lacks ,A")
+    assert finding.fixes[0].replacement == "G01 ,A180.\nX60. Z-47. ,A?"
+    told = [each.message for each in check("G00 X20. Z0.\nG01 ,A180.\nX60. ,A120.", control=LATHE)]
+    assert not any("W in line 3" in each or "U in line 3" in each for each in told)
+
+
+# Random contours --------------------------------------------------------------------------------------------
+
+MACHINES = {
+    LATHE: Machine(is_lathe=True),
+    MILL: Machine(is_lathe=False),
+    HAAS_LATHE: Machine(is_lathe=True, angle="A", meets=False),
+    HAAS_MILL: Machine(is_lathe=False, arcs=False),
+}
+TYPED = {
+    LATHE: (",A", ",C", ",R", "X", "Z", "U", "W", "R", "I", "K", "A"),
+    MILL: (",C", ",R", "X", "Y", "Z", "R", "I", "J", "K", ",A", "C"),
+    HAAS_LATHE: ("A", ",C", ",R", "X", "Z", "U", "W", "R", "I", "K", ",A"),
+    HAAS_MILL: (",C", ",R", "X", "Y", "Z", "R", "I", "J", "K", ",A", "A"),
+}
+PAIRS = [("line", "line"), ("line", "arc"), ("arc", "line"), ("arc", "arc")]
+
+
+def draw(rng: Random, control: str, kinds: Sequence[str] | None = None, *, reverses: bool = True) -> list[str]:
+    count = rng.randint(2, 6)
+    if control.endswith("lathe"):
+        machine = MACHINES[control]
+        return random_lathe(rng, len(kinds or range(count)), machine.angle, meets=machine.meets, reverses=reverses)
+    straight = ["line"] if control == HAAS_MILL else ["line", "line", "arc"]
+    return random_mill(rng, kinds or [rng.choice(straight) for _ in range(count)], rng.choice((17, 18, 19)))
+
+
+def judge(program: Sequence[str], control: str, machine: Machine, settings: dict[str, str] | None = None) -> str:
+    """`right` or `refused`; fails where a contour is wrong, or is solved and the oracle refuses it."""
+    expected = run(program, machine)
+    if expected.is_near:
+        return "near"
+    text = "\n".join(program)
+    result = solve(text, control=control, settings=settings, depth="verdict")
+    found = {answer.claim.blocks[0].line: elements(answer) for answer in result.answers if answer.contour}
+    for each in expected.runs:
+        assert gap(each.elements, found.pop(each.line, [])) < 1e-8, (text, each.line, errors(result))
+    last = expected.refused or inf
+    assert not any(rest for line, rest in found.items() if line <= last), (text, found)
+    return "refused" if expected.refused else "right"
+
+
+@pytest.mark.parametrize("control", MACHINES)
+@few_and_many(60, 2000)
+def test_random_chains_come_out_where_they_were_drawn(control, count):
+    rng = Random(f"{control}{count}")
+    for _ in range(count):
+        assert judge(draw(rng, control), control, MACHINES[control]) == "right"
+
+
+@pytest.mark.parametrize("kinds", PAIRS)
+@few_and_many(60, 2000)
+def test_random_pairs_come_out_where_they_were_drawn(kinds, count):
+    rng = Random(f"{kinds}{count}")
+    for _ in range(count):
+        assert judge(draw(rng, MILL, kinds), MILL, MACHINES[MILL]) == "right"
+
+
+@pytest.mark.parametrize("control", MACHINES)
+@few_and_many(60, 2000)
+def test_no_program_with_a_word_lost_too_many_or_wrong_is_solved_wrongly(control, count):
+    rng, verdicts = Random(f"wrong {control}{count}"), Counter[str]()
+    for _ in range(count):
+        program = disturbed(rng, draw(rng, control), TYPED[control])
+        verdicts[judge(program, control, MACHINES[control])] += 1
+    assert verdicts["refused"] > count / 10
+    assert verdicts["right"] > count / 10
+    assert verdicts["near"] < count / 10
+
+
+SETTINGS = [
+    (LATHE, {"angle-sense": "ray"}, {"sense": "ray"}),
+    (LATHE, {"guard-deg": "0"}, {"guard": 0.0}),
+    (LATHE, {"redundant-angle": "error"}, {"strict": True}),
+    (HAAS_LATHE, {"angle-sense": "ray"}, {"sense": "ray"}),
+    (MILL, {"guard-deg": "0"}, {"guard": 0.0}),
+    (HAAS_MILL, {"arcs": "on"}, {"arcs": True}),
+]
+
+
+@pytest.mark.parametrize(("control", "settings", "changes"), SETTINGS)
+@few_and_many(30, 1000)
+def test_programs_are_read_as_the_settings_say(control, settings, changes, count):
+    rng, machine = Random(f"{settings}{count}"), MACHINES[control]._replace(**changes)
+    named = {f"{control}.{name}": value for name, value in settings.items()}
+    verdicts: Counter[str] = Counter()
+    for _ in range(count):
+        kinds = rng.choice(PAIRS) if control == HAAS_MILL else None
+        program = draw(rng, control, kinds)
+        if rng.random() < 0.4:
+            program = disturbed(rng, program, TYPED[control])
+        verdicts[judge(program, control, machine, named)] += 1
+    assert verdicts["right"] > count / 4
+    assert verdicts["refused"] > count / 20
