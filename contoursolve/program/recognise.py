@@ -61,9 +61,9 @@ class Recogniser:
         if _PLAIN.fullmatch(block.text):
             # Most lines only move: what they show is which axes there are.
             if not self._is_milled:
-                words = words_of(block.text)
-                self._is_milled = "Y" in words
-                self._axes |= {axis for address, axis in _TURNED.items() if address in words}
+                line = words_of(block.text)
+                self._is_milled = "Y" in line
+                self._axes |= {axis for address, axis in _TURNED.items() if address in line}
             return
         stated = {word.address for word in block.words}
         codes = {word.number for word in block.words if word.address == "G"}
