@@ -44,7 +44,7 @@ ROWS = [pytest.param(rule, id=rule.code) for rule in GEOMETRY_RULES]
 
 
 def codes(program):
-    control = DIALECTS["yasnac-lx3" if "G11" in program else "nct-99m"]
+    control = DIALECTS["yasnac-lx3" if "G11" in program else "nct-99m" if "G17" in program else "fanuc-lathe"]
     found = contoursolve.check(program, control=relative(control))
     for each in found:
         assert not set("{}") & set(each.message + each.help)
