@@ -440,19 +440,32 @@ class _Examiner:
                     return report(context, row, Basis.RULE, [], control=name, finding=slip.message)
         controls = (self.dialect,) if self.dialect else DIALECTS.values()
         triggers = [f"of {each.name}: {each.contours}" for each in controls]
+        shown = what_shows(blocks, self.dialect) if self.dialect else ""
         others = ((name, what_shows(blocks, each)) for name, each in DIALECTS.items() if own not in (None, name))
         by_sign: dict[str, list[str]] = {}
         for name, sign in others:
-            by_sign.setdefault(sign, []).append(name)
+            if sign != shown:
+                by_sign.setdefault(sign, []).append(name)
         signs = [
             f"{sign} is for {either(names)}: try --control {names[0] if len(names) == 1 else 'with one of them'}"
             for sign, names in by_sign.items()
             if sign
         ]
+        if self.dialect and shown and self._lacks_motion(self.dialect, blocks):
+            signs.insert(0, f"no G code of a motion is in force at {shown}: write G01")
         context = Context(self.rules, self.unit)
         row = context.row(ReadIssue.NO_CONTOUR)
         finding = report(context, row, Basis.RULE, [], triggers="; ".join(triggers + signs))
         return finding if signs else replace(finding, severity=Severity.WARNING)
+
+    def _lacks_motion(self, dialect: Dialect, blocks: Sequence[Block]) -> bool:
+        """Whether no motion is in force in the first block with a word of the control's contours."""
+        state = dialect.initial_state(self.unit)
+        for block in blocks:
+            state = advance(state, block, dialect.modes)
+            if dialect.signs(block):
+                return state.motion is None
+        return False
 
     def _slips_as(self, dialect: Dialect, blocks: Sequence[Block]) -> Iterator[Diagnostic]:
         """The words that make a contour for a control with their comma, in the first lines of a program."""
