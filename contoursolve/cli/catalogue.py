@@ -42,6 +42,12 @@ def facts() -> None:
     print_lines(vocabulary_lines())
 
 
+def _alarms_of(rule: Rule) -> list[str]:
+    """The numbers of a rule's alarm without leading zeros: the first word, and in `051 or 052` the third one, too."""
+    first, *others = (rule.alarm.number if rule.alarm else "").split() or [""]
+    return [each.lstrip("0") for each in (first, *(others[1:2] if others[:1] == ["or"] else []))]
+
+
 @click.command(short_help="Explain one rule, or all behind an alarm number.")
 @click.argument("code")
 @control_option("Only a rule of this control.")
@@ -57,10 +63,11 @@ def explain(code: str, control: str | Dialect | None) -> None:
     from contoursolve.output.catalogue import rule_lines  # noqa: PLC0415 - only here
 
     wanted = code.strip().lower()
+    number = wanted.removeprefix("ps").lstrip("0")
     found: dict[str, tuple[Rule, list[str]]] = {}
     for dialect in _chosen(control):
         for rule in dialect.rules:
-            if wanted in (rule.code, rule.alarm.number.split()[0] if rule.alarm else ""):
+            if wanted == rule.code or (number and number in _alarms_of(rule)):
                 found.setdefault(rule.code, (rule, []))[1].append(dialect.name)
     if not found:
         near = get_close_matches(wanted, sorted({rule.code for each in _chosen(control) for rule in each.rules}))

@@ -28,7 +28,7 @@ from contoursolve.families.spec import (
 from contoursolve.gcode import FACT, Word
 from contoursolve.geometry import Given, Profile, Unit
 from contoursolve.numeric.columns import Array
-from contoursolve.reading import ReadIssue
+from contoursolve.reading import ParsedContour, ReadIssue
 from contoursolve.reading.rules import Value
 from contoursolve.solving import Status
 from contoursolve.solving.row_outcome import Codes
@@ -104,6 +104,7 @@ def limits_of(template: Template, values: Mapping[str, float]) -> list[WordLimit
             tests = (rule.when for rule in template.dialect.rules if isinstance(rule.when, Value))
             ends = (end for test in tests for end in (test.least, test.most, test.excluding))
             limits |= {end for end in ends if end is not None and end.is_finite()}
+            limits |= set(_limits_beside(template, claim, word))
             one = claim.lexicon.value(unit_word(word, has_point=True), answer.unit)
         elif word.address != FACT:
             raise FamilyError(f"{word.text} is no word of the contour")
@@ -121,6 +122,19 @@ def limits_of(template: Template, values: Mapping[str, float]) -> list[WordLimit
             f"{' and '.join(tied)} together say on which side of its centre the arc ends: vary one of them at a time"
         )
     return found
+
+
+def _limits_beside(template: Template, claim: ParsedContour, word: Word) -> Iterator[Decimal]:
+    """The limits of the rules that hold for some values of a word beside what else the block states."""
+    stated = claim.stated()
+    own = {name for name, typed in claim.words.items() if is_same(word, typed)}
+    for role in claim.form.roles:
+        calls = role.names(stated)
+        seen = {call: stated[name] for call, name in calls.items()}
+        conditions = [rule.when for rule in template.dialect.rules if role.name in rule.roles and rule.when is not None]
+        for call in (call for call, name in calls.items() if name in own):
+            for condition in conditions:
+                yield from condition.limits(call, seen)
 
 
 class Example(Struct, frozen=True):

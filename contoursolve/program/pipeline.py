@@ -440,15 +440,22 @@ class _Examiner:
                     return report(context, row, Basis.RULE, [], control=name, finding=slip.message)
         controls = (self.dialect,) if self.dialect else DIALECTS.values()
         triggers = [f"of {each.name}: {each.contours}" for each in controls]
-        others = ((name, what_shows(blocks, each)) for name, each in DIALECTS.items() if own not in (None, name))
+        shown = (
+            what_shows(blocks, self.dialect) if self.dialect and _lacks_motion(self.dialect, blocks, self.unit) else ""
+        )
+        elsewhere = {name: each for name, each in DIALECTS.items() if own not in (None, name)}
+        others = ((name, what_shows(blocks, each)) for name, each in elsewhere.items() if _reads_signs(each, blocks))
         by_sign: dict[str, list[str]] = {}
         for name, sign in others:
-            by_sign.setdefault(sign, []).append(name)
+            if sign != shown:
+                by_sign.setdefault(sign, []).append(name)
         signs = [
             f"{sign} is for {either(names)}: try --control {names[0] if len(names) == 1 else 'with one of them'}"
             for sign, names in by_sign.items()
             if sign
         ]
+        if shown:
+            signs.insert(0, f"no G code of a motion is in force at {shown}: write G01")
         context = Context(self.rules, self.unit)
         row = context.row(ReadIssue.NO_CONTOUR)
         finding = report(context, row, Basis.RULE, [], triggers="; ".join(triggers + signs))
@@ -486,3 +493,20 @@ class _Examiner:
 def _repeated(words: Sequence[Word]) -> list[Word]:
     seen: set[str] = set()
     return [word for word in words if word.address in seen or seen.add(word.address)]  # type: ignore[func-returns-value]
+
+
+def _lacks_motion(dialect: Dialect, blocks: Sequence[Block], unit: Length) -> bool:
+    """Whether no motion is in force in the first block with a word of the control's contours."""
+    state = dialect.initial_state(unit)
+    for block in blocks:
+        state = advance(state, block, dialect.modes)
+        words = dialect.signs(block)
+        if words:
+            return state.motion is None and all(each.address in dialect.modes.lexicon.addresses for each in words)
+    return False
+
+
+def _reads_signs(dialect: Dialect, blocks: Sequence[Block]) -> bool:
+    """Whether a control has each word with a comma in the first block that looks like one of its contours."""
+    words = next((found for block in blocks for found in [dialect.signs(block)] if found), ())
+    return all(each.address in dialect.modes.lexicon.addresses for each in words if each.address.startswith(","))

@@ -34,6 +34,10 @@ class Condition:
         """The stated names that this condition speaks about."""
         raise NotImplementedError
 
+    def limits(self, _name: str, _stated: Stated) -> tuple[Decimal, ...]:
+        """The values of a name between which this condition holds alike, where nothing else that is stated varies."""
+        return ()
+
     def __and__(self, other: "Condition") -> "Condition":
         return Both(self, other)
 
@@ -58,6 +62,12 @@ class Both(Condition):
     def offenders(self, stated: Stated) -> tuple[str, ...]:
         return tuple(dict.fromkeys(self.first.offenders(stated) + self.second.offenders(stated)))
 
+    def limits(self, name: str, stated: Stated) -> tuple[Decimal, ...]:
+        parts = (self.first, self.second)
+        if any(not part.reads_values and not part.holds(stated) for part in parts):
+            return ()
+        return self.first.limits(name, stated) + self.second.limits(name, stated)
+
 
 @dataclass(frozen=True, slots=True)
 class Unless(Condition):
@@ -74,6 +84,9 @@ class Unless(Condition):
 
     def offenders(self, _stated: Stated) -> tuple[str, ...]:
         return ()
+
+    def limits(self, name: str, stated: Stated) -> tuple[Decimal, ...]:
+        return self.condition.limits(name, stated)
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,6 +127,10 @@ class Value(Condition):
     def offenders(self, stated: Stated) -> tuple[str, ...]:
         return tuple(name for name in self.names if name in stated and self.holds({name: stated[name]}))
 
+    def limits(self, name: str, _stated: Stated) -> tuple[Decimal, ...]:
+        ends = (self.least, self.most, self.excluding) if name in self.names else ()
+        return tuple(end for end in ends if end is not None and end.is_finite())
+
 
 @dataclass(frozen=True, slots=True)
 class Along(Condition):
@@ -133,6 +150,9 @@ class Along(Condition):
     def offenders(self, stated: Stated) -> tuple[str, ...]:
         values = ((name, stated.get(name)) for name in self.names)
         return tuple(name for name, value in values if value is not None and self._is_along(value))
+
+    def limits(self, name: str, _stated: Stated) -> tuple[Decimal, ...]:
+        return _around(Decimal(self.direction), self.within) if name in self.names else ()
 
     def _is_along(self, value: Decimal) -> bool:
         return _apart(value, Decimal(self.direction)) <= self.within
@@ -156,11 +176,21 @@ class Parallel(Condition):
     def offenders(self, stated: Stated) -> tuple[str, ...]:
         return self.names if self.holds(stated) else ()
 
+    def limits(self, name: str, stated: Stated) -> tuple[Decimal, ...]:
+        others = [stated.get(other) for other in self.names if other != name] if name in self.names else []
+        return tuple(end for other in others if other is not None for end in _around(other, self.within))
+
 
 def _apart(first: Decimal, second: Decimal) -> Decimal:
     """The angle between two lines, from 0 to 90 degrees."""
     apart = (first - second) % 180
     return min(abs(apart), 180 - abs(apart))
+
+
+def _around(direction: Decimal, within: Decimal) -> tuple[Decimal, ...]:
+    """The angles that are just so far from a direction or its opposite, in two turns either way."""
+    first = direction % 180
+    return tuple(first + half * 180 + side for half in range(-4, 4) for side in (-within, within))
 
 
 def some(*names: str) -> Condition:

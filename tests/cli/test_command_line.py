@@ -207,6 +207,15 @@ def test_a_code_that_is_almost_one_is_asked_about():
     assert "did you mean" not in run("explain", "999")[2]
 
 
+def test_an_alarm_is_explained_as_a_newer_control_prints_it_and_without_its_zeros():
+    status, text, _ = run("explain", "055")
+    assert status == 0
+    assert all(run("explain", each)[:2] == (0, text) for each in ("55", "PS0055", "ps055"))
+    both = run("explain", "52", "--control", "fanuc-mill")
+    assert both[0] == 0
+    assert "fanuc-corner-without-next" in both[1]
+
+
 def test_solve_says_for_which_control_it_read_and_what_shows_that(save):
     line = ("--block", "G1 X30 Y30 ,A45", "--start", "X0 Y0", "--rules", "off")
     for arguments, told in (
@@ -820,6 +829,14 @@ def test_the_other_control_is_named_with_the_words_that_show_it(save):
     _, _, errors = run("check", save(both))
     assert "yasnac-lx3 by G111 in program line 2; " in errors
     assert "nct-99m" in errors
+
+
+def test_a_block_of_the_named_control_without_a_motion_is_not_sent_to_another_control():
+    block = ("--block", "X60. ,A150. ,R2.", "--block", "Z-40.", "--start", "X40. Z0.")
+    status, output, _ = run("check", *block, "--control", "fanuc-lathe")
+    assert status == 2
+    assert "no G code of a motion is in force at ,A150. and ,R2. in program line 1: write G01" in output
+    assert "--control" not in output
 
 
 def test_contours_behind_a_refused_one_are_checked_from_where_its_best_fix_ends(save):

@@ -47,6 +47,7 @@ def compare(folder, monkeypatch, page, command, output) -> tuple[list[str], list
     """The lines that a page shows for a command, and those that it prints in a folder, shortened alike."""
     for name in ("programs", "conversions"):
         shutil.copytree(ROOT / "notebooks" / name, folder / "notebooks" / name)
+    shutil.copytree(ROOT / "docs" / "programs", folder / "docs" / "programs")
     for name, content in re.findall(r"<!-- file: (\S+) -->\n+```\w*\n(.*?)```", PAGES[page], re.DOTALL):
         (folder / name).write_text(content, encoding="utf-8")
     monkeypatch.chdir(folder)

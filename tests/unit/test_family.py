@@ -76,6 +76,16 @@ CASES = {
     ),
     "G112 landing beyond the centre": ("G112 X44. K-30. I2. R20.", LATHE, {"I": (-5, 5), "R": (5, 40)}),
     "G11": ("G11 X80. K-7.", LATHE, {"X": (20, 90), "K": (-20, 20)}),
+    "a line by its angle, near the axes": (
+        "G01 X60. ,A150. ,R2.\nZ-40.",
+        LATHE | {"control": "fanuc-lathe"},
+        {",A": (-3, 3), ",R": (0, 6)},
+    ),
+    "two lines, nearly parallel": (
+        "G01 ,A170. ,R1.\nX80. Z-50. ,A120.",
+        LATHE | {"control": "fanuc-lathe"},
+        {"2:,A": (167, 173), ",R": (0, 3)},
+    ),
     "inches": (
         "G111 X4. A180. K-1.2 B120. P.2 Q.2",
         {"start": "X1.6 Z0.", "units": "inch"},

@@ -95,7 +95,7 @@ def _corner_rules(machine: _Machine) -> tuple[Rule, ...]:
         Rule(
             code=f"{machine.prefix}-corner-without-next",
             message="{words}: a corner needs an element behind it, and none follows",
-            help="put the next element right behind it, or delete it",
+            help="put the next cutting move right behind it, or delete it",
             source=machine.source(_ALARM_LIST),
             alarm=machine.alarm("051 or 052 (no move, or no cutting move, behind a corner)"),
             roles=_ANY,
@@ -165,7 +165,7 @@ def _mill_rules(machine: _Machine) -> tuple[Rule, ...]:
         Rule(
             code=f"{machine.prefix}-corner-outside-plane",
             message="{words} moves an axis outside the plane of the contour",
-            help="move that axis in a block of its own",
+            help="move that axis in a block of its own, or select its plane by G17, G18 or G19",
             source=machine.source("only in the selected plane"),
             roles=_ANY,
             when=some("beside-X", "beside-Y", "beside-Z"),
@@ -199,7 +199,7 @@ _ARC_RULES = (
     Rule(
         code="fanuc-circle-undefined",
         message="the arc has neither a centre nor a radius",
-        help="add I, J or K of the plane, or R",
+        help="add I, J or K of the plane, or R; for a line write G01",
         source=_FANUC_MILL.source("arcs", Evidence.ASSUMED),
         roles=(ARC,),
         when=~some(*STATED_CENTER, "R"),
