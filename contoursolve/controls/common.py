@@ -115,6 +115,16 @@ READING_RULES = (
         rejected=(_START + "G111 A180. K-30. B120. X100. R5.",),
     ),
     Rule(
+        code="comma-word-unknown",
+        message="{words}: this control has no {address}; it stops there, or leaves the word out",
+        help="name the control by --control, if it is another one; else write out what the word means",
+        source=_READING,
+        about=ReadIssue.COMMA_WORD_UNKNOWN,
+        severity=Severity.WARNING,
+        accepted=(_GOOD,),
+        rejected=(_GOOD + "\nG01 X120. ,A30.",),
+    ),
+    Rule(
         code="letter-for-digit",
         message="{words} has a letter where a digit seems to be meant: with {meant} this block would be a contour",
         help="write {meant} if that is meant",

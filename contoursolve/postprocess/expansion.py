@@ -46,7 +46,13 @@ _NAMES = tuple(f"G{code:02}" for code in range(4))
 """The codes of motions as they are written."""
 
 
-_TOLD = (ReadIssue.TEXT_OUTSIDE, ReadIssue.LETTER_FOR_DIGIT, ReadIssue.CODE_MISTYPED, ReadIssue.COMMA_MISSING)
+_TOLD = (
+    ReadIssue.TEXT_OUTSIDE,
+    ReadIssue.LETTER_FOR_DIGIT,
+    ReadIssue.CODE_MISTYPED,
+    ReadIssue.COMMA_MISSING,
+    ReadIssue.COMMA_WORD_UNKNOWN,
+)
 """What is told about lines that stay: they may be cut in another way than they are meant."""
 
 

@@ -488,6 +488,10 @@ class _Examiner:
             addresses = lexicon.addresses
             axis_words = [word for word in block.words if word.address in addresses and addresses[word.address].axis]
             self.diagnostics += explain_words(context, lexicon, _repeated(axis_words), axis_words)
+            for word in block.words:
+                if word.address.startswith(",") and word.address not in addresses:
+                    row = context.row(ReadIssue.COMMA_WORD_UNKNOWN)
+                    self.diagnostics.append(report(context, row, Basis.RULE, [word]))
 
 
 def _repeated(words: Sequence[Word]) -> list[Word]:

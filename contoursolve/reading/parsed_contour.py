@@ -26,6 +26,7 @@ class ReadIssue(Enum):
     POINT_MISSING = "point-missing"
     START_IN_INCREMENTS = "start-in-increments"
     COMMA_MISSING = "comma-missing"
+    COMMA_WORD_UNKNOWN = "comma-word-unknown"
     LETTER_FOR_DIGIT = "letter-for-digit"
     CODE_MISTYPED = "code-mistyped"
     VALUE_TOO_LARGE = "value-too-large"

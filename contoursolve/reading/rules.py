@@ -38,6 +38,10 @@ class Condition:
         """The values of a name between which this condition holds alike, where nothing else that is stated varies."""
         return ()
 
+    def compared(self, _stated: Stated) -> tuple[tuple[str, str], ...]:
+        """The names whose values this condition compares with each other, beside what else is stated."""
+        return ()
+
     def __and__(self, other: "Condition") -> "Condition":
         return Both(self, other)
 
@@ -67,6 +71,12 @@ class Both(Condition):
         if any(not part.reads_values and not part.holds(stated) for part in parts):
             return ()
         return self.first.limits(name, stated) + self.second.limits(name, stated)
+
+    def compared(self, stated: Stated) -> tuple[tuple[str, str], ...]:
+        parts = (self.first, self.second)
+        if any(not part.reads_values and not part.holds(stated) for part in parts):
+            return ()
+        return self.first.compared(stated) + self.second.compared(stated)
 
 
 @dataclass(frozen=True, slots=True)
@@ -179,6 +189,9 @@ class Parallel(Condition):
     def limits(self, name: str, stated: Stated) -> tuple[Decimal, ...]:
         others = [stated.get(other) for other in self.names if other != name] if name in self.names else []
         return tuple(end for other in others if other is not None for end in _around(other, self.within))
+
+    def compared(self, _stated: Stated) -> tuple[tuple[str, str], ...]:
+        return (self.names,)
 
 
 def _apart(first: Decimal, second: Decimal) -> Decimal:
