@@ -29,7 +29,7 @@ from contoursolve.gcode import FACT, Word
 from contoursolve.geometry import Given, Profile, Unit
 from contoursolve.numeric.columns import Array
 from contoursolve.reading import ReadIssue
-from contoursolve.reading.rules import Value
+from contoursolve.reading.rules import Along, Parallel, Stated, Value
 from contoursolve.solving import Status
 from contoursolve.solving.row_outcome import Codes
 from contoursolve.tolerance import LARGEST
@@ -96,6 +96,7 @@ def limits_of(template: Template, values: Mapping[str, float]) -> list[WordLimit
     answer = template.solve(values)
     claim, tied = answer.claim, list[str]()
     found: list[WordLimits] = []
+    bands = _bands(template, answer)
     for name, word in template.words.items():
         limits = {Decimal(0), -Decimal(LARGEST), Decimal(LARGEST)}
         stated = stated_by(word, answer.profile)
@@ -110,6 +111,7 @@ def limits_of(template: Template, values: Mapping[str, float]) -> list[WordLimit
         elif stated:
             one = factor_of(answer, word, stated[0], Decimal(repr(values[name])))
         for given in stated:
+            limits |= bands.get(given.name, set())
             if given.name in claim.limits:
                 limits.add(claim.limits[given.name])
                 tied.append(word.text)
@@ -122,6 +124,48 @@ def limits_of(template: Template, values: Mapping[str, float]) -> list[WordLimit
             "vary one of them at a time"
         )
     return found
+
+
+def _bands(template: Template, answer: Answer) -> dict[str, set[Decimal]]:
+    """The angles, by their names, at which rules about directions begin to hold or no longer do. Raises FamilyError
+    where two angles that vary are compared with each other."""
+    stated = answer.claim.stated()
+    varying = {given.name: word for word in template.words.values() for given in stated_by(word, answer.profile)}
+    found: dict[str, set[Decimal]] = {}
+    for rule, role in product(template.dialect.rules, answer.claim.form.roles):
+        if role.name not in rule.roles or rule.when is None or not rule.when.reads_values:
+            continue
+        names = role.names(stated)
+        for part in rule.when.parts():
+            if isinstance(part, Along):
+                for call in names.keys() & {*part.names}:
+                    found.setdefault(names[call], set()).update(_turned(Decimal(part.direction), part.within))
+            elif isinstance(part, Parallel) and names.keys() >= {*part.names}:
+                own: Stated = {call: stated[name] for call, name in names.items()}
+                if not rule.when.holds({**own, **dict.fromkeys(part.names, Decimal(0))}):
+                    continue  # something else keeps the rule from holding at any angle
+                first, second = (names[call] for call in part.names)
+                if varying.keys() >= {first, second}:
+                    raise FamilyError(
+                        f"{varying[first].text} and {varying[second].text} are read together, for the control compares the two lines: vary "
+                        "one of them at a time"
+                    )
+                for name, other in ((first, second), (second, first)):
+                    angle = stated[other]
+                    if name in varying and angle is not None:
+                        found.setdefault(name, set()).update(_turned(angle, part.within))
+    return found
+
+
+def _turned(direction: Decimal, within: Decimal) -> Iterator[Decimal]:
+    """The ends of the bands about a direction and its opposite, as far as angles are likely to go."""
+    for half in range(-_MOST_HALVES, _MOST_HALVES + 1):
+        yield direction % 180 + 180 * half - within
+        yield direction % 180 + 180 * half + within
+
+
+_MOST_HALVES = 8
+"""Half turns either way for which the bands about a direction are known."""
 
 
 class Example(Struct, frozen=True):

@@ -1,7 +1,7 @@
 """A rule is a row: a condition on the words of a block, what it says, its source, alarm and examples."""
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from enum import Enum
@@ -25,6 +25,10 @@ class Condition:
 
     reads_values = False
     """Whether it depends on values and not on names alone."""
+
+    def parts(self) -> Iterator["Condition"]:
+        """The conditions that it is made of, none of which is made of others."""
+        yield self
 
     def holds(self, stated: Stated) -> bool:
         """Whether the condition is true of these words; their order never matters."""
@@ -52,6 +56,10 @@ class Both(Condition):
     def reads_values(self) -> bool:  # type: ignore[override]
         return self.first.reads_values or self.second.reads_values
 
+    def parts(self) -> Iterator["Condition"]:
+        yield from self.first.parts()
+        yield from self.second.parts()
+
     def holds(self, stated: Stated) -> bool:
         return self.first.holds(stated) and self.second.holds(stated)
 
@@ -68,6 +76,9 @@ class Unless(Condition):
     @property
     def reads_values(self) -> bool:  # type: ignore[override]
         return self.condition.reads_values
+
+    def parts(self) -> Iterator["Condition"]:
+        yield from self.condition.parts()
 
     def holds(self, stated: Stated) -> bool:
         return not self.condition.holds(stated)
