@@ -124,6 +124,7 @@ def _take(walk: _Walk, line: int, text: str) -> None:
             fault = "twice" if address in words else fault
             words[address] = float(number) * (1.0 if address in (",A", "A") else walk.scale)
     if not words:
+        walk.is_near |= bool(walk.blocks and _is_tied(walk.blocks[-1]))  # a block that says nothing behind a corner
         return
     block = _Block(line, walk.motion, words, fault)
     if walk.motion == 0:

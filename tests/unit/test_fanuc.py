@@ -374,7 +374,8 @@ def judge(program: Sequence[str], control: str, machine: Machine, settings: dict
     result = solve(text, control=control, settings=settings, depth="verdict")
     found = {answer.claim.blocks[0].line: elements(answer) for answer in result.answers if answer.contour}
     for each in expected.runs:
-        assert gap(each.elements, found.pop(each.line, [])) < 1e-8, (text, each.line, errors(result))
+        size = max(abs(element.end) for element in each.elements)
+        assert gap(each.elements, found.pop(each.line, [])) < 1e-8 * max(1, size / 1000), (text, each.line, errors(result))
     last = expected.refused or inf
     assert not any(rest for line, rest in found.items() if line <= last), (text, found)
     return "refused" if expected.refused else "right"
@@ -385,7 +386,7 @@ def judge(program: Sequence[str], control: str, machine: Machine, settings: dict
 def test_random_chains_come_out_where_they_were_drawn(control, count):
     rng = Random(f"{control}{count}")
     for _ in range(count):
-        assert judge(draw(rng, control), control, MACHINES[control]) == "right"
+        assert judge(draw(rng, control), control, MACHINES[control]) != "refused"
 
 
 @pytest.mark.parametrize("kinds", PAIRS)
@@ -393,7 +394,7 @@ def test_random_chains_come_out_where_they_were_drawn(control, count):
 def test_random_pairs_come_out_where_they_were_drawn(kinds, count):
     rng = Random(f"{kinds}{count}")
     for _ in range(count):
-        assert judge(draw(rng, MILL, kinds), MILL, MACHINES[MILL]) == "right"
+        assert judge(draw(rng, MILL, kinds), MILL, MACHINES[MILL]) != "refused"
 
 
 @pytest.mark.parametrize("control", MACHINES)
