@@ -335,7 +335,9 @@ def _spare_angles(claim: ParsedContour) -> Iterator[str]:
         given = row.fact.given or ""
         prefix = given[: given.find(":") + 1]
         if isinstance(row.fact, Heading) and given in claim.words and prefix in prefixes:
-            stated = {name.removeprefix(prefix).removesuffix("-step") for name in claim.words if name.startswith(prefix)}
+            stated = {
+                name.removeprefix(prefix).removesuffix("-step") for name in claim.words if name.startswith(prefix)
+            }
             if stated >= {"first", "second"}:
                 yield given
 
