@@ -147,8 +147,8 @@ def _bands(template: Template, answer: Answer) -> dict[str, set[Decimal]]:
                 first, second = (names[call] for call in part.names)
                 if varying.keys() >= {first, second}:
                     raise FamilyError(
-                        f"{varying[first].text} and {varying[second].text} are read together, for the control compares the two lines: vary "
-                        "one of them at a time"
+                        f"{varying[first].text} and {varying[second].text} are read together, for the control compares "
+                        "the two lines: vary one of them at a time"
                     )
                 for name, other in ((first, second), (second, first)):
                     angle = stated[other]

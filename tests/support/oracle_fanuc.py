@@ -100,6 +100,23 @@ def run(program: Sequence[str], machine: Machine) -> Answer:
     return Answer(tuple(found), 0, walk.is_near)
 
 
+def whole(program: Sequence[str], machine: Machine) -> tuple[Element, ...]:
+    """All that a program cuts, also its lines and arcs beside contours; nothing where one is refused or in doubt."""
+    answer = run(program, machine)
+    if answer.refused or answer.is_near:
+        return ()
+    walk = _Walk(machine, plane=18 if machine.is_lathe else 17)
+    for line, text in enumerate(program, 1):
+        _take(walk, line, text)
+    outcome = Outcome()
+    connect(
+        [block.element for block in walk.blocks if block.element],
+        {k: block.corner for k, block in enumerate(walk.blocks) if block.corner},
+        outcome,
+    )
+    return tuple(outcome.elements)
+
+
 def _is_tied(block: _Block) -> bool:
     return block.corner is not None or block.is_open
 
