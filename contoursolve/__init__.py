@@ -1,6 +1,6 @@
 """contoursolve: why is this contour block refused, and where does it go?
 
-It reads the contour blocks of CNC programs (YASNAC LX3 `G111`, NCT 99M circular-linear intersections),
+It reads the contour blocks of CNC programs (Fanuc and Haas `,A ,C ,R`, NCT 99M intersections, YASNAC LX3 `G111`),
 turns each into a small system of equations, and says what is missing, what is said twice, and what
 the path is. Lengths are in mm, X of a lathe is a radius, angles are in degrees.
 
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
         UnreadableProgramError,
         check,
         check_file,
+        convert,
         expand,
         parse,
         read_program,
@@ -47,7 +48,7 @@ if TYPE_CHECKING:
     from contoursolve.gcode import Block, Program, Word
     from contoursolve.notebook import explore
     from contoursolve.output.construction import construction_lines
-    from contoursolve.postprocess.expansion_report import Expansion
+    from contoursolve.postprocess.expansion_report import Conversion, Expansion
     from contoursolve.program.pipeline import Result
     from contoursolve.program.recognise import UnknownControlError
     from contoursolve.reading.dialect import Dialect
@@ -65,6 +66,7 @@ __all__ = [
     "Block",
     "Completion",
     "Contour",
+    "Conversion",
     "Depth",
     "Diagnosis",
     "Diagnostic",
@@ -95,6 +97,7 @@ __all__ = [
     "check_file",
     "completions",
     "construction_lines",
+    "convert",
     "expand",
     "explore",
     "family",
@@ -120,7 +123,7 @@ _ROOMS = {
     "diagnosis.solutions": ("Listing", "list_solutions"),
     "diagnostics.extras": ("MissingExtraError",),
     "output.construction": ("construction_lines",),
-    "postprocess.expansion_report": ("Expansion",),
+    "postprocess.expansion_report": ("Conversion", "Expansion"),
     "families": (
         "Family",
         "FamilyError",

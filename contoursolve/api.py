@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from msgspec.structs import replace
 
@@ -16,13 +16,13 @@ from contoursolve.diagnostics.finding import Diagnostic
 from contoursolve.gcode import STANDARD_INPUT, Directive, Program, UnreadableProgramError
 from contoursolve.geometry import Length
 from contoursolve.postprocess.numbering import Numbers
-from contoursolve.program.pipeline import Result, Run
-from contoursolve.program.project import find_settings
-from contoursolve.program.recognise import choose
+from contoursolve.program.pipeline import Result, Run, run
+from contoursolve.program.project import configure, find_settings
+from contoursolve.program.recognise import choose, find_dialect
 from contoursolve.reading.dialect import Dialect
 
 if TYPE_CHECKING:
-    from contoursolve.postprocess.expansion_report import Expansion
+    from contoursolve.postprocess.expansion_report import Conversion, Expansion
     from contoursolve.postprocess.post_processors import Post
     from contoursolve.statements import Statement
 
@@ -30,6 +30,7 @@ __all__ = [
     "UnreadableProgramError",
     "check",
     "check_file",
+    "convert",
     "expand",
     "parse",
     "read_program",
@@ -68,8 +69,8 @@ def solve(
 
     Args:
         text: the program, one or more lines.
-        control: `yasnac-lx3` or `nct-99m`, or a control of your own as its tables (see `Dialect`); found from the
-            program where it is clear.
+        control: its name, such as `fanuc-lathe`, or a control of your own as its tables (see `Dialect`); found from
+            the program where it is clear.
         start: words that give the start point, such as `"X40. Z0."`, as the control reads them.
         units: `mm` or `inch`, for numbers before any G20 or G21.
         rules: `enforce`, `warn` or `off` (see `Policy`).
@@ -79,8 +80,8 @@ def solve(
         name: what findings call the program.
 
     Returns:
-        Frozen records: `answers`, one for each contour with its status and path (mm, X of a lathe as
-        radius), and `diagnostics`, all findings.
+        Frozen records. `answers` has one for each contour, with its status and path (mm, X of a lathe as radius);
+        `diagnostics` are all findings.
 
     Raises:
         UnknownControlError: the control is unknown, or the program does not tell it.
@@ -262,12 +263,11 @@ def expand(
         post: the target: `same` (the control that the program is for), `linuxcnc` or `fanuc`, or one of your own.
         arcs: `center` (I J K) or `radius` (R).
         decimals: decimals of an end point; the target's own without. Centres and radii have at least those.
-        comments: whether the original blocks are kept as comments.
-        keep_going: whether to expand the other contours where one cannot be expanded.
-        keep_untranslated: whether there is a text although the target would run some of it along another path
-            (`summary.misread`).
-        block_numbers: `first` (the number of a block stands in the first line in its place), or `all` (the others
-            have numbers that the program does not use).
+        comments: whether to keep the original blocks as comments.
+        keep_going: whether to expand the other contours where one fails.
+        keep_untranslated: whether to write what the target would run along another path (`summary.misread`).
+        block_numbers: `first`: of the lines in the place of a block, the first one has its number; `all`: the others
+            have numbers, too, which the program does not use.
         control: and all others as for `solve`, with the same errors.
 
     >>> print(expand("G00 X40. Z0.\\nG111 X100. A180. K-30. B120. C5. F0.2").text)
@@ -311,6 +311,71 @@ def expand(
     written = "".join(opening if piece is OPENING else str(piece) for piece in pieces)
     is_whole = (keep_going or not summary.left) and (keep_untranslated or not summary.misread)
     return Expansion(written if is_whole else None, dialect.name, summary)
+
+
+def convert(
+    text: str,
+    to: str | Dialect,
+    *,
+    comments: bool = True,
+    control: str | Dialect | None = None,
+    units: str = "mm",
+    rules: str = "enforce",
+    settings: Mapping[str, str] | None = None,
+    name: str = "<program>",
+) -> Conversion:
+    """A program with every contour in another control's own words, as far as it has them.
+
+    All else stays as it was.
+
+    Args:
+        text: the program, with its line ends.
+        to: the other control, such as `fanuc-lathe`, or its tables.
+        comments: whether the original blocks are kept as comments.
+        control: and all others as for `solve`, with the same errors.
+
+    Each program is followed as its own control reads it. `comparison` tells whether they are one path, to within the
+    rounding. `text` is None where they are not. It is None where a contour could not be solved, too, and where the
+    target would cut another path (`summary`).
+
+    Raises ValueError if the target has no words for contours, or is for another kind of machine.
+
+    >>> print(convert("G00 X40. Z0.\\nG111 X100. A180. K-30. B120. P5.", "fanuc-lathe", comments=False).text)
+    G00 X40. Z0.
+    G01 X40. Z-30. ,R5.
+    G01 X100. ,A120.
+    """
+    # Only this function needs them.
+    from contoursolve.comparison import compare, follow  # noqa: PLC0415
+    from contoursolve.postprocess.expansion_report import Conversion  # noqa: PLC0415
+    from contoursolve.postprocess.post_processors import machine_of, post_of  # noqa: PLC0415
+    from contoursolve.postprocess.translate import language_of  # noqa: PLC0415
+
+    target = to if isinstance(to, Dialect) else configure(find_dialect(to), settings)
+    if language_of(target) is None:
+        raise ValueError(f"contours cannot be written in the words of {target.name}: its blocks are of another kind")
+    dialect = choose(control, gcode.parse(text, name), settings)
+    if dialect is not None and machine_of(dialect) is not machine_of(target):
+        kinds = f"{dialect.name} is a {machine_of(dialect).value}, {target.name} a {machine_of(target).value}"
+        raise ValueError(f"a program is converted for the same kind of machine: {kinds}")
+    options: dict[str, Any] = {"units": units, "rules": rules}
+    found = expand(text, post=post_of(target), comments=comments, control=dialect, name=name, **options)
+    if found.text is None or dialect is None:
+        return Conversion(found.text, found.control, target.name, found.summary, None)
+    unit, policy = choice_of(Length, units, "units"), choice_of(Policy, rules, "rules")
+    axes = tuple(sorted({*dialect.modes.axes, *target.modes.axes}))
+    old, new = (
+        follow(run(gcode.parse(program, name), each, unit, policy), each, unit, axes)
+        for program, each in ((text, dialect), (found.text, target))
+    )
+    comparison = compare(old, new, _CONVERTED_WITHIN)
+    is_same = comparison.is_equal
+    return Conversion(found.text if is_same else None, found.control, target.name, found.summary, comparison)
+
+
+_CONVERTED_WITHIN = 0.002
+"""mm. How far apart the paths of a program and of its conversion may be: end points are rounded to 0.001 mm, and a
+corner between rounded lines moves a little more."""
 
 
 def read_program(path: str | Path) -> Program:

@@ -16,8 +16,8 @@ from contoursolve.solving.contour import Contour
 
 
 class Completion(Struct, frozen=True):
-    """A word that completes a block: the word, the whole block with it, and the contour that it then has
-    (None while the word's number is open)."""
+    """A word that completes a block, and the whole block with it. `contour` is what it then has, None while the word's
+    number is open."""
 
     word: str
     block: str

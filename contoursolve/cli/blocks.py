@@ -17,17 +17,17 @@ from contoursolve.api import solve
 from contoursolve.cli.options import (
     CouldNotRunError,
     control_option,
+    print_findings,
     rules_option,
     settings_of,
     settings_option,
     units_option,
 )
-from contoursolve.cli.printing import say, style_of_output
+from contoursolve.cli.printing import say
 from contoursolve.diagnostics.extras import MissingExtraError, need
 from contoursolve.diagnostics.json_text import json_text
 from contoursolve.families import FamilyError, RefusedError, name_of
 from contoursolve.gcode.files import CannotWriteError
-from contoursolve.output.listing import lines_of_findings, short_findings
 from contoursolve.program.pipeline import FactPlaceError
 from contoursolve.program.project import SettingError
 from contoursolve.program.recognise import UnknownControlError
@@ -85,10 +85,8 @@ def usage() -> Iterator[None]:
     try:
         yield
     except RefusedError as error:
-        result = error.result
-        for line in lines_of_findings(result, short_findings(result), style_of_output()):
-            say(line, err=True)
-        raise CouldNotRunError("the block is refused, whatever the values that vary; nothing was computed") from None
+        print_findings(error.result, err=True)
+        raise CouldNotRunError("the control refuses the block for every value; nothing is computed") from None
     except (FamilyError, SettingError, FactPlaceError, MissingExtraError, CannotWriteError) as error:
         raise CouldNotRunError(str(error)) from None
     except UnknownControlError as error:
@@ -165,6 +163,8 @@ def _read_column(word: str, text: str) -> Numbers:
         found = (_from_csv if match["kind"].lower() == "csv" else _from_parquet)(file, column)
     except FileNotFoundError:
         raise FamilyError(f"{file}: no such file") from None
+    except FamilyError:
+        raise
     except (OSError, ValueError, csv.Error) as error:
         reason = error.strerror if isinstance(error, OSError) else str(error)
         raise FamilyError(f"{file} cannot be read: {reason}") from None

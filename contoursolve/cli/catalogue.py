@@ -17,7 +17,7 @@ from contoursolve.reading.rules import Rule
     "--table",
     "is_table",
     is_flag=True,
-    help="Instead: every set of words of every form, legal or not, determined or not.",
+    help="Instead: every set of words of every form, with what the manual and the equations say of it.",
 )
 def rules(control: str | Dialect | None, is_table: bool) -> None:
     """List the whole catalogue of rules and findings, with their evidence and the control's alarms."""

@@ -9,19 +9,19 @@ from contoursolve.cli.options import (
     CouldNotRunError,
     control_option,
     folder_of,
+    print_findings,
     read,
     rules_option,
     settings_of,
     settings_option,
     units_option,
 )
-from contoursolve.cli.printing import print_lines, say, style_of_output
+from contoursolve.cli.printing import print_lines, say
 from contoursolve.controls import DIALECTS, PLAIN
 from contoursolve.diagnosis.examine import Policy
 from contoursolve.diagnostics.finding import Severity
 from contoursolve.gcode import Program
 from contoursolve.geometry import Length
-from contoursolve.output.listing import lines_of_findings, short_findings
 from contoursolve.program.pipeline import Result, run
 from contoursolve.program.project import SettingError, configure
 from contoursolve.program.recognise import UnknownControlError, recognise
@@ -74,9 +74,9 @@ def diff(
 ) -> None:
     """Tell whether OLD and NEW describe the same path, and if not, where they differ first.
 
-    Contours are solved, and all moves by G0 to G3 followed, in either program as its own control reads them. A line or
-    an arc may be divided differently. What is not followed, such as cycles and subprograms, must be the same word by
-    word, and is listed. Feeds, leads, speeds, tools, offsets, dwells and M functions are not compared.
+    diff solves the contours and follows all moves by G0 to G3. It reads either program as its own control does. Either
+    program may divide a line or an arc. diff does not follow cycles, subprograms and the like: they must be the same
+    word by word, and it lists them. It does not compare feeds, leads, speeds, tools, offsets, dwells and M functions.
 
     Exit status: 0 the same path, 1 not the same or not solved, 2 could not run.
 
@@ -102,8 +102,8 @@ def diff(
         if format_ == "json":
             click.echo(differences.refusal_to_json(results))
         else:
-            for result in results:
-                print_lines(lines_of_findings(result, short_findings(result), style_of_output()))
+            for (result, dialect, length), path in zip(sides, (old, new), strict=True):
+                print_findings(result, path, control=dialect, units=length.value)
             say("not compared: a program that has errors has no path")
         context.exit(FOUND_ERRORS)
     axes = tuple(sorted({axis for _, dialect, _ in sides for axis in dialect.modes.axes}))

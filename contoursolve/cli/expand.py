@@ -17,6 +17,7 @@ from contoursolve.cli.options import (
     CouldNotRunError,
     common_options,
     control_option,
+    explaining,
     rules_option,
     settings_of,
     settings_option,
@@ -59,17 +60,16 @@ def wording_options(command: Callable[..., None]) -> Callable[..., None]:
                 "--decimals",
                 type=click.IntRange(1, MOST_DECIMALS),
                 metavar="COUNT",
-                help="Decimals of an end point. Without it, as many as the target has; I J K and R always have at "
-                "least those, so that arcs stay valid.",
+                help="Decimals of an end point; without it, those of the target. I J K and R have at least as many.",
             ),
             click.option(
                 "--block-numbers",
                 type=click.Choice([numbering.value for numbering in Numbering]),
                 default="first",
                 show_default=True,
-                help="Which lines in the place of a block with a number N have one: the first (in the last block of "
-                "a profile that G70 to G73 calls, the last), or all, with numbers that the program neither has nor "
-                "jumps to. No other line is renumbered.",
+                help="Which lines have a number in the place of a block that has one. first: the first line, or the "
+                "last one where G70 to G73 end a profile there. all: every line, with numbers that are still free. "
+                "All other lines keep theirs.",
             ),
             click.option("--no-comments", is_flag=True, help="Do not keep the original blocks as comments."),
         )
@@ -96,13 +96,13 @@ def wording_options(command: Callable[..., None]) -> Callable[..., None]:
     "--keep-going",
     "keeps_going",
     is_flag=True,
-    help="Write the others where a contour cannot be expanded; it stays, below a comment why.",
+    help="Write the others where one contour fails; it stays, below a comment that says why.",
 )
 @click.option(
     "--keep-untranslated",
     "keeps_untranslated",
     is_flag=True,
-    help="Write with a warning what the target would run along another path, such as G90 of a lathe.",
+    help="Warn and write what the target would run along another path, such as G90 of a lathe.",
 )
 @click.pass_context
 def expand(
@@ -121,13 +121,12 @@ def expand(
 ) -> None:
     """Write OLD (a file, or - for standard input) with every contour as plain G00, G01, G02 and G03.
 
-    Everything else stays as it is, byte for byte, and each original block is kept as a comment above what replaces
-    it. End points are rounded first, and then the centre of each arc; the largest deviation is reported. The rest is
-    not translated: what OLD says that the target does not know, and stops at, is named. If a contour cannot be
-    expanded, or the target would run something else along another path, such as a turning cycle as a rapid, nothing is
-    written.
+    Everything else stays as it is, byte for byte. Each original block stays as a comment above what replaces it.
+    Rounding moves the end points first, then the centre of each arc; the largest deviation is printed. expand
+    translates contours alone. It names every word of the rest that the target does not know. It writes nothing where a
+    contour fails, or where the target would run another path: a turning cycle as a rapid, for example.
 
-    Exit status: 0 all contours are expanded, 1 one is left or nothing was written, 2 could not run.
+    Exit status: 0 every contour is expanded, 1 one is left or nothing is written, 2 could not run.
 
     \b
     contoursolve expand shaft.nc -o shaft_plain.nc
@@ -138,20 +137,20 @@ def expand(
         raise click.UsageError("name a program (- for standard input), or give --block")
     if start is not None and not blocks:
         raise click.UsageError("--start goes with --block; a PROGRAM states its own positions")
-    target = _target(program, output, is_in_place, is_forced)
+    target = program_itself(program, output) if is_in_place else target_of(program, output, is_forced=is_forced)
     wish = _wish(post, options)
     source = tape_of("".join(f"{block}\n" for block in blocks), "<block>") if blocks else open_tape(program or "-")
     with TemporaryFile() as body:
         with _progress_bar() as progress:
             rewritten = _rewrite(source, body, wish, start, options, progress)
         summary = rewritten.summary
-        _report_left(summary, program or "<block>", style_of_output())
-        _report_misread(summary, POSTS[post], style_of_output(), is_kept=keeps_untranslated)
+        report_left(summary, program or "<block>", style_of_output())
+        report_misread(summary, POSTS[post], style_of_output(), is_kept=keeps_untranslated)
         if summary.left and not keeps_going:
             say("nothing was written (--keep-going expands the others)", err=True)
             context.exit(FOUND_ERRORS)
         if summary.misread and not keeps_untranslated:
-            _report_told(summary, POSTS[post])
+            report_told(summary, POSTS[post])
             say(f"nothing was written: {_BY_HAND} (--keep-untranslated writes it as it is)", err=True)
             context.exit(FOUND_ERRORS)
         if target is None:
@@ -177,9 +176,9 @@ def expand(
 def filter_(context: click.Context, /, program: str, **options: Any) -> None:
     """Write FILE for LinuxCNC to standard output, as LinuxCNC asks a filter to.
 
-    Progress goes to standard error as FILTER_PROGRESS=n. If a contour cannot be expanded, or LinuxCNC would run
-    something else along another path, nothing is written, the findings go to standard error, and the exit status is 1
-    (2: could not run). In LinuxCNC's INI file:
+    Progress goes to standard error as FILTER_PROGRESS=n. filter writes nothing where a contour fails, or where LinuxCNC
+    would run something along another path. The findings then go to standard error, and the exit status is 1 (2: could
+    not run). In LinuxCNC's INI file:
 
     \b
     [FILTER]
@@ -193,8 +192,8 @@ def filter_(context: click.Context, /, program: str, **options: Any) -> None:
     with TemporaryFile() as body:
         wish = _wish("linuxcnc", options)
         rewritten = _rewrite(open_tape(program), body, wish, None, options, progress)
-        _report_left(rewritten.summary, program, plain)
-        _report_misread(rewritten.summary, wish.post, plain, is_kept=False)
+        report_left(rewritten.summary, program, plain)
+        report_misread(rewritten.summary, wish.post, plain, is_kept=False)
         if rewritten.summary.left or rewritten.summary.misread:
             say("nothing was written" + f": {_BY_HAND}" * bool(rewritten.summary.misread), err=True)
             context.exit(FOUND_ERRORS)
@@ -203,13 +202,16 @@ def filter_(context: click.Context, /, program: str, **options: Any) -> None:
     _report_expansion(rewritten.summary, POSTS["linuxcnc"], plain)
 
 
-def _target(program: str | None, output: str | None, is_in_place: bool, is_forced: bool) -> Path | None:
+def program_itself(program: str | None, output: str | None) -> Path:
+    """The file that is replaced by what is written."""
+    if output is not None or program in (None, STANDARD):
+        raise click.UsageError("--in-place takes a file OLD, and no NEW")
+    return Path(str(program))
+
+
+def target_of(program: str | None, output: str | None, *, is_forced: bool) -> Path | None:
     """The file to write to, if any. What may not be written to is told before anything is done."""
     source = None if program in (None, STANDARD) else Path(str(program))
-    if is_in_place:
-        if output is not None or source is None:
-            raise click.UsageError("--in-place takes a file OLD, and no NEW")
-        return source
     if output in (None, STANDARD):
         return None
     target = Path(str(output))
@@ -285,25 +287,26 @@ def _print(rewritten: Rewritten) -> None:
     stream.flush()
 
 
-def _report_left(summary: Summary, name: str, style: Style) -> None:
+def report_left(summary: Summary, name: str, style: Style) -> None:
     """Why contours were not expanded, on standard error."""
     for left in summary.left:
         if all(finding.severity is not Severity.ERROR for finding in left.diagnostics):
             say(f"{style('error', 'error')}: line {left.lines[0]}: {left.reason}", err=True)
         for finding in without_repeated(left.diagnostics):
             here = tuple(label for label in finding.labels if label.span.line in left.sources)
-            lines = finding_lines(replace(finding, labels=here), name, left.sources, style)
+            about = replace(finding, labels=here)
+            lines = finding_lines(about, name, left.sources, style, explaining=explaining(name))
             say("\n".join(lines), err=True)
 
 
-def _report_misread(summary: Summary, post: Post, style: Style, *, is_kept: bool) -> None:
+def report_misread(summary: Summary, post: Post, style: Style, *, is_kept: bool) -> None:
     """What the target would run along another path, on standard error."""
     severity = "warning" if is_kept else "error"
     for each in summary.misread:
         say(f"{style(severity, severity)}: line {each.line}: {each.sentence(post.title)}", err=True)
 
 
-def _report_told(summary: Summary, post: Post) -> None:
+def report_told(summary: Summary, post: Post) -> None:
     """What the target stops at, or reads in another way on the same path, on standard error."""
     for each in summary.unfamiliar:
         if each.risk is Risk.TOLD:
@@ -319,7 +322,7 @@ def _report_expansion(summary: Summary, post: Post, style: Style) -> None:
         say(f"{place}: {style('warning', 'warning')}[{finding.code}]: {finding.message}", err=True)
     if summary.warnings > len(summary.warned):
         say(f"and {count(summary.warnings - len(summary.warned), 'warning')} more", err=True)
-    _report_told(summary, post)
+    report_told(summary, post)
     done = f"{count(summary.replaced, 'contour')} expanded"
     if summary.replaced:
         done += f", at most {summary.deviation:.1g} mm off"

@@ -13,6 +13,7 @@ _COMMANDS = {
     "solve": "solve:solve",
     "expand": "expand:expand",
     "filter": "expand:filter_",
+    "convert": "convert:convert",
     "diff": "diff:diff",
     "plot": "pictures:plot",
     "report": "pictures:report",
@@ -72,12 +73,12 @@ class _Commands(click.Group):
 def main() -> None:
     """Solve CNC contour blocks, or say why they cannot be solved.
 
-    Reads the contour blocks of the YASNAC LX3 (G111, G112, G11, G12) and of the NCT 99M (chapter 16), with any
-    further facts.
+    Reads the contour blocks of Fanuc and Haas lathes and mills (,A ,C ,R), of the NCT 99M (chapter 16) and of the
+    YASNAC LX3 (G111, G112, G11, G12), with any further facts.
 
-    Words such as X40. are read as the control reads them, in a program and in options (--block, --start, --bring): on
-    the YASNAC LX3 a number without a decimal point counts least increments, and X40 is 0.040 mm. Numbers alone (--vary,
-    --within, --tolerance) and those in facts are read as they stand, in mm or inches and degrees.
+    contoursolve reads words such as X40. as the control does, in a program and in options (--block, --start, --bring).
+    On most lathes a number without a decimal point counts least increments, so X40 is 0.040 mm. Numbers alone
+    (--vary, --within, --tolerance) and those in facts mean what they say, in mm or inches and degrees.
 
     Exit status: 0 no error found, 1 at least one error found, 2 could not run, 130 stopped by Ctrl-C. It is the same if
     the output is not read to its end, as by head.

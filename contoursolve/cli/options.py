@@ -1,5 +1,6 @@
 """The options that commands share, the control, programs from files and options, and the exit statuses."""
 
+import re
 import sys
 from collections.abc import Callable, Iterable, Sequence
 from functools import partial
@@ -8,14 +9,18 @@ from pathlib import Path
 from typing import Any
 
 import click
+from click.core import ParameterSource
 from click.shell_completion import CompletionItem
 
 from contoursolve import gcode
 from contoursolve.api import UnreadableProgramError, follow_program, read_program
+from contoursolve.cli.printing import print_lines, style_of_output
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis.examine import Policy
 from contoursolve.gcode import STANDARD_INPUT, Program
 from contoursolve.geometry import Length
+from contoursolve.output.findings import EXPLAINING
+from contoursolve.output.listing import lines_of_findings, short_findings
 from contoursolve.output.plain_text import harmless
 from contoursolve.program.pipeline import FactPlaceError, Result, Run
 from contoursolve.program.project import SettingError, find_settings, read_setting
@@ -38,9 +43,12 @@ class ControlType(click.ParamType):  # type: ignore[type-arg]  # generic in newe
             return value if isinstance(value, Dialect) else self.names.convert(value, param, ctx)
         module, _, name = value.partition(":")
         try:
-            return _load(module, name)
+            dialect = _load(module, name)
         except (ImportError, TypeError) as error:
             self.fail(f"{value}: {error}", param, ctx)
+        if ctx is not None:
+            ctx.meta[dialect.name] = value
+        return dialect
 
     def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
         return self.names.shell_complete(ctx, param, incomplete)
@@ -161,7 +169,7 @@ def common_options(command: Callable[..., None]) -> Callable[..., None]:
     for option in reversed(
         (
             apart_options,
-            control_option("The control. Without it, the control is found from the program where that is clear."),
+            control_option("The control. Without it, contoursolve finds it from the program where that is clear."),
             units_option,
             rules_option,
             settings_option,
@@ -174,6 +182,41 @@ def common_options(command: Callable[..., None]) -> Callable[..., None]:
 def explain_option(what: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
     """The option that asks for more than the short text."""
     return click.option("--explain", "is_explained", is_flag=True, help=f"Also print {what}.")
+
+
+_SHARED = {
+    "blocks": "--block",
+    "start": "--start",
+    "facts": "--fact",
+    "control": "--control",
+    "units": "--units",
+    "rules": "--rules",
+    "assignments": "--set",
+}
+"""Options that `check` has, too, by the names of their parameters."""
+
+
+def explaining(program: str | None = None, **instead: object) -> str:
+    """The command that explains all that is found in a program, with the options of the command that runs; `instead`
+    are values in the place of its own."""
+    context, words = click.get_current_context(), [EXPLAINING]
+    for name, option in _SHARED.items():
+        if name in instead or context.get_parameter_source(name) is ParameterSource.COMMANDLINE:
+            values = instead.get(name, context.params[name])
+            for value in values if isinstance(values, tuple) else (values,):
+                told = context.meta.get(value.name, value.name) if isinstance(value, Dialect) else str(value)
+                words += [option, _quoted(told)]
+    return " ".join([*words, *([_quoted(program)] if program and not program.startswith("<") else [])])
+
+
+def _quoted(word: str) -> str:
+    return word if re.fullmatch(r"[\w./:=-]+", word) else f'"{word}"'
+
+
+def print_findings(result: Result, program: str | None = None, *, err: bool = False, **instead: object) -> None:
+    """What was found in a program, of a command that does more than to tell it."""
+    command = explaining(program, **instead)
+    print_lines(lines_of_findings(result, short_findings(result), style_of_output(), explaining=command), err=err)
 
 
 def load(paths: Sequence[str], blocks: tuple[str, ...], start: str | None) -> list[Callable[[], Program]]:

@@ -8,13 +8,21 @@ from typing import Any
 import click
 
 from contoursolve import __version__
-from contoursolve.cli.options import FOUND_ERRORS, CouldNotRunError, common_options, examine, load, named_after
-from contoursolve.cli.printing import print_lines, say, style_of_output
+from contoursolve.cli.options import (
+    FOUND_ERRORS,
+    CouldNotRunError,
+    common_options,
+    examine,
+    load,
+    named_after,
+    print_findings,
+)
+from contoursolve.cli.printing import say
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.wording import count
 from contoursolve.diagnostics.extras import MissingExtraError, importing
 from contoursolve.gcode.files import CannotWriteError, check_target, write_whole
-from contoursolve.output.listing import lines_of_findings, short_findings, summary_line
+from contoursolve.output.listing import summary_line
 from contoursolve.pictures import Picture, Theme, draw_answer, draw_result
 from contoursolve.program.pipeline import Result
 
@@ -97,9 +105,9 @@ def plot(
     """Draw the contours of PROGRAM (a file, or - for standard input).
 
     SVG and PNG show a contour with every word as a dimension: given, worked out, ignored, conflicting or still free.
-    One that cannot be solved is drawn, too: what is missing, both places of a point, the line that misses its circle.
-    A program with several contours is drawn as a whole, each with its number and line; --line and --each draw them one
-    by one. PNG needs the extra contoursolve[picture].
+    They show a refused contour, too: what is missing, both places of a point, the line that misses its circle. A
+    program with several contours makes one drawing, each contour with its number and line; --line and --each draw them
+    one by one. PNG needs the extra contoursolve[picture].
 
     DXF is for CAD and needs the extra contoursolve[dxf]: every solved contour in full precision, each element on a
     layer of its own; virtual and computed intersections on the layer construction. The drawing's X and Y are the
@@ -124,7 +132,7 @@ def plot(
         if not is_each:
             check_target(target, source, is_forced=_may_replace(target, output, is_forced=is_forced))
         result = examine(loader(), start, assignments, options)
-        print_lines(lines_of_findings(result, short_findings(result), style_of_output()))
+        print_findings(result, program)
         if kind == _DXF:
             files = _drawings_for_cad(result, target)
         else:
@@ -170,7 +178,8 @@ def _at(answers: Sequence[Answer], line: int) -> Answer:
         if answer.lines[0] <= line <= answer.lines[-1]:
             return answer
     have = ", ".join(str(answer.lines[0]) for answer in answers)
-    raise CouldNotRunError(f"line {line} belongs to no contour; contours begin in lines {have}")
+    begin = "contours begin in lines" if len(answers) > 1 else "the contour begins in line"
+    raise CouldNotRunError(f"line {line} belongs to no contour; {begin} {have}")
 
 
 def _drawings_for_cad(result: Result, target: Path) -> list[Written]:
@@ -213,7 +222,7 @@ def report(
 
     Every contour with its picture, its elements and its findings with their fixes; the program's text, linked with
     them; and the manual's places with how well each is known. The page opens without a network, in light and dark,
-    and prints. For a program without a contour none is written. Needs the extra contoursolve[report].
+    and prints. report writes none for a program without a contour. Needs the extra contoursolve[report].
 
     \b
     contoursolve report shaft.nc
@@ -230,7 +239,7 @@ def report(
         check_target(target, Path(program) if program else None, is_forced=may_replace)
         result = examine(loader(), start, assignments, options)
         if not result.answers:
-            print_lines(lines_of_findings(result, short_findings(result), style_of_output()))
+            print_findings(result, program)
             say(f"{summary_line(result)}\n{target}: not written")
             context.exit(FOUND_ERRORS)
         with click.progressbar(

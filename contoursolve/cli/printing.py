@@ -33,10 +33,10 @@ def say(text: str, *, err: bool = False) -> None:
     click.echo(harmless(text), err=err)
 
 
-def print_lines(lines: Iterable[str]) -> None:
+def print_lines(lines: Iterable[str], *, err: bool = False) -> None:
     """Print lines in batches: a call of click for each would take longer than solving."""
     for batch in _batched(lines, 1_000):
-        say("\n".join(batch))
+        say("\n".join(batch), err=err)
 
 
 def print_pieces(pieces: Iterable[str]) -> None:

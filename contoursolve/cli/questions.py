@@ -45,8 +45,8 @@ from contoursolve.output.families import (
     "--within",
     multiple=True,
     metavar="LOW:HIGH",
-    help="The range to look at, for each word in turn, as it stands; without it, one turn for an angle, and 1 m to "
-    "either side for a length.",
+    help="The range to search, for each word in turn, as it stands; without it, one turn for an angle, 1 m to either "
+    "side for a length.",
 )
 @fact_option
 @click.pass_context
@@ -61,10 +61,10 @@ def range_(
 ) -> None:
     """Tell for which values of WORD the contour of a block exists, and what ends each range of them.
 
-    Every range is found: the values are divided until it is proven of each part that the contour exists there or does
-    not. Each end is solved on both sides. For two words, the lines that bound the region are found, each with what
-    fails beyond it; --format json has their points. With facts or ?, all solutions are followed, and the contour
-    exists where one alone can be made; where they leave no closed form, sweep solves the block value by value.
+    range finds every range: it divides the values until each part is proven to have the contour or to have none. It
+    solves the block on both sides of each end. For two words it finds the lines that bound the region, each with what
+    fails beyond it; --format json has their points. With facts or ? it follows all solutions: the contour exists where
+    one alone can be made. Where these leave no closed form, sweep solves the block value by value.
 
     Exit status: 0 the contour exists for some value, 1 for none, 2 could not run.
 
@@ -105,13 +105,12 @@ def range_(
     required=True,
     metavar="GOAL",
     help="A point and where it is wanted, in words as the control reads them: 'end Z-50.', 'V1 X44.', "
-    "'corner 1.center Z-20.'. With both coordinates, what comes nearest is found.",
+    "'corner 1.center Z-20.'. With both coordinates, find looks for what comes nearest.",
 )
 @click.option(
     "--within",
     metavar="LOW:HIGH",
-    help="The values to look at, as they stand; without it, one turn for an angle, and 1 m to either side for a "
-    "length.",
+    help="The range to search, as it stands; without it, one turn for an angle, 1 m to either side for a length.",
 )
 @fact_option
 @click.pass_context
@@ -127,8 +126,8 @@ def find(
 ) -> None:
     """Find every value of WORD with which a point of the contour lies where it is wanted.
 
-    Each value is solved and certified by itself, and given once more rounded to the control's least increment, as the
-    block to write and how far the point is off then.
+    find solves and certifies each value by itself. It also prints the block to write, with the value rounded to the
+    control's least increment. It says how far the point is off then.
 
     Exit status: 0 found, 1 no such value, 2 could not run.
 
@@ -161,11 +160,12 @@ def find(
 )
 @fact_option
 def sensitivity(allowed: tuple[str, ...], point: str, facts: tuple[str, ...], format_: str, **options: Any) -> None:
-    """Tell by how much each word moves a point of a contour: for each unit of it, by its tolerance, and by the rounding
-    of the control to its least increment. What tolerances come to is told to first order, at worst and in the root of
-    the sum of squares, and solved again at all combinations of their limits.
+    """Tell how far each word moves a point of a contour.
 
-    Exit status: 0 told, 2 could not run, or the block has no contour.
+    A row for each word: per unit, by its tolerance, and by rounding to the control's least increment. Tolerances add up
+    to first order, at worst and statistically (RSS); the block is also solved at all combinations of their limits.
+
+    Exit status: 0 done, 2 could not run, or the block has no contour.
 
     \b
     contoursolve sensitivity --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0." \\

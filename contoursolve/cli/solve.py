@@ -49,8 +49,8 @@ def solve(
 ) -> None:
     """Solve every contour block of PROGRAM (a file, or - for standard input).
 
-    Prints what was given, the virtual intersections, and every element of the path, with what is proven of it; where
-    several contours satisfy a block, all of them. A word with ? for its value, such as P?, is worked out from the
+    solve prints what was given, the virtual intersections, and every element of the path, with what is proven of it.
+    Where several contours fit a block, it prints all. It works out a word with ? for its value, such as P?, from the
     other words and from facts.
 
     Exit status: 0 no error, 1 an error is found, 2 nothing could be examined.

@@ -39,12 +39,14 @@ from contoursolve.families import (
     pieces,
     room_of,
     seconds_of,
+    summary_of,
     sweep,
     write_parquet,
 )
 from contoursolve.gcode.files import CannotWriteError, check_target, open_whole, write_whole
 from contoursolve.output.plain_text import columns
 from contoursolve.pictures import Theme, draw_sweep
+from contoursolve.pictures.maps import sweep_title
 from contoursolve.solving.row_outcome import REASONS, Code
 
 PATIENCE = 1.0
@@ -191,7 +193,7 @@ def size(count: float) -> str:
 )
 @click.option("--workers", type=click.IntRange(1, 256), help="Threads (1 without it); not with --dask.")
 @click.option("--dask", metavar="ADDRESS", help="Solve on the cluster of the Dask scheduler at this address.")
-@click.option("--quiet", "is_quiet", is_flag=True, help="Do not tell how far it is.")
+@click.option("--quiet", "is_quiet", is_flag=True, help="Do not show progress.")
 @format_option
 @click.pass_context
 def sweep_(
@@ -212,15 +214,16 @@ def sweep_(
 ) -> None:
     """Solve one contour for many values of some of its words, and count what becomes of it.
 
-    The words in --vary stand in the block with any value. FILE gets a row for each set of values: the words (as
-    written: in the unit of the block, X of a lathe as diameter), status, reason, all points and corners, the room left
-    on each element, the largest residual (always mm, X of a lathe as radius). A block that is refused whatever the
-    values is not swept: its findings are printed, as solve does.
+    The words in --vary stand in the block with any value. FILE gets a row for each set of values: the words, status,
+    reason, all points and corners. The words are as written: in the unit of the block, X of a lathe as diameter. The
+    row also has the room left on each element, and by how much the equations are off at most. All else is in mm, with X
+    of a lathe as radius. Where the control refuses the block for any value, sweep prints its findings as solve does,
+    and no rows.
 
-    Until FILE is whole, finished rows are kept beside it, in a folder .FILE.NUMBER.parts. After Ctrl-C, SIGTERM or a
-    crash the same command goes on where it was stopped; folders that other sweeps have left are named.
+    Until FILE is whole, sweep keeps finished rows beside it, in a folder .FILE.NUMBER.parts. After Ctrl-C, SIGTERM or a
+    crash the same command goes on where it stopped. sweep names the folders that other sweeps have left.
 
-    Exit status: 0 all are told, whatever became of them, 2 could not run, 130 stopped by Ctrl-C or SIGTERM.
+    Exit status: 0 done, whatever became of the contours, 2 could not run, 130 stopped by Ctrl-C or SIGTERM.
 
     \b
     contoursolve sweep --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0." \\
@@ -237,10 +240,14 @@ def sweep_(
             ready = sweep(vary=_read_varied(varied), facts=facts, paired=is_paired, **read_options(options))
             parts, tally = parts_of(target, ready) if target is not None else None, Tally(tuple(ready.ranges.values))
             check_extent(ready, parts, target, is_forced=is_forced)
-            drawn = bytes_of(draw_sweep(ready, theme=Theme(theme)), picture) if picture is not None else b""
+            if picture is not None:
+                # What cannot be drawn is told before anything else is done.
+                bytes_of(draw_sweep(ready, theme=Theme(theme)), picture)
             with open_cluster(dask) as executor, progress(ready.ranges.count, is_quiet=is_quiet) as advance:
                 _run(_tables(ready, parts, (workers, executor), tally, advance), parts, target, is_forced=is_forced)
             if picture is not None:
+                title = sweep_title(ready.ranges, summary_of(tally.counts.sum(axis=1)))
+                drawn = bytes_of(draw_sweep(ready, theme=Theme(theme), title=title), picture)
                 write_whole(picture, [drawn], keeps_backup=False)
             failures = failure_summary(ready, tally)
     except KeyboardInterrupt:

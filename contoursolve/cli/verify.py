@@ -26,7 +26,7 @@ from contoursolve.cli.printing import print_lines
     type=click.Choice(["text", "json"]),
     default="text",
     show_default=True,
-    help="What to print: text, or a receipt with every check, its residual and its limit.",
+    help="What to print: text, or a receipt with every check, how far it is off, and its limit.",
 )
 @click.pass_context
 def verify(
@@ -40,11 +40,11 @@ def verify(
 ) -> None:
     """Check every element of RESULT.json against the words of PROGRAM (one of them may be -).
 
-    RESULT.json is what solve printed with --format json. Each point, radius and direction, each value that was asked
-    for and each listed solution is held against the words and further facts without the solver. One table says what
-    each kind of fact means, for every form of every control, also of your own. The status follows from the words, and a
-    search looks for solutions that the result lacks. What was not checked is named, too. The program is read with the
-    settings that RESULT.json names. Give --block, --start and --fact as they were given to solve.
+    RESULT.json is what solve printed with --format json. verify compares each point, radius and direction with the
+    words and further facts, and so each answer to a ? and each listed solution. It does not use the solver: one table
+    says what each kind of fact means, for every control, also of your own. The status follows from the words, and a
+    search looks for solutions that the result lacks. verify also names what it did not check. It reads the program with
+    the settings that RESULT.json names. Give --block, --start and --fact as you gave them to solve.
 
     Exit status: 0 what was checked is right, 1 something is wrong, 2 could not run, or nothing could be checked.
 

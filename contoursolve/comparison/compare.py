@@ -121,8 +121,14 @@ def _match(one: _Cursor, other: _Cursor, tolerance: float) -> _Match | _Mismatch
     old, new = one.step, other.step
     if not (isinstance(old, Travel) and isinstance(new, Travel)):
         if not (isinstance(old, Unfollowed) and isinstance(new, Unfollowed)):
-            return _Mismatch(f"only {'OLD' if isinstance(old, Unfollowed) else 'NEW'} has a block that is not followed")
-        return _Match(1, 1, 0) if old.words == new.words else _Mismatch("blocks that are not followed are not the same")
+            return _Mismatch(
+                f"only {'OLD' if isinstance(old, Unfollowed) else 'NEW'} has a block that diff does not follow"
+            )
+        return (
+            _Match(1, 1, 0)
+            if old.words == new.words
+            else _Mismatch("blocks that diff does not follow are not the same")
+        )
     reason = _unlike(old, new)
     if reason:
         return _Mismatch(reason)

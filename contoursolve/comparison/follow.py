@@ -27,7 +27,7 @@ _LINES = {0: Motion.RAPID, 1: Motion.FEED}
 _BESIDE = frozenset("NGFSTMDHEO")
 """Addresses that may stand beside the coordinates of a move and say nothing about its path."""
 _BESIDE_MACRO = re.compile(r"^[\s/]*N\d+|\([^)]*\)|;.*")
-_NAMES = frozenset("GMTSPNO")
+_NAMES = frozenset("DGHMNOPST")
 """Addresses whose numbers are names or counts: a decimal point changes nothing."""
 
 

@@ -108,7 +108,7 @@ READING_RULES = (
     Rule(
         code="address-unknown",
         message="{words}: the address {address} has no meaning in this contour ({form})",
-        help="{do}; such a contour is written with {allowed}",
+        help="{advice}; such a contour is written with {allowed}",
         source=_READING,
         about=ReadIssue.UNKNOWN_ADDRESS,
         accepted=(_GOOD,),
@@ -136,7 +136,7 @@ READING_RULES = (
     ),
     Rule(
         code="value-variable",
-        message="{words} depends on a macro variable, whose value is known only to the control",
+        message="{words} depends on a macro variable; only the control knows its value",
         help="write the number",
         source=_READING,
         about=ReadIssue.VARIABLE,
@@ -189,8 +189,8 @@ READING_RULES = (
     ),
     Rule(
         code="start-assumed",
-        message="checked from {place}, where the best fix of line {line} ends",
-        help="mend line {line} first",
+        message="checked from {place}, where the best fix of program line {line} ends",
+        help="mend program line {line} first",
         source=_READING,
         about=ReadIssue.START_ASSUMED,
         severity=Severity.INFO,
@@ -199,8 +199,8 @@ READING_RULES = (
     ),
     Rule(
         code="contour-waits",
-        message="not checked: it waits for the end point of line {line}",
-        help="mend line {line} first",
+        message="not checked: it waits for the end point of program line {line}",
+        help="mend program line {line} first",
         source=_READING,
         about=ReadIssue.CONTOUR_WAITS,
         severity=Severity.INFO,
@@ -209,7 +209,7 @@ READING_RULES = (
     ),
     Rule(
         code="start-skippable",
-        message="the contour depends on a block that begins with / and is taken as executed",
+        message="the contour depends on a block that begins with /; contoursolve takes it as executed",
         help="make sure that the contour is right with that block skipped, too",
         source=_READING,
         about=ReadIssue.SKIPPABLE_START,

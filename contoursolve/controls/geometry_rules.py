@@ -32,14 +32,14 @@ def _row(
 GEOMETRY_RULES = (
     _row(
         RefusalKind.LINES_PARALLEL,
-        "{words} fit no point: the lines are parallel and {off} apart",
+        "no {things} fits {words}: the lines are parallel and {off} apart",
         "change an angle or a point",
         _LINES,
         _LINES.replace(",A225", ",A150"),
     ),
     _row(
         RefusalKind.NOT_FIXED,
-        "{words} do not fix {free}: at these values they state the same line",
+        "{words} {do} not fix {free}: at these values they state the same line",
         "replace one of them by a word that says where on the line the point is",
         _MILL + "G1 X30 ,A45",
         _MILL + "G1 X0 ,A90",
@@ -74,7 +74,7 @@ GEOMETRY_RULES = (
     ),
     _row(
         RefusalKind.CIRCLE_UNDEFINED,
-        "{words} define no circle: the radius is 0, or two of its points are one",
+        "{words} {define} no circle: the radius is 0, or two of its points are one",
         "give a centre or a point away from where the arc begins",
         _ARC + _LINE,
         _ARC.replace("X-50", "X50") + _LINE,
@@ -102,7 +102,7 @@ GEOMETRY_RULES = (
     ),
     _row(
         RefusalKind.CORNER_TOO_LARGE,
-        "{subject} does not fit: {words} is {actual}, {fits} on its elements",
+        "{subject} does not fit: {words} is {actual}, {fits} on {where}",
         "{smaller}, or make the elements longer",
         _CUT,
         _CUT.replace(",C10", ",C31"),
@@ -116,7 +116,7 @@ GEOMETRY_RULES = (
     ),
     _row(
         RefusalKind.CORNER_STRAIGHT,
-        "{words}: {subject} joins two elements of the same direction, so there is nothing to round or cut",
+        "{words}: {subject} joins two elements of the same direction, so it is no corner",
         "delete {words}",
         _CUT,
         _CUT.replace("X40 Y40", "X60"),

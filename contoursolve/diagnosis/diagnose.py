@@ -120,7 +120,7 @@ def _start_labels(answer: Answer) -> tuple[Label, ...]:
         if span and value is not None and 0 < span.line < answer.lines[0]:
             text = "start point used here"
             if is_diameter:
-                text = f"a radius of {length_text(float(value), profile.unit)}"
+                text = f"start point used here, radius {length_text(float(value), profile.unit)}"
             labels.setdefault(span, text)
     return tuple(Label(span, text) for span, text in labels.items())
 
@@ -204,10 +204,10 @@ def _reasons(
     if finding.about in _ABOUT_FREEDOM:
         lost = _points_lost(profile, affine) if affine is not None else set()
         yield from freedom_reasons(profile, [each for each in diagnosis.freedoms if each.point not in lost])
+    yield from path_reasons(profile, affine, finding)
     if finding.about in _ABOUT_RADII:
         identities = (tie.identity for tie in diagnosis.ties)
         yield from (each for each in identities if 0 < len(each) <= SHOWN)
-    yield from path_reasons(profile, affine, finding)
 
 
 def _points_lost(profile: Profile, affine: AffineFacts) -> set[str]:
@@ -231,7 +231,8 @@ _ABOUT_FREEDOM = (ReadIssue.UNDERDETERMINED, RefusalKind.NOT_FIXED)
 def _fix(answer: Answer, repair: Repair) -> Fix:
     """A repair in words, with the place where the contour then ends or turns."""
     edits = zip(repair.edits, repair.slips, strict=True)
-    told = (f"{edit} ({slip.sentence})" if slip and slip.sentence else str(edit) for edit, slip in edits)
+    blocks = answer.claim.blocks
+    told = (edit.among(blocks) + (f" ({slip.sentence})" if slip and slip.sentence else "") for edit, slip in edits)
     description = "; ".join(told)
     numbers = [each.text for each, edit in zip(repair.example, repair.edits, strict=False) if each != edit]
     if numbers:

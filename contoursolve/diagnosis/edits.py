@@ -1,7 +1,7 @@
 """Edits of a block's text: words dropped, added, moved into a block of their own, or written with another value."""
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from decimal import ROUND_DOWN, ROUND_HALF_EVEN, ROUND_UP, Decimal
 from enum import Enum, IntEnum
@@ -119,9 +119,17 @@ class Edit:
         if self.kind is EditKind.CHANGE:
             return f"write {text} for {old}"
         if self.kind is EditKind.MOVE and errand is not None and errand.side is not None:
-            return f"move {old} ({errand.meaning}) into a block of its own {errand.side.value} it"
+            return f"move {old} ({errand.meaning}) into a block of its own {errand.side.value} this one"
         meaning = f" ({errand.meaning})" if errand is not None and self.kind is EditKind.DROP else ""
         return f"{self.kind.value} {text if self.text else old}{meaning}"
+
+    def among(self, blocks: Sequence[Block]) -> str:
+        """It in words, with its program line where other blocks have the same word, or could get it."""
+        line, is_added = (self.span.line if self.span else self.line), self.kind is EditKind.ADD
+        others = (block for block in blocks if block.line != line)
+        if line > 0 and any(is_added or any(word.text == self.old for word in block.words) for block in others):
+            return f"{self} {'to' if is_added else 'in'} program line {line}"
+        return str(self)
 
     @property
     def errand(self) -> Errand | None:

@@ -14,6 +14,8 @@ from msgspec.structs import replace
 from contoursolve.analysis import Determinacy
 from contoursolve.diagnosis.wording import (
     angle_text,
+    by_line,
+    element_text,
     join,
     length_limit,
     length_text,
@@ -30,7 +32,7 @@ from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import FACT, Word
 from contoursolve.geometry import Length, Profile, Radius, Role, Unit, assemble
 from contoursolve.reading import ParsedContour, ReadIssue
-from contoursolve.reading.rules import Offence, Rule
+from contoursolve.reading.rules import VERBS, Offence, Rule
 from contoursolve.solving import (
     BESIDE,
     Note,
@@ -134,6 +136,7 @@ def report(
         "present": Present(typed),
         "absent": Absent(typed),
         "address": blamed[0].address if blamed else "",
+        **{several: several if len(blamed) > 1 else one for several, one in VERBS.items()},
         **fields,
     }
     texts = list(labels) + [""] * len(spans)
@@ -206,8 +209,8 @@ def explain_ignored(context: Context, offence: Offence, profile: Profile, soluti
         is_within = values["off_by_mm"] <= allowance(fact, at, increments_of(profile))
         agrees = "; it agrees with them" if is_within else ""
         comparison = agrees or (
-            f"; they make it {tell_apart((expected, values['actual']), angle_text)[0]}, it is off by {angle_text(gap)} "
-            f"({length_text(values['off_by_mm'], context.unit)})"
+            f"; they make it {tell_apart((expected, values['actual']), angle_text)[0]}, {angle_text(gap)} "
+            f"({length_text(values['off_by_mm'], context.unit)}) away"
         )
         label = f"ignored; the line runs at {angle_text(expected)}"
     return report(context, offence.rule, Basis.NUMERICAL, [word], values, [label], comparison=comparison)
@@ -225,9 +228,9 @@ def explain_missing(context: Context, profile: Profile, verdict: Determinacy, cl
     # Of a corner whose size is not determined, nothing is.
     corners = tuple(f"{corner.name}." for corner in profile.figure.corners if f"{corner.name}.radius" in free)
     shown = [name for name in verdict.free if not name.startswith(corners) or name.endswith(".radius")]
-    addresses = dict.fromkeys(_address(name, claim) for name in able if name in claim.vocabulary)
+    absent = dict.fromkeys(claim.vocabulary[name] for name in able if name in claim.vocabulary)
     open_count = len(assemble(profile).unknowns) - verdict.rank
-    ways = [_adding(list(addresses), open_count)] if addresses else []
+    ways = [_adding(list(absent), open_count, claim)] if absent else []
     if profile.is_extended:
         open_sizes = [
             question.word.text
@@ -235,13 +238,14 @@ def explain_missing(context: Context, profile: Profile, verdict: Determinacy, cl
             if isinstance(question.fact, Radius) and question.fact.radius in free
         ]
         ways += [f"give {' or '.join(open_sizes)} a value"] if open_sizes else []
-    completions = "; or ".join(ways) or "state a fact about it"
+    told = open_text(shown, profile)
+    completions = "; or ".join(ways) or f"state a fact about {'them' if told.endswith('are still open') else 'it'}"
     return report(
         context,
         context.row(ReadIssue.UNDERDETERMINED),
         Basis.SYMBOLIC,
         [],
-        open=open_text(shown, profile),
+        open=told,
         completions=completions,
     )
 
@@ -249,17 +253,14 @@ def explain_missing(context: Context, profile: Profile, verdict: Determinacy, cl
 _NUMBERS = {1: "one", 2: "two", 3: "three"}
 
 
-def _adding(addresses: Sequence[str], number: int) -> str:
-    """To add so many of these words."""
-    if number >= len(addresses) or number not in _NUMBERS:
-        return f"add {join(addresses)}"
-    return f"add {_NUMBERS[number]} of {', '.join(addresses)}"
-
-
-def _address(name: str, claim: ParsedContour) -> str:
-    """The address that would state something, with the line of its block where there are several."""
-    address, index = claim.vocabulary[name]
-    return address if len(claim.blocks) == 1 else f"{address} in line {claim.blocks[index].line}"
+def _adding(absent: Sequence[tuple[str, int]], number: int, claim: ParsedContour) -> str:
+    """To add so many of these words, each an address and its block: with the line where there are several."""
+    lines = {index: claim.blocks[index].line for _, index in absent}
+    where = f" in program line {lines[absent[0][1]]}" if len(claim.blocks) > 1 and len(lines) == 1 else ""
+    words = [address if len(lines) == 1 else f"{address} in program line {lines[index]}" for address, index in absent]
+    if number >= len(words) or number not in _NUMBERS:
+        return f"add {join(words)}{where}"
+    return f"add {_NUMBERS[number]} of {', '.join(words)}{where}"
 
 
 _IN_DEGREES = {RefusalKind.LINE_REVERSED}
@@ -276,7 +277,7 @@ def explain_result(
     values = dict(event.values)
     things = list(dict.fromkeys(name.rpartition(".")[0] or name for name in event.subject.split(",")))
     fields: dict[str, Any] = {
-        "subject": event.subject,
+        "subject": element_text(event.subject),
         "free": unknowns_text(event.subject.split(","), profile),
         "things": join(things) if len(things) <= MOST_THINGS else "contour",
         "together": " together" if len(words) > 1 else "",
@@ -313,11 +314,11 @@ def explain_result(
         rooms = _rooms(event, values, words, profile)
         labels = [label for _, label in rooms]
         smaller = _smaller([advice for advice, _ in rooms if advice], values, profile) if rooms else ""
-        fields["smaller"] = smaller or f"make the corners smaller by {fields['off']} of it in all"
+        fields["smaller"] = smaller or f"make the corners smaller, to need {fields['off']} less together"
     finding = report(context, context.row(event.kind), Basis.NUMERICAL, words, values, labels, **fields)
     if isinstance(event, Refusal):
         finding = _with_what_helps(finding, event, values, asked, profile)
-    return replace(finding, notes=notes)
+    return replace(finding, notes=finding.notes + notes)
 
 
 def _smaller(told: list[str], values: Mapping[str, float], profile: Profile) -> str:
@@ -337,6 +338,11 @@ def _with_what_helps(
             labels=(Label(finding.span, f"at most {shown}"), *finding.labels[1:]),
             help=f"write at most {shown}, or {finding.help}",
         )
+    # A negative length says that a corner would leave an arc beyond its end.
+    if event.elements and values.get("needed", -1.0) >= 0:
+        available, needed = (length_text(values[name], profile.unit) for name in ("available", "needed"))
+        note = f"{element_text(event.elements[0])} is {available} long; {event.subject} takes {needed} of it"
+        finding = replace(finding, notes=(note,))
     if event.beside and "together" in values:
         takers = [given.word for name in event.beside if (given := profile.givens.get(name)) and given.word]
         finding = replace(
@@ -344,7 +350,7 @@ def _with_what_helps(
         )
     if asked:
         causes = list(dict.fromkeys(text for word in asked for text in _causes(word, profile)))
-        advice = f"change what that follows from: {join(causes)}" if causes else "change what that follows from"
+        advice = f"change {join(causes) or 'another word'}: the value follows from there"
         finding = replace(finding, help=advice, labels=tuple(replace(each, text="") for each in finding.labels))
     return finding
 
@@ -359,11 +365,12 @@ def _room(event: Refusal, values: Mapping[str, float], profile: Profile) -> tupl
     others = (profile.givens[name].word for name in event.beside if name in profile.givens)
     beside = join([_named_in(word, profile) for word in others if word])
     beside = f" beside {beside}" if beside else ""
+    where = element_text(event.elements[-1]) if event.elements else "its elements"
     if not largest:
         fits = f"no room is left{beside}" if beside else "nothing fits"
         smaller = ", or ".join(["delete it", *_for_both(values, profile.unit)])
-        return {"limit": shown, "fits": fits, "smaller": smaller}, [f"no room left{beside}"]
-    fields = {"limit": shown, "fits": f"at most {shown} fits", "smaller": f"write at most {shown}"}
+        return {"limit": shown, "fits": fits, "where": where, "smaller": smaller}, [f"no room left{beside}"]
+    fields = {"limit": shown, "fits": f"at most {shown} fits", "where": where, "smaller": f"write at most {shown}"}
     return fields, [f"at most {shown}{beside}"]
 
 
@@ -381,7 +388,7 @@ def _largest(limit: float, unit: Length) -> tuple[Decimal, str]:
 
 def _named_in(word: Word, profile: Profile) -> str:
     """A word, with its line where there are several."""
-    return f"{word.text} (line {word.span.line})" if len(profile.blocks) > 1 else word.text
+    return by_line([(word.text, word.span.line)]) if len(profile.blocks) > 1 else word.text
 
 
 def _rooms(
@@ -402,7 +409,7 @@ def _rooms(
         if word not in sizes:
             rooms.append(("", ""))
         elif largest:
-            rooms.append((f"write at most {shown} for {name} if {other} stays", f"at most {shown} beside {other}"))
+            rooms.append((f"write at most {shown} for {name}", f"at most {shown} beside {other}"))
         else:
             rooms.append((f"delete {name}", f"no room left beside {other}"))
     return rooms
@@ -466,7 +473,7 @@ def explain_singular(context: Context, names: Sequence[str], loose: Sequence[str
     """Facts that do not fix what they are about at their values, though they would at others."""
     words = [word for word in (profile.givens[name].word for name in names) if word]
     rule, free = context.row(ReadIssue.FACTS_SINGULAR), unknowns_text(loose, profile)
-    return report(context, rule, Basis.NUMERICAL, words, free=free, do="do" if len(words) > 1 else "does")
+    return report(context, rule, Basis.NUMERICAL, words, free=free)
 
 
 def explain_crossing(context: Context, profile: Profile, contour: Contour) -> Iterator[Diagnostic]:

@@ -26,19 +26,9 @@ def without_point(context: Context, claim: ParsedContour, findings: Iterable[Dia
     rule = context.row(ReadIssue.POINT_MISSING)
     if any(given.word and given.word.number and given.word.has_point for given in claim.givens.values()):
         for word, value in counted.items():
-            yield report(context, rule, Basis.RULE, [word], are="is", have="has", actual=value)
+            yield report(context, rule, Basis.RULE, [word], actual=value)
     elif words and _is_slip(claim, words, has_error=any(each.severity is Severity.ERROR for each in findings)):
-        several = len(words) > 1
-        values = join(list(counted.values()))
-        yield report(
-            context,
-            rule,
-            Basis.RULE,
-            words,
-            are="are" if several else "is",
-            have="have" if several else "has",
-            actual=values,
-        )
+        yield report(context, rule, Basis.RULE, words, actual=join(list(counted.values())))
 
 
 def start_without_point(context: Context, claim: ParsedContour, findings: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
@@ -76,15 +66,12 @@ def readings(word: Word, lexicon: Lexicon, unit: Length) -> tuple[str, str, str]
 
 def _start_counted(context: Context, claim: ParsedContour, words: Sequence[Word]) -> Diagnostic:
     """That words of the start point count least increments."""
-    several = len(words) > 1
     actual, expected, same = zip(*(readings(word, claim.lexicon, claim.before.unit) for word in words), strict=True)
     return report(
         context,
         context.row(ReadIssue.START_IN_INCREMENTS),
         Basis.RULE,
         words,
-        have="have" if several else "has",
-        are="are" if several else "is",
         actual=join(actual),
         expected=join(expected),
         meant=join([f"{word.text.strip()}." for word in words]),

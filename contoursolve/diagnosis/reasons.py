@@ -8,7 +8,16 @@ from functools import lru_cache
 from itertools import pairwise
 
 from contoursolve.analysis import analyse, order
-from contoursolve.diagnosis.wording import angle_text, join, length_text, limit_text, place_text, statement_text
+from contoursolve.diagnosis.wording import (
+    angle_text,
+    by_line,
+    element_text,
+    join,
+    length_text,
+    limit_text,
+    place_text,
+    statement_text,
+)
 from contoursolve.diagnostics.finding import Diagnostic, Freedom
 from contoursolve.geometry import FIRST, SECOND, Arc, Fact, Heading, Line, Profile, assemble, scalar
 from contoursolve.solving import RefusalKind, lookup
@@ -44,7 +53,7 @@ def _shipped() -> dict[str, str]:
 def conflict_reasons(profile: Profile, affine: AffineFacts, circuit: Circuit) -> Iterator[str]:
     """Where the facts of a circuit put the point that they are about, and how far apart.
 
-    The last fact that is not an angle is held against the others, because a place can be compared.
+    The last fact that is not an angle is compared with the others, because a place can be compared.
     """
     places = [fact for fact in circuit.facts if not isinstance(fact, Heading)] or list(circuit.facts)
     single = places[-1]
@@ -68,7 +77,8 @@ def conflict_reasons(profile: Profile, affine: AffineFacts, circuit: Circuit) ->
         )
     agreeing = [text for fact in circuit.facts if (text := _agreeing(profile, affine, circuit, fact))]
     if disagrees and agreeing:
-        yield f"change one: {', '.join(agreeing[:-1])}{' or ' if len(agreeing) > 1 else ''}{agreeing[-1]}"
+        several = f"change one: {', '.join(agreeing[:-1])} or {agreeing[-1]}"
+        yield several if len(agreeing) > 1 else f"write {agreeing[0]} instead"
     formula = identity(profile, circuit.facts)
     if formula:
         radius = " (X and U as radius)" if "tan" in formula and ("X" in formula or "U" in formula) else ""
@@ -101,13 +111,6 @@ def freedom_reasons(profile: Profile, freedoms: Sequence[Freedom]) -> Iterator[s
 def path_reasons(profile: Profile, affine: AffineFacts | None, finding: Diagnostic) -> Iterator[str]:
     """What the numbers of a finding about the path come from."""
     values = finding.values
-    # A negative length says that a corner would leave an arc beyond its end.
-    if values.get("needed", -1.0) >= 0:
-        element = "element" if any(isinstance(each, Arc) for each in profile.figure.path) else "line"
-        yield (
-            f"the {element} is {length_text(values['available'], profile.unit)} long; the corner takes "
-            f"{length_text(values['needed'], profile.unit)} of it"
-        )
     yield from _placed_before(profile, finding)
     if "angle_from" in values:
         known = "start" if _ends_on_arc(profile, finding) else "end"
@@ -123,8 +126,8 @@ def path_reasons(profile: Profile, affine: AffineFacts | None, finding: Diagnost
                 tail, head = (_known(profile, fixed, point) for point in (line.tail, line.head))
                 if tail and head:
                     yield (
-                        f"because {line.name} goes from {place_text(profile, tail)} to {place_text(profile, head)}, "
-                        f"and {word.text} points the other way"
+                        f"because {element_text(line.name)} goes from {place_text(profile, tail)} to "
+                        f"{place_text(profile, head)}, and {word.text} points the other way"
                     )
 
 
@@ -155,9 +158,8 @@ def _placed_before(profile: Profile, finding: Diagnostic) -> Iterator[str]:
                     wanted |= {name for fact in group.facts for name in system.unknowns_of(fact)}
             words = sorted(profile.words_of(facts), key=lambda word: word.span)
             if words:
-                shown = join(list(dict.fromkeys(f"{word.text} (line {word.span.line})" for word in words)))
-                name = element.name if element.name[-1].isdigit() else f"the {element.name}"
-                yield f"because {name} begins at {element.tail}, where {shown} put it"
+                shown = by_line((word.text, word.span.line) for word in words)
+                yield f"because {element_text(element.name)} begins at {element.tail}, where {shown} put it"
 
 
 def _known(profile: Profile, fixed: dict[str, float], point: str) -> dict[str, float]:

@@ -64,8 +64,8 @@ def list_solutions(answer: Answer) -> Listing | None:
         answer: one of `Result.answers`.
 
     Returns:
-        `solutions`, whether these are all (`is_complete`) and by which method, `doubts` where they may not be, and what
-        chose the control's own. None if nothing was solved.
+        `solutions`, whether these are all (`is_complete`), by which `method`, and `doubts` where they may not be;
+        `chosen_by` says what chose the control's own. None if nothing was solved.
 
     >>> import contoursolve
     >>> answer = contoursolve.solve("G111 X100. A180. K-30. B120. P5. Q5.", start="X40. Z0.").answers[0]

@@ -204,7 +204,7 @@ def _explain_unknown(context: Context, claim: ParsedContour) -> Iterator[Diagnos
         ways = [*texts, *filter(None, [other]), *([f"{meant.new} for {meant.old}"] if meant else [])]
         do = f"write {' or '.join(ways)}" if ways else "delete it"
         name = form.name if form.name.startswith("G") else form.title
-        finding = report(context, rule, Basis.RULE, [word], form=name, allowed=allowed, do=do)
+        finding = report(context, rule, Basis.RULE, [word], form=name, allowed=allowed, advice=do)
         if texts and not meant:
             finding = replace(finding, message=f"{word.text.strip()}: {name} has no R; roundings are {join(sizes)}")
         yield replace(finding, message=_ask(meant)) if meant else finding
@@ -251,7 +251,7 @@ def _on_line(place: Position) -> str:
     """Where a position was lost, unless the reason says so."""
     if place.span is None or f"line {place.span.line}," in place.reason:
         return ""
-    return f" (line {place.span.line})" if place.span.line else " (--start)"
+    return f" (program line {place.span.line})" if place.span.line else " (--start)"
 
 
 def explain_skippable(context: Context, claim: ParsedContour) -> Iterator[Diagnostic]:

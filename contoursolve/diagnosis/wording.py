@@ -1,10 +1,10 @@
 """Values, places and names as messages say them: in the program's unit, with the axes of its plane."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Decimal
 
 from contoursolve.gcode import FACT
-from contoursolve.geometry import CornerShape, Given, Length, Plane, Profile, Unit
+from contoursolve.geometry import Arc, CornerShape, Given, Length, Plane, Profile, Unit
 from contoursolve.solving import Status
 
 SHOWN = 60
@@ -64,7 +64,20 @@ def statement_text(given: Given, value: float, profile: Profile) -> str:
     if word is None or word.address == FACT:
         return f"{word.text.partition('=')[0].strip() if word else given.name} = {number}"
     lines = {each.word.span.line for each in profile.givens.values() if each.word}
-    return f"{word.address}{number}" + (f" (line {word.span.line})" if len(lines) > 1 else "")
+    return f"{word.address}{number}" + (f" (program line {word.span.line})" if len(lines) > 1 else "")
+
+
+def by_line(texts: Iterable[tuple[str, int]]) -> str:
+    """Words with their program lines, each line said once: `X30 (program line 2) and Y20 (program line 3)`."""
+    lines: dict[int, dict[str, None]] = {}
+    for text, line in texts:
+        lines.setdefault(line, {})[text] = None
+    return join([f"{join(list(own))} (program line {line})" for line, own in lines.items()])
+
+
+def element_text(name: str) -> str:
+    """An element in a sentence: `line 1`, `the arc`."""
+    return f"the {name}" if name in ("arc", "line") else name
 
 
 MOST_DECIMALS = 12
@@ -92,13 +105,16 @@ def unknowns_text(names: Sequence[str], profile: Profile) -> str:
 def _things(names: Sequence[str], profile: Profile) -> dict[str, dict[str, None]]:
     """The parts of each thing that unknown scalars are; none of what is a thing itself."""
     things: dict[str, dict[str, None]] = {}
+    arcs = (element for element in profile.figure.path if isinstance(element, Arc))
+    called = {"end": "the end"} | {arc.radius: f"the radius of {element_text(arc.name)}" for arc in arcs}
     for name in names:
         thing, _, part = name.rpartition(".")
         shown = profile.plane.axes[int(part)] if part.isdigit() else _PARTS.get(part, "")
         shapes = {corner.shape for corner in profile.figure.corners if corner.name == thing}
         if part == "radius" and shapes and CornerShape.FILLET not in shapes:
             shown = "size"
-        things.setdefault(thing if shown else name, {}).update({shown: None} if shown else {})
+        own = thing if shown else name
+        things.setdefault(called.get(own, own), {}).update({shown: None} if shown else {})
     return things
 
 
@@ -106,15 +122,15 @@ def open_text(names: Sequence[str], profile: Profile) -> str:
     """That unknown scalars are still open: `V1 is still open in Z and X`, `the direction of line 2 is still open`."""
     parts = _things(names, profile)
     axes = {*profile.plane.axes}
+    for thing, shown in parts.items() if len(parts) == 1 else ():
+        if shown and {*shown} <= axes:
+            return f"{thing} is still open in {join(list(shown))}"
     texts = [
-        f"{thing} in {join(list(shown))}" if {*shown} <= axes else f"the {join(list(shown))} of {thing}"
+        f"{thing} ({join(list(shown))})" if {*shown} <= axes else f"the {join(list(shown))} of {thing}"
         for thing, shown in parts.items()
         if shown
     ] + [thing for thing, shown in parts.items() if not shown]
-    if len(texts) == 1:
-        thing, into, where = texts[0].partition(" in ")
-        return f"{thing} is still open{into}{where}"
-    return f"{join(texts)} are still open"
+    return f"{join(texts)} {'is' if len(texts) == 1 else 'are'} still open"
 
 
 def place_text(profile: Profile, scalars: dict[str, float]) -> str:

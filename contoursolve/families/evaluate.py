@@ -126,9 +126,9 @@ def family(
 
     Args:
         block: the block, or the blocks of one contour; their words stand for one of the values.
-        vary: the values of each free word, as written in the block: by its letter (`A`, `,A`), or with its line where
-            several have it (`2:,A`); of a word of the start point as `start.X`; of a fact by what it gives the value
-            of (`length of line 1`).
+        vary: the values of each free word, as written in the block, by its name: its letter (`A`, `,A`), with its
+            line where several have it (`2:,A`); `start.X` of the start point; for a fact, what it gives the value of
+            (`length of line 1`).
         start: words that give the start point, such as `"X40. Z0."`, as the control reads them.
         control: `yasnac-lx3` or `nct-99m`, or a control of your own as its tables; found from the block where it is
             clear.
@@ -145,9 +145,9 @@ def family(
     the same, byte for byte, for any number of workers and any executor.
 
     Raises:
-        FamilyError: a word is not there, the values are none, the blocks are no single contour with a known start, or
-            they are refused whatever the values (they cannot be read, break a rule, or lack words): a RefusedError,
-            whose message has the first finding and its fix, and whose `result` has all.
+        FamilyError: a word is not there, it has no values, or the blocks are no single contour with a known start.
+        RefusedError: a FamilyError; the blocks cannot be read, break a rule or lack words, whatever the values. Its
+            message has the first finding with its fix, its `result` has all.
         UnknownControlError: the control is unknown, or the block does not tell it.
         FactPlaceError: facts for a program of several contours.
         SettingError: there is no such setting, or it has no such value.

@@ -78,14 +78,14 @@ class Family(Shown):
 
     * the free words, as written: in the unit of the block, X of a lathe as diameter (float64);
     * `status` (uint8, see `Code`) and `reason` (uint8, an index of `REASONS`; 0 for none);
-    * `branch.P1` (int8): the side that the block chooses, +1 farther or left, -1 nearer or right, 0 where there is no
-      contour or both are one;
+    * `branch.P1` (int8): the side that the block chooses: +1 farther or left, -1 nearer or right; 0 where there is no
+      contour, or both are one;
     * `V1.Z`, `V1.X`: the points; `r`: radii; `corner 1.begin.Z`, `.end`, `.center`: the corners (float64, NaN where
       there is no contour, or no such corner);
     * `asked.P`: what is asked for with `?`, mm (radius) or degrees (float64, NaN where there is no contour);
     * `line 1.room` (float64): what the corners leave of an element, below 0 if they do not fit; it has a value wherever
       the points have one;
-    * `residual` (float64): the largest residual of the equations that were solved, the corners' among them.
+    * `residual` (float64): by how much the solved equations are off at most, the corners' among them.
     """
 
     ranges: Ranges

@@ -9,7 +9,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnosis.examine import Answer
-from contoursolve.diagnosis.wording import join, limit_text, unknowns_text, value_text
+from contoursolve.diagnosis.wording import element_text, join, limit_text, unknowns_text, value_text
 from contoursolve.diagnostics.display import Shown
 from contoursolve.families.case_classes import CaseClass
 from contoursolve.families.free_words import check_block
@@ -132,21 +132,20 @@ def feasible(
         block: the block, or the blocks of one contour.
         word: the word by its letter (`P`, `,A`), or with its line where several have it (`2:,A`); a word of the start
             point as `start.X`; a fact by what it gives the value of (`length of line 1`).
-        within: the range to look at; without it, an angle turns once (0 to 360, or -360 to 0 for a negative one), and
-            a length is looked at for 1 m to either side.
+        within: the range to search; without it, one turn of an angle, or 1 m to either side of a length. The turn is
+            0 to 360, or -360 to 0 for a negative angle.
         options: as for `family`, with the same errors; also raises FamilyError where facts or `?` leave no
             closed form, and names them: `family` solves such a block value by value.
 
-    The range is divided into stretches in each of which all that is checked of a contour is bounded by intervals, so
-    that no part with or without a contour is overlooked. Each end is computed, and solved on both sides. Where facts,
-    `?` or a choice that nothing makes leave several solutions, all are followed; the contour exists where one alone
-    can be made.
+    The search divides the range into stretches. In each of them intervals bound all checks of a contour, so that it
+    overlooks no part. It computes each end, and solves the block on both sides. Where facts, `?` or an open choice
+    leave several solutions, it follows all; the contour exists where one alone can be made.
 
     >>> found = feasible("G111 X100. A180. K-30. B120. P5. Q5.", "P", start="X40. Z0.")
     >>> [(round(each.low.value, 4), round(each.high.value, 4)) for each in found.intervals]
     [(0.0, 51.9615)]
     >>> found.intervals[0].high.reason.text
-    'P too large for line 1: 51.961 mm at most'
+    'P is too large for line 1: P at most 51.961 mm'
     """
     template = spec_of(block, (word,), **options).template()
     check_block(template)
@@ -197,7 +196,8 @@ def _reason(
     """What fails beyond an end, and whether it is a rule or the reading of the words; `near` are the pieces on its two
     sides, the one beyond it first."""
     at, limit = value_text(value, search.unit), limit_text(value, search.unit, way, is_included=search.is_solved(value))
-    limit = f"at {at}" if near[0].is_value else f"{limit} at {'most' if way > 0 else 'least'}"
+    name = called(search.word)
+    limit = f"{name} at {at}" if near[0].is_value else f"{name} at {'most' if way > 0 else 'least'} {limit}"
     beyond = "at" if near[0].is_value else "above" if way > 0 else "below"
     there = outside if outside is not None else (near[0].low + near[0].high) / 2
     failure, event = failure_of(search.answer_at(there))
@@ -207,8 +207,7 @@ def _reason(
     kind = event if isinstance(event, RefusalKind) else None
     read_as = onset.case if onset is not None else next((each.case for each in near if each.case), None)
     if kind is None and failure.code:
-        says = f"rule {failure.code} refuses" if event is None else f"{failure.code} is found for"
-        return replace(failure, text=f"{says} {called(search.word)} {beyond} {at}"), onset is None
+        return replace(failure, text=refused(failure.code, event, f"{name} {beyond} {at}")), onset is None
     unnamed = replace(failure, text=f"{failure.message or 'there is no contour'}: {limit}")
     if read_as is None:
         return unnamed, True
@@ -227,6 +226,11 @@ def _reason(
     return replace(failure, text=f"{text}: {limit}"), onset is None and not near[0].is_value
 
 
+def refused(code: str, event: Enum | None, values: str) -> str:
+    """That a rule refuses some values, or that something else is found for them."""
+    return f"contoursolve reports {code} for {values}" if event else f"the control refuses {values} ({code})"
+
+
 def phrase(check: Check, kind: RefusalKind, case: CaseClass) -> str:
     """What fails where a check does not pass, without values."""
     return _PHRASES[kind](check, case)
@@ -240,14 +244,14 @@ def _parallel(check: Check, case: CaseClass) -> str:
     if lines:
         others = tuple(name for name in check.givens if name != figure.line(lines[0]).heading)
         if others:
-            return f"{lines[0]} is parallel to what {case.words(others)} states"
+            return f"{element_text(lines[0])} never reaches {case.words(others)}"
         point, _, axis = check.subject.partition(".")
         if not axis.isdigit():
-            return f"{lines[0]} is parallel to the line that it must meet"
+            return f"{element_text(lines[0])} is parallel to the line that it must meet"
         letter = case.profile.plane.axes[int(axis)]
-        return f"{lines[0]} runs along {letter}, so that nothing fixes {letter} of {point}"
+        return f"{element_text(lines[0])} runs along {letter}, so {letter} of {point} stays open"
     free = unknowns_text(check.subject.split(","), case.profile)
-    return f"{case.words(check.givens) or 'the words'} leave {free} open"
+    return f"{case.words(check.givens) or 'the words'} {'leaves' if len(check.givens) == 1 else 'leave'} {free} open"
 
 
 def _too_large(check: Check, case: CaseClass) -> str:
@@ -257,15 +261,19 @@ def _too_large(check: Check, case: CaseClass) -> str:
         for corner in case.profile.figure.corners
         if check.subject in (corner.name, corner.before, corner.after, corner.lands_on)
     ]
-    where = check.element or "its lines"
+    where = element_text(check.element) if check.element else "its lines"
     # Of several corners on an element, the free ones are those to change.
-    words = case.words([size for size in sizes if size in case.free] or sizes)
-    return f"{words} too large for {where}" if words else f"{check.subject} does not fit on {where}"
+    sizes = [size for size in sizes if size in case.free] or sizes
+    words = case.words(sizes)
+    if not words:
+        return f"{check.subject} does not fit on {where}"
+    return f"{words} {'is' if len(sizes) == 1 else 'are'} too large for {where}"
 
 
 def _reversed(check: Check, case: CaseClass) -> str:
     angle = case.words(tuple(filter(None, (case.profile.figure.line(check.element).heading,))))
-    return f"{check.element} would run against {angle or 'its direction'}"
+    element = element_text(check.element)
+    return f"{angle} points away from the end of {element}" if angle else f"{element} would run backwards"
 
 
 def _disagrees(check: Check, case: CaseClass) -> str:
@@ -278,7 +286,7 @@ def _apart(check: Check, case: CaseClass) -> str:
 
 
 def _always(text: str) -> Callable[[Check, CaseClass], str]:
-    return lambda check, _: text.format(subject=check.subject)
+    return lambda check, _: text.format(subject=element_text(check.subject))
 
 
 _PHRASES: Mapping[RefusalKind, Callable[[Check, CaseClass], str]] = {
@@ -286,12 +294,12 @@ _PHRASES: Mapping[RefusalKind, Callable[[Check, CaseClass], str]] = {
     RefusalKind.NOT_FIXED: _parallel,
     RefusalKind.POINT_IS_START: _always("the point of the line is its start point"),
     RefusalKind.CIRCLE_MISSED: _always("the line misses the circle"),
-    RefusalKind.RADIUS_TOO_SMALL: _always("the radius is smaller than half the way between its two points"),
+    RefusalKind.RADIUS_TOO_SMALL: _always("the radius is less than half the distance between its two points"),
     RefusalKind.CIRCLES_APART: _always("the circles do not meet"),
-    RefusalKind.CIRCLE_UNDEFINED: _always("the circle has no radius"),
+    RefusalKind.CIRCLE_UNDEFINED: _always("the radius of the circle is 0"),
     RefusalKind.WORDS_DISAGREE: _disagrees,
     RefusalKind.FACT_DISAGREES: _always("the words disagree about {subject}"),
-    RefusalKind.RADIUS_DIFFERENCE: _always("the points of the circle differ in radius"),
+    RefusalKind.RADIUS_DIFFERENCE: _always("two points of the circle differ in their distance from its centre"),
     RefusalKind.LINE_REVERSED: _reversed,
     RefusalKind.LINE_BACKWARDS: _always("{subject} would run backwards"),
     RefusalKind.CORNER_TOO_LARGE: _too_large,

@@ -120,8 +120,7 @@ def limits_of(template: Template, values: Mapping[str, float]) -> list[WordLimit
         found.append(WordLimits(float(one or 1), tuple(sorted(map(float, limits)))))
     if len(tied) > 1:
         raise FamilyError(
-            f"{' and '.join(tied)} are read together, for on which side of its centre the arc ends depends on both: "
-            "vary one of them at a time"
+            f"{' and '.join(tied)} together say on which side of its centre the arc ends: vary one of them at a time"
         )
     return found
 

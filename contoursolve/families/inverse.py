@@ -112,22 +112,22 @@ def find_word(
     within: tuple[float, float] | None = None,
     **options: Unpack[BlockOptions],
 ) -> Found:
-    """Every value of a word, as it is written, with which a point of the contour lies where it is wanted.
+    """Every value of a word, as it is written, that brings a point of the contour where it is wanted.
 
     Args:
         block: the block, or the blocks of one contour; the word stands in it with any value.
         word: the word by its letter (`A`, `,A`), or with its line where several have it (`2:,A`); a word of the start
             point as `start.X`; a fact by what it gives the value of (`length of line 1`).
         goal: a point and where it is wanted, in words as the control reads them: `end Z-50.`, `V1 X44.`,
-            `corner 1.center Z-30.`. With both coordinates, such as `end Z-50. X100.`, the values are found at which it
-            is nearest to there.
+            `corner 1.center Z-30.`. With both coordinates, such as `end Z-50. X100.`, it finds the values at which
+            the point is nearest to there.
         within: and the options as for `feasible`, with the same errors; also raises FamilyError for a point that the
-            contour does not have. Of a point that does not depend on the word there is no value, and `remark` names the
-            words that move it; if it is there already, the value that the word has.
+            contour does not have. Where the word does not move the point, `remark` names the words that do; there is
+            no value then, or that of the word if the point is there already.
 
-    Where the contour exists, interval arithmetic isolates every zero; each is solved and certified by itself. What
-    cannot be decided is told as a doubt. Where facts or `?` leave no closed form, the word is asked for and the goal
-    stated as one coordinate more, as `solve` does it.
+    Where the contour exists, interval arithmetic isolates every zero; each is solved and certified by itself. `doubts`
+    say what it could not decide. Where facts or `?` leave no closed form, it asks for the word as `solve` does: the
+    goal is one fact more.
 
     >>> found = find_word("G111 X100. A180. K-30. B120. P5. Q5.", "B", "end Z-50.", start="X40. Z0.")
     >>> [(round(each.value, 4), each.block) for each in found.hits]

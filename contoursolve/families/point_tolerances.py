@@ -102,8 +102,8 @@ def tolerances(
     point: str = "end",
     **options: Unpack[BlockOptions],
 ) -> Tolerances:
-    """What each word does to a point, and what tolerances come to: at worst, in the root of the sum of squares, and at
-    all combinations of their limits.
+    """What each word does to a point, and what tolerances come to: at worst, statistically (RSS), and at all
+    combinations of their limits.
 
     Args:
         block: the block, or the blocks of one contour.

@@ -15,7 +15,7 @@ from contoursolve.families.boundary_tracing import BISECTIONS, NODES, BoundaryTr
 from contoursolve.families.branches import branches_of
 from contoursolve.families.case_classes import CaseClass, FreeWords
 from contoursolve.families.export import Family
-from contoursolve.families.feasible_ranges import ASIDE, NO_FAILURE, Reason, Way, failure_of, phrase, same
+from contoursolve.families.feasible_ranges import ASIDE, NO_FAILURE, Reason, Way, failure_of, phrase, refused, same
 from contoursolve.families.free_words import check_block
 from contoursolve.families.spec import BlockOptions, FamilyError, Template, called, spec_of
 from contoursolve.families.subdivision import bisect
@@ -48,10 +48,10 @@ class Boundary(Struct, frozen=True):
 
 
 class Region(Shown, Struct, frozen=True):
-    """The values of two words, within a box, with which a block has a contour, by the lines that bound them.
+    """Where a block has a contour, by two of its words within a box: the lines that bound these values.
 
-    `units` are what the words are written in. Without `doubts`, it is proven that no line is missing, and no part that
-    is wider than a cell of `cell` (by word); else they say why it is not.
+    `units` are what the words are written in. Without `doubts`, no line is missing, with proof, and no part wider than
+    a cell of `cell` (by word); else they say why.
     """
 
     words: tuple[str, str]
@@ -84,13 +84,13 @@ def region(
         within: the range of each, lower value first.
         options: as for `feasible`, with the same errors.
 
-    A grid is laid over the box, and its lines are searched for where the contour begins to fail; cell by cell these
-    points are joined, and each is brought onto the zero of what fails. Interval arithmetic proves of every other cell
-    that it is alike in all of it.
+    A grid lies over the box. A search along its lines finds where the contour begins to fail; cell by cell it joins
+    these points, each brought onto the zero of what fails. Interval arithmetic proves that each other cell is alike
+    in all of it.
 
     >>> found = region("G111 X100. A180. K-30. B120. P5. Q5.", ("A", "P"), ((150, 210), (1, 60)), start="X40. Z0.")
     >>> [each.reason.text for each in found.boundaries]
-    ['P too large for line 1', 'P too large for line 2']
+    ['P is too large for line 1', 'P is too large for line 2']
     """
     if isinstance(words, str) or len(words) != 2 or len(within) != 2:  # noqa: PLR2004 - axes of a map
         raise FamilyError("name two words, and a range for each of them")
@@ -248,8 +248,9 @@ class _RegionSearch(FreeWords):
         inside, outside = (_pair(axis, value + side, middle) for side in (-step, step))
         answer = self.answer_at(*outside)
         (failure, event), where = failure_of(answer), "above" if step > 0 else "below"
-        says = f"rule {failure.code} refuses" if failure.code and event is None else "there is no contour for"
-        text = f"{says} {called(self.names[axis])} {where} {value_text(value, self.units[axis])}"
+        values = f"{called(self.names[axis])} {where} {value_text(value, self.units[axis])}"
+        is_rule = failure.code and event is None
+        text = refused(failure.code, event, values) if is_rule else f"there is no contour for {values}"
         is_told = answer.contour is None and self.is_solved(*inside)
         points = tuple(_pair(axis, value, end) for end in span)
         unverified = 0 if is_told else 1

@@ -96,12 +96,14 @@ def _named(word: str, known: Iterable[str]) -> str:
 
 
 def sensitivity(block: str, **options: Unpack[BlockOptions]) -> Sensitivity:
-    """The derivatives of a contour by all words that it follows from: by CasADi's differentiation of its closed form,
-    or where it has facts, `?` or no closed form, by the implicit function theorem from the equations at its points.
+    """The derivatives of a contour by all words that it follows from.
+
+    CasADi differentiates its closed form. Where it has facts, `?` or no closed form, they follow from the equations at
+    its points (implicit function theorem).
 
     Arguments and errors as for `family`; a fact goes by what it gives the value of (`length of line 1`). Also raises
-    FamilyError if the block has no contour, says something twice, or has a line that touches its circle, where no
-    derivative exists.
+    FamilyError if the block has no contour or says something twice. Where a line touches its circle, no derivative
+    exists: the same error.
 
     >>> slopes = sensitivity("G111 X100. A180. K-30. B120. P5. Q5.", start="X40. Z0.").slopes
     >>> {word: f"{slope:.3f}" for word, slope in slopes["V2.Z"].items()}

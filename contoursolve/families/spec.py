@@ -131,7 +131,9 @@ def ranges_of(vary: Mapping[str, ArrayLike], *, is_paired: bool) -> Ranges:
             raise FamilyError(f"the values of {name} must be finite numbers")
         if numpy.abs(array).max() > LARGEST:
             value = array[numpy.abs(array).argmax()]
-            raise FamilyError(f"{name} goes to {value:g}, beyond {LARGEST:,.0f}, the largest value that is read")
+            raise FamilyError(
+                f"{name} goes to {value:g}, beyond {LARGEST:,.0f}, the largest value that contoursolve reads"
+            )
         if word in values:
             raise FamilyError(f"{name} is named twice")
         values[word] = array
@@ -155,7 +157,9 @@ def read_limits(word: str, within: tuple[float, float], largest: float, unit: st
     if low >= high:
         raise FamilyError(f"{told} is no range; the smaller number comes first")
     if low < -largest or high > largest:
-        raise FamilyError(f"{told} goes beyond {largest:,.0f} {unit}, the largest value that is read; look at less")
+        raise FamilyError(
+            f"{told} goes beyond {largest:,.0f} {unit}, the largest value that contoursolve reads; give a smaller range"
+        )
     return low, high
 
 
@@ -377,8 +381,7 @@ class SweepSpec(Struct, frozen=True):
             unread = run(program, None, unit, policy, start=start)
             if any(each.about is not ReadIssue.NO_CONTOUR for each in errors_of(unread)):
                 raise RefusedError(unread)
-            choices = ", ".join(DIALECTS)
-            raise UnknownControlError(f"the block does not tell its control; name it; choose from {choices}")
+            raise UnknownControlError(f"the block does not show its control: {' or '.join(DIALECTS)}")
         facts = tuple(gcode.read_directive(fact, -number) for number, fact in enumerate(self.facts, 1))
         template = Template(program, dialect, unit, policy, start, {}, facts)
         return template.with_words(self.names)

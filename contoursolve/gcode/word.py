@@ -14,8 +14,8 @@ from contoursolve.diagnostics.source import Span
 class Word(Struct, frozen=True):
     """An address with its value, such as `X40.` or `,A150`.
 
-    `address` is upper case with its comma; `number` is None when the value is a variable or a macro
-    expression, or when it is asked for with `?`. `text` is what was typed.
+    `address` is upper case with its comma; `number` is None for a variable, a macro expression, or `?`. `text` is what
+    was typed.
     """
 
     address: str

@@ -50,7 +50,7 @@ def construction_lines(answer: Answer) -> list[str]:
     system = assemble(profile)
     verdict = analyse(system)
     if not verdict.is_determined:
-        return [f"  construction: nothing determines {unknowns_text(verdict.free, profile)}"]
+        return [f"  construction: still open: {unknowns_text(verdict.free, profile)}"]
     groups = order(system, tuple(system.facts[index] for index in verdict.basis))
     scalars, sides = _found(answer)
     lines = ["  construction:"]

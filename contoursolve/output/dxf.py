@@ -42,7 +42,7 @@ def to_dxf(answers: Sequence[Answer]) -> bytes:
     """
     drawn = [(number, answer) for number, answer in enumerate(answers, 1) if answer.contour]
     if not drawn:
-        raise ValueError("no contour is solved: there is nothing to draw")
+        raise ValueError("no contour is solved: the drawing would be empty")
     unit = Length.INCH if all(answer.unit is Length.INCH for _, answer in drawn) else Length.MM
     with _same_bytes():
         document = new(_RELEASE)

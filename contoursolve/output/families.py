@@ -55,7 +55,9 @@ def _end_cells(end: End, unit: str, way: int) -> tuple[str, str]:
     if end.reason is None:
         return written(end.value, unit, way), "end of the range searched"
     text = end.reason.text if end.is_verified else f"{end.reason.text} (not confirmed on both sides)"
-    return written(end.value, unit, way), text if end.is_included else f"{text}; this value itself has none"
+    return written(
+        end.value, unit, way
+    ), text if end.is_included else f"{text}; at this value itself there is no contour"
 
 
 def range_data(found: Feasible) -> dict[str, Any]:

@@ -14,6 +14,8 @@ WIDTH = 100
 SHOWN_NOTES, SHOWN_FIXES = 2, 2
 """Reasons and fixes shown where nobody asks for all."""
 
+EXPLAINING = "contoursolve check --explain"
+
 APPLICABILITY = {
     Applicability.SAFE: "same contour",
     Applicability.CHANGES_CONTOUR: "changes the contour",
@@ -45,16 +47,27 @@ def plain(text: str, _role: str) -> str:
 
 
 def finding_lines(
-    finding: Diagnostic, name: str, sources: Mapping[int, str], style: Style = plain, *, is_explained: bool = False
+    finding: Diagnostic,
+    name: str,
+    sources: Mapping[int, str],
+    style: Style = plain,
+    *,
+    is_explained: bool = False,
+    explaining: str = EXPLAINING,
 ) -> list[str]:
     """The lines of one finding, explained with all that is known about it; `sources` are the texts of the program's
-    lines by number, as far as they are known."""
-    lines = finding_pieces(finding, name, sources, is_explained=is_explained)
+    lines by number, as far as they are known, `explaining` the command that explains it."""
+    lines = finding_pieces(finding, name, sources, is_explained=is_explained, explaining=explaining)
     return ["".join(style(text, role) if role else text for text, role in line) for line in lines]
 
 
 def finding_pieces(
-    finding: Diagnostic, name: str, sources: Mapping[int, str], *, is_explained: bool = True
+    finding: Diagnostic,
+    name: str,
+    sources: Mapping[int, str],
+    *,
+    is_explained: bool = True,
+    explaining: str = EXPLAINING,
 ) -> list[list[Piece]]:
     """The same lines, each as the pieces that a style may set apart."""
     role = finding.severity.value
@@ -95,7 +108,7 @@ def finding_pieces(
             lines += [[(f"{' ' * (gutter + 4)} {line}", "")] for line in shown]
     if len(finding.fixes) > len(fixes):
         more = len(finding.fixes) - len(fixes)
-        lines.append([*foot, (f" {count(more, 'more fix', 'more fixes')}: contoursolve check --explain lists all", "")])
+        lines.append([*foot, (f" {count(more, 'more fix', 'more fixes')}: {explaining} lists all", "")])
     if is_explained or finding.source.is_of_manual:
         lines.append([*foot, (f" source: {finding.source}", "")])
     if finding.alarm:

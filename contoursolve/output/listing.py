@@ -13,7 +13,7 @@ from contoursolve.diagnosis.examine import Answer, rank
 from contoursolve.diagnosis.wording import count, statuses_text
 from contoursolve.diagnostics.finding import Diagnostic, Fix, Severity
 from contoursolve.output.contours import contour_lines
-from contoursolve.output.findings import Style, finding_lines
+from contoursolve.output.findings import EXPLAINING, Style, finding_lines
 from contoursolve.program.pipeline import Result, Run
 from contoursolve.program.recognise import what_shows
 from contoursolve.reading import ReadIssue
@@ -125,9 +125,15 @@ def _listing_lines(
 
 
 def lines_of_findings(
-    result: Result, findings: Iterable[Diagnostic], style: Style, *, is_explained: bool = False
+    result: Result,
+    findings: Iterable[Diagnostic],
+    style: Style,
+    *,
+    is_explained: bool = False,
+    explaining: str = EXPLAINING,
 ) -> Iterator[str]:
-    """The lines of findings, each with the program's lines that it marks."""
+    """The lines of findings, each with the program's lines that it marks; `explaining` is the command that explains
+    them."""
     told: tuple[Fix, ...] = ()
     for finding in findings:
         shown = finding
@@ -135,7 +141,8 @@ def lines_of_findings(
             shown = replace(finding, fixes=(), notes=("the fixes above mend this, too", *finding.notes))
         told = finding.fixes or told
         sources = sources_of(result, finding)
-        yield from finding_lines(shown, result.program.name, sources, style, is_explained=is_explained)
+        name = result.program.name
+        yield from finding_lines(shown, name, sources, style, is_explained=is_explained, explaining=explaining)
 
 
 def sources_of(result: Result, finding: Diagnostic) -> dict[int, str]:

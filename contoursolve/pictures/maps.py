@@ -1,7 +1,7 @@
 """The map of a family over two words: a field for each outcome with its name in it, and the boundaries between them;
 and what a picture of a sweep shows of all its values."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 from math import floor
 
@@ -9,6 +9,7 @@ import numpy
 from numpy.typing import NDArray
 
 from contoursolve.diagnosis.examine import Answer
+from contoursolve.diagnosis.wording import statuses_text
 from contoursolve.families import CompiledSweep, Family, FamilyError, region_of, units_of
 from contoursolve.families.evaluate import compile_sweep, solve_sweep
 from contoursolve.families.spec import Ranges
@@ -17,6 +18,7 @@ from contoursolve.pictures.curves import Curve, curves_of, names_of, near, strok
 from contoursolve.pictures.page import PAD, SIZE, WIDTH, Anchor, Box, Item, Sheet, Spot, Stroke, Text, TextRun, wrap
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.value_axes import BELOW, HIGH, LEFT, TOP, WIDE, ValuePlane, axis_text, over_cells, page_of
+from contoursolve.solving import Status
 from contoursolve.solving.row_outcome import REASONS, Code
 
 COLUMNS, ROWS = 305, 200
@@ -36,9 +38,9 @@ Outcomes = NDArray[numpy.int64]
 Mask = NDArray[numpy.bool_]
 
 
-def _title(family: Family, words: tuple[str, ...]) -> str:
+def _title(statuses: Mapping[Status, int], words: tuple[str, ...]) -> str:
     """What a map shows."""
-    told = ", ".join(f"{number:,} {status.value}" for status, number in family.summary().items())
+    told = ", ".join(f"{number:,} {status.value}" for status, number in statuses.items())
     return f"{' and '.join(words)}: {told}"
 
 
@@ -70,7 +72,8 @@ def lay_out_map(family: Family, chosen: tuple[str, str] | None, title: str | Non
         for start, several in (("too narrow to be named", others), ("lines without room for a name", unnamed))
         for told in (wrap(f"{start}: {'; '.join(several)}", WIDTH - 2 * PAD, SIZE, 3) if several else ())
     ]
-    return page_of(title if title is not None else _title(family, words), items, remarks, TOP + HIGH + BELOW, 4.0)
+    told = title if title is not None else _title(family.summary(), words)
+    return page_of(told, items, remarks, TOP + HIGH + BELOW, 4.0)
 
 
 def _curves(family: Family, words: tuple[str, str], chart: ValuePlane) -> list[Curve]:
@@ -226,9 +229,7 @@ def solve_shown(ready: CompiledSweep) -> Fan | Family:
     varying = [name for name, values in ranges.values.items() if values.size > 1]
     if ranges.is_paired or not 1 <= len(varying) <= 2:  # noqa: PLR2004 - a line or a plane
         told = "paired words" if ranges.is_paired else f"{len(varying)} words with several values"
-        raise FamilyError(
-            f"a picture shows one word or two, every value of one with every value of the other; not {told}"
-        )
+        raise FamilyError(f"a picture takes one word, or every combination of two; this sweep has {told}")
     if len(varying) == 1:
         (word,) = varying
         values = [float(value) for value in _chosen(ranges.values[word], MOST_VALUES)]
@@ -237,6 +238,17 @@ def solve_shown(ready: CompiledSweep) -> Fan | Family:
     alone = {name: column for name, column in ranges.values.items() if name not in varying}
     shown = {name: _chosen(ranges.values[name], most) for name, most in zip(varying, (COLUMNS, ROWS), strict=True)}
     return solve_sweep(compile_sweep(ready.spec, Ranges({**alone, **shown}, is_paired=False)))
+
+
+def sweep_title(ranges: Ranges, statuses: Mapping[Status, int]) -> str:
+    """What the picture of a sweep shows, and what became of all its rows, drawn or not."""
+    varying = {name: numpy.unique(values) for name, values in ranges.values.items() if values.size > 1}
+    if len(varying) > 1:
+        return _title(statuses, tuple(varying))
+    ((word, values),) = varying.items()
+    drawn = f" ({MOST_VALUES} drawn)" if values.size > MOST_VALUES else ""
+    span = f"{word} from {values[0]:g} to {values[-1]:g}, {ranges.count:,} contours{drawn}"
+    return f"{span}: {statuses_text(statuses)}"
 
 
 def _chosen(values: Array, most: int) -> Array:

@@ -15,7 +15,8 @@ from contoursolve.geometry import Length
 from contoursolve.postprocess.emit import Format, Move, emit
 from contoursolve.postprocess.expansion_report import Left, Options, Summary, left_unread
 from contoursolve.postprocess.numbering import Numberer, Numbers, Offsets
-from contoursolve.postprocess.post_processors import Machine
+from contoursolve.postprocess.post_processors import machine_of
+from contoursolve.postprocess.translate import Moves, translate
 from contoursolve.postprocess.untranslatable import Watch
 from contoursolve.program.batch import Batch
 from contoursolve.program.lines import Lines
@@ -23,7 +24,7 @@ from contoursolve.program.pipeline import attach, walk
 from contoursolve.program.solve_queue import Step
 from contoursolve.reading import ReadIssue, State, apply_modes, motion_of, words_of
 from contoursolve.reading.dialect import Dialect
-from contoursolve.reading.follow import blocks_of
+from contoursolve.reading.follow import ContourBlock, blocks_of
 from contoursolve.reading.modal_dependence import (
     STANDING_ALONE,
     Reliance,
@@ -82,12 +83,8 @@ def lines_of_facts(
 
 def opening_of(options: Options, dialect: Dialect, unit: Length, summary: Summary) -> str:
     """The line that the target needs before the first block; empty if it needs none, or nothing was replaced."""
-    text = options.post.opening.get(_machine(dialect), "") if summary.replaced else ""
+    text = options.post.opening.get(machine_of(dialect), "") if summary.replaced else ""
     return text.format(unit="G20" if unit is Length.INCH else "G21") + summary.line_end if text else ""
-
-
-def _machine(dialect: Dialect) -> Machine:
-    return Machine.LATHE if any(dialect.plane.diameters) else Machine.MILL
 
 
 class _Expander:
@@ -101,7 +98,7 @@ class _Expander:
         self.options = options
         self.summary = summary
         self.lines = lines
-        self.watch = Watch(options.post, dialect, options.post.readings.get(_machine(dialect)))
+        self.watch = Watch(options.post, dialect, options.post.readings.get(machine_of(dialect)))
         summary.unfamiliar = self.watch.found
         self.numberer = Numberer(self.modes, numbers)
         self.formats: dict[tuple[tuple[str, str], bool, bool], Format] = {}
@@ -263,6 +260,7 @@ class _Expander:
         here = self._place(answer)
         had_ended = self.motion is not None
         motion = self.motion if had_ended else state.motion
+        translated = self._translate(answer, list(parts.values()), here)
         for block in step.blocks:
             part = parts.get(block.line)
             if part is None:
@@ -271,7 +269,11 @@ class _Expander:
             state = part.state
             form = self._format(state if answer.plane is state.plane else replace(state, plane=answer.plane))
             moves: list[Move] = []
-            for segment in (each for each in elements if part.makes(each.name)):
+            if translated is not None:
+                moves = [move for name, each in translated.items() if part.makes(name) for move in each]
+                here = moves[-1].end if moves else here
+                self.summary.deviation = max([self.summary.deviation, *(move.deviation for move in moves)])
+            for segment in (each for each in elements if translated is None and part.makes(each.name)):
                 for move in emit(segment, here, form, is_rapid=part.is_rapid):
                     here = move.end
                     if move.deviation > self.summary.deviation:
@@ -296,6 +298,21 @@ class _Expander:
             self.offsets.leave(axes, here, contour.end)
         self.summary.replaced += 1
         self.summary.warn(answer.diagnostics)
+
+    def _translate(self, answer: Answer, parts: Sequence[ContourBlock], here: Point) -> Moves | None:
+        """The moves of a contour in the words of the target, where that is asked for and it has them."""
+        target = self.options.post.target
+        if target is None:
+            return None
+        moves = None
+        if len({(part.state.is_incremental, part.is_rapid) for part in parts}) == 1:
+            form = self._format(replace(parts[0].state, plane=answer.plane))
+            moves = translate(answer, target, here, form, is_rapid=parts[0].is_rapid)
+        if moves is None:
+            self.summary.written_out.append(answer.lines[0])
+        else:
+            self.summary.in_words += 1
+        return moves
 
     def _place(self, answer: Answer) -> Point:
         """Where the tool is at the start of a contour, in the expanded program."""

@@ -1,6 +1,7 @@
 """What is asked of an expansion, and what became of the contours of the program."""
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 from msgspec import Struct, field
 
@@ -38,6 +39,10 @@ class Summary(Struct):
     was written from the exact contours, mm."""
 
     replaced: int = 0
+    in_words: int = 0
+    """How many of them are in the target's own words for contours."""
+    written_out: list[int] = field(default_factory=list)
+    """The first lines of those that the target has no words for, where that was asked for."""
     warnings: int = 0
     """How many warnings there are about contours that were replaced, and lines that may be meant otherwise."""
     warned: list[Diagnostic] = field(default_factory=list)
@@ -61,12 +66,25 @@ class Summary(Struct):
 
 
 class Expansion(Struct, frozen=True):
-    """A program in plain G-code; `text` is None where a contour could not be expanded, or where the target would run
-    something else along another path."""
+    """A program in plain G-code; `text` is None where a contour fails, or where the target would run something along
+    another path."""
 
     text: str | None
     control: str | None
     summary: Summary
+
+
+class Conversion(Struct, frozen=True):
+    """A program in another control's own words; `text` is None where it cannot be, or is not the same path.
+
+    `comparison` is that of both paths, None where there is no second one.
+    """
+
+    text: str | None
+    control: str | None
+    to: str
+    summary: Summary
+    comparison: Any
 
 
 def left_unread(block: Block) -> Left | None:

@@ -6,6 +6,7 @@ from enum import Enum
 
 from contoursolve.geometry import Length
 from contoursolve.reading import Effect, NumberFormat, WithoutPoint
+from contoursolve.reading.dialect import Dialect
 
 
 class Arcs(Enum):
@@ -85,6 +86,8 @@ class Post:
     without_point: WithoutPoint | None
     opening: Mapping[Machine, str] = field(default_factory=dict)
     readings: Mapping[Machine, Reading] = field(default_factory=dict)
+    target: Dialect | None = None
+    """The control in whose own words contours are written, as far as it has them."""
 
     def digits(self, unit: Length, source: NumberFormat) -> int:
         """Decimals of a length."""
@@ -227,6 +230,25 @@ FANUC = Post(
 )
 
 POSTS = {post.name: post for post in (SAME, LINUXCNC, FANUC)}
+
+
+def machine_of(dialect: Dialect) -> Machine:
+    """What a control is for."""
+    return Machine.LATHE if any(dialect.plane.diameters) else Machine.MILL
+
+
+def post_of(target: Dialect) -> Post:
+    """A control as a target in whose own words contours are written: it reads the codes of its tables, and any M."""
+    codes, numbers = target.modes.codes, target.modes.lexicon.numbers
+    reading = Reading(
+        g=frozenset(codes),
+        m=_span(range(1000)),
+        otherwise={f"G{number}": Other(f"is {code.meaning}", Risk.PATH, code.effect) for number, code in codes.items()},
+    )
+    steps = {Length.MM: numbers.mm, Length.INCH: numbers.inch}
+    decimals = {unit: -int(step.normalize().as_tuple().exponent) for unit, step in steps.items()}
+    readings = {machine_of(target): reading}
+    return Post(target.name, target.title, decimals, numbers.without_point, readings=readings, target=target)
 
 
 def find_post(name: str | Post) -> Post:

@@ -55,7 +55,10 @@ class Unfamiliar(Struct, frozen=True):
         behind = f"{self.followers} line{'s' * (self.followers > 1)} behind it" if self.followers else ""
         runs = join([each for each in (self.runs, behind) if each])
         result = f", which would run {runs} as {self.run_as}" if runs and self.run_as else ""
-        return f"{self.text}{meant} {self.problem} on {target}{result}{self.advice}"
+        title = target.partition(";")[0]
+        if self.problem == _NOT_KNOWN.meaning and not meant:
+            return f"{title} does not know {self.text}{self.advice}"
+        return f"on {title}, {self.text}{meant} {self.problem}{result}{self.advice}"
 
 
 @lru_cache(maxsize=32)
@@ -223,7 +226,7 @@ class Watch:
         step = self.lexicon.numbers.step(self.lexicon.addresses[word.address].unit, state.unit)
         here, there = (number, number * step) if is_count else (number * step, number)
         unit = "in" if state.unit is Length.INCH else "mm"
-        problem = f"has no point, and is {there.normalize():f} {unit}"
+        problem = f"has no point and is {there.normalize():f} {unit}"
         meant = f"{here.normalize():f} {unit} on {self.control}"
         advice = f"; write {word.address}{here.normalize():f}" + "." * (here == here.to_integral_value())
         found = Unfamiliar(text, problem, block.line, Risk.PATH, meant, advice=advice)

@@ -2,10 +2,11 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import DIALECTS, PLAIN
 from contoursolve.diagnosis.wording import either, join
 from contoursolve.gcode import Block, Program, Word
 from contoursolve.program.project import CONTROL, check_settings, configure
+from contoursolve.reading import Modes, plain_lines, words_of
 from contoursolve.reading.dialect import Dialect
 
 
@@ -57,6 +58,13 @@ class Recogniser:
 
     def look(self, block: Block) -> None:
         """Take a block into account."""
+        if _PLAIN.fullmatch(block.text):
+            # Most lines only move: what they show is which axes there are.
+            if not self._is_milled:
+                line = words_of(block.text)
+                self._is_milled = "Y" in line
+                self._axes |= {axis for address, axis in _TURNED.items() if address in line}
+            return
         stated = {word.address for word in block.words}
         codes = {word.number for word in block.words if word.address == "G"}
         self._shared |= stated & _SHARED
@@ -85,7 +93,7 @@ class Recogniser:
         if len(fitting) == 1 and (fitting == [*self._own] or not self._own):
             return DIALECTS[fitting[0]]
         if self.signs:
-            raise several_controls({name: self.signs[name] for name in self._own or fitting or self.signs})
+            raise several_controls({name: self.signs[name] for name in (not self._own and fitting) or self.signs})
         return None
 
     def _fits(self, dialect: Dialect) -> bool:
@@ -102,6 +110,7 @@ class Recogniser:
         return not self._is_milled if is_lathe else self._is_milled or not is_turned
 
 
+_PLAIN = plain_lines(Modes(PLAIN["linuxcnc"].modes.lexicon, {}, tuple("UVWXYZ"), frozenset()))
 _SHARED = frozenset({",A", ",C", ",R"})
 _ANGLE, _TURNED = ",A", {"X": "X", "U": "X", "Z": "Z", "W": "Z"}
 _PLANES, _OF_A_MILL = frozenset({17, 18, 19}), frozenset({17, 19, 91})

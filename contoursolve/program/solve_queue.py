@@ -217,9 +217,9 @@ def _lost(claim: ParsedContour, modes: Modes, answer: Answer, origin: Position |
     if origin is not None:
         return leave(claim, None, modes, origin.reason, origin.span)
     lines = (
-        f"line {answer.lines[0]}, which is"
+        f"program line {answer.lines[0]}, which is"
         if len(answer.lines) == 1
-        else f"lines {join(list(map(str, answer.lines)))}, which are"
+        else f"program lines {join(list(map(str, answer.lines)))}, which are"
     )
     return leave(claim, None, modes, f"{_WAITS} {lines} not solved")
 

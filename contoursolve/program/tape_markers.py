@@ -85,7 +85,7 @@ class Marks:
 
     def _outside(self, span: Span, side: str, does: str, line: int) -> Diagnostic:
         rule, place = self.context.row(ReadIssue.TEXT_OUTSIDE), replace(self.context, place=span)
-        return report(place, rule, Basis.RULE, [], side=side, does=does, mark=f"line {line}")
+        return report(place, rule, Basis.RULE, [], side=side, does=does, mark=f"program line {line}")
 
 
 def _first_words(passage: Passage) -> Span | None:

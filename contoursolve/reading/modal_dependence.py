@@ -69,7 +69,7 @@ def why_unmet(motion: int | None, blocks: Iterable[Block], modes: Modes) -> str:
         need = reliance(block, modes)
         if need is Reliance.BESIDE or (need is Reliance.WORDS and not is_free):
             name = f"the G{motion} before it" if code else "what the control starts with"
-            return f"line {block.line} relies on {name}: write the G code of its motion into line {block.line}"
+            return f"program line {block.line} relies on {name}: write the G code of its motion into it"
         if need is Reliance.ENDS or (need is Reliance.WORDS and not block.is_skippable):
             break
     return ""

@@ -266,14 +266,14 @@ def _effect(state: State, codes: Sequence[Code | Word], modes: Modes) -> tuple[E
         if isinstance(code, Word):
             continue
         if code.effect is Effect.SINGLE:
-            return Effect.SINGLE, f"the end of G{code.number} ({code.meaning}) is not followed"
+            return Effect.SINGLE, f"contoursolve does not know where G{code.number} ({code.meaning}) ends"
         if code.effect in (Effect.NO_MOTION, Effect.FRAME):
             return Effect.NO_MOTION, ""
         if code.effect is Effect.PRESET:
             return Effect.MOTION, ""
     modal = modes.codes.get(state.motion) if state.motion is not None else None
     if modal and modal.effect is Effect.CYCLE:
-        return Effect.CYCLE, f"the end of G{modal.number} ({modal.meaning}) is not followed"
+        return Effect.CYCLE, f"contoursolve does not know where G{modal.number} ({modal.meaning}) ends"
     return Effect.MOTION, ""
 
 

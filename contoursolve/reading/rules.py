@@ -251,8 +251,18 @@ def _gap(field: re.Match[str]) -> str:
     return _PHRASES[name] if name in _PHRASES else f"<{_GAPS.get(name, name)}>"
 
 
-_PHRASES = {"comparison": "", "fits": "at most <limit> fits", "smaller": "write at most <limit>"}
-_GAPS = {"words": "word", "off": "difference", "subject": "element", "free": "point"}
+VERBS = {"are": "is", "have": "has", "do": "does", "stand": "stands", "leave": "leaves", "define": "defines"}
+"""Verbs of a message about words, and as they are of one word."""
+
+_PHRASES = VERBS | {"comparison": "", "fits": "at most <limit> fits", "smaller": "write at most <limit>"}
+_GAPS = {
+    "words": "word",
+    "off": "difference",
+    "subject": "element",
+    "free": "point",
+    "where": "line",
+    "things": "point",
+}
 
 
 @dataclass(frozen=True, slots=True)

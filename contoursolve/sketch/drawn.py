@@ -13,22 +13,23 @@ from contoursolve.solving.solution import Certificate, Status
 
 
 class Asked(Struct, frozen=True):
-    """A value that was asked for: mm or degrees, as `unit` says; None where nothing determines it."""
+    """A value that was asked for: mm or degrees, as `unit` says; None while it is open."""
 
     fact: str
     unit: Unit
     value: float | None
 
     def __str__(self) -> str:
-        shown = "not determined" if self.value is None else f"{_shown(self.value)} {self.unit.value}"
+        shown = "still open" if self.value is None else f"{_shown(self.value)} {self.unit.value}"
         return f"{self.fact.rstrip(' =?')} = {shown}"
 
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Drawn(Shown):
-    """One way to draw a sketch, in mm: points (the start among them if a path begins there), radii, and lines by their
-    direction (cosine, sine) and how far the origin lies to the right of them. `contour` is the path, if there is one.
-    `asked` are the values of the facts that ask for one, in the order in which they were stated."""
+    """One way to draw a sketch, in mm: points (the start among them if a path begins there), radii and lines.
+
+    A line has its direction (cosine, sine), and how far the origin lies to the right of it. `contour` is the path, if
+    there is one. `asked` are the values of the facts that ask for one, in the order of these facts."""
 
     points: dict[str, tuple[float, float]]
     radii: dict[str, float]
@@ -72,8 +73,8 @@ class Drawings(Shown, Sequence[Drawn]):
 
     The list is complete, with proof, if `is_complete`; else `doubts` says what could not be decided. `reach` is how
     far from the start solutions were searched for where there is no closed form, mm. `free` are the unknowns that
-    nothing determines; then there are no drawings, and the list is not complete. `ties` are facts of which each
-    follows from others, by number from 0; where they disagree, there are no drawings either.
+    are still open; then there are no drawings, and the list is not complete. `ties` are facts that repeat others, by
+    number from 0; where they disagree, there are no drawings either.
     """
 
     status: Status
@@ -102,7 +103,7 @@ class Drawings(Shown, Sequence[Drawn]):
     def _count(self) -> str:
         """How many there are, and whether these are all."""
         if self.free:
-            return f"nothing determines {', '.join(map(_unknown, self.free))}"
+            return f"still open: {', '.join(map(_unknown, self.free))}"
         shown = "closed form" if self.reach is None else f"search within {self.reach:.0f} mm of the start point"
         number = f"{len(self)} drawing{'' if len(self) == 1 else 's'}"
         if self.is_complete:

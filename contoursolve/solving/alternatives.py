@@ -177,8 +177,8 @@ def _alternative(profile: Profile, system: System, prover: Prover, found: Found)
 
 def _doubtful(found: Found, radius: float, gap: float | None) -> Certificate:
     if found.doubles:
-        return Certificate(Proof.VERIFIED, radius, "two solutions have become one, so none is alone in a box", gap)
-    return Certificate(Proof.UNKNOWN, radius, "no box about it could be proven to hold one solution", gap)
+        return Certificate(Proof.VERIFIED, radius, "two solutions have become one, so no proof can part them", gap)
+    return Certificate(Proof.UNKNOWN, radius, "nothing near it could be proven to hold this solution alone", gap)
 
 
 def _status(refusals: list[Refusal], remarks: list[Note]) -> Status:

@@ -34,7 +34,7 @@ def certify(profile: Profile, system: System, out: Mapping[str, float], bound: f
         try:
             results = proof.machine.replay([inputs[name] for name in proof.machine.inputs])
         except (ArithmeticError, ValueError):
-            return Certificate(Proof.VERIFIED, bound, "a step cannot be decided in interval arithmetic")
+            return Certificate(Proof.VERIFIED, bound, "interval arithmetic cannot decide a step")
         if any(ball.sign(results[index]) not in signs for index, signs in proof.signs):
             return Certificate(Proof.VERIFIED, bound, "two solutions are too close to be told apart")
         places = [(results[index], out[name]) for index, name in proof.radii]

@@ -20,9 +20,9 @@ intersections have the same abscissa in ordinary drawings."""
 class Obstacle(Enum):
     """Why a step could not be solved in closed form."""
 
-    SINGULAR = "its equations do not fix the unknowns at these values"
-    UNDECIDED = "whether a determinant is zero cannot be decided"
-    TOUCHING = "whether two solutions are one or none cannot be decided"
+    SINGULAR = "at these values its equations do not fix it"
+    UNDECIDED = "whether its equations have one solution is too close to decide"
+    TOUCHING = "whether it has two solutions or none is too close to decide"
     NO_CLOSED_FORM = "no closed form is known for it"
     UNFINISHED = "the search was given up before all of its range was decided"
 

@@ -43,7 +43,7 @@ def check_path(
                 values = dict(refusal.values)
                 if refusal.kind is RefusalKind.BEVEL_IN_BAND and _touches_arc(corner, figure, out):
                     # Between two lines no size has a bevel; on an arc a smaller one may.
-                    limit, _ = _largest(corner, figure, out, sizes[corner.size], resize)
+                    limit, *_ = _largest(corner, figure, out, sizes[corner.size], resize)
                     values |= {"limit": limit} if limit >= LEAST else {}
                 refusals.append(replace(refusal, values=values))
     if not refusals:
@@ -88,7 +88,8 @@ def _check_corner(
 
     for name in _elements(corner, out):
         if out[f"length:{name}"] <= LENGTH:
-            return refuse(RefusalKind.CORNER_TOO_LARGE, limit=0.0, actual=size)
+            values = {"limit": 0.0, "actual": size}
+            return [Refusal(RefusalKind.CORNER_TOO_LARGE, corner.name, (corner.size,), values, (), (name, name))]
     if out.get(f"landing:{corner.name}") == 0:
         return refuse(RefusalKind.LANDING_UNKNOWN)
     straight = out[f"cosine:{corner.name}"] > 0
@@ -123,40 +124,41 @@ def _check_room(
     figure: Figure, out: Outputs, sizes: Mapping[str, float], resize: Callable[[Mapping[str, float]], Outputs]
 ) -> list[Refusal]:
     """Each element must be as long as the setbacks of the corners at its two ends."""
-    found: list[tuple[RefusalKind, str, list[Corner], dict[str, float]]] = []
+    found: list[tuple[RefusalKind, str, list[Corner], dict[str, float], tuple[str, ...]]] = []
     alone = {corner.name: _short_of(corner, out) for corner in figure.corners}
     for corner in figure.corners:
         for short in alone[corner.name][:1]:
             values = {"actual": sizes[corner.size], "needed": _setbacks(corner, out)[short]}
             values |= {"available": out[f"length:{short}"]}
-            found.append((RefusalKind.CORNER_TOO_LARGE, corner.name, [corner], values))
+            found.append((RefusalKind.CORNER_TOO_LARGE, corner.name, [corner], values, (short,)))
     refused = {name for names in alone.values() for name in names}
     for element in figure.path:
         room, length = out[f"room:{element.name}"], out[f"length:{element.name}"]
         if room < -LENGTH and element.name not in refused:
             corners = [corner for corner in figure.corners if element.name in _setbacks(corner, out)]
             values = {"limit": length, "actual": length - room, "off_by_mm": -room}
-            found.append((RefusalKind.CORNERS_OVERLAP, element.name, corners, values))
-    blamed = {corner.name: corner for _, _, corners, _ in found for corner in corners}
+            found.append((RefusalKind.CORNERS_OVERLAP, element.name, corners, values, ()))
+    blamed = {corner.name: corner for _, _, corners, *_ in found for corner in corners}
     limits = {name: _largest(corner, figure, out, sizes[corner.size], resize) for name, corner in blamed.items()}
     together: dict[str, float] = {}
-    full = {size for limit, beside in limits.values() if limit < LEAST for size in beside}
+    full = {size for limit, beside, _ in limits.values() if limit < LEAST for size in beside}
     if full:
         crowd = [corner for corner in figure.corners if corner.name in blamed or corner.size in full]
         together = {"together": _largest_together(crowd, figure, sizes, resize)}
     refusals = []
-    for kind, subject, corners, values in found:
+    for kind, subject, corners, values, blocked in found:
         largest, givens = [limits[corner.name] for corner in corners], tuple(corner.size for corner in corners)
         beside = largest[0][1] if kind is RefusalKind.CORNER_TOO_LARGE else ()
         keys = ("limit",) if kind is RefusalKind.CORNER_TOO_LARGE else BESIDE
         # What fits beside a corner that cannot stay as it is tells nothing.
         told = (
             nan if len(corners) > 1 and any(alone[other.name] for other in corners if other is not corner) else limit
-            for corner, (limit, _) in zip(corners, largest, strict=True)
+            for corner, (limit, *_) in zip(corners, largest, strict=True)
         )
         every = {**values, **dict(zip(keys, told, strict=False)), **together}
         known = {name: value for name, value in every.items() if value == value}
-        refusals.append(Refusal(kind, subject, givens, known, beside))
+        elements = (*blocked, largest[0][2] or blocked[0]) if blocked else ()
+        refusals.append(Refusal(kind, subject, givens, known, beside, elements))
     return refusals
 
 
@@ -180,9 +182,9 @@ def _crowded(corner: Corner, out: Outputs) -> str | None:
 
 def _largest(
     corner: Corner, figure: Figure, out: Outputs, size: float, resize: Callable[[Mapping[str, float]], Outputs]
-) -> tuple[float, tuple[str, ...]]:
+) -> tuple[float, tuple[str, ...], str | None]:
     """The largest size of a corner that passes the checks while its neighbours stay as they are (mm; 0 if none does),
-    and the sizes of the neighbours that limit it."""
+    the sizes of the neighbours that limit it, and the element on which they do."""
 
     def crowded(each: float) -> str | None:
         return _crowded(corner, resize({corner.size: each}))
@@ -196,7 +198,7 @@ def _largest(
     limit = _bisect(lambda each: crowded(each) is None, size, near=high)
     element = crowded(limit + max(NEAR, NEAR * limit))
     others = (other for other in figure.corners if other is not corner and element in _elements(other, out))
-    return limit, tuple(other.size for other in others)
+    return limit, tuple(other.size for other in others), element
 
 
 def _touches_arc(corner: Corner, figure: Figure, out: Outputs) -> bool:

@@ -161,6 +161,8 @@ class Refusal(Struct, frozen=True):
     values: Mapping[str, float] = field(default_factory=dict)
     beside: tuple[str, ...] = ()
     """Givens that are not to blame, but leave no more room than the limit."""
+    elements: tuple[str, ...] = ()
+    """For a corner that is too large: the element that is too short for it, and the one that limits what fits."""
 
 
 class Note(Struct, frozen=True):

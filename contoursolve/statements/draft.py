@@ -259,7 +259,7 @@ class Draft:
         if corner.lands_on is not None:
             return corner.lands_on
         if corner.lands_parallel_to is None:
-            raise StatementError(f"nothing tells which line {corner.name} lands on")
+            raise StatementError(f"{corner.name} needs the last line by its angle and one coordinate")
         name = f"{corner.name}.landing"
         line = Line(name, corner.at, "")
         self.figure = replace(self.figure, lines=(*self.figure.lines, line))

@@ -224,10 +224,10 @@ def _check_list(case: Case, claimed: ClaimedContour, values: Sequence[Array | No
     for one, other in combinations(paths, 2):
         first, second, selects = values[one], values[other], listed[one].selects
         apart = first is not None and second is not None and float(abs(first - second).max(initial=0.0)) > 10 * RESIDUAL
-        name = f"solutions {one + 1} and {other + 1} are"
-        ledger.require(f"{name} two", (), apart, "they are the same path")
+        name = f"solutions {one + 1} and {other + 1}"
+        ledger.require(f"{name} differ", (), apart, "they are the same path")
         is_told = not selects or selects != listed[other].selects
-        ledger.require(f"{name} told apart", selects, is_told, "the same words select both")
+        ledger.require(f"words tell {name} apart", selects, is_told, "the same words select both")
     _check_selectors(case, [(listed[each].selects, values[each]) for each in paths], ledger)
     for number in paths:
         if values[number] is not None:
@@ -252,11 +252,11 @@ def _check_count(case: Case, claimed: ClaimedContour, found: Sequence[Candidate]
         return
     if found and count.is_complete:
         there, makeable = len(found), sum(each.is_path for each in found)
-        remark = f"the result has {count.solutions}, of which {count.contours} can be made, and a search found "
-        remark += f"at least {there}, of which {makeable} can be made"
+        remark = f"the result has {count.solutions} and can make {count.contours}; a search found at least "
+        remark += f"{there} and can make {makeable}"
         is_all = count.solutions >= there and count.contours >= makeable
         words = [word.text for word in case.claim.words.values()]
-        ledger.require("the solutions are at least those that are found", words, is_all, remark)
+        ledger.require("the result has all solutions that a search finds", words, is_all, remark)
     ledger.omit("whether these are all solutions", "a search found no others, which is no proof")
 
 
@@ -345,7 +345,7 @@ def _check_diagnosis(case: Case, diagnosis: ClaimedDiagnosis, found: Sequence[Ca
     names = [tuple(map(_address, case.profile.words_of([facts[n] for n in tie.facts]))) for tie in tied]
     for claimed in diagnosis.ties:
         words, is_one = claimed.addresses, claimed.addresses in names
-        if not ledger.require("words that are tied say the same", words, is_one, "they do not"):
+        if not ledger.require("the words of a tie say the same", words, is_one, "they do not"):
             continue
         tie = tied.pop(names.index(words))
         names.remove(words)
@@ -357,7 +357,7 @@ def _check_diagnosis(case: Case, diagnosis: ClaimedDiagnosis, found: Sequence[Ca
         is_right = claimed.is_conflict == (share > 1) or 1 / CLEARLY < share < CLEARLY
         ledger.require("they conflict if that is more than the least increments", words, is_right)
     rest = [" ".join(each) for each in names]
-    ledger.require("all words that are tied are named", rest, not names, "the result lacks these")
+    ledger.require("the ties name all words that say the same", rest, not names, "the result lacks these")
 
 
 def _address(word: Word) -> str:

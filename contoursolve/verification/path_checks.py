@@ -329,15 +329,15 @@ def check_branches(case: Case, branches: Mapping[str, str], branch: str | None, 
     found = {name: side for name, side in branches.items() if name not in open_ones or side != wanted.get(name)}
     rest = {name: side for name, side in wanted.items() if name not in open_ones}
     told = ", ".join(f"{name} {side}" for name, side in rest.items()) or "none"
-    ledger.require("the branches are those that words choose", (), found == rest, f"they are {told}")
+    ledger.require("the path takes the sides that words choose", (), found == rest, f"they are {told}")
     joined = ", ".join(branches.values()) or None
-    ledger.require("the branch is that of the branches", (), branch == joined, f"they are {joined}")
+    ledger.require("its branch names these sides", (), branch == joined, f"they are {joined}")
 
 
 def check_asked(case: Case, path: ClaimedPath, values: Array, ledger: Ledger) -> None:
     """Every question has its answer, which is that of the elements."""
     rest, signs = list(path.asked), dict.fromkeys(case.system.sides, 1)
-    at, name = case.system.at(values, signs), "the value that is asked for is that of the elements"
+    at, name = case.system.at(values, signs), "the answer is the value that the elements have"
     for question in case.profile.questions:
         label, key = [case.label(question.word)], (question.word.text, question.word.span.line)
         answer = next((each for each in rest if (each.word, each.line) == key), None)

@@ -233,14 +233,14 @@ def _offences(claim: ParsedContour, found: Found) -> Iterator[Rule]:
 def _structure(profile: Profile, free: int, unknowns: int) -> Iterator[tuple[str, str]]:
     """Why the facts, whatever their values, make no single contour."""
     if free:
-        yield "underdetermined", f"{free} of {unknowns} numbers are free"
+        yield "underdetermined", f"{free} of {unknowns} numbers are open"
     counts = Counter(corner.name for corner in profile.figure.corners)
     for corner in profile.figure.corners:
         given = profile.givens.get(corner.size)
         if given is not None and given.value < 0:
             yield "no-solution", f"{corner.name} has a negative size"
         if corner.after is None and corner.lands_parallel_to is None and corner.lands_on is None:
-            yield "underdetermined", f"nothing tells where {corner.name} lands"
+            yield "underdetermined", f"no word says where {corner.name} lands"
         if counts[corner.name] > 1:
             yield "conflicting", f"{corner.name} is stated twice"
 
@@ -370,14 +370,14 @@ def expected(case: Case, found: Sequence[Candidate]) -> tuple[str | None, str]:
         clear = [fact for fact in case.spare if not found and known.keys() >= set(fact.reads())]
         at = numpy.array([known.get(name, 0.0) for name in case.system.unknowns])
         if any(not agrees(case, fact, at, {}) for fact in clear):
-            statuses["conflicting"] = "what the words put in its place is against others"
+            statuses["conflicting"] = "what the words fix is against other words"
         statuses["no-solution"] = "; ".join(fits[0].path.against) if fits else "no solution was found"
         if eligible and not fits:
             words = ", ".join(case.words(eligible[0].conflicts)) or "a circle"
-            statuses["conflicting"] = f"{words} is against the others"
+            statuses["conflicting"] = f"against the others: {words}"
     for each in paths[:1] or fits[:1]:
         if set(each.agreeing) - selecting and "ambiguous" not in statuses:
-            statuses["overdetermined"] = f"{', '.join(case.words(each.agreeing))} says what others say"
+            statuses["overdetermined"] = f"said twice: {', '.join(case.words(each.agreeing))}"
     return _first(statuses)
 
 
@@ -399,6 +399,6 @@ def said_twice(case: Case) -> Iterator[tuple[str, str]]:
         names = ", ".join(case.words([fact]))
         if is_tied and is_fixed:
             is_right = gap <= allowance(case, fact, values, {})
-            yield ("overdetermined" if is_right else "conflicting"), f"{names} says what others say"
+            yield ("overdetermined" if is_right else "conflicting"), f"{names} repeats others"
         else:
             yield ("underdetermined" if gap <= RESIDUAL else "no-solution"), f"{names} follows from others at its value"

@@ -2,6 +2,7 @@
 
 import json
 import os
+import shlex
 import subprocess
 import sys
 import time
@@ -794,7 +795,7 @@ def test_a_start_point_in_another_unit_than_the_contour_is_pointed_out():
 
 def test_what_follows_from_a_line_before_comes_last_and_names_that_line(save):
     lines = ("G00 X40. Z0.", "G111 X100. A180. B120.", "G111 X1l0. A180. K-30. B120.", "G111 X120. A180. K-30. B120.")
-    waiting = "the start point is not known in Z: this contour waits for line {}, which is not solved"
+    waiting = "the start point is not known in Z: this contour waits for program line {}, which is not solved"
     for third, causes in ((lines[2], (2, 3)), ("G111 X110. A180. K-30. B120.", (2, 2))):
         text = "\n".join((*lines[:2], third, lines[3], "G111 X130. A180. K-30. B120."))
         _, output, _ = run("check", save(text), "--format", "json")
@@ -840,7 +841,7 @@ def test_contours_behind_a_refused_one_are_checked_from_where_its_best_fix_ends(
     assert sorted(told) == sorted([*errors, *behind])
     _, output, _ = run("check", path)
     # 20 mm is the largest P; with it line 2 ends at the same point.
-    assert "checked from Z-35.7735 X60.0000 mm, where the best fix of line 2 ends" in output
+    assert "checked from Z-35.7735 X60.0000 mm, where the best fix of program line 2 ends" in output
     # The same findings as with the best fixes written.
     mended = [line.replace("P50.", "P20.").replace("Q300.", "Q20.") for line in lines]
     assert run("check", save("\n".join(mended)))[1] == "4 contours solved, no problems\n"
@@ -851,4 +852,25 @@ def test_contours_of_which_nobody_knows_where_they_begin_are_counted(save):
     _, output, _ = run("check", path)
     assert "contour-waits" not in output
     assert output.splitlines()[-1].endswith("1 error; 2 contours wait for an end point")
-    assert run("solve", path)[1].count("not checked: it waits for the end point of line 2") == 2
+    assert run("solve", path)[1].count("not checked: it waits for the end point of program line 2") == 2
+
+
+# --- The command that explains ---------------------------------------------------------------------
+
+REFUSED = ("--block", "G111 X100. A180. K-30. B120. P60.", "--start", "X40. Z0.", "--rules", "warn")
+OVERLAP = "G17 G90 G0 X0 Y0\nG1 X72.505 Y33.809 ,R10\nX64.053 Y51.935 ,R10\nX-8.452 Y18.126\n"
+
+
+@pytest.mark.parametrize("command", ["expand", "plot -o out.svg", "diff", "sweep --vary P=-1,-2"])
+def test_the_command_that_a_finding_names_shows_all_of_its_fixes(command, save, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    name, *options = command.split()
+    path, control = save(OVERLAP), ("--control", "nct-99m")
+    given = {"diff": (path, path, *control), "expand": (path, *control)}.get(name, REFUSED)
+    if name == "sweep":
+        given = ("--block", "G111 X100. A180. B120. P5.", *REFUSED[2:4])
+    said = "\n".join(run(name, *options, *given)[1:])
+    (told,) = {line.partition(": ")[2] for line in said.splitlines() if " more fix" in line}
+    shown = run(*shlex.split(told.removesuffix(" lists all"))[1:])[1]
+    assert shown.count("= fix [") > 2
+    assert "more fix" not in shown

@@ -164,9 +164,9 @@ def test_a_program_for_another_control_is_read_as_that_control_reads_it(diff, co
         (LINUXCNC.replace("G1 X95", "G41 G1 X95"), "OLD is compensated by G40, NEW by G41"),
         (LINUXCNC.replace("\nM2", "\nG0 X110"), "NEW goes on"),
         (LINUXCNC.partition("G3")[0], "OLD goes on"),
-        (LINUXCNC.replace("X95 Z-45.8771", "X95 Z-45.8771 A5"), "only NEW has a block that is not followed"),
-        (LINUXCNC.replace("I5 K0", "I5 K0.1"), "only NEW has a block that is not followed"),
-        (LINUXCNC.replace("I5 K0", ""), "only NEW has a block that is not followed"),
+        (LINUXCNC.replace("X95 Z-45.8771", "X95 Z-45.8771 A5"), "only NEW has a block that diff does not follow"),
+        (LINUXCNC.replace("I5 K0", "I5 K0.1"), "only NEW has a block that diff does not follow"),
+        (LINUXCNC.replace("I5 K0", ""), "only NEW has a block that diff does not follow"),
     ],
 )
 def test_what_is_different_is_named(diff, new, reason):
@@ -233,10 +233,10 @@ def test_blocks_that_are_not_followed_are_listed_once_where_both_have_them(tmp_p
     new = tmp_path / "new.nc"
     new.write_text(SHAFT.replace("N260 X46.", "N260 X46.5"))
     output = invoke(PROGRAMS / "shaft.nc", new)[1]
-    assert "different: blocks that are not followed are not the same\n" in output
+    assert "different: blocks that diff does not follow are not the same\n" in output
     assert "the same word by word in both: 15 blocks" in output
     assert (
-        "N160 G90 X91. Z-144. F0.35 (the end of G90 (turning cycle) is not followed), and 12 more up to line 33"
+        "X91. Z-144. F0.35 (contoursolve does not know where G90 (turning cycle) ends), and 12 more up to line 33"
         in output
     )
     assert "only in OLD: 1 block\n    OLD line 30: N260 X46. " in output
@@ -246,7 +246,7 @@ def test_blocks_that_are_not_followed_are_listed_once_where_both_have_them(tmp_p
 def test_an_arc_whose_radii_differ_is_named_with_both(diff):
     new = LINUXCNC.replace("X45 Z-31.4434", "X45.1 Z-31.4434")
     found = diff(MANUAL, new, "--new-control", "linuxcnc")
-    assert found["difference"]["reason"] == "only NEW has a block that is not followed"
+    assert found["difference"]["reason"] == "only NEW has a block that diff does not follow"
     assert "is 5.0000 mm at its start and 4.9753 mm at its end" in found["difference"]["new"]["reason"]
 
 

@@ -26,7 +26,7 @@ from contoursolve.diagnostics.finding import Severity
 from contoursolve.gcode import parse
 from contoursolve.geometry import Length, Plane, Turn
 from contoursolve.postprocess.emit import Format, emit
-from contoursolve.postprocess.post_processors import FANUC, LINUXCNC, POSTS, Arcs, Machine
+from contoursolve.postprocess.post_processors import LINUXCNC, POSTS, Arcs, Machine
 from contoursolve.program.lines import Lines
 from contoursolve.program.pipeline import run as solved
 from contoursolve.program.pipeline import walk
@@ -321,12 +321,15 @@ def test_the_original_block_stays_as_a_comment_that_nothing_ends():
     [
         (START + "G111 A180. B120. X100.", "g111-line-1"),
         (f"{TAPER}", "position-unknown"),
-        (f"G00 X40. Z0.\nG02 X40. Z-10. R30.\n{TAPER}\nG28 U0\nM98 P7", "line 5 relies on the G2 before it"),
-        ("G00 X40. Z0.\nG90 X30. Z-10.\nG00 X40. Z0.\nG11 Z-20. I8.\nX80. K-7.\nM99", "line 6 relies on the G11"),
-        (f"G00 X40. Z0.\nG90 X40. Z-10.\nG50 X40. Z0.\n{TAPER}\nX30.", "line 5 relies on the G90 before it"),
+        (f"G00 X40. Z0.\nG02 X40. Z-10. R30.\n{TAPER}\nG28 U0\nM98 P7", "program line 5 relies on the G2 before it"),
+        (
+            "G00 X40. Z0.\nG90 X30. Z-10.\nG00 X40. Z0.\nG11 Z-20. I8.\nX80. K-7.\nM99",
+            "program line 6 relies on the G11",
+        ),
+        (f"G00 X40. Z0.\nG90 X40. Z-10.\nG50 X40. Z0.\n{TAPER}\nX30.", "program line 5 relies on the G90 before it"),
         (f"{START}{TAPER}\n{TAPER}{2000 * ' '}", "the block has 2,028 characters and was not read"),
         (f"G00 X40. Z0.\n{TAPER}{2000 * ' '}", "the block has 2,028 characters and was not read"),
-        (f"G50 X40. Z0.\n{TAPER}\nX50.", "line 3 relies on what the control starts with"),
+        (f"G50 X40. Z0.\n{TAPER}\nX50.", "program line 3 relies on what the control starts with"),
         ("G17 G41 G0 X50 Y0\nG3 X-50 Y0 R50\n/G1 X-50 Y42.857 ,A171.87 Q-1", "some of its blocks begin with /"),
         (f"{START}/G01 X50.\n{TAPER}", "it begins where a block with / leads"),
     ],
@@ -364,7 +367,7 @@ def test_a_word_that_the_control_ignores_is_not_passed_over():
     text = f"{START}G111 A135. I10. K-12. B180. Z-40."
     assert contoursolve.expand(text).summary.warnings == 1
     said = run("expand", "-", stdin=text)[2]
-    assert "line 2: warning[g111-a-ignored]: A135. is ignored" in said
+    assert "line 2: warning[g111-a-ignored]: the control ignores A135." in said
     assert "1 warning: contoursolve check says more about it" in said
     said = run("expand", "-", stdin=f"{text}\n" * 30)[2]
     assert said.count("warning[g111-a-ignored]") == 20
@@ -374,7 +377,7 @@ def test_a_word_that_the_control_ignores_is_not_passed_over():
 TURNED = "G00 X97. Z2.\nG90 X91. Z-40. F0.35\nX85.\nG00 X40. Z0.\nG111 X80. A180. K-30. B120. P5. F0.2\n"
 CIRCLED = "G17 G41 G0 X50. Y0.\nG3 X-50. Y0. R50.\nG1 X-50. Y42.857 ,A171.87 Q-1\n"
 
-LX3, RUN = "yasnac-lx3", "on LinuxCNC 2.9, which would run"
+LX3, HERE, RUN = "yasnac-lx3", "on LinuxCNC 2.9,", "which would run"
 TURNING = f"(turning cycle on {LX3})"
 RAPID, LINE = "a rapid: G00 is in force", "a line: G01 is in force"
 BY_HAND = "nothing was written: write by hand what is meant there"
@@ -386,52 +389,52 @@ BY_HAND = "nothing was written: write by hand what is meant there"
         (
             "linuxcnc",
             TURNED,
-            f"line 2: G90 {TURNING} is absolute coordinates {RUN} X91. Z-40. and 1 line behind it as {RAPID}",
+            f"line 2: {HERE} G90 {TURNING} is absolute coordinates, {RUN} X91. Z-40. and 1 line behind it as {RAPID}",
         ),
         (
             "linuxcnc",
             f"{START}{TAPER}\nG94 X20. Z-50.\nG00 X50.",
-            f"line 3: G94 (facing cycle on {LX3}) is feed a minute {RUN} X20. Z-50. as {LINE}",
+            f"line 3: {HERE} G94 (facing cycle on {LX3}) is feed a minute, {RUN} X20. Z-50. as {LINE}",
         ),
         (
             "linuxcnc",
             f"{START}{TAPER} P5. Q5.\n/X60.\nG94 X20. Z-50.",
-            f"line 4: G94 (facing cycle on {LX3}) is feed a minute {RUN} X20. Z-50. as {RAPID}",
+            f"line 4: {HERE} G94 (facing cycle on {LX3}) is feed a minute, {RUN} X20. Z-50. as {RAPID}",
         ),
         (
             "linuxcnc",
             f"{START}{TAPER}\nG01 X60.\nG92 X59. Z-70. F2.\nX58.\n(THIRD)\nX57.",
-            f"line 4: G92 (thread cycle on {LX3}) sets coordinates {RUN} 2 lines behind it as {LINE}",
+            f"line 4: {HERE} G92 (thread cycle on {LX3}) sets coordinates, {RUN} 2 lines behind it as {LINE}",
         ),
         (
             "linuxcnc",
             f"{START}{TAPER}\nG90\nM08\nX59.\nX58.",
-            f"line 3: G90 {TURNING} is absolute coordinates {RUN} 2 lines behind it as {LINE}",
+            f"line 3: {HERE} G90 {TURNING} is absolute coordinates, {RUN} 2 lines behind it as {LINE}",
         ),
         (
             "linuxcnc",
             f"{START}{TAPER}\ng76 X26. Z-30. K1.8 D400 F3. A60",
-            f"line 3: g76 (threading cycle on {LX3}) is a threading cycle with other words on LinuxCNC 2.9",
+            f"line 3: on LinuxCNC 2.9, g76 (threading cycle on {LX3}) is a threading cycle with other words",
         ),
         (
             "linuxcnc",
             f"{START}{TAPER}\nG91 X1.",
-            f"line 3: G91 (not known to contoursolve on {LX3}) is incremental coordinates {RUN} X1. as {RAPID}",
+            f"line 3: {HERE} G91 (not known to contoursolve on {LX3}) is incremental coordinates, {RUN} X1. as {RAPID}",
         ),
         (
             "linuxcnc",
             f"{START}{TAPER}\nG00 X-1500",
-            f"line 3: X-1500 (-1.5 mm on {LX3}) has no point, and is -1500 mm on LinuxCNC 2.9; write X-1.5",
+            f"line 3: on LinuxCNC 2.9, X-1500 (-1.5 mm on {LX3}) has no point and is -1500 mm; write X-1.5",
         ),
         (
             "fanuc",
             f"{CIRCLED}G0 Z50",
-            f"line 4: Z50 (50 mm on nct-99m) has no point, and is 0.05 mm on {FANUC.title}; write Z50.",
+            "line 4: on Fanuc 0i and relatives, Z50 (50 mm on nct-99m) has no point and is 0.05 mm; write Z50.",
         ),
         (
             "linuxcnc",
             f"{CIRCLED}G76 X1. Y1. Z-5. R1. Q1.",
-            "line 4: G76 (drilling cycle on nct-99m) is a threading cycle on LinuxCNC 2.9",
+            "line 4: on LinuxCNC 2.9, G76 (drilling cycle on nct-99m) is a threading cycle",
         ),
     ],
 )

@@ -1170,7 +1170,7 @@ def test_a_word_that_is_missing_besides_facts_is_offered_and_settles_the_block()
 
 def test_a_size_that_is_asked_for_has_no_limit_to_write_but_what_it_follows_from() -> None:
     _, found = contour_of("G111 A180. K-30. B120. X100. P?", "radius of corner 1 = 80")
-    assert found["g111-corner-too-large"]["help"].endswith("radius of corner 1 = 80")
+    assert found["g111-corner-too-large"]["help"].startswith("change radius of corner 1 = 80:")
     assert [each["text"] for each in found["g111-corner-too-large"]["labels"]] == [""]
 
 

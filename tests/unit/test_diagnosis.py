@@ -1004,9 +1004,11 @@ def test_of_two_corners_that_overlap_each_is_told_how_large_it_may_be_if_the_oth
     assert error.code.endswith("corners-overlap")
     for index, key in enumerate(("limit_first", "limit_second")):
         own = sizes[index]
-        named = [f"{size} (line {line})" if text.startswith("G17") else size for line, size in enumerate(sizes, 2)]
+        named = [
+            f"{size} (program line {line})" if text.startswith("G17") else size for line, size in enumerate(sizes, 2)
+        ]
         largest = (Decimal(error.values[key]) / Decimal(mm) + Decimal("1e-10")) // Decimal(step) * Decimal(step)
-        assert f"at most {largest} {unit} for {named[index]} if {named[1 - index]} stays" in error.help
+        assert f"at most {largest} {unit} for {named[index]}" in error.help
         assert error.labels[index].text == f"at most {largest} {unit} beside {named[1 - index]}"
         outcomes = []
         for size in (largest + Decimal(step), largest):

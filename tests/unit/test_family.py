@@ -465,7 +465,7 @@ def test_rows_that_values_alone_refuse_are_rows():
     assert family(BLOCK, start=START, vary=words).summary() == {contoursolve.Status.REJECTED: 4}
     status, output, _ = run(*ON_BLOCK, "--vary", "P=-5,-6", "--vary", "Q=-4,3")
     assert status == 0
-    assert output.splitlines()[-1].startswith("4 of them, such as P=-5.0, Q=-4.0: P-5.0 and Q-4.0 is negative")
+    assert output.splitlines()[-1].startswith("4 of them, such as P=-5.0, Q=-4.0: P-5.0 and Q-4.0 are negative")
 
 
 def test_where_no_row_has_a_contour_the_reason_of_most_is_named_with_a_row():

@@ -38,7 +38,7 @@ def test_a_word_beside_the_contour_moves_into_a_block_of_its_own(word, block):
     (finding,) = solve(block.format(word), start=START).diagnostics
     moved, deleted = finding.fixes
     rest = block.replace(" {}", "")
-    assert moved.description.startswith(f"move {word} ({meaning}) into a block of its own {side} it -> ")
+    assert moved.description.startswith(f"move {word} ({meaning}) into a block of its own {side} this one -> ")
     assert moved.replacement == "\n".join([word, rest] if side == "before" else [rest, word])
     assert moved.applicability is Applicability.SAFE
     assert deleted.description.startswith(f"delete {word} ({meaning}) -> ")
@@ -67,6 +67,15 @@ def test_a_feed_that_a_fix_drops_is_named_and_the_fix_is_not_automatic():
     assert all(fix.applicability is not Applicability.SAFE for fix in finding.fixes)
 
 
+def test_a_fix_names_its_program_line_where_another_has_the_same_word():
+    lines = ("G17 G90 G0 X0 Y0", "G1 X72.505 Y33.809 ,R10", "X64.053 Y51.935 ,R10", "X-8.452 Y18.126")
+    (finding,) = solve("\n".join(lines), control="nct-99m").diagnostics
+    told = [fix.description.partition(" -> ")[0] for fix in finding.fixes]
+    assert told[:2] == [f"write ,R9.999 for ,R10 in program line {line}" for line in (3, 2)]
+    assert len({*told}) == len(told)
+    assert "write X-72.505 for X72.505 (a lost minus sign)" in told
+
+
 def test_every_output_takes_a_fix_of_several_lines(tmp_path):
     program = tmp_path / "moved.nc"
     program.write_text(f"G00 {START}\n{TAPER} M08\nG00 X200.\n")
@@ -78,7 +87,7 @@ def test_every_output_takes_a_fix_of_several_lines(tmp_path):
     (change,) = sarif["runs"][0]["results"][0]["fixes"][0]["artifactChanges"][0]["replacements"]
     assert (change["deletedRegion"]["startLine"], change["insertedContent"]["text"].split("\n")) == (2, lines)
     text = run(main, ["check", str(program)]).output
-    assert "fix [same contour]: move M08 (coolant on) into a block of its own before it" in text
+    assert "fix [same contour]: move M08 (coolant on) into a block of its own before this one" in text
     assert "fix [drops M08]: delete M08 (coolant on)" in text
     assert "\n".join(f"      {line}" for line in lines) in text
     exploration = begin(program.read_text())
@@ -158,7 +167,10 @@ def test_q_is_the_fix_where_a_line_and_a_circle_only_touch():
     text = "G17 G90 G0 X-50 Y50\nG1 G41 D1 X-20 Y50\nG1 ,A0\nG3 X50 Y0 I0 J0 R50"
     (finding,) = solve(text, control="nct-99m").diagnostics
     assert finding.code == "nct-q-missing"
-    assert [fix.description.partition(" ->")[0] for fix in finding.fixes] == ["add Q-1", "add Q1"]
+    assert [fix.description.partition(" ->")[0] for fix in finding.fixes] == [
+        "add Q-1 to program line 4",
+        "add Q1 to program line 4",
+    ]
 
 
 @pytest.mark.parametrize("text", ["G00 X4O. Z0.\nG111 A180. K-30. B120. X100.", "G00 X4l.\nG111 W0. A180. I5. B120."])

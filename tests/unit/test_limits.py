@@ -178,11 +178,11 @@ ROOMS = {
     "something is left": (LATHE.format("P50. D2."), {"P50.": "at most 1.000 mm beside D2."}),
     "a corner takes all of the line after it": (
         MILL.format("G1 X80 ,R50 F100\nG1 Y50 ,C20\nG1 X0"),
-        {",R50": "at most 30.000 mm beside ,C20 (line 3)", ",C20": "no room left beside ,R50 (line 2)"},
+        {",R50": "at most 30.000 mm beside ,C20 (program line 3)", ",C20": "no room left beside ,R50 (program line 2)"},
     ),
     "a pocket": (
         MILL.format("G1 Y50 ,C5\nX80 ,R60\nY0 ,C5\nX0"),
-        {",R60": "at most 45.000 mm beside ,C5 (line 4)"},
+        {",R60": "at most 45.000 mm beside ,C5 (program line 4)"},
     ),
     "the chord of an arc": (
         "G17 G90 G0 X200 Y200\nG1 X0 Y31.983 ,C70\nG3 X31.983 Y0 R-31.983",
@@ -232,7 +232,7 @@ def test_corners_that_leave_each_other_no_room_are_made_smaller_together():
 
 # Ranges -----------------------------------------------------------------------------------------------------
 
-END = re.compile(r"(-?[0-9.]+) (?:mm|in|deg) at (most|least)$")
+END = re.compile(r"at (?:most|least) (-?[0-9.]+) (?:mm|in|deg)$")
 
 
 def with_value(text: str, word: str, value: Decimal) -> str:
@@ -299,7 +299,7 @@ def test_the_explorer_and_the_command_show_ends_that_work(unit, step):
     noted = re.fullmatch(r"0 ≤ P ≤ ([0-9.]+)", range_of(now, field)["note"])[1]
     arguments = ["range", "--block", block, "--start", start, "--units", unit, "--word", "P"]
     told = re.search(
-        r"to +([0-9.]+) (?:mm|in) .*: ([0-9.]+) (?:mm|in) at most", CliRunner().invoke(main, arguments).output
+        r"to +([0-9.]+) (?:mm|in) .*: P at most ([0-9.]+) (?:mm|in)", CliRunner().invoke(main, arguments).output
     )
     for shown in (noted, *told.groups()):
         assert works(Decimal(shown))

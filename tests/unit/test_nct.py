@@ -45,7 +45,7 @@ def test_an_over_defined_circle_without_its_q_gets_both_with_their_contours(cont
     (finding,) = errors(result)
     assert (result.control, finding.code, finding.alarm) == ("nct-99m", "nct-q-missing", None)
     for fix, q, at in zip(finding.fixes, ("Q-1", "Q1"), ((66.0216, 9.5451), (-29.0486, -19.7073)), strict=True):
-        assert fix.description.startswith(f"add {q} -> P1 is at")
+        assert fix.description.startswith(f"add {q} to program line 3 -> P1 is at")
         (answer,) = solve(f"N10 G17 G42 G0 X100 Y20 D0\n{fix.replacement}").answers
         assert answer.contour.points["P1"] == pytest.approx(at, abs=5e-5)
 

@@ -44,7 +44,7 @@ ROWS = [pytest.param(rule, id=rule.code) for rule in GEOMETRY_RULES]
 
 
 def codes(program):
-    control = DIALECTS["yasnac-lx3" if "G11" in program else "nct-99m"]
+    control = DIALECTS["yasnac-lx3" if "G11" in program else "nct-99m" if "G17" in program else "fanuc-lathe"]
     found = contoursolve.check(program, control=relative(control))
     for each in found:
         assert not set("{}") & set(each.message + each.help)
@@ -147,6 +147,7 @@ COMMANDS = {
     "expand": ("expand", "p.nc"),
     "filter": ("filter", "p.nc"),
     "diff": ("diff", "p.nc", "p.nc"),
+    "convert": ("convert", "points.nc", "--to", "fanuc-mill"),
     "plot": ("plot", "p.nc", "--force"),
     "sweep": ("sweep", *LINE, "--vary", ",A=0:80:1", "--workers", "2"),
     "range": ("range", *LINE, "--word", "X"),
@@ -161,6 +162,7 @@ OF_THEIR_OWN = {"report", "verify", "rules", "facts"}
 @pytest.fixture
 def run(tmp_path, monkeypatch):
     (tmp_path / "p.nc").write_text(PAIR)
+    (tmp_path / "points.nc").write_text("G17 G90 G0 X0. Y0.\nG1 X30. ,C10.\nX40. Y40.\n")
     (tmp_path / "tables_of_mine.py").write_text("from test_own_control import BARE, MINE, THEIRS\nOTHER = 5\n")
     (tmp_path / "tables_that_fail.py").write_text("1 / 0\n")
     monkeypatch.chdir(tmp_path)

@@ -615,7 +615,7 @@ def test_a_bar_shows_the_ranges_of_a_word_with_what_ends_them():
     picture = draw_range(found)
     check(picture)
     told = " ".join(labels(picture))
-    assert "P too large for line 1: 51.961 mm at most" in told
+    assert "P is too large for line 1: P at most 51.961 mm" in told
     assert "the block has 5.0000 mm" in told
 
 
@@ -648,7 +648,7 @@ def test_sweep_draws_one_word_as_a_fan_and_two_as_a_map(tmp_path):
     one = ("--vary", "A=120:250:2", "--vary", "Q=5")
     status, output = sweep(*one, "--plot", tmp_path / "fan.svg")
     assert (status, "fan.svg written" in output) == (0, True)
-    assert "21 contours" in (tmp_path / "fan.svg").read_text()
+    assert "A from 120 to 250, 66 contours (21 drawn): " in (tmp_path / "fan.svg").read_text()
     assert sweep(*one, "--plot", tmp_path / "fan.svg", "--force", "--theme", "dark")[0] == 0
     assert DARK_COLORS[Role.PAPER] in (tmp_path / "fan.svg").read_text()
     both = (*one, "--vary", "P=1:60:0.5")
@@ -661,9 +661,9 @@ def test_sweep_draws_one_word_as_a_fan_and_two_as_a_map(tmp_path):
     told = ", ".join(f"{number:,} {status.value}" for status, number in family.summary().items())
     assert draw_family_map(family).title == f"A and P: {told}"
     for wrong, said in (
-        ((*both, "--vary", "X=90,100"), "not 3 words"),
-        (("--vary", "A=170"), "not 0 words"),
-        (("--vary", "A=170,180", "--vary", "P=1,2", "--paired"), "not paired words"),
+        ((*both, "--vary", "X=90,100"), "has 3 words"),
+        (("--vary", "A=170"), "has 0 words"),
+        (("--vary", "A=170,180", "--vary", "P=1,2", "--paired"), "has paired words"),
     ):
         status, output = sweep(*wrong, "--plot", tmp_path / "no.svg")
         assert status == 2

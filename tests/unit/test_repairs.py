@@ -159,9 +159,9 @@ def test_a_word_without_its_number_is_offered_with_a_number_in_many_blocks(form,
 @pytest.mark.parametrize(
     ("circle", "fix"),
     [
-        ("X-40 Y60 I-40 J20", "add R? (such as R40, from R39.99, up to R40.01)"),
-        ("X-40 I-40 J20 R40", "add Y? (such as Y60, from Y59.99, up to Y60.01)"),
-        ("X-30 Y60 J30 R50", "add I? (such as I-70, from I-70.012, up to I-69.988)"),
+        ("X-40 Y60 I-40 J20", "add R? to program line 3 (such as R40, from R39.99, up to R40.01)"),
+        ("X-40 I-40 J20 R40", "add Y? to program line 3 (such as Y60, from Y59.99, up to Y60.01)"),
+        ("X-30 Y60 J30 R50", "add I? to program line 3 (such as I-70, from I-70.012, up to I-69.988)"),
     ],
 )
 def test_the_word_that_closes_a_circle_is_found_between_numbers_of_which_none_does(circle, fix):
@@ -330,7 +330,7 @@ def test_one_mistake_in_a_long_chain_is_repaired_near_it(text, fix, trials, deco
     [
         ("G1 X80 ,R90\nG1 Y50", ["write ,R50 for ,R90 (another digit)", "delete ,R90"]),
         ("G1 X80 ,R50\nG1 Y50 ,C20\nG1 X0", ["write ,R30 for ,R50 (another digit)", "delete ,R50", "delete ,C20"]),
-        ("G1 X80 ,R5\nG1 X90 ,R5\nG1 Y50", ["delete ,R5"]),
+        ("G1 X80 ,R5\nG1 X90 ,R5\nG1 Y50", ["delete ,R5 in program line 2"]),
     ],
     ids=["lines are left", "a contour and a line", "a contour is left"],
 )

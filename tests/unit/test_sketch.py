@@ -96,7 +96,7 @@ def test_what_is_asked_for_is_answered_in_the_order_in_which_it_was_stated() -> 
 def test_what_is_not_determined_is_not_complete() -> None:
     drawings = stated(path(("a",), closes=False), "length of a = 3", "X of P1 = ?")
     assert (drawings.status, len(drawings), drawings.is_complete) == (Status.UNDERDETERMINED, 0, False)
-    assert repr(drawings) == "<Drawings underdetermined: nothing determines X of P1, Y of P1>"
+    assert repr(drawings) == "<Drawings underdetermined: still open: X of P1, Y of P1>"
 
 
 def test_a_drawing_says_what_it_is() -> None:

@@ -85,6 +85,16 @@ class Joining(Enum):
     OPEN = "the first block is a line by its angle alone"
 
 
+TITLES: Mapping[str, str] = {
+    LINE_LINE: "vertex of two lines by their angles",
+    "line-angle": "line by its angle and one coordinate",
+    "corners": "chamfers and roundings",
+    "chain": "chain of lines by their angles",
+    "arc": "arc",
+}
+"""What forms are called, by the role of two blocks or the name of the form."""
+
+
 def _nothing(*_: object) -> Iterable[str]:
     return ()
 
@@ -117,7 +127,7 @@ class Language:
     planes: Mapping[str, Plane]
     allowed: frozenset[str]
     joining: Joining
-    titles: Mapping[str, str]
+    titles: Mapping[str, str] = field(default_factory=lambda: TITLES)
     angle: str = ",A"
     corners: Mapping[str, CornerShape] = field(
         default_factory=lambda: {",C": CornerShape.CHAMFER_SETBACK, ",R": CornerShape.FILLET}

@@ -3,7 +3,7 @@
 Their words, languages and rules come in; four controls go out. Begin with `language`.
 """
 
-from collections.abc import Callable
+from functools import partial
 
 from contoursolve.controls.chain import ChainFinder, Language, forms_of
 from contoursolve.controls.common import COMMON_RULES
@@ -31,16 +31,11 @@ from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.rules import Rule
 
 
-def _signs_of(modes: Modes) -> Callable[[Block], tuple[Word, ...]]:
+def _signs(own: frozenset[str], block: Block) -> tuple[Word, ...]:
     """What shows a control: the words with a comma that it has."""
-    own = {address for address in modes.lexicon.addresses if address.startswith(",")}
-
-    def signs(block: Block) -> tuple[Word, ...]:
-        if "," not in block.text:
-            return ()
-        return tuple(word for word in block.words if word.address in own)
-
-    return signs
+    if "," not in block.text:
+        return ()
+    return tuple(word for word in block.words if word.address in own)
 
 
 def _control(
@@ -60,7 +55,7 @@ def _control(
         forms=forms_of(language, modes),
         rules=COMMON_RULES + rules,
         find=ChainFinder(language),
-        signs=_signs_of(modes),
+        signs=partial(_signs, frozenset(each for each in modes.lexicon.addresses if each.startswith(","))),
         contours=contours,
         settings=settings,
     )

@@ -1,6 +1,6 @@
 """Fanuc and Haas as languages of lines and arcs in a row, with their settings."""
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace as replace_fields
 from decimal import Decimal
 from math import radians, sin
@@ -8,7 +8,6 @@ from math import radians, sin
 from msgspec.structs import replace
 
 from contoursolve.controls.chain import Element, Joining, Language, Member
-from contoursolve.controls.chain.language import LINE_LINE
 from contoursolve.controls.fanuc.lexicon import (
     CORNERS,
     DRAWING,
@@ -144,13 +143,6 @@ def _lathe_conventions(form: ContourForm, _: Collection[str], modes: Modes) -> I
         yield Convention(LATHE_SETTINGS[1], "ray")
 
 
-TITLES: Mapping[str, str] = {
-    LINE_LINE: "vertex of two lines by their angles",
-    "line-angle": "line by its angle and one coordinate",
-    "corners": "chamfers and roundings",
-    "chain": "chain of lines by their angles",
-    "arc": "arc",
-}
 _COMMON = ("N", "G", "F", "S", "T", "M", "D", "H", "P", "E", "R", "I", "J", "K", ",C", ",R")
 
 _LINE, _ARC = Element(None, False, False), Element(Turn.CCW, False, False)
@@ -162,7 +154,6 @@ FANUC_LATHE_LANGUAGE = Language(
     planes={plane.code: plane for plane in LATHE_PLANES.values()},
     allowed=frozenset({*_COMMON, "X", "Z", "U", "W", ",A"}),
     joining=Joining.OPEN,
-    titles=TITLES,
     samples={
         (_LINE,): Sample(_ON_LATHE, ("G01 {X40.} {Z-17.3205} ,A150.",)),
         (_LINE, _LINE): Sample(_ON_LATHE, ("G01 {X30.} {Z-20.} {,A165.96} {,C2.} ,R3.", "{X50.} {Z-21.} {,A95.7}")),
@@ -182,7 +173,6 @@ FANUC_MILL_LANGUAGE = Language(
     planes={plane.code: plane for plane in PLANES.values()},
     allowed=frozenset({*_COMMON, "X", "Y", "Z"}),
     joining=Joining.OPEN,
-    titles=TITLES,
     angle="",
     samples={
         (_LINE, _LINE): Sample(_ON_MILL, ("G01 {X40.} {Y0} {,C6.} ,R5.", "{X60.} {Y20.}")),

@@ -51,8 +51,8 @@ CIRCLE_CIRCLE_Q = Setting(
     values={
         "left-is-negative": "Q<0 the point left of the way from the first centre to the second, Q>0 the one right",
         "right-is-negative": "Q<0 the point right of the way from the first centre to the second, Q>0 the one left",
-        CLOCKWISE: "Q<0 the point met first if the first circle is travelled clockwise from where its arc starts, Q>0 "
-        "the one met second",
+        CLOCKWISE: "Q<0 the point met first, clockwise along the first circle from its arc's start, Q>0 the one met "
+        "second",
     },
     default="left-is-negative",
     source=Source(MANUAL, "16.3.4: the page has not been seen", Evidence.ASSUMED),

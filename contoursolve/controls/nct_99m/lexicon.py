@@ -131,7 +131,7 @@ ASSUMPTIONS = (
     ),
     _row(
         "parallel-axis",
-        "U, V or W beside ,A stands for the axis of the plane to which it is parallel, where that has no word",
+        "U, V or W beside ,A stands for its parallel axis of the plane, where that has no word",
         "16.2, p. 120: X, Y, Z or their parallel axes",
         (LINE,),
         some(ON_PARALLEL_AXES),

@@ -59,7 +59,8 @@ _TOO_HIGH = Alarm("3084 ,C ,R TOO HIGH", Evidence.PRINTED)
 COMBINATION_RULES = (
     Rule(
         code="nct-compensation-off",
-        message="{words}: intersections are computed only if G41 or G42 is active before the first of the two blocks",
+        message="{words}: the control computes intersections only with G41 or G42 active before the first of the two "
+        "blocks",
         help="switch G41 or G42 on before that block; D00 keeps the path where it is",
         source=_manual("16.3: every format and example has it", Evidence.ASSUMED),
         roles=_OVER,
@@ -235,7 +236,7 @@ COMBINATION_RULES = (
     ),
     Rule(
         code="nct-angle-range",
-        message="{words} is more than a turn; it is taken as {within}, the same direction",
+        message="{words} is more than a turn; {within} is the same direction",
         help="write {within} if that is meant",
         source=_manual("16.2, 16.3: the range of ,A is not on the pages that we have", Evidence.ASSUMED),
         severity=Severity.WARNING,
@@ -325,7 +326,7 @@ COMBINATION_RULES = (
     ),
     Rule(
         code="nct-axis-outside-plane",
-        message="{words} moves an axis outside the plane in which the contour is computed",
+        message="{words} moves an axis outside the plane of the contour",
         help="move that axis in a block of its own; only a line by one coordinate and ,A may have one such word",
         source=_ASSUMED,
         roles=_ANY,
@@ -406,7 +407,7 @@ GEOMETRY_RULES = (
     ),
     Rule(
         code="nct-circle-degenerate",
-        message="{words} define no circle: the radius is 0, or the point is the start point",
+        message="{words} {define} no circle: the radius is 0, or the point is the start point",
         help="give a centre away from the start, or a point away from it",
         source=_manual("p. 26 (4.3): alarm 3012, end equals start"),
         alarm=_CIRCLE_R,
@@ -487,7 +488,7 @@ GEOMETRY_RULES = (
     ),
     Rule(
         code="nct-parallel",
-        message="{words} fit no point: the lines are parallel and {off} apart",
+        message="no {things} fits {words}: the lines are parallel and {off} apart",
         help="change an angle or a point",
         source=_GEOMETRY,
         about=RefusalKind.LINES_PARALLEL,
@@ -496,7 +497,7 @@ GEOMETRY_RULES = (
     ),
     Rule(
         code="nct-not-fixed",
-        message="{words} do not fix {free}: at these values they state the same line",
+        message="{words} {do} not fix {free}: at these values they state the same line",
         help="replace one of them by a word that says where on the line the point is",
         source=_manual("16.2", Evidence.DERIVED),
         about=RefusalKind.NOT_FIXED,
@@ -505,7 +506,7 @@ GEOMETRY_RULES = (
     ),
     Rule(
         code="nct-corner-too-large",
-        message="{subject} does not fit: {words} is {actual}, {fits} on its elements",
+        message="{subject} does not fit: {words} is {actual}, {fits} on {where}",
         help="{smaller}, or make the elements longer",
         source=_manual("16.1; alarm 3084"),
         alarm=_TOO_HIGH,
@@ -527,7 +528,7 @@ GEOMETRY_RULES = (
     ),
     Rule(
         code="nct-no-corner",
-        message="{words}: {subject} joins two elements of the same direction, so there is nothing to round or cut",
+        message="{words}: {subject} joins two elements of the same direction, so it is no corner",
         help="delete {words}",
         source=_manual("16.1: not described", Evidence.ASSUMED),
         about=RefusalKind.CORNER_STRAIGHT,

@@ -174,7 +174,7 @@ ARC_RULES = (
     ),
     Rule(
         code="arc-undefined",
-        message="{words} define no circle: the radius is 0, or the arc ends where it begins",
+        message="{words} {define} no circle: the radius is 0, or the arc ends where it begins",
         help="give an end away from the start, or a full circle by I and K",
         source=_ARCS,
         roles=(_ROLE,),

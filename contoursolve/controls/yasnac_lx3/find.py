@@ -160,7 +160,7 @@ def _left_alone(block: Block, motion: int | None) -> list[Word]:
 def _forgotten(name: str, alone: list[Word], block: Block, state: State, context: Context, modes: Modes) -> Diagnostic:
     """Words of multiple cornering without its code."""
     rule = context.row(ReadIssue.CODE_FORGOTTEN)
-    finding = report(context, rule, Basis.RULE, alone, code=name, stand="stand" if len(alone) > 1 else "stands")
+    finding = report(context, rule, Basis.RULE, alone, code=name)
     if name not in CORNERING:
         # Behind G11 and G12 nothing says which of the two is meant.
         return finding
@@ -177,8 +177,7 @@ def _forgotten(name: str, alone: list[Word], block: Block, state: State, context
 def _rapid(name: str, block: Block, context: Context) -> Diagnostic:
     """Axis words alone, under a G00 that was in force before the contour."""
     words = [word for word in block.words if word.address in AXIS_WORDS]
-    have = "have" if len(words) > 1 else "has"
-    finding = report(context, context.row(ReadIssue.RAPID_BEHIND), Basis.RULE, words, code=name, have=have)
+    finding = report(context, context.row(ReadIssue.RAPID_BEHIND), Basis.RULE, words, code=name)
     fix = Fix("write G01 if this is a cut", restate(block, 1).text, Applicability.CHANGES_CONTOUR)
     return replace(finding, fixes=(fix,))
 

@@ -177,7 +177,7 @@ _COMBINATION_RULES = (
     ),
     Rule(
         code="g111-corner-2-without-b",
-        message="{words:D Q}: corner 2 is not available, because {words:B} is ignored and X(U) and Z(W) give line 2",
+        message="{words:D Q}: corner 2 is not available: the control ignores {words:B}, and X(U) and Z(W) give line 2",
         help="delete {words:D Q}, or one of X(U) and Z(W)",
         source=manual("2.8.30, p. 140 (vi) and (iii)", Evidence.DERIVED),
         alarm=_COMBINATION,
@@ -188,7 +188,7 @@ _COMBINATION_RULES = (
     ),
     Rule(
         code="g111-a-ignored",
-        message="{words:A} is ignored, because I and K are given, too{comparison}",
+        message="the control ignores {words:A}, because I and K are given, too{comparison}",
         help="delete {words:A}, or one of I and K if the angle is what you mean",
         source=manual("2.8.30, p. 140 (v)"),
         severity=Severity.WARNING,
@@ -201,7 +201,7 @@ _COMBINATION_RULES = (
     ),
     Rule(
         code="g111-b-ignored",
-        message="{words:B} is ignored, because X(U) and Z(W) and two of A, I, K are given, too{comparison}",
+        message="the control ignores {words:B}, because X(U) and Z(W) and two of A, I, K are given, too{comparison}",
         help="delete {words:B}, or one word more if the angle is what you mean",
         source=manual("2.8.30, p. 140 (vi)"),
         severity=Severity.WARNING,
@@ -225,7 +225,7 @@ _COMBINATION_RULES = (
     ),
     Rule(
         code="g111-corner-sign",
-        message="{words} is negative; C, P, D and Q are written without sign",
+        message="{words} {are} negative; C, P, D and Q are written without sign",
         help="delete the minus sign: the lines tell on which side the corner lies",
         source=manual("2.8.30, Table 2.33: without sign; that it is an error", Evidence.ASSUMED),
         alarm=_COMBINATION,
@@ -274,7 +274,7 @@ _GEOMETRY_RULES = (
     ),
     Rule(
         code="g111-parallel",
-        message="{words} fit no point: the lines are parallel and {off} apart",
+        message="no {things} fits {words}: the lines are parallel and {off} apart",
         help="change an angle, or give the point by its distances I and K",
         source=manual("2.8.30, p. 146: no intersection", Evidence.DERIVED),
         alarm=_GEOMETRY,
@@ -285,7 +285,7 @@ _GEOMETRY_RULES = (
     ),
     Rule(
         code="g111-not-fixed",
-        message="{words} do not fix {free}: at these values they state the same line",
+        message="{words} {do} not fix {free}: at these values they state the same line",
         help="replace one of them by a word that says where on the line the point is",
         source=manual("2.8.30, p. 146: no intersection", Evidence.DERIVED),
         alarm=_GEOMETRY,
@@ -307,7 +307,7 @@ _GEOMETRY_RULES = (
     ),
     Rule(
         code="g111-corner-too-large",
-        message="{subject} does not fit: {words} is {actual}, {fits} on its lines",
+        message="{subject} does not fit: {words} is {actual}, {fits} on {where}",
         help="{smaller}, or make the lines longer",
         source=_FITS,
         alarm=_GEOMETRY,
@@ -329,7 +329,7 @@ _GEOMETRY_RULES = (
     ),
     Rule(
         code="g111-no-corner",
-        message="{words}: {subject} joins two lines of the same direction, so there is nothing to round or bevel",
+        message="{words}: {subject} joins two lines of the same direction, so it is no corner",
         help="delete {words}",
         source=manual("2.8.30, p. 146: no intersection", Evidence.DERIVED),
         alarm=_GEOMETRY,

@@ -249,7 +249,7 @@ _COMBINATION_RULES = (
     ),
     Rule(
         code="g112-corner-sign",
-        message="{words} is negative; C, P, D and Q are written without sign",
+        message="{words} {are} negative; C, P, D and Q are written without sign",
         help="delete the minus sign: the arc tells on which side the corner lies",
         source=manual("2.8.30, p. 144: without sign; that it is an error", Evidence.ASSUMED),
         alarm=_COMBINATION,
@@ -404,7 +404,7 @@ _GEOMETRY_RULES = (
     ),
     Rule(
         code="g112-no-corner",
-        message="{words}: at {subject} the line touches the arc, so there is nothing to round or bevel",
+        message="{words}: at {subject} the line touches the arc, so it is no corner",
         help="delete {words}",
         source=_FITS,
         alarm=_GEOMETRY,

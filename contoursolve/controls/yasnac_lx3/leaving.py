@@ -120,7 +120,7 @@ LEAVING_RULES = (
     ),
     Rule(
         code="g11-axis-missing",
-        message="{words:I K}: the block moves along no axis, so there is nothing to leave",
+        message="{words:I K}: the block moves along no axis that a corner could leave",
         help="add X(U) to a K, Z(W) to an I",
         source=_PAGE,
         roles=(_ROLE,),

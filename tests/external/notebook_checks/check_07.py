@@ -1,6 +1,6 @@
 """What must hold after notebook 07 has run, in its kernel."""
 
-V1, V2 = answer.contour.points["V1"], answer.contour.points["V2"]
+V1, V2 = answer.contour.points["P1"], answer.contour.points["V1"]
 assert abs(V1[0] + 30) < 1e-4
 assert V1[1] == 20
 assert V2 == (-47.3205, 50)  # X100. is a diameter

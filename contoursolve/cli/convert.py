@@ -1,0 +1,131 @@
+"""The command that writes a program for another control."""
+
+import click
+
+from contoursolve import api
+from contoursolve.cli.expand import report_left, report_misread, report_told, target_of
+from contoursolve.cli.options import (
+    FOUND_ERRORS,
+    CouldNotRunError,
+    control_option,
+    folder_of,
+    read,
+    rules_option,
+    settings_of,
+    settings_option,
+    units_option,
+)
+from contoursolve.cli.printing import say, style_of_output
+from contoursolve.controls import DIALECTS
+from contoursolve.controls.chain import ChainFinder
+from contoursolve.diagnosis.wording import count, join
+from contoursolve.gcode.files import CannotWriteError, write_whole
+from contoursolve.postprocess.expansion_report import Conversion
+from contoursolve.postprocess.post_processors import Post, post_of
+from contoursolve.program.recognise import UnknownControlError
+from contoursolve.reading.dialect import Dialect
+
+_TARGETS = tuple(name for name, dialect in DIALECTS.items() if isinstance(dialect.find, ChainFinder))
+
+
+@click.command(short_help="Write a program's contours in another control's own words.")
+@click.argument("program", metavar="OLD")
+@control_option("For which control.", "--to", _TARGETS)
+@control_option("The control of OLD. Without it, found from OLD where that is clear.")
+@units_option
+@rules_option
+@settings_option
+@click.option("-o", "--output", metavar="NEW", help="Where to write; without it, or with -, to standard output.")
+@click.option("--force", "is_forced", is_flag=True, help="Replace NEW if it exists.")
+@click.option("--no-comments", is_flag=True, help="Do not keep the original blocks as comments.")
+@click.pass_context
+def convert(
+    context: click.Context,
+    /,
+    program: str,
+    to: str | Dialect | None,
+    control: str | Dialect | None,
+    units: str,
+    rules: str,
+    assignments: tuple[str, ...],
+    output: str | None,
+    is_forced: bool,
+    no_comments: bool,
+) -> None:
+    """Write OLD (a file, or - for standard input) for another control of the same kind of machine.
+
+    Each contour is written in the words of the other control: lines by their ends or angles, corners by ,C and ,R. A
+    contour that it has no words for is written out as G01, G02 and G03, and named. All other lines stay as they are.
+    What the other control does not know in them is named, too.
+
+    The new program is read again as the other control reads it. If its path is not that of OLD to within 0.002 mm,
+    nothing is written.
+
+    Exit status: 0 written, 1 nothing was written, 2 could not run.
+
+    \b
+    contoursolve convert shaft.nc --to fanuc-lathe -o shaft_fanuc.nc
+    contoursolve convert plate.nc --control nct-99m --to fanuc-mill
+    """
+    if to is None:
+        raise click.UsageError(f"say for which control: --to {'|'.join(_TARGETS)}")
+    target, old = target_of(program, output, is_forced=is_forced), read(program)
+    try:
+        found = api.convert(
+            old.text,
+            to,
+            comments=not no_comments,
+            control=control,
+            units=units,
+            rules=rules,
+            settings=settings_of(folder_of(old), assignments),
+            name=old.name,
+        )
+    except UnknownControlError as error:
+        raise CouldNotRunError(f"{old.name}: {error}; say which with --control {'|'.join(error.choices)}") from None
+    except ValueError as error:
+        raise CouldNotRunError(f"{old.name}: {error}") from None
+    if found.text is None:
+        _report_failure(found, old.name, to)
+        context.exit(FOUND_ERRORS)
+    if target is None:
+        click.echo(found.text, nl=False)
+    else:
+        try:
+            write_whole(target, [found.text.encode()], keeps_backup=False)
+        except CannotWriteError as error:
+            raise CouldNotRunError(str(error)) from None
+        say(f"{target} written", err=True)
+    _report(found, to)
+
+
+def _report_failure(found: Conversion, name: str, to: str | Dialect) -> None:
+    """Why nothing was written, on standard error."""
+    style = style_of_output()
+    report_left(found.summary, name, style)
+    report_misread(found.summary, _post(to), style, is_kept=False)
+    difference = found.comparison.difference if found.comparison else None
+    if difference is not None:
+        lines = [
+            f"line {step.line} of {side}" for side, step in (("OLD", difference.old), ("NEW", difference.new)) if step
+        ]
+        say(f"the new program is another path: {difference.reason} ({join(lines)})", err=True)
+    say("nothing was written", err=True)
+
+
+def _report(found: Conversion, to: str | Dialect) -> None:
+    """What was done, on standard error."""
+    summary, post = found.summary, _post(to)
+    report_told(summary, post)
+    if not summary.replaced:
+        say("no contour block: nothing to convert", err=True)
+        return
+    done = f"{count(summary.in_words, 'contour')} in the words of {post.name}"
+    if summary.written_out:
+        lines = join([str(line) for line in summary.written_out])
+        done += f", {len(summary.written_out)} written out (program line {lines})"
+    say(f"{done}; the same path, at most {found.comparison.deviation:.1g} mm off", err=True)
+
+
+def _post(to: str | Dialect) -> Post:
+    return post_of(DIALECTS[to] if isinstance(to, str) else to)

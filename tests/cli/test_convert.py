@@ -1,0 +1,136 @@
+"""Programs in another control's own words: the same path, and nothing else changed."""
+
+from pathlib import Path
+from random import Random
+
+import pytest
+from click.testing import CliRunner
+from examples import few_and_many
+from generate_nct import random_chain, random_cornered
+from generate_typing import random_g111
+
+import contoursolve
+from contoursolve.cli import main
+
+ROOT = Path(__file__).parents[2]
+SHAFT = ROOT / "notebooks" / "programs" / "shaft.nc"
+STUD, PLATE = (ROOT / "docs" / "programs" / name for name in ("stud.nc", "plate.nc"))
+
+
+def run(*arguments):
+    done = CliRunner().invoke(main, [str(each) for each in arguments])
+    assert done.exception is None or isinstance(done.exception, SystemExit), done.exception
+    return done.exit_code, done.stdout, done.stderr
+
+
+def words(text, to, **options):
+    found = contoursolve.convert(text, to, comments=False, **options)
+    assert found.text is not None, (found.summary, found.comparison)
+    return found.text.split("\n")
+
+
+TAPER = "G00 X40. Z0.\nG111 X100. A180. K-30. B120. {}F0.2\nG01 Z-60."
+
+
+@pytest.mark.parametrize(
+    ("text", "to", "lines"),
+    [
+        (TAPER.format("P5. "), "fanuc-lathe", ["G01 X40. Z-30. ,R5. F0.2", "G01 X100. ,A120."]),
+        (TAPER.format("P5. "), "haas-lathe", ["G01 X40. Z-30. ,R5. F0.2", "G01 X100. A120."]),
+        # The last corner meets a line of another block: it is written out, the rest is not.
+        (
+            TAPER.format("P5. Q5. "),
+            "fanuc-lathe",
+            ["G01 X40. Z-30. ,R5. F0.2", "G01 X95. Z-45.877", "G03 X100. Z-50.207 I-2.5 K-4.33"],
+        ),
+        # A bevel along the axes is ,C between lines along the axes alone.
+        (
+            "G00 X60. Z0.\nG111 A180. K-20. C2. B90. X90.\nG01 Z-60.",
+            "fanuc-lathe",
+            ["G01 X60. Z-20. ,C2.", "G01 X90. Z-20."],
+        ),
+        # A vertex that no number states stays one: the angle stands, not a rounded point.
+        (
+            "G00 X20. Z0.\nG01 ,A150. ,R3.\nX90. Z-40. ,A100.\nG01 Z-60.",
+            "fanuc-lathe",
+            ["G01 ,A150. ,R3.", "G01 X90. Z-40. ,A100."],
+        ),
+    ],
+)
+def test_a_contour_is_written_in_the_words_of_the_target(text, to, lines):
+    start, *converted, last = words(text, to)
+    assert (start, converted, last) == (text.split("\n")[0], lines, text.split("\n")[-1])
+
+
+def test_what_the_target_has_no_words_for_is_written_out_and_named():
+    text = "G00 X100. Z-50.\nG112 U0 I10. K-50. R30. C5. D5.\nG01 Z-120."
+    found = contoursolve.convert(text, "fanuc-lathe")
+    assert (found.summary.in_words, found.summary.written_out) == (0, [2])
+    assert found.comparison.is_equal
+
+
+@pytest.mark.parametrize(("path", "control", "to"), [(SHAFT, None, "fanuc-lathe"), (STUD, None, "haas-lathe")])
+def test_everything_else_stays_as_it_was(path, control, to):
+    text = path.read_text(encoding="utf-8")
+    found = contoursolve.convert(text, to, control=control)
+    lines = found.text.split("\n")
+    contours = {line for answer in contoursolve.solve(text, control=control).answers for line in answer.lines}
+    for number, line in enumerate(text.split("\n"), 1):
+        kept = f"({line.replace('(', '[').replace(')', ']')})" if number in contours else line
+        assert kept in lines, line
+    assert found.summary.in_words > 0
+
+
+@few_and_many(12, 300)
+def test_a_converted_program_cuts_the_same_path(count, tmp_path):
+    """`convert` proves it by what it writes; here both are expanded, and the plain programs compared."""
+    rng = Random(count)
+    told = 0
+    for number in range(count):
+        if number % 3 == 0:
+            text, control, to = random_g111(rng).text(), "yasnac-lx3", ("fanuc-lathe", "haas-lathe")[number % 2]
+        else:
+            drawn = random_chain(rng, 3, 17, 0.6) if number % 3 == 1 else random_cornered(rng, 17)
+            text, control, to = drawn.text, "nct-99m", ("fanuc-mill", "haas-mill", "nct-99m")[number % 3]
+        if contoursolve.solve(text, control=control).has_errors:
+            continue
+        found = contoursolve.convert(text, to, control=control)
+        if found.text is None:
+            # What is no contour, such as a number without a point, may be read otherwise.
+            assert found.summary.misread or found.comparison.difference is not None, text
+            continue
+        told += 1
+        plain = []
+        for name, program, reader in (("one.nc", text, control), ("other.nc", found.text, to)):
+            plain += [tmp_path / name, *(() if plain else ("--control", reader))]
+            (tmp_path / name).write_text(contoursolve.expand(program, control=reader, comments=False).text)
+        status, output, _ = run("diff", *plain, "--new-control", to, "--tolerance", 0.004)
+        assert status == 0, (text, output)
+    assert told > count / 4
+
+
+def test_the_command_writes_a_file_and_says_what_became_of_it(tmp_path):
+    target = tmp_path / "new.nc"
+    status, output, told = run("convert", SHAFT, "--to", "fanuc-lathe", "-o", target)
+    assert (status, output) == (0, "")
+    assert "6 contours in the words of fanuc-lathe, 1 written out (program line 68); the same path" in told
+    assert run("diff", SHAFT, target, "--new-control", "fanuc-lathe", "--tolerance", "0.002")[0] == 0
+    status, _, told = run("convert", SHAFT, "--to", "fanuc-lathe", "-o", target)
+    assert (status, "--force" in told) == (2, True)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "status", "said"),
+    [
+        ((SHAFT, "--to", "fanuc-mill"), 2, "yasnac-lx3 is a lathe, fanuc-mill a mill"),
+        ((SHAFT,), 2, "say for which control: --to nct-99m|fanuc-lathe|fanuc-mill|haas-lathe|haas-mill"),
+        ((PLATE, "--to", "nct-99m"), 2, "say which with --control nct-99m|fanuc-mill|haas-mill"),
+        ((SHAFT.with_name("plate.nc"), "--to", "fanuc-mill"), 1, "has no point and is"),
+        ((SHAFT.with_name("shaft_broken.nc"), "--to", "fanuc-lathe"), 1, "nothing was written"),
+        (("missing.nc", "--to", "fanuc-mill"), 2, "no such file"),
+    ],
+)
+def test_nothing_is_written_where_it_could_be_wrong(arguments, status, said):
+    found, output, told = run("convert", *arguments)
+    assert (found, output) == (status, "")
+    assert said in told
