@@ -512,8 +512,9 @@ def test_an_example_and_what_it_is_expanded_to_are_the_same_path(name, post, tmp
     named = ["--control", control or LATHE]
     outcome = CliRunner().invoke(main, ["diff", str(old), str(new), *named])
     assert outcome.exit_code == 0, outcome.output
-    place = re.search(r"(?<=[^(]G01 X)-?\d+\.\d*", new.read_text())
-    new.write_text(f"{new.read_text()[: place.start()]}{float(place[0]) + 0.01}{new.read_text()[place.end() :]}")
+    text = new.read_text()
+    place = re.search(r"^(?:N\d+ )?G01 X(-?\d+\.\d*)", text, re.MULTILINE)
+    new.write_text(f"{text[: place.start(1)]}{float(place[1]) + 0.01}{text[place.end(1) :]}")
     assert CliRunner().invoke(main, ["diff", str(old), str(new), *named]).exit_code == 1
 
 
