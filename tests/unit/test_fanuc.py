@@ -565,3 +565,21 @@ def test_the_catalogue_explains_alarms_and_lists_the_words():
     listed = CliRunner().invoke(main, ["rules", "--control", LATHE, "--table"])
     assert listed.exit_code == 0
     assert "line-line" in listed.output
+
+
+@pytest.mark.parametrize("settings", [{}, {"angle-sense": "ray"}, {"guard-deg": "0"}])
+@few_and_many(20, 400)
+def test_many_contours_of_a_program_come_out_as_each_alone(settings, count):
+    """Programs with many contours of one form solve them together."""
+    rng, named = Random(f"{settings}"), {f"{LATHE}.{name}": value for name, value in settings.items()}
+    blocks = []
+    for _ in range(count):
+        first, second = (
+            rng.choice([rng.uniform(0, 360), 0.0, 90.0, 180.0, 179.5, 90.3, 150.0, -45.0]) for _ in range(2)
+        )
+        blocks.append(f"G00 X50. Z50.\nG01 ,A{first:.3f} ,R2.\nX80. Z{rng.choice((0, 150))}. ,A{second:.3f}")
+    together = solve("\n".join(blocks), control=LATHE, settings=named).answers
+    for text, answer in zip(blocks, together, strict=True):
+        (alone,) = solve(text, control=LATHE, settings=named).answers
+        assert (answer.status, elements(answer)) == (alone.status, elements(alone)), text
+        assert [each.code for each in answer.diagnostics] == [each.code for each in alone.diagnostics], text
