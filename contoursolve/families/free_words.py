@@ -117,10 +117,8 @@ def limits_of(template: Template, values: Mapping[str, float]) -> list[WordLimit
         if not stated and claim.limits and word.address != FACT:
             tied.append(name)
         found.append(WordLimits(float(one or 1), tuple(sorted(map(float, limits)))))
-    for one_, other in _compared(template, claim):
-        raise FamilyError(
-            f"the control compares {one_.text} and {other.text} with each other: vary one of them at a time"
-        )
+    for first, second in _compared(template, claim):
+        raise FamilyError(f"the control compares {first} and {second} with each other: vary one of them at a time")
     if len(tied) > 1:
         raise FamilyError(
             f"{' and '.join(tied)} together say on which side of its centre the arc ends: vary one of them at a time"
@@ -128,20 +126,20 @@ def limits_of(template: Template, values: Mapping[str, float]) -> list[WordLimit
     return found
 
 
-def _compared(template: Template, claim: ParsedContour) -> Iterator[tuple[Word, Word]]:
-    """The free words whose values a rule compares with each other."""
+def _compared(template: Template, claim: ParsedContour) -> Iterator[tuple[str, str]]:
+    """The free words, by their names, whose values a rule compares with each other."""
     stated = claim.stated()
     free = {
-        name: word for name, word in claim.words.items() if any(is_same(own, word) for own in template.words.values())
+        name: own for name, word in claim.words.items() for own, each in template.words.items() if is_same(each, word)
     }
     for role in claim.form.roles:
         calls = role.names(stated)
         seen = {call: stated[name] for call, name in calls.items()}
         for rule in template.dialect.rules:
             for pair in rule.when.compared(seen) if role.name in rule.roles and rule.when is not None else ():
-                words = [free[calls[call]] for call in pair if calls.get(call) in free]
-                if len(words) == len(pair):
-                    yield words[0], words[1]
+                names = [free[calls[call]] for call in pair if calls.get(call) in free]
+                if len(names) == len(pair):
+                    yield names[0], names[1]
 
 
 def _limits_beside(template: Template, claim: ParsedContour, word: Word) -> Iterator[Decimal]:

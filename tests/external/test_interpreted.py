@@ -8,12 +8,15 @@ from typing import NamedTuple
 
 import pytest
 from examples import few_and_many, some_of
+from examples_fanuc import EXAMPLES, drawn
 from fanuc import read
+from generate_fanuc import random_lathe, random_mill
 from generate_lx3 import FORMS as ARC_FORMS
 from generate_lx3 import random_g11, random_g112
 from generate_nct import FORMS, Drawn, random_chain, random_cornered, random_pair
 from interpreter import assert_path, interpret_all
 from oracle import Element, g111
+from oracle_fanuc import Machine, whole
 
 import contoursolve
 from contoursolve.comparison import Path, compare, follow
@@ -212,3 +215,64 @@ def path_of(text: str, control: str) -> Path:
     dialect = {**DIALECTS, **PLAIN}[control]
     result = run(parse(text), dialect, Length.MM, Policy.ENFORCE)
     return follow(result, dialect, Length.MM, ("X", "Y", "Z"))
+
+
+FANUC = ("fanuc-lathe", "fanuc-mill", "haas-lathe", "haas-mill")
+
+
+@cache
+def of_fanuc() -> list[tuple[str, str, list[Element], int]]:
+    """Control, program, path and plane; the path is that of the oracle, all lines and arcs, also without corners."""
+    rng, found = Random(17), list[tuple[str, str, list[Element], int]]()
+    for number in range(80):
+        control = FANUC[number % 4]
+        angle, plane = "A" if control == "haas-lathe" else ",A", 18
+        if control.endswith("lathe"):
+            lines = random_lathe(rng, rng.randint(2, 6), angle, meets=control == "fanuc-lathe")
+            machine = Machine(is_lathe=True, angle=angle, meets=control == "fanuc-lathe")
+        else:
+            plane = rng.choice((17, 18, 19))
+            straight = ["line"] if control == "haas-mill" else ["line", "line", "arc"]
+            lines = random_mill(rng, [rng.choice(straight) for _ in range(rng.randint(2, 6))], plane)
+            machine = Machine(is_lathe=False)
+        lines = [line.replace("F0.2", "") for line in lines if "G04" not in line]
+        path = whole(lines, machine)
+        assert path, lines
+        found.append((control, "F100\n" + "\n".join(lines) + "\n", list(path), plane))
+    for own, text, printed in EXAMPLES.values():
+        control = own or "fanuc-lathe"
+        lines = [line for line in text.splitlines() if re.match(r"(N\d+ )?(G(0[0-3]|1[78]|20) |[XYZ,])", line)]
+        lines = [
+            line.replace(" M08", "").replace("N5 Y0", "G01 Y0")
+            for line in lines
+            if not line.startswith(("N80", "G00 Z50.", "G01 Z-6."))
+        ]
+        plane, share = (18, 0.5) if control.endswith("lathe") else (17, 1)
+        # The whole programs begin with a line that is no part of a contour.
+        before = {"X16.": "16 2; ", "X-40": "-40 -10; "}.get(lines[0].split()[-2][:4], "")
+        found.append((control, "\n".join(["F100", *lines, ""]), drawn(before + printed, share), plane))
+    return found
+
+
+@pytest.mark.interpreter
+@pytest.mark.parametrize("post", ["linuxcnc", pytest.param("fanuc", marks=pytest.mark.slow)])
+def test_linuxcnc_runs_what_fanuc_and_haas_programs_are_expanded_to(post, tmp_path):
+    programs, paths = [], []
+    for control, text, path, plane in of_fanuc():
+        expansion = contoursolve.expand(text, post=post, control=control)
+        new = expansion.text
+        assert new is not None, text
+        target = contoursolve.expand(text, post="linuxcnc", control=control).summary
+        if any(each.text[0] in "UW" for each in target.unfamiliar):
+            continue  # a line without a corner stays as it is, and LinuxCNC has no U and W
+        new = re.sub(r"G4[12] |D0", "", new) if plane == 19 else new
+        mode = "G7 G18" if control.endswith("lathe") else "G8 G17"
+        programs.append(new if post == "linuxcnc" else f"{mode} G90 G91.1\n{new}")
+        paths.append(("G20" in text, path))
+    assert len(programs) > len(of_fanuc()) / 2
+    for (is_inch, path), motions in zip(paths, interpret_all(programs, tmp_path), strict=True):
+        expected = [(part.start, part.end, part.center, part.turn) for part in path]
+        within_mm = 2e-4 if post == "linuxcnc" else (1.5e-4 + 1e-4 if is_inch else 1.5e-3)
+        share = 25.4 if is_inch else 1
+        scaled = [(a / share, b / share, None if c is None else c / share, turn) for a, b, c, turn in expected]
+        assert_path([each for each in motions if each.kind != "traverse"], scaled, within_mm)

@@ -100,6 +100,23 @@ def run(program: Sequence[str], machine: Machine) -> Answer:
     return Answer(tuple(found), 0, walk.is_near)
 
 
+def whole(program: Sequence[str], machine: Machine) -> tuple[Element, ...]:
+    """All that a program cuts, also its lines and arcs beside contours; nothing where one is refused or in doubt."""
+    answer = run(program, machine)
+    if answer.refused or answer.is_near:
+        return ()
+    walk = _Walk(machine, plane=18 if machine.is_lathe else 17)
+    for line, text in enumerate(program, 1):
+        _take(walk, line, text)
+    outcome = Outcome()
+    connect(
+        [block.element for block in walk.blocks if block.element],
+        {k: block.corner for k, block in enumerate(walk.blocks) if block.corner},
+        outcome,
+    )
+    return tuple(outcome.elements)
+
+
 def _is_tied(block: _Block) -> bool:
     return block.corner is not None or block.is_open
 
@@ -124,6 +141,7 @@ def _take(walk: _Walk, line: int, text: str) -> None:
             fault = "twice" if address in words else fault
             words[address] = float(number) * (1.0 if address in (",A", "A") else walk.scale)
     if not words:
+        walk.is_near |= bool(walk.blocks and _is_tied(walk.blocks[-1]))  # a block that says nothing behind a corner
         return
     block = _Block(line, walk.motion, words, fault)
     if walk.motion == 0:

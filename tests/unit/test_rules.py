@@ -10,6 +10,10 @@ from contoursolve.controls.geometry_rules import GEOMETRY_RULES
 WITHOUT_REJECTED_EXAMPLE = {
     "not-verified": "an answer that fails its own equations is an error of contoursolve; no block is known to cause it",
     "fanuc-angle-redundant": "a setting forbids it; test_fanuc.py sets it",
+    **{
+        f"haas-{code}": "a setting allows corners beside arcs; test_fanuc.py sets it"
+        for code in ("center-and-radius", "circle-undefined", "radius-without-end")
+    },
     "count-open": "two forms of one block each: every fact about them leads to a closed form or a search that ends",
     "arc-radius-differs": "an arc is looked at where a rule refuses it; test_robust.py lets the rules warn only",
     "start-units": "the start point is stated apart from the program; test_command_line.py has it",

@@ -185,38 +185,45 @@ def _mill_rules(machine: _Machine) -> tuple[Rule, ...]:
     )
 
 
-_ARC_RULES = (
-    Rule(
-        code="fanuc-center-and-radius",
-        message="{words}: the arc has both a centre and a radius",
-        help="keep one of them",
-        source=_FANUC_MILL.source("arcs", Evidence.ASSUMED),
-        roles=(ARC,),
-        when=all_of(STATED_CENTER, "R"),
-        accepted=(_ARC_BEHIND,),
-        rejected=(_ARC_BEHIND + " R20.",),
-    ),
-    Rule(
-        code="fanuc-circle-undefined",
-        message="the arc has neither a centre nor a radius",
-        help="add I, J or K of the plane, or R; for a line write G01",
-        source=_FANUC_MILL.source("arcs", Evidence.ASSUMED),
-        roles=(ARC,),
-        when=~some(*STATED_CENTER, "R"),
-        accepted=(_ARC_BEHIND,),
-        rejected=(_ARC_BEHIND.replace(" I20. J0", ""),),
-    ),
-    Rule(
-        code="fanuc-radius-without-end",
-        message="{words}: with R the arc needs its end",
-        help="add the coordinates of its end, or give the centre instead",
-        source=_FANUC_MILL.source("arcs", Evidence.ASSUMED),
-        roles=(ARC,),
-        when=some("R") & ~some(*STATED_POINT),
-        accepted=(_ARC_BEHIND,),
-        rejected=(_ARC_BEHIND.replace("X60. Y20. I20. J0", "R20."),),
-    ),
-)
+def _arc_rules(machine: _Machine) -> tuple[Rule, ...]:
+    """The rows about what an arc states, where corners may stand beside it."""
+    good = _ARC_BEHIND if machine.has_alarms else machine.cut
+    rows = (
+        (
+            "center-and-radius",
+            "{words}: the arc has both a centre and a radius",
+            "keep one of them",
+            all_of(STATED_CENTER, "R"),
+            _ARC_BEHIND + " R20.",
+        ),
+        (
+            "circle-undefined",
+            "the arc has neither a centre nor a radius",
+            "add I, J or K of the plane, or R; for a line write G01",
+            ~some(*STATED_CENTER, "R"),
+            _ARC_BEHIND.replace(" I20. J0", ""),
+        ),
+        (
+            "radius-without-end",
+            "{words}: with R the arc needs its end",
+            "add the coordinates of its end, or give the centre instead",
+            some("R") & ~some(*STATED_POINT),
+            _ARC_BEHIND.replace("X60. Y20. I20. J0", "R20."),
+        ),
+    )
+    return tuple(
+        Rule(
+            code=f"{machine.prefix}-{code}",
+            message=message,
+            help=advice,
+            source=machine.source("arcs", Evidence.ASSUMED),
+            roles=(ARC,),
+            when=when & ~some(STRAIGHT_ONLY),
+            accepted=(good,),
+            rejected=(rejected,) if machine.has_alarms else (),
+        )
+        for code, message, advice, when, rejected in rows
+    )
 
 
 def _straight_only(machine: _Machine) -> Rule:
@@ -447,7 +454,7 @@ FANUC_LATHE_RULES = (
 FANUC_MILL_RULES = (
     *_corner_rules(_FANUC_MILL),
     *_mill_rules(_FANUC_MILL),
-    *_ARC_RULES,
+    *_arc_rules(_FANUC_MILL),
     *_geometry(_FANUC_MILL, _MILL_EXAMPLES),
     *_ENDING,
 )
@@ -462,6 +469,7 @@ HAAS_LATHE_RULES = (
 HAAS_MILL_RULES = (
     *_corner_rules(_HAAS_MILL),
     *_mill_rules(_HAAS_MILL),
+    *_arc_rules(_HAAS_MILL),
     _straight_only(_HAAS_MILL),
     *_geometry(_HAAS_MILL, {RefusalKind.CORNERS_OVERLAP: _MILL_EXAMPLES[RefusalKind.CORNERS_OVERLAP]}),
     *_ENDING,
