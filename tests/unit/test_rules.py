@@ -10,6 +10,9 @@ from contoursolve.controls.geometry_rules import GEOMETRY_RULES
 WITHOUT_REJECTED_EXAMPLE = {
     "not-verified": "an answer that fails its own equations is an error of contoursolve; no block is known to cause it",
     "fanuc-angle-redundant": "a setting forbids it; test_fanuc.py sets it",
+    "mitsubishi-corner-arc": "a setting forbids it; test_mitsubishi.py sets it",
+    "mitsubishi-chamfer-along-arc": "the same",
+    "mitsubishi-h-missing": "the same",
     "count-open": "two forms of one block each: every fact about them leads to a closed form or a search that ends",
     "arc-radius-differs": "an arc is looked at where a rule refuses it; test_robust.py lets the rules warn only",
     "start-units": "the start point is stated apart from the program; test_command_line.py has it",
@@ -24,6 +27,7 @@ ALARMS = {
     "fanuc-mill": {"039", "051", "053", "055"},
     "haas-lathe": set(),
     "haas-mill": set(),
+    "mitsubishi": {"P33", "P392", "P393", "P394", "P395", "P396", "P397"},
 }
 """The alarm numbers on the pages that we have; no other may be invented."""
 
