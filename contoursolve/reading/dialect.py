@@ -54,6 +54,8 @@ class Dialect:
     find: Finder
     signs: Callable[[Block], Sequence[Word]]
     """The words of a block that make a contour for this control."""
+    rare: frozenset[str] = frozenset()
+    """Words that it has, too, but by which another control is known."""
     contours: str = ""
     """What shows a contour block, for a reader."""
     settings: tuple[Setting, ...] = ()

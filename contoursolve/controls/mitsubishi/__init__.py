@@ -13,11 +13,11 @@ from contoursolve.reading.dialect import Dialect
 
 
 def _signs(block: Block) -> tuple[Word, ...]:
-    """H beside an arc about its centre is a word of this control alone; a plain A may be a rotary axis."""
+    """H beside an arc about its centre is a word of this control alone; a plain A may be that of a rotary axis."""
     codes = {word.number for word in block.words if word.address == "G"}
     stated = {word.address for word in block.words}
     is_picked = codes <= {2, 3, 90} and codes & {2, 3} and stated & {"I", "J", "K"}
-    shown = {"H"} if is_picked else {",A", ",C", ",R"} if "," in block.text else set()
+    shown = {"H"} if is_picked else {",C", ",R"} if "," in block.text else set()
     return tuple(word for word in block.words if word.address in shown)
 
 
@@ -30,6 +30,7 @@ MITSUBISHI = Dialect(
     rules=RULES,
     find=ChainFinder(LANGUAGE),
     signs=_signs,
+    rare=frozenset({",A"}),
     contours="lines with A or ,A, arcs without an end, H0 and H1 beside an arc, and ,C or ,R",
     settings=SETTINGS,
 )
