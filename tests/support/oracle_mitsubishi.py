@@ -129,7 +129,9 @@ def random_block(rng: Random, form: str, plane: int = 17) -> Drawn:
             start, end = (far, on) if form == "IB 4" else (on, far)
         head = f"G{plane} G90 G00 {at(start)}\n"
         hub_ = contact(far, way, on, size, side, is_long=is_long)
-        text = f"G01 A{angle}\n{turn} {at(end)} {signed}" if form == "IB 4" else f"{turn} {signed}\nG01 {at(end)} A{angle}"
+        text = (
+            f"G01 A{angle}\n{turn} {at(end)} {signed}" if form == "IB 4" else f"{turn} {signed}\nG01 {at(end)} A{angle}"
+        )
         height = cross(way, on - far) * side
         is_near = min(abs(height), abs(height - 2 * size)) < CLEAR
         if hub_ is not None:

@@ -82,22 +82,20 @@ def compose(language: Language, elements: tuple[Element, ...], modes: Modes) -> 
         is_ray=language.is_ray(modes),
         guard=language.guard(modes),
         contact=language.contact(modes),
-        counts_from_end=language.counts_from_end(modes),
     )
     return _compose(language, elements, options)
 
 
 class _Options(Struct, frozen=True):
     """What settings decide: by how much the radii at two points of an arc may differ, whether the intersections of two
-    circles count clockwise, whether lines must run as their angles say, how smooth a joint has no corner, by how much
-    two circles may miss a contact, and whether the centre of an arc without an end is counted from that end."""
+    circles count clockwise, whether lines must run as their angles say, how smooth a joint has no corner, and by how
+    much two circles may miss a contact."""
 
     slack: float
     counts_clockwise: bool
     is_ray: bool
     guard: float
     contact: float
-    counts_from_end: bool
 
 
 @lru_cache(maxsize=4096)
@@ -184,7 +182,7 @@ def _stated(
 ) -> Iterator[FactRow]:
     """What the blocks state, in the order in which it is believed."""
     for element, each in zip(elements, names, strict=True):
-        yield from _own_facts(language, element, each, options)
+        yield from _own_facts(language, element, each)
     for element, each, is_directed in zip(elements, names, _directed(elements), strict=True):
         if element.turn is not None:
             # That it passes a point where it touches another element follows from the contact.
@@ -229,7 +227,7 @@ def _checked(elements: Sequence[Element], names: Sequence[Names], slack: float) 
             yield FactRow(OnCircle(each.own, each.center, each.radius, slack=slack), needs)
 
 
-def _own_facts(language: Language, element: Element, names: Names, options: _Options) -> Iterator[FactRow]:
+def _own_facts(language: Language, element: Element, names: Names) -> Iterator[FactRow]:
     q = names.prefix
     if element.turn is not None:
         for order, axis in _ORDERS:
@@ -237,8 +235,8 @@ def _own_facts(language: Language, element: Element, names: Names, options: _Opt
             if element.is_over and language.joining is Joining.OVER_DEFINED:
                 yield FactRow(Coordinate(given, names.center, axis), (given,))
                 continue
-            is_from_end = element.is_over or (element.is_followed and options.counts_from_end)
-            yield FactRow(Offset(given, names.center, names.head if is_from_end else names.tail, axis), (given,))
+            origin = names.head if element.is_over else names.tail
+            yield FactRow(Offset(given, names.center, origin, axis), (given,))
         yield FactRow(Radius(f"{q}R", names.radius), (f"{q}R",))
     for order, axis in _ORDERS:
         yield FactRow(Coordinate(f"{q}{order}", names.own, axis), (f"{q}{order}",))

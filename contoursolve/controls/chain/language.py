@@ -149,8 +149,6 @@ class Language:
     line."""
     contact: Callable[[Modes], float] = _no_guard
     """By how much, mm, two circles that are both known may miss a contact."""
-    counts_from_end: Callable[[Modes], bool] = _never
-    """Whether the centre of an arc without an end is counted from that end."""
     choose_side: Callable[[str, bool, Modes], Side] | None = None
     """(role of two blocks, whether the selector is negative, modes) to the intersection that it chooses."""
     counts_clockwise: Callable[[Modes], bool] = _never

@@ -25,6 +25,7 @@ from contoursolve.reading.rules import some
 
 PICK_REQUIRED, STRAIGHT_ONLY = "@pick-required", "@straight-only"
 UNGUARDED, ALONG_ARC, PICKS_NOTHING = "@unguarded", "@along-arc", "@picks-nothing"
+FROM_END = "@from-end"
 INCREMENTAL, HIGH_SPEED = "@incremental", "@high-speed"
 
 
@@ -67,7 +68,7 @@ _ANGLE_WORD = _setting(
 _FIRST_CENTER = _setting(
     "first-centre",
     "what I, J and K of an arc without an end are counted from",
-    {"start": "where the arc starts", "end": "where it ends, as the page prints it"},
+    {"start": "where the arc starts", "end": "where it ends, as printed; contoursolve does not compute this"},
     derived("p. 390: the end is what is computed"),
 )
 _PICK = _setting(
@@ -123,6 +124,7 @@ def _circumstances(member: Member, _: Sequence[State], modes: Modes) -> Iterator
     holds = {
         PICK_REQUIRED: _is(_PICK, modes),
         STRAIGHT_ONLY: _is(_CORNER, modes),
+        FROM_END: _is(_FIRST_CENTER, modes),
         ALONG_ARC: _is(_ARC_CHAMFER, modes),
         INCREMENTAL: member.here.is_incremental,
         HIGH_SPEED: any(word.address == "G" and word.number == 5 for word in member.block.words),  # noqa: PLR2004 - G05
@@ -135,8 +137,7 @@ def _circumstances(member: Member, _: Sequence[State], modes: Modes) -> Iterator
 def _conventions(form: ContourForm, _: Collection[str], modes: Modes) -> Iterator[Convention]:
     """Of those about the geometry, the ones that were set."""
     roles = {role.name for role in form.roles}
-    arcs = bool(roles & {CIRCLE_LINE, CIRCLE_CIRCLE})
-    about = ((_SENSE, True), (_FIRST_CENTER, arcs), (CONTACT, CIRCLE_CIRCLE in roles))
+    about = ((_SENSE, True), (CONTACT, CIRCLE_CIRCLE in roles))
     return (modes.convention(setting) for setting, is_here in about if is_here and _is(setting, modes))
 
 
@@ -198,7 +199,6 @@ LANGUAGE = Language(
     circumstances=_circumstances,
     conventions=_conventions,
     contact=lambda modes: float(modes.convention(CONTACT).value),
-    counts_from_end=lambda modes: _is(_FIRST_CENTER, modes),
     is_ray=lambda modes: _is(_SENSE, modes),
     passes=frozenset({4}),
 )

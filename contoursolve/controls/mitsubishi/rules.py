@@ -23,6 +23,7 @@ from contoursolve.controls.common import COMMON_RULES
 from contoursolve.controls.geometry_rules import GEOMETRY_RULES
 from contoursolve.controls.mitsubishi.language import (
     ALONG_ARC,
+    FROM_END,
     HIGH_SPEED,
     INCREMENTAL,
     PICK_REQUIRED,
@@ -244,6 +245,12 @@ _ROWS = (
         derived("p. 390"), some("1:center-first", "1:center-second") & ~some("1:H"), (CIRCLE_LINE, CIRCLE_CIRCLE),
         _LEAVING, (" H0", ""), _ARCS_TOUCH,
         severity=Severity.WARNING,
+    ),
+    _row(
+        "centre-from-end",
+        "{words}: a centre that is counted from the end to be found is not computed",
+        "set first-centre=start, or write both blocks out",
+        derived("p. 390"), some(*STATED_CENTER) & some(FOLLOWED) & some(FROM_END), (ARC,), _LEAVING,
     ),
     _row(
         "angles-parallel",
