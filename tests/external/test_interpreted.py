@@ -14,6 +14,8 @@ from generate_lx3 import random_g11, random_g112
 from generate_nct import FORMS, Drawn, random_chain, random_cornered, random_pair
 from interpreter import assert_path, interpret_all
 from oracle import Element, g111
+from oracle_mitsubishi import FORMS as PAIRS
+from oracle_mitsubishi import random_block
 
 import contoursolve
 from contoursolve.comparison import Path, compare, follow
@@ -174,6 +176,21 @@ def test_linuxcnc_runs_every_program_where_it_was_drawn(post, arcs, tmp_path):
     for each, motions in zip(drawings(), interpret_all(programs, tmp_path), strict=True):
         path = [(part.start, part.end, part.center, part.turn) for part in each.path]
         assert_path(motions[1:], path, within(each, post))
+
+
+@pytest.mark.interpreter
+@few_and_many(3, 60)
+def test_linuxcnc_runs_blocks_in_pairs_where_they_were_drawn(count, tmp_path):
+    blocks = [random_block(Random(number), form, 17 + number % 2) for form in PAIRS for number in range(count)]
+    drawn = [each for each in blocks if each.elements and not each.is_near]
+    assert len(drawn) >= len(blocks) / 3
+    programs = []
+    for each in drawn:
+        text = contoursolve.expand(f"G21 F100\n{each.text}\n", post="linuxcnc", control="mitsubishi").text
+        assert text is not None, each.text
+        programs.append(text)
+    for each, motions in zip(drawn, interpret_all(programs, tmp_path), strict=True):
+        assert_path(motions[1:], [(part.start, part.end, part.center, part.turn) for part in each.elements], 2e-4)
 
 
 @pytest.mark.parametrize("arcs", ["center", "radius"])

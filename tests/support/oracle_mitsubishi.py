@@ -74,103 +74,120 @@ def touch_point(known: complex, own: float, other: complex, radius: float, side:
 
 
 def random_block(rng: Random, form: str, plane: int = 17) -> Drawn:
-    """Two blocks of a form, drawn first and then written with three decimals."""
-    x, y, i, j = AXES[plane]
-
-    def place(size: float = 60) -> complex:
-        return complex(round(rng.uniform(-size, size), 3), round(rng.uniform(-size, size), 3))
-
-    def at(point: complex) -> str:
-        return f"{x}{point.real:.3f} {y}{point.imag:.3f}"
-
-    def arm(point: complex) -> str:
-        return f"{i}{point.real:.3f} {j}{point.imag:.3f}"
-
-    def arc(start: complex, end: complex, center: complex, sense: int) -> Element:
-        return Element("arc", start, end, center, abs(start - center), "ccw" if sense > 0 else "cw")
-
-    start, end, angle = place(), place(), round(rng.uniform(-180, 180), 3)
-    sense, is_long, pick = rng.choice((1, -1)), rng.random() < 0.3, rng.choice((0, 1))
-    turn, other = ("G03", "G02") if sense > 0 else ("G02", "G03")
-    size = round(rng.uniform(5, 50), 3)
-    signed = f"R{'-' if is_long else ''}{size:.3f}"
-    elements: list[Element] = []
-    is_near = False
-    head = f"G{plane} G90 G00 {at(start)}\n"
+    """Two blocks of a form, most of them drawn first, and then written with three decimals."""
+    draw = _Draw(rng, plane)
     if form == "I":
-        angle, second = float(rng.randint(-179, 179)), float(rng.randint(-179, 179))
-        text = f"G01 A{angle}\n{at(end)} A{second}"
-        if (angle - second) % 180:
-            meet = vertex(start, angle, end, second)
-            elements = [Element("line", start, meet), Element("line", meet, end)]
-            is_near = abs(meet) > 1e4 or (angle - second) % 180 in (1, 179)
-    elif form in ("IB 2", "IB 3"):
-        bow = place(40)
-        center = (end if form == "IB 2" else start) + bow
-        far, on = (start, end) if form == "IB 2" else (end, start)
-        meet_ = crossing(far, angle, center, abs(bow), is_longer=bool(pick))
-        line, curve = f"G01 A{angle}", f"{turn} {arm(bow)} H{pick}"
-        text = f"{line}\n{curve} {at(end)}" if form == "IB 2" else f"{curve}\n{line} {at(end)}"
-        gap = abs(abs(cross(heading(angle), center - far)) - abs(bow))
-        is_near = gap < CLEAR or abs(dot(center - far, heading(angle))) < CLEAR
-        if meet_ is not None:
-            is_near |= min(abs(meet_ - on), abs(meet_ - far)) < CLEAR
-            straight = Element("line", *((far, meet_) if form == "IB 2" else (meet_, far)))
-            bowed = arc(*((meet_, end) if form == "IB 2" else (start, meet_)), center, sense)
-            elements = [straight, bowed] if form == "IB 2" else [bowed, straight]
-    elif form in ("IB 4", "IB 5"):
-        way = heading(angle) if form == "IB 4" else -heading(angle)
-        side = sense if form == "IB 4" else -sense
-        far, on = (start, end) if form == "IB 4" else (end, start)
-        if rng.random() < 0.7:
-            # An end that the arc reaches.
-            on = far + way * (complex(rng.uniform(1, 80), side * size) + size * heading(rng.uniform(0, 360)))
-            on = complex(round(on.real, 3), round(on.imag, 3))
-            start, end = (far, on) if form == "IB 4" else (on, far)
-        head = f"G{plane} G90 G00 {at(start)}\n"
-        hub_ = contact(far, way, on, size, side, is_long=is_long)
-        text = (
-            f"G01 A{angle}\n{turn} {at(end)} {signed}" if form == "IB 4" else f"{turn} {signed}\nG01 {at(end)} A{angle}"
-        )
+        return draw.vertex()
+    if form in ("IB 2", "IB 3"):
+        return draw.crossing(is_line_first=form == "IB 2")
+    if form in ("IB 4", "IB 5"):
+        return draw.contact(is_line_first=form == "IB 4")
+    return draw.arcs(is_first_known=form == "IB 1 centre")
+
+
+class _Draw:
+    """Random words and what they say; of two blocks the second may be drawn first, against the way of travel."""
+
+    def __init__(self, rng: Random, plane: int) -> None:
+        self.rng, self.plane, self.letters = rng, plane, AXES[plane]
+        self.angle = round(rng.uniform(-180, 180), 3)
+        self.sense, self.is_long = rng.choice((1, -1)), rng.random() < 0.3
+        self.size = round(rng.uniform(5, 50), 3)
+        self.signed = f"R{'-' if self.is_long else ''}{self.size:.3f}"
+
+    def place(self, size: float = 60) -> complex:
+        return complex(round(self.rng.uniform(-size, size), 3), round(self.rng.uniform(-size, size), 3))
+
+    def words(self, point: complex, names: slice = slice(0, 2)) -> str:
+        first, second = self.letters[names]
+        return f"{first}{point.real:.3f} {second}{point.imag:.3f}"
+
+    def arm(self, to: complex) -> str:
+        return self.words(to, slice(2, 4))
+
+    def drawn(self, start: complex, text: str, elements: list[Element], *, is_near: bool) -> Drawn:
+        return Drawn(f"G{self.plane} G90 G00 {self.words(start)}\n{text}", elements, is_near)
+
+    def vertex(self) -> Drawn:
+        start, end = self.place(), self.place()
+        first, second = (float(self.rng.randint(-179, 179)) for _ in range(2))
+        text, apart = f"G01 A{first}\n{self.words(end)} A{second}", (first - second) % 180
+        if not apart:
+            return self.drawn(start, text, [], is_near=False)
+        meet = vertex(start, first, end, second)
+        lines = [Element("line", start, meet), Element("line", meet, end)]
+        return self.drawn(start, text, lines, is_near=abs(meet) > 1e4 or apart in (1, 179))
+
+    def crossing(self, *, is_line_first: bool) -> Drawn:
+        start, end, bow, pick = self.place(), self.place(), self.place(40), self.rng.choice((0, 1))
+        far, on = (start, end) if is_line_first else (end, start)
+        center, own = on + bow, abs(bow)
+        line, curve = f"G01 A{self.angle}", f"{_turn(self.sense)} {self.arm(bow)} H{pick}"
+        text = f"{line}\n{curve} {self.words(end)}" if is_line_first else f"{curve}\n{line} {self.words(end)}"
+        meet = crossing(far, self.angle, center, own, is_longer=bool(pick))
+        gap = abs(abs(cross(heading(self.angle), center - far)) - own)
+        near = min(gap, abs(dot(center - far, heading(self.angle)))) < CLEAR
+        if meet is None:
+            return self.drawn(start, text, [], is_near=near)
+        near |= min(abs(meet - on), abs(meet - far)) < CLEAR
+        return self.drawn(start, text, self._pair(start, meet, end, center, is_line_first), is_near=near)
+
+    def _pair(self, start: complex, meet: complex, end: complex, center: complex, is_line_first: bool) -> list[Element]:
+        if is_line_first:
+            return [Element("line", start, meet), _arc(meet, end, center, self.sense)]
+        return [_arc(start, meet, center, self.sense), Element("line", meet, end)]
+
+    def contact(self, *, is_line_first: bool) -> Drawn:
+        way, side = (heading(self.angle), self.sense) if is_line_first else (-heading(self.angle), -self.sense)
+        far, on, size = self.place(), self.place(), self.size
+        if self.rng.random() < 0.7:
+            bent = size * heading(self.rng.uniform(0, 360))
+            on = _rounded(far + way * (complex(self.rng.uniform(1, 80), side * size) + bent))
+        start, end = (far, on) if is_line_first else (on, far)
+        place = f"{self.words(end)}"
+        text = f"G01 A{self.angle}\n{_turn(self.sense)} {place} {self.signed}"
+        if not is_line_first:
+            text = f"{_turn(self.sense)} {self.signed}\nG01 {place} A{self.angle}"
+        hub = contact(far, way, on, size, side, is_long=self.is_long)
         height = cross(way, on - far) * side
-        is_near = min(abs(height), abs(height - 2 * size)) < CLEAR
-        if hub_ is not None:
-            length = dot(hub_ - far, way)
-            meet = far + way * length
-            is_near |= abs(length) < CLEAR or abs(meet - on) < CLEAR
-            if length > 0:
-                straight = Element("line", *((far, meet) if form == "IB 4" else (meet, far)))
-                bowed = arc(*((meet, end) if form == "IB 4" else (start, meet)), hub_, sense)
-                elements = [straight, bowed] if form == "IB 4" else [bowed, straight]
-    else:
-        is_equal = rng.random() < 0.4
-        contact_side = -1 if is_equal else 1
-        words = (turn, turn if is_equal else other)
-        first_known = form == "IB 1 centre"
-        bow = place(40)
-        fixed, on = (start, end) if first_known else (end, start)
-        known = fixed + bow
-        own = abs(bow)
-        if rng.random() < 0.7:
-            touch = known + own * heading(rng.uniform(0, 360))
-            hub = touch + (touch - known) / own * size * contact_side
-            on = hub + size * heading(rng.uniform(0, 360))
-            on = complex(round(on.real, 3), round(on.imag, 3))
-        start, end = (fixed, on) if first_known else (on, fixed)
-        head = f"G{plane} G90 G00 {at(start)}\n"
-        text = (
-            f"{words[0]} {arm(bow)}\n{words[1]} {at(end)} {signed}"
-            if first_known
-            else f"{words[0]} {signed}\n{words[1]} {at(end)} {arm(bow)}"
-        )
-        senses = (sense, sense if is_equal else -sense)
-        reach, apart = abs(own + contact_side * size), abs(on - known)
-        is_near = min(abs(apart - reach - size), abs(apart - abs(reach - size)), reach) < CLEAR
-        for hub in touching(known, own, on, size, contact_side):
-            meet = touch_point(known, own, hub, size, contact_side)
-            is_near |= min(abs(meet - start), abs(meet - end)) < CLEAR
-            turned = swept(meet, end, hub, senses[1]) if first_known else swept(start, meet, hub, senses[0])
-            if (turned > tau / 2) is is_long:
-                hubs = (known, hub) if first_known else (hub, known)
-                elements = [arc(start, meet, hubs[0], senses[0]), arc(meet, end, hubs[1], senses[1])]
-    return Drawn(head + text, elements, is_near)
+        near = min(abs(height), abs(height - 2 * size)) < CLEAR
+        length = dot(hub - far, way) if hub is not None else 0.0
+        meet = far + way * length
+        if hub is None or length <= 0:
+            return self.drawn(start, text, [], is_near=near or 0 < abs(length) < CLEAR)
+        near |= length < CLEAR or abs(meet - on) < CLEAR
+        return self.drawn(start, text, self._pair(start, meet, end, hub, is_line_first), is_near=near)
+
+    def arcs(self, *, is_first_known: bool) -> Drawn:
+        fixed, on, bow, size = self.place(), self.place(), self.place(40), self.size
+        known, own, side = fixed + bow, abs(bow), self.rng.choice((1, -1))
+        senses = (self.sense, -side * self.sense)
+        if self.rng.random() < 0.7:
+            hub = known + (own + side * size) * heading(self.rng.uniform(0, 360))
+            on = _rounded(hub + size * heading(self.rng.uniform(0, 360)))
+        start, end = (fixed, on) if is_first_known else (on, fixed)
+        shapes = (self.arm(bow), self.signed) if is_first_known else (self.signed, self.arm(bow))
+        text = f"{_turn(senses[0])} {shapes[0]}\n{_turn(senses[1])} {self.words(end)} {shapes[1]}"
+        reach, apart = abs(own + side * size), abs(on - known)
+        near = min(abs(apart - reach - size), abs(apart - abs(reach - size)), reach) < CLEAR
+        elements: list[Element] = []
+        for hub in touching(known, own, on, size, side):
+            meet = touch_point(known, own, hub, size, side)
+            near |= min(abs(meet - start), abs(meet - end)) < CLEAR
+            turned = swept(meet, end, hub, senses[1]) if is_first_known else swept(start, meet, hub, senses[0])
+            if (turned > tau / 2) is self.is_long:
+                first, second = (known, hub) if is_first_known else (hub, known)
+                elements = [_arc(start, meet, first, senses[0]), _arc(meet, end, second, senses[1])]
+        return self.drawn(start, text, elements, is_near=near)
+
+
+def _turn(sense: int) -> str:
+    return "G03" if sense > 0 else "G02"
+
+
+def _rounded(point: complex) -> complex:
+    return complex(round(point.real, 3), round(point.imag, 3))
+
+
+def _arc(start: complex, end: complex, center: complex, sense: int) -> Element:
+    return Element("arc", start, end, center, abs(start - center), "ccw" if sense > 0 else "cw")
