@@ -221,6 +221,8 @@ def test_a_full_circle_is_one_unless_what_follows_shows_that_it_is_none():
     full = "G17 G90 G00 X0 Y0\nG03 I-20.\nG01 X30. Y10."
     assert mitsubishi(full).answers == ()
     assert "mitsubishi-no-full-circle" in codes(ARCS)
+    assert mitsubishi(ARCS, arc_without_end="circle").answers == ()
+    assert ends(LEAVING) == ends(LEAVING, arc_without_end="circle", angle_word="A")
 
 
 # For which control ------------------------------------------------------------------------------------------------

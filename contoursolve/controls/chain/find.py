@@ -146,7 +146,7 @@ class ChainFinder:
         first, second = _stated(last.block), _stated(following)
         if last.element.turn is None or first & {"R", self.language.picks}:
             return last.here.motion != 0
-        if not first & {*last.here.plane.centers} or not second >= {*here.plane.axes}:
+        if self.language.closes or not first & {*last.here.plane.centers} or not second >= {*here.plane.axes}:
             return False
         drawing = {*here.plane.centers, "R"} if here.motion in _TURNS else {*self.language.angles}
         return here.motion != 0 and bool(second & drawing)

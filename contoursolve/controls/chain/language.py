@@ -147,6 +147,8 @@ class Language:
     picks: str = ""
     """The address that chooses an intersection by its value in either of two blocks: 0 or 1, the shorter or the longer
     line."""
+    closes: bool = False
+    """Whether an arc about its centre without an end is a full circle, unless that address is in its block."""
     contact: Callable[[Modes], float] = _no_guard
     """By how much, mm, two circles that are both known may miss a contact."""
     choose_side: Callable[[str, bool, Modes], Side] | None = None

@@ -1,8 +1,9 @@
 """Mitsubishi as a language of lines and arcs in a row: what meets, what touches, what H chooses, and its settings."""
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import replace as replace_fields
 from decimal import Decimal
+from typing import Any
 
 from msgspec.structs import replace
 
@@ -40,8 +41,14 @@ def _turning(dialect: Dialect) -> Dialect:
     return replace_fields(dialect, plane=TURNED_PLANES[18], modes=turned(dialect.modes))
 
 
-def _with_comma(dialect: Dialect) -> Dialect:
-    return replace_fields(dialect, find=ChainFinder(replace_fields(LANGUAGE, angle_words=(",A",))))
+def _reading(**changes: Any) -> Callable[[Dialect], Dialect]:
+    """A change of the language."""
+
+    def change(dialect: Dialect) -> Dialect:
+        language = dialect.find.language if isinstance(dialect.find, ChainFinder) else LANGUAGE
+        return replace_fields(dialect, find=ChainFinder(replace_fields(language, **changes)))
+
+    return change
 
 
 _NUMBER = _setting(
@@ -63,7 +70,14 @@ _ANGLE_WORD = _setting(
     "which word states an angle",
     {"A": "A or ,A; of both in a block, ,A does", ",A": "only ,A: A is an axis or another function"},
     assumed("linear angle command: the names of axes are machine parameters"),
-    changes={",A": _with_comma},
+    changes={",A": _reading(angle_words=(",A",))},
+)
+_FULL_CIRCLE = _setting(
+    "arc-without-end",
+    "what an arc about its centre is that has no end and no H",
+    {"contact": "it ends where it meets the next block, if that fits", "circle": "a full circle"},
+    assumed("not described"),
+    changes={"circle": _reading(closes=True)},
 )
 _FIRST_CENTER = _setting(
     "first-centre",
@@ -110,7 +124,7 @@ _GUARD = _setting(
     assumed("alarm P392"),
 )
 SETTINGS = (
-    _NUMBER, _DIAMETER, _ANGLE_WORD, _FIRST_CENTER, _PICK, CONTACT, _SENSE, _CORNER, _ARC_CHAMFER, _GUARD,
+    _NUMBER, _DIAMETER, _ANGLE_WORD, _FULL_CIRCLE, _FIRST_CENTER, _PICK, CONTACT, _SENSE, _CORNER, _ARC_CHAMFER, _GUARD,
 )  # fmt: skip
 
 

@@ -37,6 +37,7 @@ from contoursolve.diagnostics.source import Evidence, Source
 from contoursolve.reading.rules import Condition, Parallel, Rule, Value, all_of, some
 from contoursolve.solving import RefusalKind
 
+_BESIDE = tuple(f"beside-{axis}" for axis in "XYZA")
 _GUARD = Decimal("0.9999999")
 """Degrees: less than 1."""
 _LINES, _ARCS = (LINE, OVER_LINE), (ARC, OVER_CIRCLE)
@@ -117,10 +118,10 @@ _ROWS = (
     ),
     _row(
         "outside-plane",
-        "{words} moves an axis outside the plane of the contour",
-        "move that axis in a block of its own",
-        printed("p. 375: in the selected plane"), some("beside-X", "beside-Y", "beside-Z", "beside-A", "A"), _ANY,
-        _CUT, ("X30.", "X30. Z-5."), ("X30.", "X30. A20. ,A0"),
+        "{words} does not belong to the plane of the contour",
+        "delete it, or move that axis in a block of its own",
+        printed("p. 375: in the selected plane"), some(*_BESIDE, "A", "wrong-center"), _ANY,
+        _CUT, ("X40. Y40.", "G02 X40. Y10. K10."), ("X30.", "X30. Z-5."), ("X30.", "X30. A20. ,A0"),
     ),
     _row(
         "plane-changes",
@@ -134,7 +135,7 @@ _ROWS = (
         "center-on-line",
         "{words}: a line has no centre and no radius",
         "delete it; a rounding is ,R",
-        derived("lines and arcs"), some(*STATED_CENTER, "wrong-center", "R"), _LINES,
+        derived("lines and arcs"), some(*STATED_CENTER, "R"), _LINES,
         _CUT, ("Y40.", "Y40. R5."),
     ),
     _row(
@@ -241,7 +242,7 @@ _ROWS = (
     _row(
         "no-full-circle",
         "the arc of {words} ends where it meets the next block; it is no full circle",
-        "for a full circle write its end, too",
+        "for a full circle write its end, too, or set arc-without-end=circle",
         derived("p. 390"), some("1:center-first", "1:center-second") & ~some("1:H"), (CIRCLE_LINE, CIRCLE_CIRCLE),
         _LEAVING, (" H0", ""), _ARCS_TOUCH,
         severity=Severity.WARNING,
