@@ -106,7 +106,7 @@ def _compose(language: Language, elements: tuple[Element, ...], options: _Option
     meeting = [(pair_role(*blocks), each) for blocks, each in pairs if blocks[1].is_over]
     facts = (
         *_stated(language, elements, names, options),
-        *_touching(elements, names),
+        *_touching(language, elements, names),
         *_checked(elements, names, options.slack),
         *_met(elements, names, options),
     )
@@ -191,7 +191,7 @@ def _stated(
                 yield FactRow(OnCircle(point, each.center, each.radius, slack=options.slack), ())
 
 
-def _touching(elements: Sequence[Element], names: Sequence[Names]) -> Iterator[FactRow]:
+def _touching(language: Language, elements: Sequence[Element], names: Sequence[Names]) -> Iterator[FactRow]:
     """Where elements touch. Two circles of which both centres are known are taken as they are."""
     for (before, after), (first, second) in zip(pairwise(elements), pairwise(names), strict=True):
         if not after.touches:
@@ -205,9 +205,9 @@ def _touching(elements: Sequence[Element], names: Sequence[Names]) -> Iterator[F
             yield FactRow(OnCircle(second.tail, first.center, first.radius), ())
             continue
         line, (arc, turn) = (first, (second, after.turn)) if before.turn is None else (second, (first, before.turn))
-        side = turn.sign if turn is not None else 0
-        yield FactRow(TangentLine(line.element, arc.center, arc.radius, side), ())
-        yield FactRow(Foot(line.element, second.tail, arc.center), ())
+        side, needs = turn.sign if turn is not None else 0, (line.prefix + language.angle,)
+        yield FactRow(TangentLine(line.element, arc.center, arc.radius, side), needs)
+        yield FactRow(Foot(line.element, second.tail, arc.center), needs)
 
 
 def _met(elements: Sequence[Element], names: Sequence[Names], options: _Options) -> Iterator[FactRow]:
