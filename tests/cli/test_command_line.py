@@ -813,7 +813,7 @@ def test_the_other_control_is_named_with_the_words_that_show_it(save):
     _, output, _ = run("check", save(chamfer), "--control", "yasnac-lx3")
     (advice,) = (line for line in output.splitlines() if "= help" in line)
     assert "G111" in advice
-    others = "nct-99m, fanuc-lathe, fanuc-mill, haas-lathe or haas-mill"
+    others = "nct-99m, fanuc-lathe, fanuc-mill, haas-lathe, haas-mill or mitsubishi"
     assert advice.endswith(f",C10 in program line 2 is for {others}: try --control with one of them")
     assert len(advice) < 250
     _, _, errors = run("check", save(both))

@@ -83,7 +83,7 @@ _FIRST_CENTER = _setting(
     "first-centre",
     "what I, J and K of an arc without an end are counted from",
     {"start": "where the arc starts", "end": "where it ends, as printed; contoursolve does not compute this"},
-    derived("p. 390: the end is what is computed"),
+    derived("p. 378: the end is what is computed"),
 )
 _PICK = _setting(
     "h-default",
@@ -103,7 +103,7 @@ _SENSE = _setting(
     "angle-sense",
     "whether a line that touches no arc may run against its angle",
     {"line": "it may: the angle is that of the line, either way", "ray": "it may not: the angle is the way it runs"},
-    derived("p. 376: the angle at the start or at the end of the line"),
+    derived("p. 375: the angle at the start or at the end of the line"),
 )
 _CORNER = _setting(
     "corner",
@@ -163,7 +163,7 @@ _MILL = "G17 G90 G00 X0 Y0"
 LANGUAGE = Language(
     lexicon=MODES.lexicon,
     planes={},
-    allowed=frozenset({*"NGFSTMDHPEXYZIJKRA", ",A", ",C", ",R"}),
+    allowed=frozenset({*"NGFSTMDHEXYZIJKRA", ",A", ",C", ",R"}),
     joining=Joining.PAIRED,
     titles={
         LINE_LINE: "Geometric I: vertex of two lines",

@@ -46,6 +46,7 @@ _CODES = merge(
 )
 _NUMBERS = NumberFormat(WithoutPoint.AS_WRITTEN, assumed("a machine parameter"))
 _PLACE = printed("linear angle command, p. 375")
+_CHAMFER = Source("Mitsubishi corner chamfering, as users quote it", "length of ,C", Evidence.PRINTED)
 _ANGLE = "angle of the line, from the plane's first axis, counter-clockwise"
 
 
@@ -56,10 +57,13 @@ def _words(*, is_diameter: bool) -> Lexicon:
         Address("A", _ANGLE, Unit.DEGREE, _PLACE),
         Address(",A", _ANGLE, Unit.DEGREE, _PLACE),
         Address(
-            ",C", "chamfer: the distance of both its ends from the virtual corner", Unit.MM, printed("corner I, II")
+            ",C",
+            "chamfer: the distance of both its ends from the virtual corner",
+            Unit.MM,
+            _CHAMFER,
         ),
-        Address(",R", "rounding", Unit.MM, printed("corner I, II")),
-        Address("H", "0 the crossing with the shorter line, 1 with the longer line", Unit.SIGN, printed("p. 390")),
+        Address(",R", "rounding", Unit.MM, assumed("corner chamfering")),
+        Address("H", "0 the crossing with the shorter line, 1 with the longer line", Unit.SIGN, printed("p. 378")),
     )
     return Lexicon({**plain.addresses, **{row.address: row for row in rows}}, plain.numbers)
 
