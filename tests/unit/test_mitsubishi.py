@@ -6,33 +6,11 @@ from random import Random
 import pytest
 from examples import law
 from hypothesis import strategies as st
-from oracle_mitsubishi import FORMS, random_block
+from oracle_mitsubishi import ARCS, CONTACT, CROSSING, FORMS, LEVER, RIGHT, VERTEX, random_block
 
 from contoursolve import UnknownControlError, expand, solve
 from contoursolve.controls import DIALECTS
 
-LEVER = """%
-O3001(LEVER)
-G17 G21 G90 G40
-T5 M6
-G54 G00 X-10. Y0 S2000 M3
-G43 H5 Z5.
-G01 Z-4. F150
-N1 G01 X0 F400
-N2 A60.
-N3 X50. Y60. A0
-N4 A-20.
-N5 G02 X100. Y20. R35.
-N6 G01 Y0 A-110.
-N7 X0 ,R4.
-N8 Y-10.
-G00 Z50.
-M30
-%"""
-VERTEX = "G17 G90 G00 X10. Y10.\nG01 A70.\nX80. Y25. A-30."
-CROSSING = "G17 G90 G00 X0 Y5.\nG01 A10.\nG02 X60. Y15. I-20. J-25. H0"
-CONTACT = "G17 G90 G00 X0 Y0\nG01 A15.\nG03 X70. Y50. R30."
-ARCS = "G17 G90 G00 X0 Y0\nG03 I0 J30.\nG02 X70. Y60. R25."
 LEAVING = "G17 G90 G00 X0 Y0\nG03 I30. J0 H0\nG01 X20. Y-60. A-90."
 KNOWN_ARCS = ARCS.replace("R25.", "I-16.083 J-19.14")
 CORNER_ON_ARC = "G17 G90 G00 X0 Y0\nG01 X40. ,C6.\nG02 X60. Y20. I20. J0"
@@ -54,21 +32,6 @@ def codes(text: str, **settings: str) -> dict[str, str | None]:
     """The alarms of all findings by their codes."""
     found = mitsubishi(text, **settings).diagnostics
     return {each.code: each.alarm.number.split()[0] if each.alarm else None for each in found}
-
-
-RIGHT = [
-    ("G17 G90 G00 X10. Y5.\nG01 X40. A25.\nX70. A-35.", [(40, 18.9892), (70, -2.0170)]),
-    (VERTEX, [(26.6669, 55.7919), (80, 25)]),
-    (CROSSING, [(13.0632, 7.3034), (60, 15)]),
-    (CROSSING.replace("H0", "H1"), [(59.3942, 15.4728), (60, 15)]),
-    (CONTACT, [(48.8336, 13.0849), (70, 50)]),
-    (CONTACT.replace("R30.", "R-30."), [(106.7881, 28.6138), (70, 50)]),
-    (ARCS, [(29.4094, 35.9236), (70, 60)]),
-    (
-        LEVER,
-        [(34.6410, 60), (50, 60), (77.0785, 50.1442), (100, 20), (92.7206, 0), (4, 0), (0, -4), (0, -10)],
-    ),
-]
 
 
 @pytest.mark.parametrize(("text", "expected"), RIGHT)
@@ -105,6 +68,9 @@ def test_centres_and_sweeps_are_those_of_the_sheet():
         (CROSSING.replace("A10.", "A80."), "mitsubishi-circle-missed", "P397"),
         (CONTACT.replace("R30.", "R3."), "mitsubishi-no-point", "P397"),
         (ARCS.replace("I0 J30.", "R30."), "mitsubishi-two-radii", "P395"),
+        (VERTEX.replace("\nX80.", "\nG04 P500\nX80."), "mitsubishi-end-missing", "P395"),
+        (LEAVING.replace("G01 ", ""), "mitsubishi-angle-on-arc", None),
+        (CROSSING.replace("I-20. J-25.", "P40. Q-10."), "address-unknown", None),
         (VERTEX.replace("X80. Y25.", "G18 X80. Z25."), "mitsubishi-plane-changes", "P396"),
     ],
 )

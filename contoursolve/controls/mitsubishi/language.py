@@ -214,5 +214,4 @@ LANGUAGE = Language(
     conventions=_conventions,
     contact=lambda modes: float(modes.convention(CONTACT).value),
     is_ray=lambda modes: _is(_SENSE, modes),
-    passes=frozenset({4}),
 )

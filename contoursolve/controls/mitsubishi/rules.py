@@ -115,6 +115,8 @@ _ROWS = (
     _row("angle-rapid", "{words}: the control works out a line by its angle in G01, not in G00",
          "write G01; where A is an axis, set angle-word=,A", _BOOK, some(",A") & some(RAPID), (LINE,),
          _ANGLED, ("G01 ", "")),
+    _row("angle-on-arc", "{words}: the control works out angles in G01, not in G02 and G03",
+         "write G01, or delete {words}", _BOOK, some(",A"), _ARCS, _TOUCHING, ("R30.", "R30. A20.")),
     _row("high-speed", "{words}: in high-speed machining the control takes no angle",
          "end that mode before, with G05 P0", printed("p. 375"), some(HIGH_SPEED) & some(",A"), _LINES,
          _ANGLED, ("G01", "G05 P2 G01"), alarm="P33"),
