@@ -60,7 +60,7 @@ def explain(code: str, control: str | Dialect | None) -> None:
     found: dict[str, tuple[Rule, list[str]]] = {}
     for dialect in _chosen(control):
         for rule in dialect.rules:
-            if wanted in (rule.code, rule.alarm.number.split()[0] if rule.alarm else ""):
+            if wanted in (rule.code, rule.alarm.number.split()[0].lower() if rule.alarm else ""):
                 found.setdefault(rule.code, (rule, []))[1].append(dialect.name)
     if not found:
         near = get_close_matches(wanted, sorted({rule.code for each in _chosen(control) for rule in each.rules}))

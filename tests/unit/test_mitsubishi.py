@@ -4,11 +4,13 @@ from dataclasses import replace
 from random import Random
 
 import pytest
+from click.testing import CliRunner
 from examples import law
 from hypothesis import strategies as st
 from oracle_mitsubishi import ARCS, CONTACT, CROSSING, FORMS, LEVER, RIGHT, VERTEX, random_block
 
 from contoursolve import UnknownControlError, expand, solve
+from contoursolve.cli import main
 from contoursolve.controls import DIALECTS
 
 LEAVING = "G17 G90 G00 X0 Y0\nG03 I30. J0 H0\nG01 X20. Y-60. A-90."
@@ -78,6 +80,15 @@ def test_what_the_sheet_refuses_has_its_alarm_and_no_contour(text, code, alarm):
     result = mitsubishi(text)
     assert codes(text)[code] == alarm
     assert all(answer.contour is None for answer in result.answers)
+
+
+@pytest.mark.parametrize("number", ["P33", "p392", "P393", "P394", "P395", "P396", "P397"])
+def test_an_alarm_is_explained_by_its_number_with_its_grade(number):
+    shown = CliRunner().invoke(main, ["explain", number])
+    assert shown.exit_code == 0
+    grades = {rule.alarm.evidence.value for rule in DIALECTS["mitsubishi"].rules if rule.alarm}
+    assert grades == {"assumed", "printed"}
+    assert f"alarm {number.upper()} " in shown.output
 
 
 def test_a_line_that_misses_says_by_how_much():

@@ -94,7 +94,8 @@ def _calls(language: Language, member: Member) -> dict[str, str]:
     called |= {address: centers.get(address, "wrong-center") for address in ("I", "J", "K") if address in addresses}
     called |= {address: f"beside-{address}" for address, row in addresses.items() if row.axis not in ("", *plane.axes)}
     angles = [address for address in language.angle_words if member.block.find(address)] or language.angle_words[:1]
-    called |= {address: f"beside-{address}" for address in language.angle_words}
+    if language.angle_words:
+        called |= {address: f"beside-{address}" for address in (language.angle, *language.angle_words)}
     called |= dict.fromkeys(angles[-1:], language.angle)
     for axis, order in zip(plane.axes, _ORDERS, strict=True):
         for address, row in addresses.items():

@@ -175,6 +175,7 @@ LANGUAGE = Language(
         "chain": "Geometric I or IB in a row with corners",
         "arc": "arc",
     },
+    angle="A",
     angle_words=("A", ",A"),
     picks="H",
     assumptions=(

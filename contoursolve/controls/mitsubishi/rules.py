@@ -59,7 +59,7 @@ _ARC = _MILL + "G01 X40. ,C6.\nG02 X60. Y20. I20. J0"
 
 
 def _alarm(number: str) -> Alarm:
-    return Alarm(number, Evidence.ASSUMED)
+    return Alarm(number, Evidence.PRINTED if number.startswith("P33 ") else Evidence.ASSUMED)
 
 
 def _row(
@@ -101,7 +101,7 @@ _ROWS = (
          assumed("not described"), some(*STATED_POINT, *STATED_CENTER, "R") & some(ALONG_ARC), _ARCS, _ARC),
     _row("outside-plane", "{words} does not belong to the plane of the contour",
          "delete it, or move that axis in a block of its own",
-         printed("p. 375: in the selected plane"), some(*_BESIDE, "A", "wrong-center"), _ANY,
+         printed("p. 375: in the selected plane"), some(*_BESIDE, "wrong-center"), _ANY,
          _CUT, ("X40. Y40.", "G02 X40. Y10. K10."), ("X30.", "X30. Z-5."), ("X30.", "X30. A20. ,A0")),
     _row("plane-changes", "the plane changes inside the contour", "select the plane before its first block",
          assumed("one plane"), some(OTHER_PLANE), _ANY, _CUT, ("X40. Y40.", "G18 X40. Z40."),
@@ -110,22 +110,22 @@ _ROWS = (
          derived("lines and arcs"), some(*STATED_CENTER, "R"), _LINES, _CUT, ("Y40.", "Y40. R5.")),
     _row("angle-ignored", "{words} is ignored, because both coordinates are there{comparison}",
          "delete {words}, or delete the coordinate that is to be computed",
-         _BOOK, all_of(_FIRST, _SECOND, ",A"), (LINE,), _ANGLED, ("A30.", "Y20. A30."),
-         ignores=",A", severity=Severity.WARNING),
+         _BOOK, all_of(_FIRST, _SECOND, "A"), (LINE,), _ANGLED, ("A30.", "Y20. A30."),
+         ignores="A", severity=Severity.WARNING),
     _row("angle-rapid", "{words}: the control works out a line by its angle in G01, not in G00",
-         "write G01; where A is an axis, set angle-word=,A", _BOOK, some(",A") & some(RAPID), (LINE,),
+         "write G01; where A is an axis, set angle-word=,A", _BOOK, some("A") & some(RAPID), (LINE,),
          _ANGLED, ("G01 ", "")),
     _row("angle-on-arc", "{words}: the control works out angles in G01, not in G02 and G03",
-         "write G01, or delete {words}", _BOOK, some(",A"), _ARCS, _TOUCHING, ("R30.", "R30. A20.")),
+         "write G01, or delete {words}", _BOOK, some("A"), _ARCS, _TOUCHING, ("R30.", "R30. A20.")),
     _row("high-speed", "{words}: in high-speed machining the control takes no angle",
-         "end that mode before, with G05 P0", printed("p. 375"), some(HIGH_SPEED) & some(",A"), _LINES,
-         _ANGLED, ("G01", "G05 P2 G01"), alarm="P33"),
+         "end that mode before, with G05 P0", printed("p. 375"), some(HIGH_SPEED) & some("A"), _LINES,
+         _ANGLED, ("G01", "G05 P2 G01"), alarm="P33 (angle in high-speed machining)"),
     _row("angle-range", "{words} is more than a turn; it is taken as {within}, the same direction",
-         "write {within} if that is meant", _BOOK, Value((",A",), least=Decimal(-360), most=Decimal(360)), _LINES,
+         "write {within} if that is meant", _BOOK, Value(("A",), least=Decimal(-360), most=Decimal(360)), _LINES,
          _ANGLED, ("A30.", "A390."), severity=Severity.WARNING),
     _row("end-missing", "{words} alone does not say where the line ends",
          "add a coordinate; or let a block follow that tells where it goes",
-         assumed("p. 377: two blocks in a row"), some(",A") & ~some(*STATED_POINT, FOLLOWED), (LINE,),
+         assumed("p. 377: two blocks in a row"), some("A") & ~some(*STATED_POINT, FOLLOWED), (LINE,),
          _VERTEX, ("\nX80.", "\nM8\nX80."), alarm=_FORMAT),
     _row("second-rapid", "the block before has no end, so this block must cut, and G00 does not", "write G01",
          assumed("p. 377"), some(RAPID), (OVER_LINE,), _VERTEX, ("\nX80.", "\nG00 X80."),
@@ -136,7 +136,7 @@ _ROWS = (
          printed("p. 377: absolute position"), some("first", "second") & some(INCREMENTAL), (OVER_LINE, OVER_CIRCLE),
          _VERTEX, ("\n", "\nG91 "), alarm="P393 (the second block is incremental)"),
     _row("second-line-incomplete", "the block before has no end, so this line needs {lacking}, too", "add {lacking}",
-         printed("p. 377 and 379"), ~all_of("first", "second", ",A") & ~some(RAPID), (OVER_LINE,),
+         printed("p. 377 and 379"), ~all_of("first", "second", "A") & ~some(RAPID), (OVER_LINE,),
          _VERTEX, (" A-30.", ""), ("X80. ", ""), alarm=_FORMAT),
     _row("second-arc-incomplete", "the block before has no end, so this arc needs {lacking}, too", "add {lacking}",
          printed("p. 378 and 379"), ~all_of("first", "second", (*STATED_CENTER, "R")), (OVER_CIRCLE,),
@@ -163,7 +163,7 @@ _ROWS = (
          derived("p. 378"), some(*STATED_CENTER) & some(FOLLOWED) & some(FROM_END), (ARC,), _LEAVING),
     _row("angles-parallel", "{words}: the two lines are parallel to less than 1 deg, so the control computes no vertex",
          "correct one of the angles",
-         assumed("alarm P392"), Parallel(("1:,A", "2:,A"), _GUARD) & ~some("1:" + UNGUARDED), (LINE_LINE,),
+         assumed("alarm P392"), Parallel(("1:A", "2:A"), _GUARD) & ~some("1:" + UNGUARDED), (LINE_LINE,),
          _VERTEX, ("A-30.", "A70.5"), ("A-30.", "A250."), alarm="P392 (angle less than 1 deg)", is_about_geometry=True),
     _row("h-value", "H is neither 0 nor 1", "write H0 for the shorter line, or H1 for the longer line",
          printed("p. 378"), some(PICKS_NOTHING), _ARCS, _CROSSING, ("H0", "H2"), alarm=_FORMAT),
