@@ -67,7 +67,8 @@ def explain(code: str, control: str | Dialect | None) -> None:
     found: dict[str, tuple[Rule, list[str]]] = {}
     for dialect in _chosen(control):
         for rule in dialect.rules:
-            if wanted == rule.code or (number and number in _alarms_of(rule)):
+            alarm = rule.alarm.number.split()[0].lower() if rule.alarm else ""
+            if wanted in (rule.code, alarm) or (number and number in _alarms_of(rule)):
                 found.setdefault(rule.code, (rule, []))[1].append(dialect.name)
     if not found:
         near = get_close_matches(wanted, sorted({rule.code for each in _chosen(control) for rule in each.rules}))

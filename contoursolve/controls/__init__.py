@@ -6,13 +6,17 @@ for every control.
 
 from contoursolve.controls.common import COMMON_RULES
 from contoursolve.controls.fanuc import FANUC_LATHE, FANUC_MILL, HAAS_LATHE, HAAS_MILL
+from contoursolve.controls.mitsubishi import MITSUBISHI
 from contoursolve.controls.nct_99m import NCT_99M
 from contoursolve.controls.plain import PLAIN
 from contoursolve.controls.yasnac_lx3 import YASNAC_LX3
 from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.follow import Finder
 
-DIALECTS = {dialect.name: dialect for dialect in (YASNAC_LX3, NCT_99M, FANUC_LATHE, FANUC_MILL, HAAS_LATHE, HAAS_MILL)}
+DIALECTS = {
+    dialect.name: dialect
+    for dialect in (YASNAC_LX3, NCT_99M, FANUC_LATHE, FANUC_MILL, HAAS_LATHE, HAAS_MILL, MITSUBISHI)
+}
 
 __all__ = [
     "COMMON_RULES",
@@ -21,6 +25,7 @@ __all__ = [
     "FANUC_MILL",
     "HAAS_LATHE",
     "HAAS_MILL",
+    "MITSUBISHI",
     "NCT_99M",
     "PLAIN",
     "YASNAC_LX3",

@@ -10,7 +10,7 @@ from contoursolve import analysis
 from contoursolve.analysis import derive
 from contoursolve.analysis.identities import derive_circle_identity, derive_identity, is_affine, tied_sets
 from contoursolve.controls import DIALECTS
-from contoursolve.geometry import Fact, build_system
+from contoursolve.geometry import Contact, Fact, Foot, build_system
 from contoursolve.reading import ContourForm, lay_out, stated_sets
 
 
@@ -45,6 +45,8 @@ def _identities(form: ContourForm) -> Iterator[tuple[tuple[Fact, ...], str]]:
         return
     for stated in stated_sets(form):
         layout = lay_out(form, stated, frozenset())
+        if any(isinstance(fact, Foot | Contact) for fact in layout.facts):
+            continue  # that a contact lies on both elements says nothing about words
         system = build_system(layout.figure, layout.facts)
         verdict = derive(system)
         tied = tuple(layout.facts[index] for index in verdict.tied)

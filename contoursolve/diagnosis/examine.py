@@ -193,7 +193,7 @@ def examine(
             notebook.add(finding if is_strict else weaker, status)
     ignoring = [offence for offence in offences if offence.rule.ignores]
     profile, is_stated = _state_more(
-        context, claim, read(claim, frozenset(offence.rule.ignores for offence in ignoring)), next_place, notebook
+        context, claim, read(claim, frozenset(offence.ignored for offence in ignoring)), next_place, notebook
     )
     is_readable = is_readable and is_stated
     if not profile.start.is_known:
@@ -222,7 +222,8 @@ def examine(
         notebook.findings += explain_beyond(context, profile, solution, contour) if claim.directives else ()
     touching = {remark.subject for remark in solution.remarks if remark.kind is NoteKind.TOUCHES}
     shown = {*profile.intersections} - touching
-    sides = {choice.point: choice.side for choice in profile.choices if choice.given and choice.point in shown}
+    chosen = (choice for choice in profile.choices if choice.given in claim.words)
+    sides = {choice.point: choice.side for choice in chosen if choice.point in shown}
     return Answer(
         form=claim.form.name,
         lines=tuple(block.line for block in claim.blocks),

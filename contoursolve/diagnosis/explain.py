@@ -195,8 +195,8 @@ def _pointed(value: Decimal) -> str:
 
 def explain_ignored(context: Context, offence: Offence, profile: Profile, solution: Solution) -> Diagnostic:
     """A word that the control ignores: what it would have had to say, and how far off it is."""
-    fact = next((fact for fact in profile.ignored if fact.given == offence.rule.ignores), None)
-    word = context.words[offence.rule.ignores]
+    fact = next((fact for fact in profile.ignored if fact.given == offence.ignored), None)
+    word = context.words[offence.ignored]
     if fact is None or not solution.points:  # a variable states no fact
         return report(context, offence.rule, Basis.RULE, [word], comparison="")
     at = lookup(profile, scalars_of(solution.points))

@@ -70,7 +70,7 @@ def _row(form: ContourForm, dialect: Dialect, chosen: frozenset[str]) -> Row:
         other = claim.form.name if isinstance(claim, ParsedContour) else "nothing"
         return Row(addresses, (), (), (), (), "", other)
     offences = check(dialect.rules, form.roles, claim.stated())
-    ignored = tuple(offence.rule.ignores for offence in offences if offence.rule.ignores)
+    ignored = tuple(offence.ignored for offence in offences if offence.ignored)
     profile = read(claim, frozenset(ignored))
     verdict = analyse(assemble(profile))
     refusing = [offence.rule for offence in offences if not offence.rule.ignores]

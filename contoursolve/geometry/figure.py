@@ -105,13 +105,15 @@ class Turn(Enum):
 
 class Line(Struct, frozen=True):
     """A straight move; `heading` names the given angle in whose direction it must run, if any, `toward` the point
-    towards which it must run from its tail."""
+    towards which it must run from its tail. Of its two intersections with an arc, one is nearer along its direction;
+    or else, where it `counts_length`, with one the line is shorter."""
 
     name: str
     tail: str
     head: str
     heading: str | None = None
     toward: str | None = None
+    counts_length: bool = False
 
 
 class Arc(Struct, frozen=True):

@@ -91,11 +91,14 @@ class Side(Enum):
     FIRST = "first"
     """Met first where an arc is travelled clockwise from its start."""
     SECOND = "second"
+    SHORTER = "shorter"
+    """With it, the line that ends or begins there is the shorter one."""
+    LONGER = "longer"
 
     @property
     def sign(self) -> int:
-        """-1 for nearer, right and second, +1 for farther, left and first: the sign of the root."""
-        return -1 if self in (Side.NEARER, Side.RIGHT, Side.SECOND) else 1
+        """-1 for nearer, right, second and shorter, +1 for the others: the sign of the root."""
+        return -1 if self in (Side.NEARER, Side.RIGHT, Side.SECOND, Side.SHORTER) else 1
 
 
 class Choice(Struct, frozen=True):

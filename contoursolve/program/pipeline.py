@@ -447,7 +447,7 @@ class _Examiner:
         others = ((name, what_shows(blocks, each)) for name, each in elsewhere.items() if _reads_signs(each, blocks))
         by_sign: dict[str, list[str]] = {}
         for name, sign in others:
-            if sign != shown:
+            if not shown:
                 by_sign.setdefault(sign, []).append(name)
         signs = [
             f"{sign} is for {either(names)}: try --control {names[0] if len(names) == 1 else 'with one of them'}"

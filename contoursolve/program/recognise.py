@@ -99,7 +99,7 @@ class Recogniser:
     def _fits(self, dialect: Dialect) -> bool:
         """Whether it has all the words, and is for such a machine: a program for a mill that selects no plane has
         contours in X and Y."""
-        if not self._shared <= dialect.modes.lexicon.addresses.keys():
+        if not self._shared <= dialect.modes.lexicon.addresses.keys() - dialect.rare:
             return False
         if dialect.name in self._own:
             return True

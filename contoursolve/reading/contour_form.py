@@ -1,11 +1,12 @@
 """A contour form as tables: its points, the facts that words state, its path; and settings and assumptions."""
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from decimal import Decimal
 from functools import lru_cache
 from itertools import product
+from typing import Any
 
 from msgspec.structs import replace
 
@@ -31,6 +32,8 @@ class Setting:
     bounds: tuple[Decimal, Decimal] | None = None
     without_point: Mapping[str, WithoutPoint] = field(default_factory=dict)
     """Where it decides what a number without a decimal point means: that, by its value."""
+    changes: Mapping[str, Callable[[Any], Any]] = field(default_factory=dict)
+    """Where a value is about more than its contours: from the control to the control with it, by the value."""
 
     def choices(self, value: str) -> str:
         """What it can be, if it cannot have this value; else empty."""

@@ -11,6 +11,11 @@ from contoursolve.reading.follow import Finder
 from contoursolve.reading.modal_state import Modes, Position, State
 from contoursolve.reading.rules import Rule
 
+
+def _unchanged(dialect: "Dialect") -> "Dialect":
+    return dialect
+
+
 Follower = Callable[..., Iterator[Diagnostic]]
 """(name of the form, path or None, what gives the state behind it, lines behind it with their numbers, context of
 messages, modes) to the findings about the block behind a contour."""
@@ -49,6 +54,8 @@ class Dialect:
     find: Finder
     signs: Callable[[Block], Sequence[Word]]
     """The words of a block that make a contour for this control."""
+    rare: frozenset[str] = frozenset()
+    """Words that it has, too, but by which another control is known."""
     contours: str = ""
     """What shows a contour block, for a reader."""
     settings: tuple[Setting, ...] = ()
@@ -79,7 +86,11 @@ class Dialect:
             if value in known[name].without_point:
                 numbers = replace(lexicon.numbers, without_point=known[name].without_point[value])
                 lexicon = replace(lexicon, numbers=numbers)
-        return replace(self, modes=replace(self.modes, lexicon=lexicon, settings={**self.modes.settings, **values}))
+        modes = replace(self.modes, lexicon=lexicon, settings={**self.modes.settings, **values})
+        changed = replace(self, modes=modes)
+        for name, value in values.items():
+            changed = known[name].changes.get(value, _unchanged)(changed)
+        return changed
 
     def initial_state(self, unit: Length) -> State:
         """The state before the first block: the position is not known, nothing is compensated."""

@@ -305,6 +305,11 @@ class Offence:
     names: tuple[str, ...]
     role: Role
 
+    @property
+    def ignored(self) -> str:
+        """The name of what the control drops; empty if it drops nothing. Of several blocks, the last one has it."""
+        return self.rule.ignores and self.role.prefixes[-1] + self.rule.ignores
+
 
 def check(rules: tuple[Rule, ...], roles: Sequence[Role], stated: Stated) -> tuple[Offence, ...]:
     """All rules on combinations of words that refuse or ignore something in what the blocks of a contour state."""

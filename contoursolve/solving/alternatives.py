@@ -14,7 +14,9 @@ from contoursolve.geometry import (
     SECOND,
     Arc,
     Choice,
+    Contact,
     Coordinate,
+    Foot,
     Line,
     Offset,
     OnCircle,
@@ -303,6 +305,9 @@ def side_values(system: System, at: Values, chosen: Set[str]) -> dict[str, tuple
     stated = {point for point, _ in axes}
     # A point whose coordinates are both stated is at one place, whatever else passes through it.
     unknown = {point for point in system.figure.points if not {(point, FIRST), (point, SECOND)} <= axes}
+    ends = {element.head for element in system.figure.path}
+    # Where two elements of the path touch, there is one place.
+    unknown -= ends & {fact.point for fact in system.facts if isinstance(fact, Contact | Foot)}
     beside = (line for line in system.figure.lines if line.heading is not None)
     for line in (*(element for element in system.figure.path if isinstance(element, Line)), *beside):
         for circle in circles:
@@ -311,8 +316,14 @@ def side_values(system: System, at: Values, chosen: Set[str]) -> dict[str, tuple
                 tips = (line.tail, line.toward or line.head)
                 way = at.direction(line.heading) if line.heading is not None else step(*tips)
                 spoke = step(circle.center, circle.point)
+                names = Side.FARTHER, Side.NEARER
+                if line.counts_length:
+                    other = line.head if circle.point == line.tail else line.tail
+                    way, lean = step(other, circle.point), step(other, circle.center)
+                    ahead = way[FIRST] * lean[FIRST] + way[SECOND] * lean[SECOND]
+                    way, names = (way[FIRST] * ahead, way[SECOND] * ahead), (Side.LONGER, Side.SHORTER)
                 along = way[FIRST] * spoke[FIRST] + way[SECOND] * spoke[SECOND]
-                sides[circle.point] = along, Side.FARTHER.value, Side.NEARER.value
+                sides[circle.point] = along, *(name.value for name in names)
     arcs = [element for element in system.figure.path if isinstance(element, Arc)]
     for first, second in pairwise(arcs):
         if first.head == second.tail in unknown:
@@ -325,7 +336,6 @@ def side_values(system: System, at: Values, chosen: Set[str]) -> dict[str, tuple
                 left = left * (reach[FIRST] ** 2 + reach[SECOND] ** 2 - at.radius(second.radius) ** 2)
                 names = Side.FIRST, Side.SECOND
             sides[first.head] = left, *(name.value for name in names)
-    ends = {element.head for element in system.figure.path}
     for arc in arcs:
         on_it = [circle.point for circle in circles if circle.center == arc.center]
         others = [point for point in on_it if point != arc.tail and point not in sides]

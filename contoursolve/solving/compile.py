@@ -126,6 +126,11 @@ class _Builder:
         scale = radius + sum(magnitude(value) for value in (*center, *through))
         root = self._root((radius - offset) * (radius + offset), offset, radius, scale, number)
         half = self.tape.input(f"side:{step.circle.point}") * root
+        lines = (each for each in self.system.figure.path if isinstance(each, Line) and each.counts_length)
+        if any(step.circle.point in (line.tail, line.head) for line in lines):
+            # The longer line leads to the point beyond the foot of the perpendicular.
+            ahead = (center[0] - through[0]) * first + (center[1] - through[1]) * second
+            half = half * (2 * at_most(0, ahead) - 1)
         self.set_point(
             step.circle.point,
             (center[0] - second * offset + first * half, center[1] + first * offset + second * half),

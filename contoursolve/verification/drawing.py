@@ -290,13 +290,18 @@ def side_of(system: ResidualSystem, values: Values, choice: Choice) -> tuple[flo
     not tell."""
     drawing, figure, left = _Drawing(system, values), system.figure, 1 if choice.side is Side.LEFT else -1
     at, circles = drawing.point(choice.point), [fact for fact in system.facts if isinstance(fact, OnCircle)]
-    if choice.side in (Side.NEARER, Side.FARTHER):
+    if choice.side in (Side.NEARER, Side.FARTHER, Side.SHORTER, Side.LONGER):
         lines = [each for each in (*figure.path, *figure.lines) if isinstance(each, Line)]
         line = next((each for each in lines if choice.point in (each.tail, each.head)), None)
         circle = next((each for each in circles if each.point == choice.point), None)
         if line is None or circle is None:
             return None
-        ahead = _dot(drawing.direction(line), at - drawing.point(circle.center))
+        center = drawing.point(circle.center)
+        ahead = _dot(drawing.direction(line), at - center)
+        if choice.side in (Side.SHORTER, Side.LONGER):
+            other = drawing.point(line.head if choice.point == line.tail else line.tail)
+            beyond = abs(at - other) - abs(2 * _along(at - other, center - other) - (at - other))
+            return beyond * (1 if choice.side is Side.LONGER else -1), ahead**2 / (2 * values[circle.radius])
         return ahead * (1 if choice.side is Side.FARTHER else -1), ahead**2 / (2 * values[circle.radius])
     for first, second in pairwise(figure.path):
         if first.head == choice.point and isinstance(first, Arc) and isinstance(second, Arc):
@@ -318,6 +323,11 @@ def side_of(system: ResidualSystem, values: Values, choice: Choice) -> tuple[flo
     chord = drawing.point(min(on_it, key=lambda point: point not in stated)) - tail
     beside = _cross(_unit(chord), at - tail)
     return beside * left, beside**2 / (2 * values[arc.radius])
+
+
+def _along(way: complex, to: complex) -> complex:
+    """The part of one step that runs the way of another."""
+    return way * _dot(way, to) / abs(way) ** 2
 
 
 def _cross(a: complex, b: complex) -> float:

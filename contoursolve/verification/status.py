@@ -31,7 +31,7 @@ from contoursolve.geometry import (
 )
 from contoursolve.reading import ParsedContour, read
 from contoursolve.reading.dialect import Dialect
-from contoursolve.reading.rules import Rule
+from contoursolve.reading.rules import Offence
 from contoursolve.reading.rules import check as check_rules
 from contoursolve.statements import apply_statements
 from contoursolve.tolerance import AGREEMENT, LARGEST, LENGTH, REGULAR, RESIDUAL
@@ -159,9 +159,10 @@ def prepare(found: Found) -> Case:
         statuses["underdetermined"] = f"{', '.join(variables)} depends on a variable"
     is_readable = not statuses
     is_extended = bool(claim.directives) or any(word.is_asked for word in claim.words.values())
-    for rule in _offences(claim, found) if not any(block.faults for block in claim.blocks) else ():
-        if rule.ignores:
-            ignored.add(rule.ignores)
+    for offence in _offences(claim, found) if not any(block.faults for block in claim.blocks) else ():
+        rule = offence.rule
+        if offence.ignored:
+            ignored.add(offence.ignored)
         elif rule.severity is Severity.ERROR and found.rules == "enforce" and not is_extended:
             statuses["no-solution" if rule.is_about_geometry else "rejected"] = f"the rule {rule.code} refuses it"
     plain = read(claim, frozenset(ignored))
@@ -216,18 +217,18 @@ def _unreadable(claim: ParsedContour) -> list[str]:
     return [*texts, *large, *idle, *(word.text for word in (*claim.repeated, *claim.unknown))]
 
 
-def _offences(claim: ParsedContour, found: Found) -> Iterator[Rule]:
-    """The rules of the control that refuse or ignore words. A word that is asked for may fill a gap, but is never one
+def _offences(claim: ParsedContour, found: Found) -> Iterator[Offence]:
+    """Where rules of the control refuse or ignore words. A word that is asked for may fill a gap, but is never one
     too many."""
     if found.rules == "off":
         return
     stated, rules, roles = claim.stated(), found.dialect.rules, claim.form.roles
     sure = {name: value for name, value in stated.items() if name not in claim.words or not claim.words[name].is_asked}
-    offences = [each.rule for each in check_rules(rules, roles, sure)]
-    codes = {rule.code for rule in offences}
-    yield from (rule for rule in offences if rule.ignores)
-    others = (each.rule for each in check_rules(rules, roles, stated))
-    yield from (rule for rule in others if not rule.ignores and rule.code in codes)
+    offences = check_rules(rules, roles, sure)
+    codes = {each.rule.code for each in offences}
+    yield from (each for each in offences if each.ignored)
+    others = check_rules(rules, roles, stated)
+    yield from (each for each in others if not each.ignored and each.rule.code in codes)
 
 
 def _structure(profile: Profile, free: int, unknowns: int) -> Iterator[tuple[str, str]]:

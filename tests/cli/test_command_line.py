@@ -821,9 +821,9 @@ def test_what_follows_from_a_line_before_comes_last_and_names_that_line(save):
 def test_the_other_control_is_named_with_the_words_that_show_it(save):
     chamfer, both = "G17 G90 G0 X0 Y0\nG1 X30 ,C10\nX40 Y40\n", "G1 X30 ,C10\nG111 A4.\n"
     _, output, _ = run("check", save(chamfer), "--control", "yasnac-lx3")
-    (advice,) = (line for line in output.splitlines() if "= help" in line)
+    (advice,) = (line for line in output.splitlines() if "= help: contour blocks" in line)
     assert "G111" in advice
-    others = "nct-99m, fanuc-lathe, fanuc-mill, haas-lathe or haas-mill"
+    others = "nct-99m, fanuc-lathe, fanuc-mill, haas-lathe, haas-mill or mitsubishi"
     assert advice.endswith(f",C10 in program line 2 is for {others}: try --control with one of them")
     assert len(advice) < 250
     _, _, errors = run("check", save(both))

@@ -14,9 +14,11 @@ from generate_fanuc import random_lathe, random_mill
 from generate_lx3 import FORMS as ARC_FORMS
 from generate_lx3 import random_g11, random_g112
 from generate_nct import FORMS, Drawn, random_chain, random_cornered, random_pair
-from interpreter import assert_path, interpret_all
+from interpreter import assert_path, interpret, interpret_all
 from oracle import Element, g111
 from oracle_fanuc import Machine, whole
+from oracle_mitsubishi import FORMS as PAIRS
+from oracle_mitsubishi import RIGHT, random_block
 
 import contoursolve
 from contoursolve.comparison import Path, compare, follow
@@ -177,6 +179,33 @@ def test_linuxcnc_runs_every_program_where_it_was_drawn(post, arcs, tmp_path):
     for each, motions in zip(drawings(), interpret_all(programs, tmp_path), strict=True):
         path = [(part.start, part.end, part.center, part.turn) for part in each.path]
         assert_path(motions[1:], path, within(each, post))
+
+
+@pytest.mark.interpreter
+@few_and_many(3, 60)
+def test_linuxcnc_runs_blocks_in_pairs_where_they_were_drawn(count, tmp_path):
+    blocks = [random_block(Random(number), form, 17 + number % 2) for form in PAIRS for number in range(count)]
+    drawn = [each for each in blocks if each.elements and not each.is_near]
+    assert len(drawn) >= len(blocks) / 3
+    programs = []
+    for each in drawn:
+        text = contoursolve.expand(f"G21 F100\n{each.text}\n", post="linuxcnc", control="mitsubishi").text
+        assert text is not None, each.text
+        programs.append(text)
+    for each, motions in zip(drawn, interpret_all(programs, tmp_path), strict=True):
+        assert_path(motions[1:], [(part.start, part.end, part.center, part.turn) for part in each.elements], 2e-4)
+
+
+@pytest.mark.interpreter
+@pytest.mark.parametrize(("text", "expected"), RIGHT)
+def test_linuxcnc_runs_the_worked_examples_of_blocks_in_pairs_to_where_they_end(text, expected, tmp_path):
+    frame = text if text.startswith("%") else f"G21 F100\n{text}\nM2"
+    written = contoursolve.expand(frame, post="linuxcnc", control="mitsubishi").text
+    ends = [motion.end for motion in interpret(written, tmp_path) if motion.kind != "traverse"]
+    for first, second in expected:
+        near = [place for place, end in enumerate(ends) if abs(end - complex(first, second)) <= 2e-4]
+        assert near, (first, second)
+        ends = ends[near[0] + 1 :]
 
 
 @pytest.mark.parametrize("arcs", ["center", "radius"])

@@ -59,8 +59,10 @@ def test_determinants_of_well_known_combinations(words, condition):
 class _Point:
     """A lookup of random values; every name gets its own, the same one each time."""
 
-    def __init__(self, seed: int) -> None:
+    def __init__(self, seed: int, facts=()) -> None:
         self._draw = random.Random(seed)
+        # A line that touches an arc has the direction that the only angle states.
+        self._heading = next((fact for fact in facts if isinstance(fact, geometry.Heading)), None)
         self.values: dict[str, float] = {}
 
     def _value(self, name: str) -> float:
@@ -78,10 +80,18 @@ class _Point:
         angle = radians(self._value(f"angle {given}") * 40)
         return cos(angle), sin(angle)
 
+    def bearing(self, _line: str) -> tuple[float, float]:
+        return self.direction(self._heading.given)
+
+    def line(self, name: str) -> tuple[float, float, float]:
+        cosine, sine = self.bearing(name)
+        tail = self._heading.tail
+        return cosine, sine, cosine * self.coordinate(tail, 1) - sine * self.coordinate(tail, 0)
+
 
 def jacobian(facts, unknowns, seed):
     """Derivatives of the residuals by the unknowns, shape (facts, unknowns), by central differences."""
-    at = _Point(seed)
+    at = _Point(seed, facts)
     for fact in facts:
         fact.residual(at)
     matrix = np.zeros((len(facts), len(unknowns)))

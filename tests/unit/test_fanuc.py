@@ -457,7 +457,7 @@ def test_corners_alone_are_those_of_the_controls_that_are_for_such_a_machine():
         with pytest.raises(UnknownControlError) as caught:
             solve(text)
         choices.append({*caught.value.choices})
-    assert choices == [{"nct-99m", MILL, HAAS_MILL}, {LATHE, HAAS_LATHE}]
+    assert choices == [{"nct-99m", MILL, HAAS_MILL, "mitsubishi"}, {LATHE, HAAS_LATHE}]
 
 
 def test_an_angle_is_for_the_controls_that_have_it():

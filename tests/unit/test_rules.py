@@ -14,6 +14,10 @@ WITHOUT_REJECTED_EXAMPLE = {
         f"haas-{code}": "a setting allows corners beside arcs; test_fanuc.py sets it"
         for code in ("center-and-radius", "circle-undefined", "radius-without-end")
     },
+    "mitsubishi-corner-arc": "a setting forbids it; test_mitsubishi.py sets it",
+    "mitsubishi-chamfer-along-arc": "the same",
+    "mitsubishi-h-missing": "the same",
+    "mitsubishi-centre-from-end": "the same",
     "count-open": "two forms of one block each: every fact about them leads to a closed form or a search that ends",
     "arc-radius-differs": "an arc is looked at where a rule refuses it; test_robust.py lets the rules warn only",
     "start-units": "the start point is stated apart from the program; test_command_line.py has it",
@@ -28,6 +32,7 @@ ALARMS = {
     "fanuc-mill": {"039", "051", "053", "055"},
     "haas-lathe": set(),
     "haas-mill": set(),
+    "mitsubishi": {"P33", "P392", "P393", "P394", "P395", "P396", "P397"},
 }
 """The alarm numbers on the pages that we have; no other may be invented."""
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from decimal import Decimal
+from itertools import pairwise
 
 from msgspec.structs import replace
 
@@ -78,7 +79,7 @@ def claim_of(language: Language, members: Sequence[Member], before: State, modes
         circumstances=frozenset(circumstances),
         choices=tuple(_choices(language, elements, names, known, modes)),
         selectors=tuple(_selectors(language, elements, names, known, modes)),
-        is_end_absolute=elements[-1].is_over,
+        is_end_absolute=elements[-1].is_over and language.joining is not Joining.PAIRED,
         selected=language.planes.get(members[-1].here.plane.code),
         conventions=tuple(language.conventions(form, circumstances, modes)),
     )
@@ -87,11 +88,15 @@ def claim_of(language: Language, members: Sequence[Member], before: State, modes
 def _calls(language: Language, member: Member) -> dict[str, str]:
     """What a block's addresses state, without the number of the block."""
     plane, addresses = member.here.plane, language.lexicon.addresses
-    is_absolute = member.element.is_over and language.joining is Joining.OVER_DEFINED
+    is_absolute = member.element.is_over and language.joining is not Joining.OPEN
     called = {address: address for address, row in addresses.items() if not row.axis}
     centers = {center: f"center-{order}" for center, order in zip(plane.centers, _ORDERS, strict=True)}
     called |= {address: centers.get(address, "wrong-center") for address in ("I", "J", "K") if address in addresses}
     called |= {address: f"beside-{address}" for address, row in addresses.items() if row.axis not in ("", *plane.axes)}
+    angles = [address for address in language.angle_words if member.block.find(address)] or language.angle_words[:1]
+    if language.angle_words:
+        called |= {address: f"beside-{address}" for address in (language.angle, *language.angle_words)}
+    called |= dict.fromkeys(angles[-1:], language.angle)
     for axis, order in zip(plane.axes, _ORDERS, strict=True):
         for address, row in addresses.items():
             if row.axis == axis:
@@ -117,10 +122,12 @@ def _givens(language: Language, words: Mapping[str, Word], member: Member, modes
         stated["R"] = replace(stated["R"], value=abs(stated["R"].value))
     asked = {name.removesuffix("-step") for name, word in words.items() if word.is_asked}
     element = member.element
-    if element.is_over:
+    if element.is_over and language.joining is Joining.OVER_DEFINED:
         return stated
     if element.turn is not None:
         stated |= _supplied("center-", "", stated, asked)
+    if element.is_over:
+        return stated
     ends = {name.removesuffix("-step") for name in stated} & {*_ORDERS}
     is_partial = element.turn is None and language.angle in words
     if not is_partial and (ends or not element.is_followed):
@@ -173,11 +180,15 @@ def _choices(
 ) -> Iterator[Choice]:
     """R's sign picks the centre of an ordinary arc: the shorter arc for a positive one. Q's sign picks the
     intersection in which its block begins."""
+    for point, name in _picks(language, elements, names):
+        value = words[name].number if name in words else 0
+        if value in (0, 1):
+            yield Choice(point, Side.LONGER if value else Side.SHORTER, name)
     previous: Element | None = None
     for element, each in zip(elements, names, strict=True):
         radius, sign = f"{each.prefix}R", f"{each.prefix}{language.selector}"
         size = words[radius].number if radius in words else None
-        if element.turn is not None and not element.is_over and size is not None:
+        if element.turn is not None and (element.touches or not element.is_over) and size is not None:
             yield Choice(each.center, _center_side(element.turn, is_short=size > 0), radius)
         chosen = words[sign].number if sign in words else None
         if previous is not None and element.is_over and chosen:
@@ -187,6 +198,14 @@ def _choices(
         previous = element
 
 
+def _picks(language: Language, elements: Sequence[Element], names: Sequence[Names]) -> Iterator[tuple[str, str]]:
+    """The intersections that a value picks, each with its name: the word stands in the block of the arc."""
+    for (before, after), (first, second) in zip(pairwise(elements), pairwise(names), strict=True):
+        is_line = before.turn is None
+        if language.picks and after.is_over and not after.touches and is_line is not (after.turn is None):
+            yield second.tail, f"{(second if is_line else first).prefix}{language.picks}"
+
+
 def _center_side(turn: Turn, *, is_short: bool) -> Side:
     return Side.LEFT if is_short == (turn is Turn.CCW) else Side.RIGHT
 
@@ -194,7 +213,10 @@ def _center_side(turn: Turn, *, is_short: bool) -> Side:
 def _selectors(
     language: Language, elements: Sequence[Element], names: Sequence[Names], words: Mapping[str, Word], modes: Modes
 ) -> Iterator[Selector]:
-    """Q chooses an intersection, and the sign of a stated R a centre."""
+    """Q chooses an intersection, a value picks one, and the sign of a stated R chooses a centre."""
+    for point, _ in _picks(language, elements, names):
+        yield Selector(point, Side.SHORTER, f"{language.picks}0")
+        yield Selector(point, Side.LONGER, f"{language.picks}1")
     previous: Element | None = None
     for element, each in zip(elements, names, strict=True):
         role = pair_role(previous, element) if previous is not None and element.is_over else LINE_LINE
@@ -203,7 +225,8 @@ def _selectors(
                 side = language.choose_side(role, is_negative, modes)
                 yield Selector(each.tail, side, f"{language.selector}{number}")
         word = words.get(f"{each.prefix}R")
-        if element.turn is not None and not element.is_over and word is not None and word.number is not None:
+        is_chosen = element.turn is not None and (element.touches or not element.is_over)
+        if element.turn is not None and is_chosen and word is not None and word.number is not None:
             size = word.text.lstrip("Rr +-")
             yield Selector(each.center, _center_side(element.turn, is_short=True), f"R{size}")
             yield Selector(each.center, _center_side(element.turn, is_short=False), f"R-{size}")

@@ -25,7 +25,7 @@ class ChainFinder:
     def __init__(self, language: Language) -> None:
         self.language = language
         self._cornered = frozenset(language.corners)
-        self._moving = frozenset({*language.axes, language.angle, *language.corners})
+        self._moving = frozenset({*language.axes, *language.angles, *language.corners})
 
     def __call__(self, blocks: Sequence[Block], index: int, state: State, modes: Modes) -> ParsedContour | None:
         """The contour that begins at a block: everything that is resolved together with it."""
@@ -49,6 +49,8 @@ class ChainFinder:
             if is_over:
                 members[-1] = replace(last, element=replace(last.element, is_followed=True))
             members.append(self._member(blocks[following], last.here, modes, is_over=is_over))
+            if is_over and self._touches(members[-2], members[-1]):
+                members[-1] = replace(members[-1], element=replace(members[-1].element, touches=True))
             position = following
             is_tied = True
             if here.motion == 0:
@@ -123,7 +125,9 @@ class ChainFinder:
         return is_possible and _stated(block) >= self._over_defining(here)
 
     def _begins_in_intersection(self, last: Member, following: Block, here: State) -> bool:
-        """Whether a block meets the one before it in an intersection."""
+        """Whether a block meets the one before it in an intersection, or touches it."""
+        if self.language.joining is Joining.PAIRED:
+            return self._is_open(last) and self._is_paired(last, following, here)
         if self.language.joining is Joining.OPEN:
             return here.motion in (0, 1) and last.here.motion == 1 and self._is_open(last)
         missing = self._over_defining(here) - _stated(following)
@@ -131,8 +135,27 @@ class ChainFinder:
         return len(missing) <= (self.language.selector in _stated(following)) or self._is_joined(last, following, here)
 
     def _is_open(self, last: Member) -> bool:
-        """Whether a line has an angle, and no end."""
-        return self.language.angle in _stated(last.block) and not self._programmed(last.block, last.here)
+        """Whether a line has an angle, and no end; of blocks in pairs, whether an arc has none."""
+        is_arc = last.element.turn is not None and self.language.joining is Joining.PAIRED
+        is_drawn = is_arc or bool(_stated(last.block) & {*self.language.angles})
+        return is_drawn and not self._programmed(last.block, last.here)
+
+    def _is_paired(self, last: Member, following: Block, here: State) -> bool:
+        """Whether what has no end has it where a block meets it. About its centre, an arc without an end is a full
+        circle, too, where what follows does not show that it is none."""
+        first, second = _stated(last.block), _stated(following)
+        if last.element.turn is None or first & {"R", self.language.picks}:
+            return last.here.motion != 0
+        if self.language.closes or not first & {*last.here.plane.centers} or not second >= {*here.plane.axes}:
+            return False
+        drawing = {*here.plane.centers, "R"} if here.motion in _TURNS else {*self.language.angles}
+        return here.motion != 0 and bool(second & drawing)
+
+    def _touches(self, first: Member, second: Member) -> bool:
+        """Whether two blocks in a pair touch: two arcs, and a line and an arc that has no centre."""
+        arcs = [each for each in (first, second) if each.element.turn is not None]
+        is_centered = any(_stated(each.block) & {*each.here.plane.centers} for each in arcs)
+        return self.language.joining is Joining.PAIRED and bool(arcs) and (len(arcs) > 1 or not is_centered)
 
     def _is_joined(self, last: Member, following: Block, here: State) -> bool:
         """Whether further facts join two blocks in an intersection, for contoursolve alone: an arc and a line, or a
@@ -153,7 +176,7 @@ class ChainFinder:
         a corner; and where arcs are checked, an arc with an end, if its values are known. About its centre, it is a
         full circle if that is where it begins (assumed)."""
         stated = _stated(block)
-        if self._has_corner(block) or stated & {self.language.angle, self.language.selector}:
+        if self._has_corner(block) or stated & {*self.language.angles, self.language.selector}:
             return True
         is_variable = any(word.number is None and not word.is_asked for word in block.words)
         if not self.language.checks_arcs or here.motion not in _TURNS or is_variable:

@@ -6,19 +6,23 @@ from itertools import pairwise
 
 from msgspec import Struct
 
-from contoursolve.controls.chain.language import AIMED, LINE_LINE, POINT, Element, Language, pair_role
+from contoursolve.controls.chain.language import AIMED, LINE_LINE, POINT, Element, Joining, Language, pair_role
 from contoursolve.geometry import (
     FIRST,
     SECOND,
     Arc,
     Collinear,
+    Contact,
     Coordinate,
+    Foot,
     Heading,
     Line,
     Offset,
     OnCircle,
     Radius,
     Role,
+    TangentCircles,
+    TangentLine,
 )
 from contoursolve.reading import ContourForm, CornerRow, FactRow, Modes
 
@@ -71,22 +75,41 @@ def names_of(elements: Sequence[Element]) -> tuple[Names, ...]:
 
 
 def compose(language: Language, elements: tuple[Element, ...], modes: Modes) -> ContourForm:
-    """The form of blocks in a row with the settings of a control: by how much the radii at two points of an arc may
-    differ, whether the intersections of two circles count clockwise, whether lines must run as their angles say, and
-    how smooth a joint has no corner."""
-    counts_clockwise, is_ray = language.counts_clockwise(modes), language.is_ray(modes)
-    return _compose(language, elements, modes.radius_difference, counts_clockwise, is_ray, language.guard(modes))
+    """The form of blocks in a row with the settings of a control."""
+    options = _Options(
+        slack=modes.radius_difference,
+        counts_clockwise=language.counts_clockwise(modes),
+        is_ray=language.is_ray(modes),
+        guard=language.guard(modes),
+        contact=language.contact(modes),
+    )
+    return _compose(language, elements, options)
+
+
+class _Options(Struct, frozen=True):
+    """What settings decide: by how much the radii at two points of an arc may differ, whether the intersections of two
+    circles count clockwise, whether lines must run as their angles say, how smooth a joint has no corner, and by how
+    much two circles may miss a contact."""
+
+    slack: float
+    counts_clockwise: bool
+    is_ray: bool
+    guard: float
+    contact: float
 
 
 @lru_cache(maxsize=4096)
-def _compose(
-    language: Language, elements: tuple[Element, ...], slack: float, counts_clockwise: bool, is_ray: bool, guard: float
-) -> ContourForm:
+def _compose(language: Language, elements: tuple[Element, ...], options: _Options) -> ContourForm:
     names = names_of(elements)
     name = _form_name(elements)
     pairs = list(zip(pairwise(elements), pairwise(names), strict=True))
     meeting = [(pair_role(*blocks), each) for blocks, each in pairs if blocks[1].is_over]
-    facts = (*_stated(language, elements, names, slack), *_checked(elements, names, slack))
+    facts = (
+        *_stated(language, elements, names, options),
+        *_touching(language, elements, names),
+        *_checked(elements, names, options.slack),
+        *_met(elements, names, options),
+    )
     arcs = [each for element, each in zip(elements, names, strict=True) if element.turn is not None]
     return ContourForm(
         name=name,
@@ -100,8 +123,8 @@ def _compose(
         radii=tuple(each.radius for each in arcs),
         facts=facts,
         path=tuple(
-            _path(language, element, each, counts_clockwise=counts_clockwise, is_ray=is_ray)
-            for element, each in zip(elements, names, strict=True)
+            _path(language, element, each, options, is_directed=is_directed)
+            for element, each, is_directed in zip(elements, names, _directed(elements), strict=True)
         ),
         corners=tuple(
             CornerRow(
@@ -115,16 +138,14 @@ def _compose(
         ),
         intersections=tuple(each.head for each in names[:-1]),
         allowed=language.allowed,
-        combinations=tuple(
-            _combinations(language, element, each.prefix) for element, each in zip(elements, names, strict=True)
-        ),
+        combinations=tuple(_combinations(language, elements, number, each.prefix) for number, each in enumerate(names)),
         choices=tuple(f"{second.prefix}{language.selector}" for role, (_, second) in meeting if role != LINE_LINE),
         sample=language.samples.get(elements),
         meanings=dict(_meanings(language, elements, names)),
         corner_note=language.corner_note,
         assumptions=language.assumptions,
         is_contour=name != "arc",
-        guard=guard,
+        guard=options.guard,
     )
 
 
@@ -141,23 +162,61 @@ def _form_name(elements: Sequence[Element]) -> str:
     return pair_role(*elements) if len(elements) == 2 else "chain"  # noqa: PLR2004 - a pair
 
 
-def _path(language: Language, element: Element, names: Names, *, counts_clockwise: bool, is_ray: bool) -> Line | Arc:
+def _directed(elements: Sequence[Element]) -> Iterator[bool]:
+    """Whether each element touches the one before it or behind it: a line does so in the way in which it runs."""
+    touching = [*(element.touches for element in elements), False]
+    return (any(each) for each in pairwise(touching))
+
+
+def _path(language: Language, element: Element, names: Names, options: _Options, *, is_directed: bool) -> Line | Arc:
     if element.turn is None:
         toward = names.own if element.is_followed and not element.is_over else None
-        heading = f"{names.prefix}{language.angle}" if is_ray and language.angle else None
-        return Line(names.element, names.tail, names.head, heading, toward)
-    counts = counts_clockwise and element.is_over
+        heading = f"{names.prefix}{language.angle}" if (options.is_ray or is_directed) and language.angle else None
+        return Line(names.element, names.tail, names.head, heading, toward, bool(language.picks))
+    counts = options.counts_clockwise and element.is_over
     return Arc(names.element, names.tail, names.head, names.center, names.radius, element.turn, counts)
 
 
-def _stated(language: Language, elements: Sequence[Element], names: Sequence[Names], slack: float) -> Iterator[FactRow]:
+def _stated(
+    language: Language, elements: Sequence[Element], names: Sequence[Names], options: _Options
+) -> Iterator[FactRow]:
     """What the blocks state, in the order in which it is believed."""
     for element, each in zip(elements, names, strict=True):
         yield from _own_facts(language, element, each)
-    for element, each in zip(elements, names, strict=True):
+    for element, each, is_directed in zip(elements, names, _directed(elements), strict=True):
         if element.turn is not None:
-            for point in (each.tail, each.head)[: 1 + element.is_followed]:
-                yield FactRow(OnCircle(point, each.center, each.radius, slack=slack), ())
+            # That it passes a point where it touches another element follows from the contact.
+            points = (each.tail, each.head)[is_directed and element.touches : 1 + element.is_followed - is_directed]
+            for point in points:
+                yield FactRow(OnCircle(point, each.center, each.radius, slack=options.slack), ())
+
+
+def _touching(language: Language, elements: Sequence[Element], names: Sequence[Names]) -> Iterator[FactRow]:
+    """Where elements touch. Two circles of which both centres are known are taken as they are."""
+    for (before, after), (first, second) in zip(pairwise(elements), pairwise(names), strict=True):
+        if not after.touches:
+            continue
+        if before.turn is not None and after.turn is not None:
+            side = -1 if before.turn is after.turn else 1
+            circles = (first.center, first.radius), (second.center, second.radius)
+            for each in (first, second):
+                yield FactRow(TangentCircles(*circles, side), (f"{each.prefix}R",))
+            yield FactRow(Contact(second.tail, first.center, second.center, side), ())
+            yield FactRow(OnCircle(second.tail, first.center, first.radius), ())
+            continue
+        line, (arc, turn) = (first, (second, after.turn)) if before.turn is None else (second, (first, before.turn))
+        side, needs = turn.sign if turn is not None else 0, (line.prefix + language.angle,)
+        yield FactRow(TangentLine(line.element, arc.center, arc.radius, side), needs)
+        yield FactRow(Foot(line.element, second.tail, arc.center), needs)
+
+
+def _met(elements: Sequence[Element], names: Sequence[Names], options: _Options) -> Iterator[FactRow]:
+    """That a contact lies on a circle: it follows, but where both circles are known without it."""
+    for (before, after), (first, second) in zip(pairwise(elements), pairwise(names), strict=True):
+        if after.touches:
+            arc = first if after.turn is None else second
+            slack = options.contact if before.turn is not None and after.turn is not None else options.slack
+            yield FactRow(OnCircle(second.tail, arc.center, arc.radius, slack=slack), ())
 
 
 def _checked(elements: Sequence[Element], names: Sequence[Names], slack: float) -> Iterator[FactRow]:
@@ -173,16 +232,15 @@ def _own_facts(language: Language, element: Element, names: Names) -> Iterator[F
     if element.turn is not None:
         for order, axis in _ORDERS:
             given = f"{q}center-{order}"
-            fact = (
-                Coordinate(given, names.center, axis)
-                if element.is_over
-                else Offset(given, names.center, names.tail, axis)
-            )
-            yield FactRow(fact, (given,))
+            if element.is_over and language.joining is Joining.OVER_DEFINED:
+                yield FactRow(Coordinate(given, names.center, axis), (given,))
+                continue
+            origin = names.head if element.is_over else names.tail
+            yield FactRow(Offset(given, names.center, origin, axis), (given,))
         yield FactRow(Radius(f"{q}R", names.radius), (f"{q}R",))
     for order, axis in _ORDERS:
         yield FactRow(Coordinate(f"{q}{order}", names.own, axis), (f"{q}{order}",))
-        if not element.is_over:
+        if not element.is_over or language.joining is Joining.PAIRED:
             yield FactRow(Offset(f"{q}{order}-step", names.own, names.tail, axis), (f"{q}{order}-step",))
     if element.turn is None and language.angle:
         angle = f"{q}{language.angle}"
@@ -197,8 +255,20 @@ def _own_facts(language: Language, element: Element, names: Names) -> Iterator[F
                 yield FactRow(Collinear(names.tail, names.own, names.head), (q + POINT,))
 
 
-def _combinations(language: Language, element: Element, prefix: str) -> tuple[tuple[str, ...], ...]:
+def _combinations(
+    language: Language, elements: Sequence[Element], number: int, prefix: str
+) -> tuple[tuple[str, ...], ...]:
     """What a block may state, as far as the equations tell it apart."""
+    element = elements[number]
+    if language.joining is Joining.PAIRED and (element.is_over or element.is_followed):
+        other = elements[number - 1 if element.is_over else number + 1]
+        centers, radius = ("center-first", "center-second"), ("R",)
+        shapes: tuple[tuple[str, ...], ...] = ((language.angle,),)
+        if element.turn is not None:
+            is_touching = element.touches or other.touches
+            shapes = (centers,) if not is_touching else (radius,) if other.turn is None else (centers, radius)
+        place = ("first", "second") if element.is_over else ()
+        return tuple(tuple(prefix + name for name in (*place, *shape)) for shape in shapes)
     point = (POINT,) if element.is_followed and not element.is_over else ()
     ends = tuple((first, second, *point) for first in _ways("first", element) for second in _ways("second", element))
     if element.turn is None:
@@ -229,7 +299,8 @@ def _meanings(language: Language, elements: Sequence[Element], names: Sequence[N
             yield f"{each.prefix}{order}", what + (", absolute" if element.is_over else "")
             yield f"{each.prefix}{order}-step", what + ", from the start point"
             if element.is_over:
-                yield f"{each.prefix}center-{order}", "centre, absolute"
+                is_from_end = language.joining is not Joining.OVER_DEFINED
+                yield f"{each.prefix}center-{order}", f"centre, {'from where it ends' if is_from_end else 'absolute'}"
         if element.turn is not None and element.is_over:
             yield f"{each.prefix}R", "radius"
     for (before, after), (_, each) in zip(pairwise(elements), pairwise(names), strict=True):

@@ -43,12 +43,14 @@ STATED_CENTER = ("center-first", "center-second")
 class Element(Struct, frozen=True):
     """One block: a line, or an arc of a sense.
 
-    `is_over` tells that it begins in a computed intersection, `is_followed` that it ends in one.
+    `is_over` tells that it begins in a computed intersection or contact, `is_followed` that it ends in one.
     """
 
     turn: Turn | None
     is_over: bool
     is_followed: bool
+    touches: bool = False
+    """Whether it touches the element before it where it begins."""
 
     @property
     def role(self) -> str:
@@ -83,6 +85,7 @@ class Joining(Enum):
 
     OVER_DEFINED = "the second block states more than an element from a known point needs"
     OPEN = "the first block is a line by its angle alone"
+    PAIRED = "the first block is a line by its angle alone, or an arc without an end"
 
 
 TITLES: Mapping[str, str] = {
@@ -129,6 +132,8 @@ class Language:
     joining: Joining
     titles: Mapping[str, str] = field(default_factory=lambda: TITLES)
     angle: str = ",A"
+    angle_words: tuple[str, ...] = ()
+    """The addresses that state it, if there are several: of two in a block, the last of these does."""
     corners: Mapping[str, CornerShape] = field(
         default_factory=lambda: {",C": CornerShape.CHAMFER_SETBACK, ",R": CornerShape.FILLET}
     )
@@ -149,6 +154,13 @@ class Language:
     """(member, states before the block before it, before it and behind it, modes) to what else holds of it."""
     conventions: Callable[[ContourForm, Collection[str], Modes], Iterable[Convention]] = _no_conventions
     """(form, circumstances, modes) to the settings on which the reading rests."""
+    picks: str = ""
+    """The address that chooses an intersection by its value in either of two blocks: 0 or 1, the shorter or the longer
+    line."""
+    closes: bool = False
+    """Whether an arc about its centre without an end is a full circle, unless that address is in its block."""
+    contact: Callable[[Modes], float] = _no_guard
+    """By how much, mm, two circles that are both known may miss a contact."""
     choose_side: Callable[[str, bool, Modes], Side] | None = None
     """(role of two blocks, whether the selector is negative, modes) to the intersection that it chooses."""
     counts_clockwise: Callable[[Modes], bool] = _never
@@ -159,6 +171,11 @@ class Language:
     """Sine of the change of direction up to which the control makes no corner."""
     passes: frozenset[int] = frozenset()
     """G codes of blocks that may stand between two blocks of a contour."""
+
+    @property
+    def angles(self) -> tuple[str, ...]:
+        """The addresses that state an angle; of two in a block, the last of these does."""
+        return self.angle_words or (self.angle,)
 
     @property
     def axes(self) -> tuple[str, ...]:

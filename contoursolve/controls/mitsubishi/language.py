@@ -1,0 +1,218 @@
+"""Mitsubishi as a language of lines and arcs in a row: what meets, what touches, what H chooses, and its settings."""
+
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from dataclasses import replace as replace_fields
+from decimal import Decimal
+from typing import Any
+
+from msgspec.structs import replace
+
+from contoursolve.controls.chain import ChainFinder, Element, Joining, Language, Member
+from contoursolve.controls.chain.language import (
+    ARC,
+    CIRCLE_CIRCLE,
+    CIRCLE_LINE,
+    LINE_CIRCLE,
+    LINE_LINE,
+    ONE_CENTER,
+    OVER_CIRCLE,
+)
+from contoursolve.controls.mitsubishi.lexicon import MODES, TURNED_PLANES, assumed, derived, turned
+from contoursolve.diagnostics.source import Source
+from contoursolve.geometry import Turn
+from contoursolve.reading import Assumption, ContourForm, Convention, Modes, Sample, Setting, State, WithoutPoint
+from contoursolve.reading.dialect import Dialect
+from contoursolve.reading.rules import some
+
+PICK_REQUIRED, STRAIGHT_ONLY = "@pick-required", "@straight-only"
+UNGUARDED, ALONG_ARC, PICKS_NOTHING = "@unguarded", "@along-arc", "@picks-nothing"
+FROM_END = "@from-end"
+INCREMENTAL, HIGH_SPEED = "@incremental", "@high-speed"
+
+
+def _setting(
+    name: str, meaning: str, values: Mapping[str, str], source: Source, **more: Mapping[str, object]
+) -> Setting:
+    """One whose first value is the one in force."""
+    return Setting(name, meaning, values, next(iter(values)), source, **more)  # type: ignore[arg-type]
+
+
+def _turning(dialect: Dialect) -> Dialect:
+    return replace_fields(dialect, plane=TURNED_PLANES[18], modes=turned(dialect.modes))
+
+
+def _reading(**changes: Any) -> Callable[[Dialect], Dialect]:
+    """A change of the language."""
+
+    def change(dialect: Dialect) -> Dialect:
+        language = dialect.find.language if isinstance(dialect.find, ChainFinder) else LANGUAGE
+        return replace_fields(dialect, find=ChainFinder(replace_fields(language, **changes)))
+
+    return change
+
+
+_NUMBER = _setting(
+    "number",
+    "what a number without a decimal point means",
+    {"calculator": "mm, inches and degrees, as with a point", "increment": "least increments: 0.001 mm, 0.001 deg"},
+    assumed("a machine parameter"),
+    without_point={"increment": WithoutPoint.LEAST_INCREMENTS, "calculator": WithoutPoint.AS_WRITTEN},
+)
+_DIAMETER = _setting(
+    "diameter",
+    "whether X is a diameter",
+    {"off": "X is a radius, and G17 is in force at first", "on": "X is a diameter, and G18 is in force at first"},
+    assumed("a machine parameter"),
+    changes={"on": _turning},
+)
+_ANGLE_WORD = _setting(
+    "angle-word",
+    "which word states an angle",
+    {"A": "A or ,A; of both in a block, ,A does", ",A": "only ,A: A is an axis or another function"},
+    assumed("linear angle command: the names of axes are machine parameters"),
+    changes={",A": _reading(angle_words=(",A",))},
+)
+_FULL_CIRCLE = _setting(
+    "arc-without-end",
+    "what an arc about its centre is that has no end and no H",
+    {"contact": "it ends where it meets the next block, if that fits", "circle": "a full circle"},
+    assumed("not described"),
+    changes={"circle": _reading(closes=True)},
+)
+_FIRST_CENTER = _setting(
+    "first-centre",
+    "what I, J and K of an arc without an end are counted from",
+    {"start": "where the arc starts", "end": "where it ends, as printed; contoursolve does not compute this"},
+    derived("p. 378: the end is what is computed"),
+)
+_PICK = _setting(
+    "h-default",
+    "what a crossing without H is",
+    {"0": "as with H0: the one with the shorter line", "error": "H must be there"},
+    assumed("not described"),
+)
+CONTACT = Setting(
+    "contact-tol",
+    "by how much two arcs about known centres may miss a contact",
+    {"0.01": "mm"},
+    "0.01",
+    assumed("not described"),
+    bounds=(Decimal("0.001"), Decimal(1)),
+)
+_SENSE = _setting(
+    "angle-sense",
+    "whether a line that touches no arc may run against its angle",
+    {"line": "it may: the angle is that of the line, either way", "ray": "it may not: the angle is the way it runs"},
+    derived("p. 375: the angle at the start or at the end of the line"),
+)
+_CORNER = _setting(
+    "corner",
+    "beside what ,C and ,R stand",
+    {"II": "beside lines and arcs", "I": "between two lines alone"},
+    assumed("corner chamfering I and II: options"),
+)
+_ARC_CHAMFER = _setting(
+    "chamfer-on-arc",
+    "how the size of a chamfer is measured on an arc",
+    {"chord": "straight from the virtual corner", "arc_length": "along the arc; contoursolve does not compute this"},
+    assumed("not described"),
+)
+_GUARD = _setting(
+    "guard-deg",
+    "how close the directions of two lines may come",
+    {"1": "at less than 1 deg no vertex is computed", "0": "only parallel lines have none"},
+    assumed("alarm P392"),
+)
+SETTINGS = (
+    _NUMBER, _DIAMETER, _ANGLE_WORD, _FULL_CIRCLE, _FIRST_CENTER, _PICK, CONTACT, _SENSE, _CORNER, _ARC_CHAMFER, _GUARD,
+)  # fmt: skip
+
+
+def _is(setting: Setting, modes: Modes) -> bool:
+    """Whether a setting has another value than the one that it has at first."""
+    return modes.convention(setting).value != setting.default
+
+
+def _circumstances(member: Member, _: Sequence[State], modes: Modes) -> Iterator[str]:
+    pick = member.block.find("H")
+    holds = {
+        PICK_REQUIRED: _is(_PICK, modes),
+        STRAIGHT_ONLY: _is(_CORNER, modes),
+        FROM_END: _is(_FIRST_CENTER, modes),
+        ALONG_ARC: _is(_ARC_CHAMFER, modes),
+        INCREMENTAL: member.here.is_incremental,
+        HIGH_SPEED: any(word.address == "G" and word.number == 5 for word in member.block.words),  # noqa: PLR2004 - G05
+        UNGUARDED: _is(_GUARD, modes),
+        PICKS_NOTHING: pick is not None and pick.number not in (None, 0, 1),
+    }
+    return (name for name, is_true in holds.items() if is_true)
+
+
+def _conventions(form: ContourForm, _: Collection[str], modes: Modes) -> Iterator[Convention]:
+    """Of those about the geometry, the ones that were set."""
+    roles = {role.name for role in form.roles}
+    about = ((_SENSE, True), (CONTACT, CIRCLE_CIRCLE in roles))
+    return (modes.convention(setting) for setting, is_here in about if is_here and _is(setting, modes))
+
+
+_LINE, _ARC = Element(None, False, False), Element(Turn.CCW, False, False)
+_TO_LINE, _TO_ARC = replace(_LINE, is_followed=True), replace(_ARC, is_followed=True)
+_OVER_LINE, _OVER_ARC = replace(_LINE, is_over=True), replace(_ARC, is_over=True)
+_MILL = "G17 G90 G00 X0 Y0"
+
+LANGUAGE = Language(
+    lexicon=MODES.lexicon,
+    planes={},
+    allowed=frozenset({*"NGFSTMDHEXYZIJKRA", ",A", ",C", ",R"}),
+    joining=Joining.PAIRED,
+    titles={
+        LINE_LINE: "Geometric I: vertex of two lines",
+        LINE_CIRCLE: "Geometric IB: line and arc",
+        CIRCLE_LINE: "Geometric IB: arc and line",
+        CIRCLE_CIRCLE: "Geometric IB: two arcs",
+        "line-angle": "line by its angle and one coordinate",
+        "corners": "chamfers and roundings",
+        "chain": "Geometric I or IB in a row with corners",
+        "arc": "arc",
+    },
+    angle="A",
+    angle_words=("A", ",A"),
+    picks="H",
+    assumptions=(
+        Assumption(
+            "h-missing",
+            "a crossing without H is the one with the shorter line",
+            assumed("not described"),
+            (LINE_CIRCLE, CIRCLE_LINE),
+            some("1:center-first", "2:center-first") & ~some("1:H", "2:H"),
+        ),
+        Assumption(
+            "one-of-center",
+            "of the two of I, J and K that belong to the plane, one that is left out is 0",
+            assumed("not described"),
+            (ARC, OVER_CIRCLE),
+            some(ONE_CENTER),
+        ),
+        Assumption(
+            "radius-of-contact",
+            "a positive R is the arc of at most 180 deg, a negative one the other",
+            assumed("not described"),
+            (LINE_CIRCLE, CIRCLE_LINE, CIRCLE_CIRCLE),
+            some("1:R", "2:R"),
+        ),
+    ),
+    samples={
+        (_LINE,): Sample(_MILL, ("G01 {X40.} {Y23.094} A30.",)),
+        (_LINE, _LINE): Sample(_MILL, ("G01 {X40.} {Y0} {A0} {,C6.} ,R5.", "{X60.} {Y20.} {A45.}")),
+        (_TO_LINE, _OVER_LINE): Sample(_MILL, ("G01 A70. {,C2.} {,R2.}", "{X80.} {Y25.} {A-30.}")),
+        (_TO_LINE, _OVER_ARC): Sample(_MILL, ("G01 A10.", "G03 {X60.} {Y15.} I-20. J-25. {R32.} {H1}")),
+        (_TO_LINE, replace(_OVER_ARC, touches=True)): Sample(_MILL, ("G01 A15.", "G03 {X70.} {Y50.} {R30.}")),
+        (_TO_ARC, _OVER_LINE): Sample(_MILL, ("G03 I30. {J0} {H0}", "G01 {X20.} {Y-60.} {A-90.}")),
+        (_TO_ARC, replace(_OVER_ARC, touches=True)): Sample(_MILL, ("G03 I0 J30.", "G03 {X15.} {Y20.} {R10.}")),
+        (_TO_ARC, replace(_OVER_LINE, touches=True)): Sample(_MILL, ("G03 R30.", "G01 {X-20.} {Y76.} {A150.}")),
+    },
+    circumstances=_circumstances,
+    conventions=_conventions,
+    contact=lambda modes: float(modes.convention(CONTACT).value),
+    is_ray=lambda modes: _is(_SENSE, modes),
+)

@@ -1,0 +1,82 @@
+"""Mitsubishi: addresses, numbers, planes and G codes."""
+
+from dataclasses import replace
+
+from msgspec.structs import replace as replace_fields
+
+from contoursolve.controls.plain import ABSOLUTE_CODES, CALLS, DRILLING, LATHE, PLANES, code_rows, lexicon, merge
+from contoursolve.diagnostics.source import Evidence, Source
+from contoursolve.geometry import Plane, Unit
+from contoursolve.reading import Address, Effect, Lexicon, Modes, NumberFormat, WithoutPoint
+
+MANUAL = "Mitsubishi M700V/M70V programming manual"
+
+
+def printed(place: str) -> Source:
+    """What stands on a page."""
+    return Source(MANUAL, place, Evidence.PRINTED)
+
+
+def derived(place: str) -> Source:
+    """What follows from a page."""
+    return Source(MANUAL, place, Evidence.DERIVED)
+
+
+def assumed(place: str) -> Source:
+    """What is on no page seen."""
+    return Source(MANUAL, place, Evidence.ASSUMED)
+
+
+_CODES = merge(
+    ABSOLUTE_CODES,
+    {
+        Effect.MOTION: {33: "thread"},
+        Effect.NO_MOTION: {22: "stored limit on", 23: "stored limit off"},
+        Effect.SINGLE: {27: "reference point check", 29: "return from reference point", 31: "skip"}
+        | {37: "length measurement", 65: "macro call", 66: "modal macro call", 67: "end of modal macro call"},
+        Effect.CYCLE: DRILLING | {74: "drilling cycle", 76: "drilling cycle"},
+        Effect.CANCEL: {80: "end of cycle"},
+        Effect.PRESET: {92: "coordinate setting"},
+        Effect.FRAME: {15: "end of polar coordinates", 16: "polar coordinates", 50: "end of scaling"}
+        | {51: "scaling", 52: "local coordinate system", 68: "rotation", 69: "end of rotation"},
+        Effect.NONE: {43: "length compensation", 44: "length compensation", 49: "no length compensation"}
+        | {5: "high-speed machining", 9: "exact stop", 61: "exact stop", 64: "cutting"}
+        | {94: "feed a minute", 95: "feed a revolution"},
+    },
+)
+_NUMBERS = NumberFormat(WithoutPoint.AS_WRITTEN, assumed("a machine parameter"))
+_PLACE = printed("linear angle command, p. 375")
+_CHAMFER = Source("Mitsubishi corner chamfering, as users quote it", "length of ,C", Evidence.PRINTED)
+_ANGLE = "angle of the line, from the plane's first axis, counter-clockwise"
+
+
+def _words(*, is_diameter: bool) -> Lexicon:
+    """The addresses, with X as a diameter or a radius; I, J, K and R are no diameters."""
+    plain = lexicon(assumed("addresses"), _NUMBERS, "XYZ", {}, is_diameter=is_diameter)
+    rows = (
+        Address("A", _ANGLE, Unit.DEGREE, _PLACE),
+        Address(",A", _ANGLE, Unit.DEGREE, _PLACE),
+        Address(
+            ",C",
+            "chamfer: the distance of both its ends from the virtual corner",
+            Unit.MM,
+            _CHAMFER,
+        ),
+        Address(",R", "rounding", Unit.MM, assumed("corner chamfering")),
+        Address("H", "0 the crossing with the shorter line, 1 with the longer line", Unit.SIGN, printed("p. 378")),
+    )
+    return Lexicon({**plain.addresses, **{row.address: row for row in rows}}, plain.numbers)
+
+
+def _modes(words: Lexicon, planes: dict[int, Plane]) -> Modes:
+    return Modes(words, code_rows(assumed("list of G codes"), _CODES, planes), ("X", "Y", "Z"), CALLS)
+
+
+TURNED_PLANES = {17: replace_fields(PLANES[17], diameters=(True, False)), 18: LATHE, 19: PLANES[19]}
+MODES, TURNED_MODES = _modes(_words(is_diameter=False), PLANES), _modes(_words(is_diameter=True), TURNED_PLANES)
+
+
+def turned(modes: Modes) -> Modes:
+    """The same where X is a diameter."""
+    words = replace(TURNED_MODES.lexicon, numbers=modes.lexicon.numbers)
+    return replace(modes, lexicon=words, codes=TURNED_MODES.codes)
