@@ -1,6 +1,6 @@
 """contoursolve: why is this contour block refused, and where does it go?
 
-It reads the contour blocks of CNC programs (Fanuc and Haas `,A ,C ,R`, NCT 99M intersections, YASNAC LX3 `G111`),
+It reads the contour blocks of CNC programs (Fanuc, Haas, Mitsubishi `,A ,C ,R`, NCT 99M, YASNAC LX3 `G111`),
 turns each into a small system of equations, and says what is missing, what is said twice, and what
 the path is. Lengths are in mm, X of a lathe is a radius, angles are in degrees.
 

@@ -73,7 +73,7 @@ class _Commands(click.Group):
 def main() -> None:
     """Solve CNC contour blocks, or say why they cannot be solved.
 
-    Reads the contour blocks of Fanuc and Haas lathes and mills (,A ,C ,R), of the NCT 99M (chapter 16) and of the
+    Reads the contour blocks of Fanuc, Haas and Mitsubishi controls (,A ,C ,R), of the NCT 99M (chapter 16) and of the
     YASNAC LX3 (G111, G112, G11, G12), with any further facts.
 
     contoursolve reads words such as X40. as the control does, in a program and in options (--block, --start, --bring).
