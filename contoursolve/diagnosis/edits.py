@@ -202,7 +202,7 @@ def edit_facts(facts: Iterable[Directive], edits: Iterable[Edit]) -> tuple[Direc
 
 def _tidy(text: str) -> str:
     """Comments without the separators that a dropped fact leaves, or without the comment that it leaves empty."""
-    text = re.sub(r"(\(\s*+contoursolve\s*+:)\s*+(?:;\s*+)++", r"\1 ", text, flags=re.IGNORECASE)
+    text = re.sub(r"(\(\s*+contoursolve\s*+:)\s*+(?>(?:;\s*+)+)", r"\1 ", text, flags=re.IGNORECASE)
     text = re.sub(r"(?<!\s)\s*+\(\s*+contoursolve\s*+:\s*+\)", "", text, flags=re.IGNORECASE)
     return re.sub(r"(?<!\s)\s*+;(?:\s*+;)*(\s*+[);])", r"\1", text)
 

@@ -19,7 +19,8 @@ LONGEST_NUMBER, MOST_BEFORE_POINT = 32, 20
 _LINE_END = re.compile(r"\r\n|\n|\r")
 _LINE = re.compile(r"[^\r\n]*(?:\r\n|\n|\r)|[^\r\n]+")
 # Runs are possessive (`++`, `*+`): what they take is never tried again, so that a line takes time by its length.
-_BRACKETS = r"\[(?:[^\[\]]++|\[(?:[^\[\]]++|\[[^\[\]]*+\])*+\])*+\]"
+# Groups that repeat are atomic (`(?>...)`) instead: Python before 3.11.5 reads `(?:...)*+` wrongly (gh-106052).
+_BRACKETS = r"\[(?>(?:[^\[\]]++|\[(?>(?:[^\[\]]++|\[[^\[\]]*+\])*)\])*)\]"
 _TOKEN = re.compile(
     rf"""
     (?P<blank>[ \t\f\v\x02\x03\x11-\x14\x1a\ufeff%]++)
@@ -28,20 +29,20 @@ _TOKEN = re.compile(
   | (?P<word>(?P<comma>,?+)[ \t]*+(?P<letter>[A-Za-z])[ \t]*+
       (?:(?P<number>[+-]?+(?>\d++\.?+\d*+|\.\d++))(?![\d.]|,\d|[eE][+-]?+\d++(?![\d.]))
         |(?P<expression>[+-]?+(?:\#\d++|\#?+{_BRACKETS}))|(?P<asked>\?)))
-  | (?P<malformed>,?+[ \t]*+[A-Za-z][ \t]*+(?:[\d.+-]|,(?=\d))++(?:[eE][+-]?+\d++)?+)
-  | (?P<bare>,?+[ \t]*+[A-Za-z](?:(?![A-Za-z][ \t]*+[+-]?+\.?+\d)[A-Za-z])*+)
+  | (?P<malformed>,?+[ \t]*+[A-Za-z][ \t]*+(?>(?:[\d.+-]|,(?=\d))+)(?>(?:[eE][+-]?+\d++)?))
+  | (?P<bare>,?+[ \t]*+[A-Za-z](?>(?:(?![A-Za-z][ \t]*+[+-]?+\.?+\d)[A-Za-z])*))
   | (?P<comma_only>,[^ \tA-Za-z(;]*+)
   | (?P<stray>[^ \tA-Za-z(;,%]++|.)
     """,
     re.VERBOSE | re.ASCII,
 )
-_SIMPLE_WORD = r"[ \t]*+([A-DF-Za-df-z])([+-]?+(?:[0-9]{1,16}+(?:\.[0-9]{0,15}+)?+|\.[0-9]{1,16}+))(?=[ \tA-Za-z]|$)"
-_SIMPLE = re.compile(rf"(?:{_SIMPLE_WORD})++[ \t]*+")
+_SIMPLE_WORD = r"[ \t]*+([A-DF-Za-df-z])([+-]?+(?:[0-9]{1,16}+(?>(?:\.[0-9]{0,15}+)?)|\.[0-9]{1,16}+))(?=[ \tA-Za-z]|$)"
+_SIMPLE = re.compile(rf"(?>(?:{_SIMPLE_WORD})+)[ \t]*+")
 """Nothing but words without blanks inside them; E may be an exponent."""
 _SIMPLE_WORDS = re.compile(_SIMPLE_WORD)
 _SKIP = re.compile(r"[ \t]*+/[1-9]?+(?!\d)")
 _MACRO = re.compile(
-    r"[ \t/]*+(?:[Nn]\d++)?+[ \t]*+(?:(?P<assignment>\#)|(?P<flow>(?:IF|WHILE|GOTO|DO|END|THEN|ELSE)\b"
+    r"[ \t/]*+(?>(?:[Nn]\d++)?)[ \t]*+(?:(?P<assignment>\#)|(?P<flow>(?:IF|WHILE|GOTO|DO|END|THEN|ELSE)\b"
     r"|(?:GOTO|DO|END)\d|(?:IF|WHILE)\[))",
     re.IGNORECASE,
 )

@@ -11,10 +11,10 @@ from contoursolve.diagnostics.source import Span
 from contoursolve.gcode.word import Block, FaultKind
 
 _DIGITS = str.maketrans("lI|Oo", "11100")
-_NUMBER = r"(?:[-+0-9.lI|Oo]|,(?=[\d.,]|[ \t]*+(?:[;(]|$)))++"
+_NUMBER = r"(?>(?:[-+0-9.lI|Oo]|,(?=[\d.,]|[ \t]*+(?:[;(]|$)))+)"
 _SEARCH = re.compile(
     rf"\([^)]*+\)?+|;.*+|,?+[A-Za-z][ \t]*+(?:=[ \t]*+)?(?:[-+]++[ \t]++)?(?P<number>{_NUMBER})"
-    r"(?P<text>(?=[A-Za-z](?![ \t]*+[+-]?+[.\dlI|Oo])))?+"
+    r"(?>(?P<text>(?=[A-Za-z](?![ \t]*+[+-]?+[.\dlI|Oo])))?)"
 )
 """A comment; or an address and what may be its number, and whether it goes on as a text does."""
 _WORD = re.compile(r",?+[A-Za-z][ \t]*+[+-]?+(?>\d++\.?+\d*+|\.\d++)", re.ASCII)

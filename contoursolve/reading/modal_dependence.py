@@ -86,7 +86,7 @@ def restate(block: Block, motion: int) -> Block:
 
 _BLANKS = " \t\f\v\x02\x03\x11\x12\x13\x14\x1a\ufeff%"
 
-_FRAME = re.compile(rf"(?P<head>[{_BLANKS}]*+)(?P<skip>/[1-9]?+(?!\d)[ \t]*+)?+")
+_FRAME = re.compile(rf"(?P<head>[{_BLANKS}]*+)(?>(?P<skip>/[1-9]?+(?!\d)[ \t]*+)?)")
 
 _DROPPED = (*MOTIONS, Effect.CONTOUR)
 """G codes in whose place those of the plain motions stand."""

@@ -294,7 +294,7 @@ def _lost_by_faults(block: Block, modes: Modes) -> dict[str, Span]:
 
 
 # Possessive throughout: an integer that may be divided at any digit would be tried in all ways.
-_NUMBER = r"[ \t]*+[+-]?+(?:[0-9]{1,12}+(?:\.[0-9]{0,12}+)?+|\.[0-9]{1,12}+)"
+_NUMBER = r"[ \t]*+[+-]?+(?:[0-9]{1,12}+(?>(?:\.[0-9]{0,12}+)?)|\.[0-9]{1,12}+)"
 _COMMENTS = re.compile(r"\([^()]*+\)")
 _MOTIONS = re.compile(r"G0?([01])")
 _COMMENT = r"\((?![ \t]*+contoursolve)[^()]*+\)"
@@ -308,8 +308,8 @@ def plain_lines(modes: Modes) -> re.Pattern[str]:
     """
     axes = "".join(sorted(modes.axes))
     words = rf"N[0-9]{{1,8}}+|G0?[01]|M0?[34589]|T[0-9]{{1,8}}+|[FS{axes}]{_NUMBER}"
-    moving = rf"(?=[^(]*[{axes}])[ \t]*+(?:(?:(?:{words})(?![0-9.])|{_COMMENT})[ \t]*+)++"
-    return re.compile(rf"(?:{moving}|[ \t]*+(?:{_COMMENT}[ \t]*+)*+)(?:\r\n|\n|\r)?", re.IGNORECASE | re.ASCII)
+    moving = rf"(?=[^(]*[{axes}])[ \t]*+(?>(?:(?:(?:{words})(?![0-9.])|{_COMMENT})[ \t]*+)+)"
+    return re.compile(rf"(?:{moving}|[ \t]*+(?>(?:{_COMMENT}[ \t]*+)*))(?:\r\n|\n|\r)?", re.IGNORECASE | re.ASCII)
 
 
 def is_plain(state: State) -> bool:

@@ -26,7 +26,7 @@ from contoursolve.statements.statement import (
 )
 from contoursolve.tolerance import LARGEST
 
-_NUMBER = re.compile(r"[+-]?+(?>\d++\.?+\d*+|\.\d++)(?:[eE][+-]?+\d{1,3}+)?+(?![\w.])")
+_NUMBER = re.compile(r"[+-]?+(?>\d++\.?+\d*+|\.\d++)(?>(?:[eE][+-]?+\d{1,3}+)?)(?![\w.])")
 _DECIMAL_COMMA = re.compile(r"[+-]?+\d++,\d++(?![\w.])")
 _PARTS = {"begin": ("begin of", "start of"), "end": ("end of",), "center": ("center of", "centre of")}
 _TOKEN = re.compile(r"[^\s(),=]+|.", re.DOTALL)
