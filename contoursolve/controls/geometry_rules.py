@@ -191,7 +191,7 @@ GEOMETRY_RULES = (
     _row(
         ReadIssue.ANGLE_OPPOSITE,
         "{words}: {subject} runs the other way, at {expected}; the control takes the angle of a line either way",
-        "write {expected} if the way is meant; else correct the end of the line",
+        "as the line runs, its angle is {expected}: check the signs of the angle and of the end",
         "G00 X0 Z0.\nG01 X60. ,A90.",
         "G00 X0 Z0.\nG01 X60. ,A-90.",
         Severity.WARNING,

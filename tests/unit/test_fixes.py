@@ -5,6 +5,7 @@ from random import Random
 
 import pytest
 from click.testing import CliRunner
+from examples import control_of
 from test_limits import KINDS
 
 from contoursolve import solve
@@ -140,13 +141,14 @@ def test_a_fix_that_keeps_the_contour_keeps_every_element():
             rest[0] += rng.choice((" M08", " ,A45", " I5", " R-30", " X10", " C2", " Q2", " S100"))
             for rules in ("enforce", "off"):
                 try:
-                    result = solve("\n".join([first, *rest]), rules=rules)
+                    result = solve("\n".join([first, *rest]), rules=rules, control=control_of(first))
                 except ValueError:
                     continue
-                old = solve("\n".join([first, *rest]), rules="off", depth="verdict").answers
+                old = solve("\n".join([first, *rest]), rules="off", depth="verdict", control=control_of(first)).answers
                 for fix in (each for finding in result.diagnostics for each in finding.fixes):
                     if fix.applicability is Applicability.SAFE and old and old[0].contour:
-                        new = solve("\n".join([first, fix.replacement]), depth="verdict").answers[0].contour
+                        mended = "\n".join([first, fix.replacement])
+                        new = solve(mended, depth="verdict", control=control_of(first)).answers[0].contour
                         kept += 1
                         for one, other in zip(path(old[0].contour), path(new), strict=True):
                             assert len(one) == len(other), (first, rest, fix)

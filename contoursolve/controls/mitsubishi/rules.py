@@ -165,7 +165,7 @@ _ROWS = (
          "correct one of the angles",
          assumed("alarm P392"), Parallel(("1:A", "2:A"), _GUARD) & ~some("1:" + UNGUARDED), (LINE_LINE,),
          _VERTEX, ("A-30.", "A70.5"), ("A-30.", "A250."), alarm="P392 (angle less than 1 deg)", is_about_geometry=True),
-    _row("h-value", "H is neither 0 nor 1", "write H0 for the shorter line, or H1 for the longer line",
+    _row("h-value", "H is neither 0 nor 1", "choose: H0 is the shorter line, H1 the longer one",
          printed("p. 378"), some(PICKS_NOTHING), _ARCS, _CROSSING, ("H0", "H2"), alarm=_FORMAT),
     _row("h-missing", "H is missing: the line crosses the circle twice",
          "write H0 for the shorter line, or H1 for the longer line", assumed("not described"),
