@@ -282,7 +282,7 @@ def judge(program: Sequence[str], control: str, machine: Machine, settings: dict
 
 
 @pytest.mark.parametrize("control", MACHINES)
-@few_and_many(10, 120)
+@few_and_many(24, 250)
 def test_random_chains_come_out_where_they_were_drawn(control, count):
     rng = Random(f"{control}{count}")
     for _ in range(count):
@@ -290,7 +290,7 @@ def test_random_chains_come_out_where_they_were_drawn(control, count):
 
 
 @pytest.mark.parametrize("kinds", PAIRS)
-@few_and_many(10, 120)
+@few_and_many(24, 250)
 def test_random_pairs_come_out_where_they_were_drawn(kinds, count):
     rng = Random(f"{kinds}{count}")
     for _ in range(count):
@@ -298,7 +298,7 @@ def test_random_pairs_come_out_where_they_were_drawn(kinds, count):
 
 
 @pytest.mark.parametrize("control", MACHINES)
-@few_and_many(10, 120)
+@few_and_many(24, 250)
 def test_no_program_with_a_word_lost_too_many_or_wrong_is_solved_wrongly(control, count):
     rng, verdicts = Random(f"wrong {control}{count}"), Counter[str]()
     for _ in range(count):
@@ -320,7 +320,7 @@ SETTINGS = [
 
 
 @pytest.mark.parametrize(("control", "settings", "changes"), SETTINGS)
-@few_and_many(8, 60)
+@few_and_many(12, 120)
 def test_programs_are_read_as_the_settings_say(control, settings, changes, count):
     rng, machine = Random(f"{settings}{count}"), MACHINES[control]._replace(**changes)
     named = {f"{control}.{name}": value for name, value in settings.items()}
@@ -570,7 +570,7 @@ def test_the_catalogue_explains_alarms_and_lists_the_words():
 
 
 @pytest.mark.parametrize("settings", [{}, {"angle-sense": "ray"}, {"guard-deg": "0"}])
-@few_and_many(10, 30)
+@few_and_many(20, 60)
 def test_many_contours_of_a_program_come_out_as_each_alone(settings, count):
     """Programs with many contours of one form solve them together."""
     rng, named = Random(f"{settings}"), {f"{LATHE}.{name}": value for name, value in settings.items()}
