@@ -168,7 +168,7 @@ _ROWS = (
     _row("h-value", "H is neither 0 nor 1", "choose: H0 is the shorter line, H1 the longer one",
          printed("p. 378"), some(PICKS_NOTHING), _ARCS, _CROSSING, ("H0", "H2"), alarm=_FORMAT),
     _row("h-missing", "H is missing: the line crosses the circle twice",
-         "write H0 for the shorter line, or H1 for the longer line", assumed("not described"),
+         "choose: H0 is the shorter line, H1 the longer one", assumed("not described"),
          some("1:center-first", "2:center-first") & ~some("1:H", "2:H") & some("1:" + PICK_REQUIRED),
          (LINE_CIRCLE, CIRCLE_LINE), _CROSSING),
 )  # fmt: skip
