@@ -3,13 +3,12 @@
 import click
 
 from contoursolve import api
-from contoursolve.cli.expand import report_left, report_misread, report_told, target_of
+from contoursolve.cli.expand import print_bytes, report_left, report_misread, report_told, target_of
 from contoursolve.cli.options import (
     FOUND_ERRORS,
     CouldNotRunError,
     control_option,
     folder_of,
-    read,
     rules_option,
     settings_of,
     settings_option,
@@ -19,7 +18,8 @@ from contoursolve.cli.printing import say, style_of_output
 from contoursolve.controls import DIALECTS
 from contoursolve.controls.chain import ChainFinder
 from contoursolve.diagnosis.wording import count, join
-from contoursolve.gcode.files import CannotWriteError, write_whole
+from contoursolve.gcode import UnreadableProgramError
+from contoursolve.gcode.files import CannotWriteError, open_tape, write_whole
 from contoursolve.postprocess.expansion_report import Conversion
 from contoursolve.postprocess.post_processors import Post, post_of
 from contoursolve.program.recognise import UnknownControlError
@@ -69,30 +69,36 @@ def convert(
     """
     if to is None:
         raise click.UsageError(f"say for which control: --to {'|'.join(_TARGETS)}")
-    target, old = target_of(program, output, is_forced=is_forced), read(program)
+    target, name = target_of(program, output, is_forced=is_forced), program
     try:
-        found = api.convert(
-            old.text,
-            to,
-            comments=not no_comments,
-            control=control,
-            units=units,
-            rules=rules,
-            settings=settings_of(folder_of(old), assignments),
-            name=old.name,
-        )
+        with open_tape(program) as tape:
+            name = tape.name
+            found = api.convert(
+                tape.read(),
+                to,
+                comments=not no_comments,
+                control=control,
+                units=units,
+                rules=rules,
+                settings=settings_of(folder_of(tape), assignments),
+                name=name,
+            )
+    except UnreadableProgramError as error:
+        raise CouldNotRunError(str(error)) from None
     except UnknownControlError as error:
-        raise CouldNotRunError(f"{old.name}: {error}; say which with --control {'|'.join(error.choices)}") from None
+        raise CouldNotRunError(f"{name}: {error}; say which with --control {'|'.join(error.choices)}") from None
     except ValueError as error:
-        raise CouldNotRunError(f"{old.name}: {error}") from None
+        raise CouldNotRunError(f"{name}: {error}") from None
     if found.text is None:
-        _report_failure(found, old.name, to)
+        _report_failure(found, name, to)
         context.exit(FOUND_ERRORS)
+    # In the encoding of the old program: what stays as it was does so byte for byte.
+    pieces = (tape.mark, tape.encode(found.text))
     if target is None:
-        click.echo(found.text, nl=False)
+        print_bytes(pieces)
     else:
         try:
-            write_whole(target, [found.text.encode()], keeps_backup=False)
+            write_whole(target, pieces, keeps_backup=False)
         except CannotWriteError as error:
             raise CouldNotRunError(str(error)) from None
         say(f"{target} written", err=True)

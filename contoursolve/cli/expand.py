@@ -1,7 +1,7 @@
 """The commands that write programs: expand, and the filter of LinuxCNC."""
 
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import AbstractContextManager, ExitStack, contextmanager
 from pathlib import Path
 from tempfile import TemporaryFile
@@ -18,6 +18,7 @@ from contoursolve.cli.options import (
     common_options,
     control_option,
     explaining,
+    folder_of,
     rules_option,
     settings_of,
     settings_option,
@@ -154,7 +155,7 @@ def expand(
             say(f"nothing was written: {_BY_HAND} (--keep-untranslated writes it as it is)", err=True)
             context.exit(FOUND_ERRORS)
         if target is None:
-            _print(rewritten)
+            print_bytes(rewritten.pieces())
         elif summary.replaced or not is_in_place:
             try:
                 backup = write_whole(target, rewritten.pieces(), keeps_backup=is_in_place)
@@ -198,7 +199,7 @@ def filter_(context: click.Context, /, program: str, **options: Any) -> None:
             say("nothing was written" + f": {_BY_HAND}" * bool(rewritten.summary.misread), err=True)
             context.exit(FOUND_ERRORS)
         progress(1.0)
-        _print(rewritten)
+        print_bytes(rewritten.pieces())
     _report_expansion(rewritten.summary, POSTS["linuxcnc"], plain)
 
 
@@ -241,7 +242,6 @@ def _rewrite(
     try:
         with source as tape:
             name = tape.name
-            folder = Path() if name.startswith("<") else Path(name).parent
             return rewrite(
                 tape,
                 body,
@@ -249,7 +249,7 @@ def _rewrite(
                 control=options["control"],
                 unit=Length(options["units"]),
                 policy=Policy(options["rules"]),
-                settings=settings_of(folder, options["assignments"]),
+                settings=settings_of(folder_of(tape), options["assignments"]),
                 start=gcode.parse(start, name, first_line=0) if start is not None else None,
                 facts=[gcode.read_directive(text, -number) for number, text in enumerate(options.get("facts", ()), 1)],
                 progress=progress,
@@ -279,10 +279,10 @@ def _progress_bar() -> Iterator[Callable[[float], None]]:
             bar.update(100 - bar.pos)
 
 
-def _print(rewritten: Rewritten) -> None:
-    """The bytes of the program on standard output."""
+def print_bytes(pieces: Iterable[bytes]) -> None:
+    """A program on standard output, byte for byte."""
     stream = sys.stdout.buffer
-    for piece in rewritten.pieces():
+    for piece in pieces:
         stream.write(piece)
     stream.flush()
 

@@ -18,6 +18,7 @@ from contoursolve.cli.printing import print_lines, style_of_output
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis.examine import Policy
 from contoursolve.gcode import STANDARD_INPUT, Program
+from contoursolve.gcode.files import Tape
 from contoursolve.geometry import Length
 from contoursolve.output.findings import EXPLAINING
 from contoursolve.output.listing import lines_of_findings, short_findings
@@ -269,6 +270,6 @@ def settings_of(folder: Path, assignments: Sequence[str]) -> dict[str, str]:
     return find_settings(folder) | dict(map(read_setting, assignments))
 
 
-def folder_of(program: Program) -> Path:
+def folder_of(program: Program | Tape) -> Path:
     """Where the search for a project file begins: beside the program, or here for what is no file."""
     return Path() if program.name.startswith("<") else Path(program.name).parent

@@ -109,6 +109,15 @@ def test_a_converted_program_cuts_the_same_path(count, tmp_path):
     assert told > count / 4
 
 
+@pytest.mark.parametrize("end", ["\r\n", "\n"])
+def test_comments_keep_their_bytes(end, tmp_path):
+    program, target = tmp_path / "old.nc", tmp_path / "new.nc"
+    before = f"(DREHTEIL, S\u00c4GE){end}G00 X40. Z0.{end}"
+    program.write_bytes(f"{before}G111 X100. A180. K-30. B120. P5.{end}".encode("latin-1"))
+    assert run("convert", program, "--to", "fanuc-lathe", "-o", target)[0] == 0
+    assert target.read_bytes().startswith(before.encode("latin-1"))
+
+
 def test_the_command_writes_a_file_and_says_what_became_of_it(tmp_path):
     target = tmp_path / "new.nc"
     status, output, told = run("convert", SHAFT, "--to", "fanuc-lathe", "-o", target)
