@@ -48,6 +48,8 @@ def what_if(
     'overdetermined'
     """
     program = gcode.parse(block)
+    dialect = choose(control, program, settings)
+    program = gcode.spelled(program, dialect.modes.syntax) if dialect else program
     edits = [_edit(program, address, "") for address in drop]
     edits += [_edit(program, address, word) for address, word in (change or {}).items()]
     last = next((each for each in reversed(program.blocks) if each.words), None)

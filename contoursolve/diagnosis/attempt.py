@@ -353,7 +353,7 @@ def _path_in_parts(claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ..
     """The path of blocks that are several contours, or plain lines, without the corners that are dropped. None where
     one of them is not sound, or more than lines and contours is left."""
     blocks = [
-        parse_block(text, block.line)
+        parse_block(text, block.line, block.syntax)
         for text, block in zip(apply_edits(claim.blocks, edits), claim.blocks, strict=True)
     ]
     state, index, elements = claim.before, 0, list[Segment]()
@@ -457,7 +457,7 @@ def _is_comma(edit: Edit) -> bool:
 def _find(claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> ParsedContour | None:
     texts = apply_edits(claim.blocks, edits)
     lines = [(part, block.line) for text, block in zip(texts, claim.blocks, strict=True) for part in text.split("\n")]
-    ahead, blocks, behind = _parted([parse_block(*line) for line in lines], edits)
+    ahead, blocks, behind = _parted([parse_block(*line, dialect.modes.syntax) for line in lines], edits)
     state = claim.before
     for block in ahead:
         state = advance(state, block, dialect.modes)

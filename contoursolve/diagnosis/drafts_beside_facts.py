@@ -11,7 +11,7 @@ from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, write_word
 from contoursolve.diagnosis.examine import Answer, AskedValue
 from contoursolve.diagnostics.finding import Diagnostic, Severity
 from contoursolve.diagnostics.source import Span
-from contoursolve.gcode import FACT, Word
+from contoursolve.gcode import FACT, Word, spell
 from contoursolve.geometry import FIRST, SECOND, Coordinate, Fact, Length, Offset, Profile, Unit, assemble, scalar
 from contoursolve.reading import Lexicon, ReadIssue
 from contoursolve.reading.dialect import Dialect
@@ -124,7 +124,7 @@ def _additions(answer: Answer) -> Iterator[tuple[Edit, ...]]:
     edits = []
     for name in absent:
         address, index = claim.vocabulary[name]
-        edits.append(Edit(EditKind.ADD, address, text=address + PLACEHOLDER, line=claim.blocks[index].line))
+        edits.append(Edit(EditKind.ADD, address, text=spell(address, PLACEHOLDER), line=claim.blocks[index].line))
     for size in range(1, MOST_ADDED + 1):
         yield from combinations(edits, size)
 
@@ -159,7 +159,7 @@ def _corrected(answer: Answer, dialect: Dialect, twice: list[Diagnostic], before
 def _with_value(word: Word, value: str) -> str:
     """A word or a fact with another value; empty if it has none."""
     if word.address != FACT:
-        return f"{word.address}{value}" if word.number is not None else ""
+        return spell(word.address, value) if word.number is not None else ""
     match = _VALUE.search(word.text)
     return f"{word.text[: match.start('number')]}{value}" if match else ""
 

@@ -10,7 +10,7 @@ from msgspec import Struct
 
 from contoursolve.diagnosis.wording import shorten
 from contoursolve.diagnostics.source import Evidence, Source, Span
-from contoursolve.gcode import FACT, Block, Directive, parse_block, read_directive
+from contoursolve.gcode import FACT, Block, Directive, Syntax, parse_block, read_directive, spell
 from contoursolve.geometry import Length, Unit
 from contoursolve.reading import Lexicon, WithoutPoint
 from contoursolve.reading.modal_dependence import restate
@@ -67,7 +67,7 @@ ERRANDS = (
 
 def errand_of(address: str, text: str) -> Errand | None:
     """What a word, as it is written, does besides the contour; None for the words of a contour."""
-    number = re.fullmatch(r"0*(\d+)\.?0*", text.strip()[len(address) :].strip())
+    number = re.fullmatch(r"0*(\d+)\.?0*", text.strip()[len(address) :].lstrip("= \t"))
     fitting = (
         row
         for row in ERRANDS
@@ -170,7 +170,11 @@ def apply_edits(blocks: Iterable[Block], edits: Iterable[Edit]) -> tuple[str, ..
                 text = before.rstrip(" ") + after if before.strip() else before + after.lstrip(" ")
         for edit in edits:
             if edit.kind is EditKind.ADD and edit.line == block.line:
-                text = _with_code(text, edit.text) if edit.address == "G" else _insert(text, edit.text)
+                text = (
+                    _with_code(text, edit.text, block.syntax)
+                    if edit.address == "G"
+                    else _insert(text, edit.text, block.syntax)
+                )
         is_fact_dropped = any(edit.address == FACT and not edit.text for edit in own)
         texts.append(_with_moved(_tidy(text) if is_fact_dropped else text, own))
     return tuple(texts)
@@ -207,14 +211,15 @@ def _tidy(text: str) -> str:
     return re.sub(r"(?<!\s)\s*+;(?:\s*+;)*(\s*+[);])", r"\1", text)
 
 
-def _with_code(text: str, code: str) -> str:
+def _with_code(text: str, code: str, syntax: Syntax) -> str:
     """A G code added before the first word that is more than a number."""
-    return restate(parse_block(text, 1), int(code.removeprefix("G"))).text
+    return restate(parse_block(text, 1, syntax), int(code.removeprefix("G"))).text
 
 
-def _insert(text: str, word: str) -> str:
+def _insert(text: str, word: str, syntax: Syntax) -> str:
     """A word added behind the last one, before a comment."""
-    cut = min((place for place in (text.find("("), text.find(";")) if place >= 0), default=len(text))
+    comment = syntax.comment.search(text)
+    cut = comment.start() if comment else len(text)
     head, tail = text[:cut].rstrip(), text[cut:]
     return f"{head} {word}" + (f" {tail}" if tail else "")
 
@@ -236,4 +241,4 @@ def write_word(address: str, value: float, lexicon: Lexicon, unit: Length, round
     text = f"{number:f}".rstrip("0")
     if text.endswith(".") and (numbers.without_point is WithoutPoint.AS_WRITTEN or number == 0):
         text = text[:-1]
-    return address + text
+    return spell(address, text)

@@ -8,6 +8,7 @@ from math import log10
 import numpy
 
 from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, write_word
+from contoursolve.gcode import spell
 from contoursolve.geometry import Coordinate, Profile, Radius, Unit
 from contoursolve.numeric.columns import Array
 from contoursolve.reading import ParsedContour
@@ -37,7 +38,7 @@ SAMPLE = "37.123"
 
 def sampled(edits: Sequence[Edit]) -> tuple[Edit, ...]:
     """The edits with some number for every placeholder."""
-    return tuple(_numbered(edit, edit.address + SAMPLE) if edit.is_placeholder else edit for edit in edits)
+    return tuple(_numbered(edit, spell(edit.address, SAMPLE)) if edit.is_placeholder else edit for edit in edits)
 
 
 def propose(claim: ParsedContour, profile: Profile, edits: Sequence[Edit]) -> Iterator[tuple[Edit, ...]]:

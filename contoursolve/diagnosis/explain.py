@@ -29,7 +29,7 @@ from contoursolve.diagnosis.wording import (
 )
 from contoursolve.diagnostics.finding import Basis, Diagnostic, Label
 from contoursolve.diagnostics.source import Span
-from contoursolve.gcode import FACT, Word
+from contoursolve.gcode import FACT, Word, spell
 from contoursolve.geometry import Length, Profile, Radius, Role, Unit, assemble
 from contoursolve.reading import ParsedContour, ReadIssue
 from contoursolve.reading.rules import VERBS, Offence, Rule
@@ -171,7 +171,7 @@ def explain_offence(context: Context, offence: Offence, claim: ParsedContour) ->
         # What is missing is missing in the last block that the rule is about.
         context = replace(context, place=min(block))
     turned = (givens[name] for name in offence.names if name in givens and givens[name].unit is Unit.DEGREE)
-    within = [f"{each.word.address}{_pointed(each.value % _FULL_TURN)}" for each in turned if each.word]
+    within = [spell(each.word.address, _pointed(each.value % _FULL_TURN)) for each in turned if each.word]
     lacking = join(_lacking(claim, offence.role.prefixes[-1]))
     return report(context, offence.rule, Basis.RULE, words, comparison="", within=join(within), lacking=lacking)
 

@@ -32,7 +32,7 @@ def fill_in(answer: Answer, before: State, dialect: Dialect) -> Filled | None:
         texts[span.line] = text[: span.column - 1] + written + text[span.end_column - 1 :]
     first = answer.claim.blocks[0].line
     blocks = tuple(
-        replace(gcode.parse_block(texts.get(line, ""), line), directives=())
+        replace(gcode.parse_block(texts.get(line, ""), line, dialect.modes.syntax), directives=())
         for line in range(first, answer.claim.blocks[-1].line + 1)
     )
     claim = dialect.find(blocks, 0, before, dialect.modes)

@@ -10,7 +10,7 @@ from contoursolve.diagnosis.spelling import meant_words
 from contoursolve.diagnosis.wording import angle_text, join, length_text
 from contoursolve.diagnostics.finding import Basis, Diagnostic, Severity
 from contoursolve.diagnostics.source import Span
-from contoursolve.gcode import Word, lookalike_at
+from contoursolve.gcode import Word, lookalike_at, spell
 from contoursolve.geometry import Given, Length, Unit
 from contoursolve.reading import Lexicon, ParsedContour, Position, ReadIssue, WithoutPoint
 
@@ -61,7 +61,7 @@ def readings(word: Word, lexicon: Lexicon, unit: Length) -> tuple[str, str, str]
     for the first."""
     number, step = word.number or Decimal(0), lexicon.numbers.step(Unit.MM, unit)
     actual, expected = (length_text(float(number * scale * unit.in_mm), unit) for scale in (step, 1))
-    return actual, expected, word.address + f"{number * step:f}".rstrip("0")
+    return actual, expected, spell(word.address, f"{number * step:f}".rstrip("0"))
 
 
 def _start_counted(context: Context, claim: ParsedContour, words: Sequence[Word]) -> Diagnostic:

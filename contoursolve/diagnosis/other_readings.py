@@ -53,7 +53,7 @@ def explain_commas(
         found, replacement = _read(dialect, blocks, [edit], before)
         fixes = tuple(_tried(dialect, found, [edit], replacement))
         if previous and not fixes:
-            edited = parse_block(replacement, block.line)
+            edited = parse_block(replacement, block.line, block.syntax)
             other = dialect.find([*previous[0], edited, *blocks[1:]], 0, previous[1], dialect.modes)
             fixes = tuple(_tried(dialect, other if other and edited in other.blocks else None, [edit], replacement))
         if fixes or any(map(block.find, after.plane.axes)):
@@ -107,7 +107,7 @@ def _read(
 ) -> tuple[ParsedContour | None, str]:
     """The contour that begins with the first of some blocks when it is edited, if one does; and its text then."""
     (text,) = apply_edits(blocks[:1], edits)
-    found = dialect.find([parse_block(text, blocks[0].line), *blocks[1:]], 0, before, dialect.modes)
+    found = dialect.find([parse_block(text, blocks[0].line, blocks[0].syntax), *blocks[1:]], 0, before, dialect.modes)
     return (found if isinstance(found, ParsedContour) and found.form.is_contour else None), text
 
 

@@ -50,7 +50,7 @@ from contoursolve.diagnosis.typo_fixes import (
     suspects,
 )
 from contoursolve.diagnostics.finding import Diagnostic, Severity
-from contoursolve.gcode import Block, FaultKind, Word
+from contoursolve.gcode import Block, FaultKind, Word, spell
 from contoursolve.geometry import Given, Profile, Radius, Role, Unit
 from contoursolve.reading import ContourForm, ParsedContour, State, read
 from contoursolve.reading.dialect import Dialect
@@ -305,7 +305,7 @@ def _corrections(claim: ParsedContour, dialect: Dialect) -> Iterator[tuple[str, 
 def _additions(claim: ParsedContour, dialect: Dialect, name: str, geometries: Iterable[_Geometry]) -> list[Edit]:
     """A word added: with the value that the geometry fixes, each sign of a choice, or a placeholder."""
     address, index = claim.vocabulary[name]
-    texts = [f"{address}-1", f"{address}1"] if name in claim.form.choices else [address + PLACEHOLDER]
+    texts = [f"{address}-1", f"{address}1"] if name in claim.form.choices else [spell(address, PLACEHOLDER)]
     for geometry in geometries:
         value = geometry.implied(claim, name)
         if value is not None:

@@ -147,7 +147,8 @@ def _selecting(item: Alternative, asked: Sequence[AskedValue], alternatives: Alt
             if all(abs(item.scalars[name] - value) > 10 * LENGTH for value in others) and "." not in point:
                 value = item.scalars[name] * (2 if plane.diameters[axis] else 1)
                 shown = value / 25.4 if unit is Length.INCH else value
-                return [f"(contoursolve: {plane.axes[axis]} of {point} = {shown:.3f})"]
+                fact = f"contoursolve: {plane.axes[axis]} of {point} = {shown:.3f}"
+                return [answer.claim.blocks[0].syntax.remark.format(fact)]
     return []
 
 

@@ -9,7 +9,7 @@ from msgspec import Struct
 from contoursolve.analysis import analyse
 from contoursolve.diagnosis.wording import unknowns_text
 from contoursolve.diagnostics.finding import Severity
-from contoursolve.gcode import parse
+from contoursolve.gcode import parse, parse_block
 from contoursolve.geometry import Corner, Length, Profile, assemble
 from contoursolve.reading import ContourForm, ParsedContour, Sample, advance, read
 from contoursolve.reading.dialect import Dialect
@@ -61,8 +61,10 @@ def tabulate(form: ContourForm, dialect: Dialect) -> Iterator[Row]:
 def _row(form: ContourForm, dialect: Dialect, chosen: frozenset[str]) -> Row:
     sample = _sample(form)
     lines = [_OPTIONAL.sub(lambda word: word[1] if word[1] in chosen else "", block) for block in sample.blocks]
-    state = advance(dialect.initial_state(Length.MM), parse(sample.before).blocks[0], dialect.modes)
-    blocks = parse("\n".join(lines)).blocks
+    state = advance(
+        dialect.initial_state(Length.MM), parse_block(sample.before, 1, dialect.modes.syntax), dialect.modes
+    )
+    blocks = parse("\n".join(lines), syntax=dialect.modes.syntax).blocks
     claim = dialect.find(blocks, 0, state, dialect.modes)
     words = [(number, word) for number, block in enumerate(blocks, 1) for word in block.words if word.address != "G"]
     addresses = tuple(f"{number}:" * (len(blocks) > 1) + word.address for number, word in words)

@@ -14,11 +14,15 @@ from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.spelling import meant_words
 from contoursolve.diagnostics.finding import Severity
 from contoursolve.diagnostics.source import Span
-from contoursolve.gcode import FACT, Word, lookalike_at, mended
+from contoursolve.gcode import FACT, Word, lookalike_at, mended, spell
 from contoursolve.geometry import CornerShape, Unit
 from contoursolve.reading import Effect, Modes, ParsedContour, ReadIssue, WithoutPoint
 
-_WORD = re.compile(r"(?P<address>,?[ \t]*[A-Za-z])[ \t]*(?P<sign>[+-]?)(?P<number>\d+\.?\d*|\.\d+)", re.ASCII)
+_WORD = re.compile(
+    r"(?P<address>,?[ \t]*[A-Za-z](?![A-Za-z_#])|[A-Za-z]\w*=[A-Za-z]+(?=\()|#?[A-Za-z]\w*(?=[ \t=]))"
+    r"[ \t]*[=(]?[ \t]*(?P<sign>[+-]?)(?P<number>\d+\.?\d*|\.\d+)\)?",
+    re.ASCII,
+)
 _DECIMALS = 3
 """Decimals that a word of either control has at most."""
 _ABOUT, _NEARLY = 0.01, 0.003
@@ -43,7 +47,7 @@ class Typed(Struct, frozen=True):
 
     def with_number(self, number: str) -> str:
         """The word with other digits."""
-        return f"{self.address}{self.sign}{number}"
+        return spell(self.address, self.sign + number)
 
     @property
     def is_choice(self) -> bool:
@@ -88,21 +92,24 @@ def _point_lost_in_few(typed: Typed) -> Iterator[str]:
 
 def _sign_lost(typed: Typed) -> Iterator[str]:
     if not typed.sign and float(typed.number) and not typed.is_choice:
-        yield f"{typed.address}-{typed.number}"
+        yield spell(typed.address, "-" + typed.number)
 
 
 def _sign_added(typed: Typed) -> Iterator[str]:
     if typed.sign == "-" and not typed.is_choice:
-        yield f"{typed.address}{typed.number}"
+        yield spell(typed.address, typed.number)
 
 
 def _sign_of_choice(typed: Typed) -> Iterator[str]:
     if typed.is_choice and float(typed.number):
-        yield f"{typed.address}{'' if typed.sign == '-' else '-'}{typed.number}"
+        yield spell(typed.address, ("" if typed.sign == "-" else "-") + typed.number)
 
 
 def _comma_of_address(typed: Typed) -> Iterator[str]:
-    yield f"{typed.address[1:].strip()}{typed.sign}{typed.number}" if "," in typed.address else f",{typed.word.text}"
+    if "," in typed.address:
+        yield f"{typed.address[1:].strip()}{typed.sign}{typed.number}"
+    elif len(typed.address) == 1:
+        yield f",{typed.word.text}"
 
 
 def _neighbour(typed: Typed) -> Iterator[str]:
@@ -111,7 +118,7 @@ def _neighbour(typed: Typed) -> Iterator[str]:
     shape = shapes.get(typed.address.upper(), CornerShape.FILLET if typed.address.strip(" ,").upper() == "R" else None)
     for address, other in shapes.items():
         if other is shape and address != typed.address.upper():
-            yield f"{address}{typed.sign}{typed.number}"
+            yield spell(address, typed.sign + typed.number)
 
 
 def _shapes(claim: ParsedContour) -> dict[str, CornerShape]:

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Decimal
 
-from contoursolve.gcode import FACT
+from contoursolve.gcode import FACT, spell
 from contoursolve.geometry import Arc, CornerShape, Given, Length, Plane, Profile, Unit
 from contoursolve.solving import Status
 
@@ -64,7 +64,7 @@ def statement_text(given: Given, value: float, profile: Profile) -> str:
     if word is None or word.address == FACT:
         return f"{word.text.partition('=')[0].strip() if word else given.name} = {number}"
     lines = {each.word.span.line for each in profile.givens.values() if each.word}
-    return f"{word.address}{number}" + (f" (program line {word.span.line})" if len(lines) > 1 else "")
+    return spell(word.address, number) + (f" (program line {word.span.line})" if len(lines) > 1 else "")
 
 
 def by_line(texts: Iterable[tuple[str, int]]) -> str:

@@ -18,7 +18,7 @@ from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis.examine import Answer, Depth, Policy
 from contoursolve.diagnostics.choices import choice_of
 from contoursolve.diagnostics.finding import Diagnostic, Severity
-from contoursolve.gcode import FACT, Directive, Program, Word
+from contoursolve.gcode import FACT, Directive, Program, Word, spell
 from contoursolve.geometry import Length
 from contoursolve.numeric.columns import Array
 from contoursolve.program.pipeline import Result, run
@@ -232,10 +232,10 @@ class Template(Struct, frozen=True, eq=False):
 
     def typed(self, texts: Mapping[str, str]) -> "Template":
         """The block with these texts in place of free words, and no word free."""
-        program = gcode.parse("\n".join(self.lines(self.program, texts)), self.program.name)
+        program = gcode.parse("\n".join(self.lines(self.program, texts)), self.program.name, syntax=self.program.syntax)
         start = self.start
         if start is not None:
-            start = gcode.parse("\n".join(self.lines(start, texts)), start.name, first_line=0)
+            start = gcode.parse("\n".join(self.lines(start, texts)), start.name, 0, start.syntax)
         free = {self.words[name].span.line: text for name, text in texts.items()}
         lines = ((each, each.span.line) for each in self.facts)
         facts = tuple(gcode.read_directive(free[line], line) if line in free else each for each, line in lines)
@@ -336,7 +336,7 @@ def unit_word(word: Word, *, has_point: bool) -> Word:
 
 def with_value(word: Word, value: str) -> str:
     """The text of a word, or of a fact, with another value."""
-    return re.sub(r"=.*", f"= {value}", word.text) if word.address == FACT else word.address + value
+    return re.sub(r"=.*", f"= {value}", word.text) if word.address == FACT else spell(word.address, value)
 
 
 _NEVER = ("G", "N", "M")

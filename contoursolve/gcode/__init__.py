@@ -4,7 +4,7 @@ A text or a file comes in, blocks of words with their places go out; no word has
 then `lexer`.
 """
 
-from contoursolve.gcode.lexer import LONGEST_BLOCK, find_words, parse, parse_block, read_directive, split_lines
+from contoursolve.gcode.lexer import LONGEST_BLOCK, find_words, parse, parse_block, read_directive, spelled, split_lines
 from contoursolve.gcode.lookalikes import (
     Lookalike,
     find_lookalikes,
@@ -13,6 +13,7 @@ from contoursolve.gcode.lookalikes import (
     mended,
     with_digits,
 )
+from contoursolve.gcode.syntax import ISO, Syntax
 from contoursolve.gcode.text import (
     BINARY,
     STANDARD_INPUT,
@@ -23,11 +24,12 @@ from contoursolve.gcode.text import (
     reason_of,
     standard_input,
 )
-from contoursolve.gcode.word import FACT, Block, Directive, Fault, FaultKind, Macro, Passage, Program, Word
+from contoursolve.gcode.word import FACT, Block, Directive, Fault, FaultKind, Macro, Passage, Program, Word, spell
 
 __all__ = [
     "BINARY",
     "FACT",
+    "ISO",
     "LONGEST_BLOCK",
     "STANDARD_INPUT",
     "Block",
@@ -38,6 +40,7 @@ __all__ = [
     "Macro",
     "Passage",
     "Program",
+    "Syntax",
     "UnreadableProgramError",
     "Word",
     "decode",
@@ -52,6 +55,8 @@ __all__ = [
     "read_bytes",
     "read_directive",
     "reason_of",
+    "spell",
+    "spelled",
     "split_lines",
     "standard_input",
     "with_digits",

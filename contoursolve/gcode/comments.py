@@ -2,32 +2,40 @@
 
 import re
 
-_COMMENT = re.compile(r"\([^)]*\)|;.*")
-_DIRECTIVE = re.compile(r"\(\s*contoursolve\s*:", re.IGNORECASE)
+from contoursolve.gcode.syntax import ISO, Syntax
+from contoursolve.gcode.word import Block
+
+_DIRECTIVE = re.compile(r"[(;]\s*contoursolve\s*:", re.IGNORECASE)
 _NOT_PRINTED = re.compile(r"[\x00-\x1f\x7f\ufeff%]")
 _BRACKETS = str.maketrans("()", "[]")
 _LONGEST_COMMENT = 200
 """Characters; LinuxCNC reads lines of up to 255."""
 
-LEFT_MARK = "(NOT EXPANDED: "
+LEFT_MARK = "NOT EXPANDED: "
 """Begins the remark above a contour that is left as it is."""
 
 
-def comment_out(text: str) -> list[str]:
+def comment_out(text: str, syntax: Syntax = ISO) -> list[str]:
     """A text as comments, without what would end them or be read on a tape."""
-    text = _NOT_PRINTED.sub(" ", text.translate(_BRACKETS)).strip()
-    if 0 < len(text) <= _LONGEST_COMMENT:
-        return [f"({text})"]
+    if syntax.remark.endswith(")"):
+        text = text.translate(_BRACKETS)
+    text = _NOT_PRINTED.sub(" ", text).strip()
     parts = (text[at : at + _LONGEST_COMMENT] for at in range(0, len(text), _LONGEST_COMMENT))
-    return [f"({part})" for part in parts]
+    return [syntax.remark.format(part) for part in parts]
 
 
-def remark(reason: str) -> str:
+def remark(reason: str, syntax: Syntax = ISO) -> str:
     """Why a contour is not expanded, as one comment."""
-    text = LEFT_MARK.removeprefix("(") + reason
-    return comment_out(text if len(text) <= _LONGEST_COMMENT else text[: _LONGEST_COMMENT - 3] + "...")[0]
+    text = LEFT_MARK + reason
+    return comment_out(text if len(text) <= _LONGEST_COMMENT else text[: _LONGEST_COMMENT - 3] + "...", syntax)[0]
 
 
-def own_comments(text: str) -> list[str]:
+def is_remark(line: str) -> bool:
+    """Whether a line is such a remark."""
+    return line.startswith(LEFT_MARK, 1)
+
+
+def own_comments(block: Block) -> list[str]:
     """The comments of a block, without those for contoursolve alone."""
-    return [comment for comment in _COMMENT.findall(text) if not _DIRECTIVE.match(comment)]
+    found = (match[0] for match in block.syntax.comment.finditer(block.text))
+    return [comment for comment in found if not _DIRECTIVE.match(comment)]

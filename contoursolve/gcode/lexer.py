@@ -7,6 +7,7 @@ from decimal import Decimal
 from typing import overload
 
 from contoursolve.diagnostics.source import Span
+from contoursolve.gcode.syntax import ISO, Syntax
 from contoursolve.gcode.word import Block, Directive, Fault, FaultKind, Macro, Program, Word
 
 LONGEST_BLOCK = 2_000
@@ -18,44 +19,28 @@ LONGEST_NUMBER, MOST_BEFORE_POINT = 32, 20
 
 _LINE_END = re.compile(r"\r\n|\n|\r")
 _LINE = re.compile(r"[^\r\n]*(?:\r\n|\n|\r)|[^\r\n]+")
-# Runs are possessive (`++`, `*+`): what they take is never tried again, so that a line takes time by its length.
-# Groups that repeat are atomic (`(?>...)`) instead: Python before 3.11.5 reads `(?:...)*+` wrongly (gh-106052).
-_BRACKETS = r"\[(?>(?:[^\[\]]++|\[(?>(?:[^\[\]]++|\[[^\[\]]*+\])*)\])*)\]"
-_TOKEN = re.compile(
-    rf"""
-    (?P<blank>[ \t\f\v\x02\x03\x11-\x14\x1a\ufeff%]++)
-  | (?P<comment>\([^)]*+\)|;.*+)
-  | (?P<open>\([^)]*+)
-  | (?P<word>(?P<comma>,?+)[ \t]*+(?P<letter>[A-Za-z])[ \t]*+
-      (?:(?P<number>[+-]?+(?>\d++\.?+\d*+|\.\d++))(?![\d.]|,\d|[eE][+-]?+\d++(?![\d.]))
-        |(?P<expression>[+-]?+(?:\#\d++|\#?+{_BRACKETS}))|(?P<asked>\?)))
-  | (?P<malformed>,?+[ \t]*+[A-Za-z][ \t]*+(?>(?:[\d.+-]|,(?=\d))+)(?>(?:[eE][+-]?+\d++)?))
-  | (?P<bare>,?+[ \t]*+[A-Za-z](?>(?:(?![A-Za-z][ \t]*+[+-]?+\.?+\d)[A-Za-z])*))
-  | (?P<comma_only>,[^ \tA-Za-z(;]*+)
-  | (?P<stray>[^ \tA-Za-z(;,%]++|.)
-    """,
-    re.VERBOSE | re.ASCII,
-)
 _SIMPLE_WORD = r"[ \t]*+([A-DF-Za-df-z])([+-]?+(?:[0-9]{1,16}+(?>(?:\.[0-9]{0,15}+)?)|\.[0-9]{1,16}+))(?=[ \tA-Za-z]|$)"
 _SIMPLE = re.compile(rf"(?>(?:{_SIMPLE_WORD})+)[ \t]*+")
 """Nothing but words without blanks inside them; E may be an exponent."""
 _SIMPLE_WORDS = re.compile(_SIMPLE_WORD)
 _SKIP = re.compile(r"[ \t]*+/[1-9]?+(?!\d)")
-_MACRO = re.compile(
-    r"[ \t/]*+(?>(?:[Nn]\d++)?)[ \t]*+(?:(?P<assignment>\#)|(?P<flow>(?:IF|WHILE|GOTO|DO|END|THEN|ELSE)\b"
-    r"|(?:GOTO|DO|END)\d|(?:IF|WHILE)\[))",
-    re.IGNORECASE,
-)
-_COMMENTS = re.compile(r"\([^)]*+\)?+|;.*+")
 
 
-def parse(text: str, name: str = "<program>", first_line: int = 1) -> Program:
+def parse(text: str, name: str = "<program>", first_line: int = 1, syntax: Syntax = ISO) -> Program:
     """Read a program's text into blocks; nothing is ever refused here, faults are kept as records.
 
     Line ends are LF, CRLF or CR. The text is not changed: each word keeps its characters and place.
     """
-    blocks = Blocks(text, first_line)
-    return Program(name, text, tuple(blocks) if len(blocks) <= MANY_LINES else blocks)
+    blocks = Blocks(text, first_line, syntax)
+    return Program(name, text, tuple(blocks) if len(blocks) <= MANY_LINES else blocks, syntax)
+
+
+def spelled(program: Program, syntax: Syntax) -> Program:
+    """The program read in another way of spelling, if it is not read in this one."""
+    if program.syntax is syntax:
+        return program
+    first = program.blocks[0].line if program.blocks else 1
+    return parse(program.text, program.name, first, syntax)
 
 
 MANY_LINES = 10_000
@@ -65,8 +50,8 @@ MANY_LINES = 10_000
 class Blocks(Sequence[Block]):
     """The blocks of a text, each read whenever somebody looks at it."""
 
-    def __init__(self, text: str, first_line: int) -> None:
-        self._text, self._first = text, first_line
+    def __init__(self, text: str, first_line: int, syntax: Syntax) -> None:
+        self._text, self._first, self._syntax = text, first_line, syntax
         self._begins = array("Q", (0, *(end.end() for end in _LINE_END.finditer(text))))
         if len(self._begins) == 1 or self._begins[-1] < len(text):
             self._begins.append(len(text))
@@ -89,7 +74,7 @@ class Blocks(Sequence[Block]):
 
     def _read(self, place: int) -> Block:
         line = self._text[self._begins[place] : self._begins[place + 1]].rstrip("\r\n")
-        return parse_block(line, self._first + place)
+        return parse_block(line, self._first + place, self._syntax)
 
 
 def split_lines(text: str) -> list[str]:
@@ -97,41 +82,48 @@ def split_lines(text: str) -> list[str]:
     return _LINE.findall(text)
 
 
-def parse_block(text: str, line: int) -> Block:
+def parse_block(text: str, line: int, syntax: Syntax = ISO) -> Block:
     """Read one line (without its end) into words and faults."""
     simple = _read_simply(text, line)
     if simple:
         # Most blocks; they need nothing of what follows.
-        return Block(line, text, simple)
-    if len(text) > LONGEST_BLOCK and len(_COMMENTS.sub("", text)) > LONGEST_BLOCK:
+        return Block(line, text, simple, syntax=syntax)
+    if len(text) > LONGEST_BLOCK and len(syntax.comment.sub("", text)) > LONGEST_BLOCK:
         span = Span(line, 1, len(text) + 1)
-        return Block(line, text, (), (Fault(FaultKind.BLOCK_TOO_LONG, f"{len(text):,} characters", span),))
-    macro = _MACRO.match(text)
+        fault = Fault(FaultKind.BLOCK_TOO_LONG, f"{len(text):,} characters", span)
+        return Block(line, text, (), (fault,), syntax=syntax)
+    macro = syntax.statement.match(text)
     if macro:
-        return Block(line, text, (), macro=Macro.ASSIGNMENT if macro["assignment"] else Macro.FLOW)
+        kind = Macro.FLOW if macro["flow"] else Macro.ASSIGNMENT
+        return Block(line, text, (), macro=kind, syntax=syntax)
     words: list[Word] = []
     faults: list[Fault] = []
     directives: list[Directive] = []
     unmarked: list[Directive] = []
     skip = _SKIP.match(text)
-    for token in _TOKEN.finditer(text, skip.end() if skip else 0):
-        kind = token.lastgroup
-        if kind == "comment":
-            directives += _directives(token[0], line, token.start())
-            unmarked += _unmarked(token[0], line, token.start())
-        if kind == "blank" or kind == "comment":
+    for token in syntax.token.finditer(text, skip.end() if skip else 0):
+        shape = token.lastgroup
+        if shape == "comment":
+            directives += _directives(token[0], line, token.start(), syntax)
+            unmarked += _unmarked(token[0], line, token.start(), syntax)
+        if shape == "blank" or shape == "comment":
             continue
         span = Span(line, token.start() + 1, token.end() + 1)
-        if kind == "word":
+        if shape == "word":
             comma, letter, number, asked = token.group("comma", "letter", "number", "asked")
             if number and (len(number) > LONGEST_NUMBER or len(number.partition(".")[0]) > MOST_BEFORE_POINT):
                 faults.append(Fault(FaultKind.NUMBER_TOO_LONG, token[0], span))
                 continue
-            address = (comma + letter).upper()
+            # Where no comma begins a word, one may stand for the point.
+            number = number and number.replace(",", ".")
+            address = (comma + letter if syntax.is_plain else long_address(token)).upper()
             value = Decimal(number) if number else None
             words.append(Word(address, value, "." in (number or ""), token[0], span, asked is not None))
+        elif shape == "name":
+            code = syntax.codes.get(token["name"].upper())
+            words.append(Word("G", None if code is None else Decimal(code), False, token[0], span))
         else:
-            faults.append(Fault(_FAULTS[kind or ""], token[0], span))
+            faults.append(Fault(_FAULTS[shape or ""], token[0], span))
     return Block(
         line,
         text,
@@ -140,7 +132,13 @@ def parse_block(text: str, line: int) -> Block:
         directives=tuple(directives),
         unmarked=tuple(unmarked),
         is_skippable=skip is not None,
+        syntax=syntax,
     )
+
+
+def long_address(token: re.Match[str]) -> str:
+    """The address of a word that may have several letters, with the function around its number: `X=IC` of `X=IC(5)`."""
+    return str(token["letter"] or token["long"]) + (f"={token['function']}" if token["function"] else "")
 
 
 def _read_simply(text: str, line: int) -> tuple[Word, ...]:
@@ -172,10 +170,10 @@ def read_directive(text: str, line: int, column: int = 1) -> Directive:
     return Directive(text.strip(), Span(line, begin, begin + max(len(text.strip()), 1)))
 
 
-def _directives(comment: str, line: int, offset: int) -> list[Directive]:
+def _directives(comment: str, line: int, offset: int, syntax: Syntax) -> list[Directive]:
     """The facts in a comment, separated by semicolons."""
     match = _DIRECTIVE.match(comment)
-    if match is None:
+    if match is None or not comment.startswith(syntax.remark[0]):
         return []
     found, at = [], match.end()
     for part in comment[at:].removesuffix(")").split(";"):
@@ -185,15 +183,15 @@ def _directives(comment: str, line: int, offset: int) -> list[Directive]:
     return found
 
 
-_DIRECTIVE = re.compile(r"\(\s*+contoursolve\s*+:", re.IGNORECASE)
+_DIRECTIVE = re.compile(r"[(;]\s*+contoursolve\s*+:", re.IGNORECASE)
 _UNMARKED = re.compile(r"[(;]\s*+c\w*tour[\s_-]*+sol\w*+(?P<gap>[\s:;.,=-]*+)(?P<fact>[^)]*+)", re.IGNORECASE)
 _STATES = re.compile(r"=|passes\s++through|tangent\s++to|meets", re.IGNORECASE)
 
 
-def _unmarked(comment: str, line: int, offset: int) -> list[Directive]:
+def _unmarked(comment: str, line: int, offset: int, syntax: Syntax) -> list[Directive]:
     """A comment that begins almost like one that states facts, as it would have to be written."""
     match = _UNMARKED.match(comment)
-    if match is None or _DIRECTIVE.match(comment):
+    if match is None or (_DIRECTIVE.match(comment) and comment.startswith(syntax.remark[0])):
         return []
     fact = match["fact"]
     if not _STATES.search(fact):
@@ -202,7 +200,7 @@ def _unmarked(comment: str, line: int, offset: int) -> list[Directive]:
         if not sign:
             return []
         fact = sign + behind + fact
-    text = f"(contoursolve: {fact.strip()})"
+    text = syntax.remark.format(f"contoursolve: {fact.strip()}")
     return [Directive(text, Span(line, offset + 1, offset + 1 + len(comment)))]
 
 

@@ -9,6 +9,7 @@ from msgspec import Struct
 
 from contoursolve.diagnostics.display import Shown
 from contoursolve.diagnostics.source import Span
+from contoursolve.gcode.syntax import ISO, Syntax
 
 
 class Word(Struct, frozen=True):
@@ -67,7 +68,14 @@ class Fault(Struct, frozen=True):
         return "".join(match.groups()).upper() if match else ""
 
 
-_ADDRESS = re.compile(r"[ \t]*(,?)[ \t]*([A-Za-z])")
+_ADDRESS = re.compile(r"[ \t]*(,?)[ \t]*(#?[A-Za-z_]\w*(?=[ \t]*=)|[A-Za-z])", re.ASCII)
+
+
+def spell(address: str, number: str) -> str:
+    """A word of an address and a number: `X40.`, `,A30.`, `ANG=30`, `X=IC(5)`."""
+    if "=" in address:
+        return f"{address}({number})"
+    return f"{address}={number}" if len(address.lstrip(", \t")) > 1 else address + number
 
 
 class Macro(Enum):
@@ -92,6 +100,7 @@ class Block(Shown, Struct, frozen=True):
     """Comments that look like facts, but lack the mark: what would have to be written."""
     is_skippable: bool = False
     """The block begins with `/`: a switch at the machine decides whether it runs."""
+    syntax: Syntax = ISO
 
     def find(self, address: str) -> Word | None:
         """The first word with this address, or None."""
@@ -122,3 +131,4 @@ class Program(Shown, Struct, frozen=True):
     name: str
     text: str
     blocks: Sequence[Block]
+    syntax: Syntax = ISO

@@ -144,6 +144,9 @@ class CornerShape(Enum):
     CHAMFER_SETBACK = "chamfer setback"
     """A segment whose two ends are as far from the virtual intersection as its size; on an arc, along the chord."""
 
+    CHAMFER_FACE = "chamfer face"
+    """A segment of this length whose two ends are as far from the virtual intersection of two lines as each other."""
+
     @property
     def share(self) -> float:
         """The extent along each axis of a segment at 45 degrees of size 1; 0 for what does not run at 45 degrees."""

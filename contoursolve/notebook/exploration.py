@@ -16,7 +16,7 @@ from contoursolve.diagnosis.fill import FARTHEST
 from contoursolve.diagnosis.solutions import Listed, list_solutions
 from contoursolve.diagnostics.finding import Diagnostic, Fix
 from contoursolve.families.spec import call
-from contoursolve.gcode import FACT, Word, parse
+from contoursolve.gcode import FACT, Program, Word, parse, spell
 from contoursolve.geometry import Unit
 from contoursolve.program.pipeline import Result
 from contoursolve.solving import Status
@@ -55,7 +55,7 @@ def begin(text: str, facts: Iterable[str] = (), **options: Any) -> Exploration:
     """
     several = [facts] if isinstance(facts, str) else list(facts)
     if several:
-        text = _with_facts(text, several)
+        text = _with_facts(solve(text, **options).program, several)
     result = solve(text, **options)
     if len(result.answers) > 1:
         lines = ", ".join(str(answer.lines[0]) for answer in result.answers)
@@ -64,11 +64,12 @@ def begin(text: str, facts: Iterable[str] = (), **options: Any) -> Exploration:
     return Exploration(text, {**options, "control": result.control}, result, text)
 
 
-def _with_facts(text: str, facts: Sequence[str]) -> str:
+def _with_facts(program: Program, facts: Sequence[str]) -> str:
     stated = "; ".join(facts).replace("(", "[").replace(")", "]")
-    blocks = parse(text).blocks
+    blocks = program.blocks
     last = max((block.line for block in blocks if block.words), default=1)
-    return "\n".join(apply_edits(blocks, [Edit(EditKind.ADD, FACT, text=f"(contoursolve: {stated})", line=last)]))
+    fact = program.syntax.remark.format(f"contoursolve: {stated}")
+    return "\n".join(apply_edits(blocks, [Edit(EditKind.ADD, FACT, text=fact, line=last)]))
 
 
 def write(exploration: Exploration, text: str) -> Exploration:
@@ -101,10 +102,10 @@ def free(exploration: Exploration, key: str) -> Exploration:
     that it had."""
     answer, word = _find(exploration, key)
     if not word.is_asked:
-        freed = _change(exploration, word, f"{word.address}?")
+        freed = _change(exploration, word, spell(word.address, "?"))
         return replace(freed, last={**exploration.last, key: word.text})
     found = next((each for each in answer.answers if each.question.word.span == word.span), None)
-    text = exploration.last.get(key, f"{word.address}0.")
+    text = exploration.last.get(key, spell(word.address, "0."))
     if found is not None and found.value is not None:
         text = write_word(word.address, found.value, answer.claim.lexicon, answer.unit)
     return _change(exploration, word, text)
@@ -137,7 +138,11 @@ def select(exploration: Exploration, number: int) -> Exploration:
         tried = write(exploration, text)
         first = first or tried
         if _is_chosen(tried, wanted, SAME):
-            is_told_by_words = any(block.words for text in wanted.selects for block in parse(text).blocks)
+            is_told_by_words = any(
+                block.words
+                for text in wanted.selects
+                for block in parse(text, syntax=tried.result.program.syntax).blocks
+            )
             return _without_echoes(tried, wanted) if is_told_by_words else tried
     if first is None:
         raise ValueError(f"no word selects {wanted.name}")
@@ -148,7 +153,9 @@ def _selecting(exploration: Exploration, answer: Answer, wanted: Listed) -> Iter
     """The text with what selects a solution, in every block in which that can be written."""
     ways = []
     for text in wanted.selects:
-        address = next((word.address for word in parse(text).blocks[0].words), FACT)
+        address = next(
+            (word.address for word in parse(text, syntax=exploration.result.program.syntax).blocks[0].words), FACT
+        )
         present = [word for word in words_of(answer).values() if word.address == address]
         lines = [block.line for block in reversed(answer.claim.blocks) if block.words]
         ways.append(
@@ -187,7 +194,7 @@ def _written(answer: Answer, word: Word, value: float | str) -> str:
         raise ValueError(f"{word.address} takes numbers below {10 ** (MOST_DIGITS + 1):,}, not {value}")
     lexicon = answer.claim.lexicon
     if lexicon.addresses[word.address].unit is Unit.SIGN:
-        return f"{word.address}{'-' if number < 0 else ''}1"
+        return spell(word.address, "-1" if number < 0 else "1")
     meant = lexicon.value(replace(word, number=number, has_point=True, is_asked=False), answer.unit)
     return write_word(word.address, float(meant or 0), lexicon, answer.unit)
 

@@ -9,8 +9,8 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis.examine import Answer, Depth, Policy
 from contoursolve.diagnostics.finding import Severity
-from contoursolve.gcode import Block, Directive, Passage, Program, Word, parse_block
-from contoursolve.gcode.comments import LEFT_MARK, comment_out, own_comments, remark
+from contoursolve.gcode import Block, Directive, Passage, Program, Word, parse_block, spell
+from contoursolve.gcode.comments import comment_out, is_remark, own_comments, remark
 from contoursolve.geometry import Length
 from contoursolve.postprocess.emit import Format, Move, emit
 from contoursolve.postprocess.expansion_report import Left, Options, Summary, left_unread
@@ -145,7 +145,7 @@ class _Expander:
         texts: list[str] = []
         for place, line in enumerate(passage.lines):
             if self.is_opened and self.motion is None and not self.offsets and not is_asking:
-                self.is_marked = passage.lines[-1].startswith(LEFT_MARK)
+                self.is_marked = is_remark(passage.lines[-1])
                 texts.append(self.lines.take(passage, place))
                 break
             words, number = words_of(line), passage.line + place
@@ -156,7 +156,7 @@ class _Expander:
                 yield OPENING
                 texts = []
             if words and is_asking and (self.watch.asks(line) or self.watch.minds(state)):
-                texts += self._keep(parse_block(line.rstrip("\r\n"), number), state)
+                texts += self._keep(parse_block(line.rstrip("\r\n"), number, self.modes.syntax), state)
                 continue
             if words:
                 if self.motion is not None and motion_of(words) is None:
@@ -164,7 +164,7 @@ class _Expander:
                 self.motion = None
                 if self.offsets:
                     self.offsets.keep([axis for axis in self.modes.axes if axis not in words])
-            self.is_marked = line.startswith(LEFT_MARK)
+            self.is_marked = is_remark(line)
             texts.append(line.rstrip("\r\n") + self.lines.take_end(number))
         yield "".join(texts)
 
@@ -183,8 +183,8 @@ class _Expander:
             if unread:
                 self.summary.left.append(unread)
                 if not self.is_marked:
-                    yield remark(unread.reason) + self.lines.end
-        self.is_marked = block.text.startswith(LEFT_MARK)
+                    yield remark(unread.reason, block.syntax) + self.lines.end
+        self.is_marked = is_remark(block.text)
         yield block.text + self.lines.take_end(block.line)
 
     def _tell(self, block: Block, reason: str) -> None:
@@ -226,7 +226,7 @@ class _Expander:
             before, first = self._restore(first, step.before)
             yield from before
         if not self.is_marked:
-            yield remark(reason) + self.lines.end
+            yield remark(reason, first.syntax) + self.lines.end
         state = step.before
         for block in (first, *others):
             yield from self._keep(block, state, there if block is first else None)
@@ -346,15 +346,19 @@ class _Expander:
         value = (self.modes.lexicon.value(word, unit) or Decimal(0)) / unit.in_mm
         exponent = value.normalize().as_tuple().exponent
         places = max(form.decimals, -exponent if isinstance(exponent, int) else 0)
-        return word.address + form.number(float(value), f"%.{places}f")
+        return spell(word.address, form.number(float(value), f"%.{places}f"))
 
     def _write(self, block: Block, moves: list[Move], end: str, state: State) -> str:
         """The lines in place of a block. Its number and what it sets stand in the first, what ends it in the last."""
         frame, rest = frame_of(block.text), carried(block, self.modes)
         indent = frame.indent
-        lines = [indent + text for text in comment_out(block.text.strip())] if self.options.has_comments else []
+        lines = (
+            [indent + text for text in comment_out(block.text.strip(), block.syntax)]
+            if self.options.has_comments
+            else []
+        )
         self.watch.look(block, rest.kept, state, None)
-        comments = [] if self.options.has_comments else own_comments(block.text)
+        comments = [] if self.options.has_comments else own_comments(block)
         texts = [[_NAMES[move.code], *move.words] for move in moves]
         texts = texts or ([[]] if rest.says_something or comments else [])
         if texts:

@@ -11,7 +11,7 @@ from math import cos, radians, sin
 from contoursolve.controls.chain import ChainFinder, Joining, Language
 from contoursolve.diagnosis.examine import Answer, Depth, Policy
 from contoursolve.diagnostics.finding import Severity
-from contoursolve.gcode import parse
+from contoursolve.gcode import parse, spell
 from contoursolve.geometry import Corner, CornerShape, Heading, Length, Line, Profile, Unit
 from contoursolve.postprocess.emit import Format, Move, emit
 from contoursolve.program.pipeline import run
@@ -112,7 +112,7 @@ class _Translator:
             shape = CornerShape.CHAMFER_SETBACK
         address = self.words.get(shape)
         text = self._exactly(size / self.form.unit.in_mm) if address else None
-        return f"{address}{text}" if text is not None else ""
+        return spell(address, text) if address and text is not None else ""
 
     def _is_square(self, corner: Corner) -> bool:
         """Whether a corner lies between two lines along the axes."""
@@ -126,18 +126,18 @@ class _Translator:
         """The words that give a line without rounding, and whether it leaves its end open; None: its rounded end."""
         angle = self._angle(line)
         exact = [self._coordinate(axis, value) for axis, value in enumerate(end)]
-        if is_open:
+        if is_open and angle is not None:
             # What closes it has both coordinates and the angle.
-            return (*sorted(each or "" for each in exact), f"{self.language.angle}{angle}"), False
+            return (*sorted(each or "" for each in exact), spell(self.language.angle, angle)), False
         if all(exact) or angle is None or self.form.is_incremental:
             return None, False
         way = radians(float(self.angles[line.tail, line.head]))
         for axis, other in ((0, cos(way)), (1, sin(way))):
             # A coordinate along which the line hardly advances does not tell where it ends.
             if exact[axis] and abs(other) > _STEEP:
-                return (str(exact[axis]), f"{self.language.angle}{angle}"), False
+                return (str(exact[axis]), spell(self.language.angle, angle)), False
         if self.language.joining is Joining.OPEN and isinstance(after, Line) and self._closes(after, way):
-            return (f"{self.language.angle}{angle}",), True
+            return (spell(self.language.angle, angle),), True
         return None, False
 
     def _closes(self, line: Line, way: float) -> bool:
@@ -192,5 +192,5 @@ def _is_accepted(moves: Moves, answer: Answer, target: Dialect, here: Point, for
     absolute = ["G90"] if sense else []
     head = " ".join(("G00", unit, answer.plane.code, side, *absolute, start))
     text = "\n".join([head, *sense, *lines])
-    result = run(parse(text), target, form.unit, Policy.ENFORCE, Depth.VERDICT)
+    result = run(parse(text, syntax=target.modes.syntax), target, form.unit, Policy.ENFORCE, Depth.VERDICT)
     return all(each.severity is not Severity.ERROR for each in result.diagnostics)

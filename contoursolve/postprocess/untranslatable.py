@@ -9,7 +9,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnosis.wording import join
-from contoursolve.gcode import Block, Macro, Word
+from contoursolve.gcode import Block, Macro, Word, spell
 from contoursolve.geometry import Length
 from contoursolve.postprocess.post_processors import Other, Post, Reading, Risk
 from contoursolve.reading import Code, Effect, State, WithoutPoint, codes_of
@@ -228,7 +228,7 @@ class Watch:
         unit = "in" if state.unit is Length.INCH else "mm"
         problem = f"has no point and is {there.normalize():f} {unit}"
         meant = f"{here.normalize():f} {unit} on {self.control}"
-        advice = f"; write {word.address}{here.normalize():f}" + "." * (here == here.to_integral_value())
+        advice = "; write " + spell(word.address, f"{here.normalize():f}" + "." * (here == here.to_integral_value()))
         found = Unfamiliar(text, problem, block.line, Risk.PATH, meant, advice=advice)
         self._note(_PATH_WITHOUT_POINT, found)
 

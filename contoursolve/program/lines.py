@@ -61,7 +61,7 @@ class Lines:
 
     def _read(self, line: str, number: int) -> Block:
         text = self._put(line, number)
-        block = parse_block(text, number)
+        block = parse_block(text, number, self._dialect.modes.syntax)
         if number in self._facts:
             block = replace(block, directives=(*block.directives, *self._facts[number]))
         if self._others:

@@ -31,6 +31,7 @@ from contoursolve.gcode import (
     find_lookalikes,
     has_lookalike_code,
     parse_block,
+    spelled,
 )
 from contoursolve.geometry import Length, Plane
 from contoursolve.program.recognise import what_shows
@@ -89,7 +90,7 @@ def attach(
 ) -> tuple[Program, tuple[Directive, ...]]:
     """The program with further facts in the last block of its only contour, or else of its last block; and the facts,
     those that are no texts in words. Raises FactPlaceError if there are several contours."""
-    before = dialect.initial_state(unit)
+    before, program = dialect.initial_state(unit), spelled(program, dialect.modes.syntax)
     contours = [each for each, _ in contours_of(program.blocks, dialect.find, dialect.modes, before, start)]
     if len(contours) > 1:
         lines = ", ".join(str(each.blocks[0].line) for each in contours)
@@ -146,6 +147,9 @@ class Run:
         facts: Sequence[Directive] = (),
         together: Together | None = None,
     ) -> None:
+        if dialect is not None:
+            syntax = dialect.modes.syntax
+            program, start = spelled(program, syntax), start and spelled(start, syntax)
         if facts and dialect is not None:
             program, facts = attach(program, dialect, unit, start, facts)
         control, settings = (dialect.name, dialect.modes.settings) if dialect else (None, {})

@@ -145,7 +145,7 @@ class Queue:
             return None
         claim, ends = answer.claim, list[End]()
         texts = enumerate(fix.replacement.split("\n"), claim.blocks[0].line)
-        blocks = [parse_block(text, line) for line, text in texts]
+        blocks = [parse_block(text, line, self.dialect.modes.syntax) for line, text in texts]
 
         def end_of(found: ParsedContour) -> End:
             contour = examine(found, self.dialect.rules, Policy.ENFORCE, lambda: None, Depth.VERDICT).contour

@@ -1,7 +1,7 @@
 """Addresses and G codes as rows of tables: what a word means, in which unit, and what a code does."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from decimal import Decimal
 from enum import Enum
 
@@ -40,9 +40,19 @@ class Effect(Enum):
     """Ends a cycle."""
 
 
+class Diameter(Enum):
+    """Which words of X are diameters, where codes switch that."""
+
+    OFF = "none"
+    ON = "all"
+    ABSOLUTE = "coordinates, but no increments"
+    BY_PLANE = "all while the plane of Z and X is selected, else none"
+
+
 @dataclass(frozen=True, slots=True)
 class Code:
-    """One row: the G code and its effect; `plane` or `unit` is what it selects."""
+    """One row: the G code and its effect; `plane`, `unit` or `diameter` is what it selects. `name` is how it is
+    written where that is not G and its number."""
 
     number: int
     effect: Effect
@@ -50,6 +60,13 @@ class Code:
     source: Source
     plane: Plane | None = None
     unit: Length | None = None
+    diameter: Diameter | None = None
+    name: str = ""
+
+    @property
+    def text(self) -> str:
+        """How it is written."""
+        return self.name or f"G{self.number:02}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +81,16 @@ class Address:
     is_increment: bool = False
     """Always an increment, whatever G90 and G91 say."""
     is_diameter: bool = False
+    is_absolute: bool = False
+    """Always a coordinate, whatever G90 and G91 say."""
 
+    def is_step(self, *, is_incremental: bool) -> bool:
+        """Whether it states an increment where increments are in force, or where they are not."""
+        return self.is_increment or (is_incremental and not self.is_absolute)
+
+
+TURNED = "X"
+"""The axis that may count diameters."""
 
 _HALF, _ONE = Decimal("0.5"), Decimal(1)
 
@@ -102,6 +128,21 @@ class Lexicon:
     factors: dict[tuple[str, bool, bool], Decimal] = field(default_factory=dict, init=False, repr=False, compare=False)
     """What numbers are multiplied by, as far as that was asked for, by address, whether they have a point, and whether
     they are in inches."""
+    others: dict[tuple[bool, bool, bool], "Lexicon"] = field(default_factory=dict, init=False, repr=False, compare=False)
+    """The same lexicon with X as diameter or not, as far as that was asked for."""
+
+    def turned(self, *, absolute: bool, increment: bool, word: bool) -> "Lexicon":
+        """The same where X is a diameter or not: as a coordinate or an increment that is always one, and by a plain
+        word."""
+        key = (absolute, increment, word)
+        if key not in self.others:
+            rows = {
+                name: replace(row, is_diameter=increment if row.is_increment else absolute if row.is_absolute else word)
+                for name, row in self.addresses.items()
+                if row.axis == TURNED
+            }
+            self.others[key] = Lexicon({**self.addresses, **rows}, self.numbers)
+        return self.others[key]
 
     def value(self, word: Word, unit: Length) -> Decimal | None:
         """The value of a word in mm (diameters halved) or degrees; None for a variable."""

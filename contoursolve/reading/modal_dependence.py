@@ -81,7 +81,7 @@ def restate(block: Block, motion: int) -> Block:
     column = min([*places, *(fault.span.column for fault in block.faults)])
     before, after = block.text[: column - 1], block.text[column - 1 :]
     blank = " " if before and before[-1] not in " \t/" else ""
-    return parse_block(f"{before}{blank}G{motion:02} {after.lstrip()}", block.line)
+    return parse_block(f"{before}{blank}G{motion:02} {after.lstrip()}", block.line, block.syntax)
 
 
 _BLANKS = " \t\f\v\x02\x03\x11\x12\x13\x14\x1a\ufeff%"

@@ -10,10 +10,21 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnostics.source import Span
-from contoursolve.gcode import Block, FaultKind, Macro, Passage, Word, find_lookalikes, find_words, lookalike_at
+from contoursolve.gcode import (
+    ISO,
+    Block,
+    FaultKind,
+    Macro,
+    Passage,
+    Syntax,
+    Word,
+    find_lookalikes,
+    find_words,
+    lookalike_at,
+)
 from contoursolve.geometry import Length, Plane, Start
 from contoursolve.reading.contour_form import Convention, Setting
-from contoursolve.reading.lexicon import Code, Effect, Lexicon
+from contoursolve.reading.lexicon import TURNED, Code, Diameter, Effect, Lexicon
 from contoursolve.tolerance import RADIUS_DIFFERENCE
 
 
@@ -107,6 +118,8 @@ class State(Struct, frozen=True):
     is_incremental: bool
     compensation: int
     """40, 41 or 42."""
+    diameter: Diameter | None = None
+    """Which words of X are diameters; None: as the tables of the control say, and no code switches it."""
 
     def start(self) -> Start:
         """The position in the plane."""
@@ -118,7 +131,13 @@ class State(Struct, frozen=True):
         if not changes:
             return self
         axes = {**self.axes, **changes}
-        return State(axes, self.motion, self.plane, self.unit, self.is_incremental, self.compensation)
+        return State(axes, self.motion, self.plane, self.unit, self.is_incremental, self.compensation, self.diameter)
+
+    def counts_diameters(self) -> bool:
+        """Whether a plain word of X is a diameter, where codes switch that."""
+        if self.diameter is Diameter.BY_PLANE:
+            return self.plane.code == "G18"
+        return self.diameter is Diameter.ON or (self.diameter is Diameter.ABSOLUTE and not self.is_incremental)
 
     def lose(self, axes: Mapping[str, Position] | tuple[str, ...], reason: str, span: Span) -> "State":
         """The state with the position on these axes unknown."""
@@ -136,6 +155,18 @@ class Modes:
     """M codes that call or end a subprogram."""
     settings: Mapping[str, str] = field(default_factory=dict)
     """The values of settings that are not the default ones, by name."""
+    syntax: Syntax = ISO
+    """How its blocks are spelled."""
+
+    def words(self, state: State) -> Lexicon:
+        """The lexicon by which words are read in a state."""
+        if state.diameter is None:
+            return self.lexicon
+        is_word = state.counts_diameters()
+        is_absolute = state.diameter is Diameter.ABSOLUTE or is_word
+        return self.lexicon.turned(
+            absolute=is_absolute, increment=is_word and state.diameter is not Diameter.ABSOLUTE, word=is_word
+        )
 
     def convention(self, setting: Setting) -> Convention:
         """A setting with its value."""
@@ -176,11 +207,22 @@ def apply_modes(state: State, block: Block, modes: Modes) -> State:
             case Effect.COMPENSATION:
                 state = replace(state, compensation=code.number)
             case Effect.SHIFT | Effect.FRAME:
-                reason = f"G{code.number} changes the coordinate system"
+                reason = f"{code.text} changes the coordinate system"
                 state = state.lose(modes.axes, reason, block.span)
             case _:
                 pass
-    return state
+        if code.diameter is not None:
+            state = replace(state, diameter=code.diameter)
+    return with_diameters(state)
+
+
+def with_diameters(state: State) -> State:
+    """The state with the diameters that its plane shows."""
+    if state.diameter is None:
+        return state
+    counts, plane = state.counts_diameters(), state.plane
+    first, second = (counts and axis == TURNED for axis in plane.axes)
+    return state if plane.diameters == (first, second) else replace(state, plane=replace(plane, diameters=(first, second)))
 
 
 def advance(state: State, block: Block, modes: Modes) -> State:
@@ -218,27 +260,27 @@ def positions(state: State, words: list[Word], modes: Modes, is_skippable: bool)
     moved: dict[str, Position] = {}
     for word in words:
         axis = _axis(word, modes)
-        is_step = state.is_incremental or modes.lexicon.addresses[word.address].is_increment
-        moved[axis] = _led(word, axis in moved, state.axes[axis] if is_step else None, state.unit, modes, is_skippable)
+        is_step = modes.lexicon.addresses[word.address].is_step(is_incremental=state.is_incremental)
+        moved[axis] = _led(word, axis in moved, state.axes[axis] if is_step else None, state, modes, is_skippable)
     return moved
 
 
-def absolute_positions(words: list[Word], unit: Length, modes: Modes) -> dict[str, Position]:
+def absolute_positions(words: list[Word], state: State, modes: Modes) -> dict[str, Position]:
     """Where absolute axis words lead."""
     moved: dict[str, Position] = {}
     for word in words:
         axis = _axis(word, modes)
-        moved[axis] = _led(word, axis in moved, None, unit, modes, is_skippable=False)
+        moved[axis] = _led(word, axis in moved, None, state, modes, is_skippable=False)
     return moved
 
 
 def _led(
-    word: Word, is_second: bool, before: Position | None, unit: Length, modes: Modes, is_skippable: bool
+    word: Word, is_second: bool, before: Position | None, state: State, modes: Modes, is_skippable: bool
 ) -> Position:
     """Where an axis word leads; `before` is where an increment counts from, None for a coordinate."""
     if is_second:
         return Position(None, f"{_axis(word, modes)} is given twice", word.span)
-    value = modes.lexicon.value(word, unit)
+    value = modes.words(state).value(word, state.unit)
     if value is None:
         return Position(None, f"{word.text} depends on a variable", word.span)
     if before is None:
@@ -266,14 +308,14 @@ def _effect(state: State, codes: Sequence[Code | Word], modes: Modes) -> tuple[E
         if isinstance(code, Word):
             continue
         if code.effect is Effect.SINGLE:
-            return Effect.SINGLE, f"contoursolve does not know where G{code.number} ({code.meaning}) ends"
+            return Effect.SINGLE, f"contoursolve does not know where {code.text} ({code.meaning}) ends"
         if code.effect in (Effect.NO_MOTION, Effect.FRAME):
             return Effect.NO_MOTION, ""
         if code.effect is Effect.PRESET:
             return Effect.MOTION, ""
     modal = modes.codes.get(state.motion) if state.motion is not None else None
     if modal and modal.effect is Effect.CYCLE:
-        return Effect.CYCLE, f"contoursolve does not know where G{modal.number} ({modal.meaning}) ends"
+        return Effect.CYCLE, f"contoursolve does not know where {modal.text} ({modal.meaning}) ends"
     return Effect.MOTION, ""
 
 
@@ -339,7 +381,7 @@ def advance_plainly(state: State, passage: Passage, modes: Modes) -> State:
         motion = motion_of(words) if motion is None else motion
         for axis in programmed:
             if axis in words and axis not in axes:
-                found = found or _Moved(passage.lines[place], passage.line + place, state.unit, modes)
+                found = found or _Moved(passage.lines[place], passage.line + place, state, modes)
                 axes[axis] = Awaited(partial(found.position, axis))
         if motion is not None and len(axes) == len(programmed):
             break
@@ -351,8 +393,8 @@ def advance_plainly(state: State, passage: Passage, modes: Modes) -> State:
 class _Moved:
     """Where a plain line leads; it is read once, when somebody asks."""
 
-    def __init__(self, text: str, line: int, unit: Length, modes: Modes) -> None:
-        self.text, self.line, self.unit, self.modes = text, line, unit, modes
+    def __init__(self, text: str, line: int, state: State, modes: Modes) -> None:
+        self.text, self.line, self.state, self.modes = text, line, state, modes
         self.positions: dict[str, Position] | None = None
 
     def position(self, axis: str) -> Position:

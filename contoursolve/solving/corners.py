@@ -59,7 +59,9 @@ def build_corner(shape: CornerShape, at: Pair, before: Edge, after: Edge, size: 
     elif shape.share:
         begin, end = _chamfer_45(before, after, _times(shape.share * size, quadrant), turn)
     else:
-        begin, end = _along(before, size, -1), _along(after, size, 1)
+        # The face of a chamfer between two lines spans their directions, each as long as its distance.
+        spread = _norm(_plus(before.direction, after.direction)) if shape is CornerShape.CHAMFER_FACE else 1
+        begin, end = _along(before, size / spread, -1), _along(after, size / spread, 1)
     residuals = (_off(before, begin), _off(after, end), *_misfit(shape, before, after, size, begin, end, center, at))
     return CornerPath(
         setback_in=_setback(before, begin, -1),
@@ -189,6 +191,8 @@ def _misfit(
     """What the definition of a shape is off by, mm, besides that its ends lie on the edges."""
     if shape is CornerShape.CHAMFER_SETBACK:
         return _norm(begin) - size, _norm(end) - size
+    if shape is CornerShape.CHAMFER_FACE:
+        return _norm(_minus(end, begin)) - size, _norm(begin) - _norm(end)
     if center is None:
         extent = _minus(end, begin)
         return magnitude(extent[0]) - shape.share * size, magnitude(extent[1]) - shape.share * size

@@ -196,6 +196,8 @@ class Draft:
                 self._touch(element, corner, point, way)
             elif corner.shape is CornerShape.CHAMFER_SETBACK:
                 self._set_back(element, corner, point, way)
+            elif corner.shape is CornerShape.CHAMFER_FACE:
+                raise StatementError(f"{name} is a chamfer by the length of its face: its size must be a number")
         share = corner.shape.share
         if share:
             if any(isinstance(element, Arc) for element, *_ in meeting):

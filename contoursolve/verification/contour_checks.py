@@ -292,7 +292,7 @@ def _check_selects(case: Case, solution: ClaimedSolution, others: Sequence[Claim
     for text in solution.selects:
         if any(each.word == text for each in case.claim.selectors):
             continue
-        block, truths = gcode.parse_block(text, 1), list[bool]()
+        block, truths = gcode.parse_block(text, 1, case.claim.blocks[0].syntax), list[bool]()
         for word in block.words:
             answers = [each for each in solution.asked if each.word[: len(word.address)] == word.address]
             truths += [abs(missed(case, each, word)) <= half_increment(case, word) + RESIDUAL for each in answers]

@@ -249,8 +249,10 @@ def _cut(corner: Corner, arriving: _Edge, leaving: _Edge, size: float, quadrant:
         if center is None:
             return None
         return Move(corner.name, arriving.beside(center), leaving.beside(center), Circle(center, size, side))
-    if corner.shape is CornerShape.CHAMFER_SETBACK:
-        ends = arriving.away(size, -1), leaving.away(size, 1)
+    if corner.shape in (CornerShape.CHAMFER_SETBACK, CornerShape.CHAMFER_FACE):
+        is_leg = corner.shape is CornerShape.CHAMFER_SETBACK
+        leg = size if is_leg else size / (2 * cos(phase(leaving.along / arriving.along) / 2))
+        ends = arriving.away(leg, -1), leaving.away(leg, 1)
         return None if None in ends else Move(corner.name, ends[0] or 0j, ends[1] or 0j)
     step = corner.shape.share * quadrant
     begin = _grown(arriving, leaving, size, 0, step)

@@ -399,7 +399,9 @@ def check_filled(case: Case, claimed: ClaimedContour, ledger: Ledger) -> None:
     texts = [word.text for block in blocks for word in block.words if word.is_asked]
     if not ledger.require("a value is asked for", texts, bool(texts), "nothing was to be filled in"):
         return
-    own = [gcode.parse_block(text, block.line) for text, block in zip(filled.blocks, blocks, strict=False)]
+    own = [
+        gcode.parse_block(text, block.line, block.syntax) for text, block in zip(filled.blocks, blocks, strict=False)
+    ]
     is_same = len(filled.blocks) == len(blocks) and all(map(_is_filled, blocks, own))
     if not ledger.require(SAME, texts, is_same, "something else was changed, or a value is missing"):
         return
