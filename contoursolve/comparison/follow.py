@@ -1,6 +1,5 @@
 """Follows a solved program block by block into its path: contours, and the ordinary moves G0 to G3 between them."""
 
-import dataclasses
 import re
 from collections.abc import Iterator, Sequence
 from decimal import Decimal
@@ -10,7 +9,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.comparison.travel import Bend, Motion, Place, Step, Travel, Unfollowed
-from contoursolve.controls.plain import SWITCHES, Centers, Switch
+from contoursolve.controls.plain import CENTERS, Centers
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.gcode import Block, Macro, Program, Word
 from contoursolve.geometry import Length, Plane, Turn
@@ -56,7 +55,7 @@ class _Follower:
 
     def __init__(self, dialect: Dialect, unit: Length, axes: tuple[str, ...]) -> None:
         self.modes = dialect.modes
-        self.switches = SWITCHES.get(dialect.name, {})
+        self.switches = CENTERS.get(dialect.name, {})
         self.centers = Centers.START
         self.state = dialect.initial_state(unit)
         self.axes = axes
@@ -109,21 +108,11 @@ class _Follower:
     def _switch(self, block: Block) -> Block:
         """A block without the codes that change how its words are read, which are in force now."""
         found = [word for word in block.words if word.address == "G" and word.number in self.switches]
-        for switch in (self.switches[word.number] for word in found if word.number is not None):
-            self._apply(switch)
+        for centers in (self.switches[word.number] for word in found if word.number is not None):
+            self.centers = centers or self.centers
         if not found:
             return block
         return replace(block, words=tuple(word for word in block.words if word not in found))
-
-    def _apply(self, switch: Switch) -> None:
-        self.centers = switch.centers or self.centers
-        if switch.is_diameter is not None:
-            lexicon = self.modes.lexicon
-            rows = {
-                name: dataclasses.replace(row, is_diameter=switch.is_diameter) if row.axis == "X" else row
-                for name, row in lexicon.addresses.items()
-            }
-            self.modes = dataclasses.replace(self.modes, lexicon=dataclasses.replace(lexicon, addresses=rows))
 
     def _block(self, block: Block) -> Iterator[Step]:
         """What a block that is no contour adds to the path."""
@@ -145,11 +134,11 @@ class _Follower:
                 yield self._unfollowed(block, f"{code.text.strip()} is not known to contoursolve")
                 return
             if code.effect in (Effect.SINGLE, Effect.FRAME):
-                yield self._unfollowed(block, f"G{code.number}: {code.meaning}")
+                yield self._unfollowed(block, f"{_named(code)}: {code.meaning}")
                 return
             if code.effect is Effect.SHIFT:
-                named = Word("G", Decimal(code.number), False, f"G{code.number}", block.span)
-                yield self._unfollowed(replace(block, words=(named,)), f"G{code.number}: {code.meaning}")
+                named = Word("G", Decimal(code.number), False, _named(code), block.span)
+                yield self._unfollowed(replace(block, words=(named,)), f"{_named(code)}: {code.meaning}")
             if code.effect is Effect.NO_MOTION:
                 return
             is_preset = is_preset or code.effect is Effect.PRESET
@@ -159,7 +148,7 @@ class _Follower:
         """A move by the block's coordinates, if it has any."""
         rows = self.modes.lexicon.addresses
         moved = [rows[word.address].axis for word in block.words if word.address in rows and rows[word.address].axis]
-        has_center = any(word.address in (*here.plane.centers, "R") for word in block.words)
+        has_center = any(word.address in (*here.plane.centers, self.modes.radius) for word in block.words)
         turn = _TURNS.get(here.motion or 0)
         if not moved and (turn is None or is_preset or not has_center):
             return
@@ -171,7 +160,7 @@ class _Follower:
         elif is_preset:
             yield self._travel(block, here, Motion.PRESET, ends, None)
         elif code is None or code.effect is not Effect.MOTION:
-            yield self._unfollowed(block, f"G{code.number}: {code.meaning}" if code else "no G0 to G3 is in force")
+            yield self._unfollowed(block, f"{_named(code)}: {code.meaning}" if code else "no G0 to G3 is in force")
         elif turn is not None:
             yield self._arc(block, here, turn)
         else:
@@ -184,13 +173,13 @@ class _Follower:
             ):
                 yield self._travel(block, here, motion, ends, None)
 
-    def _is_plain(self, word: Word, more: str = "") -> bool:
+    def _is_plain(self, word: Word, more: tuple[str, ...] = ()) -> bool:
         row = self.modes.lexicon.addresses.get(word.address)
         return word.address in _BESIDE or word.address in more or bool(row and row.axis)
 
     def _arc(self, block: Block, here: State, turn: Turn) -> Step:
         """An arc by its centre or its radius, or why it is none."""
-        beside = [word for word in block.words if not self._is_plain(word, "".join((*here.plane.centers, "R")))]
+        beside = [word for word in block.words if not self._is_plain(word, (*here.plane.centers, self.modes.radius))]
         if beside:
             return self._unfollowed(block, f"{beside[0].text.strip()} in an arc of {here.plane.code}")
         ends = self._place(here), self._place(self.state)
@@ -223,14 +212,14 @@ class _Follower:
 
     def _values(self, block: Block, here: State) -> dict[str, float] | None:
         """The centre or the radius that a block states, mm; None if it states none, or one that has no number."""
-        lexicon: Lexicon = self.modes.lexicon
+        lexicon: Lexicon = self.modes.words(here)
         values: dict[str, float] = {}
         for word in block.words:
-            if word.address in (*here.plane.centers, "R"):
+            if word.address in (*here.plane.centers, self.modes.radius):
                 value = lexicon.value(word, here.unit) if word.address in lexicon.addresses else None
                 if value is None or word.address in values:
                     return None
-                values[word.address] = float(value)
+                values["R" if word.address == self.modes.radius else word.address] = float(value)
         return values or None
 
     def _place(self, state: State) -> Place:
@@ -240,7 +229,7 @@ class _Follower:
     def _travel(
         self, block: Block, state: State, motion: Motion, ends: tuple[Place, Place], bend: Bend | None
     ) -> Travel:
-        rows = self.modes.lexicon.addresses.values()
+        rows = self.modes.words(state).addresses.values()
         doubled = {row.axis for row in rows if row.is_diameter}
         return Travel(
             line=block.line,
@@ -284,6 +273,10 @@ class _Follower:
         counts = self.modes.lexicon.numbers.without_point is WithoutPoint.LEAST_INCREMENTS
         is_count = counts and not word.has_point and word.number and word.address not in _NAMES
         return f"{word.address}{word.number.normalize():f}{' increments' if is_count else ''}"
+
+
+def _named(code: Code) -> str:
+    return code.name or f"G{code.number}"
 
 
 def _bend(

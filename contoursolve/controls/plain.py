@@ -4,13 +4,11 @@ from collections.abc import Mapping, Sequence
 from decimal import Decimal
 from enum import Enum
 
-from msgspec import Struct
-
 from contoursolve.controls.common import COMMON_RULES
 from contoursolve.diagnostics.source import Evidence, Source
 from contoursolve.gcode import Block
 from contoursolve.geometry import Length, Plane, Unit
-from contoursolve.reading import Address, Code, Effect, Lexicon, Modes, NumberFormat, State, WithoutPoint
+from contoursolve.reading import Address, Code, Diameter, Effect, Lexicon, Modes, NumberFormat, State, WithoutPoint
 from contoursolve.reading.dialect import Dialect
 
 LINUXCNC_MANUAL = Source("LinuxCNC User Manual", "G-codes; lathe user information", Evidence.PRINTED)
@@ -23,26 +21,17 @@ class Centers(Enum):
     ORIGIN = "the origin"
 
 
-class Switch(Struct, frozen=True):
-    """What a G code changes in how later words are read; None: nothing."""
-
-    is_diameter: bool | None = None
-    centers: Centers | None = None
-
-
-SWITCHES: Mapping[str, Mapping[Decimal, Switch]] = {
+CENTERS: Mapping[str, Mapping[Decimal, Centers | None]] = {
     "linuxcnc": {
-        Decimal(7): Switch(is_diameter=True),
-        Decimal(8): Switch(is_diameter=False),
-        Decimal("90.1"): Switch(centers=Centers.ORIGIN),
-        Decimal("91.1"): Switch(centers=Centers.START),
-        Decimal("61.1"): Switch(),
-        Decimal("43.1"): Switch(),
-        Decimal("43.2"): Switch(),
+        Decimal("90.1"): Centers.ORIGIN,
+        Decimal("91.1"): Centers.START,
+        Decimal("61.1"): None,
+        Decimal("43.1"): None,
+        Decimal("43.2"): None,
     }
 }
-"""By the name of the control: codes that change how words are read (X as diameter or radius, the centres of arcs), and
-codes with a point that change nothing here."""
+"""By the name of the control: codes that change how the centres of arcs are read, and codes with a point that change
+nothing here."""
 
 LATHE = Plane("G18", ("Z", "X"), ("K", "I"), (False, True))
 PLANES = {
@@ -117,6 +106,10 @@ _LINUXCNC_CODES = code_rows(
     ),
     PLANES,
 )
+_LINUXCNC_CODES |= {
+    7: Code(7, Effect.NONE, "X is a diameter", LINUXCNC_MANUAL, diameter=Diameter.ON),
+    8: Code(8, Effect.NONE, "X is a radius", LINUXCNC_MANUAL, diameter=Diameter.OFF),
+}
 _AS_WRITTEN = NumberFormat(WithoutPoint.AS_WRITTEN, LINUXCNC_MANUAL)
 CALLS = frozenset({98, 99})
 
@@ -125,14 +118,15 @@ def _no_contour(blocks: Sequence[Block], index: int, state: State, modes: Modes)
     """There is none."""
 
 
-def _plain(name: str, title: str, modes: Modes, plane: Plane) -> Dialect:
-    return Dialect(name, title, modes, plane, (), COMMON_RULES, _no_contour, lambda _: ())
-
-
-LINUXCNC = _plain(
+LINUXCNC = Dialect(
     "linuxcnc",
     "LinuxCNC, mills and lathes",
     Modes(lexicon(LINUXCNC_MANUAL, _AS_WRITTEN, "XYZ", {}, is_diameter=False), _LINUXCNC_CODES, ("X", "Y", "Z"), CALLS),
     PLANES[17],
+    (),
+    COMMON_RULES,
+    _no_contour,
+    lambda _: (),
+    diameter=Diameter.OFF,
 )
 PLAIN = {LINUXCNC.name: LINUXCNC}

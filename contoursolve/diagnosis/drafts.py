@@ -11,7 +11,7 @@ from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.spelling import meant_words, respelled, unanswerable
 from contoursolve.diagnostics.finding import Diagnostic, Severity
 from contoursolve.diagnostics.source import Span
-from contoursolve.gcode import FACT, FaultKind, Word, find_lookalikes, lookalike_at
+from contoursolve.gcode import FACT, FaultKind, Word, find_lookalikes, lookalike_at, number_of
 from contoursolve.geometry import Given, Length, Unit
 from contoursolve.reading import Lexicon, ParsedContour, ReadIssue
 from contoursolve.solving import BESIDE, RefusalKind
@@ -111,7 +111,7 @@ def _written(answer: Answer, sizes: Iterable[Mapping[Span, float]]) -> Iterator[
         if given is None or size is None or size >= abs(given.value):
             continue
         text = write_word(word.address, copysign(size, given.value), claim.lexicon, unit, AT_MOST)
-        if Decimal(text.removeprefix(word.address)):
+        if Decimal(number_of(text, word.address)):
             is_rounded = float(abs(given.value)) - size < _ROUNDED
             yield change(word, text, Why.ROUNDED if is_rounded else Why.FITS)
 

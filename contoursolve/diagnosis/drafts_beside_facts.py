@@ -11,7 +11,7 @@ from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, write_word
 from contoursolve.diagnosis.examine import Answer, AskedValue
 from contoursolve.diagnostics.finding import Diagnostic, Severity
 from contoursolve.diagnostics.source import Span
-from contoursolve.gcode import FACT, Word, spell
+from contoursolve.gcode import FACT, Word, number_of, spell
 from contoursolve.geometry import FIRST, SECOND, Coordinate, Fact, Length, Offset, Profile, Unit, assemble, scalar
 from contoursolve.reading import Lexicon, ReadIssue
 from contoursolve.reading.dialect import Dialect
@@ -51,7 +51,7 @@ def further_drafts(answer: Answer, dialect: Dialect, before: Before) -> Iterator
     drops = [[(drop(word),) for word in _blamed(answer, each)] for each in twice]
     yield [tuple(dict.fromkeys(sum(choice, ()))) for choice in product(*drops, missing) if any(choice)]
     yield _corrected(answer, dialect, twice, before)
-    yield _slips(answer, dialect, findings)
+    yield _slips(answer, findings)
     yield _exchanged(answer, [each for each in findings if each.about in _NOT_TOGETHER])
 
 
@@ -153,7 +153,7 @@ def _corrected(answer: Answer, dialect: Dialect, twice: list[Diagnostic], before
             other = examine_edited(answer.claim, dialect, (change(word, asking),), before)
             for asked in other.answers if other else ():
                 if asked.value is not None and asked.question.word.text == asking:
-                    yield (change(word, _with_value(word, _shown(asked, word, answer, dialect))),)
+                    yield (change(word, _with_value(word, _shown(asked, word, answer))),)
 
 
 def _with_value(word: Word, value: str) -> str:
@@ -164,15 +164,15 @@ def _with_value(word: Word, value: str) -> str:
     return f"{word.text[: match.start('number')]}{value}" if match else ""
 
 
-def _shown(asked: AskedValue, word: Word, answer: Answer, dialect: Dialect) -> str:
+def _shown(asked: AskedValue, word: Word, answer: Answer) -> str:
     """A value as a word or a fact states it, rounded to the least increment."""
-    lexicon, value, unit = dialect.modes.lexicon, float(asked.value or 0), asked.question.unit
+    lexicon, value, unit = answer.claim.lexicon, float(asked.value or 0), asked.question.unit
     match = _VALUE.search(word.text)
     stated = word.number if match is None else Decimal(match["number"])
     if unit is Unit.DEGREE and stated is not None:
         value += 360 * round((float(stated) - value) / 360)
     if word.address != FACT:
-        return write_word(word.address, value, lexicon, answer.unit).removeprefix(word.address)
+        return number_of(write_word(word.address, value, lexicon, answer.unit), word.address)
     return _number(value * (2 if asked.question.is_diameter else 1), unit, answer.unit, lexicon)
 
 
@@ -185,11 +185,11 @@ def _number(value: float, unit: Unit, length: Length, lexicon: Lexicon) -> str:
     return text.rstrip("0").rstrip(".") if "." in text else text
 
 
-def _slips(answer: Answer, dialect: Dialect, findings: list[Diagnostic]) -> Iterator[tuple[Edit, ...]]:
+def _slips(answer: Answer, findings: list[Diagnostic]) -> Iterator[tuple[Edit, ...]]:
     """One word or fact as it may have been meant, where nothing or no path satisfies them."""
     if answer.status is not Status.NO_SOLUTION:
         return
-    claim, profile, lexicon = answer.claim, answer.profile, dialect.modes.lexicon
+    claim, profile, lexicon = answer.claim, answer.profile, answer.claim.lexicon
     spans = {label.span for each in findings for label in each.labels}
     for given in profile.givens.values():
         word = given.word

@@ -10,7 +10,7 @@ from msgspec import Struct
 
 from contoursolve.diagnosis.wording import shorten
 from contoursolve.diagnostics.source import Evidence, Source, Span
-from contoursolve.gcode import FACT, Block, Directive, Syntax, parse_block, read_directive, spell
+from contoursolve.gcode import FACT, Block, Directive, Syntax, number_of, parse_block, read_directive, spell
 from contoursolve.geometry import Length, Unit
 from contoursolve.reading import Lexicon, WithoutPoint
 from contoursolve.reading.modal_dependence import restate
@@ -67,7 +67,7 @@ ERRANDS = (
 
 def errand_of(address: str, text: str) -> Errand | None:
     """What a word, as it is written, does besides the contour; None for the words of a contour."""
-    number = re.fullmatch(r"0*(\d+)\.?0*", text.strip()[len(address) :].lstrip("= \t"))
+    number = re.fullmatch(r"0*(\d+)\.?0*", number_of(text, address))
     fitting = (
         row
         for row in ERRANDS
@@ -213,7 +213,7 @@ def _tidy(text: str) -> str:
 
 def _with_code(text: str, code: str, syntax: Syntax) -> str:
     """A G code added before the first word that is more than a number."""
-    return restate(parse_block(text, 1, syntax), int(code.removeprefix("G"))).text
+    return restate(parse_block(text, 1, syntax), f"G{int(code.removeprefix('G')):02}").text
 
 
 def _insert(text: str, word: str, syntax: Syntax) -> str:

@@ -183,14 +183,13 @@ def examine(
     # Where characters could not be read, which words the block has is not known.
     is_whole = not any(block.faults for block in claim.blocks) and not (claim.unknown and meant_words(claim))
     offences = _offences(claim, rules) if is_whole and policy is not Policy.OFF else ()
+    # What states or asks more than the control reads is not a block for the control yet.
+    is_strict = policy is Policy.ENFORCE and not _is_extended(claim)
     for offence in offences:
         if not offence.rule.ignores:
             finding = explain_offence(context, offence, claim)
-            weaker = replace(finding, severity=Severity.WARNING)
-            # What states or asks more than the control reads is not a block for the control yet.
-            is_strict = policy is Policy.ENFORCE and not _is_extended(claim)
             status = Status.NO_SOLUTION if offence.rule.is_about_geometry else Status.REJECTED
-            notebook.add(finding if is_strict else weaker, status)
+            notebook.add(finding if is_strict else replace(finding, severity=Severity.WARNING), status)
     ignoring = [offence for offence in offences if offence.rule.ignores]
     profile, is_stated = _state_more(
         context, claim, read(claim, frozenset(offence.ignored for offence in ignoring)), next_place, notebook
@@ -210,7 +209,8 @@ def examine(
     else:
         solution, alternatives = Solution(Status.REJECTED), None
     for offence in ignoring:
-        notebook.add(explain_ignored(context, offence, profile, solution))
+        finding = explain_ignored(context, offence, profile, solution)
+        notebook.add(finding if is_strict else replace(finding, severity=Severity.WARNING), Status.REJECTED)
     notebook.findings += without_point(context, claim, notebook.findings)
     notebook.findings += start_without_point(context, claim, notebook.findings)
 

@@ -27,7 +27,7 @@ def fill_in(answer: Answer, before: State, dialect: Dialect) -> Filled | None:
         if value is None:
             return None
         span = word.span
-        written = write_word(word.address, value, dialect.modes.lexicon, answer.unit)
+        written = write_word(word.address, value, answer.claim.lexicon, answer.unit)
         text = texts[span.line]
         texts[span.line] = text[: span.column - 1] + written + text[span.end_column - 1 :]
     first = answer.claim.blocks[0].line

@@ -50,7 +50,7 @@ from contoursolve.diagnosis.typo_fixes import (
     suspects,
 )
 from contoursolve.diagnostics.finding import Diagnostic, Severity
-from contoursolve.gcode import Block, FaultKind, Word, spell
+from contoursolve.gcode import Block, FaultKind, Word, number_of, spell
 from contoursolve.geometry import Given, Profile, Radius, Role, Unit
 from contoursolve.reading import ContourForm, ParsedContour, State, read
 from contoursolve.reading.dialect import Dialect
@@ -106,9 +106,9 @@ def find_repairs(
     # What makes a refused combination legal is searched for; of a legal one, any word at fault may be too much.
     first, then = _sets(answer, dialect, whole), _dropping(answer, alone)
     changes = (
-        _values(answer, dialect, whole),
+        _values(answer, whole),
         *((first, then) if answer.status is Status.REJECTED else (then, first)),
-        _slips(answer, dialect, whole),
+        _slips(answer, whole),
         _dropping(answer, drop_sets.found),
     )
     spelled = (mended_words(answer), missing_points(answer), commas(answer), marked(answer), fitting(answer))
@@ -249,7 +249,7 @@ def _legal_sets(
     for swap in changes:
         drops = tuple(drop(claim.words[name]) for name in sorted(swap & present))
         kept = _Geometry.of(claim, present - swap) if swap - present else whole
-        added = [_additions(claim, dialect, name, (whole, kept)) for name in sorted(swap - present)]
+        added = [_additions(claim, name, (whole, kept)) for name in sorted(swap - present)]
         corrected = [options for name, options in corrections if name not in swap]
         bases += [(*forced, *drops, *edits) for edits in product(*added, *corrected)]
     yield from bases
@@ -279,7 +279,7 @@ def _replacing(
         kept = _Geometry.of(claim, rest)
         for swap in smallest_changes(claim.form, dialect.rules, rest, extra - {name}, claim.circumstances, blocks):
             if not swap & present:
-                added = [_additions(claim, dialect, other, (kept,)) for other in sorted(swap)]
+                added = [_additions(claim, other, (kept,)) for other in sorted(swap)]
                 yield from ((drop(claim.words[name]), *edits) for edits in product(*added))
 
 
@@ -298,18 +298,18 @@ def _corrections(claim: ParsedContour, dialect: Dialect) -> Iterator[tuple[str, 
                     within = float(given.value % 360)
                     # The line may have to run the other way.
                     values = [within, within - 180 if within > 0 else within + 180]
-                lexicon, unit = dialect.modes.lexicon, claim.after.unit
+                lexicon, unit = claim.lexicon, claim.after.unit
                 yield name, [change(word, write_word(word.address, value, lexicon, unit)) for value in values]
 
 
-def _additions(claim: ParsedContour, dialect: Dialect, name: str, geometries: Iterable[_Geometry]) -> list[Edit]:
+def _additions(claim: ParsedContour, name: str, geometries: Iterable[_Geometry]) -> list[Edit]:
     """A word added: with the value that the geometry fixes, each sign of a choice, or a placeholder."""
     address, index = claim.vocabulary[name]
     texts = [f"{address}-1", f"{address}1"] if name in claim.form.choices else [spell(address, PLACEHOLDER)]
     for geometry in geometries:
         value = geometry.implied(claim, name)
         if value is not None:
-            texts = [write_word(address, value, dialect.modes.lexicon, claim.after.unit)]
+            texts = [write_word(address, value, claim.lexicon, claim.after.unit)]
             break
     return [Edit(EditKind.ADD, address, text=text, line=claim.blocks[index].line) for text in texts]
 
@@ -423,9 +423,9 @@ def _is_clean_set(claim: ParsedContour, rules: tuple[Rule, ...]) -> bool:
     return is_clean(claim.form, rules, frozenset(claim.words), claim.circumstances)
 
 
-def _values(answer: Answer, dialect: Dialect, whole: _Geometry) -> Iterator[tuple[Edit, ...]]:
+def _values(answer: Answer, whole: _Geometry) -> Iterator[tuple[Edit, ...]]:
     """One word with another value: what a finding or the other words ask for."""
-    claim, unit, lexicon = answer.claim, answer.claim.after.unit, dialect.modes.lexicon
+    claim, unit, lexicon = answer.claim, answer.claim.after.unit, answer.claim.lexicon
     if has_faults(claim):
         return
     forced = next(unreadable(claim))
@@ -446,7 +446,7 @@ def _values(answer: Answer, dialect: Dialect, whole: _Geometry) -> Iterator[tupl
                 value += 360 * round((float(given.value) - value) / 360)
             agreeing = [write_word(word.address, value, lexicon, unit)] if value is not None else []
             texts += agreeing
-        new = (text for text in dict.fromkeys(texts) if Decimal(text.removeprefix(word.address)) != word.number)
+        new = (text for text in dict.fromkeys(texts) if Decimal(number_of(text, word.address)) != word.number)
         why = dict.fromkeys(agreeing, Why.AGREES)
         yield from ((*forced, change(word, text, why.get(text, Why.OTHER))) for text in new)
     if len(asked_together) > 1:
@@ -456,7 +456,7 @@ def _values(answer: Answer, dialect: Dialect, whole: _Geometry) -> Iterator[tupl
 def _of_circles(answer: Answer, dialect: Dialect, before: Before) -> Iterator[tuple[Edit, ...]]:
     """Words that place a circle twice, each with the value that agrees with the others, or with what a slip makes of
     about this value."""
-    claim, unit, lexicon = answer.claim, answer.claim.after.unit, dialect.modes.lexicon
+    claim, unit, lexicon = answer.claim, answer.claim.after.unit, answer.claim.lexicon
     finding = next((each for each in answer.diagnostics if each.about is RefusalKind.RADIUS_DIFFERENCE), None)
     if finding is None or has_faults(claim):
         return
@@ -504,9 +504,9 @@ def _zeros(gaps: list[float]) -> Iterator[float]:
         yield from sorted(((-slope + sign * root) / (2 * bend) * _STEP for sign in (1, -1)), key=abs)
 
 
-def _slips(answer: Answer, dialect: Dialect, whole: _Geometry) -> Iterator[tuple[Edit, ...]]:
+def _slips(answer: Answer, whole: _Geometry) -> Iterator[tuple[Edit, ...]]:
     """One word as it may have been meant, where the words are legal and determine a path that cannot be."""
-    claim, unit, lexicon = answer.claim, answer.claim.after.unit, dialect.modes.lexicon
+    claim, unit, lexicon = answer.claim, answer.claim.after.unit, answer.claim.lexicon
     is_about_values = answer.status is Status.NO_SOLUTION and not whole.is_singular
     if is_about_values and any(not finding.values.get("limit") for finding in answer.diagnostics):
         for name, word in claim.words.items():

@@ -13,7 +13,7 @@ from contoursolve.gcode.lookalikes import (
     mended,
     with_digits,
 )
-from contoursolve.gcode.syntax import ISO, Syntax
+from contoursolve.gcode.syntax import ISO, Syntax, long_parts
 from contoursolve.gcode.text import (
     BINARY,
     STANDARD_INPUT,
@@ -24,7 +24,19 @@ from contoursolve.gcode.text import (
     reason_of,
     standard_input,
 )
-from contoursolve.gcode.word import FACT, Block, Directive, Fault, FaultKind, Macro, Passage, Program, Word, spell
+from contoursolve.gcode.word import (
+    FACT,
+    Block,
+    Directive,
+    Fault,
+    FaultKind,
+    Macro,
+    Passage,
+    Program,
+    Word,
+    number_of,
+    spell,
+)
 
 __all__ = [
     "BINARY",
@@ -48,8 +60,10 @@ __all__ = [
     "find_words",
     "has_lookalike_code",
     "is_folder",
+    "long_parts",
     "lookalike_at",
     "mended",
+    "number_of",
     "parse",
     "parse_block",
     "read_bytes",

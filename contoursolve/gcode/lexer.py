@@ -110,15 +110,12 @@ def parse_block(text: str, line: int, syntax: Syntax = ISO) -> Block:
             continue
         span = Span(line, token.start() + 1, token.end() + 1)
         if shape == "word":
-            comma, letter, number, asked = token.group("comma", "letter", "number", "asked")
+            address, number, is_asked = syntax.parts(token)
             if number and (len(number) > LONGEST_NUMBER or len(number.partition(".")[0]) > MOST_BEFORE_POINT):
                 faults.append(Fault(FaultKind.NUMBER_TOO_LONG, token[0], span))
                 continue
-            # Where no comma begins a word, one may stand for the point.
-            number = number and number.replace(",", ".")
-            address = (comma + letter if syntax.is_plain else long_address(token)).upper()
             value = Decimal(number) if number else None
-            words.append(Word(address, value, "." in (number or ""), token[0], span, asked is not None))
+            words.append(Word(address, value, "." in (number or ""), token[0], span, is_asked))
         elif shape == "name":
             code = syntax.codes.get(token["name"].upper())
             words.append(Word("G", None if code is None else Decimal(code), False, token[0], span))
@@ -134,11 +131,6 @@ def parse_block(text: str, line: int, syntax: Syntax = ISO) -> Block:
         is_skippable=skip is not None,
         syntax=syntax,
     )
-
-
-def long_address(token: re.Match[str]) -> str:
-    """The address of a word that may have several letters, with the function around its number: `X=IC` of `X=IC(5)`."""
-    return str(token["letter"] or token["long"]) + (f"={token['function']}" if token["function"] else "")
 
 
 def _read_simply(text: str, line: int) -> tuple[Word, ...]:

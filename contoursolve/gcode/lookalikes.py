@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 from msgspec import Struct
 
 from contoursolve.diagnostics.source import Span
+from contoursolve.gcode.syntax import ISO
 from contoursolve.gcode.word import Block, FaultKind
 
 _DIGITS = str.maketrans("lI|Oo", "11100")
@@ -55,7 +56,7 @@ def find_lookalikes(block: Block) -> tuple[Lookalike, ...]:
     `X10I5.` is one, too, and means what it says: what is meant shows only where it is tried.
     """
     found, text, place = [], block.text, 0
-    if any(fault.kind is FaultKind.BLOCK_TOO_LONG for fault in block.faults):
+    if block.syntax is not ISO or any(fault.kind is FaultKind.BLOCK_TOO_LONG for fault in block.faults):
         return ()
     while match := _SEARCH.search(text, place):
         old, place = match[0], match.end()

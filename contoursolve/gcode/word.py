@@ -78,6 +78,11 @@ def spell(address: str, number: str) -> str:
     return f"{address}={number}" if len(address.lstrip(", \t")) > 1 else address + number
 
 
+def number_of(text: str, address: str) -> str:
+    """The number of a word that is spelled so, as it is written."""
+    return text.strip()[len(address) :].strip("=() \t")
+
+
 class Macro(Enum):
     """Macro statements that a block may consist of."""
 

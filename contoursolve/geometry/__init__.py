@@ -22,6 +22,7 @@ from contoursolve.geometry.figure import (
 from contoursolve.geometry.lines import (
     Along,
     ChamferLeg,
+    Chord,
     Directed,
     Distance,
     EqualDistances,
@@ -72,6 +73,7 @@ __all__ = [
     "ArcLength",
     "ChamferLeg",
     "Choice",
+    "Chord",
     "ChordSetback",
     "Circle",
     "Collinear",

@@ -229,12 +229,32 @@ class Tangent(Struct, frozen=True):
         return at.radius(self.radius)
 
 
+class Chord(Struct, frozen=True):
+    """The direction from one point to another."""
+
+    tail: str
+    head: str
+
+    def reads(self) -> tuple[str, ...]:
+        """Names of the scalars that the direction depends on."""
+        return both(self.tail, self.head)
+
+    def vector(self, at: Lookup) -> tuple[Any, Any]:
+        """A vector in the direction, as long as the distance."""
+        return step(at, self.tail, self.head)
+
+    def length(self, at: Lookup) -> Any:
+        """The length of the vector."""
+        vector = self.vector(at)
+        return at.root(dot(vector, vector))
+
+
 class TurnBetween(Equation, Struct, frozen=True):
     """The direction of travel turns by the given angle from the first element to the second."""
 
     given: str
-    first: Along | Tangent
-    second: Along | Tangent
+    first: Along | Tangent | Chord
+    second: Along | Tangent | Chord
 
     def reads(self) -> tuple[str, ...]:
         return tuple(dict.fromkeys((*self.first.reads(), *self.second.reads())))

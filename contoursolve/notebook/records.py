@@ -7,7 +7,7 @@ from itertools import islice
 from math import isnan
 from typing import Any
 
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import DIALECTS, Dialect
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.wording import axis_labels, count
 from contoursolve.diagnostics.display import Shown
@@ -21,6 +21,7 @@ from contoursolve.output.findings import finding_lines, plain
 from contoursolve.output.listing import closing_lines, listing_lines
 from contoursolve.output.plain_text import Table, printable
 from contoursolve.program.pipeline import Result
+from contoursolve.reading import Lexicon
 from contoursolve.reading.rules import Rule
 from contoursolve.solving.contour import Contour
 
@@ -95,10 +96,15 @@ def text_of(record: Shown) -> Iterable[str]:
     return str(record).split("\n")
 
 
+def _reads_by(dialect: Dialect, lexicon: Lexicon) -> bool:
+    own = dialect.modes.lexicon
+    return any(each is lexicon for each in (own, *own.others.values()))
+
+
 def control_of(answer: Answer) -> str | None:
     """The control whose words a contour was read with, if it is one that is built in."""
     lexicon = answer.claim.lexicon
-    return next((name for name, each in DIALECTS.items() if each.modes.lexicon is lexicon), None)
+    return next((name for name, each in DIALECTS.items() if _reads_by(each, lexicon)), None)
 
 
 def result_of(answer: Answer) -> Result:

@@ -1,7 +1,7 @@
 """A program with its contours written as plain G-code, and everything else byte for byte as it was."""
 
 from collections import deque
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Sequence
 from decimal import Decimal
 from itertools import chain
 
@@ -107,7 +107,7 @@ class _Expander:
         self.watch = Watch(options.post, dialect, options.post.readings.get(machine_of(dialect)))
         summary.unfamiliar = self.watch.found
         self.numberer = Numberer(self.modes, numbers)
-        self.formats: dict[tuple[tuple[str, str], bool, bool], Format] = {}
+        self.formats: dict[Hashable, Format] = {}
         self.offsets = Offsets(self.modes)
         self.motion: int | None = None
         """The motion that is in force in the expanded program, where it differs from the original."""
@@ -160,7 +160,7 @@ class _Expander:
                 continue
             if words:
                 if self.motion is not None and motion_of(words) is None:
-                    texts.append(f"G{state.motion:02}" + self.lines.end)
+                    texts.append(self._name(state.motion) + self.lines.end)
                 self.motion = None
                 if self.offsets:
                     self.offsets.keep([axis for axis in self.modes.axes if axis not in words])
@@ -200,13 +200,18 @@ class _Expander:
             return [], block
         if need is not Reliance.ENDS and motion is not None:
             if motion in STANDING_ALONE:
-                before = [f"G{motion:02}" + self.lines.end]
+                before = [self._name(motion) + self.lines.end]
             else:
-                block = restate(block, motion)
+                block = restate(block, self._name(motion))
                 if block.is_skippable:
                     return [], block
         self.motion = None
         return before, block
+
+    def _name(self, motion: int | None) -> str:
+        """How a motion is written."""
+        code = self.modes.codes.get(motion) if motion is not None else None
+        return code.text if code else f"G{motion:02}"
 
     def _motion_before(self, block: Block, state: State) -> int | None:
         """The motion that a block finds in the expanded program: that of a contour before it, unless what the block
@@ -286,7 +291,7 @@ class _Expander:
                         self.summary.deviation = move.deviation
                     if move.words:
                         moves.append(move)
-            beside = [self._as_written(word, form, state.unit) for word in claim.beside_plane(block)]
+            beside = [self._as_written(word, form, state) for word in claim.beside_plane(block)]
             if beside:
                 move = moves.pop() if moves else Move(0 if part.is_rapid else 1, (), here, 0.0)
                 moves.append(move._replace(words=(*move.words, *beside)))
@@ -326,7 +331,7 @@ class _Expander:
         return float(first or 0) + one, float(second or 0) + two
 
     def _format(self, state: State) -> Format:
-        key = state.plane.axes, state.unit is Length.INCH, state.is_incremental
+        key = state.plane.axes, state.plane.diameters, state.unit is Length.INCH, state.is_incremental
         if key not in self.formats:
             numbers, post = self.modes.lexicon.numbers, self.options.post
             own, decimals = post.digits(state.unit, numbers), self.options.decimals
@@ -341,9 +346,9 @@ class _Expander:
             )
         return self.formats[key]
 
-    def _as_written(self, word: Word, form: Format, unit: Length) -> str:
+    def _as_written(self, word: Word, form: Format, state: State) -> str:
         """A word that moves an axis beside a contour, as the target writes numbers."""
-        value = (self.modes.lexicon.value(word, unit) or Decimal(0)) / unit.in_mm
+        value = (self.modes.words(state).value(word, state.unit) or Decimal(0)) / state.unit.in_mm
         exponent = value.normalize().as_tuple().exponent
         places = max(form.decimals, -exponent if isinstance(exponent, int) else 0)
         return spell(word.address, form.number(float(value), f"%.{places}f"))

@@ -118,7 +118,7 @@ class Offsets:
         off = hypot(*(self._off.get(axis, 0.0) for axis in here.plane.axes))
         is_arc = here.motion in (2, 3) and any(word.address in (*here.plane.centers, "R") for word in block.words)
         rows = [self.modes.lexicon.addresses.get(word.address) for word in block.words]
-        moved = [row.axis for row in rows if row and row.axis and not (row.is_increment or here.is_incremental)]
+        moved = [row.axis for row in rows if row and row.axis and not row.is_step(is_incremental=here.is_incremental)]
         self.keep([axis for axis in self._off if axis not in moved])
         if not is_arc or off <= self.modes.radius_difference * ARC_START:
             return ""

@@ -15,7 +15,7 @@ from contoursolve.reading.contour_form import (
     lay_out,
     stated_sets,
 )
-from contoursolve.reading.lexicon import Address, Code, Effect, Lexicon, NumberFormat, WithoutPoint
+from contoursolve.reading.lexicon import Address, Code, Diameter, Effect, Lexicon, NumberFormat, WithoutPoint
 from contoursolve.reading.modal_state import (
     Awaited,
     Modes,
@@ -51,6 +51,7 @@ __all__ = [
     "ContourForm",
     "Convention",
     "CornerRow",
+    "Diameter",
     "Effect",
     "FactRow",
     "Lexicon",

@@ -8,7 +8,8 @@ from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Length, Plane
 from contoursolve.reading.contour_form import Assumption, ContourForm, Setting
 from contoursolve.reading.follow import Finder
-from contoursolve.reading.modal_state import Modes, Position, State
+from contoursolve.reading.lexicon import Diameter
+from contoursolve.reading.modal_state import Modes, Position, State, with_diameters
 from contoursolve.reading.rules import Rule
 
 
@@ -60,6 +61,8 @@ class Dialect:
     """What shows a contour block, for a reader."""
     settings: tuple[Setting, ...] = ()
     """Conventions on which the manual is silent."""
+    diameter: Diameter | None = None
+    """Which words of X are diameters at first, where codes switch that."""
     has_runs: bool = True
     """Whether a contour may be several blocks in a row."""
     follow: Follower | None = None
@@ -96,4 +99,5 @@ class Dialect:
         """The state before the first block: the position is not known, nothing is compensated."""
         reason = "nothing before it gives an absolute position"
         axes = {axis: Position(None, reason) for axis in self.modes.axes}
-        return State(axes, None, self.plane, unit, is_incremental=False, compensation=40)
+        state = State(axes, None, self.plane, unit, is_incremental=False, compensation=40, diameter=self.diameter)
+        return with_diameters(state)

@@ -72,7 +72,9 @@ def blocks_of(claim: ParsedContour, before: State, modes: Modes) -> Iterator[Con
     """The blocks of a contour that begins in a state."""
     for number, block in enumerate(claim.blocks):
         before, names = apply_modes(before, block, modes), None
-        if len(claim.blocks) > 1:
+        if claim.makes:
+            names = frozenset(claim.makes[number])
+        elif len(claim.blocks) > 1:
             own = claim.form.path[number].name
             names = frozenset([own, *(row.name for row in claim.form.corners if row.before == own)])
         codes = codes_of(block, modes)

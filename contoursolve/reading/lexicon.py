@@ -128,7 +128,9 @@ class Lexicon:
     factors: dict[tuple[str, bool, bool], Decimal] = field(default_factory=dict, init=False, repr=False, compare=False)
     """What numbers are multiplied by, as far as that was asked for, by address, whether they have a point, and whether
     they are in inches."""
-    others: dict[tuple[bool, bool, bool], "Lexicon"] = field(default_factory=dict, init=False, repr=False, compare=False)
+    others: dict[tuple[bool, bool, bool], "Lexicon"] = field(
+        default_factory=dict, init=False, repr=False, compare=False
+    )
     """The same lexicon with X as diameter or not, as far as that was asked for."""
 
     def turned(self, *, absolute: bool, increment: bool, word: bool) -> "Lexicon":

@@ -75,13 +75,13 @@ def why_unmet(motion: int | None, blocks: Iterable[Block], modes: Modes) -> str:
     return ""
 
 
-def restate(block: Block, motion: int) -> Block:
-    """The block with a motion code before its first word that is more than a number."""
+def restate(block: Block, code: str) -> Block:
+    """The block with the code of a motion before its first word that is more than a number."""
     places = [word.span.column for word in block.words if word.address not in "NO"]
     column = min([*places, *(fault.span.column for fault in block.faults)])
     before, after = block.text[: column - 1], block.text[column - 1 :]
     blank = " " if before and before[-1] not in " \t/" else ""
-    return parse_block(f"{before}{blank}G{motion:02} {after.lstrip()}", block.line, block.syntax)
+    return parse_block(f"{before}{blank}{code} {after.lstrip()}", block.line, block.syntax)
 
 
 _BLANKS = " \t\f\v\x02\x03\x11\x12\x13\x14\x1a\ufeff%"

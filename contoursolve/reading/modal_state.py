@@ -120,6 +120,8 @@ class State(Struct, frozen=True):
     """40, 41 or 42."""
     diameter: Diameter | None = None
     """Which words of X are diameters; None: as the tables of the control say, and no code switches it."""
+    memory: Mapping[str, Word] = {}
+    """Words that stay in force, by their address."""
 
     def start(self) -> Start:
         """The position in the plane."""
@@ -131,7 +133,9 @@ class State(Struct, frozen=True):
         if not changes:
             return self
         axes = {**self.axes, **changes}
-        return State(axes, self.motion, self.plane, self.unit, self.is_incremental, self.compensation, self.diameter)
+        return State(
+            axes, self.motion, self.plane, self.unit, self.is_incremental, self.compensation, self.diameter, self.memory
+        )
 
     def counts_diameters(self) -> bool:
         """Whether a plain word of X is a diameter, where codes switch that."""
@@ -157,6 +161,10 @@ class Modes:
     """The values of settings that are not the default ones, by name."""
     syntax: Syntax = ISO
     """How its blocks are spelled."""
+    radius: str = "R"
+    """The address of an arc's radius."""
+    remember: Callable[[Mapping[str, Word], Block], Mapping[str, Word]] | None = None
+    """From the words that stay in force, and a block, to those behind it; the same record if nothing changes."""
 
     def words(self, state: State) -> Lexicon:
         """The lexicon by which words are read in a state."""
@@ -213,6 +221,9 @@ def apply_modes(state: State, block: Block, modes: Modes) -> State:
                 pass
         if code.diameter is not None:
             state = replace(state, diameter=code.diameter)
+    if modes.remember is not None:
+        memory = modes.remember(state.memory, block)
+        state = state if memory is state.memory else replace(state, memory=memory)
     return with_diameters(state)
 
 
@@ -222,7 +233,9 @@ def with_diameters(state: State) -> State:
         return state
     counts, plane = state.counts_diameters(), state.plane
     first, second = (counts and axis == TURNED for axis in plane.axes)
-    return state if plane.diameters == (first, second) else replace(state, plane=replace(plane, diameters=(first, second)))
+    return (
+        state if plane.diameters == (first, second) else replace(state, plane=replace(plane, diameters=(first, second)))
+    )
 
 
 def advance(state: State, block: Block, modes: Modes) -> State:
@@ -401,5 +414,5 @@ class _Moved:
         """Its end on an axis that it programs."""
         if self.positions is None:
             words = find_words(self.text.rstrip("\r\n"), self.line, self.modes.axes)
-            self.positions = absolute_positions(words, self.unit, self.modes)
+            self.positions = absolute_positions(words, self.state, self.modes)
         return self.positions[axis]

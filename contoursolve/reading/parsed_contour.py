@@ -95,6 +95,8 @@ class ParsedContour:
     """The plane in force behind it, where a parallel axis may stand for an axis of that."""
     is_end_absolute: bool = False
     """Whether its last block states its end as coordinates even where increments are in force."""
+    makes: tuple[tuple[str, ...], ...] = ()
+    """Where a block does not make one element and the corner behind it: the names of what each block makes."""
     limits: Mapping[str, Decimal] = field(default_factory=dict)
     """Values of givens, mm, on whose two sides the words are read in different ways while the others stay."""
 

@@ -8,6 +8,7 @@ from contoursolve.geometry import (
     FIRST,
     SECOND,
     ArcLength,
+    Chord,
     Contact,
     Extent,
     Fact,
@@ -44,7 +45,7 @@ def consequences(facts: Sequence[Fact], true: Sequence[Fact], at: Lookup) -> Ite
                 radius == radius_of.get((tail, center)) == radius_of.get((head, center))
             ):
                 yield from _arc(fact, at)
-            case TurnBetween(first=first, second=second):
+            case TurnBetween(first=first, second=second) if not isinstance(first, Chord):
                 ends = [each for each in (first, second) if isinstance(each, Tangent)]
                 if all(radius_of.get((each.point, each.center)) == each.radius for each in ends):
                     yield from _turn(fact, at)

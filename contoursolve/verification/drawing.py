@@ -3,10 +3,10 @@
 Points are complex numbers in mm from the start point: real is the plane's first axis, imaginary its second.
 """
 
-from cmath import rect
+from cmath import phase, rect
 from collections.abc import Mapping
 from itertools import pairwise
-from math import asin, atan2, copysign, inf, tau
+from math import asin, atan2, copysign, cos, inf, tau
 
 from msgspec import Struct
 

@@ -107,6 +107,8 @@ class Place(Struct, frozen=True):
 
     def travel(self, of: Any) -> Vector:
         """The direction in which an element is travelled (`Along` or `Tangent`)."""
+        if isinstance(of, kinds.Chord):
+            return unit(self.way(of.tail, of.head))
         if isinstance(of, kinds.Along):
             return self.along(of.line)
         first, second = unit(self.way(of.center, of.point))

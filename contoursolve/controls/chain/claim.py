@@ -10,11 +10,13 @@ from contoursolve.controls.chain.form import Names, compose, names_of
 from contoursolve.controls.chain.language import (
     AIMED,
     ALONE,
+    CORNER_ALONE,
     FEED,
     FOLLOWED,
     LAST,
     LINE_LINE,
     NEGATIVE_RADIUS,
+    NO_TANGENT,
     ON_PARALLEL_AXES,
     ONE_CENTER,
     ONLY,
@@ -22,15 +24,17 @@ from contoursolve.controls.chain.language import (
     OTHER_PLANE,
     POINT,
     RAPID,
+    SMOOTH,
+    TURN,
     Element,
     Joining,
     Language,
     Member,
     pair_role,
 )
-from contoursolve.gcode import Word
+from contoursolve.gcode import Block, Word, spell
 from contoursolve.geometry import Choice, Given, Side, Turn, Unit
-from contoursolve.reading import Modes, ParsedContour, Selector, State
+from contoursolve.reading import ContourForm, Modes, ParsedContour, Selector, State
 
 
 def claim_of(language: Language, members: Sequence[Member], before: State, modes: Modes) -> ParsedContour:
@@ -44,31 +48,42 @@ def claim_of(language: Language, members: Sequence[Member], before: State, modes
     givens: dict[str, Given] = {}
     vocabulary: dict[str, tuple[str, int]] = {}
     circumstances: set[str] = set()
+    blocks: list[Block] = []
     for index, member in enumerate(members):
         called = _calls(language, member)
         prefix = f"{index + 1}:"
-        vocabulary |= {prefix + name: (address, index) for address, name in called.items()}
+        vocabulary |= {prefix + name: (address, len(blocks)) for address, name in called.items()}
         own: dict[str, Word] = {}
+        blocks.append(member.block)
         for word in member.block.words:
             code = word.number if word.address == "G" else ""
             name = called.get(word.address, f"{word.address}{code}")
             if name in own and word.address != "M":
                 repeated.append(word)
             own.setdefault(name, word)
-        own_givens = _givens(language, own, member, modes)
+        own_givens = _givens(language, own, member, modes) | _kept_corner(language, own, member, modes)
+        if member.corner is not None:
+            sized, corner = _corner_of(language, member.corner, member.here, modes)
+            own_givens |= sized
+            for name, word in corner.items():
+                if name in own:
+                    repeated.append(word)
+                own.setdefault(name, word)
+                vocabulary[prefix + name] = (language.corner_size, len(blocks))
+            blocks.append(member.corner)
         words |= {prefix + name: word for name, word in own.items()}
         givens |= {prefix + name: replace(given, name=prefix + name) for name, given in own_givens.items()}
         since = (before, *(each.here for each in members))[max(index - 1, 0) : index + 2]
         holds = {
-            *_circumstances(language, member, first, is_only=len(members) == 1),
+            *_circumstances(language, member, first, is_only=len(members) == 1, is_first=not index),
             *language.circumstances(member, since, modes),
         }
         circumstances |= {prefix + name for name in holds}
     known = {name: word for name, word in words.items() if word.address in modes.lexicon.addresses}
     return ParsedContour(
         form=form,
-        lexicon=modes.lexicon,
-        blocks=tuple(member.block for member in members),
+        lexicon=modes.words(members[-1].here),
+        blocks=tuple(blocks),
         before=replace(before, plane=first.plane, unit=first.unit),
         after=members[-1].here,
         words=known,
@@ -82,7 +97,41 @@ def claim_of(language: Language, members: Sequence[Member], before: State, modes
         is_end_absolute=elements[-1].is_over and language.joining is not Joining.PAIRED,
         selected=language.planes.get(members[-1].here.plane.code),
         conventions=tuple(language.conventions(form, circumstances, modes)),
+        makes=_makes(form, members) if len(blocks) > len(members) else (),
     )
+
+
+def _makes(form: ContourForm, members: Sequence[Member]) -> tuple[tuple[str, ...], ...]:
+    """What each block makes, where some corners have blocks of their own."""
+    corners = {row.before: row.name for row in form.corners}
+    found: list[tuple[str, ...]] = []
+    for element, member in zip(form.path, members, strict=True):
+        corner = tuple(name for before, name in corners.items() if before == element.name)
+        found += [(element.name, *corner)] if member.corner is None else [(element.name,), corner]
+    return tuple(found)
+
+
+def _corner_of(language: Language, block: Block, here: State, modes: Modes) -> tuple[dict[str, Given], dict[str, Word]]:
+    """The size that a block of its own gives a corner; the last one given if it has none."""
+    shapes = (language.corner_codes.get(int(word.number or 0)) for word in block.words if word.address == "G")
+    name = next(filter(None, shapes))
+    own, kept = block.find(language.corner_size), here.memory.get(language.corner_size)
+    word = own or kept
+    size = modes.words(here).given(name, word, here.unit) if word else None
+    words = {name: own} if own else {}
+    return ({name: size if own else replace(size, word=None)} if size else {}), words
+
+
+def _kept_corner(language: Language, own: Mapping[str, Word], member: Member, modes: Modes) -> dict[str, Given]:
+    """The corner that a word makes that stays in force, where the block has no corner word."""
+    if member.corner is not None or any(word in own for word in language.corners) or not member.is_joined:
+        return {}
+    for word, corner in language.modal_corner.items():
+        kept = member.here.memory.get(word)
+        size = modes.words(member.here).given(corner, kept, member.here.unit) if kept else None
+        if size is not None:
+            return {corner: replace(size, word=None)}
+    return {}
 
 
 def _calls(language: Language, member: Member) -> dict[str, str]:
@@ -93,6 +142,8 @@ def _calls(language: Language, member: Member) -> dict[str, str]:
     centers = {center: f"center-{order}" for center, order in zip(plane.centers, _ORDERS, strict=True)}
     called |= {address: centers.get(address, "wrong-center") for address in ("I", "J", "K") if address in addresses}
     called |= {address: f"beside-{address}" for address, row in addresses.items() if row.axis not in ("", *plane.axes)}
+    if language.radius != "R":
+        called[language.radius] = "R"
     angles = [address for address in language.angle_words if member.block.find(address)] or language.angle_words[:1]
     if language.angle_words:
         called |= {address: f"beside-{address}" for address in (language.angle, *language.angle_words)}
@@ -100,7 +151,7 @@ def _calls(language: Language, member: Member) -> dict[str, str]:
     for axis, order in zip(plane.axes, _ORDERS, strict=True):
         for address, row in addresses.items():
             if row.axis == axis:
-                is_step = row.is_increment or (member.here.is_incremental and not is_absolute)
+                is_step = row.is_step(is_incremental=member.here.is_incremental and not is_absolute)
                 called[address] = order + ("-step" if is_step else "")
     return called
 
@@ -115,7 +166,7 @@ def _givens(language: Language, words: Mapping[str, Word], member: Member, modes
         name: given
         for name, word in words.items()
         if word.address in modes.lexicon.addresses
-        for given in (modes.lexicon.given(name, word, member.here.unit),)
+        for given in (modes.words(member.here).given(name, word, member.here.unit),)
         if given is not None
     }
     if "R" in stated:
@@ -124,7 +175,9 @@ def _givens(language: Language, words: Mapping[str, Word], member: Member, modes
     element = member.element
     if element.is_over and language.joining is Joining.OVER_DEFINED:
         return stated
-    if element.turn is not None:
+    if element.is_smooth:
+        stated[TURN] = Given(TURN, Decimal(0), Unit.DEGREE, None)
+    elif element.turn is not None:
         stated |= _supplied("center-", "", stated, asked)
     if element.is_over:
         return stated
@@ -150,8 +203,8 @@ def _supplied(
     return {name + suffix: Given(name + suffix, Decimal(0), Unit.MM, None) for name in missing}
 
 
-def _circumstances(language: Language, member: Member, first: State, *, is_only: bool) -> Iterator[str]:
-    radius = member.block.find("R")
+def _circumstances(language: Language, member: Member, first: State, *, is_only: bool, is_first: bool) -> Iterator[str]:
+    radius = member.block.find(language.radius)
     is_negative = radius is not None and radius.number is not None and radius.number < 0
     centers = sum(member.block.find(address) is not None for address in first.plane.centers)
     holds = {
@@ -164,6 +217,9 @@ def _circumstances(language: Language, member: Member, first: State, *, is_only:
         FOLLOWED: member.element.is_followed,
         LAST: member.is_last,
         ONLY: is_only,
+        SMOOTH: member.element.is_smooth,
+        CORNER_ALONE: any(word.address == "G" and word.number in language.corner_codes for word in member.block.words),
+        NO_TANGENT: member.element.is_smooth and is_first,
         ON_PARALLEL_AXES: member.here.plane.axes != _own_axes(language, member.here),
         ORDINARY: is_only and member.element.turn is not None,
     }
@@ -227,7 +283,7 @@ def _selectors(
         word = words.get(f"{each.prefix}R")
         is_chosen = element.turn is not None and (element.touches or not element.is_over)
         if element.turn is not None and is_chosen and word is not None and word.number is not None:
-            size = word.text.lstrip("Rr +-")
-            yield Selector(each.center, _center_side(element.turn, is_short=True), f"R{size}")
-            yield Selector(each.center, _center_side(element.turn, is_short=False), f"R-{size}")
+            size = f"{abs(word.number)}" if len(language.radius) > 1 else word.text.lstrip("Rr +-")
+            yield Selector(each.center, _center_side(element.turn, is_short=True), spell(language.radius, size))
+            yield Selector(each.center, _center_side(element.turn, is_short=False), spell(language.radius, f"-{size}"))
         previous = element

@@ -13,9 +13,23 @@ from contoursolve.controls.chain.claim import claim_of
 from contoursolve.controls.chain.language import Element, Joining, Language, Member
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Turn
-from contoursolve.reading import Effect, Modes, ParsedContour, State, apply_modes, codes_of
+from contoursolve.reading import (
+    Effect,
+    Modes,
+    ParsedContour,
+    Position,
+    State,
+    apply_modes,
+    codes_of,
+    leave,
+    positions,
+    read,
+)
+from contoursolve.solving import Status, solve
+from contoursolve.solving.contour import ArcSegment, Segment, trace
 
 _TURNS = {2: Turn.CW, 3: Turn.CCW}
+_QUIET = (Effect.NONE, Effect.NO_MOTION)
 _OWN_USE = (Effect.SINGLE, Effect.NO_MOTION, Effect.PRESET, Effect.CYCLE, Effect.FRAME)
 
 
@@ -26,44 +40,82 @@ class ChainFinder:
         self.language = language
         self._cornered = frozenset(language.corners)
         self._moving = frozenset({*language.axes, *language.angles, *language.corners})
+        arcs = (language.tangent_arc,) if language.tangent_arc is not None else ()
+        self._cutting = frozenset({1, *_TURNS, *arcs})
 
     def __call__(self, blocks: Sequence[Block], index: int, state: State, modes: Modes) -> ParsedContour | None:
         """The contour that begins at a block: everything that is resolved together with it."""
         block = blocks[index]
+        if self._is_corner(block):
+            return claim_of(self.language, [self._member(block, state, modes, is_over=False)], state, modes)
         if not block.words or not self._is_motion(block, state, modes):
             return None
         members = [self._member(block, state, modes, is_over=False)]
         is_alone = self._is_over_defined(block, members[0].here)
-        is_tied = is_alone or self._is_tied_alone(block, members[0].here, modes)
+        is_tied = is_alone or self._is_tied_alone(members[0], modes)
         position = index
-        while members[0].here.motion in (1, 2, 3):
+        while members[0].here.motion in self._cutting or self._runs_in_rapid(members):
             last = members[-1]
-            following = self._next(blocks, position)
+            following = self._next(blocks, position, last.here, modes)
+            if following is not None and self._is_corner(blocks[following]):
+                here = self._apply(last.here, blocks[following], modes)
+                members[-1] = last = replace(last, corner=blocks[following], here=here)
+                is_tied, following = True, self._next(blocks, following, here, modes)
             if following is None or not self._is_motion(blocks[following], last.here, modes):
                 break
             here = self._apply(last.here, blocks[following], modes)
             is_over = self._begins_in_intersection(last, blocks[following], here)
-            is_cut = here.motion in (1, 2, 3) and self._moves(blocks[following], here)
-            if not is_over and not (self._has_corner(last.block) and is_cut):
+            is_cut = here.motion in self._cutting and self._moves(blocks[following], here)
+            is_smooth = self.language.tangent_arc is not None and here.motion == self.language.tangent_arc
+            if not is_over and not is_smooth and not (self._makes_corner(last) and is_cut):
                 break
             if is_over:
                 members[-1] = replace(last, element=replace(last.element, is_followed=True))
+            members[-1] = replace(members[-1], is_joined=True)
             members.append(self._member(blocks[following], last.here, modes, is_over=is_over))
+            if is_smooth:
+                turn = self._turn(members, state, modes)
+                members[-1] = replace(members[-1], element=replace(members[-1].element, turn=turn))
             if is_over and self._touches(members[-2], members[-1]):
                 members[-1] = replace(members[-1], element=replace(members[-1].element, touches=True))
             position = following
             is_tied = True
-            if here.motion == 0:
+            if here.motion == 0 and not self._runs_in_rapid(members):
                 break
         if not is_tied:
             return None
         members[0] = replace(members[0], is_alone=is_alone)
-        members[-1] = replace(members[-1], is_last=self._has_corner(members[-1].block))
+        members[-1] = replace(members[-1], is_last=self._has_corner(members[-1]))
         return claim_of(self.language, members, state, modes)
 
     def _member(self, block: Block, before: State, modes: Modes, *, is_over: bool) -> Member:
         here = self._apply(before, block, modes)
-        return Member(block, Element(_TURNS.get(here.motion or 0), is_over, is_followed=False), before, here)
+        is_smooth = self.language.tangent_arc is not None and here.motion == self.language.tangent_arc
+        turn = Turn.CCW if is_smooth else _TURNS.get(here.motion or 0)
+        return Member(block, Element(turn, is_over, is_followed=False, is_smooth=is_smooth), before, here)
+
+    def _runs_in_rapid(self, members: Sequence[Member]) -> bool:
+        return self.language.runs_in_rapid and members[-1].here.motion == 0
+
+    def _turn(self, members: Sequence[Member], state: State, modes: Modes) -> Turn:
+        """The way in which an arc turns that begins in the direction of what is before it: to the side on which it
+        ends. Where what is before it is not known, either way."""
+        tail, last = claim_of(self.language, members[:-1], state, modes), members[-1]
+        profile = read(tail, frozenset())
+        solution = solve(profile, is_proven=False) if profile.start.is_known else None
+        if solution is None or solution.status is not Status.SOLVED:
+            return Turn.CCW
+        contour = trace(profile, solution)
+        ends = positions(
+            leave(tail, contour.end, modes), [word for word in last.block.words if _is_axis(word, modes)], modes, False
+        )
+        place = tuple(ends.get(axis, None) for axis in last.here.plane.axes)
+        return _side_of(contour.elements[-1], place)
+
+    def _is_corner(self, block: Block) -> bool:
+        """Whether a block makes a corner between those beside it, and nothing else."""
+        codes = {int(word.number) for word in block.words if word.address == "G" and word.number is not None}
+        return bool(codes & self.language.corner_codes.keys())
 
     def _apply(self, before: State, block: Block, modes: Modes) -> State:
         """The state with the block's G codes in force; its plane has a parallel axis in place of its own one where a
@@ -78,17 +130,33 @@ class ChainFinder:
         named = tuple(parallel[axis] if axis in moved else axis for axis in axes)
         return replace(here, plane=replace(here.plane, axes=(named[0], named[1])))
 
-    def _next(self, blocks: Sequence[Block], index: int) -> int | None:
+    def _next(self, blocks: Sequence[Block], index: int, here: State, modes: Modes) -> int | None:
         """The index of the next block that says something, and is none that a contour may have between its blocks."""
+        passed = 0
         for other in count(index + 1):  # the length of what is read ahead is not known without counting
             try:
                 block = blocks[other]
             except IndexError:
                 return None
             codes = {word.number for word in block.words if word.address == "G"}
-            if _has_words(block) and not (codes and codes <= self.language.passes):
+            if not _has_words(block) or (codes and codes <= self.language.passes):
+                continue
+            if passed == self.language.between or not self._is_idle(block, here, modes):
                 return other
+            passed += 1
         return None
+
+    def _is_idle(self, block: Block, here: State, modes: Modes) -> bool:
+        """Whether a block moves nothing, and leaves the motion and the plane as they are."""
+        if (
+            block.faults
+            or block.macro
+            or any(word.address == "M" and word.number in modes.calls for word in block.words)
+        ):
+            return False
+        codes = codes_of(block, modes)
+        is_quiet = all(not isinstance(code, Word) and code.effect in _QUIET for code in codes)
+        return is_quiet and not self._moves(block, here) and not self._is_corner(block)
 
     def _is_motion(self, block: Block, state: State, modes: Modes) -> bool:
         """Whether the block's axis words are the end of a motion with G0 to G3."""
@@ -96,17 +164,18 @@ class ChainFinder:
         if block.macro or any(isinstance(code, Word) or code.effect in _OWN_USE for code in codes):
             return False
         here = apply_modes(state, block, modes)
-        return here.motion in (0, 1, 2, 3) and self._moves(block, here)
+        return here.motion in (0, *self._cutting) and self._moves(block, here)
 
     def _moves(self, block: Block, here: State) -> bool:
         """Whether a block is a motion: it has a coordinate, an angle, a corner; an arc a centre, R, or just its G code.
         A Q that belongs to nothing is looked at, too."""
         stated = _stated(block)
-        is_arc = here.motion in _TURNS and stated & {"I", "J", "K", "R"}
+        is_arc = here.motion in _TURNS and stated & {"I", "J", "K", self.language.radius}
         is_choice = self.language.selector in stated and not block.find("M")
         if stated & self._moving or is_arc or is_choice:
             return True
-        return any(word.address == "G" and word.number in _TURNS for word in block.words)
+        arcs = {*_TURNS, self.language.tangent_arc}
+        return any(word.address == "G" and word.number in arcs for word in block.words)
 
     def _programmed(self, block: Block, here: State) -> set[str]:
         """The axes of the plane that a block programs."""
@@ -129,7 +198,8 @@ class ChainFinder:
         if self.language.joining is Joining.PAIRED:
             return self._is_open(last) and self._is_paired(last, following, here)
         if self.language.joining is Joining.OPEN:
-            return here.motion in (0, 1) and last.here.motion == 1 and self._is_open(last)
+            is_cut = last.here.motion == 1 or (self.language.runs_in_rapid and last.here.motion == here.motion == 0)
+            return here.motion in (0, 1) and is_cut and self._is_open(last)
         missing = self._over_defining(here) - _stated(following)
         # A block with a selector that lacks one word only is meant to.
         return len(missing) <= (self.language.selector in _stated(following)) or self._is_joined(last, following, here)
@@ -168,15 +238,23 @@ class ChainFinder:
             return is_line and bool(self._programmed(following, here) or self.language.angle in _stated(following))
         return self._is_open(last)
 
-    def _has_corner(self, block: Block) -> bool:
-        return bool(_stated(block) & self._cornered)
+    def _has_corner(self, member: Member) -> bool:
+        """Whether a block, or one of its own behind it, has a corner word."""
+        return member.corner is not None or bool(_stated(member.block) & self._cornered)
 
-    def _is_tied_alone(self, block: Block, here: State, modes: Modes) -> bool:
+    def _makes_corner(self, member: Member) -> bool:
+        """The same, or whether a word that stays in force makes one."""
+        return self._has_corner(member) or bool(member.here.memory.keys() & self.language.modal_corner.keys())
+
+    def _is_tied_alone(self, member: Member, modes: Modes) -> bool:
         """Whether a block is calculated although nothing follows that belongs to it: a line by its angle, one with
         a corner; and where arcs are checked, an arc with an end, if its values are known. About its centre, it is a
         full circle if that is where it begins (assumed)."""
+        block, here = member.block, member.here
         stated = _stated(block)
-        if self._has_corner(block) or stated & {*self.language.angles, self.language.selector}:
+        if self._has_corner(member) or member.element.is_smooth:
+            return True
+        if stated & {*self.language.angles, self.language.selector}:
             return True
         is_variable = any(word.number is None and not word.is_asked for word in block.words)
         if not self.language.checks_arcs or here.motion not in _TURNS or is_variable:
@@ -199,9 +277,29 @@ def _ends_where_it_begins(block: Block, here: State, modes: Modes) -> bool:
     ends = {word.address: word for word in block.words if word.address in here.plane.axes}
     return all(
         word.number is not None
-        and modes.lexicon.value(word, here.unit) == (0 if here.is_incremental else here.axes[axis].value)
+        and modes.words(here).value(word, here.unit) == (0 if here.is_incremental else here.axes[axis].value)
         for axis, word in ends.items()
     )
+
+
+def _is_axis(word: Word, modes: Modes) -> bool:
+    row = modes.lexicon.addresses.get(word.address)
+    return row is not None and bool(row.axis)
+
+
+def _side_of(segment: Segment, place: Sequence[Position | None]) -> Turn:
+    """To which side of the end of an element a place lies."""
+    first, second = (
+        float(at.value) if at is not None and at.value is not None else end
+        for at, end in zip(place, segment.end, strict=True)
+    )
+    if isinstance(segment, ArcSegment):
+        spoke = segment.end[0] - segment.center[0], segment.end[1] - segment.center[1]
+        way = -segment.turn.sign * spoke[1], segment.turn.sign * spoke[0]
+    else:
+        way = segment.end[0] - segment.start[0], segment.end[1] - segment.start[1]
+    aside = way[0] * (second - segment.end[1]) - way[1] * (first - segment.end[0])
+    return Turn.CW if aside < 0 else Turn.CCW
 
 
 def _words(*blocks: Block) -> Iterator[Word]:

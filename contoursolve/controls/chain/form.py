@@ -6,11 +6,12 @@ from itertools import pairwise
 
 from msgspec import Struct
 
-from contoursolve.controls.chain.language import AIMED, LINE_LINE, POINT, Element, Joining, Language, pair_role
+from contoursolve.controls.chain.language import AIMED, LINE_LINE, POINT, TURN, Element, Joining, Language, pair_role
 from contoursolve.geometry import (
     FIRST,
     SECOND,
     Arc,
+    Chord,
     Collinear,
     Contact,
     Coordinate,
@@ -21,8 +22,11 @@ from contoursolve.geometry import (
     OnCircle,
     Radius,
     Role,
+    Tangent,
     TangentCircles,
     TangentLine,
+    Turn,
+    TurnBetween,
 )
 from contoursolve.reading import ContourForm, CornerRow, FactRow, Modes
 
@@ -157,6 +161,8 @@ def forms_of(language: Language, modes: Modes) -> tuple[ContourForm, ...]:
 def _form_name(elements: Sequence[Element]) -> str:
     if len(elements) == 1:
         return "line-angle" if elements[0].turn is None else "arc"
+    if any(element.is_smooth for element in elements):
+        return "tangent"
     if not any(element.is_over for element in elements):
         return "corners"
     return pair_role(*elements) if len(elements) == 2 else "chain"  # noqa: PLR2004 - a pair
@@ -170,8 +176,13 @@ def _directed(elements: Sequence[Element]) -> Iterator[bool]:
 
 def _path(language: Language, element: Element, names: Names, options: _Options, *, is_directed: bool) -> Line | Arc:
     if element.turn is None:
+        is_alone = language.is_ray_alone and not (element.is_over or element.is_followed)
         toward = names.own if element.is_followed and not element.is_over else None
-        heading = f"{names.prefix}{language.angle}" if (options.is_ray or is_directed) and language.angle else None
+        heading = (
+            f"{names.prefix}{language.angle}"
+            if (options.is_ray or is_directed or is_alone) and language.angle
+            else None
+        )
         return Line(names.element, names.tail, names.head, heading, toward, bool(language.picks))
     counts = options.counts_clockwise and element.is_over
     return Arc(names.element, names.tail, names.head, names.center, names.radius, element.turn, counts)
@@ -181,14 +192,27 @@ def _stated(
     language: Language, elements: Sequence[Element], names: Sequence[Names], options: _Options
 ) -> Iterator[FactRow]:
     """What the blocks state, in the order in which it is believed."""
+    previous: tuple[Element, Names] | None = None
     for element, each in zip(elements, names, strict=True):
-        yield from _own_facts(language, element, each)
+        yield from _own_facts(language, element, each, previous[1].tail if previous else START)
+        if element.is_smooth and previous and element.turn is not None:
+            yield _smooth(*previous, each, element.turn)
+        previous = element, each
     for element, each, is_directed in zip(elements, names, _directed(elements), strict=True):
         if element.turn is not None:
             # That it passes a point where it touches another element follows from the contact.
             points = (each.tail, each.head)[is_directed and element.touches : 1 + element.is_followed - is_directed]
             for point in points:
                 yield FactRow(OnCircle(point, each.center, each.radius, slack=options.slack), ())
+
+
+def _smooth(before: Element, first: Names, second: Names, turn: Turn) -> FactRow:
+    """That an arc begins in the direction in which the element before it ends."""
+    direction: Chord | Tangent = Chord(first.tail, first.head)
+    if before.turn is not None:
+        direction = Tangent(second.tail, first.center, first.radius, before.turn)
+    name = second.prefix + TURN
+    return FactRow(TurnBetween(name, direction, Tangent(second.tail, second.center, second.radius, turn)), (name,))
 
 
 def _touching(language: Language, elements: Sequence[Element], names: Sequence[Names]) -> Iterator[FactRow]:
@@ -227,7 +251,8 @@ def _checked(elements: Sequence[Element], names: Sequence[Names], slack: float) 
             yield FactRow(OnCircle(each.own, each.center, each.radius, slack=slack), needs)
 
 
-def _own_facts(language: Language, element: Element, names: Names) -> Iterator[FactRow]:
+def _own_facts(language: Language, element: Element, names: Names, start: str) -> Iterator[FactRow]:
+    """What a block states; `start` is where the one before it begins."""
     q = names.prefix
     if element.turn is not None:
         for order, axis in _ORDERS:
@@ -242,6 +267,8 @@ def _own_facts(language: Language, element: Element, names: Names) -> Iterator[F
         yield FactRow(Coordinate(f"{q}{order}", names.own, axis), (f"{q}{order}",))
         if not element.is_over or language.joining is Joining.PAIRED:
             yield FactRow(Offset(f"{q}{order}-step", names.own, names.tail, axis), (f"{q}{order}-step",))
+        elif language.closes_by_steps:
+            yield FactRow(Offset(f"{q}{order}-step", names.own, start, axis), (f"{q}{order}-step",))
     if element.turn is None and language.angle:
         angle = f"{q}{language.angle}"
         if element.is_over:
@@ -270,24 +297,26 @@ def _combinations(
         place = ("first", "second") if element.is_over else ()
         return tuple(tuple(prefix + name for name in (*place, *shape)) for shape in shapes)
     point = (POINT,) if element.is_followed and not element.is_over else ()
-    ends = tuple((first, second, *point) for first in _ways("first", element) for second in _ways("second", element))
+
+    def ways(order: str) -> tuple[str, ...]:
+        return (order, f"{order}-step") if not element.is_over or language.closes_by_steps else (order,)
+
+    ends = tuple((first, second, *point) for first in ways("first") for second in ways("second"))
     if element.turn is None:
         angle = language.angle
-        one = ((name, angle) for order, _ in _ORDERS for name in _ways(order, element))
+        one = ((name, angle) for order, _ in _ORDERS for name in ways(order))
         aimed = (AIMED,) if element.is_followed else ()
         options = (*ends, (angle,), *((*ways, *aimed) for ways in one)) if angle else ends
         if element.is_over:
-            options = (("first", "second", angle),)
+            options = tuple((first, second, angle) for first in ways("first") for second in ways("second"))
     elif element.is_over:
         options = (("center-first", "center-second", "R", "first", "second"),)
+    elif element.is_smooth:
+        options = tuple((*end, TURN) for end in ends)
     else:
         centers = ("center-first", "center-second")
         options = (*((*end, *more) for end in ends for more in (centers, ("R",))), *((centers,) if point else ()))
     return tuple(tuple(prefix + name for name in option) for option in options)
-
-
-def _ways(order: str, element: Element) -> tuple[str, ...]:
-    return (order,) if element.is_over else (order, f"{order}-step")
 
 
 def _meanings(language: Language, elements: Sequence[Element], names: Sequence[Names]) -> Iterator[tuple[str, str]]:
@@ -303,6 +332,10 @@ def _meanings(language: Language, elements: Sequence[Element], names: Sequence[N
                 yield f"{each.prefix}center-{order}", f"centre, {'from where it ends' if is_from_end else 'absolute'}"
         if element.turn is not None and element.is_over:
             yield f"{each.prefix}R", "radius"
+    if language.corner_codes:
+        # The word that states the size in a block of its own has another meaning elsewhere.
+        rows = language.lexicon.addresses
+        yield from ((each.prefix + word, rows[word].meaning) for each in names for word in language.corners)
     for (before, after), (_, each) in zip(pairwise(elements), pairwise(names), strict=True):
         if after.is_over and language.selector:
             yield f"{each.prefix}{language.selector}", language.selects[pair_role(before, after)]

@@ -27,6 +27,10 @@ ON_PARALLEL_AXES = "@parallel"
 """A parallel axis stands for an axis of the plane."""
 ONLY = "@only"
 """The only block of its contour."""
+SMOOTH, NO_TANGENT = "@smooth", "@no-tangent"
+"""An arc that begins in the direction of the element before it; one that has none before it."""
+CORNER_ALONE = "@corner-alone"
+"""A block of its own that makes a corner, behind no move."""
 ORDINARY = "@ordinary"
 """The control calculates nothing for it."""
 
@@ -34,6 +38,9 @@ POINT = "point"
 """Stated as soon as a block that ends in an intersection has a coordinate: then it states a point of its element."""
 AIMED = "aimed"
 """Stated instead of it if the same line has an angle, too: both then say where it runs."""
+
+TURN = "turn"
+"""By how much the direction changes where an arc begins: nothing."""
 
 STATED_POINT = ("first", "first-step", "second", "second-step")
 STATED_CENTER = ("center-first", "center-second")
@@ -51,6 +58,8 @@ class Element(Struct, frozen=True):
     is_followed: bool
     touches: bool = False
     """Whether it touches the element before it where it begins."""
+    is_smooth: bool = False
+    """Whether it is an arc that begins in the direction of the element before it, and has neither centre nor radius."""
 
     @property
     def role(self) -> str:
@@ -78,6 +87,10 @@ class Member(Struct, frozen=True):
     """Over-defined, but no G1, G2 or G3 block is right before it."""
     is_last: bool = False
     """No G1, G2 or G3 block follows."""
+    is_joined: bool = False
+    """Another block of the contour follows."""
+    corner: Block | None = None
+    """The block of its own that states the corner behind it."""
 
 
 class Joining(Enum):
@@ -94,6 +107,7 @@ TITLES: Mapping[str, str] = {
     "corners": "chamfers and roundings",
     "chain": "chain of lines by their angles",
     "arc": "arc",
+    "tangent": "arcs that begin tangentially",
 }
 """What forms are called, by the role of two blocks or the name of the form."""
 
@@ -171,11 +185,34 @@ class Language:
     """Sine of the change of direction up to which the control makes no corner."""
     passes: frozenset[int] = frozenset()
     """G codes of blocks that may stand between two blocks of a contour."""
+    between: int = 0
+    """How many blocks that move nothing may stand there."""
+    radius: str = "R"
+    """The address of an arc's radius."""
+    tangent_arc: int | None = None
+    """The motion of an arc that begins in the direction of the element before it."""
+    modal_corner: Mapping[str, str] = field(default_factory=dict)
+    """Words that stay in force and make corners, each with the corner word whose size they state."""
+    corner_codes: Mapping[int, str] = field(default_factory=dict)
+    """G codes of blocks that make a corner between two others, each with the corner word whose size they state."""
+    corner_size: str = "I"
+    """The word of such a block that states the size."""
+    closes_by_steps: bool = False
+    """Whether a line that meets one without an end may give its end by increments: from where that one begins."""
+    is_ray_alone: bool = False
+    """Whether a line by its angle and one coordinate runs as its angle says, whatever `is_ray` tells of others."""
+    runs_in_rapid: bool = False
+    """Whether two lines in rapid may meet."""
 
     @property
     def angles(self) -> tuple[str, ...]:
         """The addresses that state an angle; of two in a block, the last of these does."""
         return self.angle_words or (self.angle,)
+
+    @property
+    def own(self) -> frozenset[str]:
+        """The addresses of angles and corners."""
+        return frozenset({*self.angles, *self.corners, *self.modal_corner})
 
     @property
     def axes(self) -> tuple[str, ...]:

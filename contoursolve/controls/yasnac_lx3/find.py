@@ -164,7 +164,7 @@ def _forgotten(name: str, alone: list[Word], block: Block, state: State, context
     if name not in CORNERING:
         # Behind G11 and G12 nothing says which of the two is meant.
         return finding
-    meant = restate(block, CORNERING[name])
+    meant = restate(block, f"G{CORNERING[name]:02}")
     claim = find([meant], 0, state, modes)
     answer = examine(claim, tuple(context.rules), Policy.ENFORCE) if claim is not None else None
     if answer is None or answer.contour is None or any(each.severity is Severity.ERROR for each in answer.diagnostics):
@@ -178,7 +178,7 @@ def _rapid(name: str, block: Block, context: Context) -> Diagnostic:
     """Axis words alone, under a G00 that was in force before the contour."""
     words = [word for word in block.words if word.address in AXIS_WORDS]
     finding = report(context, context.row(ReadIssue.RAPID_BEHIND), Basis.RULE, words, code=name)
-    fix = Fix("write G01 if this is a cut", restate(block, 1).text, Applicability.CHANGES_CONTOUR)
+    fix = Fix("write G01 if this is a cut", restate(block, "G01").text, Applicability.CHANGES_CONTOUR)
     return replace(finding, fixes=(fix,))
 
 

@@ -1,0 +1,199 @@
+"""The rules that every control with lines and arcs in a row has: which words may stand in one block."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from decimal import Decimal
+
+from contoursolve.controls.chain.language import (
+    ARC,
+    FOLLOWED,
+    LAST,
+    LINE,
+    LINE_LINE,
+    OTHER_PLANE,
+    OVER_LINE,
+    RAPID,
+    SMOOTH,
+    STATED_CENTER,
+    STATED_POINT,
+)
+from contoursolve.diagnostics.finding import Alarm, Severity
+from contoursolve.diagnostics.source import Evidence, Source
+from contoursolve.reading.rules import Condition, Parallel, Rule, Value, all_of, some
+
+ANY, LINES = (LINE, OVER_LINE, ARC), (LINE, OVER_LINE)
+BESIDE = ("beside-X", "beside-Y", "beside-Z")
+FIRST, SECOND, STEPS = ("first", "first-step"), ("second", "second-step"), ("first-step", "second-step")
+_GUARD = Decimal("0.0001")
+
+
+@dataclass(frozen=True, slots=True)
+class Manual:
+    """How a control's rules are told: the start of their codes, its source, the words for an angle, chamfers, a
+    rounding and an arc's radius, its alarms by the end of a rule's code; and right programs for examples: a line by
+    its angle (`angled`), two lines that meet (`vertex`), a corner between two lines (`cut`), and one before an arc
+    (`arc`), each with the words that a wrong one changes."""
+
+    prefix: str
+    source: Source
+    angle: str
+    chamfers: tuple[str, ...]
+    rounding: str
+    radius: str
+    angled: str
+    vertex: str
+    cut: str
+    arc: str
+    alarms: Mapping[str, Alarm] = field(default_factory=dict)
+
+    def row(
+        self,
+        code: str,
+        message: str,
+        help_: str,
+        when: Condition,
+        roles: tuple[str, ...],
+        good: str,
+        *bad: tuple[str, str] | str,
+        evidence: Evidence = Evidence.ASSUMED,
+        **more: object,
+    ) -> Rule:
+        """A row; what is wrong is a program, or two texts of which the second stands for the first in the right one."""
+        rejected = tuple(each if isinstance(each, str) else good.replace(*each) for each in bad)
+        source = Source(self.source.manual, self.source.place, evidence)
+        return Rule(
+            f"{self.prefix}-{code}", message, help_, source, (good,), rejected,
+            roles=roles, when=when, alarm=self.alarms.get(code), **more,  # type: ignore[arg-type]
+        )  # fmt: skip
+
+
+def chain_rules(manual: Manual) -> Iterator[Rule]:
+    """The rows that hold for all of them."""
+    row, angle, corners = manual.row, manual.angle, (*manual.chamfers, manual.rounding)
+    cut, arc, angled, vertex = manual.cut, manual.arc, manual.angled, manual.vertex
+    second = cut.rsplit("\n", 1)[1]
+    closing, stated = vertex.rsplit("\n", 1)[1], angled.rsplit(" ", 1)[1]
+    yield row(
+        "corner-without-next",
+        "{words}: a corner needs an element behind it, and none follows",
+        "put the next cutting move right behind it, or delete it",
+        some(*corners) & some(LAST) & ~some(RAPID),
+        ANY,
+        cut,
+        ("\n" + second, "\nM30"),
+        ("\n" + second, "\nG0 " + second),
+    )
+    yield row(
+        "corner-rapid",
+        "{words}: the control makes a corner in a cutting move, not in G0",
+        "write G1",
+        some(*corners) & some(RAPID),
+        ANY,
+        cut,
+        ("G1 ", ""),
+    )
+    yield row(
+        "corner-negative",
+        "{words}: a chamfer or a rounding has no sign",
+        "delete the minus sign: the elements tell on which side the corner lies",
+        Value(corners, least=Decimal(0)),
+        ANY,
+        cut,
+        (f"{manual.rounding}=", f"{manual.rounding}=-"),
+    )
+    yield row(
+        "outside-plane",
+        "{words} does not belong to the plane of the contour",
+        "move that axis in a block of its own, or select its plane by G17, G18 or G19",
+        some(*BESIDE, "wrong-center"),
+        ANY,
+        cut,
+        (second, second + " Z-5"),
+    )
+    yield row(
+        "plane-changes",
+        "the plane changes inside the contour",
+        "select the plane before its first block",
+        some(OTHER_PLANE),
+        ANY,
+        cut,
+        ("\n" + second, "\nG18 X40 Z40"),
+    )
+    yield row(
+        "center-on-line",
+        "{words}: a line has no centre and no radius",
+        f"delete it; a rounding is {manual.rounding}",
+        some(*STATED_CENTER, "R"),
+        LINES,
+        cut,
+        (second, second + " I5"),
+    )
+    yield row(
+        "center-and-radius",
+        "{words}: the arc has both a centre and a radius",
+        "keep one of them",
+        all_of(STATED_CENTER, "R"),
+        (ARC,),
+        arc,
+        ("J0", f"J0 {manual.radius}"),
+    )
+    yield row(
+        "circle-undefined",
+        "the arc has neither a centre nor a radius",
+        f"add I, J or K of the plane, or {manual.radius[:-2].rstrip('=')}; for a line write G1",
+        ~some(*STATED_CENTER, "R", SMOOTH),
+        (ARC,),
+        arc,
+        (" I20 J0", ""),
+    )
+    yield row(
+        "radius-without-end",
+        "{words}: with a radius the arc needs its end",
+        "add the coordinates of its end, or give the centre instead",
+        some("R") & ~some(*STATED_POINT),
+        (ARC,),
+        arc,
+        ("X60 Y20 I20 J0", manual.radius),
+    )
+    yield row(
+        "angle-on-arc",
+        "{words}: the control works out angles of lines, not of arcs",
+        "write G1, or delete {words}",
+        some(angle),
+        (ARC,),
+        arc,
+        ("J0", f"J0 {stated}"),
+    )
+    yield row(
+        "end-missing",
+        "{words} alone does not say where the line ends",
+        f"add a coordinate; or let a line with both coordinates and {angle} follow, which it meets",
+        some(angle) & ~some(*STATED_POINT, FOLLOWED),
+        (LINE,),
+        vertex,
+        ("\n" + closing, "\nM30"),
+    )
+    yield row(
+        "closing-incomplete",
+        f"the line before has an angle and no end, so this block needs both coordinates and {angle}: "
+        "it lacks {lacking}",
+        "add {lacking}",
+        ~all_of(FIRST, SECOND, angle),
+        (OVER_LINE,),
+        vertex,
+        ("\n" + closing, "\n" + closing.rpartition(" ")[0]),
+        ("\n" + closing, "\n" + closing.partition(" ")[2]),
+    )
+    yield row(
+        "angles-parallel",
+        "{words}: the two lines are parallel, so they have no vertex",
+        "correct one of the angles",
+        Parallel((f"1:{angle}", f"2:{angle}"), _GUARD),
+        (LINE_LINE,),
+        vertex,
+        vertex.rpartition(" ")[0] + " " + vertex.partition("\n")[2].partition("\n")[0].split(" ")[1],
+        is_about_geometry=True,
+    )
+    yield row("angle-range", "{words} is more than a turn; it is taken as {within}, the same direction",
+              "write {within} if that is meant", Value((angle,), least=Decimal(-360), most=Decimal(360)), LINES,
+              angled, (stated, f"{angle}=390"), severity=Severity.WARNING)  # fmt: skip

@@ -1,0 +1,39 @@
+"""ISG kernel, as in Beckhoff TwinCAT CNC and KUKA: #ANG, #RND, #CHR, #CHF, G301 and G302 in lines and arcs in a row.
+
+Its words, language and rules come in; a control goes out. Begin with `language`.
+"""
+
+from contoursolve.controls.chain import ChainFinder, forms_of
+from contoursolve.controls.isg.language import LANGUAGE, SETTINGS
+from contoursolve.controls.isg.lexicon import CHAMFER, MODES, ROUNDING, SYNTAX
+from contoursolve.controls.isg.rules import RULES
+from contoursolve.controls.plain import PLANES
+from contoursolve.gcode import Block, Word, parse_block
+from contoursolve.reading import Diameter
+from contoursolve.reading.dialect import Dialect
+
+
+def _signs(block: Block) -> tuple[Word, ...]:
+    """What shows the control: its words with a number sign, and corners in blocks of their own."""
+    if "#" not in block.text and "30" not in block.text:
+        return ()
+    words = block.words if block.syntax is SYNTAX else parse_block(block.text, block.line, SYNTAX).words
+    codes = (CHAMFER, ROUNDING)
+    return tuple(
+        word for word in words if word.address in LANGUAGE.own or (word.address == "G" and word.number in codes)
+    )
+
+
+ISG = Dialect(
+    name="isg",
+    title="ISG kernel: Beckhoff TwinCAT CNC, KUKA",
+    modes=MODES,
+    plane=PLANES[17],
+    forms=forms_of(LANGUAGE, MODES),
+    rules=RULES,
+    find=ChainFinder(LANGUAGE),
+    signs=_signs,
+    contours="lines with #ANG, corners with #RND, #CHR or #CHF, and G301 or G302",
+    settings=SETTINGS,
+    diameter=Diameter.OFF,
+)

@@ -1,0 +1,129 @@
+"""ISG kernel: how blocks are spelled, addresses, numbers, planes and G codes."""
+
+import re
+from collections.abc import Mapping
+
+from contoursolve.controls.plain import PLANES, lexicon
+from contoursolve.diagnostics.source import Evidence, Source
+from contoursolve.gcode import Block, Syntax, Word
+from contoursolve.geometry import Length, Unit
+from contoursolve.reading import Address, Code, Diameter, Effect, Lexicon, Modes, NumberFormat, WithoutPoint
+
+MANUAL = "ISG kernel, programming manual"
+
+
+def printed(place: str) -> Source:
+    """What stands on a page."""
+    return Source(MANUAL, place, Evidence.PRINTED)
+
+
+def derived(place: str) -> Source:
+    """What follows from a page."""
+    return Source(MANUAL, place, Evidence.DERIVED)
+
+
+def assumed(place: str) -> Source:
+    """What is on no page seen."""
+    return Source(MANUAL, place, Evidence.ASSUMED)
+
+
+CHAMFER, ROUNDING = 301, 302
+"""G301 and G302: corners in blocks of their own."""
+
+_CODES: tuple[tuple[Effect, dict[int, str]], ...] = (
+    (Effect.MOTION, {0: "positioning", 1: "line", 2: "arc clockwise", 3: "arc counter-clockwise"}),
+    (Effect.MOTION, dict.fromkeys((33, 34, 63, 331, 332), "thread")),
+    (Effect.NO_MOTION, {4: "dwell"}),
+    (Effect.ABSOLUTE, {90: "absolute coordinates"}),
+    (Effect.INCREMENTAL, {91: "incremental coordinates"}),
+    (Effect.COMPENSATION, {40: "no compensation", 41: "compensation left", 42: "compensation right"}),
+    (Effect.SHIFT, dict.fromkeys((53, *range(54, 60), 159), "zero offset")),
+    (Effect.SINGLE, {74: "reference point", 310: "measuring", 100: "measuring"}),
+    (Effect.FRAME, {68: "rotation", 69: "end of rotation", 351: "mirroring"}),
+    (Effect.FRAME, dict.fromkeys((20, 21, 22, 23, 24), "mirroring")),
+    (Effect.PRESET, {92: "reference point offset"}),
+    (Effect.SINGLE, {161: "absolute centres, which contoursolve does not read"}),
+    (Effect.NONE, {162: "centres from where an arc begins", 164: "no centre correction", 165: "centre correction"}),
+    (Effect.NONE, dict.fromkeys((8, 9, 60, 61, 260, 261, 360, 361), "exact stop or blending")),
+    (Effect.NONE, dict.fromkeys((93, 94, 95, 96, 97, 194), "kind of feed or speed")),
+    (Effect.NONE, dict.fromkeys((25, 26, 138, 139, 150, 151, 236, 237, 238, 239), "compensation at corners")),
+    (Effect.NO_MOTION, {CHAMFER: "chamfer", ROUNDING: "rounding"}),
+)  # fmt: skip
+
+
+def _codes() -> dict[int, Code]:
+    source, rows = assumed("list of G functions"), list[Code]()
+    for effect, table in _CODES:
+        rows += [Code(number, effect, meaning, source) for number, meaning in table.items()]
+    rows += [Code(number, Effect.PLANE, "plane", printed("planes"), plane=plane) for number, plane in PLANES.items()]
+    rows += [
+        Code(70, Effect.UNITS, "inches", source, unit=Length.INCH),
+        Code(71, Effect.UNITS, "millimetres", source, unit=Length.MM),
+        Code(51, Effect.NONE, "X is a diameter", printed("turning functions"), diameter=Diameter.ON),
+        Code(52, Effect.NONE, "X is a radius", printed("turning functions"), diameter=Diameter.OFF),
+    ]
+    return {code.number: code for code in rows}
+
+
+def _parts(token: re.Match[str]) -> tuple[str, str | None, bool]:
+    """The parts of a word: a letter, or `#` and a name."""
+    address, number = token["letter"] or token["long"].replace(" ", ""), token["plain"] or token["short"]
+    return address.upper(), number, token["wanted"] is not None or token["asked"] is not None
+
+
+_NUMBER = r"[+-]?+(?>\d++\.?+\d*+|\.\d++)"
+_OWN = r"\#[ \t]*+(?:ANG|RND|CHR|CHF|FRC)\b"
+_BRACKETS = r"\[(?>(?:[^\[\]]++|\[(?>(?:[^\[\]]++|\[[^\[\]]*+\])*)\])*)\]"
+_NESTED = r"\((?>(?:[^()]++|\((?>(?:[^()]++|\([^()]*+\))*)\))*)"
+SYNTAX = Syntax(
+    "isg",
+    token=re.compile(
+        rf"""
+    (?P<blank>[ \t\f\v\x02\x03\x11-\x14\x1a\ufeff]++|%.*+)
+  | (?P<comment>{_NESTED}(?:\)|$)|;.*+)
+  | (?P<word>
+        (?P<long>{_OWN})[ \t]*+(?:=[ \t]*+)?+(?:(?P<plain>{_NUMBER})(?![\w.+*/\[-])|(?P<wanted>\?)
+          |(?P<formula>[^ \t;()]++))
+      | (?P<letter>[A-Za-z])(?![A-Za-z_])[ \t]*+(?:=[ \t]*+)?+(?:(?P<short>{_NUMBER})(?![\d.+*/\[-])|(?P<asked>\?)
+          |(?P<expression>[+-]?+(?>(?:[A-Z]*+{_BRACKETS}|[PV][\w.\[\]]*+|\d[\d.]*+|[+*/-])++))))
+  | (?P<name>\#[^;(]*+|\$[A-Za-z]++[^;(]*+|(?>[A-Za-z_]{{2}}[\w.]*+)|[Ll][ \t]++\w[\w.]*+)
+  | (?P<malformed>[A-Za-z][ \t]*+[\d.,+-]++)
+  | (?P<bare>[A-Za-z])
+  | (?P<stray>[^ \tA-Za-z;(]++)
+    """,
+        re.VERBOSE | re.ASCII | re.IGNORECASE,
+    ),
+    statement=re.compile(
+        r"[ \t/]*+(?>(?:N[ \t]*+\d++)?+)[ \t]*+(?:(?P<assignment>P\d++[ \t]*+=|V\.\w"
+        r"|\#(?:SET|MSG|HSC|SLOPE|CONTOUR|FLUSH|COMMENT|VAR|ENDVAR)\b)|(?P<flow>\$(?:IF|ELSE|ELSEIF|ENDIF|SWITCH|CASE|DEFAULT|ENDSWITCH|FOR|ENDFOR|WHILE"
+        r"|ENDWHILE|DO|ENDDO|GOTO|BREAK|CONTINUE)\b))",
+        re.IGNORECASE,
+    ),
+    comment=re.compile(_NESTED + r"\)?+|;.*+"),
+    parts=_parts,
+)
+
+
+NUMBERS = NumberFormat(WithoutPoint.AS_WRITTEN, assumed("numbers"))
+_ANGLES, _CORNERS = printed("contour line programming"), printed("chamfers and roundings")
+
+
+def _words() -> Lexicon:
+    plain = lexicon(printed("language"), NUMBERS, "XYZ", {}, is_diameter=False)
+    rows = (
+        Address("#ANG", "angle of the line, from the plane's first axis, counter-clockwise", Unit.DEGREE, _ANGLES),
+        Address("#RND", "rounding", Unit.MM, _CORNERS),
+        Address("#CHR", "chamfer: the distance of both its ends from the corner", Unit.MM, _CORNERS),
+        Address("#CHF", "chamfer: the length of its face", Unit.MM, _CORNERS),
+    )
+    return Lexicon({**plain.addresses, **{row.address: row for row in rows}}, NUMBERS)
+
+
+def _remember(memory: Mapping[str, Word], block: Block) -> Mapping[str, Word]:
+    """The size of the last G301 or G302 stays in force for the next one."""
+    size = block.find("I")
+    is_corner = any(word.address == "G" and word.number in (CHAMFER, ROUNDING) for word in block.words)
+    return {"I": size} if is_corner and size is not None else memory
+
+
+MODES = Modes(_words(), _codes(), ("X", "Y", "Z"), frozenset({2, 17, 29, 30}), syntax=SYNTAX, remember=_remember)

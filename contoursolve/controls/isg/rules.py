@@ -1,0 +1,77 @@
+"""ISG kernel: which words may be combined, and what has no solution. The error numbers are printed."""
+
+from dataclasses import replace
+
+from contoursolve.controls.chain.language import ARC, CORNER_ALONE, FOLLOWED, LINE, OVER_LINE
+from contoursolve.controls.chain.rules import ANY, FIRST, SECOND, STEPS, Manual, chain_rules
+from contoursolve.controls.common import COMMON_RULES
+from contoursolve.controls.geometry_rules import GEOMETRY_RULES
+from contoursolve.controls.isg.language import NO_SIZE
+from contoursolve.controls.isg.lexicon import printed
+from contoursolve.diagnostics.finding import Alarm
+from contoursolve.diagnostics.source import Evidence
+from contoursolve.reading.rules import Count, Rule, all_of, some
+from contoursolve.solving import RefusalKind
+
+_IDS = {
+    "angles-parallel": "21892 (two lines with equal angles, or 180 deg apart)",
+    "angle-redundant": "21895 (an angle with both coordinates)",
+    "end-missing": "21904 (contour line not completely defined)",
+    "closing-incomplete": "21904 (contour line not completely defined)",
+    "closing-increment": "21910 (second block incremental)",
+    "corner-size": "20012 (no size, or 0)",
+    "corner-alone": "20351 (no motion block before), or 20701 (two corners without a motion between)",
+}
+_START = "G17 G90 G0 X0 Y0\n"
+MANUAL = Manual(
+    prefix="isg",
+    source=printed("contour line programming; chamfers and roundings"),
+    angle="#ANG",
+    chamfers=("#CHR", "#CHF"),
+    rounding="#RND",
+    radius="R20",
+    angled=_START + "G1 X40 #ANG=30",
+    vertex=_START + "G1 #ANG=70\nX80 Y25 #ANG=-30",
+    cut=_START + "G1 X30 #RND=5\nX40 Y40",
+    arc=_START + "G1 X40 #RND=6\nG2 X60 Y20 I20 J0",
+    alarms={code: Alarm(number, Evidence.PRINTED) for code, number in _IDS.items()},
+)
+_row, _PRINTED = MANUAL.row, Evidence.PRINTED
+_BLOCK = _START + "G1 X30\nG302 I5\nG1 X40 Y40"
+_CORNERS = (("#CHR",), ("#CHF",), ("#RND",))
+
+_OWN = (
+    _row("two-corners", "{words}: a corner takes one of #RND, #CHR and #CHF", "keep one of them",
+         Count(_CORNERS, 2), ANY, MANUAL.cut, ("#RND=5", "#RND=5 #CHR=5")),
+    _row("face-on-arc", "{words}: the face of a chamfer beside an arc is not computed", "write #CHR, or #RND",
+         some("#CHF"), (ARC,), MANUAL.arc, ("J0", "J0 #CHF=3\nG1 X90")),
+    _row("angle-redundant", "{words} is one word too many beside both coordinates{comparison}",
+         "delete a coordinate, or the angle", all_of(FIRST, SECOND, "#ANG") & ~some(FOLLOWED), (LINE,), MANUAL.angled,
+         ("X40", "X40 Y20"), evidence=_PRINTED, ignores="#ANG"),
+    _row("closing-increment", "{words}: the second of two lines gives its end in absolute coordinates",
+         "write it with G90", some(*STEPS), (OVER_LINE,), MANUAL.vertex, ("\n", "\nG91 "), evidence=_PRINTED),
+    _row("corner-size", "the corner has no size: I is missing or 0, and no corner before it gave one",
+         "write the size behind G301 or G302, such as I5", some(NO_SIZE), ANY, _BLOCK, (" I5", ""), (" I5", " I0"),
+         evidence=_PRINTED),
+    _row("corner-alone", "G301 and G302 stand between two moves; here no move is right before",
+         "put the corner right behind the move that it ends", some(CORNER_ALONE), (LINE,), _BLOCK,
+         ("G302 I5", "G302 I5\nG301 I2"), evidence=_PRINTED),
+)  # fmt: skip
+
+
+def _geometry() -> tuple[Rule, ...]:
+    """The rows about geometry, with examples of this control."""
+    rows = {rule.about: rule for rule in GEOMETRY_RULES}
+    told = {
+        RefusalKind.CORNER_TOO_LARGE: MANUAL.cut.replace("#RND=5", "#CHR=31"),
+        RefusalKind.CORNER_STRAIGHT: MANUAL.cut.replace("X40 Y40", "X60"),
+        RefusalKind.LINE_REVERSED: MANUAL.angled.replace("X40", "X-40"),
+    }
+    good = {RefusalKind.LINE_REVERSED: MANUAL.angled}
+    return tuple(
+        replace(rows[about], code=f"isg-{rows[about].code}", accepted=(good.get(about, MANUAL.cut),), rejected=(bad,))
+        for about, bad in told.items()
+    )
+
+
+RULES = (*COMMON_RULES, *chain_rules(MANUAL), *_OWN, *_geometry(), *GEOMETRY_RULES)

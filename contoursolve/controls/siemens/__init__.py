@@ -1,0 +1,46 @@
+"""SINUMERIK 840D sl, 828D, ONE and 808D: ANG, RND, CHR, CHF, RNDM and CT in lines and arcs in a row.
+
+Their words, language and rules come in; two controls go out. Begin with `language`.
+"""
+
+from dataclasses import replace
+
+from contoursolve.controls.chain import ChainFinder, forms_of
+from contoursolve.controls.plain import PLANES
+from contoursolve.controls.siemens.language import LANGUAGE, SETTINGS
+from contoursolve.controls.siemens.lexicon import MODES, SYNTAX
+from contoursolve.controls.siemens.rules import RULES, RULES_808
+from contoursolve.gcode import Block, Word, parse_block
+from contoursolve.reading import Diameter
+from contoursolve.reading.dialect import Dialect
+
+
+def _signs(block: Block) -> tuple[Word, ...]:
+    """What shows the control: its words with an equals sign."""
+    if "=" not in block.text:
+        return ()
+    words = block.words if block.syntax is SYNTAX else parse_block(block.text, block.line, SYNTAX).words
+    return tuple(word for word in words if word.address in LANGUAGE.own)
+
+
+SIEMENS_840D = Dialect(
+    name="siemens-840d",
+    title="SINUMERIK 840D sl, 828D and ONE",
+    modes=MODES,
+    plane=PLANES[17],
+    forms=forms_of(LANGUAGE, MODES),
+    rules=RULES,
+    find=ChainFinder(LANGUAGE),
+    signs=_signs,
+    contours="lines with ANG=, corners with RND=, CHR= or CHF=, and CT",
+    settings=SETTINGS,
+    diameter=Diameter.BY_PLANE,
+)
+SIEMENS_808D = replace(
+    SIEMENS_840D,
+    name="siemens-808d",
+    title="SINUMERIK 808D",
+    # A lexicon of its own tells for which control words were read.
+    modes=replace(MODES, lexicon=replace(MODES.lexicon)),
+    rules=RULES_808,
+)

@@ -1,0 +1,141 @@
+"""SINUMERIK as a language of lines and arcs in a row: what meets, what its corners are, and its settings."""
+
+from collections.abc import Callable, Collection, Iterator, Sequence
+from dataclasses import replace as replace_fields
+
+from msgspec.structs import replace
+
+from contoursolve.controls.chain import Element, Joining, Language, Member
+from contoursolve.controls.plain import PLANES
+from contoursolve.controls.siemens.lexicon import MODES, TANGENT_ARC, assumed
+from contoursolve.geometry import CornerShape, Heading, Turn
+from contoursolve.reading import ContourForm, Convention, Diameter, Modes, Sample, Setting, State
+from contoursolve.reading.dialect import Dialect
+
+STRICT_ANGLE, NO_STEPS, ALONG_ARC = "@strict-angle", "@no-steps", "@along-arc"
+
+
+def _counting(diameter: Diameter) -> Callable[[Dialect], Dialect]:
+    return lambda dialect: replace_fields(dialect, diameter=diameter)
+
+
+def _turning(dialect: Dialect) -> Dialect:
+    diameter = Diameter.ON if dialect.diameter is Diameter.BY_PLANE else dialect.diameter
+    return replace_fields(dialect, plane=PLANES[18], diameter=diameter)
+
+
+MACHINE = Setting(
+    "machine",
+    "which plane is selected, and what X is, before the program says it",
+    {"mill": "G17, and X is a radius in G17", "lathe": "G18, and X is a diameter"},
+    "mill",
+    assumed("machine data"),
+    changes={"lathe": _turning},
+)
+DIAMETER = Setting(
+    "diam",
+    "what X is before the program says it by DIAMON, DIAMOF or DIAM90",
+    {
+        "plane": "a diameter while G18 is selected, else a radius",
+        "DIAMOF": "a radius",
+        "DIAMON": "a diameter",
+        "DIAM90": "a diameter in absolute coordinates, a radius in increments",
+    },
+    "plane",
+    assumed("machine data"),
+    changes={
+        "DIAMOF": _counting(Diameter.OFF),
+        "DIAMON": _counting(Diameter.ON),
+        "DIAM90": _counting(Diameter.ABSOLUTE),
+    },
+)
+SENSE = Setting(
+    "angle-sense",
+    "whether a line may run against its angle",
+    {
+        "line": "it may: the angle is that of the line, either way",
+        "ray": "it may not: the angle is the direction of travel",
+    },
+    "line",
+    assumed("not described"),
+)
+REDUNDANT = Setting(
+    "redundant-angle",
+    "an angle beside both coordinates, behind a line that has an end",
+    {"error": "it must not stand there", "check": "it may stand there if it agrees"},
+    "error",
+    assumed("alarm 10795"),
+)
+CLOSING = Setting(
+    "closing-incremental",
+    "whether the second of two lines that meet may give its end by increments",
+    {"allow": "it may: they count from where the first line starts", "error": "it must not"},
+    "allow",
+    assumed("not described"),
+)
+ARC_CHAMFER = Setting(
+    "chamfer-on-arc",
+    "how CHR is measured on an arc",
+    {"chord": "straight from the corner", "arc_length": "along the arc; contoursolve does not compute this"},
+    "chord",
+    assumed("not described"),
+)
+SETTINGS = (MACHINE, DIAMETER, SENSE, REDUNDANT, CLOSING, ARC_CHAMFER)
+
+
+def _is_ray(modes: Modes) -> bool:
+    return modes.convention(SENSE).value == "ray"
+
+
+def _circumstances(member: Member, _: Sequence[State], modes: Modes) -> Iterator[str]:
+    settings = (
+        (STRICT_ANGLE, REDUNDANT, "error"),
+        (NO_STEPS, CLOSING, "error"),
+        (ALONG_ARC, ARC_CHAMFER, "arc_length"),
+    )
+    yield from (name for name, setting, value in settings if modes.convention(setting).value == value)
+    if member.here.diameter is Diameter.BY_PLANE and any(member.here.plane.diameters):
+        yield "@by-plane"
+
+
+def _conventions(form: ContourForm, circumstances: Collection[str], modes: Modes) -> Iterator[Convention]:
+    """What X is, where only the plane tells; and whether a line may run against its angle, if that was set."""
+    if any(name.endswith("@by-plane") for name in circumstances):
+        yield modes.convention(DIAMETER)
+    if _is_ray(modes) and any(isinstance(row.fact, Heading) for row in form.facts):
+        yield modes.convention(SENSE)
+
+
+_LINE, _ARC = Element(None, False, False), Element(Turn.CCW, False, False)
+_OPEN, _CLOSING = replace(_LINE, is_followed=True), replace(_LINE, is_over=True)
+_START = "G17 G90 G0 X0 Y0"
+
+LANGUAGE = Language(
+    lexicon=MODES.lexicon,
+    planes={},
+    allowed=frozenset({*"NGFSTMDHXYZIJK", "ANG", "RND", "CHR", "CHF", "CR", "RNDM", "FRC", "FRCM"})
+    | {f"{axis}={way}" for axis in "XYZ" for way in ("AC", "IC")},
+    joining=Joining.OPEN,
+    angle="ANG",
+    radius="CR",
+    corners={
+        "CHR": CornerShape.CHAMFER_SETBACK,
+        "CHF": CornerShape.CHAMFER_FACE,
+        "RND": CornerShape.FILLET,
+    },
+    modal_corner={"RNDM": "RND"},
+    tangent_arc=TANGENT_ARC,
+    closes_by_steps=True,
+    between=3,
+    runs_in_rapid=True,
+    samples={
+        (_LINE,): Sample(_START, ("G1 {X40} {Y23.094} {ANG=30}",)),
+        (_LINE, _LINE): Sample(_START, ("G1 {X40} {Y0} {ANG=0} {CHR=6} RND=5", "{X60} {Y20} {ANG=45}")),
+        (_LINE, _ARC): Sample(_START, ("G1 {X40} {Y0} {CHR=6} RND=5", "G3 {X60} {Y20} {I0} {J20} {CR=20}")),
+        (_OPEN, _CLOSING): Sample(_START, ("G1 ANG=70 {CHF=2} {RND=2}", "{X80} {Y25} {ANG=-30}")),
+        (_OPEN, _CLOSING, _LINE): Sample(_START, ("G1 ANG=70 {CHR=2}", "X80 Y25 ANG=-30 {RND=3}", "{X90} {Y60}")),
+    },
+    circumstances=_circumstances,
+    conventions=_conventions,
+    is_ray=_is_ray,
+)

@@ -1,0 +1,150 @@
+"""SINUMERIK: how blocks are spelled, addresses, numbers, planes, G codes and commands with a name."""
+
+import re
+from collections.abc import Mapping
+
+from contoursolve.controls.plain import PLANES, lexicon
+from contoursolve.diagnostics.source import Evidence, Source
+from contoursolve.gcode import Block, Syntax, Word, long_parts
+from contoursolve.geometry import Length, Unit
+from contoursolve.reading import Address, Code, Diameter, Effect, Lexicon, Modes, NumberFormat, WithoutPoint
+
+MANUAL = "SINUMERIK NC programming manual"
+
+
+def printed(place: str) -> Source:
+    """What stands on a page."""
+    return Source(MANUAL, place, Evidence.PRINTED)
+
+
+def derived(place: str) -> Source:
+    """What follows from a page."""
+    return Source(MANUAL, place, Evidence.DERIVED)
+
+
+def assumed(place: str) -> Source:
+    """What is on no page seen."""
+    return Source(MANUAL, place, Evidence.ASSUMED)
+
+
+TANGENT_ARC = 1001
+"""Stands for CT among the motions."""
+
+_CODES: tuple[tuple[Effect, dict[int, str]], ...] = (
+    (Effect.MOTION, {0: "positioning", 1: "line", 2: "arc clockwise", 3: "arc counter-clockwise"}),
+    (Effect.MOTION, dict.fromkeys((33, 34, 35, 331, 332), "thread")),
+    (Effect.NO_MOTION, {4: "dwell", 25: "lower limit", 26: "upper limit", 93: "inverse time feed"}),
+    (Effect.ABSOLUTE, {90: "absolute coordinates"}),
+    (Effect.INCREMENTAL, {91: "incremental coordinates"}),
+    (Effect.COMPENSATION, {40: "no compensation", 41: "compensation left", 42: "compensation right"}),
+    (Effect.SHIFT, dict.fromkeys((*range(54, 60), 500, *range(505, 600)), "work offset")),
+    (Effect.SINGLE, {53: "no offset", 153: "no offset", 74: "reference point", 75: "fixed point", 63: "tapping"}),
+    (Effect.SINGLE, dict.fromkeys((147, 148, 247, 248, 340, 341, 347, 348), "soft approach or retraction")),
+    (Effect.FRAME, dict.fromkeys((110, 111, 112), "pole of polar coordinates")),
+    (Effect.NONE, dict.fromkeys((9, 60, 601, 602, 603), "exact stop")),
+    (Effect.NONE, dict.fromkeys((64, *range(641, 646)), "continuous path")),
+    (Effect.NONE, {94: "feed a minute", 95: "feed a revolution", 96: "constant surface speed", 97: "spindle speed"}),
+    (Effect.NONE, dict.fromkeys((450, 451, 460, 461, 462), "corners of the compensated path")),
+)  # fmt: skip
+_NAMES: tuple[tuple[Effect, str, str], ...] = (
+    (Effect.FRAME, "coordinate frame", "TRANS ATRANS ROT AROT SCALE ASCALE MIRROR AMIRROR ROTS AROTS TRAFOOF"),
+    (Effect.SINGLE, "no offset", "SUPA"),
+    (Effect.NONE, "nothing about the path", "MSG SETMS STOPRE BRISK SOFT DRIVE NORM KONT KONTC KONTT FFWON FFWOF"),
+    (Effect.NONE, "nothing about the path", "COMPOF CFC CFTCP CFIN SBLON SBLOF DISPLOF SAVE WALIMON WALIMOF DIAMCHANA"),
+    (Effect.NONE, "nothing about the path", "OFFN LIMS SETAL TC G291 G290 WORKPIECE ADIS ADISPOS SPCON SPCOF"),
+)  # fmt: skip
+_DIAMETERS = {
+    "DIAMOF": (Diameter.OFF, "X is a radius"),
+    "DIAMON": (Diameter.ON, "X is a diameter"),
+    "DIAM90": (Diameter.ABSOLUTE, "X is a diameter in absolute coordinates, a radius in increments"),
+}
+
+
+def _codes() -> dict[int, Code]:
+    source, rows = assumed("list of G functions"), list[Code]()
+    for effect, table in _CODES:
+        rows += [Code(number, effect, meaning, source) for number, meaning in table.items()]
+    for number, length in ((70, Length.INCH), (700, Length.INCH), (71, Length.MM), (710, Length.MM)):
+        rows.append(Code(number, Effect.UNITS, length.value, source, unit=length))
+    rows += [Code(number, Effect.PLANE, "plane", printed("p. 214"), plane=plane) for number, plane in PLANES.items()]
+    rows.append(Code(TANGENT_ARC, Effect.MOTION, "arc that begins tangentially", printed("p. 201"), name="CT"))
+    number = TANGENT_ARC
+    for name, (diameter, meaning) in _DIAMETERS.items():
+        number += 1
+        rows.append(Code(number, Effect.NONE, meaning, assumed("diameters"), diameter=diameter, name=name))
+    for effect, meaning, names in _NAMES:
+        for name in names.split():
+            number += 1
+            rows.append(Code(number, effect, meaning, assumed("commands"), name=name))
+    return {code.number: code for code in rows}
+
+
+CODES = _codes()
+
+_NUMBER = r"[+-]?+(?>\d++(?>[.,]\d*+)?+|[.,]\d++)"
+_ARGUMENTS = r"\((?>(?:[^()\"]++|\"[^\"]*+\"|\((?>(?:[^()\"]++|\"[^\"]*+\")*)\))*)\)"
+SYNTAX = Syntax(
+    "sinumerik",
+    token=re.compile(
+        rf"""
+    (?P<blank>[ \t\f\v\x02\x03\x11-\x14\x1a\ufeff]++|%.*+|[A-Za-z_]\w++:(?!=)|:\d++)
+  | (?P<comment>;.*+)
+  | (?P<word>(?P<comma>)(?:
+        (?>(?P<long>\$?[A-Za-z_]\w*+(?>(?:\[[^\]]*+\])?+))[ \t]*+=[ \t]*+)(?:
+            (?P<function>[AaIi][Cc])[ \t]*+\([ \t]*+(?:(?P<inner>{_NUMBER})|(?P<unset>\?))[ \t]*+\)
+          | (?P<plain>{_NUMBER})(?![\w.,+*/\-\[(])|(?P<wanted>\?)
+          | (?P<formula>(?>(?:[^\s;()\[\]\"]++|{_ARGUMENTS}|\[[^\]]*+\]|\"[^\"]*+\")+)))
+      | (?P<letter>[A-Za-z])(?![A-Za-z_])[ \t]*+(?:(?P<short>{_NUMBER})(?![\d.,])|(?P<asked>\?))))
+  | (?P<name>(?>[A-Za-z_]{{2}}\w*+|[Ll]\d++))[ \t]*+(?>(?:{_ARGUMENTS})?+)
+  | (?P<malformed>[A-Za-z][ \t]*+[\d.,+-]++)
+  | (?P<bare>[A-Za-z])
+  | (?P<stray>\"[^\"]*+\"?+|[^ \tA-Za-z;]++)
+    """,
+        re.VERBOSE | re.ASCII,
+    ),
+    statement=re.compile(
+        r"[ \t/]*+(?>(?:[Nn]\d++)?+)[ \t]*+(?>(?:[A-Za-z_]\w++:)?+)[ \t]*+(?:"
+        r"(?P<assignment>DEF|EXTERN|PROC|REDEF|DEFINE)"
+        r"|(?P<flow>IF|ELSE|ENDIF|FOR|ENDFOR|WHILE|ENDWHILE|LOOP|ENDLOOP|REPEATB?|UNTIL|GOTO[BFCS]?|CASE|P?CALL|MCALL|RET))\b",
+        re.IGNORECASE,
+    ),
+    comment=re.compile(r";.*+"),
+    remark=";{}",
+    codes={code.name: code.number for code in CODES.values() if code.name},
+    parts=long_parts,
+)
+
+NUMBERS = NumberFormat(WithoutPoint.AS_WRITTEN, assumed("numbers"))
+_CORNER, _PLACE = printed("p. 220"), printed("p. 201")
+ANGLE = "angle of the line, from the plane's first axis, counter-clockwise"
+
+
+def _words() -> Lexicon:
+    plain = lexicon(assumed("addresses"), NUMBERS, "XYZ", {}, is_diameter=False)
+    rows = [
+        Address("ANG", ANGLE, Unit.DEGREE, printed("p. 214")),
+        Address("RND", "rounding", Unit.MM, _CORNER),
+        Address("CHR", "chamfer: the distance of both its ends from the corner", Unit.MM, _CORNER),
+        Address("CHF", "chamfer: the length of its face", Unit.MM, _CORNER),
+        Address("RNDM", "rounding of every corner from here on; 0 ends it", Unit.MM, assumed("as users quote it")),
+        Address("CR", "radius; negative for an arc of more than 180 deg", Unit.MM, assumed("addresses")),
+    ]
+    for axis in "XYZ":
+        rows.append(
+            Address(f"{axis}=AC", "coordinate, whatever G90 and G91 say", Unit.MM, _PLACE, axis, is_absolute=True)
+        )
+        rows.append(Address(f"{axis}=IC", "increment, whatever G90 and G91 say", Unit.MM, _PLACE, axis, True))
+    kept = {name: row for name, row in plain.addresses.items() if name != "R"}
+    return Lexicon({**kept, **{row.address: row for row in rows}}, NUMBERS)
+
+
+def _remember(memory: Mapping[str, Word], block: Block) -> Mapping[str, Word]:
+    """RNDM stays in force until it is 0."""
+    word = block.find("RNDM")
+    if word is None:
+        return memory
+    return {} if word.number == 0 else {"RNDM": word}
+
+
+_ENDS = frozenset({2, 17, 30})
+MODES = Modes(_words(), CODES, ("X", "Y", "Z"), _ENDS, syntax=SYNTAX, radius="CR", remember=_remember)

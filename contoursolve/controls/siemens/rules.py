@@ -1,0 +1,77 @@
+"""SINUMERIK: which words may be combined, and what has no solution. No page with the alarms was seen."""
+
+from dataclasses import replace
+
+from contoursolve.controls.chain.language import ARC, FOLLOWED, LINE, OVER_LINE
+from contoursolve.controls.chain.rules import ANY, FIRST, SECOND, STEPS, Manual, chain_rules
+from contoursolve.controls.common import COMMON_RULES
+from contoursolve.controls.geometry_rules import GEOMETRY_RULES
+from contoursolve.controls.siemens.language import ALONG_ARC, NO_STEPS, STRICT_ANGLE
+from contoursolve.controls.siemens.lexicon import assumed
+from contoursolve.diagnostics.finding import Alarm, Severity
+from contoursolve.diagnostics.source import Evidence
+from contoursolve.reading.rules import Rule, all_of, some
+from contoursolve.solving import RefusalKind
+
+_ALARMS = {
+    "plane-changes": "10790 (plane change)",
+    "angles-parallel": "10791 (invalid angle)",
+    "angle-on-arc": "10792 (wrong interpolation type)",
+    "end-missing": "10793 (second block missing)",
+    "closing-incomplete": "10794 (angle missing in the second block)",
+    "angle-redundant": "10795 (end point specification contradictory)",
+}
+_START = "G17 G90 G0 X0 Y0\n"
+MANUAL = Manual(
+    prefix="siemens",
+    source=assumed("contour definition, p. 214 and 220"),
+    angle="ANG",
+    chamfers=("CHR", "CHF"),
+    rounding="RND",
+    radius="CR=20",
+    angled=_START + "G1 X40 ANG=30",
+    vertex=_START + "G1 ANG=70\nX80 Y25 ANG=-30",
+    cut=_START + "G1 X30 RND=5\nX40 Y40",
+    arc=_START + "G1 X40 RND=6\nG2 X60 Y20 I20 J0",
+    alarms={code: Alarm(number, Evidence.ASSUMED) for code, number in _ALARMS.items()},
+)
+_row = MANUAL.row
+
+_OWN = (
+    _row("two-chamfers", "{words}: a block takes one size of a chamfer", "keep one of them",
+         all_of("CHR", "CHF"), ANY, MANUAL.cut, ("RND=5", "CHR=5 CHF=5")),
+    *(
+        _row(f"{word.lower()}-ignored", "{words}: the control makes the rounding alone, without a message",
+             f"delete {word}, or delete RND", all_of(word, "RND"), ANY, MANUAL.cut, ("RND=5", f"{word}=2 RND=5"),
+             evidence=Evidence.PRINTED, ignores=word, severity=Severity.WARNING)
+        for word in ("CHR", "CHF")
+    ),
+    _row("face-on-arc", "{words}: the face of a chamfer beside an arc is not computed", "write CHR, or RND",
+         some("CHF"), (ARC,), MANUAL.arc, ("J0", "J0 CHF=3\nG1 X90")),
+    _row("chamfer-along-arc", "a chamfer that is measured along an arc is not computed",
+         "set chamfer-on-arc=chord, or write the chamfer out", some("CHR") & some(ALONG_ARC), (ARC,), MANUAL.arc),
+    _row("angle-redundant",
+         "{words} is one word too many beside both coordinates{comparison}",
+         "delete one of the three; where the control checks it, set redundant-angle=check",
+         all_of(FIRST, SECOND, "ANG") & ~some(FOLLOWED) & some(STRICT_ANGLE), (LINE,), MANUAL.angled,
+         ("X40", "X40 Y20"), ignores="ANG"),
+    _row("closing-increment", "{words}: the second of two lines gives its end by coordinates", "write X=AC( ), or G90",
+         some(*STEPS) & some(NO_STEPS), (OVER_LINE,), MANUAL.vertex),
+)  # fmt: skip
+
+
+def _geometry() -> tuple[Rule, ...]:
+    """The rows about geometry, with examples of this control."""
+    rows = {rule.about: rule for rule in GEOMETRY_RULES}
+    told = {
+        RefusalKind.CORNER_TOO_LARGE: MANUAL.cut.replace("RND=5", "CHR=31"),
+        RefusalKind.CORNER_STRAIGHT: MANUAL.cut.replace("X40 Y40", "X60"),
+    }
+    return tuple(
+        replace(rows[about], code=f"siemens-{rows[about].code}", accepted=(MANUAL.cut,), rejected=(bad,))
+        for about, bad in told.items()
+    )
+
+
+RULES = (*COMMON_RULES, *chain_rules(MANUAL), *_OWN, *_geometry(), *GEOMETRY_RULES)
+RULES_808 = RULES

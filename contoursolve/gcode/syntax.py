@@ -1,0 +1,72 @@
+"""How the blocks of a control are spelled: its tokens, its comments, and the names that stand for G codes."""
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+
+def letter_parts(token: re.Match[str]) -> tuple[str, str | None, bool]:
+    """The parts of a word whose address is a letter, or a comma and a letter."""
+    comma, letter, number, asked = token.group("comma", "letter", "number", "asked")
+    return (comma + letter).upper(), number, asked is not None
+
+
+def long_parts(token: re.Match[str]) -> tuple[str, str | None, bool]:
+    """The parts of a word whose address may have several letters: `X=IC` is the address of `X=IC(5)`. A comma stands
+    for a point."""
+    found = token.groupdict()
+    function, number = found["function"], found["inner"] or found["plain"] or found["short"]
+    address = (found["letter"] or found["long"]) + (f"={function}" if function else "")
+    is_asked = any(found[name] is not None for name in ("unset", "wanted", "asked"))
+    return address.upper(), number and number.replace(",", "."), is_asked
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Syntax:
+    """One way to spell blocks.
+
+    `token` matches each stretch of a block, and is named by what it is: a `blank`, a `comment`, a `word`, the `name` of
+    a code, or one of the faults of the lexer. `parts` are those of a word: its address, its number if it has one, and
+    whether a question mark stands for it. `statement` matches a block that is no list of words: an `assignment`
+    or a `flow` of control. `remark` is what a comment looks like that is written, with `{}` for its
+    text; facts stand in those alone.
+    """
+
+    name: str
+    token: re.Pattern[str]
+    statement: re.Pattern[str]
+    comment: re.Pattern[str]
+    remark: str = "({})"
+    codes: Mapping[str, int] = field(default_factory=dict)
+    """The codes that have a name instead of G and a number, by that name in upper case: a number that no G code has."""
+    parts: Callable[[re.Match[str]], tuple[str, str | None, bool]] = letter_parts
+
+
+# Runs are possessive (`++`, `*+`): what they take is never tried again, so that a line takes time by its length.
+# Groups that repeat are atomic (`(?>...)`) instead: Python before 3.11.5 reads `(?:...)*+` wrongly (gh-106052).
+_BRACKETS = r"\[(?>(?:[^\[\]]++|\[(?>(?:[^\[\]]++|\[[^\[\]]*+\])*)\])*)\]"
+ISO = Syntax(
+    "iso",
+    token=re.compile(
+        rf"""
+    (?P<blank>[ \t\f\v\x02\x03\x11-\x14\x1a\ufeff%]++)
+  | (?P<comment>\([^)]*+\)|;.*+)
+  | (?P<open>\([^)]*+)
+  | (?P<word>(?P<comma>,?+)[ \t]*+(?P<letter>[A-Za-z])[ \t]*+
+      (?:(?P<number>[+-]?+(?>\d++\.?+\d*+|\.\d++))(?![\d.]|,\d|[eE][+-]?+\d++(?![\d.]))
+        |(?P<expression>[+-]?+(?:\#\d++|\#?+{_BRACKETS}))|(?P<asked>\?)))
+  | (?P<malformed>,?+[ \t]*+[A-Za-z][ \t]*+(?>(?:[\d.+-]|,(?=\d))+)(?>(?:[eE][+-]?+\d++)?))
+  | (?P<bare>,?+[ \t]*+[A-Za-z](?>(?:(?![A-Za-z][ \t]*+[+-]?+\.?+\d)[A-Za-z])*))
+  | (?P<comma_only>,[^ \tA-Za-z(;]*+)
+  | (?P<stray>[^ \tA-Za-z(;,%]++|.)
+    """,
+        re.VERBOSE | re.ASCII,
+    ),
+    statement=re.compile(
+        r"[ \t/]*+(?>(?:[Nn]\d++)?)[ \t]*+(?:(?P<assignment>\#)|(?P<flow>(?:IF|WHILE|GOTO|DO|END|THEN|ELSE)\b"
+        r"|(?:GOTO|DO|END)\d|(?:IF|WHILE)\[))",
+        re.IGNORECASE,
+    ),
+    comment=re.compile(r"\([^)]*+\)?+|;.*+"),
+)
+"""Letters with numbers, comments in brackets or behind a semicolon: Fanuc, and whoever follows ISO 6983."""
