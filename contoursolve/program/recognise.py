@@ -2,11 +2,11 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 
-from contoursolve.controls import DIALECTS, PLAIN
+from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis.wording import either, join
 from contoursolve.gcode import Block, Program, Word
 from contoursolve.program.project import CONTROL, check_settings, configure
-from contoursolve.reading import Modes, plain_lines, words_of
+from contoursolve.reading import plain_lines, words_of
 from contoursolve.reading.dialect import Dialect
 
 
@@ -110,7 +110,7 @@ class Recogniser:
         return not self._is_milled if is_lathe else self._is_milled or not is_turned
 
 
-_PLAIN = plain_lines(Modes(PLAIN["linuxcnc"].modes.lexicon, {}, tuple("UVWXYZ"), frozenset()))
+_PLAIN = plain_lines("UVWXYZ")
 _SHARED = frozenset({",A", ",C", ",R"})
 _ANGLE, _TURNED = ",A", {"X": "X", "U": "X", "Z": "Z", "W": "Z"}
 _PLANES, _OF_A_MILL = frozenset({17, 18, 19}), frozenset({17, 19, 91})
