@@ -27,12 +27,18 @@ def choose(
     Raises UnknownControlError, which lists the choices, if there is no such control or the program shows several, and
     SettingError if there is no such setting.
     """
-    control = control or (settings or {}).get(CONTROL)
-    found = control if isinstance(control, Dialect) else find_dialect(control) if control else recognise(program.blocks)
+    found = named_control(control, settings) or recognise(program.blocks)
     if found is None:
         check_settings(settings or {})
         return None
     return configure(found, settings)
+
+
+def named_control(control: str | Dialect | None, settings: Mapping[str, str] | None) -> Dialect | None:
+    """The control of this name, or that is given as its tables, or else the one that the settings name; None if nothing
+    names one. Raises UnknownControlError, which lists the choices."""
+    wanted = control or (settings or {}).get(CONTROL)
+    return wanted if isinstance(wanted, Dialect) else find_dialect(wanted) if wanted else None
 
 
 def find_dialect(control: str) -> Dialect:
