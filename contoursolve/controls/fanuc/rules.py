@@ -26,7 +26,7 @@ from contoursolve.controls.fanuc.language import (
     WRONG_PLANE,
 )
 from contoursolve.controls.fanuc.lexicon import CORNERS, DRAWING, HAAS
-from contoursolve.controls.geometry_rules import GEOMETRY_RULES
+from contoursolve.controls.geometry_rules import COMMA_MISSING, GEOMETRY_RULES
 from contoursolve.diagnostics.finding import Alarm, Severity
 from contoursolve.diagnostics.source import Evidence, Source
 from contoursolve.reading import ReadIssue
@@ -395,9 +395,9 @@ def _geometry(machine: _Machine, examples: Mapping[Enum, tuple[str, str]]) -> tu
     )
     axes = "A and C are axes" if machine.angle.startswith(",") else "C is an axis"
     comma = replace(
-        rows[ReadIssue.COMMA_MISSING],
+        COMMA_MISSING,
         code=f"{machine.prefix}-comma-missing",
-        message=f"{{words}} has no comma: without one, {axes} and R belongs to an arc",
+        help=f"{COMMA_MISSING.help}; without a comma, {axes} and R belongs to an arc",
         source=machine.source("the function"),
         accepted=(machine.cut,),
         rejected=(machine.cut.replace(",C", "C"),),
