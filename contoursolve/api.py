@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
 
@@ -358,8 +358,8 @@ def convert(
     if dialect is not None and machine_of(dialect) is not machine_of(target):
         kinds = f"{dialect.name} is a {machine_of(dialect).value}, {target.name} a {machine_of(target).value}"
         raise ValueError(f"a program is converted for the same kind of machine: {kinds}")
-    options: dict[str, Any] = {"units": units, "rules": rules}
-    found = expand(text, post=post_of(target), comments=comments, control=dialect, name=name, **options)
+    post = post_of(target)
+    found = expand(text, post=post, comments=comments, control=dialect, units=units, rules=rules, name=name)
     if found.text is None or dialect is None:
         return Conversion(found.text, found.control, target.name, found.summary, None)
     unit, policy = choice_of(Length, units, "units"), choice_of(Policy, rules, "rules")

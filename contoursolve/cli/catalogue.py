@@ -43,9 +43,14 @@ def facts() -> None:
 
 
 def _alarms_of(rule: Rule) -> list[str]:
-    """The numbers of a rule's alarm without leading zeros: the first word, and in `051 or 052` the third one, too."""
-    first, *others = (rule.alarm.number if rule.alarm else "").split() or [""]
-    return [each.lstrip("0") for each in (first, *(others[1:2] if others[:1] == ["or"] else []))]
+    """The numbers of a rule's alarm, as they are compared: the first word, and in `051 or 052` the third one, too."""
+    words = rule.alarm.number.split() if rule.alarm else []
+    return [_plainly(each) for each in words[: 3 if words[1:2] == ["or"] else 1 : 2]]
+
+
+def _plainly(alarm: str) -> str:
+    """An alarm number as it is compared: 55 is 055 of older controls and PS0055 of newer ones."""
+    return alarm.lower().removeprefix("ps").lstrip("0")
 
 
 @click.command(short_help="Explain one rule, or all behind an alarm number.")
@@ -63,12 +68,10 @@ def explain(code: str, control: str | Dialect | None) -> None:
     from contoursolve.output.catalogue import rule_lines  # noqa: PLC0415 - only here
 
     wanted = code.strip().lower()
-    number = wanted.removeprefix("ps").lstrip("0")
     found: dict[str, tuple[Rule, list[str]]] = {}
     for dialect in _chosen(control):
         for rule in dialect.rules:
-            alarm = rule.alarm.number.split()[0].lower() if rule.alarm else ""
-            if wanted in (rule.code, alarm) or (number and number in _alarms_of(rule)):
+            if wanted == rule.code or _plainly(wanted) in _alarms_of(rule):
                 found.setdefault(rule.code, (rule, []))[1].append(dialect.name)
     if not found:
         near = get_close_matches(wanted, sorted({rule.code for each in _chosen(control) for rule in each.rules}))

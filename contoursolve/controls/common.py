@@ -1,9 +1,13 @@
-"""The rows of the catalogue that hold for every control: characters, words, positions, geometry."""
+"""What holds for every control: the rows of the catalogue about characters, words, positions, geometry; settings."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import Any
 
 from contoursolve.diagnostics.finding import Severity
 from contoursolve.diagnostics.source import OWN, Evidence, Source
 from contoursolve.gcode import FaultKind
-from contoursolve.reading import ReadIssue
+from contoursolve.reading import ReadIssue, Setting, WithoutPoint
 from contoursolve.reading.rules import Rule
 from contoursolve.solving import NoteKind, RefusalKind
 
@@ -14,6 +18,25 @@ _START = "G00 X40. Z0.\n"
 def _own(place: str) -> Source:
     return Source(OWN, place, Evidence.ASSUMED)
 
+
+def setting(
+    name: str,
+    meaning: str,
+    values: Mapping[str, str],
+    source: Source,
+    changes: Mapping[str, Callable[[Any], Any]] | None = None,
+) -> Setting:
+    """One whose first value is in force unless told otherwise."""
+    return Setting(name, meaning, values, next(iter(values)), source, changes=changes or {})
+
+
+def number_setting(values: Mapping[str, str], source: Source) -> Setting:
+    """What numbers without a point are, `increment` or `calculator`; the first of them is in force."""
+    found = setting("number", "what a number without a decimal point means", values, source)
+    return replace(found, without_point=_WITHOUT_POINT)
+
+
+_WITHOUT_POINT = {"increment": WithoutPoint.LEAST_INCREMENTS, "calculator": WithoutPoint.AS_WRITTEN}
 
 _GRAMMAR = _own("grammar of a word: an address and a number")
 _READING = _own("modal state of a program")

@@ -29,6 +29,14 @@ def _row(
     return Rule(about.value, message, help_, _SOURCE, (accepted,), (rejected,), about=about, severity=severity)
 
 
+COMMA_MISSING = _row(
+    ReadIssue.COMMA_MISSING,
+    "{words} has no comma, so the control does not read it as {meant}",
+    "write {meant} if that is meant",
+    _CUT,
+    _CUT.replace(",C", "C") + " ,R5\nX80",
+    Severity.WARNING,
+)
 GEOMETRY_RULES = (
     _row(
         RefusalKind.LINES_PARALLEL,
@@ -196,12 +204,5 @@ GEOMETRY_RULES = (
         "G00 X0 Z0.\nG01 X60. ,A-90.",
         Severity.WARNING,
     ),
-    _row(
-        ReadIssue.COMMA_MISSING,
-        "{words} has no comma, so the control ignores it",
-        "write {meant} if that is meant",
-        _CUT,
-        _CUT.replace(",C", "C") + " ,R5\nX80",
-        Severity.WARNING,
-    ),
+    COMMA_MISSING,
 )

@@ -1,5 +1,6 @@
 """A repair that is tried: the edits are applied to the text, and what comes out is read, checked and solved."""
 
+import dataclasses
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from decimal import Decimal
@@ -289,7 +290,8 @@ def _solve_edited(claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ...
         return Repair(edits, replacement, Applicability.PLACEHOLDER, None, 0.0, example=example) if example else None
     answer = examine_edited(claim, dialect, edits, before)
     if answer is None:
-        contour = _path_in_parts(claim, dialect, edits) if _is_about_corners(edits, claim) else None
+        paths = (_path_in_parts, _path_beside_arcs) if _is_about_corners(edits, claim) else ()
+        contour = next(filter(None, (path(claim, dialect, edits) for path in paths)), None)
         return _without_corners(edits, replacement, contour, before) if contour else None
     if answer.contour is None or not _is_settled(answer, edits):
         return None
@@ -375,6 +377,16 @@ def _path_in_parts(claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ..
             elements += [LineSegment(f"line {index}", here, there)] if there != here else []
         here = _place(state)
     return Contour(start, here, {}, tuple(elements), claim.before.plane) if start and here else None
+
+
+def _path_beside_arcs(claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ...]) -> Contour | None:
+    """The path of the same elements without the words that are dropped, arcs among them; None if it is not sound."""
+    spans = {edit.span for edit in edits}
+    words = {name: word for name, word in claim.words.items() if word.span not in spans}
+    givens = {name: each for name, each in claim.givens.items() if name in words or name not in claim.words}
+    answer = examine(dataclasses.replace(claim, words=words, givens=givens), dialect.rules, Policy.ENFORCE)
+    is_sound = answer.status is Status.SOLVED and all(each.severity is Severity.INFO for each in answer.diagnostics)
+    return answer.contour if is_sound else None
 
 
 _LINE = 1

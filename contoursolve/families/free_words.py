@@ -29,7 +29,6 @@ from contoursolve.gcode import FACT, Word
 from contoursolve.geometry import Given, Profile, Unit
 from contoursolve.numeric.columns import Array
 from contoursolve.reading import ParsedContour, ReadIssue
-from contoursolve.reading.rules import Value
 from contoursolve.solving import Status
 from contoursolve.solving.row_outcome import Codes
 from contoursolve.tolerance import LARGEST
@@ -101,9 +100,6 @@ def limits_of(template: Template, values: Mapping[str, float]) -> list[WordLimit
         stated = stated_by(word, answer.profile)
         one: Decimal | None = None
         if word.address in claim.lexicon.addresses:
-            tests = (rule.when for rule in template.dialect.rules if isinstance(rule.when, Value))
-            ends = (end for test in tests for end in (test.least, test.most, test.excluding))
-            limits |= {end for end in ends if end is not None and end.is_finite()}
             limits |= set(_limits_beside(template, claim, word))
             one = claim.lexicon.value(unit_word(word, has_point=True), answer.unit)
         elif word.address != FACT:

@@ -16,8 +16,8 @@ from contoursolve.postprocess.expansion_report import Left, Options, Summary, le
 from contoursolve.postprocess.numbering import Numbers
 from contoursolve.postprocess.post_processors import Numbering
 from contoursolve.program.lines import Lines
-from contoursolve.program.project import CONTROL, configure
-from contoursolve.program.recognise import Recogniser, find_dialect
+from contoursolve.program.project import configure
+from contoursolve.program.recognise import Recogniser, named_control
 from contoursolve.reading.dialect import Dialect
 
 _BATCH = 1 << 16
@@ -65,9 +65,8 @@ def rewrite(  # noqa: PLR0913 - takes what the command takes
     held in memory, to see which contour they are about.
     """
     unread: list[Left] = []
-    control = control or (settings or {}).get(CONTROL)
     recogniser = Recogniser()
-    named = find_dialect(control) if isinstance(control, str) else control
+    named = named_control(control, settings)
     dialect = named or _recognise(recogniser, _blocks(tape, unread))
     summary = Summary()
     body.write(tape.mark)
@@ -78,7 +77,7 @@ def rewrite(  # noqa: PLR0913 - takes what the command takes
         dialect = configure(dialect, settings)
         places = lines_of_facts(parse(tape.read(), tape.name), dialect, unit, start, facts) if facts else {}
         lines = expand_lines(
-            Lines(tape.lines(), dialect, places, is_certain=control is not None or not recogniser.is_sure),
+            Lines(tape.lines(), dialect, places, is_certain=named is not None or not recogniser.is_sure),
             dialect,
             options,
             summary,

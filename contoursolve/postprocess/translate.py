@@ -12,13 +12,13 @@ from contoursolve.controls.chain import ChainFinder, Joining, Language
 from contoursolve.diagnosis.examine import Answer, Depth, Policy
 from contoursolve.diagnostics.finding import Severity
 from contoursolve.gcode import parse, spell
-from contoursolve.geometry import Corner, CornerShape, Heading, Length, Line, Profile, Unit
+from contoursolve.geometry import Arc, Corner, CornerShape, Heading, Length, Line, Profile, Unit
 from contoursolve.postprocess.emit import Format, Move, emit
 from contoursolve.program.pipeline import run
 from contoursolve.reading import WithoutPoint
 from contoursolve.reading.dialect import Dialect
 from contoursolve.solving import Point
-from contoursolve.solving.contour import ArcSegment, LineSegment, Segment
+from contoursolve.solving.contour import ArcSegment, Contour, LineSegment, Segment
 
 EXACT = 5e-9
 """mm. A coordinate that is off a number with the target's decimals by no more is that number."""
@@ -38,7 +38,7 @@ def translate(answer: Answer, target: Dialect, here: Point, form: Format, *, is_
     language = language_of(target)
     if language is None or answer.contour is None:
         return None
-    moves = _Translator(answer, target, language, form, is_rapid=is_rapid).moves(here)
+    moves = _Translator(answer.profile, answer.contour, target, language, form, is_rapid=is_rapid).moves(here)
     has_words = any(
         word.startswith((",", language.angle or ",")) for each in moves.values() for m in each for word in m.words
     )
@@ -46,31 +46,30 @@ def translate(answer: Answer, target: Dialect, here: Point, form: Format, *, is_
 
 
 class _Translator:
-    def __init__(self, answer: Answer, target: Dialect, language: Language, form: Format, *, is_rapid: bool) -> None:
-        self.profile: Profile = answer.profile
-        self.contour = answer.contour
+    def __init__(
+        self, profile: Profile, contour: Contour, target: Dialect, language: Language, form: Format, *, is_rapid: bool
+    ) -> None:
+        self.profile = profile
+        self.segments: Mapping[str, Segment] = {each.name: each for each in contour.elements}
         self.target, self.language, self.form, self.is_rapid = target, language, form, is_rapid
         self.corners = {corner.before: corner for corner in self.profile.figure.corners}
         facts = (fact for fact in self.profile.facts if isinstance(fact, Heading))
         self.angles = {(fact.tail, fact.head): self.profile.givens[fact.given].value for fact in facts}
         self.words = {shape: word for word, shape in language.corners.items()}
-        figure, contour = self.profile.figure, answer.contour
-        self.points = dict[str, Point]()
+        figure = self.profile.figure
+        self.points = {figure.path[-1].head: contour.end, **contour.points, figure.start: contour.start}
         """Where the elements begin and end, corners aside."""
-        if contour is not None:
-            self.points = {figure.path[-1].head: contour.end, **contour.points, figure.start: contour.start}
 
     def moves(self, here: Point) -> Moves:
         """Element by element, in the order of the path."""
         found: dict[str, tuple[Move, ...]] = {}
         path = self.profile.figure.path
-        segments = {} if self.contour is None else {each.name: each for each in self.contour.elements}
         is_open = False
         for number, element in enumerate(path):
             corner = self.corners.get(element.name)
             word = self._corner_word(corner) if corner else ""
             after = path[number + 1] if number + 1 < len(path) else None
-            own = self._sharp(element.name, segments, is_cut=corner is not None and not word)
+            own = self._sharp(element, is_cut=corner is not None and not word)
             if own is None:
                 continue
             line: tuple[str, ...] | None = None
@@ -84,24 +83,23 @@ class _Translator:
                 written[-1] = written[-1]._replace(words=(*written[-1].words, word))
             here = written[-1].end if written else here
             found[element.name] = tuple(written)
-            if corner is not None and not word and corner.name in segments:
-                plain = [move for move in emit(segments[corner.name], here, self.form) if move.words]
+            if corner is not None and not word and corner.name in self.segments:
+                plain = [move for move in emit(self.segments[corner.name], here, self.form) if move.words]
                 here = plain[-1].end if plain else here
                 found[corner.name] = tuple(plain)
         return found
 
-    def _sharp(self, name: str, segments: Mapping[str, Segment], *, is_cut: bool) -> Segment | None:
+    def _sharp(self, element: Line | Arc, *, is_cut: bool) -> Segment | None:
         """An element up to its virtual intersection, or where a corner that is written out cuts it."""
-        element = next(each for each in self.profile.figure.path if each.name == name)
         start, end = self.points[element.tail], self.points[element.head]
-        segment = segments.get(name)
+        segment = self.segments.get(element.name)
         if is_cut and segment is not None:
             end = segment.end
         if isinstance(element, Line):
-            return LineSegment(name, start, end) if start != end else None
+            return LineSegment(element.name, start, end) if start != end else None
         if not isinstance(segment, ArcSegment):
             return None
-        return ArcSegment(name, start, end, segment.center, segment.radius, segment.turn)
+        return ArcSegment(element.name, start, end, segment.center, segment.radius, segment.turn)
 
     def _corner_word(self, corner: Corner) -> str:
         """The word that makes a corner; empty if the target has none."""

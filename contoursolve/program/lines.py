@@ -32,7 +32,7 @@ class Lines:
     ) -> None:
         self._lines = lines
         self._facts = facts
-        self._plain = plain_lines(dialect.modes).fullmatch
+        self._plain = plain_lines(dialect.modes.axes).fullmatch
         self._longest = 1 if dialect.has_runs else _LONGEST
         self._others = [other for other in DIALECTS.values() if not is_certain and other.name != dialect.name]
         self._dialect, self._own = dialect, ""

@@ -447,12 +447,10 @@ class _Examiner:
         shown = (
             what_shows(blocks, self.dialect) if self.dialect and _lacks_motion(self.dialect, blocks, self.unit) else ""
         )
-        elsewhere = {name: each for name, each in DIALECTS.items() if own not in (None, name)}
-        others = ((name, what_shows(blocks, each)) for name, each in elsewhere.items() if _reads_signs(each, blocks))
+        elsewhere = {} if shown or own is None else {name: each for name, each in DIALECTS.items() if name != own}
         by_sign: dict[str, list[str]] = {}
-        for name, sign in others:
-            if not shown:
-                by_sign.setdefault(sign, []).append(name)
+        for name, each in elsewhere.items():
+            by_sign.setdefault(what_shows(blocks, each), []).append(name)
         signs = [
             f"{sign} is for {either(names)}: try --control {names[0] if len(names) == 1 else 'with one of them'}"
             for sign, names in by_sign.items()
@@ -512,9 +510,3 @@ def _lacks_motion(dialect: Dialect, blocks: Sequence[Block], unit: Length) -> bo
         if words:
             return state.motion is None and all(each.address in dialect.modes.lexicon.addresses for each in words)
     return False
-
-
-def _reads_signs(dialect: Dialect, blocks: Sequence[Block]) -> bool:
-    """Whether a control has each word with a comma in the first block that looks like one of its contours."""
-    words = next((found for block in blocks for found in [dialect.signs(block)] if found), ())
-    return all(each.address in dialect.modes.lexicon.addresses for each in words if each.address.startswith(","))

@@ -2,11 +2,11 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 
-from contoursolve.controls import DIALECTS, PLAIN
+from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis.wording import either, join
 from contoursolve.gcode import Block, Program, Word
 from contoursolve.program.project import CONTROL, check_settings, configure
-from contoursolve.reading import Modes, plain_lines, words_of
+from contoursolve.reading import plain_lines, words_of
 from contoursolve.reading.dialect import Dialect
 
 
@@ -27,12 +27,18 @@ def choose(
     Raises UnknownControlError, which lists the choices, if there is no such control or the program shows several, and
     SettingError if there is no such setting.
     """
-    control = control or (settings or {}).get(CONTROL)
-    found = control if isinstance(control, Dialect) else find_dialect(control) if control else recognise(program.blocks)
+    found = named_control(control, settings) or recognise(program.blocks)
     if found is None:
         check_settings(settings or {})
         return None
     return configure(found, settings)
+
+
+def named_control(control: str | Dialect | None, settings: Mapping[str, str] | None) -> Dialect | None:
+    """The control of this name, or that is given as its tables, or else the one that the settings name; None if nothing
+    names one. Raises UnknownControlError, which lists the choices."""
+    wanted = control or (settings or {}).get(CONTROL)
+    return wanted if isinstance(wanted, Dialect) else find_dialect(wanted) if wanted else None
 
 
 def find_dialect(control: str) -> Dialect:
@@ -110,7 +116,7 @@ class Recogniser:
         return not self._is_milled if is_lathe else self._is_milled or not is_turned
 
 
-_PLAIN = plain_lines(Modes(PLAIN["linuxcnc"].modes.lexicon, {}, tuple("UVWXYZ"), frozenset()))
+_PLAIN = plain_lines("UVWXYZ")
 _SHARED = frozenset({",A", ",C", ",R"})
 _ANGLE, _TURNED = ",A", {"X": "X", "U": "X", "Z": "Z", "W": "Z"}
 _PLANES, _OF_A_MILL = frozenset({17, 18, 19}), frozenset({17, 19, 91})

@@ -1,7 +1,7 @@
 """The modal state of a control, where the tool is and what is in force, followed through blocks and plain lines."""
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from decimal import Decimal
 from functools import partial
@@ -355,15 +355,15 @@ _MOTIONS = re.compile(r"G0?([01])")
 _COMMENT = r"\((?![ \t]*+contoursolve)[^()]*+\)"
 
 
-def plain_lines(modes: Modes) -> re.Pattern[str]:
+def plain_lines(axes: Iterable[str]) -> re.Pattern[str]:
     """What a line with its end looks like that has G00, G01 or neither and coordinates, whatever its feed, speed and
     tool; or one without words.
 
     Such a line is no contour, and belongs to one only beside a line that is not plain, as long as `is_plain`.
     """
-    axes = "".join(sorted(modes.axes))
-    words = rf"N[0-9]{{1,8}}+|G0?[01]|M0?[34589]|T[0-9]{{1,8}}+|[FS{axes}]{_NUMBER}"
-    moving = rf"(?=[^(]*[{axes}])[ \t]*+(?>(?:(?:(?:{words})(?![0-9.])|{_COMMENT})[ \t]*+)+)"
+    letters = "".join(sorted(axes))
+    words = rf"N[0-9]{{1,8}}+|G0?[01]|M0?[34589]|T[0-9]{{1,8}}+|[FS{letters}]{_NUMBER}"
+    moving = rf"(?=[^(]*[{letters}])[ \t]*+(?>(?:(?:(?:{words})(?![0-9.])|{_COMMENT})[ \t]*+)+)"
     return re.compile(rf"(?:{moving}|[ \t]*+(?>(?:{_COMMENT}[ \t]*+)*))(?:\r\n|\n|\r)?", re.IGNORECASE | re.ASCII)
 
 

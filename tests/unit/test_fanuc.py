@@ -201,8 +201,8 @@ def test_the_same_corner_is_read_however_it_is_written(control, text):
 def test_a_lost_comma_is_told_with_what_the_letter_means_without_it(control, text, found, fix):
     start = "G00 X40. Z0\n" if control.endswith("lathe") else "G17 G90 G00 X0 Y0\n"
     (finding,) = [each for each in check(start + text, control=control) if each.code.endswith("comma-missing")]
-    assert finding.message.startswith(f"{found} has no comma: without one, ")
-    assert "C is an axis" in finding.message or "A and C are axes" in finding.message
+    assert finding.message == f"{found} has no comma, so the control does not read it as ,{found}"
+    assert "C is an axis" in finding.help or "A and C are axes" in finding.help
     assert [each.replacement for each in finding.fixes] == [fix]
     assert len(finding.message.split()) <= 20
 
@@ -225,6 +225,25 @@ def test_the_first_fix_is_what_a_colleague_would_name(text, code, fix):
     found = [each for each in check("G00 X20. Z0.\n" + text, control=LATHE) if each.fixes]
     assert found[0].code == code
     assert found[0].fixes[0].replacement == fix
+
+
+@pytest.mark.parametrize(
+    ("control", "text"),
+    [
+        (MILL, "G01 X30. ,R5.\nG03 X40. Y10. R10."),
+        (MILL, "G03 X20. Y20. I0 J20. ,R2.\nG01 Y60."),
+        (MILL, "G01 X30. ,R5.\nG03 X40. Y10. R10. ,C2.\nG01 X0"),
+        ("nct-99m", "G1 X30 ,R5\nG3 X40 Y10 I0 J10"),
+        ("nct-99m", "G1 X30 ,C5\nG3 X40 Y10 R10"),
+        ("mitsubishi", "G01 X30. ,R5.\nG03 X40. Y10. R10."),
+        ("mitsubishi", "G01 X30. ,R5.\nX60."),
+    ],
+)
+def test_a_corner_on_a_tangent_joint_may_be_deleted(control, text):
+    (finding,) = check("G17 G90 G00 X0 Y0\n" + text, control=control)
+    corner = text.split("\n")[0].split()[-1]
+    assert finding.message.startswith(f"{corner}: ")
+    assert text.replace(" " + corner, "", 1) in [each.replacement for each in finding.fixes]
 
 
 def test_an_angle_that_is_missing_behind_an_open_line_is_asked_for_with_a_value_that_fits():

@@ -123,7 +123,7 @@ def analyse(text: str, control: str) -> None:
 def read(text: str) -> None:
     parse(text)
     for dialect in DIALECTS.values():
-        plain_lines(dialect.modes).fullmatch(text)
+        plain_lines(dialect.modes.axes).fullmatch(text)
 
 
 EVERY = [

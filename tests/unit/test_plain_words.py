@@ -78,4 +78,4 @@ def test_sentences_are_short_and_plain() -> None:
 )
 def test_what_is_long_or_the_solvers_is_found(text: str) -> None:
     assert faults(text)
-    assert not faults("A225 has no comma, so the control ignores it; write ,A225 for A225. " * 3)
+    assert not faults("A225 has no comma, so the control does not read it as ,A225; write ,A225 for A225. " * 3)

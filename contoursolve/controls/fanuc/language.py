@@ -8,6 +8,7 @@ from math import radians, sin
 from msgspec.structs import replace
 
 from contoursolve.controls.chain import Element, Joining, Language, Member
+from contoursolve.controls.common import number_setting, setting
 from contoursolve.controls.fanuc.lexicon import (
     CORNERS,
     DRAWING,
@@ -21,7 +22,7 @@ from contoursolve.controls.fanuc.lexicon import (
 from contoursolve.controls.plain import LATHE, PLANES
 from contoursolve.diagnostics.source import Evidence, Source
 from contoursolve.geometry import Heading, Turn
-from contoursolve.reading import ContourForm, Convention, Modes, Sample, Setting, State, WithoutPoint
+from contoursolve.reading import ContourForm, Convention, Modes, Sample, Setting, State
 
 GUARD = Decimal(1)
 """Degrees: the angles within which a control computes no vertex and makes no corner."""
@@ -37,58 +38,50 @@ def _assumed(manual: str, place: str) -> Source:
 
 
 def _number(manual: str) -> Setting:
-    return Setting(
-        name="number",
-        meaning="what a number without a decimal point means",
-        values={
+    return number_setting(
+        {
             "increment": "least increments: 0.001 mm, 0.0001 inch, 0.001 deg",
             "calculator": "mm, inches and degrees, as with a point",
         },
-        default="increment",
-        source=_assumed(manual, "a machine parameter"),
-        without_point={"increment": WithoutPoint.LEAST_INCREMENTS, "calculator": WithoutPoint.AS_WRITTEN},
+        _assumed(manual, "a machine parameter"),
     )
 
 
 def _angle_sense(manual: str) -> Setting:
-    return Setting(
-        name="angle-sense",
-        meaning="whether a line may run against its angle",
-        values={
+    return setting(
+        "angle-sense",
+        "whether a line may run against its angle",
+        {
             "line": "it may: the angle is that of the line, either way",
             "ray": "it may not: the angle is the direction of travel",
         },
-        default="line",
-        source=_assumed(manual, "not described"),
+        _assumed(manual, "not described"),
     )
 
 
 def _guard(manual: str) -> Setting:
-    return Setting(
-        name="guard-deg",
-        meaning="how close two directions may come",
-        values={
+    return setting(
+        "guard-deg",
+        "how close two directions may come",
+        {
             "1": "within 1 deg no vertex is computed, no coordinate is found, and no corner is made",
             "0": "only where they are the same",
         },
-        default="1",
-        source=_assumed(manual, "1 deg is printed for a sibling"),
+        _assumed(manual, "1 deg is printed for a sibling"),
     )
 
 
-REDUNDANT_ANGLE = Setting(
-    name="redundant-angle",
-    meaning="an angle beside both coordinates, behind a line that has an end",
-    values={"check": "it may stand there if it agrees", "error": "it must not stand there"},
-    default="check",
-    source=_assumed(DRAWING, "not described"),
+REDUNDANT_ANGLE = setting(
+    "redundant-angle",
+    "an angle beside both coordinates, behind a line that has an end",
+    {"check": "it may stand there if it agrees", "error": "it must not stand there"},
+    _assumed(DRAWING, "not described"),
 )
-ARCS = Setting(
-    name="arcs",
-    meaning="corners beside arcs",
-    values={"off": "corners stand between lines alone", "on": "corners stand beside arcs, too"},
-    default="off",
-    source=_assumed(HAAS, "some releases have them"),
+ARCS = setting(
+    "arcs",
+    "corners beside arcs",
+    {"off": "corners stand between lines alone", "on": "corners stand beside arcs, too"},
+    _assumed(HAAS, "some releases have them"),
 )
 
 LATHE_SETTINGS = (_number(DRAWING), _angle_sense(DRAWING), _guard(DRAWING), REDUNDANT_ANGLE)

@@ -3,10 +3,9 @@
 from msgspec.structs import replace
 
 from contoursolve.controls.plain import (
-    ABSOLUTE_CODES,
     CALLS,
-    DRILLING,
     LATHE,
+    MILL_CODES,
     PLANES,
     code_rows,
     lexicon,
@@ -41,26 +40,7 @@ _LATHE_CODES = code_rows(
     ),
     LATHE_PLANES,
 )
-_MILL_CODES = code_rows(
-    FANUC_MANUAL,
-    merge(
-        ABSOLUTE_CODES,
-        {
-            Effect.MOTION: {33: "thread"},
-            Effect.NO_MOTION: {22: "stored limit on", 23: "stored limit off"},
-            Effect.SINGLE: {27: "reference point check", 29: "return from reference point", 31: "skip"}
-            | {37: "length measurement", 65: "macro call", 66: "modal macro call", 67: "end of modal macro call"},
-            Effect.CYCLE: DRILLING | {74: "drilling cycle", 76: "drilling cycle"},
-            Effect.CANCEL: {80: "end of cycle"},
-            Effect.PRESET: {92: "coordinate setting"},
-            Effect.FRAME: {15: "end of polar coordinates", 16: "polar coordinates", 50: "end of scaling"}
-            | {51: "scaling", 52: "local coordinate system", 68: "rotation", 69: "end of rotation"},
-            Effect.NONE: {43: "length compensation", 44: "length compensation", 49: "no length compensation"}
-            | {9: "exact stop", 61: "exact stop", 64: "cutting", 94: "feed a minute", 95: "feed a revolution"},
-        },
-    ),
-    PLANES,
-)
+_MILL_CODES = code_rows(FANUC_MANUAL, MILL_CODES, PLANES)
 
 
 def _with(words: Lexicon, *rows: Address) -> Lexicon:

@@ -26,7 +26,7 @@ from contoursolve.controls.fanuc.language import (
     WRONG_PLANE,
 )
 from contoursolve.controls.fanuc.lexicon import CORNERS, DRAWING, HAAS
-from contoursolve.controls.geometry_rules import GEOMETRY_RULES
+from contoursolve.controls.geometry_rules import COMMA_MISSING, GEOMETRY_RULES
 from contoursolve.diagnostics.finding import Alarm, Severity
 from contoursolve.diagnostics.source import Evidence, Source
 from contoursolve.reading import ReadIssue
@@ -395,9 +395,9 @@ def _geometry(machine: _Machine, examples: Mapping[Enum, tuple[str, str]]) -> tu
     )
     axes = "A and C are axes" if machine.angle.startswith(",") else "C is an axis"
     comma = replace(
-        rows[ReadIssue.COMMA_MISSING],
+        COMMA_MISSING,
         code=f"{machine.prefix}-comma-missing",
-        message=f"{{words}} has no comma: without one, {axes} and R belongs to an arc",
+        help=f"{COMMA_MISSING.help}; without a comma, {axes} and R belongs to an arc",
         source=machine.source("the function"),
         accepted=(machine.cut,),
         rejected=(machine.cut.replace(",C", "C"),),
@@ -442,21 +442,20 @@ def _lathe_examples(machine: _Machine) -> dict[Enum, tuple[str, str]]:
     }
 
 
-_ENDING = tuple(GEOMETRY_RULES)
 FANUC_LATHE_RULES = (
     *_corner_rules(_FANUC_LATHE),
     _straight_only(_FANUC_LATHE),
     *_angle_rules(_FANUC_LATHE),
     *_VERTEX_RULES,
     *_geometry(_FANUC_LATHE, _lathe_examples(_FANUC_LATHE)),
-    *_ENDING,
+    *GEOMETRY_RULES,
 )
 FANUC_MILL_RULES = (
     *_corner_rules(_FANUC_MILL),
     *_mill_rules(_FANUC_MILL),
     *_arc_rules(_FANUC_MILL),
     *_geometry(_FANUC_MILL, _MILL_EXAMPLES),
-    *_ENDING,
+    *GEOMETRY_RULES,
 )
 HAAS_LATHE_RULES = (
     *_corner_rules(_HAAS_LATHE),
@@ -464,7 +463,7 @@ HAAS_LATHE_RULES = (
     *_angle_rules(_HAAS_LATHE),
     _NO_VERTEX,
     *_geometry(_HAAS_LATHE, _lathe_examples(_HAAS_LATHE)),
-    *_ENDING,
+    *GEOMETRY_RULES,
 )
 HAAS_MILL_RULES = (
     *_corner_rules(_HAAS_MILL),
@@ -472,5 +471,5 @@ HAAS_MILL_RULES = (
     *_arc_rules(_HAAS_MILL),
     _straight_only(_HAAS_MILL),
     *_geometry(_HAAS_MILL, {RefusalKind.CORNERS_OVERLAP: _MILL_EXAMPLES[RefusalKind.CORNERS_OVERLAP]}),
-    *_ENDING,
+    *GEOMETRY_RULES,
 )

@@ -1,6 +1,6 @@
 """Mitsubishi as a language of lines and arcs in a row: what meets, what touches, what H chooses, and its settings."""
 
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import replace as replace_fields
 from decimal import Decimal
 from typing import Any
@@ -17,10 +17,10 @@ from contoursolve.controls.chain.language import (
     ONE_CENTER,
     OVER_CIRCLE,
 )
+from contoursolve.controls.common import number_setting, setting
 from contoursolve.controls.mitsubishi.lexicon import MODES, TURNED_PLANES, assumed, derived, turned
-from contoursolve.diagnostics.source import Source
 from contoursolve.geometry import Turn
-from contoursolve.reading import Assumption, ContourForm, Convention, Modes, Sample, Setting, State, WithoutPoint
+from contoursolve.reading import Assumption, ContourForm, Convention, Modes, Sample, Setting, State
 from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.rules import some
 
@@ -28,13 +28,6 @@ PICK_REQUIRED, STRAIGHT_ONLY = "@pick-required", "@straight-only"
 UNGUARDED, ALONG_ARC, PICKS_NOTHING = "@unguarded", "@along-arc", "@picks-nothing"
 FROM_END = "@from-end"
 INCREMENTAL, HIGH_SPEED = "@incremental", "@high-speed"
-
-
-def _setting(
-    name: str, meaning: str, values: Mapping[str, str], source: Source, **more: Mapping[str, object]
-) -> Setting:
-    """One whose first value is the one in force."""
-    return Setting(name, meaning, values, next(iter(values)), source, **more)  # type: ignore[arg-type]
 
 
 def _turning(dialect: Dialect) -> Dialect:
@@ -51,41 +44,38 @@ def _reading(**changes: Any) -> Callable[[Dialect], Dialect]:
     return change
 
 
-_NUMBER = _setting(
-    "number",
-    "what a number without a decimal point means",
+_NUMBER = number_setting(
     {"calculator": "mm, inches and degrees, as with a point", "increment": "least increments: 0.001 mm, 0.001 deg"},
     assumed("a machine parameter"),
-    without_point={"increment": WithoutPoint.LEAST_INCREMENTS, "calculator": WithoutPoint.AS_WRITTEN},
 )
-_DIAMETER = _setting(
+_DIAMETER = setting(
     "diameter",
     "whether X is a diameter",
     {"off": "X is a radius, and G17 is in force at first", "on": "X is a diameter, and G18 is in force at first"},
     assumed("a machine parameter"),
     changes={"on": _turning},
 )
-_ANGLE_WORD = _setting(
+_ANGLE_WORD = setting(
     "angle-word",
     "which word states an angle",
     {"A": "A or ,A; of both in a block, ,A does", ",A": "only ,A: A is an axis or another function"},
     assumed("linear angle command: the names of axes are machine parameters"),
     changes={",A": _reading(angle_words=(",A",))},
 )
-_FULL_CIRCLE = _setting(
+_FULL_CIRCLE = setting(
     "arc-without-end",
     "what an arc about its centre is that has no end and no H",
     {"contact": "it ends where it meets the next block, if that fits", "circle": "a full circle"},
     assumed("not described"),
     changes={"circle": _reading(closes=True)},
 )
-_FIRST_CENTER = _setting(
+_FIRST_CENTER = setting(
     "first-centre",
     "what I, J and K of an arc without an end are counted from",
     {"start": "where the arc starts", "end": "where it ends, as printed; contoursolve does not compute this"},
     derived("p. 378: the end is what is computed"),
 )
-_PICK = _setting(
+_PICK = setting(
     "h-default",
     "what a crossing without H is",
     {"0": "as with H0: the one with the shorter line", "error": "H must be there"},
@@ -99,25 +89,25 @@ CONTACT = Setting(
     assumed("not described"),
     bounds=(Decimal("0.001"), Decimal(1)),
 )
-_SENSE = _setting(
+_SENSE = setting(
     "angle-sense",
     "whether a line that touches no arc may run against its angle",
     {"line": "it may: the angle is that of the line, either way", "ray": "it may not: the angle is the way it runs"},
     derived("p. 375: the angle at the start or at the end of the line"),
 )
-_CORNER = _setting(
+_CORNER = setting(
     "corner",
     "beside what ,C and ,R stand",
     {"II": "beside lines and arcs", "I": "between two lines alone"},
     assumed("corner chamfering I and II: options"),
 )
-_ARC_CHAMFER = _setting(
+_ARC_CHAMFER = setting(
     "chamfer-on-arc",
     "how the size of a chamfer is measured on an arc",
     {"chord": "straight from the virtual corner", "arc_length": "along the arc; contoursolve does not compute this"},
     assumed("not described"),
 )
-_GUARD = _setting(
+_GUARD = setting(
     "guard-deg",
     "how close the directions of two lines may come",
     {"1": "at less than 1 deg no vertex is computed", "0": "only parallel lines have none"},

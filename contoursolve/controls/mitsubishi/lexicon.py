@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from msgspec.structs import replace as replace_fields
 
-from contoursolve.controls.plain import ABSOLUTE_CODES, CALLS, DRILLING, LATHE, PLANES, code_rows, lexicon, merge
+from contoursolve.controls.plain import CALLS, LATHE, MILL_CODES, PLANES, code_rows, lexicon, merge
 from contoursolve.diagnostics.source import Evidence, Source
 from contoursolve.geometry import Plane, Unit
 from contoursolve.reading import Address, Effect, Lexicon, Modes, NumberFormat, WithoutPoint
@@ -27,23 +27,7 @@ def assumed(place: str) -> Source:
     return Source(MANUAL, place, Evidence.ASSUMED)
 
 
-_CODES = merge(
-    ABSOLUTE_CODES,
-    {
-        Effect.MOTION: {33: "thread"},
-        Effect.NO_MOTION: {22: "stored limit on", 23: "stored limit off"},
-        Effect.SINGLE: {27: "reference point check", 29: "return from reference point", 31: "skip"}
-        | {37: "length measurement", 65: "macro call", 66: "modal macro call", 67: "end of modal macro call"},
-        Effect.CYCLE: DRILLING | {74: "drilling cycle", 76: "drilling cycle"},
-        Effect.CANCEL: {80: "end of cycle"},
-        Effect.PRESET: {92: "coordinate setting"},
-        Effect.FRAME: {15: "end of polar coordinates", 16: "polar coordinates", 50: "end of scaling"}
-        | {51: "scaling", 52: "local coordinate system", 68: "rotation", 69: "end of rotation"},
-        Effect.NONE: {43: "length compensation", 44: "length compensation", 49: "no length compensation"}
-        | {5: "high-speed machining", 9: "exact stop", 61: "exact stop", 64: "cutting"}
-        | {94: "feed a minute", 95: "feed a revolution"},
-    },
-)
+_CODES = merge(MILL_CODES, {Effect.NONE: {5: "high-speed machining"}})
 _NUMBERS = NumberFormat(WithoutPoint.AS_WRITTEN, assumed("a machine parameter"))
 _PLACE = printed("linear angle command, p. 375")
 _CHAMFER = Source("Mitsubishi corner chamfering, as users quote it", "length of ,C", Evidence.PRINTED)

@@ -32,7 +32,8 @@ def _over_defining(block: Block) -> set[str]:
     return {*plane.centers, "R", "Q"}
 
 
-_OTHER_CODES = {code.number for code in CODES if code.effect not in (Effect.MOTION, Effect.CYCLE, Effect.SINGLE)}
+_MOVING = (Effect.MOTION, Effect.CYCLE, Effect.SINGLE)
+_OTHER_CODES = {number for number, code in CODES.items() if code.effect not in _MOVING}
 
 
 NCT_99M = Dialect(

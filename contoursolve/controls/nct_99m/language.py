@@ -13,11 +13,11 @@ from contoursolve.controls.nct_99m.lexicon import (
     MANUAL,
     MODES,
     PARALLEL_TO,
-    PLANES,
     SINGLE_BLOCK,
     UNCOMPENSATED,
     UNCOMPENSATED_FREE,
 )
+from contoursolve.controls.plain import PLANES
 from contoursolve.diagnostics.source import Evidence, Source
 from contoursolve.geometry import OnCircle, Side, Turn
 from contoursolve.reading import ContourForm, Convention, Modes, Sample, Setting, State
@@ -145,7 +145,7 @@ SAMPLES: Mapping[tuple[Element, ...], Sample] = {
 
 LANGUAGE = Language(
     lexicon=MODES.lexicon,
-    planes=PLANES,
+    planes={plane.code: plane for plane in PLANES.values()},
     allowed=ALLOWED,
     joining=Joining.OVER_DEFINED,
     titles=TITLES,

@@ -1,5 +1,6 @@
 """NCT 99M, chapter 16: which words may be combined, and what has no solution."""
 
+from dataclasses import replace
 from decimal import Decimal
 
 from contoursolve.controls.chain.language import (
@@ -21,10 +22,10 @@ from contoursolve.controls.chain.language import (
     STATED_CENTER,
     STATED_POINT,
 )
+from contoursolve.controls.geometry_rules import COMMA_MISSING
 from contoursolve.controls.nct_99m.lexicon import BESIDE, MANUAL, SINGLE_BLOCK, UNCOMPENSATED
 from contoursolve.diagnostics.finding import Alarm, Severity
 from contoursolve.diagnostics.source import Evidence, Source
-from contoursolve.reading import ReadIssue
 from contoursolve.reading.rules import Rule, Value, all_of, at_most, some
 from contoursolve.solving import NoteKind, RefusalKind
 
@@ -347,16 +348,7 @@ COMBINATION_RULES = (
 )
 
 GEOMETRY_RULES = (
-    Rule(
-        code="nct-comma-missing",
-        message="{words} has no comma, so the control ignores it",
-        help="write {meant} if that is meant",
-        source=_manual("16.1, 16.2: ,A ,C ,R have a comma"),
-        about=ReadIssue.COMMA_MISSING,
-        severity=Severity.WARNING,
-        accepted=(_CUT,),
-        rejected=(_CUT.replace(",C", "C") + " ,R5\nX80",),
-    ),
+    replace(COMMA_MISSING, code="nct-comma-missing", source=_manual("16.1, 16.2: ,A ,C ,R have a comma")),
     Rule(
         code="nct-point-is-start",
         message="{words}: this point of the line is its start point, so it gives the line no direction",
