@@ -4,7 +4,16 @@ A text or a file comes in, blocks of words with their places go out; no word has
 then `lexer`.
 """
 
-from contoursolve.gcode.lexer import LONGEST_BLOCK, find_words, parse, parse_block, read_directive, spelled, split_lines
+from contoursolve.gcode.lexer import (
+    LONGEST_BLOCK,
+    find_words,
+    parse,
+    parse_block,
+    read_directive,
+    spelled,
+    split_lines,
+    words_as,
+)
 from contoursolve.gcode.lookalikes import (
     Lookalike,
     find_lookalikes,
@@ -74,4 +83,5 @@ __all__ = [
     "split_lines",
     "standard_input",
     "with_digits",
+    "words_as",
 ]

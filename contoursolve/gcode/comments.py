@@ -35,6 +35,17 @@ def is_remark(line: str) -> bool:
     return line.startswith(LEFT_MARK, 1)
 
 
+def with_comments_of(text: str, syntax: Syntax, other: Syntax) -> str:
+    """A block with its comments as another syntax has them, if it could not read them."""
+    found = list(syntax.comment.finditer(text))
+    unread = [match for match in found if other.comment.fullmatch(match[0]) is None]
+    if not unread:
+        return text
+    inner = [match[0][1:].removesuffix(")" if match[0].startswith("(") else "").strip() for match in found]
+    bare = syntax.comment.sub("", text).rstrip()
+    return " ".join([*([bare] if bare else []), *(comment_out("; ".join(inner), other))])
+
+
 def own_comments(block: Block) -> list[str]:
     """The comments of a block, without those for contoursolve alone."""
     found = (match[0] for match in block.syntax.comment.finditer(block.text))

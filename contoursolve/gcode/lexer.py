@@ -133,6 +133,14 @@ def parse_block(text: str, line: int, syntax: Syntax = ISO) -> Block:
     )
 
 
+def words_as(block: Block, syntax: Syntax) -> tuple[Word, ...]:
+    """The words of a block as they are spelled in a syntax; none from its comments."""
+    if block.syntax is syntax:
+        return block.words
+    text = block.syntax.comment.sub(lambda comment: " " * len(comment[0]), block.text)
+    return parse_block(text, block.line, syntax).words
+
+
 def _read_simply(text: str, line: int) -> tuple[Word, ...]:
     """The words of a line that is nothing but words, without blanks inside them; none of another line."""
     return tuple([_simple_word(token, line) for token in _SIMPLE_WORDS.finditer(text)]) if _is_simple(text) else ()

@@ -128,6 +128,7 @@ class Passage(Struct, frozen=True):
 
     line: int
     lines: tuple[str, ...]
+    syntax: Syntax = ISO
 
 
 class Program(Shown, Struct, frozen=True):

@@ -9,20 +9,20 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis.examine import Answer, Depth, Policy
 from contoursolve.diagnostics.finding import Severity
-from contoursolve.gcode import Block, Directive, Passage, Program, Word, parse_block, spell
-from contoursolve.gcode.comments import comment_out, is_remark, own_comments, remark
+from contoursolve.gcode import Block, Directive, Passage, Program, Syntax, Word, parse_block, spell
+from contoursolve.gcode.comments import comment_out, is_remark, own_comments, remark, with_comments_of
 from contoursolve.geometry import Length
 from contoursolve.postprocess.emit import Format, Move, emit
 from contoursolve.postprocess.expansion_report import Left, Options, Summary, left_unread
 from contoursolve.postprocess.numbering import Numberer, Numbers, Offsets
-from contoursolve.postprocess.post_processors import machine_of
+from contoursolve.postprocess.post_processors import SAME, machine_of
 from contoursolve.postprocess.translate import Moves, translate
 from contoursolve.postprocess.untranslatable import Watch
 from contoursolve.program.batch import Batch
 from contoursolve.program.lines import Lines
 from contoursolve.program.pipeline import attach, walk
 from contoursolve.program.solve_queue import Step
-from contoursolve.reading import ReadIssue, State, apply_modes, motion_of, words_of
+from contoursolve.reading import Code, ReadIssue, State, apply_modes, codes_of, motion_of, words_of
 from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.follow import ContourBlock, blocks_of
 from contoursolve.reading.modal_dependence import (
@@ -109,6 +109,11 @@ class _Expander:
         self.numberer = Numberer(self.modes, numbers)
         self.formats: dict[Hashable, Format] = {}
         self.offsets = Offsets(self.modes)
+        target = options.post.target or (dialect if options.post is SAME else None)
+        spelled = options.post.modes.syntax if options.post.modes else dialect.modes.syntax
+        self._other = spelled if spelled is not dialect.modes.syntax else None
+        """How the target spells blocks, if it is in another way."""
+        self._radius = target.modes.radius if target else "R"
         self.motion: int | None = None
         """The motion that is in force in the expanded program, where it differs from the original."""
         self.is_opened = False
@@ -144,7 +149,7 @@ class _Expander:
         is_asking = self.watch.asks("".join(passage.lines)) or self.watch.minds(state)
         texts: list[str] = []
         for place, line in enumerate(passage.lines):
-            if self.is_opened and self.motion is None and not self.offsets and not is_asking:
+            if self.is_opened and self.motion is None and not (self.offsets or is_asking or self._other):
                 self.is_marked = is_remark(passage.lines[-1])
                 texts.append(self.lines.take(passage, place))
                 break
@@ -165,11 +170,12 @@ class _Expander:
                 if self.offsets:
                     self.offsets.keep([axis for axis in self.modes.axes if axis not in words])
             self.is_marked = is_remark(line)
-            texts.append(line.rstrip("\r\n") + self.lines.take_end(number))
+            texts.append(self._commented(line.rstrip("\r\n")) + self.lines.take_end(number))
         yield "".join(texts)
 
     def _keep(self, block: Block, state: State, there: int | None = None) -> Iterator[str]:
-        """A block as it is; `there` is the motion that is in force before it in the expanded program."""
+        """A block as it is; `there` is the motion that is in force before it in the expanded program. The target writes
+        units, X as a diameter, and comments in its own way."""
         if block.words or block.macro or block.faults:
             there = self._motion_before(block, state) if there is None else there
             if self.motion is not None:
@@ -177,15 +183,41 @@ class _Expander:
                 yield from before
             if self.offsets:
                 self._tell(block, self.offsets.update(block, state))
-            self.watch.look(block, block.words, state, there)
+            block, words = self._in_own_way(block)
+            self.watch.look(block, words, state, there)
             self._tell(block, self.numberer.look(block))
             unread = left_unread(block)
             if unread:
                 self.summary.left.append(unread)
                 if not self.is_marked:
-                    yield remark(unread.reason, block.syntax) + self.lines.end
+                    yield remark(unread.reason, self._syntax_of(block)) + self.lines.end
         self.is_marked = is_remark(block.text)
-        yield block.text + self.lines.take_end(block.line)
+        yield self._commented(block.text) + self.lines.take_end(block.line)
+
+    def _commented(self, text: str) -> str:
+        """A line with its comments as the target has them."""
+        return with_comments_of(text, self.modes.syntax, self._other) if self._other else text
+
+    def _in_own_way(self, block: Block) -> tuple[Block, tuple[Word, ...]]:
+        """A block with the codes of the target, and the words of it that stay as they are."""
+        text, kept = block.text, list[Word]()
+        for word, new in reversed([*self._switches(block)]):
+            if new:
+                text = text[: word.span.column - 1] + new + text[word.span.end_column - 1 :]
+            else:
+                kept.insert(0, word)
+        return (block if text == block.text else replace(block, text=text)), tuple(kept)
+
+    def _syntax_of(self, block: Block) -> Syntax:
+        """How comments look that are written for a block."""
+        return self._other or block.syntax
+
+    def _switches(self, block: Block) -> Iterator[tuple[Word, str]]:
+        """The words of a block, each with how the target writes it, if that is in its own way."""
+        rows = iter(codes_of(block, self.modes))
+        for word in block.words:
+            row = next(rows) if word.address == "G" else word
+            yield word, self.options.post.switch(row) if isinstance(row, Code) else ""
 
     def _tell(self, block: Block, reason: str) -> None:
         """Keep in mind what is wrong with a block, if anything is."""
@@ -231,7 +263,7 @@ class _Expander:
             before, first = self._restore(first, step.before)
             yield from before
         if not self.is_marked:
-            yield remark(reason, first.syntax) + self.lines.end
+            yield remark(reason, self._syntax_of(first)) + self.lines.end
         state = step.before
         for block in (first, *others):
             yield from self._keep(block, state, there if block is first else None)
@@ -343,6 +375,7 @@ class _Expander:
                 self.options.arcs,
                 state.is_incremental,
                 own,
+                self._radius,
             )
         return self.formats[key]
 
@@ -356,18 +389,19 @@ class _Expander:
     def _write(self, block: Block, moves: list[Move], end: str, state: State) -> str:
         """The lines in place of a block. Its number and what it sets stand in the first, what ends it in the last."""
         frame, rest = frame_of(block.text), carried(block, self.modes)
+        own = {word.text.strip(): new for word, new in self._switches(block) if new}
         indent = frame.indent
         lines = (
-            [indent + text for text in comment_out(block.text.strip(), block.syntax)]
+            [indent + text for text in comment_out(block.text.strip(), self._syntax_of(block))]
             if self.options.has_comments
             else []
         )
-        self.watch.look(block, rest.kept, state, None)
+        self.watch.look(block, [word for word in rest.kept if word.text.strip() not in own], state, None)
         comments = [] if self.options.has_comments else own_comments(block)
         texts = [[_NAMES[move.code], *move.words] for move in moves]
         texts = texts or ([[]] if rest.says_something or comments else [])
         if texts:
-            texts[0] = [*rest.codes, *texts[0], *rest.words, *comments]
+            texts[0] = [*(own.get(code, code) for code in rest.codes), *texts[0], *rest.words, *comments]
             texts[-1] += rest.last
             self._tell(block, self.numberer.number(block, [*rest.numbers], texts))
         lines += [indent + frame.skip + " ".join(text) for text in texts]
@@ -395,7 +429,8 @@ def _blocks_of(step: Step) -> Iterable[Block]:
     if step.passage is None:
         return step.blocks
     return (
-        parse_block(line.rstrip("\r\n"), number) for number, line in enumerate(step.passage.lines, step.passage.line)
+        parse_block(line.rstrip("\r\n"), number, step.passage.syntax)
+        for number, line in enumerate(step.passage.lines, step.passage.line)
     )
 
 

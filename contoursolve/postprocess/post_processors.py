@@ -4,8 +4,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import Enum
 
+from contoursolve.controls import FANUC_MILL as FANUC_CONTROL
+from contoursolve.controls.plain import PLAIN
 from contoursolve.geometry import Length
-from contoursolve.reading import Effect, NumberFormat, WithoutPoint
+from contoursolve.reading import Code, Effect, Modes, NumberFormat, WithoutPoint
 from contoursolve.reading.dialect import Dialect
 
 
@@ -88,6 +90,15 @@ class Post:
     readings: Mapping[Machine, Reading] = field(default_factory=dict)
     target: Dialect | None = None
     """The control in whose own words contours are written, as far as it has them."""
+    modes: Modes | None = None
+    """The tables of the target: its codes for units and for X as a diameter, and how its comments look."""
+
+    def switch(self, code: Code) -> str:
+        """How the target writes a code for units or for X as a diameter; empty if it has none or the same, and for
+        another code."""
+        own = self.modes.codes.values() if self.modes and (code.unit or code.diameter) else ()
+        same = [each for each in own if (each.unit, each.diameter) == (code.unit, code.diameter)]
+        return same[0].text if same and all(each.text != code.text for each in same) else ""
 
     def digits(self, unit: Length, source: NumberFormat) -> int:
         """Decimals of a length."""
@@ -218,6 +229,7 @@ LINUXCNC = Post(
     WithoutPoint.AS_WRITTEN,
     opening={Machine.LATHE: "G7 G18 {unit} G90 G91.1", Machine.MILL: "G8 G17 {unit} G90 G91.1"},
     readings={Machine.LATHE: _LINUXCNC_LATHE, Machine.MILL: _LINUXCNC_MILL},
+    modes=PLAIN["linuxcnc"].modes,
 )
 """G7: X is a diameter, G8: a radius; G91.1: I J K are counted from where the arc begins."""
 
@@ -227,6 +239,7 @@ FANUC = Post(
     {Length.MM: 3, Length.INCH: 4},
     WithoutPoint.LEAST_INCREMENTS,
     readings={Machine.LATHE: _FANUC_LATHE, Machine.MILL: _FANUC_MILL},
+    modes=FANUC_CONTROL.modes,
 )
 
 POSTS = {post.name: post for post in (SAME, LINUXCNC, FANUC)}
@@ -234,7 +247,7 @@ POSTS = {post.name: post for post in (SAME, LINUXCNC, FANUC)}
 
 def machine_of(dialect: Dialect) -> Machine:
     """What a control is for."""
-    return Machine.LATHE if any(dialect.plane.diameters) else Machine.MILL
+    return Machine.LATHE if any(dialect.initial_state(Length.MM).plane.diameters) else Machine.MILL
 
 
 def post_of(target: Dialect) -> Post:
@@ -248,7 +261,10 @@ def post_of(target: Dialect) -> Post:
     steps = {Length.MM: numbers.mm, Length.INCH: numbers.inch}
     decimals = {unit: -int(step.normalize().as_tuple().exponent) for unit, step in steps.items()}
     readings = {machine_of(target): reading}
-    return Post(target.name, target.title, decimals, numbers.without_point, readings=readings, target=target)
+    without_point = numbers.without_point
+    return Post(
+        target.name, target.title, decimals, without_point, readings=readings, target=target, modes=target.modes
+    )
 
 
 def find_post(name: str | Post) -> Post:

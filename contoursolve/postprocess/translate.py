@@ -12,10 +12,10 @@ from contoursolve.controls.chain import ChainFinder, Joining, Language
 from contoursolve.diagnosis.examine import Answer, Depth, Policy
 from contoursolve.diagnostics.finding import Severity
 from contoursolve.gcode import parse, spell
-from contoursolve.geometry import Arc, Corner, CornerShape, Heading, Length, Line, Profile, Unit
+from contoursolve.geometry import Arc, Corner, CornerShape, Heading, Line, Profile, Unit
 from contoursolve.postprocess.emit import Format, Move, emit
 from contoursolve.program.pipeline import run
-from contoursolve.reading import WithoutPoint
+from contoursolve.reading import Diameter, WithoutPoint
 from contoursolve.reading.dialect import Dialect
 from contoursolve.solving import Point
 from contoursolve.solving.contour import ArcSegment, Contour, LineSegment, Segment
@@ -39,9 +39,7 @@ def translate(answer: Answer, target: Dialect, here: Point, form: Format, *, is_
     if language is None or answer.contour is None:
         return None
     moves = _Translator(answer.profile, answer.contour, target, language, form, is_rapid=is_rapid).moves(here)
-    has_words = any(
-        word.startswith((",", language.angle or ",")) for each in moves.values() for m in each for word in m.words
-    )
+    has_words = any(word.startswith(tuple(language.own)) for each in moves.values() for m in each for word in m.words)
     return moves if has_words and _is_accepted(moves, answer, target, here, form) else None
 
 
@@ -182,7 +180,11 @@ def _is_accepted(moves: Moves, answer: Answer, target: Dialect, here: Point, for
     """Whether the target reads these moves without an error."""
     names = ("G00", "G01", "G02", "G03")
     lines = [" ".join((names[move.code], *move.words)) for each in moves.values() for move in each]
-    unit = "G20" if form.unit is Length.INCH else "G21"
+    rows = target.modes.codes.values()
+    unit = next(each.text for each in rows if each.unit is form.unit)
+    if target.diameter is not None:
+        meant = Diameter.ON if any(form.plane.diameters) else Diameter.OFF
+        unit += " " + next(each.text for each in rows if each.diameter is meant)
     sense = ["G91" if form.is_incremental else "G90"] if 91 in target.modes.codes else []  # noqa: PLR2004 - its code
     side = {41: "G41", 42: "G42"}.get(answer.claim.before.compensation, "G40")
     values = (value / form.mm * scale for value, scale in zip(here, form.scales, strict=True))

@@ -41,7 +41,7 @@ class Lines:
         """The end of the last line that has one."""
 
     def blocks(self) -> Iterator[Line]:
-        plain, facts = self._plain, self._facts
+        plain, facts, syntax = self._plain, self._facts, self._dialect.modes.syntax
         held: list[str] = []
         for number, line in enumerate(self._lines, 1):
             if plain(line) and len(line) <= LONGEST_BLOCK and number not in facts:
@@ -49,15 +49,15 @@ class Lines:
                 if line[-1:] != _USUAL or line[-2:-1] == "\r":
                     self._put(line, number)
                 if len(held) >= self._longest:
-                    yield Passage(number + 1 - len(held), tuple(held))
+                    yield Passage(number + 1 - len(held), tuple(held), syntax)
                     held = []
                 continue
             if held:
-                yield Passage(number - len(held), tuple(held))
+                yield Passage(number - len(held), tuple(held), syntax)
                 held = []
             yield self._read(line, number)
         if held:
-            yield Passage(number + 1 - len(held), tuple(held))
+            yield Passage(number + 1 - len(held), tuple(held), syntax)
 
     def _read(self, line: str, number: int) -> Block:
         text = self._put(line, number)

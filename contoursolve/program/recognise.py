@@ -82,7 +82,7 @@ class Recogniser:
         self._is_turned |= not self._is_plane_selected and bool(stated & {"Z", "W"} and stated & _SHARED)
         for name, dialect in DIALECTS.items():
             if name not in self._own:
-                words = dialect.signs(block)
+                words = [word for word in dialect.signs(block) if word.address not in dialect.rare]
                 if words:
                     self.signs.setdefault(name, _sign(words, block))
                 if any(word.address not in _SHARED for word in words):
@@ -162,7 +162,8 @@ def sign_of(block: Block, dialect: Dialect) -> str:
 def sign_against(block: Block, dialect: Dialect, other: Dialect) -> str:
     """What shows that a block is for another control, and is no word of this one; empty if nothing does."""
     own = dialect.modes.lexicon.addresses
-    foreign = [word for word in other.signs(block) if word.address not in _SHARED or word.address not in own]
+    signs = (word for word in other.signs(block) if word.address not in other.rare)
+    foreign = [word for word in signs if word.address not in _SHARED or word.address not in own]
     return _sign(foreign, block) if foreign else ""
 
 

@@ -71,7 +71,7 @@ def each_block(held: Sequence[Line], index: int) -> Iterator[Block]:
         each = held[place]
         if isinstance(each, Passage):
             for number, line in enumerate(each.lines, each.line):
-                yield parse_block(line.rstrip("\r\n"), number)
+                yield parse_block(line.rstrip("\r\n"), number, each.syntax)
         else:
             yield each
 
@@ -89,7 +89,9 @@ def pass_plainly(held: Sequence[Line], index: int, *, moves: bool, joins: bool) 
         order = range(len(lines)) if not moves else range(len(lines) - 1, -1, -1)
         stop = next((place for place in order if words_of(lines[place])), len(lines))
         lines = lines[:stop]
-    return Passage(held[index].line, tuple(lines)) if lines else None
+    first = held[index]
+    syntax = first.syntax
+    return Passage(first.line, tuple(lines), syntax) if lines else None
 
 
 def go_on(held: list[Line], index: int, rest: int) -> tuple[list[Line], int]:
@@ -98,7 +100,7 @@ def go_on(held: list[Line], index: int, rest: int) -> tuple[list[Line], int]:
         each = held[index]
         if isinstance(each, Passage) and len(each.lines) > rest:
             # Whoever looks at the old list later finds it as it was.
-            return [Passage(each.line + rest, each.lines[rest:]), *held[index + 1 :]], 0
+            return [Passage(each.line + rest, each.lines[rest:], each.syntax), *held[index + 1 :]], 0
         rest -= len(each.lines) if isinstance(each, Passage) else 1
         index += 1
     return held, index

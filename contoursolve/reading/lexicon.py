@@ -36,6 +36,8 @@ class Effect(Enum):
     COMPENSATION = "compensation"
     CONTOUR = "contour"
     """Begins a contour block."""
+    CORNER = "corner"
+    """Makes a corner between the blocks beside its own."""
     CANCEL = "cancel"
     """Ends a cycle."""
 

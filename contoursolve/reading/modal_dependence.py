@@ -88,7 +88,7 @@ _BLANKS = " \t\f\v\x02\x03\x11\x12\x13\x14\x1a\ufeff%"
 
 _FRAME = re.compile(rf"(?P<head>[{_BLANKS}]*+)(?>(?P<skip>/[1-9]?+(?!\d)[ \t]*+)?)")
 
-_DROPPED = (*MOTIONS, Effect.CONTOUR)
+_DROPPED = (*MOTIONS, Effect.CONTOUR, Effect.CORNER)
 """G codes in whose place those of the plain motions stand."""
 
 _AFTER_MOTION = frozenset({0, 1, 2, 5, 9, 30, 60, 98, 99})

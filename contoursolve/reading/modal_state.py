@@ -322,7 +322,7 @@ def _effect(state: State, codes: Sequence[Code | Word], modes: Modes) -> tuple[E
             continue
         if code.effect is Effect.SINGLE:
             return Effect.SINGLE, f"contoursolve does not know where {code.text} ({code.meaning}) ends"
-        if code.effect in (Effect.NO_MOTION, Effect.FRAME):
+        if code.effect in (Effect.NO_MOTION, Effect.FRAME, Effect.CORNER):
             return Effect.NO_MOTION, ""
         if code.effect is Effect.PRESET:
             return Effect.MOTION, ""

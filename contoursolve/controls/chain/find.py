@@ -30,7 +30,7 @@ from contoursolve.solving.contour import ArcSegment, Segment, trace
 
 _TURNS = {2: Turn.CW, 3: Turn.CCW}
 _QUIET = (Effect.NONE, Effect.NO_MOTION)
-_OWN_USE = (Effect.SINGLE, Effect.NO_MOTION, Effect.PRESET, Effect.CYCLE, Effect.FRAME)
+_OWN_USE = (Effect.CORNER, Effect.SINGLE, Effect.NO_MOTION, Effect.PRESET, Effect.CYCLE, Effect.FRAME)
 
 
 class ChainFinder:

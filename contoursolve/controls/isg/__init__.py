@@ -8,7 +8,7 @@ from contoursolve.controls.isg.language import LANGUAGE, SETTINGS
 from contoursolve.controls.isg.lexicon import CHAMFER, MODES, ROUNDING, SYNTAX
 from contoursolve.controls.isg.rules import RULES
 from contoursolve.controls.plain import PLANES
-from contoursolve.gcode import Block, Word, parse_block
+from contoursolve.gcode import Block, Word, words_as
 from contoursolve.reading import Diameter
 from contoursolve.reading.dialect import Dialect
 
@@ -17,8 +17,7 @@ def _signs(block: Block) -> tuple[Word, ...]:
     """What shows the control: its words with a number sign, and corners in blocks of their own."""
     if "#" not in block.text and "30" not in block.text:
         return ()
-    words = block.words if block.syntax is SYNTAX else parse_block(block.text, block.line, SYNTAX).words
-    codes = (CHAMFER, ROUNDING)
+    codes, words = (CHAMFER, ROUNDING), words_as(block, SYNTAX)
     return tuple(
         word for word in words if word.address in LANGUAGE.own or (word.address == "G" and word.number in codes)
     )

@@ -47,7 +47,7 @@ _CODES: tuple[tuple[Effect, dict[int, str]], ...] = (
     (Effect.NONE, dict.fromkeys((8, 9, 60, 61, 260, 261, 360, 361), "exact stop or blending")),
     (Effect.NONE, dict.fromkeys((93, 94, 95, 96, 97, 194), "kind of feed or speed")),
     (Effect.NONE, dict.fromkeys((25, 26, 138, 139, 150, 151, 236, 237, 238, 239), "compensation at corners")),
-    (Effect.NO_MOTION, {CHAMFER: "chamfer", ROUNDING: "rounding"}),
+    (Effect.CORNER, {CHAMFER: "chamfer", ROUNDING: "rounding"}),
 )  # fmt: skip
 
 

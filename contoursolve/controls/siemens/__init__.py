@@ -10,7 +10,7 @@ from contoursolve.controls.plain import PLANES
 from contoursolve.controls.siemens.language import LANGUAGE, SETTINGS
 from contoursolve.controls.siemens.lexicon import MODES, SYNTAX
 from contoursolve.controls.siemens.rules import RULES, RULES_808
-from contoursolve.gcode import Block, Word, parse_block
+from contoursolve.gcode import Block, Word, words_as
 from contoursolve.reading import Diameter
 from contoursolve.reading.dialect import Dialect
 
@@ -19,8 +19,7 @@ def _signs(block: Block) -> tuple[Word, ...]:
     """What shows the control: its words with an equals sign."""
     if "=" not in block.text:
         return ()
-    words = block.words if block.syntax is SYNTAX else parse_block(block.text, block.line, SYNTAX).words
-    return tuple(word for word in words if word.address in LANGUAGE.own)
+    return tuple(word for word in words_as(block, SYNTAX) if word.address in LANGUAGE.own)
 
 
 SIEMENS_840D = Dialect(
@@ -43,4 +42,6 @@ SIEMENS_808D = replace(
     # A lexicon of its own tells for which control words were read.
     modes=replace(MODES, lexicon=replace(MODES.lexicon)),
     rules=RULES_808,
+    # Nothing in a program tells it from its larger sibling.
+    rare=LANGUAGE.own,
 )
