@@ -204,5 +204,13 @@ GEOMETRY_RULES = (
         "G00 X0 Z0.\nG01 X60. ,A-90.",
         Severity.WARNING,
     ),
+    _row(
+        ReadIssue.CORNER_DROPPED,
+        "{words}: {subject} turns by {actual}; up to 1 deg the control leaves a corner out without an alarm",
+        "delete {words}, or correct the elements if they are meant to turn",
+        "G00 X20. Z0.\nG01 Z-20. ,R3.\nX60. ,A120.",
+        "G00 X20. Z0.\nG01 Z-20. ,R3.\nZ-40. ,A179.5",
+        Severity.WARNING,
+    ),
     COMMA_MISSING,
 )

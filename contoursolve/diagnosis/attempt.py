@@ -348,7 +348,9 @@ def _without_corners(edits: tuple[Edit, ...], replacement: str, contour: Contour
     """The repair that parts a contour into several, and lines between them."""
     deviation = contour.deviation(before.contour) if before.contour else float("inf")
     drawbacks = tuple(_drawbacks(contour, before.contour))
-    return Repair(edits, replacement, Applicability.CHANGES_CONTOUR, contour, deviation, drawbacks=drawbacks)
+    is_same = before.contour is not None and contour.is_alike(before.contour) and deviation <= AGREEMENT
+    applicability = Applicability.SAFE if is_same else Applicability.CHANGES_CONTOUR
+    return Repair(edits, replacement, applicability, contour, deviation, drawbacks=drawbacks)
 
 
 def _path_in_parts(claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ...]) -> Contour | None:

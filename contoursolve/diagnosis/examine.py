@@ -18,6 +18,7 @@ from contoursolve.diagnosis.explain import (
     context_of,
     explain_beyond,
     explain_crossing,
+    explain_dropped,
     explain_ignored,
     explain_missing,
     explain_offence,
@@ -219,6 +220,7 @@ def examine(
     if contour is not None:
         notebook.findings += explain_crossing(context, profile, contour)
         notebook.findings += explain_opposite(context, profile, contour)
+        notebook.findings += explain_dropped(context, profile, solution)
         notebook.findings += explain_beyond(context, profile, solution, contour) if claim.directives else ()
     touching = {remark.subject for remark in solution.remarks if remark.kind is NoteKind.TOUCHES}
     shown = {*profile.intersections} - touching

@@ -45,7 +45,7 @@ from contoursolve.solving import (
     scalars_of,
 )
 from contoursolve.solving.compare import allowance, increments_of
-from contoursolve.solving.contour import Contour, LineSegment, against_angles
+from contoursolve.solving.contour import Contour, LineSegment, against_angles, dropped_corners
 
 if TYPE_CHECKING:
     from contoursolve.solving.alternatives import Alternatives
@@ -496,6 +496,15 @@ def explain_opposite(context: Context, profile: Profile, contour: Contour) -> It
         fields: dict[str, Any] = {"subject": line.name, "expected": angle_text(expected)}
         rule, words = context.row(ReadIssue.ANGLE_OPPOSITE), [given.word] if given.word else []
         yield report(context, rule, Basis.NUMERICAL, words, {"actual": actual, "expected": expected}, **fields)
+
+
+def explain_dropped(context: Context, profile: Profile, solution: Solution) -> Iterator[Diagnostic]:
+    """Corners that the control leaves out, because the path hardly turns there."""
+    for corner, turn in dropped_corners(profile, solution):
+        word = profile.givens[corner.size].word
+        fields: dict[str, Any] = {"subject": corner.name, "actual": angle_text(abs(turn))}
+        rule, words = context.row(ReadIssue.CORNER_DROPPED), [word] if word else []
+        yield report(context, rule, Basis.NUMERICAL, words, {"actual": abs(turn)}, **fields)
 
 
 def explain_beyond(context: Context, profile: Profile, solution: Solution, contour: Contour) -> Iterator[Diagnostic]:

@@ -52,7 +52,7 @@ from contoursolve.diagnosis.typo_fixes import (
 from contoursolve.diagnostics.finding import Diagnostic, Severity
 from contoursolve.gcode import Block, FaultKind, Word, number_of, spell
 from contoursolve.geometry import Given, Profile, Radius, Role, Unit
-from contoursolve.reading import ContourForm, ParsedContour, State, read
+from contoursolve.reading import ContourForm, ParsedContour, ReadIssue, State, read
 from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.rules import Rule, check
 from contoursolve.solving import RefusalKind, Status, lookup
@@ -127,6 +127,10 @@ def _slips_of(
 ) -> Iterator[Iterator[tuple[Edit, ...]]]:
     """Slips that may explain what is wrong, those of digits, and those of the radii of circles that are missed."""
     claim = answer.claim
+    told = [each.about for each in answer.diagnostics if each.severity is not Severity.INFO]
+    if all(about is ReadIssue.CORNER_DROPPED for about in told):
+        # The path is as the words say: the corner is one too many.
+        return
     against = whole.conflicts
     tied = {fact.given or "" for circuit in against for fact in circuit.facts}
     words = suspects(answer, tied)

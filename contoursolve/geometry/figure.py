@@ -172,7 +172,7 @@ class Corner(Struct, frozen=True):
     lands_parallel_to: int | None = None
     lands_on: str | None = None
     guard: float = 0.0
-    """Sine of the change of direction up to which the control makes no corner there."""
+    """Sine of the change of direction up to which the control leaves the corner out."""
 
 
 class Circle(Struct, frozen=True):

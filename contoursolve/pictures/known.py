@@ -71,7 +71,8 @@ class Known(Struct, frozen=True):
 
 def known_of(solution: Solution) -> Known:
     """All that a solution says."""
-    return Known(solution.points, solution.radii, solution.corners)
+    corners = {name: each for name, each in solution.corners.items() if each.begin != each.end}
+    return Known(solution.points, solution.radii, corners)
 
 
 def place_of(profile: Profile, name: str) -> Point | None:

@@ -50,7 +50,7 @@ class _Translator:
         self.profile = profile
         self.segments: Mapping[str, Segment] = {each.name: each for each in contour.elements}
         self.target, self.language, self.form, self.is_rapid = target, language, form, is_rapid
-        self.corners = {corner.before: corner for corner in self.profile.figure.corners}
+        self.corners = {each.before: each for each in self.profile.figure.corners if each.name in self.segments}
         facts = (fact for fact in self.profile.facts if isinstance(fact, Heading))
         self.angles = {(fact.tail, fact.head): self.profile.givens[fact.given].value for fact in facts}
         self.words = {shape: word for word, shape in language.corners.items()}

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from functools import lru_cache
+from itertools import chain
 
 import numpy
 from msgspec import Struct, field
@@ -20,7 +21,7 @@ from contoursolve.solving import Status
 from contoursolve.solving.certify import certify
 from contoursolve.solving.checks import Check, compile_checks
 from contoursolve.solving.compile import Machine, compile_system
-from contoursolve.solving.contour import against_angles, trace
+from contoursolve.solving.contour import against_angles, dropped_corners, trace
 from contoursolve.solving.numbers import inputs_of, sizes_of, solution_at
 from contoursolve.solving.plan import LineCircleStep, TwoCirclesStep
 from contoursolve.solving.row_outcome import Code, RowOutcome
@@ -178,8 +179,10 @@ class Batch(Struct):
         certificate = certify(profile, kind.system, out, bound) if self.is_proven else None
         if certificate is not None and certificate.proof not in (Proof.EXACT, Proof.UNIQUE):
             return None
-        contour = trace(profile, solution_at(kind.system, profile.start, sizes_of(profile), out))
-        if contour.crossing is not None or any(True for _ in against_angles(profile, contour)):
+        solution = solution_at(kind.system, profile.start, sizes_of(profile), out)
+        contour = trace(profile, solution)
+        told = chain(against_angles(profile, contour), dropped_corners(profile, solution))
+        if contour.crossing is not None or any(True for _ in told):
             return None
         return Answer(
             form=like.form,

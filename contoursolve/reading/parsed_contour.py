@@ -52,6 +52,7 @@ class ReadIssue(Enum):
     WORD_UNUSED = "word-unused"
     AXIS_CROSSED = "axis-crossed"
     ANGLE_OPPOSITE = "angle-opposite"
+    CORNER_DROPPED = "corner-dropped"
     CODE_FORGOTTEN = "code-forgotten"
     RAPID_BEHIND = "rapid-behind"
     LANDING_LEFT = "landing-left"

@@ -313,11 +313,12 @@ def _check_corner(source: Source, corner: Corner) -> Checks:
     if f"landing:{name}" in source.tape.outputs:
         yield Check(RefusalKind.LANDING_UNKNOWN, name, "", Test.APART, 0.5), out(f"landing:{name}")
     reverses = RefusalKind.CORNER_REVERSES
-    yield Check(RefusalKind.CORNER_STRAIGHT, name, "", Test.APART, REGULAR, opposite=reverses), out(f"turn:{name}")
-    if corner.guard > REGULAR:
-        is_straight = below(0, out(f"cosine:{name}"))
-        guarded = larger(magnitude(out(f"turn:{name}")), 1 - is_straight)
-        yield Check(RefusalKind.CORNER_STRAIGHT, name, "", Test.ABOVE, corner.guard), guarded
+    turn = out(f"turn:{name}")
+    if corner.guard:
+        # Where the path goes on, the control leaves the corner out.
+        yield Check(reverses, name, "", Test.ABOVE, REGULAR), larger(magnitude(turn), below(0, out(f"cosine:{name}")))
+    else:
+        yield Check(RefusalKind.CORNER_STRAIGHT, name, "", Test.APART, REGULAR, opposite=reverses), turn
     if corner.shape.share:
         for margin in _inside(source, corner):
             yield Check(RefusalKind.BEVEL_OUTSIDE, name, "", Test.NOT_BELOW, -LENGTH), margin

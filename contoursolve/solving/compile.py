@@ -45,7 +45,7 @@ from contoursolve.numeric.expressions import sine as sine_of
 from contoursolve.numeric.inputs import Directions, Inputs
 from contoursolve.numeric.interpreter import Replay
 from contoursolve.solving.compare import half_circle_allowance
-from contoursolve.solving.corners import Edge, Pair, build_corner, unit
+from contoursolve.solving.corners import Edge, Pair, build_corner, drop_straight, unit
 from contoursolve.solving.plan import AffineStep, DistanceStep, LineCircleStep, Plan, Step, TwoCirclesStep, make_plan
 from contoursolve.tolerance import REGULAR, TOUCHING
 
@@ -303,6 +303,8 @@ class _Builder:
     def _corner(self, corner: Corner, before: Edge, after: Edge, quadrant: Pair) -> list[str]:
         size, name = self.tape.input(corner.size), corner.name
         built = build_corner(corner.shape, self.point(corner.at), before, after, size, quadrant)
+        if corner.guard:
+            built = drop_straight(built, self.point(corner.at), corner.guard)
         self.tape.output(f"setback-in:{name}", built.setback_in)
         self.tape.output(f"setback-out:{name}", built.setback_out)
         self.rooms[corner.before] -= built.setback_in

@@ -2,13 +2,13 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from math import atan2, cos, degrees, hypot, pi, radians, sin, tau
+from math import asin, atan2, cos, degrees, hypot, pi, radians, sin, tau
 from typing import NamedTuple
 
 from msgspec import Struct
 
 from contoursolve.diagnostics.display import Shown
-from contoursolve.geometry import Heading, Line, Plane, Profile, Turn
+from contoursolve.geometry import Corner, Heading, Line, Plane, Profile, Turn
 from contoursolve.solving.solution import Point, Solution
 from contoursolve.tolerance import AGREEMENT, LENGTH
 
@@ -197,6 +197,14 @@ def trace(profile: Profile, solution: Solution) -> Contour:
                 here = add(ArcSegment(corner.name, here, built.end, built.center, built.radius, turn))
     shown = {name: points[name] for name in profile.figure.points if name in profile.intersections}
     return Contour(start, here, shown, tuple(elements), profile.plane)
+
+
+def dropped_corners(profile: Profile, solution: Solution) -> Iterator[tuple[Corner, float]]:
+    """The corners that the control leaves out, each with the angle by which the path turns there, degrees."""
+    for corner in profile.figure.corners:
+        built = solution.corners.get(corner.name)
+        if built is not None and built.begin == built.end:
+            yield corner, degrees(asin(built.turn))
 
 
 def against_angles(profile: Profile, contour: Contour) -> Iterator[tuple[str, LineSegment]]:

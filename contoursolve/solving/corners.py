@@ -7,9 +7,10 @@ sought on a circle follows from one quadratic equation whose root is the one tha
 from typing import Any
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.geometry import CornerShape
-from contoursolve.numeric.expressions import angle, magnitude, sign, sqrt
+from contoursolve.numeric.expressions import angle, is_zero, magnitude, sign, sqrt, where
 
 Pair = tuple[Any, Any]
 
@@ -72,6 +73,25 @@ def build_corner(shape: CornerShape, at: Pair, before: Edge, after: Edge, size: 
         turn=turn,
         cosine=cosine,
         residuals=residuals,
+    )
+
+
+def drop_straight(built: CornerPath, at: Pair, guard: float) -> CornerPath:
+    """A corner, of no length at the point `at` where the path turns by no more than the sine `guard`."""
+    # By signs, which the proof can tell of exact numbers and balls.
+    is_straight = is_zero(sign(guard - magnitude(built.turn)) + sign(built.cosine) - 2)
+
+    def sharp(pair: Pair) -> Pair:
+        return where(is_straight, at[0], pair[0]), where(is_straight, at[1], pair[1])
+
+    return replace(
+        built,
+        setback_in=where(is_straight, 0, built.setback_in),
+        setback_out=where(is_straight, 0, built.setback_out),
+        begin=sharp(built.begin),
+        end=sharp(built.end),
+        center=None if built.center is None else sharp(built.center),
+        residuals=tuple(where(is_straight, 0, residual) for residual in built.residuals),
     )
 
 

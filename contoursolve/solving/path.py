@@ -93,7 +93,7 @@ def _check_corner(
     if out.get(f"landing:{corner.name}") == 0:
         return refuse(RefusalKind.LANDING_UNKNOWN)
     straight = out[f"cosine:{corner.name}"] > 0
-    if abs(out[f"turn:{corner.name}"]) <= (max(REGULAR, corner.guard) if straight else REGULAR):
+    if abs(out[f"turn:{corner.name}"]) <= REGULAR and not (straight and corner.guard):
         return refuse(RefusalKind.CORNER_STRAIGHT if straight else RefusalKind.CORNER_REVERSES)
     if corner.shape.share:
         outside = [excess for excess, give in _outside_rectangle(corner, profile, points) if excess > give + LENGTH]

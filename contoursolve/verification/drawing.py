@@ -163,7 +163,7 @@ class _Drawing:
         return _Edge(here, turn * 1j * _unit(here - center), Circle(center, abs(here - center), turn))
 
     def corner(self, corner: Corner, number: int, size: float, increments: tuple[float, float]) -> Move | None:
-        """The corner, with what it takes of the elements beside it; None where it cannot be made."""
+        """The corner, with what it takes of the elements beside it; None where there is none."""
         path = self.figure.path
         arriving, follower = self.edge(path[number], corner.at), None
         if corner.after is not None:
@@ -179,13 +179,14 @@ class _Drawing:
         else:
             leaving = _Edge(arriving.at, self.landing(corner, number))
         turn = _cross(arriving.along, leaving.along)
+        is_left_out = abs(turn) <= corner.guard and _dot(arriving.along, leaving.along) > 0
         if min(self.room[path[number].name], self.room[corner.after] if corner.after else inf) <= LENGTH:
             self.against.append(f"{corner.name} is on an element of no length")
-        elif abs(turn) <= self.smooth(corner, arriving, leaving) or not abs(leaving.along) > 0:
+        elif not is_left_out and not abs(turn) > REGULAR:
             self.against.append(f"{corner.name} is between elements of one direction")
         elif corner.shape.share and self.is_outside(corner, number, increments):
             self.against.append(f"{corner.name} is outside of the rectangle that its lines span")
-        if self.against:
+        if self.against or is_left_out:
             return None
         move = _cut(corner, arriving, leaving, size, self.quadrant(arriving, leaving, number, corner))
         if move is None:
@@ -200,11 +201,6 @@ class _Drawing:
             if name is not None:
                 self.room[name] -= part
         return move
-
-    def smooth(self, corner: Corner, arriving: _Edge, leaving: _Edge) -> float:
-        """Up to which change of direction, as a sine, there is no corner; the guard counts where the path goes on."""
-        goes_on = (arriving.along.conjugate() * leaving.along).real > 0
-        return max(REGULAR, corner.guard) if goes_on else REGULAR
 
     def landing(self, corner: Corner, number: int) -> complex:
         """The direction of an axis-parallel line that a last corner lands on: the way that the path advances."""

@@ -102,7 +102,7 @@ def examine(case: Case, path: ClaimedPath, ledger: Ledger, *, is_chosen: bool) -
     order = _order(case)
     attempts = [
         _attempt(case, claimed, reading, is_chosen=is_chosen)
-        for reading in islice(_readings(order, claimed.moves), MOST_READINGS)
+        for reading in islice(_readings(case, order, claimed.moves), MOST_READINGS)
     ]
     own, values = min(attempts, key=lambda each: len(each[0].failures), default=(Ledger(), None))
     found = ", ".join("arc" if each.circle else "line" for each in claimed.moves) or "none"
@@ -175,11 +175,13 @@ def _order(case: Case) -> list[tuple[str, int]]:
     return found
 
 
-def _readings(order: list[tuple[str, int]], moves: tuple[Move, ...]) -> Iterator[dict[str, Move]]:
-    """Every way in which the claimed elements can be those of the figure: lines of no length are left out."""
+def _readings(case: Case, order: list[tuple[str, int]], moves: tuple[Move, ...]) -> Iterator[dict[str, Move]]:
+    """Every way in which the claimed elements can be those of the figure: lines of no length are left out, and corners
+    that the control may leave out."""
     turns = [each.circle.turn if each.circle else LINE for each in moves]
-    lines = [number for number, (name, turn) in enumerate(order) if turn == LINE and not name.startswith("corner")]
-    for dropped in combinations(lines, len(order) - len(turns)) if len(turns) <= len(order) else ():
+    guards = {corner.name: corner.guard for corner in case.profile.figure.corners}
+    loose = [number for number, (name, turn) in enumerate(order) if guards.get(name, turn == LINE)]
+    for dropped in combinations(loose, len(order) - len(turns)) if len(turns) <= len(order) else ():
         rest = [each for number, each in enumerate(order) if number not in dropped]
         if all(own == turn or (own == ANY_TURN and turn) for (_, own), turn in zip(rest, turns, strict=True)):
             yield {name: replace(each, name=name) for (name, _), each in zip(rest, moves, strict=True)}

@@ -279,18 +279,21 @@ def _arc(walk: _Walk, block: _Block, before: _Block | None) -> None:
 
 def _examine(chain: Sequence[_Block], machine: Machine, outcome: Outcome) -> None:
     path = [block.element for block in chain if block.element]
+    dropped = set[int]()
     if any(block.fault for block in chain) or _is_tied(chain[-1]):
         raise Refused("refused")
-    for before, after, block in zip(path, path[1:], chain, strict=False):
+    for number, (before, after, block) in enumerate(zip(path, path[1:], chain, strict=False)):
         if block.corner and block.corner.amount:
             outcome.need_length(min(_reach(before), _reach(after)))
             u, v = ahead(before, before.end), ahead(after, after.start)
             slack = abs(cross(u, v)) - sin(radians(machine.guard))
             # Where a line goes back along itself, the sheets say nothing.
             outcome.is_near |= abs(slack) < _DOUBT or (slack < 0 and dot(u, v) < 0)
-            if slack <= 0:
+            if slack <= 0 and not machine.guard:
                 raise Refused("straight")
-    connect(path, {k: block.corner for k, block in enumerate(chain) if block.corner}, outcome)
+            if slack <= 0:
+                dropped.add(number)
+    connect(path, {k: each.corner for k, each in enumerate(chain) if each.corner and k not in dropped}, outcome)
 
 
 def _reach(element: Element) -> float:

@@ -106,13 +106,9 @@ def test_the_program_of_the_lathe_tells_its_control_and_that_of_the_mill_asks():
         (LATHE, "G00 X50. Z0\nG42 G01 Z-20. ,R5.\nX100.", "fanuc-corner-compensation", "039"),
         (LATHE, "G00 X50. Z0\nG01 Z-20. ,R-5.\nX100.", "fanuc-corner-negative", None),
         (LATHE, "G00 X50. Z0\nG00 Z-20. ,R5.\nX100.", "fanuc-corner-rapid", None),
-        (LATHE, "G00 X50. Z0\nG01 Z-20. ,R5.\nZ-40.", "fanuc-corner-straight", None),
         (MILL, FM_G1.replace("Y25. ,R8.", "Y25. ,R30."), "fanuc-corner-too-large", "055"),
         (MILL, "G17 G90 G00 X0 Y0\nG01 X50. ,C5.\nM30", "fanuc-corner-without-next", "051"),
         (MILL, "G17 G90 G00 X0 Y0\nG01 X50. ,C5.\nG00 Y20.", "fanuc-corner-without-next", "052"),
-        (MILL, "G17 G90 G00 X0 Y0\nG01 X20. ,R2.\nX50.", "fanuc-corner-straight", None),
-        (MILL, "G17 G90 G00 X0 Y0\nG01 X20. ,R2.\nX50. Y.5", "fanuc-corner-straight", None),
-        (MILL, "G17 G90 G00 X0 Y0\nG02 X20. Y20. I20. J0 ,R2.\nG01 X60. Y20.5", "fanuc-corner-straight", None),
         (MILL, "G17 G90 G00 X0 Y0\nG01 X50. ,R20.\nY30. ,R11.\nX90.", "fanuc-corners-overlap", "055"),
         (MILL, "G17 G90 G00 X0 Y0\nG01 X50. ,C5. ,R5.\nY30.", "fanuc-two-corners", "053"),
         (MILL, "G17 G90 G00 X0 Y0\nG41 D1 G01 X50. ,C5.\nY30.", "fanuc-corner-compensation", "039"),
@@ -213,7 +209,7 @@ def test_a_lost_comma_is_told_with_what_the_letter_means_without_it(control, tex
         ("G01 Z-20. ,R25.\nX60.", "fanuc-corner-too-large", "G01 Z-20. ,R20.\nX60."),
         ("G01 Z-20. ,C-5.\nX60.", "fanuc-corner-negative", "G01 Z-20. ,C5.\nX60."),
         ("G01 Z-20. ,C5. ,R5.\nX60.", "fanuc-two-corners", "G01 Z-20. ,R5.\nX60."),
-        ("G01 Z-20. ,C5.\nZ-40.", "fanuc-corner-straight", "G01 Z-20.\nZ-40."),
+        ("G01 Z-20. ,C5.\nZ-40.", "fanuc-corner-dropped", "G01 Z-20.\nZ-40."),
         ("G01 ,A180.\nX60. Z-47. A120.", "fanuc-closing-incomplete", "G01 ,A180.\nX60. Z-47. ,A120."),
         ("G01 ,A180.\nX60. Z-47. ,A-120.", "fanuc-angle-opposite", "G01 ,A180.\nX60. Z-47. ,A120."),
         ("G01 X40. Z-17.3205 ,A150.", "words-redundant", "G01 X40. Z-17.3205"),
@@ -390,12 +386,62 @@ def test_an_angle_beside_both_coordinates_is_checked_or_refused():
 
 def test_without_the_guard_only_the_same_direction_is_refused():
     free = {"fanuc-lathe.guard-deg": "0"}
-    near = ("G01 X40. ,A179.5", "G01 Z-20. ,A90.5", "G01 ,A180.\nX60. Z-47. ,A179.5", "G01 Z-20. ,C2.\nX20.2 Z-40.")
-    same = ("G01 X40. ,A180.", "G01 Z-20. ,A90.", "G01 ,A180.\nX60. Z-47. ,A0.", "G01 Z-20. ,C2.\nZ-40.")
+    near = ("G01 X40. ,A179.5", "G01 Z-20. ,A90.5", "G01 ,A180.\nX60. Z-47. ,A179.5")
+    same = ("G01 X40. ,A180.", "G01 Z-20. ,A90.", "G01 ,A180.\nX60. Z-47. ,A0.")
     for text in (*near, *same):
         assert solve(START + text, control=LATHE).answers[0].contour is None
+    near, same = (*near, "G01 Z-20. ,C2.\nX20.2 Z-40."), (*same, "G01 Z-20. ,C2.\nZ-40.")
     assert all(solve(START + text, control=LATHE, settings=free).answers[0].contour for text in near)
     assert not any(solve(START + text, control=LATHE, settings=free).answers[0].contour for text in same)
+
+
+@pytest.mark.parametrize(
+    ("control", "text", "angle", "expected"),
+    [
+        (LATHE, "G00 X50. Z0\nG01 Z-20. ,R5.\nZ-40.", "0.000", "0 50; -20 50; -40 50"),
+        (LATHE, "G00 X50. Z0\nG01 Z-20. ,R5.\nX50.2 Z-40.", "0.286", "0 50; -20 50; -40 50.2"),
+        (HAAS_LATHE, "G00 X50. Z0\nG01 Z-20. ,C5.\nX50.2 Z-40.", "0.286", "0 50; -20 50; -40 50.2"),
+        (MILL, "G17 G90 G00 X0 Y0\nG01 X20. ,R2.\nX50. Y.5", "0.955", "0 0; 20 0; 50 .5"),
+        (HAAS_MILL, "G17 G90 G00 X0 Y0\nG01 X20. ,C2.\nX50. Y.5", "0.955", "0 0; 20 0; 50 .5"),
+    ],
+)
+def test_a_corner_within_the_guard_is_left_out_with_a_warning_that_tells_the_angle(control, text, angle, expected):
+    result = solve(text, control=control)
+    (answer,), (finding,) = result.answers, result.diagnostics
+    assert answer.status.value == "solved"
+    assert finding.severity.value == "warning"
+    assert finding.code == f"{control.split('-')[0]}-corner-dropped"
+    assert f"turns by {angle} deg" in finding.message
+    assert finding.fixes[0].applicability.value == "safe"
+    corner = text.split("\n")[-2].split()[-1]
+    assert finding.fixes[0].replacement == "\n".join(text.replace(" " + corner, "").split("\n")[-2:])
+    share = 0.5 if control.endswith("lathe") else 1
+    places = [tuple(map(float, each.split())) for each in expected.split(";")]
+    found = [answer.contour.start, *(each.end for each in answer.contour.elements)]
+    assert found == [pytest.approx((first, second * share)) for first, second in places]
+
+
+def test_a_corner_on_a_tangent_arc_is_left_out_and_the_others_are_cut():
+    text = "G17 G90 G00 X0 Y0\nG01 X30. ,R5.\nG03 X40. Y10. R10. ,C2.\nG01 X60. Y20. ,C3.\nX80. Y30.2"
+    result = solve(text, control=MILL)
+    assert [each.span.line for each in result.diagnostics] == [2, 4]
+    names = [each.name for each in result.answers[0].contour.elements]
+    assert names == ["line 1", "arc", "corner 2", "line 2", "line 3"]
+    documents = Document("program", text.encode()), Document("result", to_json(result).encode())
+    assert verify(*documents, control=MILL).verdict is Verdict.VERIFIED
+    many = solve("\n".join([text.replace("G00", "M5\nG00")] * 20), control=MILL)
+    assert len(many.diagnostics) == 40
+
+
+def test_a_sweep_across_the_guard_says_what_solve_says():
+    block, values = "G01 X30. ,C5.\nX60. Y{}", [-1.0, -0.53, -0.52, 0.0, 0.52, 0.53, 1.0]
+    table = family(block.format("1."), vary={"2:Y": values}, start="G17 G90 X0 Y0", control=MILL)
+    for row, value in enumerate(values):
+        contour = solve("G17 G90 G00 X0 Y0\n" + block.format(f"{value:.2f}"), control=MILL).answers[0].contour
+        is_cut = any(each.name == "corner 1" for each in contour.elements)
+        assert is_cut is (abs(value) > 0.525)
+        assert table["status"][row] == 0
+        assert table["corner 1.begin.X"][row] == pytest.approx(25 if is_cut else 30)
 
 
 @pytest.mark.parametrize("control", MACHINES)

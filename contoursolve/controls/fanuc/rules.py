@@ -384,11 +384,9 @@ def _geometry(machine: _Machine, examples: Mapping[Enum, tuple[str, str]]) -> tu
     """The rows about geometry with a control's alarm and with examples of its own."""
     rows = {rule.about: rule for rule in GEOMETRY_RULES}
     too_large = machine.alarm("055 MISSING MOVE VALUE IN CHF/CNR")
-    straight = replace(
-        rows[RefusalKind.CORNER_STRAIGHT],
-        code=f"{machine.prefix}-corner-straight",
-        message="{words}: the elements of {subject} go on within 1 deg, and there the control makes no corner",
-        help="delete {words}: the control leaves it out without an alarm",
+    dropped = replace(
+        rows[ReadIssue.CORNER_DROPPED],
+        code=f"{machine.prefix}-corner-dropped",
         source=machine.source("printed for a sibling", Evidence.ASSUMED),
         accepted=(machine.cut,),
         rejected=(machine.cut.replace(machine.turn, "Z-40. X20.2" if machine.angle else "X60. Y0.3"),),
@@ -409,7 +407,7 @@ def _geometry(machine: _Machine, examples: Mapping[Enum, tuple[str, str]]) -> tu
         **examples,
     }
     return (
-        straight,
+        dropped,
         comma,
         *(
             replace(
