@@ -57,27 +57,37 @@ def lexicon(
     return Lexicon({row.address: row for row in rows}, numbers)
 
 
-def code_rows(source: Source, rows: Mapping[Effect, Mapping[int, str]], planes: Mapping[int, Plane]) -> dict[int, Code]:
+G20_G21 = {20: Length.INCH, 21: Length.MM}
+_UNITS = {Length.INCH: "inches", Length.MM: "millimetres"}
+
+
+def code_rows(
+    source: Source,
+    rows: Mapping[Effect, Mapping[int, str]],
+    planes: Mapping[int, Plane],
+    units: Mapping[int, Length] = G20_G21,
+) -> dict[int, Code]:
     """Tables of codes by their effect, with those of units and planes."""
     codes = [Code(number, effect, meaning, source) for effect, row in rows.items() for number, meaning in row.items()]
-    codes += [
-        Code(20, Effect.UNITS, "inches", source, unit=Length.INCH),
-        Code(21, Effect.UNITS, "millimetres", source, unit=Length.MM),
-    ]
+    codes += [Code(number, Effect.UNITS, _UNITS[unit], source, unit=unit) for number, unit in units.items()]
     codes += [Code(number, Effect.PLANE, "plane", source, plane=plane) for number, plane in planes.items()]
     return {code.number: code for code in codes}
 
 
+MOTIONS = {0: "positioning", 1: "line", 2: "arc clockwise", 3: "arc counter-clockwise"}
+ABSOLUTE_CODES = {Effect.ABSOLUTE: {90: "absolute coordinates"}, Effect.INCREMENTAL: {91: "incremental coordinates"}}
+_COMPENSATION = {40: "no compensation", 41: "compensation left", 42: "compensation right"}
+BASIC_CODES: dict[Effect, dict[int, str]] = {**ABSOLUTE_CODES, Effect.COMPENSATION: _COMPENSATION}
+"""What every control has that has G90 and G91, its motions aside."""
 _EVERYWHERE: dict[Effect, dict[int, str]] = {
-    Effect.MOTION: {0: "positioning", 1: "line", 2: "arc clockwise", 3: "arc counter-clockwise"},
+    Effect.MOTION: MOTIONS,
     Effect.NO_MOTION: {4: "dwell", 10: "data setting"},
-    Effect.COMPENSATION: {40: "no compensation", 41: "compensation left", 42: "compensation right"},
+    Effect.COMPENSATION: _COMPENSATION,
     Effect.SHIFT: dict.fromkeys(range(54, 60), "work coordinate system"),
     Effect.SINGLE: {28: "reference point return", 30: "other reference point return", 53: "machine coordinates"},
     Effect.NONE: {96: "constant surface speed", 97: "spindle speed", 98: "feed or return", 99: "feed or return"},
 }
 DRILLING = dict.fromkeys((73, *range(81, 90)), "drilling cycle")
-ABSOLUTE_CODES = {Effect.ABSOLUTE: {90: "absolute coordinates"}, Effect.INCREMENTAL: {91: "incremental coordinates"}}
 
 
 def merge(*tables: Mapping[Effect, Mapping[int, str]]) -> dict[Effect, dict[int, str]]:

@@ -6,6 +6,7 @@ from decimal import Decimal
 from msgspec.structs import replace
 
 from contoursolve.controls.chain import Element, Joining, Language, Member
+from contoursolve.controls.common import setting
 from contoursolve.controls.isg.lexicon import CHAMFER, MODES, ROUNDING, assumed
 from contoursolve.geometry import CornerShape, Heading, Turn
 from contoursolve.reading import ContourForm, Convention, Modes, Sample, Setting, State
@@ -13,14 +14,13 @@ from contoursolve.reading import ContourForm, Convention, Modes, Sample, Setting
 NO_SIZE = "@no-size"
 """A corner block without a size, before any."""
 
-PAIR_SENSE = Setting(
+PAIR_SENSE = setting(
     "pair-sense",
     "whether one of two lines that meet may run against its angle",
     {
         "line": "it may: the angle is that of the line, either way",
         "ray": "it may not: the angle is the direction of travel",
     },
-    "line",
     assumed("not described"),
 )
 CIRCLE = Setting(

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Mapping
 
-from contoursolve.controls.plain import PLANES, lexicon
+from contoursolve.controls.plain import BASIC_CODES, MOTIONS, PLANES, code_rows, lexicon
 from contoursolve.diagnostics.source import Evidence, Source
 from contoursolve.gcode import Block, Syntax, Word
 from contoursolve.geometry import Length, Unit
@@ -30,35 +30,24 @@ def assumed(place: str) -> Source:
 CHAMFER, ROUNDING = 301, 302
 """G301 and G302: corners in blocks of their own."""
 
-_CODES: tuple[tuple[Effect, dict[int, str]], ...] = (
-    (Effect.MOTION, {0: "positioning", 1: "line", 2: "arc clockwise", 3: "arc counter-clockwise"}),
-    (Effect.MOTION, dict.fromkeys((33, 34, 63, 331, 332), "thread")),
-    (Effect.NO_MOTION, {4: "dwell"}),
-    (Effect.ABSOLUTE, {90: "absolute coordinates"}),
-    (Effect.INCREMENTAL, {91: "incremental coordinates"}),
-    (Effect.COMPENSATION, {40: "no compensation", 41: "compensation left", 42: "compensation right"}),
-    (Effect.SHIFT, dict.fromkeys((53, *range(54, 60), 159), "zero offset")),
-    (Effect.SINGLE, {74: "reference point", 310: "measuring", 100: "measuring"}),
-    (Effect.FRAME, {68: "rotation", 69: "end of rotation", 351: "mirroring"}),
-    (Effect.FRAME, dict.fromkeys((20, 21, 22, 23, 24), "mirroring")),
-    (Effect.PRESET, {92: "reference point offset"}),
-    (Effect.SINGLE, {161: "absolute centres, which contoursolve does not read"}),
-    (Effect.NONE, {162: "centres from where an arc begins", 164: "no centre correction", 165: "centre correction"}),
-    (Effect.NONE, dict.fromkeys((8, 9, 60, 61, 260, 261, 360, 361), "exact stop or blending")),
-    (Effect.NONE, dict.fromkeys((93, 94, 95, 96, 97, 194), "kind of feed or speed")),
-    (Effect.NONE, dict.fromkeys((25, 26, 138, 139, 150, 151, 236, 237, 238, 239), "compensation at corners")),
-    (Effect.CORNER, {CHAMFER: "chamfer", ROUNDING: "rounding"}),
-)  # fmt: skip
+_CODES = BASIC_CODES | {
+    Effect.MOTION: MOTIONS | dict.fromkeys((33, 34, 63, 331, 332), "thread"),
+    Effect.NO_MOTION: {4: "dwell"},
+    Effect.SHIFT: dict.fromkeys((53, *range(54, 60), 159), "zero offset"),
+    Effect.SINGLE: {74: "reference point", 100: "measuring", 310: "measuring", 161: "absolute centres"},
+    Effect.FRAME: {68: "rotation", 69: "end of rotation"} | dict.fromkeys((*range(20, 25), 351), "mirroring"),
+    Effect.PRESET: {92: "reference point offset"},
+    Effect.NONE: {162: "centres from where an arc begins", 164: "no centre correction", 165: "centre correction"}
+    | dict.fromkeys((8, 9, 60, 61, 260, 261, 360, 361), "exact stop or blending")
+    | dict.fromkeys((93, 94, 95, 96, 97, 194), "kind of feed or speed")
+    | dict.fromkeys((25, 26, 138, 139, 150, 151, 236, 237, 238, 239), "compensation at corners"),
+    Effect.CORNER: {CHAMFER: "chamfer", ROUNDING: "rounding"},
+}
 
 
 def _codes() -> dict[int, Code]:
-    source, rows = assumed("list of G functions"), list[Code]()
-    for effect, table in _CODES:
-        rows += [Code(number, effect, meaning, source) for number, meaning in table.items()]
-    rows += [Code(number, Effect.PLANE, "plane", printed("planes"), plane=plane) for number, plane in PLANES.items()]
+    rows = [*code_rows(assumed("list of G functions"), _CODES, PLANES, {70: Length.INCH, 71: Length.MM}).values()]
     rows += [
-        Code(70, Effect.UNITS, "inches", source, unit=Length.INCH),
-        Code(71, Effect.UNITS, "millimetres", source, unit=Length.MM),
         Code(51, Effect.NONE, "X is a diameter", printed("turning functions"), diameter=Diameter.ON),
         Code(52, Effect.NONE, "X is a radius", printed("turning functions"), diameter=Diameter.OFF),
     ]

@@ -6,10 +6,11 @@ from dataclasses import replace as replace_fields
 from msgspec.structs import replace
 
 from contoursolve.controls.chain import Element, Joining, Language, Member
+from contoursolve.controls.common import setting
 from contoursolve.controls.plain import PLANES
 from contoursolve.controls.siemens.lexicon import MODES, TANGENT_ARC, assumed
 from contoursolve.geometry import CornerShape, Heading, Turn
-from contoursolve.reading import ContourForm, Convention, Diameter, Modes, Sample, Setting, State
+from contoursolve.reading import ContourForm, Convention, Diameter, Modes, Sample, State
 from contoursolve.reading.dialect import Dialect
 
 STRICT_ANGLE, NO_STEPS, ALONG_ARC = "@strict-angle", "@no-steps", "@along-arc"
@@ -24,15 +25,14 @@ def _turning(dialect: Dialect) -> Dialect:
     return replace_fields(dialect, plane=PLANES[18], diameter=diameter)
 
 
-MACHINE = Setting(
+MACHINE = setting(
     "machine",
     "which plane is selected, and what X is, before the program says it",
     {"mill": "G17, and X is a radius in G17", "lathe": "G18, and X is a diameter"},
-    "mill",
     assumed("machine data"),
     changes={"lathe": _turning},
 )
-DIAMETER = Setting(
+DIAMETER = setting(
     "diam",
     "what X is before the program says it by DIAMON, DIAMOF or DIAM90",
     {
@@ -41,7 +41,6 @@ DIAMETER = Setting(
         "DIAMON": "a diameter",
         "DIAM90": "a diameter in absolute coordinates, a radius in increments",
     },
-    "plane",
     assumed("machine data"),
     changes={
         "DIAMOF": _counting(Diameter.OFF),
@@ -49,35 +48,31 @@ DIAMETER = Setting(
         "DIAM90": _counting(Diameter.ABSOLUTE),
     },
 )
-SENSE = Setting(
+SENSE = setting(
     "angle-sense",
     "whether a line may run against its angle",
     {
         "line": "it may: the angle is that of the line, either way",
         "ray": "it may not: the angle is the direction of travel",
     },
-    "line",
     assumed("not described"),
 )
-REDUNDANT = Setting(
+REDUNDANT = setting(
     "redundant-angle",
     "an angle beside both coordinates, behind a line that has an end",
     {"error": "it must not stand there", "check": "it may stand there if it agrees"},
-    "error",
     assumed("alarm 10795"),
 )
-CLOSING = Setting(
+CLOSING = setting(
     "closing-incremental",
     "whether the second of two lines that meet may give its end by increments",
     {"allow": "it may: they count from where the first line starts", "error": "it must not"},
-    "allow",
     assumed("not described"),
 )
-ARC_CHAMFER = Setting(
+ARC_CHAMFER = setting(
     "chamfer-on-arc",
     "how CHR is measured on an arc",
     {"chord": "straight from the corner", "arc_length": "along the arc; contoursolve does not compute this"},
-    "chord",
     assumed("not described"),
 )
 SETTINGS = (MACHINE, DIAMETER, SENSE, REDUNDANT, CLOSING, ARC_CHAMFER)

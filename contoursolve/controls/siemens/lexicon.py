@@ -3,7 +3,7 @@
 import re
 from collections.abc import Mapping
 
-from contoursolve.controls.plain import PLANES, lexicon
+from contoursolve.controls.plain import BASIC_CODES, MOTIONS, PLANES, code_rows, lexicon
 from contoursolve.diagnostics.source import Evidence, Source
 from contoursolve.gcode import Block, Syntax, Word, long_parts
 from contoursolve.geometry import Length, Unit
@@ -30,22 +30,19 @@ def assumed(place: str) -> Source:
 TANGENT_ARC = 1001
 """Stands for CT among the motions."""
 
-_CODES: tuple[tuple[Effect, dict[int, str]], ...] = (
-    (Effect.MOTION, {0: "positioning", 1: "line", 2: "arc clockwise", 3: "arc counter-clockwise"}),
-    (Effect.MOTION, dict.fromkeys((33, 34, 35, 331, 332), "thread")),
-    (Effect.NO_MOTION, {4: "dwell", 25: "lower limit", 26: "upper limit", 93: "inverse time feed"}),
-    (Effect.ABSOLUTE, {90: "absolute coordinates"}),
-    (Effect.INCREMENTAL, {91: "incremental coordinates"}),
-    (Effect.COMPENSATION, {40: "no compensation", 41: "compensation left", 42: "compensation right"}),
-    (Effect.SHIFT, dict.fromkeys((*range(54, 60), 500, *range(505, 600)), "work offset")),
-    (Effect.SINGLE, {53: "no offset", 153: "no offset", 74: "reference point", 75: "fixed point", 63: "tapping"}),
-    (Effect.SINGLE, dict.fromkeys((147, 148, 247, 248, 340, 341, 347, 348), "soft approach or retraction")),
-    (Effect.FRAME, dict.fromkeys((110, 111, 112), "pole of polar coordinates")),
-    (Effect.NONE, dict.fromkeys((9, 60, 601, 602, 603), "exact stop")),
-    (Effect.NONE, dict.fromkeys((64, *range(641, 646)), "continuous path")),
-    (Effect.NONE, {94: "feed a minute", 95: "feed a revolution", 96: "constant surface speed", 97: "spindle speed"}),
-    (Effect.NONE, dict.fromkeys((450, 451, 460, 461, 462), "corners of the compensated path")),
-)  # fmt: skip
+_CODES = BASIC_CODES | {
+    Effect.MOTION: MOTIONS | dict.fromkeys((33, 34, 35, 331, 332), "thread"),
+    Effect.NO_MOTION: {4: "dwell", 25: "lower limit", 26: "upper limit"},
+    Effect.SHIFT: dict.fromkeys((*range(54, 60), 500, *range(505, 600)), "work offset"),
+    Effect.SINGLE: {53: "no offset", 153: "no offset", 74: "reference point", 75: "fixed point", 63: "tapping"}
+    | dict.fromkeys((147, 148, 247, 248, 340, 341, 347, 348), "soft approach or retraction"),
+    Effect.FRAME: dict.fromkeys((110, 111, 112), "pole of polar coordinates"),
+    Effect.NONE: dict.fromkeys((9, 60, 601, 602, 603), "exact stop")
+    | dict.fromkeys((64, *range(641, 646)), "continuous path")
+    | dict.fromkeys((93, 94, 95, 96, 97), "kind of feed or speed")
+    | dict.fromkeys((450, 451, 460, 461, 462), "corners of the compensated path"),
+}
+_UNITS = {70: Length.INCH, 71: Length.MM, 700: Length.INCH, 710: Length.MM}
 _NAMES: tuple[tuple[Effect, str, str], ...] = (
     (Effect.FRAME, "coordinate frame", "TRANS ATRANS ROT AROT SCALE ASCALE MIRROR AMIRROR ROTS AROTS TRAFOOF"),
     (Effect.SINGLE, "no offset", "SUPA"),
@@ -61,12 +58,7 @@ _DIAMETERS = {
 
 
 def _codes() -> dict[int, Code]:
-    source, rows = assumed("list of G functions"), list[Code]()
-    for effect, table in _CODES:
-        rows += [Code(number, effect, meaning, source) for number, meaning in table.items()]
-    for number, length in ((70, Length.INCH), (700, Length.INCH), (71, Length.MM), (710, Length.MM)):
-        rows.append(Code(number, Effect.UNITS, length.value, source, unit=length))
-    rows += [Code(number, Effect.PLANE, "plane", printed("p. 214"), plane=plane) for number, plane in PLANES.items()]
+    rows = [*code_rows(assumed("list of G functions"), _CODES, PLANES, _UNITS).values()]
     rows.append(Code(TANGENT_ARC, Effect.MOTION, "arc that begins tangentially", printed("p. 201"), name="CT"))
     number = TANGENT_ARC
     for name, (diameter, meaning) in _DIAMETERS.items():

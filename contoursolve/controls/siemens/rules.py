@@ -74,4 +74,8 @@ def _geometry() -> tuple[Rule, ...]:
 
 
 RULES = (*COMMON_RULES, *chain_rules(MANUAL), *_OWN, *_geometry(), *GEOMETRY_RULES)
-RULES_808 = RULES
+_REDUCED = "; the control makes it smaller by itself, to a size that is not printed"
+RULES_808 = tuple(
+    replace(rule, message=rule.message + _REDUCED) if rule.about is RefusalKind.CORNER_TOO_LARGE else rule
+    for rule in RULES
+)
