@@ -382,6 +382,8 @@ class SweepSpec(Struct, frozen=True):
             if any(each.about is not ReadIssue.NO_CONTOUR for each in errors_of(unread)):
                 raise RefusedError(unread)
             raise UnknownControlError(f"the block does not show its control: {' or '.join(DIALECTS)}")
+        syntax = dialect.modes.syntax
+        program, start = gcode.spelled(program, syntax), start and gcode.spelled(start, syntax)
         facts = tuple(gcode.read_directive(fact, -number) for number, fact in enumerate(self.facts, 1))
         template = Template(program, dialect, unit, policy, start, {}, facts)
         return template.with_words(self.names)

@@ -55,6 +55,9 @@ def verify(
     blocks, claims, unit = parse_program(program), read_result(result), Length(units)
     beginning = gcode.parse(start, program.name, first_line=0) if start is not None else None
     dialect = _configured(_dialect(blocks, claims, control), claims)
+    if dialect:
+        syntax = dialect.modes.syntax
+        blocks, beginning = gcode.spelled(blocks, syntax), beginning and gcode.spelled(beginning, syntax)
     if dialect and facts:
         blocks = with_facts(blocks, dialect, unit, beginning, facts)
     contours, by_line = list[ContourReceipt](), {contour.line: contour for contour in claims.contours}
