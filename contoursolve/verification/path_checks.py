@@ -102,7 +102,7 @@ def examine(case: Case, path: ClaimedPath, ledger: Ledger, *, is_chosen: bool) -
     order = _order(case)
     attempts = [
         _attempt(case, claimed, reading, is_chosen=is_chosen)
-        for reading in islice(_readings(case, order, claimed.moves), MOST_READINGS)
+        for reading in islice(_readings(case, claimed, order), MOST_READINGS)
     ]
     own, values = min(attempts, key=lambda each: len(each[0].failures), default=(Ledger(), None))
     found = ", ".join("arc" if each.circle else "line" for each in claimed.moves) or "none"
@@ -175,12 +175,18 @@ def _order(case: Case) -> list[tuple[str, int]]:
     return found
 
 
-def _readings(case: Case, order: list[tuple[str, int]], moves: tuple[Move, ...]) -> Iterator[dict[str, Move]]:
+def _readings(case: Case, claimed: ClaimedMoves, order: list[tuple[str, int]]) -> Iterator[dict[str, Move]]:
     """Every way in which the claimed elements can be those of the figure: lines of no length are left out, and corners
-    that the control may leave out."""
+    that the control may leave out, where an element ends in their intersection."""
+    moves = claimed.moves
     turns = [each.circle.turn if each.circle else LINE for each in moves]
-    guards = {corner.name: corner.guard for corner in case.profile.figure.corners}
-    loose = [number for number, (name, turn) in enumerate(order) if guards.get(name, turn == LINE)]
+    ends = [each.end for each in moves]
+    is_loose = {
+        corner.name: bool(corner.guard) and any(abs(claimed.points.get(corner.at, at) - at) <= LENGTH for at in ends)
+        for corner in case.profile.figure.corners
+    }
+    loose = [number for number, (name, turn) in enumerate(order) if is_loose.get(name, turn == LINE)]
+    loose.sort(key=lambda number: order[number][0] not in is_loose)
     for dropped in combinations(loose, len(order) - len(turns)) if len(turns) <= len(order) else ():
         rest = [each for number, each in enumerate(order) if number not in dropped]
         if all(own == turn or (own == ANY_TURN and turn) for (_, own), turn in zip(rest, turns, strict=True)):

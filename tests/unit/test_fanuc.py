@@ -433,6 +433,19 @@ def test_a_corner_on_a_tangent_arc_is_left_out_and_the_others_are_cut():
     assert len(many.diagnostics) == 40
 
 
+def test_verify_tells_corners_that_are_left_out_from_those_that_are_forgotten():
+    lines = [f"G01 X{20 * each}. Y{each % 3 / 10} ,C2." for each in range(1, 10)]
+    text = "\n".join(("G17 G90 G00 X0 Y0", *lines, "X200. Y30."))
+
+    def verdict(of: str) -> Verdict:
+        result = to_json(solve(of, control=MILL)).encode()
+        return verify(Document("program", text.encode()), Document("result", result), control=MILL).verdict
+
+    assert len(check(text, control=MILL)) == 8
+    assert verdict(text) is Verdict.VERIFIED
+    assert verdict(text.replace("Y0.0 ,C2.\nX200.", "Y0.0\nX200.")) is not Verdict.VERIFIED
+
+
 def test_a_sweep_across_the_guard_says_what_solve_says():
     block, values = "G01 X30. ,C5.\nX60. Y{}", [-1.0, -0.53, -0.52, 0.0, 0.52, 0.53, 1.0]
     table = family(block.format("1."), vary={"2:Y": values}, start="G17 G90 X0 Y0", control=MILL)
