@@ -99,6 +99,10 @@ class _Translator:
             return None
         return ArcSegment(element.name, start, end, segment.center, segment.radius, segment.turn)
 
+    def _spell(self, name: str, number: str) -> str:
+        """A word of the target by what it is called."""
+        return spell(self.language.address_of(name), number)
+
     def _corner_word(self, corner: Corner) -> str:
         """The word that makes a corner; empty if the target has none."""
         shape, size = corner.shape, self.profile.givens[corner.size].value
@@ -108,7 +112,7 @@ class _Translator:
             shape = CornerShape.CHAMFER_SETBACK
         address = self.words.get(shape)
         text = self._exactly(size / self.form.unit.in_mm) if address else None
-        return spell(address, text) if address and text is not None else ""
+        return self._spell(address, text) if address and text is not None else ""
 
     def _is_square(self, corner: Corner) -> bool:
         """Whether a corner lies between two lines along the axes."""
@@ -124,16 +128,16 @@ class _Translator:
         exact = [self._coordinate(axis, value) for axis, value in enumerate(end)]
         if is_open and angle is not None:
             # What closes it has both coordinates and the angle.
-            return (*sorted(each or "" for each in exact), spell(self.language.angle, angle)), False
+            return (*sorted(each or "" for each in exact), self._spell(self.language.angle, angle)), False
         if all(exact) or angle is None or self.form.is_incremental:
             return None, False
         way = radians(float(self.angles[line.tail, line.head]))
         for axis, other in ((0, cos(way)), (1, sin(way))):
             # A coordinate along which the line hardly advances does not tell where it ends.
             if exact[axis] and abs(other) > _STEEP:
-                return (str(exact[axis]), spell(self.language.angle, angle)), False
+                return (str(exact[axis]), self._spell(self.language.angle, angle)), False
         if self.language.joining is Joining.OPEN and isinstance(after, Line) and self._closes(after, way):
-            return (spell(self.language.angle, angle),), True
+            return (self._spell(self.language.angle, angle),), True
         return None, False
 
     def _closes(self, line: Line, way: float) -> bool:
@@ -149,7 +153,7 @@ class _Translator:
     def _angle(self, line: Line) -> str | None:
         """The angle of a line as the program states it, where the target writes angles."""
         value = self.angles.get((line.tail, line.head))
-        if value is None or self.language.angle not in self.target.modes.lexicon.addresses:
+        if value is None or self.language.address_of(self.language.angle) not in self.target.modes.lexicon.addresses:
             return None
         return self._exactly(value, Unit.DEGREE)
 

@@ -4,7 +4,7 @@ A `Language` of a control comes in: its words, and what makes two blocks meet in
 its forms go out. Begin with `language`.
 """
 
-from contoursolve.controls.chain.find import ChainFinder
+from contoursolve.controls.chain.find import ChainFinder, reading
 from contoursolve.controls.chain.form import compose, forms_of
 from contoursolve.controls.chain.language import Element, Joining, Language, Member, pair_role
 
@@ -17,4 +17,5 @@ __all__ = [
     "compose",
     "forms_of",
     "pair_role",
+    "reading",
 ]

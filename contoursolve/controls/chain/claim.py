@@ -32,7 +32,7 @@ from contoursolve.controls.chain.language import (
     Member,
     pair_role,
 )
-from contoursolve.gcode import Block, Word, spell
+from contoursolve.gcode import Block, Word, number_of, spell
 from contoursolve.geometry import Choice, Given, Side, Turn, Unit
 from contoursolve.reading import ContourForm, Modes, ParsedContour, Selector, State
 
@@ -56,12 +56,16 @@ def claim_of(language: Language, members: Sequence[Member], before: State, modes
         own: dict[str, Word] = {}
         blocks.append(member.block)
         for word in member.block.words:
+            if word.address in language.modal_corner:
+                continue
             code = word.number if word.address == "G" else ""
             name = called.get(word.address, f"{word.address}{code}")
             if name in own and word.address != "M":
                 repeated.append(word)
             own.setdefault(name, word)
-        own_givens = _givens(language, own, member, modes) | _kept_corner(language, own, member, modes)
+        kept = _kept_corner(language, own, member, modes) | _kept_angle(language, own, member, modes)
+        own_givens = _givens(language, own, member, modes) | kept
+        words |= {prefix + name: given.word for name, given in kept.items() if given.word}
         if member.corner is not None:
             sized, corner = _corner_of(language, member.corner, member.here, modes)
             own_givens |= sized
@@ -118,8 +122,7 @@ def _corner_of(language: Language, block: Block, here: State, modes: Modes) -> t
     own, kept = block.find(language.corner_size), here.memory.get(language.corner_size)
     word = own or kept
     size = modes.words(here).given(name, word, here.unit) if word else None
-    words = {name: own} if own else {}
-    return ({name: size if own else replace(size, word=None)} if size else {}), words
+    return ({name: size} if size else {}), ({name: word} if word else {})
 
 
 def _kept_corner(language: Language, own: Mapping[str, Word], member: Member, modes: Modes) -> dict[str, Given]:
@@ -130,8 +133,18 @@ def _kept_corner(language: Language, own: Mapping[str, Word], member: Member, mo
         kept = member.here.memory.get(word)
         size = modes.words(member.here).given(corner, kept, member.here.unit) if kept else None
         if size is not None:
-            return {corner: replace(size, word=None)}
+            return {corner: size}
     return {}
+
+
+def _kept_angle(language: Language, own: Mapping[str, Word], member: Member, modes: Modes) -> dict[str, Given]:
+    """The angle that stays in force, of a line with one coordinate and no angle."""
+    word = member.here.memory.get(language.angle) if language.keeps_angle else None
+    stated = {name.removesuffix("-step") for name in own} & {*_ORDERS}
+    if word is None or language.angle in own or member.element.turn is not None or len(stated) != 1:
+        return {}
+    given = modes.words(member.here).given(language.angle, word, member.here.unit)
+    return {language.angle: given} if given else {}
 
 
 def _calls(language: Language, member: Member) -> dict[str, str]:
@@ -142,8 +155,7 @@ def _calls(language: Language, member: Member) -> dict[str, str]:
     centers = {center: f"center-{order}" for center, order in zip(plane.centers, _ORDERS, strict=True)}
     called |= {address: centers.get(address, "wrong-center") for address in ("I", "J", "K") if address in addresses}
     called |= {address: f"beside-{address}" for address, row in addresses.items() if row.axis not in ("", *plane.axes)}
-    if language.radius != "R":
-        called[language.radius] = "R"
+    called |= language.names
     angles = [address for address in language.angle_words if member.block.find(address)] or language.angle_words[:1]
     if language.angle_words:
         called |= {address: f"beside-{address}" for address in (language.angle, *language.angle_words)}
@@ -182,7 +194,7 @@ def _givens(language: Language, words: Mapping[str, Word], member: Member, modes
     if element.is_over:
         return stated
     ends = {name.removesuffix("-step") for name in stated} & {*_ORDERS}
-    is_partial = element.turn is None and language.angle in words
+    is_partial = element.turn is None and (language.angle in words or _kept_angle(language, words, member, modes))
     if not is_partial and (ends or not element.is_followed):
         stated |= _supplied("", "-step", stated, asked, is_always=not element.is_followed)
     if ends and element.is_followed:
@@ -204,7 +216,7 @@ def _supplied(
 
 
 def _circumstances(language: Language, member: Member, first: State, *, is_only: bool, is_first: bool) -> Iterator[str]:
-    radius = member.block.find(language.radius)
+    radius = member.block.find(language.address_of("R"))
     is_negative = radius is not None and radius.number is not None and radius.number < 0
     centers = sum(member.block.find(address) is not None for address in first.plane.centers)
     holds = {
@@ -283,7 +295,7 @@ def _selectors(
         word = words.get(f"{each.prefix}R")
         is_chosen = element.turn is not None and (element.touches or not element.is_over)
         if element.turn is not None and is_chosen and word is not None and word.number is not None:
-            size = f"{abs(word.number)}" if len(language.radius) > 1 else word.text.lstrip("Rr +-")
-            yield Selector(each.center, _center_side(element.turn, is_short=True), spell(language.radius, size))
-            yield Selector(each.center, _center_side(element.turn, is_short=False), spell(language.radius, f"-{size}"))
+            size = number_of(word.text, word.address).lstrip("+- \t")
+            yield Selector(each.center, _center_side(element.turn, is_short=True), spell(word.address, size))
+            yield Selector(each.center, _center_side(element.turn, is_short=False), spell(word.address, f"-{size}"))
         previous = element

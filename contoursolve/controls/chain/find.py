@@ -4,8 +4,10 @@ Two blocks belong together where they meet in an intersection that the control c
 corner.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace as replace_fields
 from itertools import count
+from typing import Any
 
 from msgspec.structs import replace
 
@@ -15,6 +17,7 @@ from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Turn
 from contoursolve.reading import (
     Effect,
+    Lexicon,
     Modes,
     ParsedContour,
     Position,
@@ -25,6 +28,7 @@ from contoursolve.reading import (
     positions,
     read,
 )
+from contoursolve.reading.dialect import Dialect
 from contoursolve.solving import Status, solve
 from contoursolve.solving.contour import ArcSegment, Segment, trace
 
@@ -123,7 +127,7 @@ class ChainFinder:
         here, parallel = apply_modes(before, block, modes), self.language.parallel
         plane = self.language.planes.get(here.plane.code, here.plane)
         here = here if here.plane == plane else replace(here, plane=plane)
-        stated, axes = _stated(block), here.plane.axes
+        stated, axes = self._stated(block), here.plane.axes
         moved = [axis for axis in axes if parallel.get(axis) in stated]
         if self.language.angle not in stated or here.motion not in (0, 1) or stated & {*axes} or len(moved) != 1:
             return here
@@ -169,17 +173,24 @@ class ChainFinder:
     def _moves(self, block: Block, here: State) -> bool:
         """Whether a block is a motion: it has a coordinate, an angle, a corner; an arc a centre, R, or just its G code.
         A Q that belongs to nothing is looked at, too."""
-        stated = _stated(block)
-        is_arc = here.motion in _TURNS and stated & {"I", "J", "K", self.language.radius}
+        stated = self._stated(block)
+        is_arc = here.motion in _TURNS and stated & {"I", "J", "K", "R"}
         is_choice = self.language.selector in stated and not block.find("M")
         if stated & self._moving or is_arc or is_choice:
             return True
         arcs = {*_TURNS, self.language.tangent_arc}
         return any(word.address == "G" and word.number in arcs for word in block.words)
 
+    def _stated(self, block: Block) -> set[str]:
+        """What the addresses of a block are called; a word that cannot be read still shows what the block was meant to
+        be."""
+        addresses, names = {word.address for word in block.words}, self.language.names
+        addresses |= {fault.address for fault in block.faults}
+        return {names.get(address, address) for address in addresses} if names else addresses
+
     def _programmed(self, block: Block, here: State) -> set[str]:
         """The axes of the plane that a block programs."""
-        rows = (self.language.lexicon.addresses.get(address) for address in _stated(block))
+        rows = (self.language.lexicon.addresses.get(address) for address in self._stated(block))
         return {row.axis for row in rows if row} & {*here.plane.axes}
 
     def _over_defining(self, here: State) -> set[str]:
@@ -191,7 +202,7 @@ class ChainFinder:
 
     def _is_over_defined(self, block: Block, here: State) -> bool:
         is_possible = self.language.joining is Joining.OVER_DEFINED
-        return is_possible and _stated(block) >= self._over_defining(here)
+        return is_possible and self._stated(block) >= self._over_defining(here)
 
     def _begins_in_intersection(self, last: Member, following: Block, here: State) -> bool:
         """Whether a block meets the one before it in an intersection, or touches it."""
@@ -200,20 +211,22 @@ class ChainFinder:
         if self.language.joining is Joining.OPEN:
             is_cut = last.here.motion == 1 or (self.language.runs_in_rapid and last.here.motion == here.motion == 0)
             return here.motion in (0, 1) and is_cut and self._is_open(last)
-        missing = self._over_defining(here) - _stated(following)
+        missing = self._over_defining(here) - self._stated(following)
         # A block with a selector that lacks one word only is meant to.
-        return len(missing) <= (self.language.selector in _stated(following)) or self._is_joined(last, following, here)
+        return len(missing) <= (self.language.selector in self._stated(following)) or self._is_joined(
+            last, following, here
+        )
 
     def _is_open(self, last: Member) -> bool:
         """Whether a line has an angle, and no end; of blocks in pairs, whether an arc has none."""
         is_arc = last.element.turn is not None and self.language.joining is Joining.PAIRED
-        is_drawn = is_arc or bool(_stated(last.block) & {*self.language.angles})
+        is_drawn = is_arc or bool(self._stated(last.block) & {*self.language.angles})
         return is_drawn and not self._programmed(last.block, last.here)
 
     def _is_paired(self, last: Member, following: Block, here: State) -> bool:
         """Whether what has no end has it where a block meets it. About its centre, an arc without an end is a full
         circle, too, where what follows does not show that it is none."""
-        first, second = _stated(last.block), _stated(following)
+        first, second = self._stated(last.block), self._stated(following)
         if last.element.turn is None or first & {"R", self.language.picks}:
             return last.here.motion != 0
         if self.language.closes or not first & {*last.here.plane.centers} or not second >= {*here.plane.axes}:
@@ -224,7 +237,7 @@ class ChainFinder:
     def _touches(self, first: Member, second: Member) -> bool:
         """Whether two blocks in a pair touch: two arcs, and a line and an arc that has no centre."""
         arcs = [each for each in (first, second) if each.element.turn is not None]
-        is_centered = any(_stated(each.block) & {*each.here.plane.centers} for each in arcs)
+        is_centered = any(self._stated(each.block) & {*each.here.plane.centers} for each in arcs)
         return self.language.joining is Joining.PAIRED and bool(arcs) and (len(arcs) > 1 or not is_centered)
 
     def _is_joined(self, last: Member, following: Block, here: State) -> bool:
@@ -235,12 +248,17 @@ class ChainFinder:
             return False
         if last.element.turn is not None:
             is_line = here.motion in (0, 1)
-            return is_line and bool(self._programmed(following, here) or self.language.angle in _stated(following))
+            return is_line and bool(self._programmed(following, here) or self.language.angle in self._stated(following))
         return self._is_open(last)
+
+    def _keeps_angle(self, member: Member) -> bool:
+        """Whether a line with one coordinate runs at the angle that stays in force."""
+        kept = self.language.keeps_angle and self.language.angle in member.here.memory
+        return kept and member.element.turn is None and len(self._programmed(member.block, member.here)) == 1
 
     def _has_corner(self, member: Member) -> bool:
         """Whether a block, or one of its own behind it, has a corner word."""
-        return member.corner is not None or bool(_stated(member.block) & self._cornered)
+        return member.corner is not None or bool(self._stated(member.block) & self._cornered)
 
     def _makes_corner(self, member: Member) -> bool:
         """The same, or whether a word that stays in force makes one."""
@@ -251,10 +269,10 @@ class ChainFinder:
         a corner; and where arcs are checked, an arc with an end, if its values are known. About its centre, it is a
         full circle if that is where it begins (assumed)."""
         block, here = member.block, member.here
-        stated = _stated(block)
+        stated = self._stated(block)
         if self._has_corner(member) or member.element.is_smooth:
             return True
-        if stated & {*self.language.angles, self.language.selector}:
+        if stated & {*self.language.angles, self.language.selector} or self._keeps_angle(member):
             return True
         is_variable = any(word.number is None and not word.is_asked for word in block.words)
         if not self.language.checks_arcs or here.motion not in _TURNS or is_variable:
@@ -264,13 +282,27 @@ class ChainFinder:
         return "R" in stated or not stated & {*here.plane.centers} or not _ends_where_it_begins(block, here, modes)
 
 
+def reading(names: Mapping[str, str] | None = None, **changes: Any) -> Callable[[Dialect], Dialect]:
+    """What a value of a setting changes in the language of a control; `names` are addresses, each with the one whose row
+    and name it takes, which is no word then."""
+    names = names or {}
+
+    def change(dialect: Dialect) -> Dialect:
+        if not isinstance(dialect.find, ChainFinder):
+            raise TypeError(f"{dialect.name} has no language")
+        language, rows = dialect.find.language, dict(dialect.modes.lexicon.addresses)
+        named = {address: replace_fields(rows[name], address=address) for address, name in names.items()}
+        rows = {address: row for address, row in rows.items() if address not in names.values()} | named
+        words = Lexicon(rows, dialect.modes.lexicon.numbers) if names else dialect.modes.lexicon
+        known = language.allowed - {*names.values()} | {*names}
+        language = replace_fields(language, lexicon=words, allowed=known, names={**language.names, **names}, **changes)
+        return replace_fields(dialect, modes=replace_fields(dialect.modes, lexicon=words), find=ChainFinder(language))
+
+    return change
+
+
 def _has_words(block: Block) -> bool:
     return bool(block.faults or block.macro) or any(word.address not in ("N", "O") for word in block.words)
-
-
-def _stated(block: Block) -> set[str]:
-    """The addresses of a block; a word that cannot be read still shows what the block was meant to be."""
-    return {word.address for word in block.words} | {fault.address for fault in block.faults}
 
 
 def _ends_where_it_begins(block: Block, here: State, modes: Modes) -> bool:

@@ -187,8 +187,8 @@ class Language:
     """G codes of blocks that may stand between two blocks of a contour."""
     between: int = 0
     """How many blocks that move nothing may stand there."""
-    radius: str = "R"
-    """The address of an arc's radius."""
+    names: Mapping[str, str] = field(default_factory=dict)
+    """Addresses that state what is called otherwise here: `CR` the radius `R`."""
     tangent_arc: int | None = None
     """The motion of an arc that begins in the direction of the element before it."""
     modal_corner: Mapping[str, str] = field(default_factory=dict)
@@ -197,6 +197,8 @@ class Language:
     """G codes of blocks that make a corner between two others, each with the corner word whose size they state."""
     corner_size: str = "I"
     """The word of such a block that states the size."""
+    keeps_angle: bool = False
+    """Whether an angle stays in force, for lines with one coordinate."""
     closes_by_steps: bool = False
     """Whether a line that meets one without an end may give its end by increments: from where that one begins."""
     is_ray_alone: bool = False
@@ -209,10 +211,14 @@ class Language:
         """The addresses that state an angle; of two in a block, the last of these does."""
         return self.angle_words or (self.angle,)
 
+    def address_of(self, name: str) -> str:
+        """The address that states what has this name."""
+        return next((address for address, called in self.names.items() if called == name), name)
+
     @property
     def own(self) -> frozenset[str]:
         """The addresses of angles and corners."""
-        return frozenset({*self.angles, *self.corners, *self.modal_corner})
+        return frozenset({*map(self.address_of, (*self.angles, *self.corners)), *self.modal_corner})
 
     @property
     def axes(self) -> tuple[str, ...]:

@@ -5,9 +5,9 @@ from decimal import Decimal
 
 from msgspec.structs import replace
 
-from contoursolve.controls.chain import Element, Joining, Language, Member
+from contoursolve.controls.chain import Element, Joining, Language, Member, reading
 from contoursolve.controls.common import setting
-from contoursolve.controls.isg.lexicon import CHAMFER, MODES, ROUNDING, assumed
+from contoursolve.controls.isg.lexicon import CHAMFER, MODES, ROUNDING, assumed, derived
 from contoursolve.geometry import CornerShape, Heading, Turn
 from contoursolve.reading import ContourForm, Convention, Modes, Sample, Setting, State
 
@@ -31,7 +31,14 @@ CIRCLE = Setting(
     assumed("not described"),
     bounds=(Decimal("0.001"), Decimal(1)),
 )
-SETTINGS = (PAIR_SENSE, CIRCLE)
+MODAL = setting(
+    "angle-modal",
+    "whether an angle stays in force",
+    {"off": "a block without #ANG is an ordinary block", "on": "a line with one coordinate runs at the last #ANG"},
+    derived("the sample of error 21904"),
+    changes={"on": reading(keeps_angle=True)},
+)
+SETTINGS = (PAIR_SENSE, CIRCLE, MODAL)
 
 
 def _is_ray(modes: Modes) -> bool:

@@ -109,10 +109,12 @@ def _words() -> Lexicon:
 
 
 def _remember(memory: Mapping[str, Word], block: Block) -> Mapping[str, Word]:
-    """The size of the last G301 or G302 stays in force for the next one."""
-    size = block.find("I")
+    """The size of the last G301 or G302 stays in force for the next one; and an angle, where that is set."""
+    angle, size = block.find("#ANG"), block.find("I")
     is_corner = any(word.address == "G" and word.number in (CHAMFER, ROUNDING) for word in block.words)
-    return {"I": size} if is_corner and size is not None else memory
+    kept = {"I": size} if is_corner and size is not None else {}
+    kept |= {"#ANG": angle} if angle is not None else {}
+    return {**memory, **kept} if kept else memory
 
 
 MODES = Modes(_words(), _codes(), ("X", "Y", "Z"), frozenset({2, 17, 29, 30}), syntax=SYNTAX, remember=_remember)

@@ -1,13 +1,12 @@
 """Mitsubishi as a language of lines and arcs in a row: what meets, what touches, what H chooses, and its settings."""
 
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace as replace_fields
 from decimal import Decimal
-from typing import Any
 
 from msgspec.structs import replace
 
-from contoursolve.controls.chain import ChainFinder, Element, Joining, Language, Member
+from contoursolve.controls.chain import Element, Joining, Language, Member, reading
 from contoursolve.controls.chain.language import (
     ARC,
     CIRCLE_CIRCLE,
@@ -34,16 +33,6 @@ def _turning(dialect: Dialect) -> Dialect:
     return replace_fields(dialect, plane=TURNED_PLANES[18], modes=turned(dialect.modes))
 
 
-def _reading(**changes: Any) -> Callable[[Dialect], Dialect]:
-    """A change of the language."""
-
-    def change(dialect: Dialect) -> Dialect:
-        language = dialect.find.language if isinstance(dialect.find, ChainFinder) else LANGUAGE
-        return replace_fields(dialect, find=ChainFinder(replace_fields(language, **changes)))
-
-    return change
-
-
 _NUMBER = number_setting(
     {"calculator": "mm, inches and degrees, as with a point", "increment": "least increments: 0.001 mm, 0.001 deg"},
     assumed("a machine parameter"),
@@ -60,14 +49,14 @@ _ANGLE_WORD = setting(
     "which word states an angle",
     {"A": "A or ,A; of both in a block, ,A does", ",A": "only ,A: A is an axis or another function"},
     assumed("linear angle command: the names of axes are machine parameters"),
-    changes={",A": _reading(angle_words=(",A",))},
+    changes={",A": reading(angle_words=(",A",))},
 )
 _FULL_CIRCLE = setting(
     "arc-without-end",
     "what an arc about its centre is that has no end and no H",
     {"contact": "it ends where it meets the next block, if that fits", "circle": "a full circle"},
     assumed("not described"),
-    changes={"circle": _reading(closes=True)},
+    changes={"circle": reading(closes=True)},
 )
 _FIRST_CENTER = setting(
     "first-centre",

@@ -5,10 +5,10 @@ from dataclasses import replace as replace_fields
 
 from msgspec.structs import replace
 
-from contoursolve.controls.chain import Element, Joining, Language, Member
+from contoursolve.controls.chain import Element, Joining, Language, Member, reading
 from contoursolve.controls.common import setting
 from contoursolve.controls.plain import PLANES
-from contoursolve.controls.siemens.lexicon import MODES, TANGENT_ARC, assumed
+from contoursolve.controls.siemens.lexicon import MODES, TANGENT_ARC, assumed, printed
 from contoursolve.geometry import CornerShape, Heading, Turn
 from contoursolve.reading import ContourForm, Convention, Diameter, Modes, Sample, State
 from contoursolve.reading.dialect import Dialect
@@ -75,7 +75,21 @@ ARC_CHAMFER = setting(
     {"chord": "straight from the corner", "arc_length": "along the arc; contoursolve does not compute this"},
     assumed("not described"),
 )
-SETTINGS = (MACHINE, DIAMETER, SENSE, REDUNDANT, CLOSING, ARC_CHAMFER)
+ANGLE_NAME = setting(
+    "name-angle",
+    "which word states an angle",
+    {"ANG": "ANG", "A": "A"},
+    printed("p. 214: the names are machine data"),
+    changes={"A": reading({"A": "ANG"})},
+)
+CHAMFER_NAME = setting(
+    "name-chamfer",
+    "which word states the width of a chamfer",
+    {"CHR": "CHR; CHF is the length of the face", "CHF": "CHF; no word states the length of the face"},
+    printed("p. 214: the names are machine data"),
+    changes={"CHF": reading({"CHF": "CHR"}, corners={"CHR": CornerShape.CHAMFER_SETBACK, "RND": CornerShape.FILLET})},
+)
+SETTINGS = (MACHINE, DIAMETER, SENSE, REDUNDANT, CLOSING, ARC_CHAMFER, ANGLE_NAME, CHAMFER_NAME)
 
 
 def _is_ray(modes: Modes) -> bool:
@@ -112,7 +126,7 @@ LANGUAGE = Language(
     | {f"{axis}={way}" for axis in "XYZ" for way in ("AC", "IC")},
     joining=Joining.OPEN,
     angle="ANG",
-    radius="CR",
+    names={"CR": "R"},
     corners={
         "CHR": CornerShape.CHAMFER_SETBACK,
         "CHF": CornerShape.CHAMFER_FACE,

@@ -66,9 +66,17 @@ def _geometry() -> tuple[Rule, ...]:
     told = {
         RefusalKind.CORNER_TOO_LARGE: MANUAL.cut.replace("RND=5", "CHR=31"),
         RefusalKind.CORNER_STRAIGHT: MANUAL.cut.replace("X40 Y40", "X60"),
+        RefusalKind.RADIUS_DIFFERENCE: MANUAL.arc.replace("I20", "I18"),
     }
+    alarms = {RefusalKind.RADIUS_DIFFERENCE: Alarm("14040 (error in the end point of a circle)", Evidence.PRINTED)}
     return tuple(
-        replace(rows[about], code=f"siemens-{rows[about].code}", accepted=(MANUAL.cut,), rejected=(bad,))
+        replace(
+            rows[about],
+            code=f"siemens-{rows[about].code}",
+            accepted=(MANUAL.arc if about in alarms else MANUAL.cut,),
+            rejected=(bad,),
+            alarm=alarms.get(about),
+        )
         for about, bad in told.items()
     )
 
