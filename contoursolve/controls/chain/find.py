@@ -283,8 +283,10 @@ class ChainFinder:
 
 
 def reading(names: Mapping[str, str] | None = None, **changes: Any) -> Callable[[Dialect], Dialect]:
-    """What a value of a setting changes in the language of a control; `names` are addresses, each with the one whose row
-    and name it takes, which is no word then."""
+    """What a value of a setting changes in the language of a control.
+
+    `names` are addresses, each with the one whose row and name it takes, which is no word then.
+    """
     names = names or {}
 
     def change(dialect: Dialect) -> Dialect:
