@@ -31,6 +31,8 @@ SMOOTH, NO_TANGENT = "@smooth", "@no-tangent"
 """An arc that begins in the direction of the element before it; one that has none before it."""
 CORNER_ALONE = "@corner-alone"
 """A block of its own that makes a corner, behind no move."""
+BESIDE_ARC = "@beside-arc"
+"""Its element or the next one is an arc."""
 ORDINARY = "@ordinary"
 """The control calculates nothing for it."""
 
@@ -91,6 +93,8 @@ class Member(Struct, frozen=True):
     """Another block of the contour follows."""
     corner: Block | None = None
     """The block of its own that states the corner behind it."""
+    is_straight: bool = False
+    """The next element begins in the direction in which it ends, so that a word that stays in force makes no corner."""
 
 
 class Joining(Enum):

@@ -126,4 +126,12 @@ def _remember(memory: Mapping[str, Word], block: Block) -> Mapping[str, Word]:
     return {"I": size} if is_corner and size is not None else memory
 
 
-MODES = Modes(_words(), _codes(), ("X", "Y", "Z"), frozenset({2, 17, 29, 30}), syntax=SYNTAX, remember=_remember)
+MODES = Modes(
+    _words(),
+    _codes(),
+    ("X", "Y", "Z"),
+    frozenset({2, 17, 29, 30}),
+    syntax=SYNTAX,
+    remember=_remember,
+    call_addresses=frozenset("L"),
+)

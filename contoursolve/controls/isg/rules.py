@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from contoursolve.controls.chain.language import ARC, CORNER_ALONE, FOLLOWED, LINE, OVER_LINE
+from contoursolve.controls.chain.language import BESIDE_ARC, CORNER_ALONE, FOLLOWED, LINE, OVER_LINE
 from contoursolve.controls.chain.rules import ANY, FIRST, SECOND, STEPS, Manual, chain_rules
 from contoursolve.controls.common import COMMON_RULES
 from contoursolve.controls.geometry_rules import GEOMETRY_RULES
@@ -44,7 +44,7 @@ _OWN = (
     _row("two-corners", "{words}: a corner takes one of #RND, #CHR and #CHF", "keep one of them",
          Count(_CORNERS, 2), ANY, MANUAL.cut, ("#RND=5", "#RND=5 #CHR=5")),
     _row("face-on-arc", "{words}: the face of a chamfer beside an arc is not computed", "write #CHR, or #RND",
-         some("#CHF"), (ARC,), MANUAL.arc, ("J0", "J0 #CHF=3\nG1 X90")),
+         some("#CHF") & some(BESIDE_ARC), ANY, MANUAL.arc, ("J0", "J0 #CHF=3\nG1 X90"), ("#RND=6", "#CHF=6")),
     _row("angle-redundant", "{words} is one word too many beside both coordinates{comparison}",
          "delete a coordinate, or the angle", all_of(FIRST, SECOND, "#ANG") & ~some(FOLLOWED), (LINE,), MANUAL.angled,
          ("X40", "X40 Y20"), evidence=_PRINTED, ignores="#ANG"),
