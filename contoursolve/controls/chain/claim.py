@@ -22,6 +22,7 @@ from contoursolve.controls.chain.language import (
     ONE_CENTER,
     ONLY,
     ORDINARY,
+    OTHER_DIAMETER,
     OTHER_PLANE,
     POINT,
     RAPID,
@@ -224,7 +225,7 @@ def _supplied(
 
 
 def _circumstances(language: Language, member: Member, first: State, *, is_only: bool, is_first: bool) -> Iterator[str]:
-    radius = member.block.find(language.radius)
+    radius, plane = member.block.find(language.radius), member.here.plane
     is_negative = radius is not None and radius.number is not None and radius.number < 0
     centers = sum(member.block.find(address) is not None for address in first.plane.centers)
     holds = {
@@ -232,7 +233,8 @@ def _circumstances(language: Language, member: Member, first: State, *, is_only:
         NEGATIVE_RADIUS: member.element.is_over and is_negative,
         ONE_CENTER: member.element.turn is not None and not member.element.is_over and centers == 1,
         ALONE: member.is_alone,
-        OTHER_PLANE: member.here.plane != first.plane,
+        OTHER_PLANE: replace(plane, diameters=first.plane.diameters) != first.plane,
+        OTHER_DIAMETER: plane.code == first.plane.code and plane.diameters != first.plane.diameters,
         RAPID: member.here.motion == 0,
         FOLLOWED: member.element.is_followed,
         LAST: member.is_last,

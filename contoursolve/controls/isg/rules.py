@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from contoursolve.controls.chain.language import BESIDE_ARC, CORNER_ALONE, FOLLOWED, LINE, OVER_LINE
+from contoursolve.controls.chain.language import BESIDE_ARC, CORNER_ALONE, FOLLOWED, LINE, OTHER_DIAMETER, OVER_LINE
 from contoursolve.controls.chain.rules import ANY, FIRST, SECOND, STEPS, Manual, chain_rules
 from contoursolve.controls.common import COMMON_RULES
 from contoursolve.controls.geometry_rules import GEOMETRY_RULES
@@ -56,6 +56,10 @@ _OWN = (
     _row("corner-alone", "G301 and G302 stand between two moves; here no move is right before",
          "put the corner right behind the move that it ends", some(CORNER_ALONE), (LINE,), _BLOCK,
          ("G302 I5", "G302 I5\nG301 I2"), evidence=_PRINTED),
+    _row("diameter-changes", "X is a diameter in one block of the contour and a radius in another",
+         "write G51 or G52 before its first block", some(OTHER_DIAMETER), ANY,
+         "G18 G51 G90 G0 X20 Z0\nG1 X40 #RND=2\nG1 Z-50",
+         ("Z-50", "G52 Z-50")),
 )  # fmt: skip
 
 

@@ -3,7 +3,7 @@
 from dataclasses import replace
 from decimal import Decimal
 
-from contoursolve.controls.chain.language import ARC, BESIDE_ARC, FOLLOWED, LINE, NO_TANGENT, OVER_LINE
+from contoursolve.controls.chain.language import ARC, BESIDE_ARC, FOLLOWED, LINE, NO_TANGENT, OTHER_DIAMETER, OVER_LINE
 from contoursolve.controls.chain.rules import ANY, FIRST, SECOND, STEPS, Manual, chain_rules
 from contoursolve.controls.common import COMMON_RULES
 from contoursolve.controls.geometry_rules import GEOMETRY_RULES
@@ -61,6 +61,10 @@ _OWN = (
          some(*STEPS) & some(NO_STEPS), (OVER_LINE,), MANUAL.vertex),
     _row("rounding-negative", "{words}: a rounding has no sign", "delete the minus sign; RNDM=0 ends the roundings",
          Value(("RNDM",), least=Decimal(0)), ANY, MANUAL.cut.replace("RND", "RNDM"), ("=5", "=-5")),
+    _row("diameter-changes", "X is a diameter in one block of the contour and a radius in another",
+         "write DIAMON, DIAMOF or DIAM90 before its first block", some(OTHER_DIAMETER), ANY,
+         "G18 DIAMON G90 G0 X20 Z0\nG1 X40 RND=2\nZ-50",
+         ("Z-50", "DIAMOF Z-50")),
     _row("no-tangent", "CT begins in the direction of the move before it, and no G1, G2, G3 or CT is right before it",
          "put a line or an arc right before it, or write G2 or G3 with CR", some(NO_TANGENT), (ARC,),
          _START + "G1 X20\nCT X40 Y20", _START + "CT X40 Y20", evidence=Evidence.PRINTED),
