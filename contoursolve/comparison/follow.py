@@ -125,7 +125,7 @@ class _Follower:
             yield self._unfollowed(block, "a macro statement may jump" if is_flow else "it sets a variable")
             return
         for word in block.words:
-            if word.address == "M" and word.number in self.modes.calls:
+            if self.modes.is_call(word):
                 yield self._unfollowed(block, f"{word.text.strip()} calls or ends a subprogram")
                 return
         is_preset = False

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from decimal import Decimal
 from enum import Enum
 from functools import lru_cache
@@ -38,6 +38,7 @@ from contoursolve.diagnosis.spelling import (
 from contoursolve.diagnostics.display import Shown
 from contoursolve.diagnostics.finding import Basis, Diagnosis, Diagnostic, Severity
 from contoursolve.diagnostics.source import Span
+from contoursolve.gcode import Word
 from contoursolve.geometry import Length, Plane, Profile, Question, Side, Start, System, assemble
 from contoursolve.reading import AT_ITS_LIMIT, Assumption, ParsedContour, ReadIssue, read, unused_words
 from contoursolve.reading.rules import Offence, Rule, check
@@ -337,7 +338,10 @@ def _examine_words(context: Context, claim: ParsedContour, notebook: _Notebook) 
     """Characters, addresses and values, before any of them is given a meaning."""
     for finding in explain_spelling(context, claim):
         notebook.add(finding, Status.REJECTED)
-    variables = [word for word in claim.words.values() if word.number is None and not word.is_asked]
+    texts = {word.text for word in claim.words.values()}
+    in_force = {word.text: word for word in claim.kept.values() if word.text not in texts}
+    stated = (*claim.words.values(), *in_force.values())
+    variables = [word for word in stated if word.number is None and not word.is_asked]
     if variables:
         notebook.add(report(context, context.row(ReadIssue.VARIABLE), Basis.RULE, variables), Status.UNDERDETERMINED)
 
@@ -429,17 +433,22 @@ def _examine_system(context: Context, claim: ParsedContour, profile: Profile) ->
     for corner in profile.figure.corners:
         by_name.setdefault(corner.name, []).append(corner.size)
         if corner.size in profile.givens and profile.givens[corner.size].value < 0:
-            rule, word = context.row(ReadIssue.CORNER_NEGATIVE), [context.words[corner.size]]
+            rule, word = context.row(ReadIssue.CORNER_NEGATIVE), _words_of(context, [corner.size])
             yield Status.NO_SOLUTION, report(context, rule, Basis.NUMERICAL, word, subject=corner.name)
         if corner.after is None and corner.lands_parallel_to is None and corner.lands_on is None:
             rule = context.row(ReadIssue.CORNER_NOWHERE)
-            word = [context.words[corner.size]]
+            word = _words_of(context, [corner.size])
             yield Status.UNDERDETERMINED, report(context, rule, Basis.STRUCTURAL, word, subject=corner.name)
     for name, sizes in by_name.items():
         if len(sizes) > 1:
-            words = [context.words[size] for size in sizes]
+            words = _words_of(context, sizes)
             rule = context.row(ReadIssue.CORNER_TWICE)
             yield Status.CONFLICTING, report(context, rule, Basis.STRUCTURAL, words, subject=name)
+
+
+def _words_of(context: Context, sizes: Iterable[str]) -> list[Word]:
+    """The words that state sizes; a size that stays in force has none in the contour."""
+    return [context.words[size] for size in sizes if size in context.words]
 
 
 def rank(finding: Diagnostic) -> tuple[int, int, bool, Span, str]:

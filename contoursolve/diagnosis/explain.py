@@ -109,7 +109,9 @@ class Context(Struct, frozen=True):
 
 def context_of(claim: ParsedContour, rules: tuple[Rule, ...]) -> Context:
     """The context of a contour; it begins where its first block does, and rows of its own roles come first."""
-    return Context(_own_first(rules, claim.form.roles), claim.after.unit, claim.words, claim.blocks[0].span)
+    return Context(
+        _own_first(rules, claim.form.roles), claim.after.unit, {**claim.kept, **claim.words}, claim.blocks[0].span
+    )
 
 
 @lru_cache(maxsize=256)
@@ -271,9 +273,11 @@ def explain_result(
     context: Context, event: Refusal | Note, profile: Profile, alternatives: Alternatives | None = None
 ) -> Diagnostic:
     """A refusal or a remark of the solver; `alternatives` is what a search found."""
-    givens = [profile.givens[name] for name in event.givens if name in profile.givens]
+    names = [name for name in event.givens if name in profile.givens]
+    givens = [profile.givens[name] for name in names]
+    stated = [profile.givens[name].word or context.words.get(name) for name in names]
     asked = [question.word for question in profile.questions if question.name in event.givens]
-    words = list({word.span: word for word in (*(given.word for given in givens), *asked) if word}.values())
+    words = list({word.span: word for word in (*stated, *asked) if word}.values())
     values = dict(event.values)
     things = list(dict.fromkeys(name.rpartition(".")[0] or name for name in event.subject.split(",")))
     fields: dict[str, Any] = {

@@ -46,7 +46,7 @@ def reliance(block: Block, modes: Modes) -> Reliance:
         return Reliance.BESIDE if block.is_skippable else Reliance.ENDS
     if block.macro is Macro.FLOW or len(known) < len(codes):
         return Reliance.BESIDE
-    if any(word.address == "M" and word.number in modes.calls for word in block.words):
+    if any(modes.is_call(word) for word in block.words):
         return Reliance.BESIDE
     if block.find("O"):
         return Reliance.ENDS

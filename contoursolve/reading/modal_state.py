@@ -157,6 +157,8 @@ class Modes:
     axes: tuple[str, ...]
     calls: frozenset[int]
     """M codes that call or end a subprogram."""
+    call_addresses: frozenset[str] = field(default=frozenset(), kw_only=True)
+    """Addresses of words that call one."""
     settings: Mapping[str, str] = field(default_factory=dict)
     """The values of settings that are not the default ones, by name."""
     syntax: Syntax = ISO
@@ -165,6 +167,10 @@ class Modes:
     """The address of an arc's radius."""
     remember: Callable[[Mapping[str, Word], Block], Mapping[str, Word]] | None = None
     """From the words that stay in force, and a block, to those behind it; the same record if nothing changes."""
+
+    def is_call(self, word: Word) -> bool:
+        """Whether a word calls or ends a subprogram."""
+        return (word.address == "M" and word.number in self.calls) or word.address in self.call_addresses
 
     def words(self, state: State) -> Lexicon:
         """The lexicon by which words are read in a state."""
@@ -248,7 +254,7 @@ def advance(state: State, block: Block, modes: Modes) -> State:
     if block.find("O"):
         state = state.lose(modes.axes, "a new program begins", block.span)
     for word in block.words:
-        if word.address == "M" and word.number in modes.calls:
+        if modes.is_call(word):
             return state.lose(modes.axes, f"{word.text} calls or ends a subprogram", word.span)
     codes = codes_of(block, modes)
     for code in codes:
@@ -369,7 +375,7 @@ def plain_lines(axes: Iterable[str]) -> re.Pattern[str]:
 
 def is_plain(state: State) -> bool:
     """Whether plain lines are lines to their coordinates in this state."""
-    return state.motion in (0, 1) and not state.is_incremental
+    return state.motion in (0, 1) and not state.is_incremental and not state.memory
 
 
 def words_of(line: str) -> str:

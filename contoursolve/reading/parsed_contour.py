@@ -101,6 +101,12 @@ class ParsedContour:
     limits: Mapping[str, Decimal] = field(default_factory=dict)
     """Values of givens, mm, on whose two sides the words are read in different ways while the others stay."""
 
+    kept: Mapping[str, Word] = field(default_factory=dict)
+    """Words before its block that stay in force, by the names of the givens that they state; each as if it stood in the
+    block."""
+    lasting: frozenset[str] = frozenset()
+    """Names of words that stay in force behind their block, whether they state anything in it or not."""
+
     def beside_plane(self, block: Block) -> list[Word]:
         """The words of one of its blocks that move an axis outside the plane."""
         rows = ((word, self.lexicon.addresses.get(word.address)) for word in block.words)
@@ -158,7 +164,7 @@ def unused_words(claim: ParsedContour, profile: Profile) -> list[Word]:
     """The words with a value that states nothing about the contour and chooses nothing."""
     used = {fact.given for fact in (*profile.facts, *profile.ignored)}
     used |= {choice.given for choice in claim.choices} | {question.name for question in profile.questions}
-    used |= {name for row in claim.form.corners for name in row.shapes}
+    used |= {name for row in claim.form.corners for name in row.shapes} | claim.lasting
     # One block moves all its axes; where several make a contour, that is left to its rules.
     beside = claim.beside_plane(claim.blocks[0]) if len(claim.blocks) == 1 else []
     words = (given.word for name, given in claim.givens.items() if given.word and name not in used)

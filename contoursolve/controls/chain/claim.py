@@ -10,6 +10,7 @@ from contoursolve.controls.chain.form import Names, compose, names_of
 from contoursolve.controls.chain.language import (
     AIMED,
     ALONE,
+    BESIDE_ARC,
     CORNER_ALONE,
     FEED,
     FOLLOWED,
@@ -21,6 +22,7 @@ from contoursolve.controls.chain.language import (
     ONE_CENTER,
     ONLY,
     ORDINARY,
+    OTHER_DIAMETER,
     OTHER_PLANE,
     POINT,
     RAPID,
@@ -44,6 +46,7 @@ def claim_of(language: Language, members: Sequence[Member], before: State, modes
     names = names_of(elements)
     first = members[0].here
     words: dict[str, Word] = {}
+    kept: dict[str, Word] = {}
     repeated: list[Word] = []
     givens: dict[str, Given] = {}
     vocabulary: dict[str, tuple[str, int]] = {}
@@ -52,22 +55,23 @@ def claim_of(language: Language, members: Sequence[Member], before: State, modes
     for index, member in enumerate(members):
         called = _calls(language, member)
         prefix = f"{index + 1}:"
-        vocabulary |= {prefix + name: (address, len(blocks)) for address, name in called.items()}
+        for address, name in called.items():
+            # Of several words for the same thing, the one that is there; else the plain one.
+            if prefix + name not in vocabulary or member.block.find(address):
+                vocabulary[prefix + name] = address, len(blocks)
         own: dict[str, Word] = {}
         blocks.append(member.block)
         for word in member.block.words:
-            if word.address in language.modal_corner:
-                continue
             code = word.number if word.address == "G" else ""
             name = called.get(word.address, f"{word.address}{code}")
             if name in own and word.address != "M":
                 repeated.append(word)
             own.setdefault(name, word)
-        kept = _kept_corner(language, own, member, modes) | _kept_angle(language, own, member, modes)
-        own_givens = _givens(language, own, member, modes) | kept
-        words |= {prefix + name: given.word for name, given in kept.items() if given.word}
+        sized, in_force = _kept_corner(language, own, member, modes)
+        angled, turned = _kept_angle(language, own, member, modes)
+        own_givens = _givens(language, own, member, modes) | sized | angled
         if member.corner is not None:
-            sized, corner = _corner_of(language, member.corner, member.here, modes)
+            sized, corner, in_force = _corner_of(language, member.corner, member.here, modes)
             own_givens |= sized
             for name, word in corner.items():
                 if name in own:
@@ -76,10 +80,12 @@ def claim_of(language: Language, members: Sequence[Member], before: State, modes
                 vocabulary[prefix + name] = (language.corner_size, len(blocks))
             blocks.append(member.corner)
         words |= {prefix + name: word for name, word in own.items()}
+        kept |= {prefix + name: word for name, word in (in_force | turned).items()}
         givens |= {prefix + name: replace(given, name=prefix + name) for name, given in own_givens.items()}
         since = (before, *(each.here for each in members))[max(index - 1, 0) : index + 2]
         holds = {
             *_circumstances(language, member, first, is_only=len(members) == 1, is_first=not index),
+            *([BESIDE_ARC] if any(each.turn is not None for each in elements[index : index + 2]) else []),
             *language.circumstances(member, since, modes),
         }
         circumstances |= {prefix + name for name in holds}
@@ -102,6 +108,8 @@ def claim_of(language: Language, members: Sequence[Member], before: State, modes
         selected=language.planes.get(members[-1].here.plane.code),
         conventions=tuple(language.conventions(form, circumstances, modes)),
         makes=_makes(form, members) if len(blocks) > len(members) else (),
+        kept=kept,
+        lasting=frozenset(name for name in known if name.partition(":")[2] in language.modal_corner),
     )
 
 
@@ -115,36 +123,50 @@ def _makes(form: ContourForm, members: Sequence[Member]) -> tuple[tuple[str, ...
     return tuple(found)
 
 
-def _corner_of(language: Language, block: Block, here: State, modes: Modes) -> tuple[dict[str, Given], dict[str, Word]]:
-    """The size that a block of its own gives a corner; the last one given if it has none."""
+def _corner_of(
+    language: Language, block: Block, here: State, modes: Modes
+) -> tuple[dict[str, Given], dict[str, Word], dict[str, Word]]:
+    """The size that a block of its own gives a corner, with its word; the last one given if it has none."""
     shapes = (language.corner_codes.get(int(word.number or 0)) for word in block.words if word.address == "G")
     name = next(filter(None, shapes))
     own, kept = block.find(language.corner_size), here.memory.get(language.corner_size)
     word = own or kept
     size = modes.words(here).given(name, word, here.unit) if word else None
-    return ({name: size} if size else {}), ({name: word} if word else {})
+    givens = {name: size if own else replace(size, word=None)} if size else {}
+    return givens, {name: own} if own else {}, {name: _put(kept, block)} if kept and not own else {}
 
 
-def _kept_corner(language: Language, own: Mapping[str, Word], member: Member, modes: Modes) -> dict[str, Given]:
-    """The corner that a word makes that stays in force, where the block has no corner word."""
-    if member.corner is not None or any(word in own for word in language.corners) or not member.is_joined:
-        return {}
-    for word, corner in language.modal_corner.items():
-        kept = member.here.memory.get(word)
-        size = modes.words(member.here).given(corner, kept, member.here.unit) if kept else None
-        if size is not None:
-            return {corner: size}
-    return {}
+def _kept_corner(
+    language: Language, own: Mapping[str, Word], member: Member, modes: Modes
+) -> tuple[dict[str, Given], dict[str, Word]]:
+    """The corner that a word makes that stays in force, where the block has no corner word; and that word."""
+    is_own = member.corner is not None or any(word in own for word in language.corners)
+    if is_own or member.is_straight or not member.is_joined:
+        return {}, {}
+    for address, corner in language.modal_corner.items():
+        word = member.here.memory.get(address)
+        if word is not None:
+            size = modes.words(member.here).given(corner, word, member.here.unit)
+            return ({corner: replace(size, word=None)} if size else {}), {corner: _put(word, member.block)}
+    return {}, {}
 
 
-def _kept_angle(language: Language, own: Mapping[str, Word], member: Member, modes: Modes) -> dict[str, Given]:
-    """The angle that stays in force, of a line with one coordinate and no angle."""
+def _put(word: Word, block: Block) -> Word:
+    """A word of an earlier block, as if it stood where a block does."""
+    return word if word in block.words else replace(word, span=block.span)
+
+
+def _kept_angle(
+    language: Language, own: Mapping[str, Word], member: Member, modes: Modes
+) -> tuple[dict[str, Given], dict[str, Word]]:
+    """The angle that stays in force, of a line with one coordinate and no angle; and its word."""
     word = member.here.memory.get(language.angle) if language.keeps_angle else None
     stated = {name.removesuffix("-step") for name in own} & {*_ORDERS}
     if word is None or language.angle in own or member.element.turn is not None or len(stated) != 1:
-        return {}
-    given = modes.words(member.here).given(language.angle, word, member.here.unit)
-    return {language.angle: given} if given else {}
+        return {}, {}
+    here = _put(word, member.block)
+    given = modes.words(member.here).given(language.angle, here, member.here.unit)
+    return ({language.angle: given} if given else {}), {language.angle: here}
 
 
 def _calls(language: Language, member: Member) -> dict[str, str]:
@@ -194,7 +216,9 @@ def _givens(language: Language, words: Mapping[str, Word], member: Member, modes
     if element.is_over:
         return stated
     ends = {name.removesuffix("-step") for name in stated} & {*_ORDERS}
-    is_partial = element.turn is None and (language.angle in words or _kept_angle(language, words, member, modes))
+    is_partial = element.turn is None and (
+        language.angle in words or bool(_kept_angle(language, words, member, modes)[0])
+    )
     if not is_partial and (ends or not element.is_followed):
         stated |= _supplied("", "-step", stated, asked, is_always=not element.is_followed)
     if ends and element.is_followed:
@@ -216,7 +240,7 @@ def _supplied(
 
 
 def _circumstances(language: Language, member: Member, first: State, *, is_only: bool, is_first: bool) -> Iterator[str]:
-    radius = member.block.find(language.address_of("R"))
+    radius, plane = member.block.find(language.address_of("R")), member.here.plane
     is_negative = radius is not None and radius.number is not None and radius.number < 0
     centers = sum(member.block.find(address) is not None for address in first.plane.centers)
     holds = {
@@ -224,7 +248,8 @@ def _circumstances(language: Language, member: Member, first: State, *, is_only:
         NEGATIVE_RADIUS: member.element.is_over and is_negative,
         ONE_CENTER: member.element.turn is not None and not member.element.is_over and centers == 1,
         ALONE: member.is_alone,
-        OTHER_PLANE: member.here.plane != first.plane,
+        OTHER_PLANE: replace(plane, diameters=first.plane.diameters) != first.plane,
+        OTHER_DIAMETER: plane.code == first.plane.code and plane.diameters != first.plane.diameters,
         RAPID: member.here.motion == 0,
         FOLLOWED: member.element.is_followed,
         LAST: member.is_last,

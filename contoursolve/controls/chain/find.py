@@ -11,10 +11,11 @@ from typing import Any
 
 from msgspec.structs import replace
 
+from contoursolve.analysis import analyse
 from contoursolve.controls.chain.claim import claim_of
 from contoursolve.controls.chain.language import Element, Joining, Language, Member
 from contoursolve.gcode import Block, Word
-from contoursolve.geometry import Turn
+from contoursolve.geometry import Turn, assemble
 from contoursolve.reading import (
     Effect,
     Lexicon,
@@ -29,11 +30,20 @@ from contoursolve.reading import (
     read,
 )
 from contoursolve.reading.dialect import Dialect
-from contoursolve.solving import Status, solve
+from contoursolve.solving import Status, is_closed, solve
 from contoursolve.solving.contour import ArcSegment, Segment, trace
 
+STRAIGHT = 1e-6
+"""How far beside the direction before it an arc may end that becomes a line, mm."""
+
+_SAME = 1e-9
+"""The sine of the angle between two directions that are one."""
+
+_Ways = tuple[complex | None, complex | None]
+"""The directions in which an element begins and ends; None where they are not known."""
+
 _TURNS = {2: Turn.CW, 3: Turn.CCW}
-_QUIET = (Effect.NONE, Effect.NO_MOTION)
+_QUIET = (Effect.NONE, Effect.NO_MOTION, Effect.PLANE)
 _OWN_USE = (Effect.CORNER, Effect.SINGLE, Effect.NO_MOTION, Effect.PRESET, Effect.CYCLE, Effect.FRAME)
 
 
@@ -60,26 +70,26 @@ class ChainFinder:
         position = index
         while members[0].here.motion in self._cutting or self._runs_in_rapid(members):
             last = members[-1]
-            following = self._next(blocks, position, last.here, modes)
+            following, here = self._next(blocks, position, last.here, modes)
             if following is not None and self._is_corner(blocks[following]):
-                here = self._apply(last.here, blocks[following], modes)
+                here = self._apply(here, blocks[following], modes)
                 members[-1] = last = replace(last, corner=blocks[following], here=here)
-                is_tied, following = True, self._next(blocks, following, here, modes)
-            if following is None or not self._is_motion(blocks[following], last.here, modes):
+                is_tied = True
+                following, here = self._next(blocks, following, here, modes)
+            if following is None or not self._is_motion(blocks[following], here, modes):
                 break
-            here = self._apply(last.here, blocks[following], modes)
+            before, here = here, self._apply(here, blocks[following], modes)
             is_over = self._begins_in_intersection(last, blocks[following], here)
             is_cut = here.motion in self._cutting and self._moves(blocks[following], here)
-            is_smooth = self.language.tangent_arc is not None and here.motion == self.language.tangent_arc
+            is_smooth = here.motion == self.language.tangent_arc and last.here.motion in self._cutting
             if not is_over and not is_smooth and not (self._makes_corner(last) and is_cut):
                 break
             if is_over:
                 members[-1] = replace(last, element=replace(last.element, is_followed=True))
             members[-1] = replace(members[-1], is_joined=True)
-            members.append(self._member(blocks[following], last.here, modes, is_over=is_over))
+            members.append(self._member(blocks[following], before, modes, is_over=is_over))
             if is_smooth:
-                turn = self._turn(members, state, modes)
-                members[-1] = replace(members[-1], element=replace(members[-1].element, turn=turn))
+                members[-1] = replace(members[-1], element=self._bend(members, state, modes))
             if is_over and self._touches(members[-2], members[-1]):
                 members[-1] = replace(members[-1], element=replace(members[-1].element, touches=True))
             position = following
@@ -90,6 +100,7 @@ class ChainFinder:
             return None
         members[0] = replace(members[0], is_alone=is_alone)
         members[-1] = replace(members[-1], is_last=self._has_corner(members[-1]))
+        members = self._without_straight(members, state, modes)
         return claim_of(self.language, members, state, modes)
 
     def _member(self, block: Block, before: State, modes: Modes, *, is_over: bool) -> Member:
@@ -101,20 +112,63 @@ class ChainFinder:
     def _runs_in_rapid(self, members: Sequence[Member]) -> bool:
         return self.language.runs_in_rapid and members[-1].here.motion == 0
 
-    def _turn(self, members: Sequence[Member], state: State, modes: Modes) -> Turn:
-        """The way in which an arc turns that begins in the direction of what is before it: to the side on which it
-        ends. Where what is before it is not known, either way."""
-        tail, last = claim_of(self.language, members[:-1], state, modes), members[-1]
-        profile = read(tail, frozenset())
-        solution = solve(profile, is_proven=False) if profile.start.is_known else None
-        if solution is None or solution.status is not Status.SOLVED:
-            return Turn.CCW
-        contour = trace(profile, solution)
-        ends = positions(
-            leave(tail, contour.end, modes), [word for word in last.block.words if _is_axis(word, modes)], modes, False
-        )
-        place = tuple(ends.get(axis, None) for axis in last.here.plane.axes)
-        return _side_of(contour.elements[-1], place)
+    def _bend(self, members: Sequence[Member], state: State, modes: Modes) -> Element:
+        """The last block's element: an arc that begins in the direction of what is before it turns to the side on which
+        it ends, and is a line where it ends straight ahead. Where what is before it is not known, it is any arc."""
+        element = members[-1].element
+        state, ways = self._ways(members[:-1], state, modes)
+        way, chord = ways[-1][1], _chord(members[-1], state, modes)
+        if way is None or not chord:
+            return element
+        aside = (way.conjugate() * chord).imag
+        if abs(aside) <= STRAIGHT and (way.conjugate() * chord).real > 0:
+            return replace(element, turn=None, is_smooth=False)
+        return replace(element, turn=Turn.CW if aside < 0 else Turn.CCW)
+
+    def _without_straight(self, members: Sequence[Member], state: State, modes: Modes) -> list[Member]:
+        """The members, without the corners of a word that stays in force where the direction does not change."""
+        if not any(member.here.memory.keys() & self.language.modal_corner.keys() for member in members):
+            return list(members)
+        _, ways = self._ways(members, state, modes)
+        found = []
+        for (_, end), (begin, _), member in zip(ways, ways[1:], members, strict=False):
+            turn = end.conjugate() * begin if end is not None and begin is not None else None
+            is_straight = turn is not None and abs(turn.imag) <= _SAME and turn.real > 0
+            found.append(replace(member, is_straight=True) if is_straight else member)
+        return [*found, members[-1]]
+
+    def _ways(self, members: Sequence[Member], state: State, modes: Modes) -> tuple[State, list[_Ways]]:
+        """The state behind blocks, and the directions in which each of them begins and ends, without the corners."""
+        ways, run = list[_Ways](), list[Member]()
+        for member in (*members, None):
+            if member is not None and not member.element.is_smooth:
+                run.append(member)
+                continue
+            if run:
+                state, found = self._ways_of_run(run, state, modes)
+                ways, run = [*ways, *found], []
+            if member is not None:
+                way, chord = ways[-1][1] if ways else None, _chord(member, state, modes)
+                # A chord lies in the middle between the directions at its ends.
+                end = way.conjugate() * chord**2 / abs(chord) ** 2 if way is not None and chord else None
+                state, ways = state.move(_ends(member, state, modes)), [*ways, (way, end)]
+        return state, ways
+
+    def _ways_of_run(self, run: Sequence[Member], state: State, modes: Modes) -> tuple[State, list[_Ways]]:
+        """The same of blocks without arcs that begin in the direction of what is before them."""
+        claim = claim_of(self.language, run, state, modes)
+        corners = frozenset(name for name in claim.givens if name.partition(":")[2] in self._cornered)
+        profile = read(claim, corners)
+        system = assemble(profile)
+        if profile.start.is_known and analyse(system).is_determined and is_closed(system):
+            solution = solve(profile, is_proven=False)
+            if solution.status in (Status.SOLVED, Status.OVERDETERMINED):
+                contour = trace(profile, solution)
+                elements = {each.name: each for each in contour.elements}
+                return leave(claim, contour.end, modes), [
+                    _ways_of(elements[each.name]) if each.name in elements else (None, None) for each in claim.form.path
+                ]
+        return leave(claim, None, modes), [(None, None)] * len(run)
 
     def _is_corner(self, block: Block) -> bool:
         """Whether a block makes a corner between those beside it, and nothing else."""
@@ -134,32 +188,31 @@ class ChainFinder:
         named = tuple(parallel[axis] if axis in moved else axis for axis in axes)
         return replace(here, plane=replace(here.plane, axes=(named[0], named[1])))
 
-    def _next(self, blocks: Sequence[Block], index: int, here: State, modes: Modes) -> int | None:
-        """The index of the next block that says something, and is none that a contour may have between its blocks."""
+    def _next(self, blocks: Sequence[Block], index: int, here: State, modes: Modes) -> tuple[int | None, State]:
+        """The index of the next block that says something, and is none that a contour may have between its blocks; and
+        the state before it."""
         passed = 0
         for other in count(index + 1):  # the length of what is read ahead is not known without counting
             try:
                 block = blocks[other]
             except IndexError:
-                return None
+                return None, here
             codes = {word.number for word in block.words if word.address == "G"}
             if not _has_words(block) or (codes and codes <= self.language.passes):
                 continue
             if passed == self.language.between or not self._is_idle(block, here, modes):
-                return other
+                return other, here
+            here = self._apply(here, block, modes)
             passed += 1
-        return None
+        return None, here
 
     def _is_idle(self, block: Block, here: State, modes: Modes) -> bool:
-        """Whether a block moves nothing, and leaves the motion and the plane as they are."""
-        if (
-            block.faults
-            or block.macro
-            or any(word.address == "M" and word.number in modes.calls for word in block.words)
-        ):
+        """Whether a block moves nothing, and leaves the motion and how words are read as they are. It may select a
+        plane: a contour that goes on in another one is refused."""
+        if block.faults or block.macro or any(modes.is_call(word) for word in block.words):
             return False
         codes = codes_of(block, modes)
-        is_quiet = all(not isinstance(code, Word) and code.effect in _QUIET for code in codes)
+        is_quiet = all(not isinstance(code, Word) and code.effect in _QUIET and code.diameter is None for code in codes)
         return is_quiet and not self._moves(block, here) and not self._is_corner(block)
 
     def _is_motion(self, block: Block, state: State, modes: Modes) -> bool:
@@ -321,19 +374,27 @@ def _is_axis(word: Word, modes: Modes) -> bool:
     return row is not None and bool(row.axis)
 
 
-def _side_of(segment: Segment, place: Sequence[Position | None]) -> Turn:
-    """To which side of the end of an element a place lies."""
-    first, second = (
-        float(at.value) if at is not None and at.value is not None else end
-        for at, end in zip(place, segment.end, strict=True)
-    )
+def _ways_of(segment: Segment) -> _Ways:
+    """The directions in which an element begins and ends, of length 1."""
+    start, end = complex(*segment.start), complex(*segment.end)
     if isinstance(segment, ArcSegment):
-        spoke = segment.end[0] - segment.center[0], segment.end[1] - segment.center[1]
-        way = -segment.turn.sign * spoke[1], segment.turn.sign * spoke[0]
-    else:
-        way = segment.end[0] - segment.start[0], segment.end[1] - segment.start[1]
-    aside = way[0] * (second - segment.end[1]) - way[1] * (first - segment.end[0])
-    return Turn.CW if aside < 0 else Turn.CCW
+        center = complex(*segment.center)
+        spokes = [(at - center) * segment.turn.sign * 1j for at in (start, end)]
+        return spokes[0] / abs(spokes[0]), spokes[1] / abs(spokes[1])
+    return (end - start) / abs(end - start), (end - start) / abs(end - start)
+
+
+def _chord(member: Member, state: State, modes: Modes) -> complex | None:
+    """From where a block begins to where its words end, if both are known."""
+    ends = _ends(member, state, modes)
+    values = [(state.axes[axis].value, ends.get(axis, state.axes[axis]).value) for axis in member.here.plane.axes]
+    steps = [float(end - start) for start, end in values if start is not None and end is not None]
+    return complex(*steps) if len(steps) == len(values) else None
+
+
+def _ends(member: Member, state: State, modes: Modes) -> dict[str, Position]:
+    here = replace(member.here, axes=state.axes)
+    return positions(here, [word for word in member.block.words if _is_axis(word, modes)], modes, False)
 
 
 def _words(*blocks: Block) -> Iterator[Word]:

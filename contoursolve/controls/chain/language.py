@@ -17,6 +17,8 @@ LINE_LINE, LINE_CIRCLE, CIRCLE_LINE, CIRCLE_CIRCLE = "line-line", "line-circle",
 """The roles of two blocks that meet in a computed intersection."""
 
 ALONE, OTHER_PLANE, RAPID = "@alone", "@other-plane", "@rapid"
+OTHER_DIAMETER = "@other-diameter"
+"""X is a diameter here and a radius where the contour begins, or the other way round."""
 FOLLOWED = "@followed"
 """This block ends in a computed intersection with the next one."""
 LAST = "@last"
@@ -31,6 +33,8 @@ SMOOTH, NO_TANGENT = "@smooth", "@no-tangent"
 """An arc that begins in the direction of the element before it; one that has none before it."""
 CORNER_ALONE = "@corner-alone"
 """A block of its own that makes a corner, behind no move."""
+BESIDE_ARC = "@beside-arc"
+"""Its element or the next one is an arc."""
 ORDINARY = "@ordinary"
 """The control calculates nothing for it."""
 
@@ -91,6 +95,8 @@ class Member(Struct, frozen=True):
     """Another block of the contour follows."""
     corner: Block | None = None
     """The block of its own that states the corner behind it."""
+    is_straight: bool = False
+    """The next element begins in the direction in which it ends, so that a word that stays in force makes no corner."""
 
 
 class Joining(Enum):

@@ -6,6 +6,7 @@ from decimal import Decimal
 
 from contoursolve.controls.chain.language import (
     ARC,
+    CORNER_ALONE,
     FOLLOWED,
     LAST,
     LINE,
@@ -123,7 +124,7 @@ def chain_rules(manual: Manual) -> Iterator[Rule]:
         "center-on-line",
         "{words}: a line has no centre and no radius",
         f"delete it; a rounding is {manual.rounding}",
-        some(*STATED_CENTER, "R"),
+        some(*STATED_CENTER, "R") & ~some(CORNER_ALONE),
         LINES,
         cut,
         (second, second + " I5"),

@@ -117,4 +117,12 @@ def _remember(memory: Mapping[str, Word], block: Block) -> Mapping[str, Word]:
     return {**memory, **kept} if kept else memory
 
 
-MODES = Modes(_words(), _codes(), ("X", "Y", "Z"), frozenset({2, 17, 29, 30}), syntax=SYNTAX, remember=_remember)
+MODES = Modes(
+    _words(),
+    _codes(),
+    ("X", "Y", "Z"),
+    frozenset({2, 17, 29, 30}),
+    syntax=SYNTAX,
+    remember=_remember,
+    call_addresses=frozenset("L"),
+)

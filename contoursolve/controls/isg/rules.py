@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from contoursolve.controls.chain.language import ARC, CORNER_ALONE, FOLLOWED, LINE, OVER_LINE
+from contoursolve.controls.chain.language import BESIDE_ARC, CORNER_ALONE, FOLLOWED, LINE, OTHER_DIAMETER, OVER_LINE
 from contoursolve.controls.chain.rules import ANY, FIRST, SECOND, STEPS, Manual, chain_rules
 from contoursolve.controls.common import COMMON_RULES
 from contoursolve.controls.geometry_rules import GEOMETRY_RULES
@@ -44,7 +44,7 @@ _OWN = (
     _row("two-corners", "{words}: a corner takes one of #RND, #CHR and #CHF", "keep one of them",
          Count(_CORNERS, 2), ANY, MANUAL.cut, ("#RND=5", "#RND=5 #CHR=5")),
     _row("face-on-arc", "{words}: the face of a chamfer beside an arc is not computed", "write #CHR, or #RND",
-         some("#CHF"), (ARC,), MANUAL.arc, ("J0", "J0 #CHF=3\nG1 X90")),
+         some("#CHF") & some(BESIDE_ARC), ANY, MANUAL.arc, ("J0", "J0 #CHF=3\nG1 X90"), ("#RND=6", "#CHF=6")),
     _row("angle-redundant", "{words} is one word too many beside both coordinates{comparison}",
          "delete a coordinate, or the angle", all_of(FIRST, SECOND, "#ANG") & ~some(FOLLOWED), (LINE,), MANUAL.angled,
          ("X40", "X40 Y20"), evidence=_PRINTED, ignores="#ANG"),
@@ -56,6 +56,10 @@ _OWN = (
     _row("corner-alone", "G301 and G302 stand between two moves; here no move is right before",
          "put the corner right behind the move that it ends", some(CORNER_ALONE), (LINE,), _BLOCK,
          ("G302 I5", "G302 I5\nG301 I2"), evidence=_PRINTED),
+    _row("diameter-changes", "X is a diameter in one block of the contour and a radius in another",
+         "write G51 or G52 before its first block", some(OTHER_DIAMETER), ANY,
+         "G18 G51 G90 G0 X20 Z0\nG1 X40 #RND=2\nG1 Z-50",
+         ("Z-50", "G52 Z-50")),
 )  # fmt: skip
 
 

@@ -87,7 +87,7 @@ SYNTAX = Syntax(
           | (?P<plain>{_NUMBER})(?![\w.,+*/\-\[(])|(?P<wanted>\?)
           | (?P<formula>(?>(?:[^\s;()\[\]\"]++|{_ARGUMENTS}|\[[^\]]*+\]|\"[^\"]*+\")+)))
       | (?P<letter>[A-Za-z])(?![A-Za-z_])[ \t]*+(?:(?P<short>{_NUMBER})(?![\d.,])|(?P<asked>\?))))
-  | (?P<name>(?>[A-Za-z_]{{2}}\w*+|[Ll]\d++))[ \t]*+(?>(?:{_ARGUMENTS})?+)
+  | (?P<name>(?>[A-Za-z_]{{2}}\w*+))[ \t]*+(?>(?:{_ARGUMENTS})?+)
   | (?P<malformed>[A-Za-z][ \t]*+[\d.,+-]++)
   | (?P<bare>[A-Za-z])
   | (?P<stray>\"[^\"]*+\"?+|[^ \tA-Za-z;]++)
@@ -139,4 +139,13 @@ def _remember(memory: Mapping[str, Word], block: Block) -> Mapping[str, Word]:
 
 
 _ENDS = frozenset({2, 17, 30})
-MODES = Modes(_words(), CODES, ("X", "Y", "Z"), _ENDS, syntax=SYNTAX, radius="CR", remember=_remember)
+MODES = Modes(
+    _words(),
+    CODES,
+    ("X", "Y", "Z"),
+    _ENDS,
+    syntax=SYNTAX,
+    radius="CR",
+    remember=_remember,
+    call_addresses=frozenset("L"),
+)

@@ -1,8 +1,9 @@
 """SINUMERIK: which words may be combined, and what has no solution. No page with the alarms was seen."""
 
 from dataclasses import replace
+from decimal import Decimal
 
-from contoursolve.controls.chain.language import ARC, FOLLOWED, LINE, OVER_LINE
+from contoursolve.controls.chain.language import ARC, BESIDE_ARC, FOLLOWED, LINE, NO_TANGENT, OTHER_DIAMETER, OVER_LINE
 from contoursolve.controls.chain.rules import ANY, FIRST, SECOND, STEPS, Manual, chain_rules
 from contoursolve.controls.common import COMMON_RULES
 from contoursolve.controls.geometry_rules import GEOMETRY_RULES
@@ -10,7 +11,7 @@ from contoursolve.controls.siemens.language import ALONG_ARC, NO_STEPS, STRICT_A
 from contoursolve.controls.siemens.lexicon import assumed
 from contoursolve.diagnostics.finding import Alarm, Severity
 from contoursolve.diagnostics.source import Evidence
-from contoursolve.reading.rules import Rule, all_of, some
+from contoursolve.reading.rules import Rule, Value, all_of, some
 from contoursolve.solving import RefusalKind
 
 _ALARMS = {
@@ -47,9 +48,10 @@ _OWN = (
         for word in ("CHR", "CHF")
     ),
     _row("face-on-arc", "{words}: the face of a chamfer beside an arc is not computed", "write CHR, or RND",
-         some("CHF"), (ARC,), MANUAL.arc, ("J0", "J0 CHF=3\nG1 X90")),
+         some("CHF") & some(BESIDE_ARC), ANY, MANUAL.arc, ("J0", "J0 CHF=3\nG1 X90"), ("RND=6", "CHF=6")),
     _row("chamfer-along-arc", "a chamfer that is measured along an arc is not computed",
-         "set chamfer-on-arc=chord, or write the chamfer out", some("CHR") & some(ALONG_ARC), (ARC,), MANUAL.arc),
+         "set chamfer-on-arc=chord, or write the chamfer out", some("CHR") & some(ALONG_ARC) & some(BESIDE_ARC), ANY,
+         MANUAL.arc),
     _row("angle-redundant",
          "{words} is one word too many beside both coordinates{comparison}",
          "delete one of the three; where the control checks it, set redundant-angle=check",
@@ -57,6 +59,15 @@ _OWN = (
          ("X40", "X40 Y20"), ignores="ANG"),
     _row("closing-increment", "{words}: the second of two lines gives its end by coordinates", "write X=AC( ), or G90",
          some(*STEPS) & some(NO_STEPS), (OVER_LINE,), MANUAL.vertex),
+    _row("rounding-negative", "{words}: a rounding has no sign", "delete the minus sign; RNDM=0 ends the roundings",
+         Value(("RNDM",), least=Decimal(0)), ANY, MANUAL.cut.replace("RND", "RNDM"), ("=5", "=-5")),
+    _row("diameter-changes", "X is a diameter in one block of the contour and a radius in another",
+         "write DIAMON, DIAMOF or DIAM90 before its first block", some(OTHER_DIAMETER), ANY,
+         "G18 DIAMON G90 G0 X20 Z0\nG1 X40 RND=2\nZ-50",
+         ("Z-50", "DIAMOF Z-50")),
+    _row("no-tangent", "CT begins in the direction of the move before it, and no G1, G2, G3 or CT is right before it",
+         "put a line or an arc right before it, or write G2 or G3 with CR", some(NO_TANGENT), (ARC,),
+         _START + "G1 X20\nCT X40 Y20", _START + "CT X40 Y20", evidence=Evidence.PRINTED),
 )  # fmt: skip
 
 

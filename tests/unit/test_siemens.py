@@ -1,0 +1,437 @@
+"""SINUMERIK: every worked example of its sheet, right and wrong, how it is spelled, its settings, RNDM and CT."""
+
+import re
+
+import pytest
+from examples import some_of
+from examples_fanuc import drawn
+from oracle import Element
+from oracle_corners import gap
+
+from contoursolve import check, expand, solve
+
+CONTROLS = ("siemens-840d", "siemens-808d")
+MILL = "G17 G90 G0 X0 Y0\n"
+SI_G1 = """N10 G0 X10 Z100 F1000 G18 DIAMOF
+N20 G1 ANG=140 CHR=7.5
+N30 X80 Z70 ANG=95.824 RND=10
+N40 X70 Z50"""
+SI_G3 = "G18 DIAMON G0 X0 Z10\nG1 X23.293 Z0\nX40 Z-30\nCT X58.146 Z-42"
+SI_G4 = MILL + "G1 ANG=30 RND=6\nX60 Y20 ANG=-45"
+SI_G5 = """; FLANGE, FINISH CONTOUR
+N10 G18 G90 G95 DIAMON
+N20 T="FINISH_35" D1
+N30 G96 S200 LIMS=3000 M4
+N40 G0 X20 Z2
+N50 G1 Z0 F0.2
+N60 X30 CHR=1.5
+N70 Z-20 F0.12
+N80 X40 ANG=120
+N90 ANG=175 RND=10
+N100 X70 Z-60 ANG=105 CHR=2
+N110 Z-85 RND=3
+N120 X84
+N130 G0 X120 Z60
+N140 M30"""
+_SI_G1 = "10 100; 26.1563 80.7456; 38.4385 74.2392; 65.5949 71.4693 > ccw 73.5244 57.0488 64.5801 61.5209; 70 50"
+_SI_G5 = (
+    "20 0; 27 0; 30 -1.5; 30 -20; 40 -22.8868; 44.7092 -49.7998 > cw 59.4567 -58.5875 64.6331 -48.9282; "
+    "66.1363 -59.4824; 70 -62; 70 -82 > cw 76 -85 76 -82; 84 -85"
+)
+RIGHT = {
+    "SI-G1": (SI_G1, 1, _SI_G1),
+    "SI-G2 X": ("G18 DIAMOF G0 X5 Z70\nG1 X88.8 ANG=110", 1, "5 70; 88.8 39.4993"),
+    "SI-G2 Z": ("G18 DIAMOF G0 X5 Z70\nG1 Z39.5 ANG=110", 1, "5 70; 88.7981 39.5"),
+    "SI-G3 on": (SI_G3, 0.5, "23.293 0; 40 -30; cw 58.146 -42 79.4862 -24.5025"),
+    "SI-G3 off": (SI_G3.replace("MON", "MOF"), 1, "23.293 0; 40 -30; cw 58.146 -42 60.6433 -18.5037"),
+    "SI-G4": (SI_G4, 0, "0 0; 46.7308 26.9801 > cw 53.9735 26.0265 49.7308 21.7839; 60 20"),
+    "SI-G5": (SI_G5, 0.5, _SI_G5),
+}
+
+
+def siemens(text: str, control: str = CONTROLS[0], **settings: str):
+    named = {f"{control}.{name.replace('_', '-')}": value for name, value in settings.items()}
+    return solve(text, control=control, settings=named)
+
+
+def path(text: str, control: str = CONTROLS[0], **settings: str) -> list[Element]:
+    """All contours, one behind the other; they have no errors."""
+    result = siemens(text, control, **settings)
+    assert not result.has_errors, [each.message for each in result.diagnostics]
+    found = []
+    for each in (element for answer in result.answers for element in answer.contour.elements):
+        start, end = complex(*each.start), complex(*each.end)
+        if hasattr(each, "center"):
+            found.append(Element("arc", start, end, complex(*each.center), each.radius, each.turn.value))
+        else:
+            found.append(Element("line", start, end))
+    return found
+
+
+def ends(text: str, **settings: str) -> list[tuple[float, float]]:
+    return [(each.end.real, each.end.imag) for each in path(text, **settings)]
+
+
+def near(*places: tuple[float, float]):
+    return [pytest.approx(place, abs=1e-4) for place in places]
+
+
+def sheet(text: str, share: float) -> list[Element]:
+    """A path of the sheet: X Z of a lathe with this share of X as radius, X Y of a mill with 0."""
+    found = []
+    for each in drawn(text, 0.5 if share else 1):
+        start, end = (complex(at.real, at.imag * (2 * share if share else 1)) for at in (each.start, each.end))
+        center = each.center and complex(each.center.real, each.center.imag * (2 * share if share else 1))
+        found.append(Element(each.kind, start, end, center, abs(end - center) if center else 0.0, each.turn))
+    return found
+
+
+def codes(text: str, **settings: str) -> dict[str, str | None]:
+    """The alarms of all findings by their codes."""
+    found = siemens(text, **settings).diagnostics
+    return {each.code: each.alarm.number.split()[0] if each.alarm else None for each in found}
+
+
+def refused(text: str, code: str, alarm: str | None = None, **settings: str) -> None:
+    """That the error is found, with its alarm, and no contour called solved with it."""
+    result = siemens(text, **settings)
+    errors = [each for each in result.diagnostics if each.severity.value == "error"]
+    assert [each.code for each in errors][:1] == [code], [each.message for each in errors]
+    assert (errors[0].alarm.number.split()[0] if errors[0].alarm else None) == alarm
+    line = errors[0].span.line
+    assert not [each for each in result.answers if each.contour and each.lines[0] <= line <= each.lines[-1]]
+
+
+@pytest.mark.parametrize("name", RIGHT)
+@pytest.mark.parametrize("control", CONTROLS)
+def test_a_worked_example_comes_out_as_the_sheet_has_it(name, control):
+    text, share, expected = RIGHT[name]
+    found = path(text, control)
+    assert gap(sheet(expected, share), found) < 1.1e-4
+    assert [each.kind for each in found] == [each.kind for each in sheet(expected, share)]
+
+
+@pytest.mark.parametrize(
+    ("text", "code", "alarm"),
+    [
+        (SI_G4.replace(" ANG=-45", ""), "closing-incomplete", "10794"),
+        (SI_G4.replace("X60 ", ""), "closing-incomplete", "10794"),
+        (MILL + "G1 ANG=30\nM30", "end-missing", "10793"),
+        (MILL + "G1 ANG=30", "end-missing", "10793"),
+        (MILL + "G1 ANG=30\nG2 X60 Y20 CR=50", "end-missing", "10793"),
+        (MILL + "G1 ANG=30\nCT X60 Y20", "end-missing", "10793"),
+        (MILL + "G1 ANG=30\nANG=40\nX60 Y20 ANG=-45", "closing-incomplete", "10794"),
+        (MILL + "G1 ANG=30\nX60 Y20 ANG=210", "angles-parallel", "10791"),
+        (MILL + "G1 ANG=30\nX60 Y20 ANG=30", "angles-parallel", "10791"),
+        (MILL + "G1 ANG=30\nG18\nX60 Z20 ANG=-45", "plane-changes", "10790"),
+        (MILL + "G1 ANG=30\nG18 X60 Z20 ANG=-45", "plane-changes", "10790"),
+        (MILL + "G2 X10 Y10 CR=8 ANG=30", "angle-on-arc", "10792"),
+        (MILL + "G1 X5 RND=1\nG2 X10 Y10 CR=8 ANG=30", "angle-on-arc", "10792"),
+        (MILL + "G1 X5\nCT X10 Y10 ANG=30", "angle-on-arc", "10792"),
+        (MILL + "G1 X60 Y20 ANG=45", "angle-redundant", "10795"),
+        (MILL + "G1 X30 RND=5", "corner-without-next", None),
+        (MILL + "G1 X30 RND=5\nG0 Y40", "corner-without-next", None),
+        (MILL + "G0 X30 RND=5\nG1 Y40", "corner-rapid", None),
+        (MILL + "G1 X30 CHR=31\nY40", "corner-too-large", None),
+        (MILL + "G1 X30 RND=-5\nY40", "corner-negative", None),
+        (MILL + "G1 X30 RND=5\nX60", "corner-straight", None),
+        (MILL + "G1 X30 CHR=2 CHF=3\nY40", "two-chamfers", None),
+        (MILL + "G1 X30 CHF=2\nG2 X60 Y30 CR=30", "face-on-arc", None),
+        (MILL + "G2 X30 Y30 CR=30 CHF=2\nG1 X60", "face-on-arc", None),
+        (MILL + "G1 X30 RND=5 Z-2\nY40", "outside-plane", None),
+        (MILL + "G2 X30 Y30 RND=2\nG1 X60", "circle-undefined", None),
+        (MILL + "G2 X30 Y30 CR=30 I30 J0 RND=2\nG1 X60", "center-and-radius", None),
+        (MILL + "RNDM=-2 G1 X30\nY40", "rounding-negative", None),
+    ],
+)
+def test_what_the_sheet_refuses_has_its_alarm_and_no_contour(text, code, alarm):
+    refused(text, f"siemens-{code}", alarm)
+
+
+def test_an_angle_beside_both_coordinates_tells_the_real_one():
+    (finding,) = siemens(MILL + "G1 X60 Y20 ANG=45").diagnostics
+    assert "18.435 deg" in finding.message
+    assert [each.replacement for each in finding.fixes] == ["G1 X60 Y20", "G1 Y20 ANG=45", "G1 X60 ANG=45"]
+
+
+def test_an_arc_whose_radii_differ_is_refused_beside_a_corner():
+    result = siemens(MILL + "G1 X30 RND=2\nG2 X60 Y31 I30 J0\nG1 X90")
+    assert [each.code for each in result.diagnostics if each.severity.value == "error"] == ["siemens-radius-difference"]
+
+
+@pytest.mark.parametrize("word", ["CHR=2", "CHF=3"])
+def test_a_rounding_beside_a_chamfer_wins_with_a_warning(word):
+    text = MILL + f"G1 X30 {word} RND=3\nY40"
+    assert path(text) == path(text.replace(f" {word}", ""))
+    (finding,) = siemens(text).diagnostics
+    assert (finding.code, finding.severity.value) == (f"siemens-{word[:3].lower()}-ignored", "warning")
+    assert finding.fixes[0].replacement == "G1 X30 RND=3\nY40"
+
+
+def test_a_chamfer_is_measured_as_its_word_says():
+    assert ends(MILL + "G1 X30 CHR=3\nX60 Y40") == near((27, 0), (31.8, 2.4), (60, 40))
+    width = 2 / (2 * (0.8) ** 0.5)  # the path turns by the angle of 3 4 5: the half of it has the cosine 2 / sqrt(5)
+    assert ends(MILL + "G1 X30 CHF=2\nX60 Y40")[0] == pytest.approx((30 - width, 0), abs=1e-9)
+    on_arc = path(MILL + "G1 X30 CHR=2\nG2 X50 Y20 CR=20")
+    assert abs(on_arc[1].end - 30) == pytest.approx(2, abs=1e-9)
+    assert abs(on_arc[1].end - 50) == pytest.approx(20, abs=1e-9)
+
+
+# How it is spelled ------------------------------------------------------------------------------------------------
+
+
+@some_of(
+    "text",
+    [
+        "G1 X80 RND=5\nY40",
+        "G1 X=80 RND=5\nY=40",
+        "G1 X = 80 RND = 5\nY40",
+        "N10 G1 X=AC(80) RND=5\nN10 Y=IC(40)",
+        "G1 X=IC(80) RND=5\nG91 Y40",
+        "g1 x80 rnd=5\ny=ic( 40 )",
+        "G01 X80,0 RND=5,000;\nY+40.0 ; END",
+        "G1 X80 RND=5 FRC=0.1\nY40 FRCM= 200",
+        "/G1 X80 RND=5\n; Y20\n\nY40",
+        "G1 X80 RND=5 M8 F200 S=1000\nMARK: Y40",
+        'G1 X80 RND=5\nM8\nG4 F0.5\nMSG("CORNER (5)")\nY40',
+        "G91 G1 X80 RND=5\nY=AC(40)",
+        "G1 X80 RND=5\nG64\nY40 G90",
+    ],
+    one_in=2,
+)
+def test_the_same_corner_is_read_however_it_is_written(text):
+    for name in ("", "%_N_CONTOUR_MPF\n;$PATH=/_N_WKS_DIR/_N_A_WPD\n"):
+        assert gap(drawn("0 0; 75 0 > ccw 80 5 75 5; 80 40", 1), path(name + MILL + text)) < 1e-9
+
+
+def test_inches_and_millimetres_are_those_of_g70_and_g71():
+    metric = ends(MILL + "G71 G1 X25.4 RND=2.54\nY50.8")
+    assert ends("G17 G700 G0 X0 Y0\nG1 X1 RND=0.1\nY2") == ends("G17 G70 G0 X0 Y0\nG1 X1 RND=0.1\nY2") == near(*metric)
+
+
+def test_a_block_without_a_motion_code_says_so():
+    text = SI_G1.replace("G0 ", "").replace("G1 ", "")
+    (finding,) = siemens(text).diagnostics
+    assert finding.code == "no-contour"
+    assert "no G code of a motion is in force" in finding.help
+
+
+@some_of(
+    ("between", "told"),
+    [
+        ("L10", "L10"),
+        ("L0815 P2", "L0815"),
+        ("POCKET", "POCKET"),
+        ('CYCLE95("KONTUR",2,0.1,,,0.2)', "CYCLE95"),
+        ("TRANS X10", "TRANS"),
+        ("ATRANS X10", "ATRANS"),
+        ("ROT RPL=30", "ROT"),
+        ("G54", "G54"),
+        ("G75 X1=0", "G75"),
+        ("M17", "M17"),
+        ("IF R1>5 GOTOF ENDE", "macro"),
+        ("G1 X=R1 Y=R2+5", "variable"),
+        ("G1 X=_A", "variable"),
+        ("G751", "G751"),
+    ],
+    one_in=2,
+)
+def test_behind_what_is_not_followed_the_position_is_unknown(between, told):
+    text = MILL + between + "\nG1 Y60 ANG=30"
+    result = siemens(text)
+    assert [each.code for each in result.diagnostics if each.severity.value == "error"] == ["position-unknown"]
+    assert told in result.diagnostics[0].message
+    assert result.answers[0].contour is None
+    again = siemens(MILL + between + "\nG0 X0 Y0\nG1 Y60 ANG=30")
+    assert [each.contour is not None for each in again.answers] == [True]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "G1 ANG=-_ANG RND=5\nX40 Y40 ANG=90",
+        "G1 X30 RND=_RND+12.5\nX40 Y40",
+        "G1 Y40 ANG=R5",
+        "RNDM=_R\nG1 X30\nX40 Y40",
+    ],
+)
+def test_a_variable_has_no_value(text):
+    refused(MILL + text, "value-variable")
+
+
+@pytest.mark.parametrize("text", [SI_G1, SI_G4, SI_G5, MILL + "G1 X30 CHR=2\nY40"])
+def test_words_with_an_equals_sign_show_the_maker_and_the_smaller_control_is_named(text):
+    assert solve(text).control == "siemens-840d"
+    assert solve(text, control="siemens-808d").control == "siemens-808d"
+
+
+# Planes and diameters -----------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("plane", "letters"), [(17, "XYIJ"), (18, "ZXKI"), (19, "YZJK")])
+def test_planes_read_the_same_blocks_with_other_letters(plane, letters):
+    text = SI_G4.replace("G90", "G90 DIAMOF") + " CHR=2\nG3 X80 Y40 I20 J0 RND=1\nG1 Y=IC(40)\nCT X130 Y90"
+    table = str.maketrans("XYIJ", letters)
+    lines = [
+        re.sub(r"(?<![A-Z])[XYIJ](?=[\d=])", lambda word: word[0].translate(table), line) for line in text.split("\n")
+    ]
+    assert ends("\n".join(lines).replace("G17", f"G{plane}")) == near(*ends(text))
+
+
+def test_x_is_what_its_command_says():
+    def diameters(head: str, tail: str = "G1 X40 Z-30 RND=2\nZ-50", **settings: str):
+        return ends(f"{head} G90 G0 X20 Z0\n{tail}", **settings)
+
+    as_radius = diameters("G18 DIAMOF")
+    as_diameter = ends("G18 DIAMOF G90 G0 X10 Z0\nG1 X20 Z-30 RND=2\nZ-50")
+    assert diameters("G18 DIAMON") == near(*as_diameter)
+    assert diameters("G18 DIAM90") == near(*as_diameter)
+    assert diameters("G18 DIAM90", "G1 X=IC(20) Z-30 RND=2\nZ-50")[0] != pytest.approx(as_diameter[0])
+    assert diameters("G18 DIAM90", "G91 G1 X10 Z-30 RND=2\nZ-20") == near(*as_diameter)
+    assert diameters("G18 DIAMON", "G91 G1 X20 Z-30 RND=2\nZ-20") == near(*as_diameter)
+    # Nothing tells: the plane does, and the result rests on it.
+    assert diameters("G18") == near(*as_diameter)
+    (answer,) = siemens("G18 G90 G0 X20 Z0\nG1 X40 Z-30 RND=2\nZ-50").answers
+    assert [each.setting.name for each in answer.claim.conventions] == ["diam"]
+    for value, expected in (("DIAMOF", as_radius), ("DIAMON", as_diameter), ("DIAM90", as_diameter)):
+        assert diameters("G18", diam=value) == near(*expected)
+    assert ends("G0 X20 Z0\nG1 X40 Z-30 RND=2\nZ-50", machine="lathe") == near(*as_diameter)
+    assert siemens("G0 X20 Z0\nG1 X40 Z-30 RND=2\nZ-50").answers[0].contour is None
+
+
+def test_a_switch_of_diameters_between_two_blocks_of_a_corner_is_not_passed_over():
+    text = "G18 DIAMOF G0 X0 Z0\nG1 X30 RND=5\n{}X40 Z40"
+    refused(text.format("DIAMON\n"), "siemens-corner-without-next")
+    refused(text.format("DIAMON "), "siemens-diameter-changes")
+    before = MILL.replace("G17", "G18 DIAMOF").replace("Y0", "Z0")
+    assert ends(before + "DIAMON\n" + "G1 X60 RND=5\nX80 Z40") == near(*ends(before + "G1 X30 RND=5\nX40 Z40"))
+
+
+# Settings -----------------------------------------------------------------------------------------------------------
+
+
+def test_each_setting_has_an_effect():
+    against = MILL + "G1 X40 ANG=210"
+    assert ends(against) == near((40, 23.0940))
+    assert "angle-opposite" in codes(against)
+    refused(against, "line-reversed", angle_sense="ray")
+    redundant = MILL + "G1 X40 Y40 ANG=45"
+    refused(redundant, "siemens-angle-redundant", "10795")
+    assert ends(redundant, redundant_angle="check") == near((40, 40))
+    refused(redundant.replace("ANG=45", "ANG=44"), "words-conflict", redundant_angle="check")
+    steps = MILL + "G1 X10 Y5\nANG=30 RND=6\nX=IC(60) Y=IC(20) ANG=-45"
+    assert ends(steps) == near(*ends(MILL + "G1 X10 Y5\nANG=30 RND=6\nX70 Y25 ANG=-45"))
+    assert ends(steps.replace("X=IC(60) Y=IC(20)", "G91 X60 Y20")) == ends(steps)
+    refused(steps, "siemens-closing-increment", closing_incremental="error")
+    for text in (MILL + "G1 X30 CHR=2\nG2 X50 Y20 CR=20", MILL + "G2 X20 Y20 CR=20 CHR=2\nG1 Y0"):
+        assert path(text)
+        refused(text, "siemens-chamfer-along-arc", chamfer_on_arc="arc_length")
+    lines = MILL + "G1 X30 CHR=2\nY40"
+    assert ends(lines, chamfer_on_arc="arc_length") == ends(lines)
+
+
+# RNDM and CT --------------------------------------------------------------------------------------------------------
+
+
+def test_rndm_rounds_every_corner_until_it_is_0():
+    path_of = MILL + "{}G1 X30\nX40 Y40\nX80{}\nY80\n{}X90\nY0"
+    every = path(path_of.format("RNDM=3\n", "", ""))
+    assert [each.kind for each in every] == ["line", "arc"] * 5 + ["line"]
+    assert {each.radius for each in every if each.kind == "arc"} == {3.0}
+    written = re.sub(r"(?<=\d)$", " RND=3", path_of.format("", "", ""), flags=re.MULTILINE)
+    assert gap(every, path(written.replace("G0 X0 Y0 RND=3", "G0 X0 Y0").removesuffix(" RND=3"))) < 1e-9
+    own = path(path_of.format("RNDM=3\n", " CHR=2", ""))
+    assert "".join(each.kind[0] for each in own) == "lalalllalal"
+    ended = path(path_of.format("RNDM=3\n", "", "RNDM=0\n"))
+    assert [each.kind for each in ended] == ["line", "arc"] * 4 + ["line"], "the last line is none of the contour"
+    later = path(path_of.format("", " RND=1", "RNDM=2\n"))
+    assert [each.radius for each in later if each.kind == "arc"] == [1.0, 2.0]
+    begun = path(path_of.format("", " RND=1\nRNDM=2", ""))
+    assert [each.radius for each in begun if each.kind == "arc"] == [1.0, 2.0, 2.0]
+
+
+def test_rndm_makes_no_corner_where_the_path_does_not_turn():
+    text = MILL + "RNDM=3\nG1 X10\nX20\nY10\nG3 X10 Y20 I-10 J0\nG1 X0\nCT X-10 Y10"
+    assert [each.kind for each in path(text)] == ["line", "line", "arc", "line", "arc", "line", "arc"]
+
+
+def test_a_rounding_in_force_that_does_not_fit_is_named():
+    result = siemens(MILL + "RNDM=20\nG1 X30\nY10\nX50")
+    assert all("RNDM=20" in each.message for each in result.diagnostics)
+    assert result.answers[0].contour is None
+    refused(MILL + "RNDM=20\nG1 X30\nY10\nX50", "siemens-corner-too-large")
+
+
+def test_a_tangent_arc_follows_lines_arcs_and_tangent_arcs():
+    expected = drawn("0 0; 10 0; ccw 20 10 10 10; cw 30 0 30 10; cw 40 10 30 10", 1)
+    assert gap(expected, path(MILL + "G1 X10\nCT X20 Y10\nX30 Y0\nX40 Y10")) < 1e-9
+    line, first, second, third = path(MILL + "G1 X10\nCT X20 Y10\nX30 Y20\nX50 Y0")
+    assert (line.end, first.center, first.turn) == (10, pytest.approx(10 + 10j), "ccw")
+    assert (second.center, second.turn) == (pytest.approx(30 + 10j), "cw")
+    assert (third.turn, third.center.real) == ("cw", pytest.approx(30))
+    arc = path(MILL + "G2 X20 Y0 CR=20\nCT X40 Y10")
+    radius = arc[0].end - arc[0].center
+    assert (radius.conjugate() * (arc[1].center - arc[0].end)).imag == pytest.approx(0, abs=1e-9)
+    assert [each.turn for each in arc] == ["cw", "ccw"]
+    met = path(MILL + "G1 ANG=30\nX60 Y20 ANG=-45\nCT X70 Y0")
+    assert (met[2].center, met[2].turn) == (pytest.approx(35 - 5j), "cw")
+
+
+@pytest.mark.parametrize("text", ["CT X20 Y10", "G91 CT X10 Y10", "CT X=IC(10) Y=IC(10)", "CT X=AC(20) Y=IC(10)"])
+def test_a_tangent_arc_ends_where_increments_and_coordinates_say(text):
+    assert path(MILL + "G1 X10\n" + text) == path(MILL + "G1 X10\nCT X20 Y10")
+
+
+def test_a_tangent_arc_straight_ahead_is_a_line_and_one_behind_is_none():
+    assert path(MILL + "G1 X10 Y10\nCT X20 Y20\nX30 Y20") == path(MILL + "G1 X10 Y10 RND=0\nG1 X20 Y20\nCT X30 Y20")
+    for text in ("CT X5", "CT X10", "CT"):
+        assert siemens(MILL + "G1 X10\n" + text).answers[0].contour is None, text
+
+
+def test_a_tangent_arc_has_corners():
+    inside = path(MILL + "G1 X10\nCT X20 Y10 RND=2\nG1 X40 CHR=1\nY0")
+    assert [each.kind for each in inside] == ["line", "arc", "arc", "line", "line", "line"]
+    assert abs(inside[1].end - (10 + 10j)) == pytest.approx(10)
+    refused(MILL + "G1 X10 RND=2\nCT X20 Y10", "siemens-corner-straight")
+    between = path(MILL + "G1 X10 RND=1\nY10\nCT X20 Y20")
+    assert [each.kind for each in between] == ["line", "arc", "line", "arc"]
+
+
+def test_a_tangent_arc_without_a_move_before_it_is_refused():
+    for before in ("", "M8\n" * 4, "G4 F1\n"):
+        text = MILL + before + "CT X20 Y10\nG1 X30 RND=2\nY40"
+        assert codes(text)["siemens-no-tangent"] is None
+        refused(text, "siemens-no-tangent")
+    assert path(MILL + "G1 X10\n" + "M8\n" * 3 + "CT X20 Y10")
+
+
+@pytest.mark.parametrize("text", ["RND=6", "ANG=30"])
+def test_three_blocks_may_stand_between_and_not_four(text):
+    chain = SI_G4.replace("RND=6\n", "RND=6\n{}")
+    assert ends(chain.format("M8\nG4 F1\nS200\n")) == ends(chain.format("")) == ends(chain.format("; A\n\n" * 5))
+    result = siemens(chain.format("M8\n" * 4))
+    assert result.has_errors
+    assert all(each.contour is None for each in result.answers)
+
+
+def test_an_arc_by_radius_is_the_longer_one_if_that_is_negative():
+    short, long = (path(MILL + f"G1 X30 RND=1\nG2 X60 Y0 CR={radius}")[-1] for radius in ("20", "-20"))
+    assert short.center.imag < 0 < long.center.imag
+    assert short.turn == long.turn == "cw"
+
+
+def test_corners_in_rapid_are_refused_and_lines_are_met():
+    assert path(MILL + "G0 ANG=30\nX60 Y20 ANG=-45") == path(MILL + "G1 ANG=30\nX60 Y20 ANG=-45")
+    assert path(MILL + "G0 X40 ANG=30") == path(MILL + "G1 X40 ANG=30")
+
+
+def test_what_is_missing_is_asked_for_by_its_plain_word():
+    told = [each.message for each in check(MILL + "G1 ANG=30\nM30", control=CONTROLS[0])]
+    assert any("add one of X, X=IC, Y, Y=IC" in each for each in told)
+
+
+def test_a_long_stream_keeps_a_rounding_in_force():
+    text = MILL + "RNDM=2\nG1 X10\nX10 Y10\nX20 Y10\nX20 Y0\nX30\nG0 X0 Y0\nM30\n"
+    assert (
+        expand(text, control=CONTROLS[0]).text.count("CR=2") + expand(text, control=CONTROLS[0]).text.count(" I") >= 3
+    )
