@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from msgspec.structs import replace
 
+from contoursolve.gcode import spell
 from contoursolve.geometry import Length, Plane, Turn
 from contoursolve.postprocess.post_processors import Arcs
 from contoursolve.solving import Point
@@ -32,6 +33,8 @@ class Format:
     arcs: Arcs
     is_incremental: bool = False
     arc_decimals: int = 0
+    radius: str = "R"
+    """The address of an arc's radius."""
     mm: float = field(init=False)
     """Millimetres of one unit."""
     step: float = field(init=False)
@@ -181,7 +184,7 @@ class _Writer:
         text = self.form.number(radius, spec)
         height = sqrt(max(radius**2 - half**2, 0.0)) * arc.turn.sign / (2 * half)
         center = (start[0] + end[0]) / 2 - chord[1] * height, (start[1] + end[1]) / 2 + chord[0] * height
-        return ["R" + text], center, radius
+        return [spell(self.form.radius, text)], center, radius
 
     def _arc(self) -> ArcSegment:
         if isinstance(self.segment, LineSegment):

@@ -9,7 +9,7 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis.examine import Answer, Depth, Policy
 from contoursolve.diagnostics.finding import Severity
-from contoursolve.gcode import Block, Directive, Passage, Program, Word, parse_block, spell
+from contoursolve.gcode import ISO, Block, Directive, Passage, Program, Word, parse_block, spell
 from contoursolve.gcode.comments import comment_out, is_remark, own_comments, remark
 from contoursolve.geometry import Length
 from contoursolve.postprocess.emit import Format, Move, emit
@@ -22,7 +22,7 @@ from contoursolve.program.batch import Batch
 from contoursolve.program.lines import Lines
 from contoursolve.program.pipeline import attach, walk
 from contoursolve.program.solve_queue import Step
-from contoursolve.reading import ReadIssue, State, apply_modes, motion_of, words_of
+from contoursolve.reading import ParsedContour, ReadIssue, State, apply_modes, motion_of, words_of
 from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.follow import ContourBlock, blocks_of
 from contoursolve.reading.modal_dependence import (
@@ -107,6 +107,10 @@ class _Expander:
         self.watch = Watch(options.post, dialect, options.post.readings.get(machine_of(dialect)))
         summary.unfamiliar = self.watch.found
         self.numberer = Numberer(self.modes, numbers)
+        is_same = self.watch.reading is None
+        self.syntax = self.modes.syntax if is_same else ISO
+        """How comments are spelled that are written."""
+        self.lasting = self.modes.lasting if is_same else {}
         self.formats: dict[Hashable, Format] = {}
         self.offsets = Offsets(self.modes)
         self.motion: int | None = None
@@ -183,7 +187,7 @@ class _Expander:
             if unread:
                 self.summary.left.append(unread)
                 if not self.is_marked:
-                    yield remark(unread.reason, block.syntax) + self.lines.end
+                    yield remark(unread.reason, self.syntax) + self.lines.end
         self.is_marked = is_remark(block.text)
         yield block.text + self.lines.take_end(block.line)
 
@@ -231,7 +235,7 @@ class _Expander:
             before, first = self._restore(first, step.before)
             yield from before
         if not self.is_marked:
-            yield remark(reason, first.syntax) + self.lines.end
+            yield remark(reason, self.syntax) + self.lines.end
         state = step.before
         for block in (first, *others):
             yield from self._keep(block, state, there if block is first else None)
@@ -272,6 +276,7 @@ class _Expander:
         had_ended = self.motion is not None
         motion = self.motion if had_ended else state.motion
         translated = self._translate(answer, list(parts.values()), here)
+        ended = self._ended(claim, state)
         for block in step.blocks:
             part = parts.get(block.line)
             if part is None:
@@ -296,6 +301,7 @@ class _Expander:
                 move = moves.pop() if moves else Move(0 if part.is_rapid else 1, (), here, 0.0)
                 moves.append(move._replace(words=(*move.words, *beside)))
             end = self.lines.take_end(block.line)
+            self._end_lasting(moves, ended, claim.after if block is step.blocks[-1] else None)
             text = self._write(block, moves, end, state)
             if text:
                 yield text
@@ -309,6 +315,21 @@ class _Expander:
             self.offsets.leave(axes, here, contour.end)
         self.summary.replaced += 1
         self.summary.warn(answer.diagnostics)
+
+    def _ended(self, claim: ParsedContour, before: State) -> list[str]:
+        """What ends the words that stay in force before a contour or in it: it is written as they have made it."""
+        stated = {word.address for block in claim.blocks for word in block.words} | before.memory.keys()
+        return [off for address, off in self.lasting.items() if address in stated]
+
+    def _end_lasting(self, moves: list[Move], ended: list[str], after: State | None) -> None:
+        """Write what ends words into the first move of a contour, and those in force behind it into the last one."""
+        if moves and ended:
+            moves[0] = moves[0]._replace(words=(*moves[0].words, *ended))
+            ended.clear()
+        if moves and after is not None and self.lasting:
+            resumed = [word.text.strip() for address, word in after.memory.items() if address in self.lasting]
+            words = [word for word in moves[-1].words if not resumed or word not in self.lasting.values()]
+            moves[-1] = moves[-1]._replace(words=(*words, *resumed))
 
     def _translate(self, answer: Answer, parts: Sequence[ContourBlock], here: Point) -> Moves | None:
         """The moves of a contour in the words of the target, where that is asked for and it has them."""
@@ -343,6 +364,7 @@ class _Expander:
                 self.options.arcs,
                 state.is_incremental,
                 own,
+                self.modes.radius if self.watch.reading is None else "R",
             )
         return self.formats[key]
 
@@ -358,7 +380,7 @@ class _Expander:
         frame, rest = frame_of(block.text), carried(block, self.modes)
         indent = frame.indent
         lines = (
-            [indent + text for text in comment_out(block.text.strip(), block.syntax)]
+            [indent + text for text in comment_out(block.text.strip(), self.syntax)]
             if self.options.has_comments
             else []
         )

@@ -20,7 +20,9 @@ def _signs(block: Block) -> tuple[Word, ...]:
     if "=" not in block.text:
         return ()
     words = block.words if block.syntax is SYNTAX else parse_block(block.text, block.line, SYNTAX).words
-    return tuple(word for word in words if word.address in LANGUAGE.own)
+    # `#ANG=60` is another control's.
+    own = (word for word in words if word.address in LANGUAGE.own)
+    return tuple(word for word in own if not block.text[: word.span.column - 1].rstrip(" \t").endswith("#"))
 
 
 SIEMENS_840D = Dialect(

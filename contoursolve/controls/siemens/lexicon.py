@@ -156,4 +156,5 @@ MODES = Modes(
     radius="CR",
     remember=_remember,
     call_addresses=frozenset("L"),
+    lasting={"RNDM": "RNDM=0"},
 )
