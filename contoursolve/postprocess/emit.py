@@ -34,7 +34,7 @@ class Format:
     is_incremental: bool = False
     arc_decimals: int = 0
     radius: str = "R"
-    """The address of a radius."""
+    """The address of an arc's radius."""
     mm: float = field(init=False)
     """Millimetres of one unit."""
     step: float = field(init=False)

@@ -22,7 +22,7 @@ from contoursolve.program.batch import Batch
 from contoursolve.program.lines import Lines
 from contoursolve.program.pipeline import attach, walk
 from contoursolve.program.solve_queue import Step
-from contoursolve.reading import Code, ReadIssue, State, apply_modes, codes_of, motion_of, words_of
+from contoursolve.reading import Code, ParsedContour, ReadIssue, State, apply_modes, codes_of, motion_of, words_of
 from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.follow import ContourBlock, blocks_of
 from contoursolve.reading.modal_dependence import (
@@ -107,6 +107,7 @@ class _Expander:
         self.watch = Watch(options.post, dialect, options.post.readings.get(machine_of(dialect)))
         summary.unfamiliar = self.watch.found
         self.numberer = Numberer(self.modes, numbers)
+        self.lasting = self.modes.lasting if self.watch.reading is None else {}
         self.formats: dict[Hashable, Format] = {}
         self.offsets = Offsets(self.modes)
         target = options.post.target or (dialect if options.post is SAME else None)
@@ -304,6 +305,7 @@ class _Expander:
         had_ended = self.motion is not None
         motion = self.motion if had_ended else state.motion
         translated = self._translate(answer, list(parts.values()), here)
+        ended = self._ended(claim, state)
         for block in step.blocks:
             part = parts.get(block.line)
             if part is None:
@@ -328,6 +330,7 @@ class _Expander:
                 move = moves.pop() if moves else Move(0 if part.is_rapid else 1, (), here, 0.0)
                 moves.append(move._replace(words=(*move.words, *beside)))
             end = self.lines.take_end(block.line)
+            self._end_lasting(moves, ended, claim.after if block is step.blocks[-1] else None)
             text = self._write(block, moves, end, state)
             if text:
                 yield text
@@ -341,6 +344,21 @@ class _Expander:
             self.offsets.leave(axes, here, contour.end)
         self.summary.replaced += 1
         self.summary.warn(answer.diagnostics)
+
+    def _ended(self, claim: ParsedContour, before: State) -> list[str]:
+        """What ends the words that stay in force before a contour or in it: it is written as they have made it."""
+        stated = {word.address for block in claim.blocks for word in block.words} | before.memory.keys()
+        return [off for address, off in self.lasting.items() if address in stated]
+
+    def _end_lasting(self, moves: list[Move], ended: list[str], after: State | None) -> None:
+        """Write what ends words into the first move of a contour, and those in force behind it into the last one."""
+        if moves and ended:
+            moves[0] = moves[0]._replace(words=(*moves[0].words, *ended))
+            ended.clear()
+        if moves and after is not None and self.lasting:
+            resumed = [word.text.strip() for address, word in after.memory.items() if address in self.lasting]
+            words = [word for word in moves[-1].words if not resumed or word not in self.lasting.values()]
+            moves[-1] = moves[-1]._replace(words=(*words, *resumed))
 
     def _translate(self, answer: Answer, parts: Sequence[ContourBlock], here: Point) -> Moves | None:
         """The moves of a contour in the words of the target, where that is asked for and it has them."""

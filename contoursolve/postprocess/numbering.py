@@ -116,7 +116,8 @@ class Offsets:
         if any(not isinstance(code, Word) and code.effect is Effect.NO_MOTION for code in codes_of(block, self.modes)):
             return ""
         off = hypot(*(self._off.get(axis, 0.0) for axis in here.plane.axes))
-        is_arc = here.motion in (2, 3) and any(word.address in (*here.plane.centers, "R") for word in block.words)
+        shapes = (*here.plane.centers, self.modes.radius)
+        is_arc = here.motion in (2, 3) and any(word.address in shapes for word in block.words)
         rows = [self.modes.lexicon.addresses.get(word.address) for word in block.words]
         moved = [row.axis for row in rows if row and row.axis and not row.is_step(is_incremental=here.is_incremental)]
         self.keep([axis for axis in self._off if axis not in moved])

@@ -28,6 +28,8 @@ _CENTERS = frozenset("IJKR")
 
 
 _NOT_KNOWN = Other("is not known")
+_LONG = re.compile(r"=|^[ \t]*#|\d,")
+"""What words look like that are not a letter and a number with a point."""
 _PATH_WITHOUT_POINT = "path without point"
 
 
@@ -133,6 +135,8 @@ class Watch:
 
     def _judge(self, word: Word, reading: Reading) -> Other | None:
         """What a word is on the target instead; None if it is the same."""
+        if _LONG.search(word.text) and word.address not in ("G", "M"):
+            return _NOT_KNOWN
         if word.address not in ("G", "M"):
             return reading.otherwise.get(word.address)
         known = reading.g if word.address == "G" else reading.m

@@ -46,6 +46,8 @@ def reliance(block: Block, modes: Modes) -> Reliance:
         return Reliance.BESIDE if block.is_skippable else Reliance.ENDS
     if block.macro is Macro.FLOW or len(known) < len(codes):
         return Reliance.BESIDE
+    if any(word.address == "M" and word.number in _PROGRAM_ENDS for word in block.words):
+        return Reliance.ENDS
     if any(modes.is_call(word) for word in block.words):
         return Reliance.BESIDE
     if block.find("O"):
@@ -68,7 +70,7 @@ def why_unmet(motion: int | None, blocks: Iterable[Block], modes: Modes) -> str:
     for block in blocks:
         need = reliance(block, modes)
         if need is Reliance.BESIDE or (need is Reliance.WORDS and not is_free):
-            name = f"the G{motion} before it" if code else "what the control starts with"
+            name = f"the {code.name or f'G{motion}'} before it" if code else "what the control starts with"
             return f"program line {block.line} relies on {name}: write the G code of its motion into it"
         if need is Reliance.ENDS or (need is Reliance.WORDS and not block.is_skippable):
             break
@@ -87,6 +89,8 @@ def restate(block: Block, code: str) -> Block:
 _BLANKS = " \t\f\v\x02\x03\x11\x12\x13\x14\x1a\ufeff%"
 
 _FRAME = re.compile(rf"(?P<head>[{_BLANKS}]*+)(?>(?P<skip>/[1-9]?+(?!\d)[ \t]*+)?)")
+
+_PROGRAM_ENDS = frozenset({2, 30})
 
 _DROPPED = (*MOTIONS, Effect.CONTOUR, Effect.CORNER)
 """G codes in whose place those of the plain motions stand."""
@@ -146,7 +150,7 @@ def carried(block: Block, modes: Modes) -> Carried:
         text = word.text.strip()
         if word.address == "G":
             row = next(rows)
-            if not isinstance(row, Word) and row.effect in _DROPPED:
+            if not isinstance(row, Word) and (row.effect in _DROPPED or row.number in modes.separate):
                 continue
             codes.append(text)
         elif word.address in "NO":

@@ -168,6 +168,11 @@ class Modes:
     remember: Callable[[Mapping[str, Word], Block], Mapping[str, Word]] | None = None
     """From the words that stay in force, and a block, to those behind it; the same record if nothing changes."""
 
+    lasting: Mapping[str, str] = field(default_factory=dict, kw_only=True)
+    """Addresses of words that stay in force and change the path, each with the word that ends it."""
+    separate: frozenset[int] = field(default=frozenset(), kw_only=True)
+    """G codes of blocks that belong to a contour and move nothing."""
+
     def is_call(self, word: Word) -> bool:
         """Whether a word calls or ends a subprogram."""
         return (word.address == "M" and word.number in self.calls) or word.address in self.call_addresses

@@ -12,6 +12,8 @@ from contoursolve.controls.chain.language import (
     ALONE,
     BESIDE_ARC,
     CORNER_ALONE,
+    CORNER_CROWDED,
+    CORNER_TWICE,
     FEED,
     FOLLOWED,
     LAST,
@@ -73,9 +75,11 @@ def claim_of(language: Language, members: Sequence[Member], before: State, modes
         if member.corner is not None:
             sized, corner, in_force = _corner_of(language, member.corner, member.here, modes)
             own_givens |= sized
+            if _is_crowded(language, member.corner):
+                circumstances.add(prefix + CORNER_CROWDED)
             for name, word in corner.items():
                 if name in own:
-                    repeated.append(word)
+                    circumstances.add(prefix + CORNER_TWICE)
                 own.setdefault(name, word)
                 vocabulary[prefix + name] = (language.corner_size, len(blocks))
             blocks.append(member.corner)
@@ -134,6 +138,14 @@ def _corner_of(
     size = modes.words(here).given(name, word, here.unit) if word else None
     givens = {name: size if own else replace(size, word=None)} if size else {}
     return givens, {name: own} if own else {}, {name: _put(kept, block)} if kept and not own else {}
+
+
+def _is_crowded(language: Language, block: Block) -> bool:
+    """Whether a block of its own that makes a corner says more about the path than the size, or says that twice."""
+    shapes = [word for word in block.words if word.address == "G" and word.number in language.corner_codes]
+    sizes = [word for word in block.words if word.address == language.corner_size]
+    others = [word for word in block.words if word.address not in (*"NGFSTMDH", language.corner_size)]
+    return len(shapes) > 1 or len(sizes) > 1 or bool(others)
 
 
 def _kept_corner(

@@ -63,13 +63,21 @@ def _parts(token: re.Match[str]) -> tuple[str, str | None, bool]:
 _NUMBER = r"[+-]?+(?>\d++\.?+\d*+|\.\d++)"
 _OWN = r"\#[ \t]*+(?:ANG|RND|CHR|CHF|FRC)\b"
 _BRACKETS = r"\[(?>(?:[^\[\]]++|\[(?>(?:[^\[\]]++|\[[^\[\]]*+\])*)\])*)\]"
-_NESTED = r"\((?>(?:[^()]++|\((?>(?:[^()]++|\([^()]*+\))*)\))*)"
+
+
+def _comment(depth: int) -> str:
+    """A comment in which so many others may be nested; each may stay open to the end of the line."""
+    inner = f"|{_comment(depth - 1)}" if depth else ""
+    return rf"\((?>(?:[^()]++{inner})*)(?:\)|$)"
+
+
+_NESTED = _comment(3)
 SYNTAX = Syntax(
     "isg",
     token=re.compile(
         rf"""
     (?P<blank>[ \t\f\v\x02\x03\x11-\x14\x1a\ufeff]++|%.*+)
-  | (?P<comment>{_NESTED}(?:\)|$)|;.*+)
+  | (?P<comment>{_NESTED}|;.*+)
   | (?P<word>
         (?P<long>{_OWN})[ \t]*+(?:=[ \t]*+)?+(?:(?P<plain>{_NUMBER})(?![\w.+*/\[-])|(?P<wanted>\?)
           |(?P<formula>[^ \t;()]++))
@@ -88,7 +96,7 @@ SYNTAX = Syntax(
         r"|ENDWHILE|DO|ENDDO|GOTO|BREAK|CONTINUE)\b))",
         re.IGNORECASE,
     ),
-    comment=re.compile(_NESTED + r"\)?+|;.*+"),
+    comment=re.compile(_NESTED + r"|;.*+"),
     parts=_parts,
 )
 
@@ -125,4 +133,5 @@ MODES = Modes(
     syntax=SYNTAX,
     remember=_remember,
     call_addresses=frozenset("L"),
+    separate=frozenset({CHAMFER, ROUNDING}),
 )

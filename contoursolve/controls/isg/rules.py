@@ -2,7 +2,16 @@
 
 from dataclasses import replace
 
-from contoursolve.controls.chain.language import BESIDE_ARC, CORNER_ALONE, FOLLOWED, LINE, OTHER_DIAMETER, OVER_LINE
+from contoursolve.controls.chain.language import (
+    BESIDE_ARC,
+    CORNER_ALONE,
+    CORNER_CROWDED,
+    CORNER_TWICE,
+    FOLLOWED,
+    LINE,
+    OTHER_DIAMETER,
+    OVER_LINE,
+)
 from contoursolve.controls.chain.rules import ANY, FIRST, SECOND, STEPS, Manual, chain_rules
 from contoursolve.controls.common import COMMON_RULES
 from contoursolve.controls.geometry_rules import GEOMETRY_RULES
@@ -43,6 +52,11 @@ _CORNERS = (("#CHR",), ("#CHF",), ("#RND",))
 _OWN = (
     _row("two-corners", "{words}: a corner takes one of #RND, #CHR and #CHF", "keep one of them",
          Count(_CORNERS, 2), ANY, MANUAL.cut, ("#RND=5", "#RND=5 #CHR=5")),
+    _row("corner-twice", "{words}: the block behind it makes a corner in the same place", "keep one of them",
+         some(CORNER_TWICE), ANY, MANUAL.cut, ("\nX40", "\nG302 I5\nG1 X40")),
+    _row("corner-crowded", "the block behind it makes a corner, and takes the size I of one corner alone",
+         "put everything else in a block of its own", some(CORNER_CROWDED), ANY, _BLOCK, (" I5", " I5 X50"),
+         (" I5", " I5 I6"), (" I5", " I5 #RND=3"), ("G302", "G301 G302")),
     _row("face-on-arc", "{words}: the face of a chamfer beside an arc is not computed", "write #CHR, or #RND",
          some("#CHF") & some(BESIDE_ARC), ANY, MANUAL.arc, ("J0", "J0 #CHF=3\nG1 X90"), ("#RND=6", "#CHF=6")),
     _row("angle-redundant", "{words} is one word too many beside both coordinates{comparison}",

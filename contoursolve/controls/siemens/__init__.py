@@ -19,7 +19,9 @@ def _signs(block: Block) -> tuple[Word, ...]:
     """What shows the control: its words with an equals sign."""
     if "=" not in block.text:
         return ()
-    return tuple(word for word in words_as(block, SYNTAX) if word.address in LANGUAGE.own)
+    own = (word for word in words_as(block, SYNTAX) if word.address in LANGUAGE.own)
+    # `#ANG=60` is another control's.
+    return tuple(word for word in own if not block.text[: word.span.column - 1].rstrip(" \t").endswith("#"))
 
 
 SIEMENS_840D = Dialect(

@@ -82,7 +82,7 @@ SYNTAX = Syntax(
     (?P<blank>[ \t\f\v\x02\x03\x11-\x14\x1a\ufeff]++|%.*+|[A-Za-z_]\w++:(?!=)|:\d++)
   | (?P<comment>;.*+)
   | (?P<word>(?P<comma>)(?:
-        (?>(?P<long>(?<!\#)\$?[A-Za-z_]\w*+(?>(?:\[[^\]]*+\])?+))[ \t]*+=[ \t]*+)(?:
+        (?>(?P<long>\$?[A-Za-z_]\w*+(?>(?:\[[^\]]*+\])?+))[ \t]*+=[ \t]*+)(?:
             (?P<function>[AaIi][Cc])[ \t]*+\([ \t]*+(?:(?P<inner>{_NUMBER})|(?P<unset>\?))[ \t]*+\)
           | (?P<plain>{_NUMBER})(?![\w.,+*/\-\[(])|(?P<wanted>\?)
           | (?P<formula>(?>(?:[^\s;()\[\]\"]++|{_ARGUMENTS}|\[[^\]]*+\]|\"[^\"]*+\")+)))
@@ -148,4 +148,5 @@ MODES = Modes(
     radius="CR",
     remember=_remember,
     call_addresses=frozenset("L"),
+    lasting={"RNDM": "RNDM=0"},
 )

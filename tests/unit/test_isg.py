@@ -1,0 +1,320 @@
+"""ISG kernel: the worked examples of its sheet, right and wrong, how it is spelled, corners in blocks of their own."""
+
+import re
+
+import pytest
+from examples import some_of
+from examples_fanuc import drawn
+from oracle import Element
+from oracle_corners import gap
+
+from contoursolve import expand, solve
+
+ISG = "isg"
+MILL = "G17 G90 G0 X0 Y0\n"
+IS_G3 = "N250 G18 G01 Z15 X2\nN260 #ANG=30 #RND=3\nN270 #ANG=80 G01 Z40 X30"
+IS_G4 = "N250 G18 G01 Z15 X2\nN260 #ANG=30 #RND=3 Z25\nN270 G01 Z40 X30"
+IS_G5 = "G0 X0 Y0\nN10 G91 G01 X80 Y-40 F100\nN20 G301 I40\nN30 G01 X80 Y40"
+IS_G6 = "G0 X0 Y0\nN10 G91 G01 X60 F100\nN20 G302 I30\nN30 X-40 Y-55"
+IS_G7 = """%BRACKET
+(OUTSIDE CONTOUR (6 MM PLATE))
+N10 G17 G90 G71 G162
+N20 T3 D3 M06
+N30 S3000 M03
+N40 G00 X0 Y-10 Z50
+N50 Z2
+N60 G01 Z-6 F200
+N70 Y0 F800 ;START OF CONTOUR
+N80 X10
+N90 #ANG=70 #RND=8
+N100 #ANG=15 X60 Y70
+N110 X90 #CHR=6
+N120 #ANG=-60 Y20
+N130 G302 I5
+N140 G01 Y0
+N150 G00 Z50
+N160 M05
+N170 M30"""
+RIGHT = {
+    "IS-G1": ("N10 G17 G90 G0 X10 Y10\nN20 G01 F2000 #ANG=60 X20", "10 10; 20 27.3205"),
+    "IS-G2": ("G0 X10 Y10\nG01 #ANG=35 Y20", "10 10; 24.2815 20"),
+    "IS-G3": (IS_G3, "15 2; 36.1253 14.1967 > ccw 37.5797 16.2738 34.6253 16.7948; 40 30"),
+    "IS-G4": (IS_G4, "15 2; 24.4005 7.4274 > ccw 25.3872 8.3473 22.9005 10.0255; 40 30"),
+    "IS-G5": (IS_G5, "0 0; 44.2229 -22.1115; 115.7771 -22.1115; 160 0"),
+    "IS-G6": (IS_G6, "0 0; 1.0869 0 > cw 25.3490 -47.6452 1.0869 -30; 20 -55"),
+    "IS-G7": (
+        IS_G7,
+        (
+            "10 0; 31.4036 58.8059 > cw 36.8506 63.7971 38.9211 56.0697; 60 70; 84 70; 93 64.8038; 118.1976 21.1603 > "
+            "cw 118.8675 18.6603 113.8675 18.6603; 118.8675 0"
+        ),
+    ),
+}
+
+
+def isg(text: str, **settings: str):
+    return solve(
+        text, control=ISG, settings={f"isg.{name.replace('_', '-')}": value for name, value in settings.items()}
+    )
+
+
+def path(text: str, **settings: str) -> list[Element]:
+    """All contours, one behind the other; they have no errors."""
+    result = isg(text, **settings)
+    assert not result.has_errors, [each.message for each in result.diagnostics]
+    found = []
+    for each in (element for answer in result.answers for element in answer.contour.elements):
+        start, end = complex(*each.start), complex(*each.end)
+        if hasattr(each, "center"):
+            found.append(Element("arc", start, end, complex(*each.center), each.radius, each.turn.value))
+        else:
+            found.append(Element("line", start, end))
+    return found
+
+
+def ends(text: str, **settings: str) -> list[complex]:
+    return [each.end for each in path(text, **settings)]
+
+
+def refused(text: str, code: str, number: str | None = None, **settings: str) -> None:
+    """That the error is found first, with its ID, and no contour of its blocks called solved."""
+    result = isg(text, **settings)
+    errors = [each for each in result.diagnostics if each.severity.value == "error"]
+    assert [each.code for each in errors][:1] == [code], [each.message for each in errors]
+    assert (errors[0].alarm.number.split()[0] if errors[0].alarm else None) == number
+    line = errors[0].span.line
+    assert not [each for each in result.answers if each.contour and each.lines[0] <= line <= each.lines[-1]]
+
+
+@pytest.mark.parametrize("name", RIGHT)
+def test_a_worked_example_comes_out_as_the_sheet_has_it(name):
+    text, expected = RIGHT[name]
+    found = path(text)
+    assert gap(drawn(expected, 1), found) < 1.1e-4
+
+
+@pytest.mark.parametrize(
+    ("text", "code", "number"),
+    [
+        ("N240 G18 G1 Z15 X10\n#ANG 60\n#ANG 60 Z40 X30", "angles-parallel", "21892"),
+        ("N240 G18 G1 Z15 X10\n#ANG 60\n#ANG 240 Z40 X30", "angles-parallel", "21892"),
+        ("N100 G17 G1 X10 Y10\n#ANG=45 X20 Y25", "angle-redundant", "21895"),
+        ("N250 G18 G01 Z15 X2\n#ANG=30 #RND=3\nG01 Z40 X30", "closing-incomplete", "21904"),
+        ("N250 G18 G01 Z15 X2\n#ANG=30 #RND=3\nG01 Z40 #ANG=80", "closing-incomplete", "21904"),
+        ("G18 G01 Z15 X2\n#ANG=30\nM30", "end-missing", "21904"),
+        ("G18 G01 Z15 X2\n#ANG=30\nM8\n#ANG=80 Z40 X30", "end-missing", "21904"),
+        (MILL + "G1 #ANG=30\n#ANG=40\n#ANG=80 X40 Y30", "closing-incomplete", "21904"),
+        (MILL + "G1 #ANG=30\nG91 X10 Y-10 #ANG=-45", "closing-increment", "21910"),
+        (MILL + "G01 X10\nG301\nG01 Y10", "corner-size", "20012"),
+        (MILL + "G01 X10\nG302 I0\nG01 Y10", "corner-size", "20012"),
+        (MILL + "G302 I5\nG1 X10", "corner-alone", "20351"),
+        (MILL + "G1 X10 Y10\nM8\nG302 I5\nG1 X20", "corner-alone", "20351"),
+        (MILL + "G1 X30 #RND=40\nY30", "corner-too-large", None),
+        (MILL + "G1 X30\nG301 I31\nG1 Y40", "corner-too-large", None),
+        (MILL + "G1 X30\nG302 I5\nG1 X40", "corner-straight", None),
+        (MILL + "G1 X30 #RND=4 #CHR=2\nY30", "two-corners", None),
+        (MILL + "G1 X30 #CHF=4 #CHR=2\nY30", "two-corners", None),
+        (MILL + "G1 X40 #CHF=3\nG2 X60 Y20 I20 J0", "face-on-arc", None),
+        (MILL + "G2 X20 Y20 I20 J0 #CHF=3\nG1 X60", "face-on-arc", None),
+        (MILL + "G2 X20 Y20 I20 J0 #ANG=3", "angle-on-arc", None),
+        (MILL + "G1 X30\nG302 I-5\nG1 Y40", "corner-negative", None),
+        (MILL + "G1 X30\nG302 I5\nM30", "corner-without-next", None),
+        (MILL + "G0 X10 Y10\nG01 #ANG=60 X0", "line-reversed", None),
+        (MILL + "G1 #ANG=30\nG18 X60 Z20 #ANG=-45", "plane-changes", None),
+    ],
+)
+def test_what_the_sheet_refuses_has_its_number_and_no_contour(text, code, number):
+    refused(text, f"isg-{code}", number)
+
+
+def test_two_corners_between_two_moves_are_refused():
+    result = isg(MILL + "G1 X10\nG302 I2\nG301 I2\nG1 Y10")
+    assert {each.alarm.number.split()[0] for each in result.diagnostics if each.alarm} == {"20351"}
+    assert "20701" in next(each.alarm.number for each in result.diagnostics if each.alarm)
+    assert all(each.contour is None for each in result.answers)
+
+
+def test_an_angle_beside_both_coordinates_says_by_how_much_they_miss_and_names_the_ways_out():
+    (finding,) = isg("N100 G17 G1 X10 Y10\n#ANG=45 X20 Y25").diagnostics
+    assert "56.310 deg" in finding.message
+    assert "3.536 mm" in finding.message
+    fixes = [each.replacement for each in finding.fixes]
+    assert {"#ANG=45 X20", "#ANG=45 Y25", "X20 Y25"} <= {*fixes}
+
+
+def test_a_program_of_the_sheet_without_a_motion_says_so():
+    result = isg("N100 G17 X10 Y10\n#ANG=45 X20 Y25")
+    assert not any(each.contour for each in result.answers)
+    assert "no G code of a motion is in force" in result.diagnostics[0].help
+
+
+# How it is spelled ------------------------------------------------------------------------------------------------
+
+
+@some_of(
+    "text",
+    [
+        "G1 X80 #RND=5\nG1 Y40",
+        "N10G01X80Y0 #RND 5\nN20Y40",
+        "g1 x80 #rnd=5\ny40",
+        "G1 #RND = 5 X=80 F100\nY=40",
+        "G1 X80 #RND=5 #FRC=100\nY40 (END)",
+        "G1 X80 (A (NESTED (DEEP)) COMMENT) #RND=5\nY40 (OPEN (TO THE END",
+        "G1 X80 #RND=5 ;REMARK (\n\n(NOTHING)\nY40",
+        "G91 G1 X80 #RND=5\nY40",
+        "G1 X80\nG302 I5\nG1 Y40",
+        "G1 X80\nG302I5 (R5)\n(NOTHING)\nY40",
+        "G1 X80\nN5 G302 I=5\nN6 Y40",
+        "/G1 X80 #RND=5\nY+40.0",
+        "G1 # RND=5 X80\nY40.",
+    ],
+    one_in=2,
+)
+def test_the_same_corner_is_read_however_it_is_written(text):
+    expected = drawn("0 0; 75 0 > ccw 80 5 75 5; 80 40", 1)
+    for head in ("", "%MAIN\n#COMMENT BEGIN\n#COMMENT END\n"):
+        assert gap(expected, path(head + MILL + text)) < 1e-9
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "G1 X100+P10 #ANG=30",
+        "G1 X[100+P10] #ANG=30",
+        "G1 X=SIN[30] #ANG=30",
+        "G1 X40 #ANG=P5",
+        "G1 X40 #RND=V.P.R\nY40",
+        "G1 X30\nG301 I=P1\nY30",
+    ],
+)
+def test_an_expression_has_no_value(text):
+    refused(MILL + text, "value-variable")
+
+
+@some_of(
+    ("between", "told"),
+    [
+        ("L SUB1", "SUB1"),
+        ("LL LOCAL", "LL"),
+        ("L10", "L10"),
+        ("M17", "M17"),
+        ("G54", "G54"),
+        ("G68 R30", "G68"),
+        ("G74 X0 Y0", "G74"),
+        ("#ROTATION ON", "#ROTATION"),
+        ("#CS ON [0,0,0]", "#CS"),
+        ("$IF P1 > 5", "macro"),
+        ("G1 X=P1 Y=P2+5", "variable"),
+        ("G161", "G161"),
+    ],
+    one_in=2,
+)
+def test_behind_what_is_not_followed_the_position_is_unknown(between, told):
+    result = isg(MILL + between + "\nG1 Y60 #ANG=30")
+    errors = [each for each in result.diagnostics if each.severity.value == "error"]
+    assert [each.code for each in errors] == ["position-unknown"]
+    assert told in errors[0].message
+    assert result.answers[0].contour is None
+
+
+def test_words_with_a_number_sign_show_the_control():
+    for text, _ in RIGHT.values():
+        assert solve(text).control == ISG, text
+    assert solve(MILL + "G1 X30 # CHR = 2\nY40").control == ISG
+
+
+# Planes, diameters and settings -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("plane", "letters"), [(17, "XYIJ"), (18, "ZXKI"), (19, "YZJK")])
+def test_planes_read_the_same_blocks_with_other_letters(plane, letters):
+    table = str.maketrans("XYIJ", letters)
+    text = MILL + "G1 #ANG=30 #RND=6\nX60 Y20 #ANG=-45 #CHR=2\nG3 X80 Y40 I20 J0\nG302 I1\nG1 Y80"
+    own = re.compile(r"(?<![A-Z#])[XYIJ](?=[\d=])")
+    lines = [own.sub(lambda word: word[0].translate(table), line.replace("I1", "\0")) for line in text.split("\n")]
+    assert ends("\n".join(lines).replace("\0", "I1").replace("G17", f"G{plane}")) == pytest.approx(ends(text))
+
+
+def test_x_is_a_diameter_behind_g51_and_a_radius_before_and_behind_g52():
+    text = "G18 {} G90 G0 Z15 X4\nG1 #ANG=30 #RND=3\n#ANG=80 Z40 X60\nG302 I2\nG1 X80"
+    radius = ends(text.format("").replace("X4", "X2").replace("X60", "X30").replace("X80", "X40"))
+    assert ends(text.format("G51")) == pytest.approx(radius)
+    assert ends(text.format("G51 G52")) == ends(text.format("")) != radius
+    single = "G18 G51 G90 G0 Z0 X20\nG1 X40 #ANG=45"
+    assert ends(single) == pytest.approx([10 + 20j])
+    refused("G18 G51 G90 G0 X20 Z0\nG1 X40 #RND=2\nG52 Z-50", "isg-diameter-changes")
+    arc = "G18 G51 G90 G0 X20 Z0\nG1 X40 #RND=2\nG3 Z-20 X80 I0 K-20"
+    assert isg(arc).answers[0].contour is None or path(arc)[-1].end == -20 + 40j
+
+
+def test_a_line_of_its_own_is_a_ray_and_one_of_a_pair_need_not_be():
+    refused(MILL + "G1 X-40 #ANG=30", "isg-line-reversed")
+    pair = MILL + "G1 #ANG=210\nX60 Y20 #ANG=-45"
+    assert ends(pair) == pytest.approx(ends(pair.replace("210", "30")))
+    assert [(each.code, each.severity.value) for each in isg(pair).diagnostics] == [("angle-opposite", "warning")]
+    refused(pair, "isg-line-reversed", pair_sense="ray")
+    assert ends(pair.replace("210", "30"), pair_sense="ray") == ends(pair.replace("210", "30"))
+    refused(pair.replace("210", "30").replace("-45", "135"), "isg-line-reversed", pair_sense="ray")
+    (answer,) = isg(pair, pair_sense="ray").answers
+    assert [each.setting.name for each in answer.claim.conventions] == ["pair-sense"]
+
+
+def test_the_radii_of_an_arc_may_differ_by_a_setting():
+    text = MILL + "G1 X40 #RND=6\nG2 X60 Y20.05 I20 J0"
+    refused(text, "radius-difference")
+    assert abs(ends(text, radius_difference="0.1")[-1] - (60 + 20.05j)) < 1e-9
+
+
+def test_a_chamfer_is_measured_as_its_word_says():
+    assert ends(MILL + "G1 X30 #CHR=3\nX60 Y40") == pytest.approx([27, 31.8 + 2.4j, 60 + 40j])
+    assert ends(MILL + "G1 X30\nG301 I3\nX60 Y40") == pytest.approx([27, 31.8 + 2.4j, 60 + 40j])
+    face = ends(MILL + "G1 X30 #CHF=2\nX60 Y40")
+    assert abs(face[1] - face[0]) == pytest.approx(2)
+    arc = path(MILL + "G1 X30\nG301 I2\nG2 X50 Y20 I20 J0")
+    assert abs(arc[1].end - 30) == pytest.approx(2)
+    assert abs(arc[1].end - 50) == pytest.approx(20)
+
+
+# Corners in blocks of their own -------------------------------------------------------------------------------------
+
+
+def test_a_stored_size_stays_until_another_one_is_given():
+    text = MILL + "G1 X30\nG302 I5\nY30\nG301\nX60\nG302 I2\nY60\nG302\nX90"
+    written = MILL + "G1 X30 #RND=5\nY30 #CHR=5\nX60 #RND=2\nY60 #RND=2\nX90"
+    assert ends(text) == pytest.approx(ends(written))
+    later = MILL + "G1 X30\nG302 I5\nY30\nG0 X50\nG1 Y50\nG301\nX80"
+    assert ends(later)[3:] == pytest.approx([50 + 45j, 55 + 50j, 80 + 50j])
+    refused(later.replace(" I5", ""), "isg-corner-size", "20012")
+
+
+def test_a_stored_size_that_does_not_fit_is_named():
+    result = isg(MILL + "G1 X30\nG302 I5\nY30\nG302\nX32")
+    (finding,) = [each for each in result.diagnostics if each.severity.value == "error"]
+    assert "I5" in finding.message
+
+
+def test_a_corner_block_moves_nothing_and_keeps_the_motion():
+    text = MILL + "G91 G1 X30\nG302 I5\nY30\nG301 I3\nX30\nG3 X10 Y10 I0 J10\nG302 I1\nG1 X-40"
+    assert ends(text)[-1] == pytest.approx(30 + 40j)
+
+
+def test_corner_blocks_between_arcs_and_meeting_lines():
+    text = MILL + "G1 #ANG=70\nG302 I2\nX80 Y25 #ANG=-30\nG301 I3\nG1 X90 Y60"
+    assert ends(text) == pytest.approx(ends(MILL + "G1 #ANG=70 #RND=2\nX80 Y25 #ANG=-30 #CHR=3\nX90 Y60"))
+    arcs = MILL + "G2 X20 Y20 I20 J0\nG302 I2\nG2 X40 Y40 I20 J0"
+    assert ends(arcs) == pytest.approx(ends(MILL + "G2 X20 Y20 I20 J0 #RND=2\nG2 X40 Y40 I20 J0"))
+
+
+def test_a_corner_block_may_say_more_and_a_word_and_a_block_are_one_too_many():
+    refused(MILL + "G1 X30 #RND=2\nG302 I2\nG1 Y30", "isg-corner-twice")
+    refused(MILL + "G1 X30 #RND=2\nG301 I2\nG1 Y30", "isg-two-corners")
+    for block in ("G302 I2 X50", "G302 G301 I2", "G302 I2 I3", "G302 I2 #ANG=30", "G302 I2 Z-5", "G302 I2 Q1"):
+        refused(MILL + f"G1 X30\n{block}\nG1 Y30", "isg-corner-crowded")
+    assert ends(MILL + "G1 X30\nN5 G302 I2 F100 M8\nG1 Y30") == ends(MILL + "G1 X30\nG302 I2\nG1 Y30")
+
+
+def test_a_stream_gives_what_the_whole_program_gives():
+    text = MILL + "G1 X30\nG302 I5\nX30 Y30\nX60 Y30\nG301\nX60 Y60\nX70\nM30\n"
+    lines = [line for line in expand(text, control=ISG).text.splitlines() if line[0] != "("]
+    assert not any("G30" in line for line in lines)
+    assert lines[1:7] == ["G01 X25 Y0", "G03 X30 Y5 I0 J5", "G01 X30 Y30", "G01 X55 Y30", "G01 X60 Y35", "G01 X60 Y60"]
