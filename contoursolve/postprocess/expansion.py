@@ -15,14 +15,24 @@ from contoursolve.geometry import Length
 from contoursolve.postprocess.emit import Format, Move, emit
 from contoursolve.postprocess.expansion_report import Left, Options, Summary, left_unread
 from contoursolve.postprocess.numbering import Numberer, Numbers, Offsets
-from contoursolve.postprocess.post_processors import SAME, machine_of
+from contoursolve.postprocess.post_processors import SAME, Machine, machine_of
 from contoursolve.postprocess.translate import Moves, translate
 from contoursolve.postprocess.untranslatable import Watch
 from contoursolve.program.batch import Batch
 from contoursolve.program.lines import Lines
 from contoursolve.program.pipeline import attach, walk
 from contoursolve.program.solve_queue import Step
-from contoursolve.reading import Code, ParsedContour, ReadIssue, State, apply_modes, codes_of, motion_of, words_of
+from contoursolve.reading import (
+    Code,
+    Diameter,
+    ParsedContour,
+    ReadIssue,
+    State,
+    apply_modes,
+    codes_of,
+    motion_of,
+    words_of,
+)
 from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.follow import ContourBlock, blocks_of
 from contoursolve.reading.modal_dependence import (
@@ -90,6 +100,8 @@ def lines_of_facts(
 def opening_of(options: Options, dialect: Dialect, unit: Length, summary: Summary) -> str:
     """The line that the target needs before the first block; empty if it needs none, or nothing was replaced."""
     text = options.post.opening.get(machine_of(dialect), "") if summary.replaced else ""
+    if summary.counts_diameters:
+        text = text.replace("G8 ", "G7 ")
     return text.format(unit="G20" if unit is Length.INCH else "G21") + summary.line_end if text else ""
 
 
@@ -280,10 +292,32 @@ class _Expander:
         is_open = any(answer.claim.before.axes[axis].is_skippable for axis in answer.plane.axes)
         if is_open and not answer.claim.blocks[0].is_skippable:
             return "it begins where a block with / leads: with that block skipped, it is another contour"
+        miscounted = self._miscounted(answer)
+        if miscounted:
+            return miscounted
         beside = [word.text for block in answer.claim.blocks for word in answer.claim.beside_plane(block)]
         if not beside or (len(answer.claim.blocks) == 1 and len(answer.contour.elements) <= 1):
             return ""
         return f"{beside[0]} moves an axis outside the plane: move it in a block of its own"
+
+    def _miscounted(self, answer: Answer) -> str:
+        """Why the target would take X for a diameter, or for a radius, where it is none; empty if it does not."""
+        modes, diameter, counts = self.options.post.modes, answer.claim.before.diameter, any(answer.plane.diameters)
+        if modes is None or diameter is None:
+            return ""
+        what = "a diameter" if counts else "a radius"
+        if not any(code.diameter for code in modes.codes.values()):
+            is_lathe = machine_of(self.dialect) is Machine.LATHE
+            settings = {setting.name for setting in self.dialect.settings}
+            advice = f"; for a lathe, set {self.dialect.name}.machine=lathe" if "machine" in settings else ""
+            return "" if counts is is_lathe else f"X is {what} here, and the target cannot switch that{advice}"
+        if diameter is Diameter.ABSOLUTE:
+            return "X is a diameter in absolute coordinates alone, which the target does not know"
+        if diameter is Diameter.BY_PLANE:
+            if self.summary.counts_diameters not in (None, counts):
+                return f"X is {what} here, and another time it is not: say it in the program"
+            self.summary.counts_diameters = counts
+        return ""
 
     def _relying(self, answer: Answer, steps: Iterator[Step], coming: deque[Step]) -> str:
         """Why a contour has to stay because of a block behind it, for which the motion that is in force before it

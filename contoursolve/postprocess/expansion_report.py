@@ -50,6 +50,8 @@ class Summary(Struct):
     deviation: float = 0.0
     left: list[Left] = field(default_factory=list)
     unfamiliar: list[Unfamiliar] = field(default_factory=list)
+    counts_diameters: bool | None = None
+    """Whether X counted diameters in contours of a program that does not say it; None: there were none."""
     line_end: str = "\n"
     """How the first line that has an end ends."""
 
