@@ -207,6 +207,7 @@ def _unmarked(comment: str, line: int, offset: int, syntax: Syntax) -> list[Dire
 _FAULTS = {
     "open": FaultKind.COMMENT_NOT_CLOSED,
     "malformed": FaultKind.NUMBER_MALFORMED,
+    "mistyped": FaultKind.NUMBER_MALFORMED,
     "bare": FaultKind.NUMBER_MISSING,
     "comma_only": FaultKind.COMMA_WITHOUT_ADDRESS,
     "stray": FaultKind.STRAY_CHARACTER,

@@ -9,7 +9,7 @@ from msgspec import Struct
 
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode.syntax import ISO
-from contoursolve.gcode.word import Block, FaultKind
+from contoursolve.gcode.word import Block, Fault, FaultKind, spell
 
 _DIGITS = str.maketrans("lI|Oo", "11100")
 _NUMBER = r"(?>(?:[-+0-9.lI|Oo]|,(?=[\d.,]|[ \t]*+(?:[;(]|$)))+)"
@@ -56,8 +56,10 @@ def find_lookalikes(block: Block) -> tuple[Lookalike, ...]:
     `X10I5.` is one, too, and means what it says: what is meant shows only where it is tried.
     """
     found, text, place = [], block.text, 0
-    if block.syntax is not ISO or any(fault.kind is FaultKind.BLOCK_TOO_LONG for fault in block.faults):
+    if any(fault.kind is FaultKind.BLOCK_TOO_LONG for fault in block.faults):
         return ()
+    if block.syntax is not ISO:
+        return tuple(filter(None, map(_meant, block.faults)))
     while match := _SEARCH.search(text, place):
         old, place = match[0], match.end()
         if match["number"] is None or match["text"] is not None:
@@ -69,6 +71,18 @@ def find_lookalikes(block: Block) -> tuple[Lookalike, ...]:
             # A letter among the digits may be the address.
             place = max(match.start() + 1, match.end() - _LONGEST)
     return tuple(found)
+
+
+def _meant(fault: Fault) -> Lookalike | None:
+    """What a fault is with digits for letters, and with an equals sign behind a long address."""
+    match = _LONG.fullmatch(fault.text)
+    if match is None or fault.kind is not FaultKind.NUMBER_MALFORMED:
+        return None
+    new = spell(match["address"], match["number"].translate(_DIGITS).replace(",", "."))
+    return Lookalike(fault.span, fault.text, new) if new != fault.text else None
+
+
+_LONG = re.compile(r"(?P<address>#?[A-Za-z_]\w*?)[ \t]*=?[ \t]*(?P<number>[+-]?\d[\d.,Ool|]*)", re.ASCII)
 
 
 def lookalike_at(words: Sequence[Lookalike], place: Span) -> Lookalike | None:

@@ -26,10 +26,10 @@ class Syntax:
     """One way to spell blocks.
 
     `token` matches each stretch of a block, and is named by what it is: a `blank`, a `comment`, a `word`, the `name` of
-    a code, or one of the faults of the lexer. `parts` are those of a word: its address, its number if it has one, and
-    whether a question mark stands for it. `statement` matches a block that is no list of words: an `assignment`
-    or a `flow` of control. `remark` is what a comment looks like that is written, with `{}` for its
-    text; facts stand in those alone.
+    a code, or one of the faults of the lexer (`mistyped` is a number that is almost one). `parts` are those of a word:
+    its address, its number if it has one, and whether a question mark stands for it. `statement` matches a block that
+    is no list of words: an `assignment` or a `flow` of control. `remark` is what a comment looks like that is written,
+    with `{}` for its text; facts stand in those alone.
     """
 
     name: str

@@ -46,6 +46,8 @@ class Manual:
     cut: str
     arc: str
     alarms: Mapping[str, Alarm] = field(default_factory=dict)
+    plane: str = ""
+    """What else may help where an axis is outside the plane."""
 
     def row(
         self,
@@ -105,7 +107,7 @@ def chain_rules(manual: Manual) -> Iterator[Rule]:
     yield row(
         "outside-plane",
         "{words} does not belong to the plane of the contour",
-        "move that axis in a block of its own, or select its plane by G17, G18 or G19",
+        "move that axis in a block of its own, or select its plane by G17, G18 or G19" + manual.plane,
         some(*BESIDE, "wrong-center"),
         ANY,
         cut,

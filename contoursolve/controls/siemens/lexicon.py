@@ -81,6 +81,8 @@ SYNTAX = Syntax(
         rf"""
     (?P<blank>[ \t\f\v\x02\x03\x11-\x14\x1a\ufeff]++|%.*+|[A-Za-z_]\w++:(?!=)|:\d++)
   | (?P<comment>;.*+)
+  | (?P<mistyped>(?:ANG|RNDM?|CHR|CHF|CR)[ \t]++{_NUMBER}
+      |(?:[A-Za-z_]\w*+[ \t]*+=|[A-Za-z](?![A-Za-z_]))[ \t]*+[+-]?+[\d.,]++[Ool|][\d.,Ool|]*+(?![\w(\[=]))
   | (?P<word>(?P<comma>)(?:
         (?>(?P<long>\$?[A-Za-z_]\w*+(?>(?:\[[^\]]*+\])?+))[ \t]*+=[ \t]*+)(?:
             (?P<function>[AaIi][Cc])[ \t]*+\([ \t]*+(?:(?P<inner>{_NUMBER})|(?P<unset>\?))[ \t]*+\)

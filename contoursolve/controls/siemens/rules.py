@@ -34,6 +34,7 @@ MANUAL = Manual(
     vertex=_START + "G1 ANG=70\nX80 Y25 ANG=-30",
     cut=_START + "G1 X30 RND=5\nX40 Y40",
     arc=_START + "G1 X40 RND=6\nG2 X60 Y20 I20 J0",
+    plane="; for a lathe, set siemens-840d.machine=lathe",
     alarms={code: Alarm(number, Evidence.ASSUMED) for code, number in _ALARMS.items()},
 )
 _row = MANUAL.row
