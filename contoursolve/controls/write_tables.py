@@ -16,14 +16,15 @@ from contoursolve.reading import ContourForm, lay_out, stated_sets
 
 def table() -> str:
     """The verdict on every combination of words of every form, by sympy, as JSON."""
-    rows = {}
-    for dialect in DIALECTS.values():
-        for form in dialect.forms:
-            for stated in stated_sets(form):
-                layout = lay_out(form, stated, frozenset())
-                system = build_system(layout.figure, layout.facts)
-                rows[system.equations_key] = json.dumps(asdict(derive(system)))
-    return _write(rows)
+    layouts = (
+        lay_out(form, stated, frozenset())
+        for dialect in DIALECTS.values()
+        for form in dialect.forms
+        for stated in stated_sets(form)
+    )
+    systems = (build_system(layout.figure, layout.facts) for layout in layouts)
+    unlike = {system.equations_key: system for system in systems}
+    return _write({key: json.dumps(asdict(derive(system))) for key, system in unlike.items()})
 
 
 def identity_table() -> str:

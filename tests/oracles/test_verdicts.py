@@ -33,7 +33,7 @@ BY_LETTERS = {letters(key): row for key, row in TABLE.items() if key.startswith(
 
 def test_some_rows_of_the_shipped_table_are_what_sympy_derives_today():
     for form in (form for dialect in DIALECTS.values() for form in dialect.forms):
-        for stated in list(stated_sets(form))[::97]:
+        for stated in list(stated_sets(form))[::193]:
             layout = lay_out(form, stated, frozenset())
             system = build_system(layout.figure, layout.facts)
             assert json.loads(json.dumps(asdict(derive(system)))) == TABLE[system.equations_key], system.equations_key

@@ -142,7 +142,6 @@ LANGUAGE = Language(
         (_LINE, _LINE): Sample(_START, ("G1 {X40} {Y0} {ANG=0} {CHR=6} RND=5", "{X60} {Y20} {ANG=45}")),
         (_LINE, _ARC): Sample(_START, ("G1 {X40} {Y0} {CHR=6} RND=5", "G3 {X60} {Y20} {I0} {J20} {CR=20}")),
         (_OPEN, _CLOSING): Sample(_START, ("G1 ANG=70 {CHF=2} {RND=2}", "{X80} {Y25} {ANG=-30}")),
-        (_OPEN, _CLOSING, _LINE): Sample(_START, ("G1 ANG=70 {CHR=2}", "X80 Y25 ANG=-30 {RND=3}", "{X90} {Y60}")),
     },
     circumstances=_circumstances,
     conventions=_conventions,
