@@ -72,10 +72,11 @@ def isg(rng: Random, program: Sequence[str], plane: int | None) -> list[Line]:
 
 
 def _absolute(walk: _Walk, plane: int | None, word: tuple[str, str]) -> tuple[str, str]:
-    """A word of a lathe's block, in its plane, behind which the oracle has gone. An increment of an axis that is stated,
-    too, is a second word for it."""
+    """A word of a lathe's block, in its plane, behind which the oracle has gone. In a block that the oracle refuses, an
+    increment stays one, and is refused as a word that does not exist."""
     address, value = word
-    if plane == 0 or address not in ("X", "Z", "U", "W"):
+    is_wrong = address in "UW" and walk.blocks and walk.blocks[-1].fault
+    if plane == 0 or address not in ("X", "Z", "U", "W") or is_wrong:
         return word
     if address in "UW":
         at = 2 * walk.at.imag if address == "U" else walk.at.real

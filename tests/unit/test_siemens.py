@@ -4,12 +4,14 @@ import re
 from random import Random
 
 import pytest
+from click.testing import CliRunner
 from examples import few_and_many, some_of
 from examples_fanuc import drawn
 from oracle import Element
 from oracle_corners import gap
 
 from contoursolve import UnknownControlError, check, expand, solve
+from contoursolve.cli import main
 
 CONTROLS = ("siemens-840d", "siemens-808d")
 MILL = "G17 G90 G0 X0 Y0\n"
@@ -361,6 +363,13 @@ def test_rndm_makes_no_corner_where_the_path_does_not_turn():
     assert [each.kind for each in path(text)] == ["line", "line", "arc", "line", "arc", "line", "arc"]
 
 
+def test_rndm_makes_no_corner_at_a_rapid():
+    text = MILL + "RNDM=2\nG1 X30\nY40\nG0 X0\nG1 Y20\nX5"
+    first, second = siemens(text).answers
+    assert [each.kind for each in path_of(first)] == ["line", "arc", "line"]
+    assert path_of(second)[0].start == 40j
+
+
 def test_a_rounding_in_force_that_does_not_fit_is_named():
     result = siemens(MILL + "RNDM=20\nG1 X30\nY10\nX50")
     assert all("RNDM=20" in each.message for each in result.diagnostics)
@@ -441,6 +450,33 @@ def test_a_long_stream_keeps_a_rounding_in_force():
     assert (
         expand(text, control=CONTROLS[0]).text.count("CR=2") + expand(text, control=CONTROLS[0]).text.count(" I") >= 3
     )
+
+
+# Expansion ----------------------------------------------------------------------------------------------------------
+
+WRITTEN = {name: row[0] for name, row in RIGHT.items()} | {
+    "CT": MILL + "G1 X10\nCT X20 Y10\nX30 Y20\nX50 Y0 RND=2\nG1 X80",
+    "RNDM": MILL + "RNDM=2\nG1 X30\nX40 Y40\nX80 CHR=3\nY80\nX90\nG0 X0\nG1 Y20\nX5",
+    "IC": MILL + "G1 X=IC(30) RND=3 FRC=0.1\nG91 Y30 CHR=2\nX=AC(0)",
+    "G19": "G19 G90 G0 Y0 Z0\nG1 ANG=30 RND=6\nY60 Z20 ANG=-45",
+    "DIAM90": "G18 DIAM90 G90 G0 X20 Z0\nG1 X40 Z-10 RND=2\nX=IC(5) Z-20",
+    "inches": "G17 G70 G0 X0 Y0\nG1 X1 RND=0.1\nY2",
+}
+
+
+@some_of("name", [*WRITTEN], one_in=2)
+@pytest.mark.parametrize("arcs", ["center", "radius"])
+def test_what_is_written_out_goes_the_same_way(name, arcs, tmp_path):
+    old, new = tmp_path / "old.nc", tmp_path / "new.nc"
+    old.write_text(WRITTEN[name] + "\n")
+    new.write_text(expand(WRITTEN[name] + "\n", control=CONTROLS[0], arcs=arcs).text)
+    outcome = CliRunner().invoke(main, ["diff", str(old), str(new), "--control", CONTROLS[0]])
+    assert outcome.exit_code == 0, outcome.output
+    code = "\n".join(line for line in new.read_text().splitlines() if line[0] not in "(;")
+    assert not re.search(r"ANG|RND=|CHR|CT|IC", code)
+    place = list(re.finditer(r"[XYZ](-?[1-9]\d*\.?\d*)(?= |$)", code, re.MULTILINE))[-1]
+    new.write_text(f"{code[: place.start(1)]}{float(place[1]) + 0.01}{code[place.end(1) :]}")
+    assert CliRunner().invoke(main, ["diff", str(old), str(new), "--control", CONTROLS[0]]).exit_code == 1
 
 
 # Laws ---------------------------------------------------------------------------------------------------------------
