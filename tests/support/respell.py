@@ -72,10 +72,10 @@ def isg(rng: Random, program: Sequence[str], plane: int | None) -> list[Line]:
 
 
 def _absolute(walk: _Walk, plane: int | None, word: tuple[str, str]) -> tuple[str, str]:
-    """A word of a lathe's block, in its plane, behind which the oracle has gone. In a block that the oracle refuses, an
+    """A word of a lathe's block, in its plane, behind which the oracle has gone. In a closing block, an
     increment stays one, and is refused as a word that does not exist."""
     address, value = word
-    is_wrong = address in "UW" and walk.blocks and walk.blocks[-1].fault
+    is_wrong = address in "UW" and walk.blocks and walk.blocks[-1].fault == "56"
     if plane == 0 or address not in ("X", "Z", "U", "W") or is_wrong:
         return word
     if address in "UW":
