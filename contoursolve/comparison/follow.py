@@ -175,7 +175,8 @@ class _Follower:
 
     def _is_plain(self, word: Word, more: tuple[str, ...] = ()) -> bool:
         row = self.modes.lexicon.addresses.get(word.address)
-        return word.address in _BESIDE or word.address in more or bool(row and row.axis)
+        is_beside = word.address in _BESIDE or word.address in self.modes.beside or word.address in more
+        return is_beside or bool(row and row.axis)
 
     def _arc(self, block: Block, here: State, turn: Turn) -> Step:
         """An arc by its centre or its radius, or why it is none."""

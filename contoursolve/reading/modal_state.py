@@ -170,6 +170,8 @@ class Modes:
 
     lasting: Mapping[str, str] = field(default_factory=dict, kw_only=True)
     """Addresses of words that stay in force and change the path, each with the word that ends it."""
+    beside: frozenset[str] = field(default=frozenset(), kw_only=True)
+    """Addresses with several letters of words that change no path where no contour is."""
     separate: frozenset[int] = field(default=frozenset(), kw_only=True)
     """G codes of blocks that belong to a contour and move nothing."""
 

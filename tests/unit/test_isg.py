@@ -3,12 +3,14 @@
 import re
 
 import pytest
+from click.testing import CliRunner
 from examples import some_of
 from examples_fanuc import drawn
 from oracle import Element
 from oracle_corners import gap
 
 from contoursolve import expand, solve
+from contoursolve.cli import main
 
 ISG = "isg"
 MILL = "G17 G90 G0 X0 Y0\n"
@@ -318,3 +320,26 @@ def test_a_stream_gives_what_the_whole_program_gives():
     lines = [line for line in expand(text, control=ISG).text.splitlines() if line[0] != "("]
     assert not any("G30" in line for line in lines)
     assert lines[1:7] == ["G01 X25 Y0", "G03 X30 Y5 I0 J5", "G01 X30 Y30", "G01 X55 Y30", "G01 X60 Y35", "G01 X60 Y60"]
+
+
+# Expansion ----------------------------------------------------------------------------------------------------------
+
+WRITTEN = {name: row[0] for name, row in RIGHT.items()} | {
+    "stored": MILL + "G1 X30\nG302 I5\nG1 Y30\nG301\nG1 X60 #FRC=100",
+    "G51": "G18 G51 G90 G0 Z15 X4\nG1 #ANG=30 #RND=3\n#ANG=80 Z40 X60\nG302 I2\nG1 X80",
+}
+
+
+@some_of("name", [*WRITTEN], one_in=2)
+@pytest.mark.parametrize("arcs", ["center", "radius"])
+def test_what_is_written_out_goes_the_same_way(name, arcs, tmp_path):
+    old, new = tmp_path / "old.nc", tmp_path / "new.nc"
+    old.write_text(WRITTEN[name] + "\n")
+    new.write_text(expand(WRITTEN[name] + "\n", control=ISG, arcs=arcs).text)
+    outcome = CliRunner().invoke(main, ["diff", str(old), str(new), "--control", ISG])
+    assert outcome.exit_code == 0, outcome.output
+    code = "\n".join(line for line in new.read_text().splitlines() if line[0] not in "(;")
+    assert not re.search(r"#(?!FRC)|G30", code)
+    place = list(re.finditer(r"[XYZ](-?[1-9]\d*\.?\d*)(?= |$)", code, re.MULTILINE))[-1]
+    new.write_text(f"{code[: place.start(1)]}{float(place[1]) + 0.01}{code[place.end(1) :]}")
+    assert CliRunner().invoke(main, ["diff", str(old), str(new), "--control", ISG]).exit_code == 1

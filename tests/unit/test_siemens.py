@@ -1,14 +1,17 @@
 """SINUMERIK: every worked example of its sheet, right and wrong, how it is spelled, its settings, RNDM and CT."""
 
 import re
+from random import Random
 
 import pytest
-from examples import some_of
+from click.testing import CliRunner
+from examples import few_and_many, some_of
 from examples_fanuc import drawn
 from oracle import Element
 from oracle_corners import gap
 
 from contoursolve import check, expand, solve
+from contoursolve.cli import main
 
 CONTROLS = ("siemens-840d", "siemens-808d")
 MILL = "G17 G90 G0 X0 Y0\n"
@@ -58,8 +61,12 @@ def path(text: str, control: str = CONTROLS[0], **settings: str) -> list[Element
     """All contours, one behind the other; they have no errors."""
     result = siemens(text, control, **settings)
     assert not result.has_errors, [each.message for each in result.diagnostics]
+    return [element for answer in result.answers for element in path_of(answer)]
+
+
+def path_of(answer) -> list[Element]:
     found = []
-    for each in (element for answer in result.answers for element in answer.contour.elements):
+    for each in answer.contour.elements if answer.contour else ():
         start, end = complex(*each.start), complex(*each.end)
         if hasattr(each, "center"):
             found.append(Element("arc", start, end, complex(*each.center), each.radius, each.turn.value))
@@ -334,25 +341,32 @@ def test_each_setting_has_an_effect():
 
 
 def test_rndm_rounds_every_corner_until_it_is_0():
-    path_of = MILL + "{}G1 X30\nX40 Y40\nX80{}\nY80\n{}X90\nY0"
-    every = path(path_of.format("RNDM=3\n", "", ""))
+    frame = MILL + "{}G1 X30\nX40 Y40\nX80{}\nY80\n{}X90\nY0"
+    every = path(frame.format("RNDM=3\n", "", ""))
     assert [each.kind for each in every] == ["line", "arc"] * 5 + ["line"]
     assert {each.radius for each in every if each.kind == "arc"} == {3.0}
-    written = re.sub(r"(?<=\d)$", " RND=3", path_of.format("", "", ""), flags=re.MULTILINE)
+    written = re.sub(r"(?<=\d)$", " RND=3", frame.format("", "", ""), flags=re.MULTILINE)
     assert gap(every, path(written.replace("G0 X0 Y0 RND=3", "G0 X0 Y0").removesuffix(" RND=3"))) < 1e-9
-    own = path(path_of.format("RNDM=3\n", " CHR=2", ""))
+    own = path(frame.format("RNDM=3\n", " CHR=2", ""))
     assert "".join(each.kind[0] for each in own) == "lalalllalal"
-    ended = path(path_of.format("RNDM=3\n", "", "RNDM=0\n"))
+    ended = path(frame.format("RNDM=3\n", "", "RNDM=0\n"))
     assert [each.kind for each in ended] == ["line", "arc"] * 4 + ["line"], "the last line is none of the contour"
-    later = path(path_of.format("", " RND=1", "RNDM=2\n"))
+    later = path(frame.format("", " RND=1", "RNDM=2\n"))
     assert [each.radius for each in later if each.kind == "arc"] == [1.0, 2.0]
-    begun = path(path_of.format("", " RND=1\nRNDM=2", ""))
+    begun = path(frame.format("", " RND=1\nRNDM=2", ""))
     assert [each.radius for each in begun if each.kind == "arc"] == [1.0, 2.0, 2.0]
 
 
 def test_rndm_makes_no_corner_where_the_path_does_not_turn():
     text = MILL + "RNDM=3\nG1 X10\nX20\nY10\nG3 X10 Y20 I-10 J0\nG1 X0\nCT X-10 Y10"
     assert [each.kind for each in path(text)] == ["line", "line", "arc", "line", "arc", "line", "arc"]
+
+
+def test_rndm_makes_no_corner_at_a_rapid():
+    text = MILL + "RNDM=2\nG1 X30\nY40\nG0 X0\nG1 Y20\nX5"
+    first, second = siemens(text).answers
+    assert [each.kind for each in path_of(first)] == ["line", "arc", "line"]
+    assert path_of(second)[0].start == 40j
 
 
 def test_a_rounding_in_force_that_does_not_fit_is_named():
@@ -435,3 +449,93 @@ def test_a_long_stream_keeps_a_rounding_in_force():
     assert (
         expand(text, control=CONTROLS[0]).text.count("CR=2") + expand(text, control=CONTROLS[0]).text.count(" I") >= 3
     )
+
+
+# Expansion ----------------------------------------------------------------------------------------------------------
+
+WRITTEN = {name: row[0] for name, row in RIGHT.items()} | {
+    "CT": MILL + "G1 X10\nCT X20 Y10\nX30 Y20\nX50 Y0 RND=2\nG1 X80",
+    "RNDM": MILL + "RNDM=2\nG1 X30\nX40 Y40\nX80 CHR=3\nY80\nX90\nG0 X0\nG1 Y20\nX5",
+    "IC": MILL + "G1 X=IC(30) RND=3 FRC=0.1\nG91 Y30 CHR=2\nX=AC(0)",
+    "G19": "G19 G90 G0 Y0 Z0\nG1 ANG=30 RND=6\nY60 Z20 ANG=-45",
+    "DIAM90": "G18 DIAM90 G90 G0 X20 Z0\nG1 X40 Z-10 RND=2\nX=IC(5) Z-20",
+    "inches": "G17 G70 G0 X0 Y0\nG1 X1 RND=0.1\nY2",
+}
+
+
+@some_of("name", [*WRITTEN], one_in=2)
+@pytest.mark.parametrize("arcs", ["center", "radius"])
+def test_what_is_written_out_goes_the_same_way(name, arcs, tmp_path):
+    old, new = tmp_path / "old.nc", tmp_path / "new.nc"
+    old.write_text(WRITTEN[name] + "\n")
+    new.write_text(expand(WRITTEN[name] + "\n", control=CONTROLS[0], arcs=arcs).text)
+    outcome = CliRunner().invoke(main, ["diff", str(old), str(new), "--control", CONTROLS[0]])
+    assert outcome.exit_code == 0, outcome.output
+    code = "\n".join(line for line in new.read_text().splitlines() if line[0] not in "(;")
+    assert not re.search(r"ANG|RND=|CHR|CT|IC", code)
+    place = list(re.finditer(r"[XYZ](-?[1-9]\d*\.?\d*)(?= |$)", code, re.MULTILINE))[-1]
+    new.write_text(f"{code[: place.start(1)]}{float(place[1]) + 0.01}{code[place.end(1) :]}")
+    assert CliRunner().invoke(main, ["diff", str(old), str(new), "--control", CONTROLS[0]]).exit_code == 1
+
+
+# Laws ---------------------------------------------------------------------------------------------------------------
+
+
+def drawn_points(rng: Random, count: int) -> list[complex]:
+    """Places of a path that neither turns back nor goes straight on."""
+    found = [0j, 20 + 0j]
+    while len(found) < count + 2:
+        step = complex(round(rng.uniform(-40, 40), 3), round(rng.uniform(-40, 40), 3))
+        turn = step / (found[-1] - found[-2])
+        if abs(step) > 10 and abs(turn.imag) / abs(turn) > 0.2:
+            found.append(found[-1] + step)
+    return found[1:]
+
+
+def heading(element: Element, at: complex) -> complex:
+    """The direction of travel at a place of an element."""
+    if element.center is None:
+        return (element.end - element.start) / abs(element.end - element.start)
+    return (at - element.center) / element.radius * (1j if element.turn == "ccw" else -1j)
+
+
+@few_and_many(10, 300)
+def test_random_tangent_arcs_begin_in_the_direction_before_them_and_end_at_their_words(count):
+    rng = Random(count)
+    for _ in range(count):
+        places = drawn_points(rng, rng.randint(1, 5))
+        motions = [rng.choice(("CT", "CT", "G1")) for _ in places[1:-1]] + ["CT"]
+        lines = ["G1 X20"]
+        for motion, place, before in zip(motions, places[1:], places[:-1], strict=True):
+            step = place - before
+            words = rng.choice((f"X{place.real:.6f} Y{place.imag:.6f}", f"X=IC({step.real:.6f}) Y=IC({step.imag:.6f})"))
+            lines.append(f"{motion} {words}")
+        text = MILL + "\n".join(lines)
+        found = [each for answer in siemens(text).answers for each in path_of(answer)]
+        before = Element("line", 0j, 20 + 0j, None, 0.0, "")
+        for motion, start, end in zip(motions, places[:-1], places[1:], strict=True):
+            line = Element("line", start, end, None, 0.0, "")
+            fitting = [each for each in found if abs(each.end - end) < 1e-6 and abs(each.start - start) < 1e-6]
+            own = fitting[0] if fitting else None
+            if motion == "CT":
+                assert own is not None, text
+                assert own.kind == "arc"
+                assert abs(heading(before, start) - heading(own, start)) < 1e-6, text
+                assert abs(abs(own.end - own.center) - own.radius) < 1e-8
+            before = own or line
+
+
+@few_and_many(10, 300)
+def test_a_rounding_in_force_is_the_same_as_one_at_each_corner(count):
+    rng = Random(count)
+    for _ in range(count):
+        places, size = drawn_points(rng, rng.randint(2, 5)), round(rng.uniform(0.1, 3), 3)
+        ends = [f"X{place.real:.3f} Y{place.imag:.3f}" for place in places]
+        own = rng.randrange(len(ends) - 1)
+        written = [f"{end} RND={0.5 if number == own else size}" for number, end in enumerate(ends[:-1])]
+        force = [f"{end} RND=0.5" if number == own else end for number, end in enumerate(ends)]
+        one = siemens(MILL + "G1 " + "\n".join([*written, ends[-1]]))
+        other = siemens(MILL + f"RNDM={size}\nG1 " + "\n".join(force))
+        assert one.has_errors == other.has_errors
+        if not one.has_errors:
+            assert gap(path_of(one.answers[0]), path_of(other.answers[0])) < 1e-9

@@ -153,7 +153,7 @@ def _kept_corner(
 ) -> tuple[dict[str, Given], dict[str, Word]]:
     """The corner that a word makes that stays in force, where the block has no corner word; and that word."""
     is_own = member.corner is not None or any(word in own for word in language.corners)
-    if is_own or member.is_straight or not member.is_joined:
+    if is_own or member.is_straight or not member.is_joined or member.here.motion == 0:
         return {}, {}
     for address, corner in language.modal_corner.items():
         word = member.here.memory.get(address)

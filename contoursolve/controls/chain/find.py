@@ -314,8 +314,9 @@ class ChainFinder:
         return member.corner is not None or bool(self._stated(member.block) & self._cornered)
 
     def _makes_corner(self, member: Member) -> bool:
-        """The same, or whether a word that stays in force makes one."""
-        return self._has_corner(member) or bool(member.here.memory.keys() & self.language.modal_corner.keys())
+        """The same, or whether a word that stays in force makes one, which it does not behind a rapid."""
+        is_kept = member.here.motion != 0 and member.here.memory.keys() & self.language.modal_corner.keys()
+        return self._has_corner(member) or bool(is_kept)
 
     def _is_tied_alone(self, member: Member, modes: Modes) -> bool:
         """Whether a block is calculated although nothing follows that belongs to it: a line by its angle, one with

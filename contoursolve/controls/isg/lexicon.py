@@ -133,5 +133,6 @@ MODES = Modes(
     syntax=SYNTAX,
     remember=_remember,
     call_addresses=frozenset("L"),
+    beside=frozenset({"#FRC"}),
     separate=frozenset({CHAMFER, ROUNDING}),
 )

@@ -151,4 +151,5 @@ MODES = Modes(
     remember=_remember,
     call_addresses=frozenset("L"),
     lasting={"RNDM": "RNDM=0"},
+    beside=frozenset({"RNDM", "FRC", "FRCM", "LIMS"}),
 )
