@@ -311,6 +311,7 @@ _PHRASES: Mapping[RefusalKind, Callable[[Check, CaseClass], str]] = {
     RefusalKind.LANDING_UNKNOWN: _always("no line advances along the line that {subject} lands on"),
     RefusalKind.NO_POINT: _apart,
     RefusalKind.ARC_EMPTY: _always("{subject} ends where it begins"),
+    RefusalKind.CORNER_SIGN: _always("{subject} runs against the sign of its corner"),
     RefusalKind.OUT_OF_RANGE: _always("a point lies farther away than words reach"),
 }
 

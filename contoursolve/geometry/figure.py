@@ -114,6 +114,8 @@ class Line(Struct, frozen=True):
     heading: str | None = None
     toward: str | None = None
     counts_length: bool = False
+    is_signed: bool = False
+    """Whether the sign of the corner word before it gives this direction."""
 
 
 class Arc(Struct, frozen=True):
@@ -173,6 +175,8 @@ class Corner(Struct, frozen=True):
     lands_on: str | None = None
     guard: float = 0.0
     """Sine of the change of direction up to which the control leaves the corner out."""
+    least: float = 0.0
+    """Sine of the change of direction up to which the control refuses the corner instead."""
 
 
 class Circle(Struct, frozen=True):

@@ -272,5 +272,6 @@ _OF_REFUSALS: Mapping[RefusalKind, Callable[[Subject, Refusal], Iterator[Part]]]
     RefusalKind.RADIUS_DIFFERENCE: _off_circle,
     RefusalKind.RADIUS_TOO_SMALL: _too_small,
     RefusalKind.LINE_REVERSED: _reversed,
+    RefusalKind.CORNER_SIGN: _reversed,
 }
 """How each refusal is drawn; the others have nothing to be shown."""

@@ -167,6 +167,8 @@ class ContourForm:
     """What its blocks may rest on."""
     guard: float = 0.0
     """Sine of the change of direction up to which the control makes no corner."""
+    refuses: bool = False
+    """Whether it refuses such a corner; else it leaves it out."""
 
     def __hash__(self) -> int:
         return hash(self.name)
@@ -219,8 +221,9 @@ def _corners(
     told = [[axis for names, axis in row.landing if which & set(names)] for which in (stated, asked)]
     landing = told[0] or told[1]
     axis = landing[0] if len(landing) == 1 else None
+    guard, least = (0.0, form.guard) if form.refuses else (form.guard, 0.0)
     return [
-        Corner(row.name, row.at, shape, word, row.before, row.after, axis, row.lands_on, form.guard)
+        Corner(row.name, row.at, shape, word, row.before, row.after, axis, row.lands_on, guard, least)
         for word, shape in row.shapes.items()
         if word in stated | asked and word not in sharp
     ]

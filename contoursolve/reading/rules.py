@@ -45,6 +45,9 @@ class Condition:
     def __and__(self, other: "Condition") -> "Condition":
         return Both(self, other)
 
+    def __or__(self, other: "Condition") -> "Condition":
+        return Either(self, other)
+
     def __invert__(self) -> "Condition":
         return Unless(self)
 
@@ -76,6 +79,31 @@ class Both(Condition):
         parts = (self.first, self.second)
         if any(not part.reads_values and not part.holds(stated) for part in parts):
             return ()
+        return self.first.compared(stated) + self.second.compared(stated)
+
+
+@dataclass(frozen=True, slots=True)
+class Either(Condition):
+    """One of two conditions, or both."""
+
+    first: Condition
+    second: Condition
+
+    @property
+    def reads_values(self) -> bool:  # type: ignore[override]
+        return self.first.reads_values or self.second.reads_values
+
+    def holds(self, stated: Stated) -> bool:
+        return self.first.holds(stated) or self.second.holds(stated)
+
+    def offenders(self, stated: Stated) -> tuple[str, ...]:
+        parts = [part for part in (self.first, self.second) if part.holds(stated)]
+        return tuple(dict.fromkeys(name for part in parts for name in part.offenders(stated)))
+
+    def limits(self, name: str, stated: Stated) -> tuple[Decimal, ...]:
+        return self.first.limits(name, stated) + self.second.limits(name, stated)
+
+    def compared(self, stated: Stated) -> tuple[tuple[str, str], ...]:
         return self.first.compared(stated) + self.second.compared(stated)
 
 

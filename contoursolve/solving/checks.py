@@ -302,7 +302,8 @@ def _check_element(source: Source, element: Line | Arc) -> tuple[Check, Any]:
     if isinstance(element, Arc):
         first, second = source.way(element.tail, element.head)
         return Check(RefusalKind.ARC_EMPTY, name, name, Test.ABOVE, LENGTH), sqrt(first**2 + second**2)
-    kind = RefusalKind.LINE_BACKWARDS if element.heading is None else RefusalKind.LINE_REVERSED
+    told = RefusalKind.CORNER_SIGN if element.is_signed else RefusalKind.LINE_REVERSED
+    kind = RefusalKind.LINE_BACKWARDS if element.heading is None else told
     return Check(kind, name, name, Test.AT_LEAST, -LENGTH), source.out(f"length:{name}")
 
 
@@ -319,6 +320,9 @@ def _check_corner(source: Source, corner: Corner) -> Checks:
         yield Check(reverses, name, "", Test.ABOVE, REGULAR), larger(magnitude(turn), below(0, out(f"cosine:{name}")))
     else:
         yield Check(RefusalKind.CORNER_STRAIGHT, name, "", Test.APART, REGULAR, opposite=reverses), turn
+    if corner.least:
+        is_back = below(out(f"cosine:{name}"), 0)
+        yield Check(RefusalKind.CORNER_STRAIGHT, name, "", Test.ABOVE, corner.least), larger(magnitude(turn), is_back)
     if corner.shape.share:
         for margin in _inside(source, corner):
             yield Check(RefusalKind.BEVEL_OUTSIDE, name, "", Test.NOT_BELOW, -LENGTH), margin

@@ -73,6 +73,9 @@ def _check_direction(line: Line, out: Outputs, profile: Profile) -> list[Refusal
         return []
     if line.heading is None:
         return [Refusal(RefusalKind.LINE_BACKWARDS, line.name, (), {"off_by_mm": -length})]
+    if line.is_signed:
+        sizes = tuple(corner.size for corner in profile.figure.corners if corner.at == line.tail)
+        return [Refusal(RefusalKind.CORNER_SIGN, line.name, sizes, {"off_by_mm": -length})]
     if profile.givens[line.heading].word is None:
         return [Refusal(RefusalKind.LINE_REVERSED, line.name, (), {"off_by_mm": -length})]
     angle = float(profile.givens[line.heading].value)
@@ -93,7 +96,8 @@ def _check_corner(
     if out.get(f"landing:{corner.name}") == 0:
         return refuse(RefusalKind.LANDING_UNKNOWN)
     straight = out[f"cosine:{corner.name}"] > 0
-    if abs(out[f"turn:{corner.name}"]) <= REGULAR and not (straight and corner.guard):
+    turn, least = abs(out[f"turn:{corner.name}"]), corner.least if straight else 0.0
+    if turn <= max(REGULAR, least) and not (straight and corner.guard):
         return refuse(RefusalKind.CORNER_STRAIGHT if straight else RefusalKind.CORNER_REVERSES)
     if corner.shape.share:
         outside = [excess for excess, give in _outside_rectangle(corner, profile, points) if excess > give + LENGTH]

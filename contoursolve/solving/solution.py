@@ -110,6 +110,8 @@ class RefusalKind(Enum):
     NOT_VERIFIED = "not-verified"
     OUT_OF_RANGE = "out-of-range"
     """A point lies farther from the start than any word reaches."""
+    CORNER_SIGN = "corner-sign"
+    """The sign of a corner word says that the next line runs the other way."""
 
     @property
     def status(self) -> Status:

@@ -179,10 +179,11 @@ class _Drawing:
         else:
             leaving = _Edge(arriving.at, self.landing(corner, number))
         turn = _cross(arriving.along, leaving.along)
-        is_left_out = abs(turn) <= corner.guard and _dot(arriving.along, leaving.along) > 0
+        is_ahead = _dot(arriving.along, leaving.along) > 0
+        is_left_out = is_ahead and corner.guard > 0 and abs(turn) <= corner.guard
         if min(self.room[path[number].name], self.room[corner.after] if corner.after else inf) <= LENGTH:
             self.against.append(f"{corner.name} is on an element of no length")
-        elif not is_left_out and not abs(turn) > REGULAR:
+        elif not is_left_out and not abs(turn) > max(REGULAR, corner.least * is_ahead):
             self.against.append(f"{corner.name} is between elements of one direction")
         elif corner.shape.share and self.is_outside(corner, number, increments):
             self.against.append(f"{corner.name} is outside of the rectangle that its lines span")

@@ -39,6 +39,8 @@ N005 ,A170. ,R20.
 N006 X300. Z-180. ,A112. ,R15.
 N007 Z-230. ,A180."""
 FL_G3 = "G00 X20. Z0\nG01 X40. ,A150.\nZ-30. ,A175."
+FL_G4 = "G00 X20. Z0\nG01 Z-25. R5.\nX50. C-3.\nZ-50."
+"""Plain words: parameter 3405, bit 4."""
 FL_G5 = """%
 O1001 (FLANGED STUD, FINISHING)
 N1 G21 G40 G99

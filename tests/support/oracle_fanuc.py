@@ -7,6 +7,7 @@ it refuses. Places are complex numbers, as in `oracle`; X of a lathe is halved o
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
 from math import radians, sin, sqrt
 from typing import NamedTuple
 
@@ -33,6 +34,8 @@ class Machine(NamedTuple):
     sense: str = "line"
     guard: float = 1.0
     strict: bool = False
+    signed: str = ""
+    """The words of a corner between two axes; their sign tells which way the next line runs."""
 
 
 class Run(NamedTuple):
@@ -59,6 +62,8 @@ class _Block:
     element: Element | None = None
     is_open: bool = False
     corner: Corner | None = None
+    axes: frozenset[str] = frozenset()
+    sign: float | None = None
 
 
 @dataclass
@@ -152,6 +157,12 @@ def _take(walk: _Walk, line: int, text: str) -> None:
         block.corner = Corner(corners[0][1], words[corners[0]])
         if len(corners) > 1 or words[corners[0]] < 0:
             block.fault = "corner"
+    signed = [address for address in walk.machine.signed if address in words] if walk.motion == 1 else []
+    signed = [address for address in signed if address == "R" or address in PLANES[walk.plane][2:]]
+    if signed:
+        value = words[signed[0]]
+        block.corner, block.sign = Corner("R" if signed[0] == "R" else "C", abs(value)), value
+        block.fault = block.fault or ("signed" if len(signed) + len(corners) > 1 else "")
     before = walk.blocks[-1] if walk.blocks else None
     (_line if walk.motion == 1 else _arc)(walk, block, before if before and before.is_open else None)
     walk.blocks.append(block)
@@ -187,9 +198,17 @@ def _end(walk: _Walk, block: _Block) -> complex:
 
 def _line(walk: _Walk, block: _Block, before: _Block | None) -> None:
     machine, words = walk.machine, block.words
-    allowed = {*_names(walk), *_CORNERS, *([machine.angle] if machine.is_lathe else [])}
+    signed = {"R", *PLANES[walk.plane][2:]} & {*machine.signed}
+    allowed = {*_names(walk), *_CORNERS, *signed, *([machine.angle] if machine.is_lathe else [])}
     block.fault = block.fault or ("stray" if words.keys() - allowed else "")
     stated, start = _stated(walk, block), walk.at
+    block.axes = frozenset(stated) | ({"angle"} if machine.angle in words else set())
+    if block.sign is not None:
+        # The letter of a chamfer is that of the axis of the next line.
+        own = [address for address in PLANES[walk.plane][2:] if address in words]
+        letters = {PLANES[walk.plane][2]: "2", PLANES[walk.plane][3]: "1"}
+        is_right = block.axes in ({"1"}, {"2"}) and all(letters[each] in block.axes for each in own)
+        block.fault = block.fault or ("" if is_right else "taper or letter")
     along = heading(words[machine.angle]) if machine.angle in words and machine.is_lathe else None
     if before is not None:
         _close(walk, block, before, along, stated)
@@ -280,6 +299,14 @@ def _arc(walk: _Walk, block: _Block, before: _Block | None) -> None:
 def _examine(chain: Sequence[_Block], machine: Machine, outcome: Outcome) -> None:
     path = [block.element for block in chain if block.element]
     dropped = set[int]()
+    for before, after in pairwise(chain):
+        if before.sign is not None and after.element is not None and not (before.fault or after.fault):
+            step = after.element.end - after.element.start
+            along = step.real if after.axes == {"1"} else step.imag
+            if after.motion != 1 or after.axes not in ({"1"}, {"2"}) or after.axes == before.axes:
+                raise Refused("not square")
+            if before.sign * along < 0:
+                raise Refused("sign")
     if any(block.fault for block in chain) or _is_tied(chain[-1]):
         raise Refused("refused")
     for number, (before, after, block) in enumerate(zip(path, path[1:], chain, strict=False)):

@@ -12,6 +12,8 @@ from examples import few_and_many, some_of
 from examples_fanuc import (
     EXAMPLES,
     FL_G1,
+    FL_G2,
+    FL_G4,
     FL_G5,
     FM_G1,
     FM_G2,
@@ -190,7 +192,7 @@ def test_the_same_corner_is_read_however_it_is_written(control, text):
         (HAAS_MILL, "G1 X50. R2.\nY60.", "R2.", "G1 X50. ,R2."),
         (HAAS_LATHE, "G1 Z-50. C2.\nX60.", "C2.", "G1 Z-50. ,C2."),
         (LATHE, "G1 X50. A150.\nZ-60.", "A150.", "G1 X50. ,A150."),
-        (LATHE, "G1 Z-50. R10.\nX60.", "R10.", "G1 Z-50. ,R10."),
+        (LATHE, "G1 Z-50. C10.\nX60.", "C10.", "G1 Z-50. ,C10."),
     ],
     one_in=2,
 )
@@ -253,9 +255,9 @@ def test_an_angle_that_is_missing_behind_an_open_line_is_asked_for_with_a_value_
 # Random contours --------------------------------------------------------------------------------------------
 
 MACHINES = {
-    LATHE: Machine(is_lathe=True),
-    MILL: Machine(is_lathe=False),
-    HAAS_LATHE: Machine(is_lathe=True, angle="A", meets=False),
+    LATHE: Machine(is_lathe=True, signed="IKR"),
+    MILL: Machine(is_lathe=False, signed="IJK"),
+    HAAS_LATHE: Machine(is_lathe=True, angle="A", meets=False, signed="IKR"),
     HAAS_MILL: Machine(is_lathe=False, arcs=False),
 }
 TYPED = {
@@ -497,6 +499,128 @@ def test_a_haas_mill_takes_corners_beside_arcs_where_a_setting_says_so(text, cod
     result = solve(text, control=HAAS_MILL, settings=ARCS_ON)
     assert [each.code for each in errors(result)][:1] == ([code] if code else [])
     assert (result.answers[0].contour is None) is bool(code)
+
+
+# Corners between two axes ------------------------------------------------------------------------------------
+
+PLAIN = {"fanuc-lathe.corner-words": "plain"}
+MILL_PLAIN = {"fanuc-mill.corner-words": "plain"}
+SQUARE = "20 0; 20 -20 > cw 30 -25 30 -20; 44 -25; 50 -28; 50 -50"
+
+
+@pytest.mark.parametrize(
+    ("control", "text", "settings", "expected"),
+    [
+        (LATHE, FL_G4, PLAIN, SQUARE),
+        (LATHE, FL_G4.replace("C-3.", "K-3."), None, SQUARE),
+        (LATHE, FL_G4.replace("X50.", "U30.").replace("C-3.", "K-3."), None, SQUARE),
+        (HAAS_LATHE, FL_G4.replace("C-3.", "K-3."), None, SQUARE),
+        (
+            LATHE,
+            "G00 X60. Z-40.\nG01 Z-25. I-5.\nX30. R3.\nZ0",
+            None,
+            "60 -40; 60 -30; 50 -25; 36 -25 > ccw 30 -22 36 -22; 30 0",
+        ),
+        (LATHE, "G00 X20. Z0\nG01 Z-25. R0\nX50.", None, "20 0; 20 -25; 50 -25"),
+        (LATHE, re.sub(r",(?=[ACR])", "", FL_G2), PLAIN, EXAMPLES["FL-G2"][2]),
+        (MILL, "G17 G90 G00 X0 Y0\nG01 X30. J5.\nY40. I-3.\nX0", None, "0 0; 25 0; 30 5; 30 37; 27 40; 0 40"),
+        (MILL, "G17 G90 G00 X0 Y0\nG01 X30. C5.\nY40. C-3.\nX0", MILL_PLAIN, "0 0; 25 0; 30 5; 30 37; 27 40; 0 40"),
+        (
+            MILL,
+            "G19 G90 G00 Y0 Z0\nG01 Y30. K-5.\nZ-40. ,C3.\nY40. Z-50.",
+            None,
+            "0 0; 25 0; 30 -5; 30 -37; 32.1213 -42.1213; 40 -50",
+        ),
+    ],
+)
+def test_a_corner_between_two_axes_is_made_as_its_sign_says(control, text, settings, expected):
+    result = solve(text, control=control, settings=settings)
+    assert result.diagnostics == ()
+    assert gap(drawn(expected, 0.5 if control.endswith("lathe") else 1), path(result)) < 1e-4
+    documents = Document("program", text.encode()), Document("result", to_json(result).encode())
+    assert verify(*documents).verdict is Verdict.VERIFIED
+
+
+@pytest.mark.parametrize(
+    ("control", "text", "settings", "code", "alarm"),
+    [
+        (LATHE, FL_G4.replace("R5.", "R30."), PLAIN, "fanuc-corner-too-large", "055"),
+        (LATHE, FL_G4.replace("C-3.", "C3."), PLAIN, "fanuc-corner-sign", "052"),
+        (LATHE, FL_G4.replace("R5.", "R-5."), PLAIN, "fanuc-corner-sign", "052"),
+        (LATHE, FL_G4.replace("X50. C-3.", "X50. Z-30. C-3."), PLAIN, "fanuc-corner-negative", None),
+        (LATHE, FL_G4.replace("X50.", "X10.").replace("C-3.", "K-3."), None, "fanuc-corner-sign", "052"),
+        (LATHE, "G00 X20. Z0\nG01 Z-25. I5.\nX40. Z-30.", None, "fanuc-corner-not-square", "052"),
+        (LATHE, "G00 X20. Z0\nG01 Z-25. I5.\nX40. ,A90.", None, "fanuc-corner-not-square", "052"),
+        (LATHE, "G00 X20. Z0\nG01 Z-25. R5.\nZ-40.", None, "fanuc-corner-not-square", "052"),
+        (LATHE, "G00 X20. Z0\nG01 Z-25. R5.\nG03 X40. Z-35. R10.", None, "fanuc-arc", "052"),
+        (LATHE, "G00 X20. Z0\nG01 Z-25. R5.\nG00 X40.", None, "fanuc-corner-without-next", "052"),
+        (LATHE, "G00 X20. Z0\nG01 Z-25. X22. R5.\nX40.", None, "fanuc-corner-taper", "054"),
+        (LATHE, "G00 X20. Z0\nG01 Z-25. ,A180. R5.\nX40.", None, "fanuc-corner-taper", "054"),
+        (LATHE, "G00 X20. Z0\nG01 Z-25. R5. I5.\nX40.", None, "fanuc-two-amounts", "053"),
+        (LATHE, "G00 X20. Z0\nG01 Z-25. ,R5. I5.\nX40.", None, "fanuc-two-amounts", "053"),
+        (LATHE, "G00 X20. Z0\nG01 Z-25. K5.\nX40.", None, "fanuc-chamfer-letter", None),
+        (LATHE, "G00 X20. Z0\nG01 Z-25. I11.\nX40.", None, "fanuc-corner-too-large", "055"),
+        (LATHE, "G00 X20. Z0\nG01 Z-25.\nR5.\nX40.", None, "fanuc-corner-alone", "055"),
+        (LATHE, "G00 X20. Z0\nG42 G01 Z-25. R5.\nX40.", None, "fanuc-corner-compensation", "039"),
+        (MILL, "G17 G90 G00 X0 Y0\nG01 X30. J5.\nY-40.", None, "fanuc-corner-sign", "052"),
+        (MILL, "G17 G90 G00 X0 Y0\nG01 X30. J5.\nG03 X40. Y10. R10.", None, "fanuc-corner-not-square", "052"),
+        (MILL, "G17 G90 G00 X0 Y0\nG01 X30. I5.\nY40.", None, "fanuc-chamfer-letter", None),
+        (MILL, "G17 G90 G00 X0 Y0\nG01 X30. Y1. C5.\nY40.", MILL_PLAIN, "fanuc-corner-taper", "054"),
+        (HAAS_LATHE, "G00 X20. Z0\nG01 Z-25. R-5.\nX40.", None, "haas-corner-sign", None),
+    ],
+)
+def test_what_does_not_fit_a_corner_between_two_axes_has_its_alarm(control, text, settings, code, alarm):
+    result = solve(text, control=control, settings=settings)
+    found = {each.code: each.alarm.number if each.alarm else None for each in errors(result)}
+    assert alarm is None or alarm in found[code]
+    assert found.keys() >= {code}
+    assert all(answer.contour is None for answer in result.answers)
+
+
+def test_a_sweep_across_the_sign_says_what_solve_says():
+    text = "G01 Z-25. R{}\nX{}"
+    radii, ends = [-12.0, -5.0, 0.0, 5.0, 12.0], [-10.0, 5.0, 20.0, 40.0]
+    table = family(text.format("5.", "40."), vary={"1:R": radii, "2:X": ends}, start="X20. Z0", control=LATHE)
+    for row, (radius, end) in enumerate((radius, end) for radius in radii for end in ends):
+        (answer,) = solve("G00 X20. Z0\n" + text.format(radius, end), control=LATHE).answers
+        assert Code(table["status"].ravel()[row]).status is answer.status, (radius, end)
+
+
+def test_many_corners_between_two_axes_come_out_as_each_alone():
+    blocks = [f"G00 X20. Z0\nG01 Z-25. R{sign}5.\nX{end}." for sign in ("", "-") for end in range(-30, 70, 7)]
+    together = solve("\n".join(blocks), control=LATHE).answers
+    for text, answer in zip(blocks, together, strict=True):
+        (alone,) = solve(text, control=LATHE).answers
+        assert (answer.status, elements(answer)) == (alone.status, elements(alone)), text
+
+
+def test_plain_words_leave_the_radius_of_an_arc_alone():
+    text = FL_G4 + "\nG02 X60. Z-55. R5.\nG01 Z-60. R2.\nX70."
+    assert [each.form for each in solve(text, control=LATHE, settings=PLAIN).answers] == ["corners", "corners"]
+    assert solve("G00 X20. Z0\nG02 X30. Z-5. R5.", control=LATHE, settings=PLAIN).answers == ()
+
+
+@pytest.mark.parametrize("control", MACHINES)
+def test_a_corner_within_the_guard_may_be_refused(control):
+    start, ends = (
+        ("G00 X50. Z0", ("Z-40.", "X50.2 Z-40."))
+        if control.endswith("lathe")
+        else ("G00 Z-20. X0 Y0", ("X60.", "X60. Y.3"))
+    )
+    first, beyond = ("Z-20.", "X52. Z-40.") if control.endswith("lathe") else ("X30.", "X60. Y2.")
+    for end in (*ends, beyond):
+        text = f"{start}\nG01 {first} ,C2.\n{end}"
+        assert solve(text, control=control).answers[0].contour is not None
+        refused = solve(text, control=control, settings={f"{control}.guard-corner": "error"})
+        assert (refused.answers[0].contour is None) is (end != beyond)
+        assert [each.code for each in errors(refused)] == [f"{control.split('-')[0]}-corner-straight"] * (end != beyond)
+        documents = Document("program", text.encode()), Document("result", to_json(refused).encode())
+        assert verify(*documents).verdict is not Verdict.FAILED
+    values = [-2.0, -0.53, -0.52, 0.0, 0.3, 0.53]
+    if control == MILL:
+        named = {"fanuc-mill.guard-corner": "error"}
+        table = family("G01 X30. ,C5.\nX60. Y1.", vary={"Y": values}, start="X0 Y0", control=MILL, settings=named)
+        assert [code == 0 for code in table["status"]] == [abs(value) > 0.525 for value in values]
 
 
 # Which control ----------------------------------------------------------------------------------------------

@@ -10,6 +10,8 @@ from contoursolve.controls.geometry_rules import GEOMETRY_RULES
 WITHOUT_REJECTED_EXAMPLE = {
     "not-verified": "an answer that fails its own equations is an error of contoursolve; no block is known to cause it",
     "fanuc-angle-redundant": "a setting forbids it; test_fanuc.py sets it",
+    "fanuc-corner-straight": "a setting refuses it; test_fanuc.py sets it",
+    "haas-corner-straight": "the same",
     **{
         f"haas-{code}": "a setting allows corners beside arcs; test_fanuc.py sets it"
         for code in ("center-and-radius", "circle-undefined", "radius-without-end")
@@ -30,8 +32,8 @@ WITHOUT_REJECTED_EXAMPLE = {
 ALARMS = {
     "yasnac-lx3": {"050", "144", "145", "146"},
     "nct-99m": {"3011", "3012", "3014", "3017", "3081", "3084"},
-    "fanuc-lathe": {"039", "051", "052", "053", "055", "056", "057", "058", "212"},
-    "fanuc-mill": {"039", "051", "053", "055"},
+    "fanuc-lathe": {"039", "051", "052", "053", "054", "055", "056", "057", "058", "212"},
+    "fanuc-mill": {"039", "051", "052", "053", "054", "055"},
     "haas-lathe": set(),
     "haas-mill": set(),
     "mitsubishi": {"P33", "P392", "P393", "P394", "P395", "P396", "P397"},

@@ -17,6 +17,7 @@ from contoursolve.controls.chain.language import (
     FEED,
     FOLLOWED,
     LAST,
+    LEAVES,
     LINE_LINE,
     NEGATIVE_RADIUS,
     NO_TANGENT,
@@ -28,8 +29,10 @@ from contoursolve.controls.chain.language import (
     OTHER_PLANE,
     POINT,
     RAPID,
+    SIGNED,
     SMOOTH,
     TURN,
+    WAY,
     Element,
     Joining,
     Language,
@@ -189,7 +192,10 @@ def _calls(language: Language, member: Member) -> dict[str, str]:
     centers = {center: f"center-{order}" for center, order in zip(plane.centers, _ORDERS, strict=True)}
     called |= {address: centers.get(address, "wrong-center") for address in ("I", "J", "K") if address in addresses}
     called |= {address: f"beside-{address}" for address, row in addresses.items() if row.axis not in ("", *plane.axes)}
-    called |= language.names
+    called |= language.names_in(is_arc=member.element.turn is not None)
+    if member.is_signed:
+        signed = {address: language.signed_name(address, plane) for address in language.signed}
+        called |= {address: name for address, name in signed.items() if name}
     angles = [address for address in language.angle_words if member.block.find(address)] or language.angle_words[:1]
     if language.angle_words:
         called |= {address: f"beside-{address}" for address in (language.angle, *language.angle_words)}
@@ -215,8 +221,8 @@ def _givens(language: Language, words: Mapping[str, Word], member: Member, modes
         for given in (modes.words(member.here).given(name, word, member.here.unit),)
         if given is not None
     }
-    if "R" in stated:
-        stated["R"] = replace(stated["R"], value=abs(stated["R"].value))
+    sizes = {name: given for name, given in stated.items() if name == "R" or name.startswith(SIGNED)}
+    stated |= {name: replace(given, value=abs(given.value)) for name, given in sizes.items()}
     asked = {name.removesuffix("-step") for name, word in words.items() if word.is_asked}
     element = member.element
     if element.is_over and language.joining is Joining.OVER_DEFINED:
@@ -226,6 +232,9 @@ def _givens(language: Language, words: Mapping[str, Word], member: Member, modes
     elif element.turn is not None:
         stated |= _supplied("center-", "", stated, asked)
     if element.is_over:
+        return stated
+    if element.aim is not None:
+        stated[WAY] = Given(WAY, Decimal(90 * element.aim + 90 * (1 - member.way)), Unit.DEGREE, None)
         return stated
     ends = {name.removesuffix("-step") for name in stated} & {*_ORDERS}
     is_partial = element.turn is None and (
@@ -271,6 +280,7 @@ def _circumstances(language: Language, member: Member, first: State, *, is_only:
         NO_TANGENT: member.element.is_smooth and is_first,
         ON_PARALLEL_AXES: member.here.plane.axes != _own_axes(language, member.here),
         ORDINARY: is_only and member.element.turn is not None,
+        **{name: axis in member.leaves for axis, name in enumerate(LEAVES)},
     }
     return (name for name, is_true in holds.items() if is_true)
 

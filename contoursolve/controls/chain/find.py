@@ -90,6 +90,7 @@ class ChainFinder:
             members.append(self._member(blocks[following], before, modes, is_over=is_over))
             if is_smooth:
                 members[-1] = replace(members[-1], element=self._bend(members, state, modes))
+            members[-2:] = self._aimed(members[-2], members[-1])
             if is_over and self._touches(members[-2], members[-1]):
                 members[-1] = replace(members[-1], element=replace(members[-1].element, touches=True))
             position = following
@@ -107,7 +108,34 @@ class ChainFinder:
         here = self._apply(before, block, modes)
         is_smooth = self.language.tangent_arc is not None and here.motion == self.language.tangent_arc
         turn = Turn.CCW if is_smooth else _TURNS.get(here.motion or 0)
-        return Member(block, Element(turn, is_over, is_followed=False, is_smooth=is_smooth), before, here)
+        element = Element(turn, is_over, is_followed=False, is_smooth=is_smooth)
+        is_signed = not self.language.is_signed_by_shape and bool(self._signed_words(block, here))
+        return Member(block, element, before, here, is_signed=is_signed)
+
+    def _signed_words(self, block: Block, here: State) -> list[Word]:
+        """The words of a line that may make a corner whose sign tells which way the next line runs."""
+        words = [word for word in block.words if word.address in self.language.signed]
+        return [word for word in words if here.motion == 1 and self.language.signed_name(word.address, here.plane)]
+
+    def _aimed(self, last: Member, following: Member) -> tuple[Member, Member]:
+        """Two blocks with a corner between them; the second with which way it must run, where a sign tells that."""
+        words, axes = self._signed_words(last.block, last.here), [*last.here.plane.axes]
+        moved = [self._programmed(each.block, each.here) for each in (last, following)]
+        is_drawn = any(self._stated(each.block, each.here) & {*self.language.angles} for each in (last, following))
+        is_square = [len(each) for each in moved] == [1, 1] and moved[0] != moved[1] and not is_drawn
+        is_square = is_square and following.here.motion == 1 and following.here.plane == last.here.plane
+        if not words or (self.language.is_signed_by_shape and not is_square):
+            return last, following
+        last = replace(last, is_signed=True)
+        if len(moved[0]) == 1:
+            across = 1 - axes.index(min(moved[0]))
+            leaves = (across,) if following.element.turn is None else (0, 1)
+            following = replace(following, leaves=leaves)
+            number = words[0].number
+            if is_square and number and not following.element.is_over:
+                element = replace(following.element, aim=across)
+                following = replace(following, element=element, way=1 if number > 0 else -1)
+        return last, following
 
     def _runs_in_rapid(self, members: Sequence[Member]) -> bool:
         return self.language.runs_in_rapid and members[-1].here.motion == 0
@@ -181,7 +209,7 @@ class ChainFinder:
         here, parallel = apply_modes(before, block, modes), self.language.parallel
         plane = self.language.planes.get(here.plane.code, here.plane)
         here = here if here.plane == plane else replace(here, plane=plane)
-        stated, axes = self._stated(block), here.plane.axes
+        stated, axes = self._stated(block, here), here.plane.axes
         moved = [axis for axis in axes if parallel.get(axis) in stated]
         if self.language.angle not in stated or here.motion not in (0, 1) or stated & {*axes} or len(moved) != 1:
             return here
@@ -226,24 +254,26 @@ class ChainFinder:
     def _moves(self, block: Block, here: State) -> bool:
         """Whether a block is a motion: it has a coordinate, an angle, a corner; an arc a centre, R, or just its G code.
         A Q that belongs to nothing is looked at, too."""
-        stated = self._stated(block)
+        stated = self._stated(block, here)
         is_arc = here.motion in _TURNS and stated & {"I", "J", "K", "R"}
         is_choice = self.language.selector in stated and not block.find("M")
         if stated & self._moving or is_arc or is_choice:
             return True
         arcs = {*_TURNS, self.language.tangent_arc}
-        return any(word.address == "G" and word.number in arcs for word in block.words)
+        is_corner = not self.language.is_signed_by_shape and bool(self._signed_words(block, here))
+        return is_corner or any(word.address == "G" and word.number in arcs for word in block.words)
 
-    def _stated(self, block: Block) -> set[str]:
+    def _stated(self, block: Block, here: State) -> set[str]:
         """What the addresses of a block are called; a word that cannot be read still shows what the block was meant to
         be."""
-        addresses, names = {word.address for word in block.words}, self.language.names
+        addresses = {word.address for word in block.words}
+        names = self.language.names_in(is_arc=here.motion in _TURNS)
         addresses |= {fault.address for fault in block.faults}
         return {names.get(address, address) for address in addresses} if names else addresses
 
     def _programmed(self, block: Block, here: State) -> set[str]:
         """The axes of the plane that a block programs."""
-        rows = (self.language.lexicon.addresses.get(address) for address in self._stated(block))
+        rows = (self.language.lexicon.addresses.get(address) for address in self._stated(block, here))
         return {row.axis for row in rows if row} & {*here.plane.axes}
 
     def _over_defining(self, here: State) -> set[str]:
@@ -255,7 +285,7 @@ class ChainFinder:
 
     def _is_over_defined(self, block: Block, here: State) -> bool:
         is_possible = self.language.joining is Joining.OVER_DEFINED
-        return is_possible and self._stated(block) >= self._over_defining(here)
+        return is_possible and self._stated(block, here) >= self._over_defining(here)
 
     def _begins_in_intersection(self, last: Member, following: Block, here: State) -> bool:
         """Whether a block meets the one before it in an intersection, or touches it."""
@@ -264,22 +294,22 @@ class ChainFinder:
         if self.language.joining is Joining.OPEN:
             is_cut = last.here.motion == 1 or (self.language.runs_in_rapid and last.here.motion == here.motion == 0)
             return here.motion in (0, 1) and is_cut and self._is_open(last)
-        missing = self._over_defining(here) - self._stated(following)
+        missing = self._over_defining(here) - self._stated(following, here)
         # A block with a selector that lacks one word only is meant to.
-        return len(missing) <= (self.language.selector in self._stated(following)) or self._is_joined(
+        return len(missing) <= (self.language.selector in self._stated(following, here)) or self._is_joined(
             last, following, here
         )
 
     def _is_open(self, last: Member) -> bool:
         """Whether a line has an angle, and no end; of blocks in pairs, whether an arc has none."""
         is_arc = last.element.turn is not None and self.language.joining is Joining.PAIRED
-        is_drawn = is_arc or bool(self._stated(last.block) & {*self.language.angles})
+        is_drawn = is_arc or bool(self._stated(last.block, last.here) & {*self.language.angles})
         return is_drawn and not self._programmed(last.block, last.here)
 
     def _is_paired(self, last: Member, following: Block, here: State) -> bool:
         """Whether what has no end has it where a block meets it. About its centre, an arc without an end is a full
         circle, too, where what follows does not show that it is none."""
-        first, second = self._stated(last.block), self._stated(following)
+        first, second = self._stated(last.block, last.here), self._stated(following, here)
         if last.element.turn is None or first & {"R", self.language.picks}:
             return last.here.motion != 0
         if self.language.closes or not first & {*last.here.plane.centers} or not second >= {*here.plane.axes}:
@@ -290,7 +320,7 @@ class ChainFinder:
     def _touches(self, first: Member, second: Member) -> bool:
         """Whether two blocks in a pair touch: two arcs, and a line and an arc that has no centre."""
         arcs = [each for each in (first, second) if each.element.turn is not None]
-        is_centered = any(self._stated(each.block) & {*each.here.plane.centers} for each in arcs)
+        is_centered = any(self._stated(each.block, each.here) & {*each.here.plane.centers} for each in arcs)
         return self.language.joining is Joining.PAIRED and bool(arcs) and (len(arcs) > 1 or not is_centered)
 
     def _is_joined(self, last: Member, following: Block, here: State) -> bool:
@@ -301,7 +331,9 @@ class ChainFinder:
             return False
         if last.element.turn is not None:
             is_line = here.motion in (0, 1)
-            return is_line and bool(self._programmed(following, here) or self.language.angle in self._stated(following))
+            return is_line and bool(
+                self._programmed(following, here) or self.language.angle in self._stated(following, here)
+            )
         return self._is_open(last)
 
     def _keeps_angle(self, member: Member) -> bool:
@@ -311,7 +343,8 @@ class ChainFinder:
 
     def _has_corner(self, member: Member) -> bool:
         """Whether a block, or one of its own behind it, has a corner word."""
-        return member.corner is not None or bool(self._stated(member.block) & self._cornered)
+        stated = self._stated(member.block, member.here)
+        return member.corner is not None or member.is_signed or bool(stated & self._cornered)
 
     def _makes_corner(self, member: Member) -> bool:
         """The same, or whether a word that stays in force makes one, which it does not behind a rapid."""
@@ -323,7 +356,7 @@ class ChainFinder:
         a corner; and where arcs are checked, an arc with an end, if its values are known. About its centre, it is a
         full circle if that is where it begins (assumed)."""
         block, here = member.block, member.here
-        stated = self._stated(block)
+        stated = self._stated(block, here)
         if self._has_corner(member) or member.element.is_smooth:
             return True
         if stated & {*self.language.angles, self.language.selector} or self._keeps_angle(member):
@@ -336,21 +369,25 @@ class ChainFinder:
         return "R" in stated or not stated & {*here.plane.centers} or not _ends_where_it_begins(block, here, modes)
 
 
-def reading(names: Mapping[str, str] | None = None, **changes: Any) -> Callable[[Dialect], Dialect]:
+def reading(
+    names: Mapping[str, str] | None = None, like: Mapping[str, str] | None = None, **changes: Any
+) -> Callable[[Dialect], Dialect]:
     """What a value of a setting changes in the language of a control.
 
-    `names` are addresses, each with the one whose row and name it takes, which is no word then.
+    `names` are addresses, each with the one whose row and name it takes, which is no word then; `like` are words
+    besides, each with the one whose row it has.
     """
-    names = names or {}
+    names, like = names or {}, like or {}
 
     def change(dialect: Dialect) -> Dialect:
         if not isinstance(dialect.find, ChainFinder):
             raise TypeError(f"{dialect.name} has no language")
         language, rows = dialect.find.language, dict(dialect.modes.lexicon.addresses)
-        named = {address: replace_fields(rows[name], address=address) for address, name in names.items()}
+        added = {**names, **like}
+        named = {address: replace_fields(rows[name], address=address) for address, name in added.items()}
         rows = {address: row for address, row in rows.items() if address not in names.values()} | named
-        words = Lexicon(rows, dialect.modes.lexicon.numbers) if names else dialect.modes.lexicon
-        known = language.allowed - {*names.values()} | {*names}
+        words = Lexicon(rows, dialect.modes.lexicon.numbers) if added else dialect.modes.lexicon
+        known = language.allowed - {*names.values()} | {*added}
         language = replace_fields(language, lexicon=words, allowed=known, names={**language.names, **names}, **changes)
         return replace_fields(dialect, modes=replace_fields(dialect.modes, lexicon=words), find=ChainFinder(language))
 

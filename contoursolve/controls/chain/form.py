@@ -6,7 +6,18 @@ from itertools import pairwise
 
 from msgspec import Struct
 
-from contoursolve.controls.chain.language import AIMED, LINE_LINE, POINT, TURN, Element, Joining, Language, pair_role
+from contoursolve.controls.chain.language import (
+    AIMED,
+    LINE_LINE,
+    POINT,
+    SIGNED,
+    TURN,
+    WAY,
+    Element,
+    Joining,
+    Language,
+    pair_role,
+)
 from contoursolve.geometry import (
     FIRST,
     SECOND,
@@ -15,6 +26,7 @@ from contoursolve.geometry import (
     Collinear,
     Contact,
     Coordinate,
+    CornerShape,
     Foot,
     Heading,
     Line,
@@ -85,6 +97,7 @@ def compose(language: Language, elements: tuple[Element, ...], modes: Modes) -> 
         counts_clockwise=language.counts_clockwise(modes),
         is_ray=language.is_ray(modes),
         guard=language.guard(modes),
+        refuses=language.refuses(modes),
         contact=language.contact(modes),
     )
     return _compose(language, elements, options)
@@ -92,14 +105,15 @@ def compose(language: Language, elements: tuple[Element, ...], modes: Modes) -> 
 
 class _Options(Struct, frozen=True):
     """What settings decide: by how much the radii at two points of an arc may differ, whether the intersections of two
-    circles count clockwise, whether lines must run as their angles say, how smooth a joint has no corner, and by how
-    much two circles may miss a contact."""
+    circles count clockwise, whether lines must run as their angles say, how smooth a joint has no corner, by how much
+    two circles may miss a contact, and whether a corner on such a joint is refused."""
 
     slack: float
     counts_clockwise: bool
     is_ray: bool
     guard: float
     contact: float
+    refuses: bool
 
 
 @lru_cache(maxsize=4096)
@@ -136,7 +150,7 @@ def _compose(language: Language, elements: tuple[Element, ...], options: _Option
                 first.head,
                 first.element,
                 second.element,
-                {f"{first.prefix}{word}": shape for word, shape in language.corners.items()},
+                {f"{first.prefix}{word}": shape for word, shape in language.shapes.items()},
             )
             for number, (first, second) in enumerate(pairwise(names), 1)
         ),
@@ -150,6 +164,7 @@ def _compose(language: Language, elements: tuple[Element, ...], options: _Option
         assumptions=language.assumptions,
         is_contour=name != "arc",
         guard=options.guard,
+        refuses=options.refuses,
     )
 
 
@@ -178,6 +193,8 @@ def _path(language: Language, element: Element, names: Names, options: _Options,
     if element.turn is None:
         is_alone = language.is_ray_alone and not (element.is_over or element.is_followed)
         toward = names.own if element.is_followed and not element.is_over else None
+        if element.aim is not None:
+            return Line(names.element, names.tail, names.head, names.prefix + WAY, toward, bool(language.picks), True)
         heading = (
             f"{names.prefix}{language.angle}"
             if (options.is_ray or is_directed or is_alone) and language.angle
@@ -269,7 +286,9 @@ def _own_facts(language: Language, element: Element, names: Names, start: str) -
             yield FactRow(Offset(f"{q}{order}-step", names.own, names.tail, axis), (f"{q}{order}-step",))
         elif language.closes_by_steps:
             yield FactRow(Offset(f"{q}{order}-step", names.own, start, axis), (f"{q}{order}-step",))
-    if element.turn is None and language.angle:
+    if element.aim is not None:
+        yield FactRow(Heading(q + WAY, names.tail, names.head), (q + WAY,))
+    elif element.turn is None and language.angle:
         angle = f"{q}{language.angle}"
         if element.is_over:
             yield FactRow(Heading(angle, names.tail, names.own), (angle,))
@@ -302,7 +321,10 @@ def _combinations(
         return (order, f"{order}-step") if not element.is_over or language.closes_by_steps else (order,)
 
     ends = tuple((first, second, *point) for first in ways("first") for second in ways("second"))
-    if element.turn is None:
+    options: tuple[tuple[str, ...], ...]
+    if element.aim is not None:
+        options = tuple((name, WAY) for name in ways(_ORDERS[element.aim][0]))
+    elif element.turn is None:
         angle = language.angle
         one = ((name, angle) for order, _ in _ORDERS for name in ways(order))
         aimed = (AIMED,) if element.is_followed else ()
@@ -332,6 +354,10 @@ def _meanings(language: Language, elements: Sequence[Element], names: Sequence[N
                 yield f"{each.prefix}center-{order}", f"centre, {'from where it ends' if is_from_end else 'absolute'}"
         if element.turn is not None and element.is_over:
             yield f"{each.prefix}R", "radius"
+    for name in (name for name in language.shapes if name.startswith(SIGNED)):
+        what = "rounding" if language.shapes[name] is CornerShape.FILLET else "chamfer"
+        told = f"{what} before a line along the other axis; its sign tells which way that runs"
+        yield from ((each.prefix + name, told) for each in names)
     if language.corner_codes:
         # The word that states the size in a block of its own has another meaning elsewhere.
         rows = language.lexicon.addresses

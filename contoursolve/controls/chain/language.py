@@ -50,6 +50,14 @@ AIMED = "aimed"
 TURN = "turn"
 """By how much the direction changes where an arc begins: nothing."""
 
+WAY = "way"
+"""Which way a line runs behind a corner whose sign tells it, in degrees."""
+
+SIGNED = "corner-"
+"""What the names of corner words begin with whose sign tells which way the next line runs."""
+LEAVES = ("@leaves-first", "@leaves-second")
+"""Behind such a corner, this block must move this axis of the plane alone."""
+
 STATED_POINT = ("first", "first-step", "second", "second-step")
 STATED_CENTER = ("center-first", "center-second")
 """What a block's coordinates and its I, J and K are called, by the axes of the plane; steps are increments."""
@@ -68,6 +76,8 @@ class Element(Struct, frozen=True):
     """Whether it touches the element before it where it begins."""
     is_smooth: bool = False
     """Whether it is an arc that begins in the direction of the element before it, and has neither centre nor radius."""
+    aim: int | None = None
+    """The axis along which it runs, if the sign of the corner before it tells which way."""
 
     @property
     def role(self) -> str:
@@ -101,6 +111,15 @@ class Member(Struct, frozen=True):
     """The block of its own that states the corner behind it."""
     is_straight: bool = False
     """The next element begins in the direction in which it ends, so that a word that stays in force makes no corner."""
+    is_signed: bool = False
+    """Whether the sign of its corner word tells which way the next line runs."""
+    leaves: tuple[int, ...] = ()
+    """Behind such a corner: the axis that it must move alone; both if it is none that may stand there."""
+    way: int = 0
+    """Which way it must run along that axis, +1 or -1."""
+
+
+_CENTERS = ("I", "J", "K")
 
 
 class Joining(Enum):
@@ -193,6 +212,8 @@ class Language:
     """Whether an angle is the direction of travel; else a line may run against it, too."""
     guard: Callable[[Modes], float] = _no_guard
     """Sine of the change of direction up to which the control makes no corner."""
+    refuses: Callable[[Modes], bool] = _never
+    """Whether it refuses such a corner; else it leaves it out."""
     passes: frozenset[int] = frozenset()
     """G codes of blocks that may stand between two blocks of a contour."""
     between: int = 0
@@ -215,6 +236,11 @@ class Language:
     """Whether a line by its angle and one coordinate runs as its angle says, whatever `is_ray` tells of others."""
     runs_in_rapid: bool = False
     """Whether two lines in rapid may meet."""
+    signed: Mapping[str, CornerShape] = field(default_factory=dict)
+    """Words of a line along one axis that make a corner before a line along the other axis: the sign tells which way
+    that one runs. I, J and K state a distance along their own axis."""
+    is_signed_by_shape: bool = False
+    """Whether these words have a sign only between two such lines, and are other corner words elsewhere."""
 
     @property
     def angles(self) -> tuple[str, ...]:
@@ -224,6 +250,26 @@ class Language:
     def address_of(self, name: str) -> str:
         """The address that states what has this name."""
         return next((address for address, called in self.names.items() if called == name), name)
+
+    def names_in(self, *, is_arc: bool) -> Mapping[str, str]:
+        """`names` in a block; R of an arc is always its radius."""
+        return {address: name for address, name in self.names.items() if address != "R"} if is_arc else self.names
+
+    def signed_name(self, address: str, plane: Plane) -> str:
+        """What a corner word with a sign is called; empty for the distance along an axis outside the plane."""
+        if address not in _CENTERS:
+            return SIGNED + address
+        orders = dict(zip(plane.centers, ("first", "second"), strict=True))
+        return SIGNED + orders[address] if address in orders else ""
+
+    @property
+    def shapes(self) -> Mapping[str, CornerShape]:
+        """The shape of a corner by what its word is called."""
+        shapes = dict(self.corners)
+        for address, shape in self.signed.items():
+            orders = ("first", "second") if address in _CENTERS else (address,)
+            shapes |= {SIGNED + order: shape for order in orders}
+        return shapes
 
     @property
     def own(self) -> frozenset[str]:

@@ -7,7 +7,7 @@ from math import radians, sin
 
 from msgspec.structs import replace
 
-from contoursolve.controls.chain import Element, Joining, Language, Member
+from contoursolve.controls.chain import Element, Joining, Language, Member, reading
 from contoursolve.controls.common import number_setting, setting
 from contoursolve.controls.fanuc.lexicon import (
     CORNERS,
@@ -21,7 +21,7 @@ from contoursolve.controls.fanuc.lexicon import (
 )
 from contoursolve.controls.plain import LATHE, PLANES
 from contoursolve.diagnostics.source import Evidence, Source
-from contoursolve.geometry import Heading, Turn
+from contoursolve.geometry import CornerShape, Heading, Turn
 from contoursolve.reading import ContourForm, Convention, Modes, Sample, Setting, State
 
 GUARD = Decimal(1)
@@ -84,10 +84,47 @@ ARCS = setting(
     _assumed(HAAS, "some releases have them"),
 )
 
-LATHE_SETTINGS = (_number(DRAWING), _angle_sense(DRAWING), _guard(DRAWING), REDUNDANT_ANGLE)
-MILL_SETTINGS = (_number(CORNERS), _guard(CORNERS))
-HAAS_LATHE_SETTINGS = (_number(HAAS), _angle_sense(HAAS), _guard(HAAS))
-HAAS_MILL_SETTINGS = (_number(HAAS), _guard(HAAS), ARCS)
+_SETBACK, _FILLET = CornerShape.CHAMFER_SETBACK, CornerShape.FILLET
+_BIT = "parameter 3405, bit 4"
+LATHE_CORNER_WORDS = setting(
+    "corner-words",
+    "which words state angles and corners",
+    {
+        "comma": ",A ,C ,R; and between two axes I, K or R with a sign",
+        "plain": "A, C and R without a comma; between two axes C and R have a sign",
+    },
+    _assumed(DRAWING, _BIT),
+    changes={
+        "plain": reading(
+            {"A": ",A", "C": ",C", "R": ",R"}, signed={"C": _SETBACK, "R": _FILLET}, is_signed_by_shape=True
+        )
+    },
+)
+MILL_CORNER_WORDS = setting(
+    "corner-words",
+    "which word with a sign states a chamfer between two axes, beside ,C",
+    {"comma": "I, J or K: the letter of the axis of the next line", "plain": "C without a comma"},
+    _assumed(CORNERS, _BIT),
+    changes={"plain": reading(like={"C": ",C"}, signed={"C": _SETBACK})},
+)
+
+
+def _guard_corner(manual: str) -> Setting:
+    return setting(
+        "guard-corner",
+        "a corner where the path turns by less than that",
+        {"drop": "it is left out, with a warning", "error": "it is refused"},
+        _assumed(manual, "printed for a sibling"),
+    )
+
+
+LATHE_SETTINGS = (
+    *(_number(DRAWING), _angle_sense(DRAWING), _guard(DRAWING), _guard_corner(DRAWING)),
+    *(REDUNDANT_ANGLE, LATHE_CORNER_WORDS),
+)
+MILL_SETTINGS = (_number(CORNERS), _guard(CORNERS), _guard_corner(CORNERS), MILL_CORNER_WORDS)
+HAAS_LATHE_SETTINGS = (_number(HAAS), _angle_sense(HAAS), _guard(HAAS), _guard_corner(HAAS))
+HAAS_MILL_SETTINGS = (_number(HAAS), _guard(HAAS), _guard_corner(HAAS), ARCS)
 
 
 def _is_ray(modes: Modes) -> bool:
@@ -100,6 +137,10 @@ def _guarded(modes: Modes) -> bool:
 
 def _guard_sine(modes: Modes) -> float:
     return sin(radians(float(GUARD))) if _guarded(modes) else 0.0
+
+
+def _refuses(modes: Modes) -> bool:
+    return modes.settings.get("guard-corner") == "error"
 
 
 def _circumstances(member: Member, states: Sequence[State], modes: Modes) -> Iterator[str]:
@@ -159,6 +200,8 @@ FANUC_LATHE_LANGUAGE = Language(
     conventions=_lathe_conventions,
     is_ray=_is_ray,
     guard=_guard_sine,
+    refuses=_refuses,
+    signed={"I": _SETBACK, "K": _SETBACK, "R": _FILLET},
     passes=frozenset({4}),
 )
 FANUC_MILL_LANGUAGE = Language(
@@ -173,6 +216,8 @@ FANUC_MILL_LANGUAGE = Language(
     },
     circumstances=_circumstances,
     guard=_guard_sine,
+    refuses=_refuses,
+    signed={"I": _SETBACK, "J": _SETBACK, "K": _SETBACK},
     passes=frozenset({4}),
 )
 
@@ -187,5 +232,5 @@ HAAS_LATHE_LANGUAGE = replace_fields(
     },
 )
 HAAS_MILL_LANGUAGE = replace_fields(
-    FANUC_MILL_LANGUAGE, lexicon=HAAS_MILL_WORDS, circumstances=_haas_mill_circumstances
+    FANUC_MILL_LANGUAGE, lexicon=HAAS_MILL_WORDS, circumstances=_haas_mill_circumstances, signed={}
 )

@@ -9,6 +9,7 @@ from contoursolve.controls.chain.language import (
     ARC,
     FOLLOWED,
     LAST,
+    LEAVES,
     LINE,
     LINE_LINE,
     OTHER_PLANE,
@@ -30,14 +31,17 @@ from contoursolve.controls.geometry_rules import COMMA_MISSING, GEOMETRY_RULES
 from contoursolve.diagnostics.finding import Alarm, Severity
 from contoursolve.diagnostics.source import Evidence, Source
 from contoursolve.reading import ReadIssue
-from contoursolve.reading.rules import Along, Parallel, Rule, Value, all_of, some
+from contoursolve.reading.rules import Along, Parallel, Rule, Value, all_of, at_least, some
 from contoursolve.solving import RefusalKind
 
 _ANY = (LINE, OVER_LINE, ARC)
 _CORNER = (",C", ",R")
+_SIGNED = ("corner-first", "corner-second", "corner-R", "corner-C")
+_CORNERS = (*_CORNER, *_SIGNED)
 _FIRST, _SECOND = ("first", "first-step"), ("second", "second-step")
 _STEPS = ("first-step", "second-step")
 _ALARM_LIST = "alarm list"
+_NOT_SQUARE = "052 (the block behind a corner is not G01, or not at a right angle)"
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,6 +56,8 @@ class _Machine:
     start: str
     line: str
     turn: str
+    square: str = ""
+    """A program with a corner by a word with a sign, if it has one."""
 
     @property
     def cut(self) -> str:
@@ -68,9 +74,10 @@ class _Machine:
 
 
 _TURNING, _MILLING = "G00 X20. Z0.\n", "G17 G90 G00 X0 Y0\n"
-_FANUC_LATHE = _Machine("fanuc", DRAWING, ",A", True, _TURNING, "Z-20.", "X40. Z-30.")
-_FANUC_MILL = _Machine("fanuc", CORNERS, "", True, _MILLING, "X30.", "X40. Y40.")
-_HAAS_LATHE = _Machine("haas", HAAS, "A", False, _TURNING, "Z-20.", "X40. Z-30.")
+_SQUARE, _MILLED_SQUARE = _TURNING + "G01 Z-20. I5.\nX40.", _MILLING + "G01 X30. J5.\nY40."
+_FANUC_LATHE = _Machine("fanuc", DRAWING, ",A", True, _TURNING, "Z-20.", "X40. Z-30.", _SQUARE)
+_FANUC_MILL = _Machine("fanuc", CORNERS, "", True, _MILLING, "X30.", "X40. Y40.", _MILLED_SQUARE)
+_HAAS_LATHE = _Machine("haas", HAAS, "A", False, _TURNING, "Z-20.", "X40. Z-30.", _SQUARE)
 _HAAS_MILL = _Machine("haas", HAAS, "", False, _MILLING, "X30.", "X40. Y40.")
 
 _ARC_BEHIND = _MILLING + "G01 X40. ,C6.\nG02 X60. Y20. I20. J0"
@@ -99,7 +106,7 @@ def _corner_rules(machine: _Machine) -> tuple[Rule, ...]:
             source=machine.source(_ALARM_LIST),
             alarm=machine.alarm("051 or 052 (no move, or no cutting move, behind a corner)"),
             roles=_ANY,
-            when=some(*_CORNER) & some(LAST) & ~some(RAPID),
+            when=some(*_CORNERS) & some(LAST) & ~some(RAPID),
             accepted=(cut, cut.replace("\n" + machine.turn, "\nG04 P500\n" + machine.turn)),
             rejected=(cut.replace("\n" + machine.turn, "\nM8\n" + machine.turn), cut.replace("5.\n", "5.\nG00 ")),
         ),
@@ -110,7 +117,7 @@ def _corner_rules(machine: _Machine) -> tuple[Rule, ...]:
             source=machine.source(_ALARM_LIST, Evidence.DERIVED),
             alarm=machine.alarm("055 MISSING MOVE VALUE IN CHF/CNR", Evidence.DERIVED),
             roles=(LINE,),
-            when=some(*_CORNER) & ~some(*STATED_POINT, *angle, "beside-X", "beside-Y", "beside-Z") & ~some(LAST),
+            when=some(*_CORNERS) & ~some(*STATED_POINT, *angle, "beside-X", "beside-Y", "beside-Z") & ~some(LAST),
             accepted=(cut,),
             rejected=(cut.replace(" ,C5.", "\n,C5."),),
         ),
@@ -141,7 +148,7 @@ def _corner_rules(machine: _Machine) -> tuple[Rule, ...]:
             source=machine.source(_ALARM_LIST),
             alarm=machine.alarm("039 CHF/CNR NOT ALLOWED IN NRC"),
             roles=_ANY,
-            when=some(*_CORNER) & some(COMPENSATION_CHANGES),
+            when=some(*_CORNERS) & some(COMPENSATION_CHANGES),
             accepted=(cut, cut.replace("G00", "G42 G00")),
             rejected=(cut.replace("G01", "G42 G01"),),
         ),
@@ -153,9 +160,87 @@ def _corner_rules(machine: _Machine) -> tuple[Rule, ...]:
             roles=(LINE, OVER_LINE),
             when=some(*STATED_CENTER, "wrong-center", "R"),
             accepted=(cut,),
-            rejected=(cut + " R5.",),
+            rejected=(cut + (" J5." if machine.square else " R5."),),
         ),
     )
+
+
+def _square_rules(machine: _Machine, amount: str, own: str, line: str) -> tuple[Rule, ...]:
+    """The rows about corners between a line along one axis and one along the other: `amount` is a right word, `own` one
+    of the wrong axis, `line` a line along the other axis."""
+    good, angle = machine.square, (machine.angle,) if machine.angle else ()
+    lines = (LINE, OVER_LINE) if machine.start == _TURNING else _ANY
+    (first, second), words = LEAVES, "C" if machine.start == _MILLING else "R"
+    told, moved = (
+        f"I, K or {words}" if words == "R" else "I, J, K or C",
+        (_FIRST, _SECOND, *((each,) for each in angle)),
+    )
+    rows = (
+        (
+            "two-amounts",
+            "{words}: a block takes one corner word",
+            "keep one of them",
+            "053 TOO MANY ADDRESS COMMANDS",
+            at_least(2, *_CORNERS) & some(*_SIGNED),
+            lines[:2],
+            (good.replace(amount, f"{amount} {own}"),),
+        ),
+        (
+            "corner-taper",
+            f"{{words}}: a corner by {told} stands behind a line along one axis",
+            "write ,C or ,R",
+            "054 (taper with a chamfer or a rounding)",
+            some(*_SIGNED) & at_least(2, *moved),
+            lines[:2],
+            (good.replace(amount, f"{line} {amount}"),),
+        ),
+        (
+            "chamfer-letter",
+            "{words}: such a chamfer is stated along the axis of the next line",
+            "write the letter of that axis: I for X, J for Y, K for Z",
+            "",
+            ((some("corner-first") & some(*_FIRST)) | (some("corner-second") & some(*_SECOND)))
+            & ~at_least(2, *moved)
+            & ~at_least(2, *_CORNERS),
+            lines[:2],
+            (good.replace(amount, own),),
+        ),
+        (
+            "corner-not-square",
+            f"behind a corner by {told} the next line must run along the other axis alone",
+            "write ,C or ,R for another corner",
+            _NOT_SQUARE,
+            (some(first) & (~some(*_FIRST) | some(*_SECOND, *angle)))
+            | (some(second) & (~some(*_SECOND) | some(*_FIRST, *angle))),
+            lines,
+            (good.replace(line, machine.turn), good.replace(line, machine.line.replace("0.", "5."))),
+        ),
+    )
+    told_rows = (
+        Rule(
+            code=f"{machine.prefix}-{code}",
+            message=message,
+            help=advice,
+            source=machine.source(_ALARM_LIST) if alarm else machine.source("letters of each axis", Evidence.ASSUMED),
+            alarm=machine.alarm(alarm) if alarm else None,
+            roles=roles,
+            when=when,
+            accepted=(good,),
+            rejected=rejected,
+        )
+        for code, message, advice, alarm, when, roles, rejected in rows
+    )
+    sign = Rule(
+        code=f"{machine.prefix}-corner-sign",
+        message="{words}: the sign says which way {subject} runs, and it runs the other way",
+        help="change the sign; plus is the positive direction of that axis",
+        source=machine.source(_ALARM_LIST),
+        alarm=machine.alarm(_NOT_SQUARE),
+        about=RefusalKind.CORNER_SIGN,
+        accepted=(good,),
+        rejected=(good.replace(amount, f"{amount[0]}-{amount[1:]}"),),
+    )
+    return (*told_rows, sign)
 
 
 def _mill_rules(machine: _Machine) -> tuple[Rule, ...]:
@@ -391,6 +476,14 @@ def _geometry(machine: _Machine, examples: Mapping[Enum, tuple[str, str]]) -> tu
         accepted=(machine.cut,),
         rejected=(machine.cut.replace(machine.turn, "Z-40. X20.2" if machine.angle else "X60. Y0.3"),),
     )
+    straight = replace(
+        rows[RefusalKind.CORNER_STRAIGHT],
+        code=f"{machine.prefix}-corner-straight",
+        message="{words}: at {subject} the path goes on, or turns by less than 1 deg, so it is no corner",
+        source=machine.source("not described", Evidence.ASSUMED),
+        accepted=(machine.cut,),
+        rejected=(),
+    )
     axes = "A and C are axes" if machine.angle.startswith(",") else "C is an axis"
     comma = replace(
         COMMA_MISSING,
@@ -408,6 +501,7 @@ def _geometry(machine: _Machine, examples: Mapping[Enum, tuple[str, str]]) -> tu
     }
     return (
         dropped,
+        straight,
         comma,
         *(
             replace(
@@ -442,6 +536,7 @@ def _lathe_examples(machine: _Machine) -> dict[Enum, tuple[str, str]]:
 
 FANUC_LATHE_RULES = (
     *_corner_rules(_FANUC_LATHE),
+    *_square_rules(_FANUC_LATHE, "I5.", "K5.", "X40."),
     _straight_only(_FANUC_LATHE),
     *_angle_rules(_FANUC_LATHE),
     *_VERTEX_RULES,
@@ -450,6 +545,7 @@ FANUC_LATHE_RULES = (
 )
 FANUC_MILL_RULES = (
     *_corner_rules(_FANUC_MILL),
+    *_square_rules(_FANUC_MILL, "J5.", "I5.", "Y40."),
     *_mill_rules(_FANUC_MILL),
     *_arc_rules(_FANUC_MILL),
     *_geometry(_FANUC_MILL, _MILL_EXAMPLES),
@@ -457,6 +553,7 @@ FANUC_MILL_RULES = (
 )
 HAAS_LATHE_RULES = (
     *_corner_rules(_HAAS_LATHE),
+    *_square_rules(_HAAS_LATHE, "I5.", "K5.", "X40."),
     _straight_only(_HAAS_LATHE),
     *_angle_rules(_HAAS_LATHE),
     _NO_VERTEX,
