@@ -37,6 +37,24 @@ class Source(Struct, frozen=True):
         return f"{self.manual}, {self.place} ({self.evidence.value})"
 
 
+class Book(NamedTuple):
+    """A manual, whose places have a grade each."""
+
+    title: str
+
+    def printed(self, place: str) -> Source:
+        """What stands on a page."""
+        return Source(self.title, place, Evidence.PRINTED)
+
+    def derived(self, place: str) -> Source:
+        """What follows from a page."""
+        return Source(self.title, place, Evidence.DERIVED)
+
+    def assumed(self, place: str) -> Source:
+        """What is on no page seen."""
+        return Source(self.title, place, Evidence.ASSUMED)
+
+
 class Span(NamedTuple):
     """A stretch of one line; line and columns count from 1, `end_column` is the first one after it.
 

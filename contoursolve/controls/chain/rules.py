@@ -1,7 +1,7 @@
 """The rules that every control with lines and arcs in a row has: which words may stand in one block."""
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from decimal import Decimal
 
 from contoursolve.controls.chain.language import (
@@ -18,9 +18,12 @@ from contoursolve.controls.chain.language import (
     STATED_CENTER,
     STATED_POINT,
 )
+from contoursolve.controls.common import COMMON_RULES
+from contoursolve.controls.geometry_rules import GEOMETRY_RULES
 from contoursolve.diagnostics.finding import Alarm, Severity
 from contoursolve.diagnostics.source import Evidence, Source
 from contoursolve.reading.rules import Condition, Parallel, Rule, Value, all_of, some
+from contoursolve.solving import RefusalKind
 
 ANY, LINES = (LINE, OVER_LINE, ARC), (LINE, OVER_LINE)
 BESIDE = ("beside-X", "beside-Y", "beside-Z")
@@ -200,3 +203,22 @@ def chain_rules(manual: Manual) -> Iterator[Rule]:
     yield row("angle-range", "{words} is more than a turn; it is taken as {within}, the same direction",
               "write {within} if that is meant", Value((angle,), least=Decimal(-360), most=Decimal(360)), LINES,
               angled, (stated, f"{angle}=390"), severity=Severity.WARNING)  # fmt: skip
+
+
+def rules_of(manual: Manual, own: Iterable[Rule], told: Mapping[RefusalKind, tuple[str, str]]) -> tuple[Rule, ...]:
+    """All rules of a control: those of every control, these of its kind, its own, and those about geometry.
+
+    `told` are right and wrong examples of its own for some of the latter.
+    """
+    rows = {rule.about: rule for rule in (*GEOMETRY_RULES, *COMMON_RULES)}
+    geometry = (
+        replace(
+            rows[about],
+            code=f"{manual.prefix}-{rows[about].code}",
+            alarm=manual.alarms.get(rows[about].code),
+            accepted=(good,),
+            rejected=(bad,),
+        )
+        for about, (good, bad) in told.items()
+    )
+    return (*COMMON_RULES, *chain_rules(manual), *own, *geometry, *GEOMETRY_RULES)

@@ -7,7 +7,7 @@ from msgspec.structs import replace
 
 from contoursolve.controls.chain import Element, Joining, Language, Member, reading
 from contoursolve.controls.common import setting
-from contoursolve.controls.isg.lexicon import CHAMFER, MODES, ROUNDING, assumed, derived
+from contoursolve.controls.isg.lexicon import BOOK, CHAMFER, MODES, ROUNDING
 from contoursolve.geometry import CornerShape, Heading, Turn
 from contoursolve.reading import ContourForm, Convention, Modes, Sample, Setting, State
 
@@ -21,21 +21,21 @@ PAIR_SENSE = setting(
         "line": "it may: the angle is that of the line, either way",
         "ray": "it may not: the angle is the direction of travel",
     },
-    assumed("not described"),
+    BOOK.assumed("not described"),
 )
 CIRCLE = Setting(
     "radius-difference",
     "by how much the radii at two points of an arc may differ",
     {"0.01": "mm"},
     "0.01",
-    assumed("not described"),
+    BOOK.assumed("not described"),
     bounds=(Decimal("0.001"), Decimal(1)),
 )
 MODAL = setting(
     "angle-modal",
     "whether an angle stays in force",
     {"off": "a block without #ANG is an ordinary block", "on": "a line with one coordinate runs at the last #ANG"},
-    derived("the sample of error 21904"),
+    BOOK.derived("the sample of error 21904"),
     changes={"on": reading(keeps_angle=True)},
 )
 SETTINGS = (PAIR_SENSE, CIRCLE, MODAL)

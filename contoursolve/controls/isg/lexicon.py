@@ -4,27 +4,12 @@ import re
 from collections.abc import Mapping
 
 from contoursolve.controls.plain import BASIC_CODES, MOTIONS, PLANES, code_rows, lexicon
-from contoursolve.diagnostics.source import Evidence, Source
+from contoursolve.diagnostics.source import Book
 from contoursolve.gcode import Block, Syntax, Word
 from contoursolve.geometry import Length, Unit
 from contoursolve.reading import Address, Code, Diameter, Effect, Lexicon, Modes, NumberFormat, WithoutPoint
 
-MANUAL = "ISG kernel, programming manual"
-
-
-def printed(place: str) -> Source:
-    """What stands on a page."""
-    return Source(MANUAL, place, Evidence.PRINTED)
-
-
-def derived(place: str) -> Source:
-    """What follows from a page."""
-    return Source(MANUAL, place, Evidence.DERIVED)
-
-
-def assumed(place: str) -> Source:
-    """What is on no page seen."""
-    return Source(MANUAL, place, Evidence.ASSUMED)
+BOOK = Book("ISG kernel, programming manual")
 
 
 CHAMFER, ROUNDING = 301, 302
@@ -46,10 +31,10 @@ _CODES = BASIC_CODES | {
 
 
 def _codes() -> dict[int, Code]:
-    rows = [*code_rows(assumed("list of G functions"), _CODES, PLANES, {70: Length.INCH, 71: Length.MM}).values()]
+    rows = [*code_rows(BOOK.assumed("list of G functions"), _CODES, PLANES, {70: Length.INCH, 71: Length.MM}).values()]
     rows += [
-        Code(51, Effect.NONE, "X is a diameter", printed("turning functions"), diameter=Diameter.ON),
-        Code(52, Effect.NONE, "X is a radius", printed("turning functions"), diameter=Diameter.OFF),
+        Code(51, Effect.NONE, "X is a diameter", BOOK.printed("turning functions"), diameter=Diameter.ON),
+        Code(52, Effect.NONE, "X is a radius", BOOK.printed("turning functions"), diameter=Diameter.OFF),
     ]
     return {code.number: code for code in rows}
 
@@ -101,12 +86,12 @@ SYNTAX = Syntax(
 )
 
 
-NUMBERS = NumberFormat(WithoutPoint.AS_WRITTEN, assumed("numbers"))
-_ANGLES, _CORNERS = printed("contour line programming"), printed("chamfers and roundings")
+NUMBERS = NumberFormat(WithoutPoint.AS_WRITTEN, BOOK.assumed("numbers"))
+_ANGLES, _CORNERS = BOOK.printed("contour line programming"), BOOK.printed("chamfers and roundings")
 
 
 def _words() -> Lexicon:
-    plain = lexicon(printed("language"), NUMBERS, "XYZ", {}, is_diameter=False)
+    plain = lexicon(BOOK.printed("language"), NUMBERS, "XYZ", {}, is_diameter=False)
     rows = (
         Address("#ANG", "angle of the line, from the plane's first axis, counter-clockwise", Unit.DEGREE, _ANGLES),
         Address("#RND", "rounding", Unit.MM, _CORNERS),

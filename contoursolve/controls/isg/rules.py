@@ -1,7 +1,5 @@
 """ISG kernel: which words may be combined, and what has no solution. The error numbers are printed."""
 
-from dataclasses import replace
-
 from contoursolve.controls.chain.language import (
     BESIDE_ARC,
     CORNER_ALONE,
@@ -12,14 +10,12 @@ from contoursolve.controls.chain.language import (
     OTHER_DIAMETER,
     OVER_LINE,
 )
-from contoursolve.controls.chain.rules import ANY, FIRST, SECOND, STEPS, Manual, chain_rules
-from contoursolve.controls.common import COMMON_RULES
-from contoursolve.controls.geometry_rules import GEOMETRY_RULES
+from contoursolve.controls.chain.rules import ANY, FIRST, SECOND, STEPS, Manual, rules_of
 from contoursolve.controls.isg.language import NO_SIZE
-from contoursolve.controls.isg.lexicon import printed
+from contoursolve.controls.isg.lexicon import BOOK
 from contoursolve.diagnostics.finding import Alarm
 from contoursolve.diagnostics.source import Evidence
-from contoursolve.reading.rules import Count, Rule, all_of, some
+from contoursolve.reading.rules import Count, all_of, some
 from contoursolve.solving import RefusalKind
 
 _IDS = {
@@ -34,7 +30,7 @@ _IDS = {
 _START = "G17 G90 G0 X0 Y0\n"
 MANUAL = Manual(
     prefix="isg",
-    source=printed("contour line programming; chamfers and roundings"),
+    source=BOOK.printed("contour line programming; chamfers and roundings"),
     angle="#ANG",
     chamfers=("#CHR", "#CHF"),
     rounding="#RND",
@@ -77,19 +73,9 @@ _OWN = (
 )  # fmt: skip
 
 
-def _geometry() -> tuple[Rule, ...]:
-    """The rows about geometry, with examples of this control."""
-    rows = {rule.about: rule for rule in GEOMETRY_RULES}
-    told = {
-        RefusalKind.CORNER_TOO_LARGE: MANUAL.cut.replace("#RND=5", "#CHR=31"),
-        RefusalKind.CORNER_STRAIGHT: MANUAL.cut.replace("X40 Y40", "X60"),
-        RefusalKind.LINE_REVERSED: MANUAL.angled.replace("X40", "X-40"),
-    }
-    good = {RefusalKind.LINE_REVERSED: MANUAL.angled}
-    return tuple(
-        replace(rows[about], code=f"isg-{rows[about].code}", accepted=(good.get(about, MANUAL.cut),), rejected=(bad,))
-        for about, bad in told.items()
-    )
-
-
-RULES = (*COMMON_RULES, *chain_rules(MANUAL), *_OWN, *_geometry(), *GEOMETRY_RULES)
+_GEOMETRY = {
+    RefusalKind.CORNER_TOO_LARGE: (MANUAL.cut, MANUAL.cut.replace("#RND=5", "#CHR=31")),
+    RefusalKind.CORNER_STRAIGHT: (MANUAL.cut, MANUAL.cut.replace("X40 Y40", "X60")),
+    RefusalKind.LINE_REVERSED: (MANUAL.angled, MANUAL.angled.replace("X40", "X-40")),
+}
+RULES = rules_of(MANUAL, _OWN, _GEOMETRY)

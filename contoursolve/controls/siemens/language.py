@@ -8,7 +8,7 @@ from msgspec.structs import replace
 from contoursolve.controls.chain import Element, Joining, Language, Member, reading
 from contoursolve.controls.common import setting
 from contoursolve.controls.plain import PLANES
-from contoursolve.controls.siemens.lexicon import MODES, TANGENT_ARC, assumed, printed
+from contoursolve.controls.siemens.lexicon import BOOK, MODES, TANGENT_ARC
 from contoursolve.geometry import CornerShape, Heading, Turn
 from contoursolve.reading import ContourForm, Convention, Diameter, Modes, Sample, State
 from contoursolve.reading.dialect import Dialect
@@ -29,7 +29,7 @@ MACHINE = setting(
     "machine",
     "which plane is selected, and what X is, before the program says it",
     {"mill": "G17, and X is a radius in G17", "lathe": "G18, and X is a diameter"},
-    assumed("machine data"),
+    BOOK.assumed("machine data"),
     changes={"lathe": _turning},
 )
 DIAMETER = setting(
@@ -41,7 +41,7 @@ DIAMETER = setting(
         "DIAMON": "a diameter",
         "DIAM90": "a diameter in absolute coordinates, a radius in increments",
     },
-    assumed("machine data"),
+    BOOK.assumed("machine data"),
     changes={
         "DIAMOF": _counting(Diameter.OFF),
         "DIAMON": _counting(Diameter.ON),
@@ -55,38 +55,38 @@ SENSE = setting(
         "line": "it may: the angle is that of the line, either way",
         "ray": "it may not: the angle is the direction of travel",
     },
-    assumed("not described"),
+    BOOK.assumed("not described"),
 )
 REDUNDANT = setting(
     "redundant-angle",
     "an angle beside both coordinates, behind a line that has an end",
     {"error": "it must not stand there", "check": "it may stand there if it agrees"},
-    assumed("alarm 10795"),
+    BOOK.assumed("alarm 10795"),
 )
 CLOSING = setting(
     "closing-incremental",
     "whether the second of two lines that meet may give its end by increments",
     {"allow": "it may: they count from where the first line starts", "error": "it must not"},
-    assumed("not described"),
+    BOOK.assumed("not described"),
 )
 ARC_CHAMFER = setting(
     "chamfer-on-arc",
     "how CHR is measured on an arc",
     {"chord": "straight from the corner", "arc_length": "along the arc; contoursolve does not compute this"},
-    assumed("not described"),
+    BOOK.assumed("not described"),
 )
 ANGLE_NAME = setting(
     "name-angle",
     "which word states an angle",
     {"ANG": "ANG", "A": "A"},
-    printed("p. 214: the names are machine data"),
+    BOOK.printed("p. 214: the names are machine data"),
     changes={"A": reading({"A": "ANG"})},
 )
 CHAMFER_NAME = setting(
     "name-chamfer",
     "which word states the width of a chamfer",
     {"CHR": "CHR; CHF is the length of the face", "CHF": "CHF; no word states the length of the face"},
-    printed("p. 214: the names are machine data"),
+    BOOK.printed("p. 214: the names are machine data"),
     changes={"CHF": reading({"CHF": "CHR"}, corners={"CHR": CornerShape.CHAMFER_SETBACK, "RND": CornerShape.FILLET})},
 )
 SETTINGS = (MACHINE, DIAMETER, SENSE, REDUNDANT, CLOSING, ARC_CHAMFER, ANGLE_NAME, CHAMFER_NAME)

@@ -4,27 +4,12 @@ import re
 from collections.abc import Mapping
 
 from contoursolve.controls.plain import BASIC_CODES, MOTIONS, PLANES, code_rows, lexicon
-from contoursolve.diagnostics.source import Evidence, Source
+from contoursolve.diagnostics.source import Book
 from contoursolve.gcode import Block, Syntax, Word, long_parts
 from contoursolve.geometry import Length, Unit
 from contoursolve.reading import Address, Code, Diameter, Effect, Lexicon, Modes, NumberFormat, WithoutPoint
 
-MANUAL = "SINUMERIK NC programming manual"
-
-
-def printed(place: str) -> Source:
-    """What stands on a page."""
-    return Source(MANUAL, place, Evidence.PRINTED)
-
-
-def derived(place: str) -> Source:
-    """What follows from a page."""
-    return Source(MANUAL, place, Evidence.DERIVED)
-
-
-def assumed(place: str) -> Source:
-    """What is on no page seen."""
-    return Source(MANUAL, place, Evidence.ASSUMED)
+BOOK = Book("SINUMERIK NC programming manual")
 
 
 TANGENT_ARC = 1001
@@ -58,16 +43,16 @@ _DIAMETERS = {
 
 
 def _codes() -> dict[int, Code]:
-    rows = [*code_rows(assumed("list of G functions"), _CODES, PLANES, _UNITS).values()]
-    rows.append(Code(TANGENT_ARC, Effect.MOTION, "arc that begins tangentially", printed("p. 201"), name="CT"))
+    rows = [*code_rows(BOOK.assumed("list of G functions"), _CODES, PLANES, _UNITS).values()]
+    rows.append(Code(TANGENT_ARC, Effect.MOTION, "arc that begins tangentially", BOOK.printed("p. 201"), name="CT"))
     number = TANGENT_ARC
     for name, (diameter, meaning) in _DIAMETERS.items():
         number += 1
-        rows.append(Code(number, Effect.NONE, meaning, assumed("diameters"), diameter=diameter, name=name))
+        rows.append(Code(number, Effect.NONE, meaning, BOOK.assumed("diameters"), diameter=diameter, name=name))
     for effect, meaning, names in _NAMES:
         for name in names.split():
             number += 1
-            rows.append(Code(number, effect, meaning, assumed("commands"), name=name))
+            rows.append(Code(number, effect, meaning, BOOK.assumed("commands"), name=name))
     return {code.number: code for code in rows}
 
 
@@ -108,20 +93,20 @@ SYNTAX = Syntax(
     parts=long_parts,
 )
 
-NUMBERS = NumberFormat(WithoutPoint.AS_WRITTEN, assumed("numbers"))
-_CORNER, _PLACE = printed("p. 220"), printed("p. 201")
+NUMBERS = NumberFormat(WithoutPoint.AS_WRITTEN, BOOK.assumed("numbers"))
+_CORNER, _PLACE = BOOK.printed("p. 220"), BOOK.printed("p. 201")
 ANGLE = "angle of the line, from the plane's first axis, counter-clockwise"
 
 
 def _words() -> Lexicon:
-    plain = lexicon(assumed("addresses"), NUMBERS, "XYZ", {}, is_diameter=False)
+    plain = lexicon(BOOK.assumed("addresses"), NUMBERS, "XYZ", {}, is_diameter=False)
     rows = [
-        Address("ANG", ANGLE, Unit.DEGREE, printed("p. 214")),
+        Address("ANG", ANGLE, Unit.DEGREE, BOOK.printed("p. 214")),
         Address("RND", "rounding", Unit.MM, _CORNER),
         Address("CHR", "chamfer: the distance of both its ends from the corner", Unit.MM, _CORNER),
         Address("CHF", "chamfer: the length of its face", Unit.MM, _CORNER),
-        Address("RNDM", "rounding of every corner from here on; 0 ends it", Unit.MM, assumed("as users quote it")),
-        Address("CR", "radius; negative for an arc of more than 180 deg", Unit.MM, assumed("addresses")),
+        Address("RNDM", "rounding of every corner from here on; 0 ends it", Unit.MM, BOOK.assumed("as users quote it")),
+        Address("CR", "radius; negative for an arc of more than 180 deg", Unit.MM, BOOK.assumed("addresses")),
     ]
     for axis in "XYZ":
         rows.append(

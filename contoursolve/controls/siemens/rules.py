@@ -4,14 +4,12 @@ from dataclasses import replace
 from decimal import Decimal
 
 from contoursolve.controls.chain.language import ARC, BESIDE_ARC, FOLLOWED, LINE, NO_TANGENT, OTHER_DIAMETER, OVER_LINE
-from contoursolve.controls.chain.rules import ANY, FIRST, SECOND, STEPS, Manual, chain_rules
-from contoursolve.controls.common import COMMON_RULES
-from contoursolve.controls.geometry_rules import GEOMETRY_RULES
+from contoursolve.controls.chain.rules import ANY, FIRST, SECOND, STEPS, Manual, rules_of
 from contoursolve.controls.siemens.language import ALONG_ARC, NO_STEPS, STRICT_ANGLE
-from contoursolve.controls.siemens.lexicon import assumed
+from contoursolve.controls.siemens.lexicon import BOOK
 from contoursolve.diagnostics.finding import Alarm, Severity
 from contoursolve.diagnostics.source import Evidence
-from contoursolve.reading.rules import Rule, Value, all_of, some
+from contoursolve.reading.rules import Value, all_of, some
 from contoursolve.solving import RefusalKind
 
 _ALARMS = {
@@ -25,7 +23,7 @@ _ALARMS = {
 _START = "G17 G90 G0 X0 Y0\n"
 MANUAL = Manual(
     prefix="siemens",
-    source=assumed("contour definition, p. 214 and 220"),
+    source=BOOK.assumed("contour definition, p. 214 and 220"),
     angle="ANG",
     chamfers=("CHR", "CHF"),
     rounding="RND",
@@ -35,7 +33,8 @@ MANUAL = Manual(
     cut=_START + "G1 X30 RND=5\nX40 Y40",
     arc=_START + "G1 X40 RND=6\nG2 X60 Y20 I20 J0",
     plane="; for a lathe, set siemens-840d.machine=lathe",
-    alarms={code: Alarm(number, Evidence.ASSUMED) for code, number in _ALARMS.items()},
+    alarms={code: Alarm(number, Evidence.ASSUMED) for code, number in _ALARMS.items()}
+    | {"radius-difference": Alarm("14040 (error in the end point of a circle)", Evidence.PRINTED)},
 )
 _row = MANUAL.row
 
@@ -72,28 +71,12 @@ _OWN = (
 )  # fmt: skip
 
 
-def _geometry() -> tuple[Rule, ...]:
-    """The rows about geometry, with examples of this control."""
-    rows = {rule.about: rule for rule in GEOMETRY_RULES}
-    told = {
-        RefusalKind.CORNER_TOO_LARGE: MANUAL.cut.replace("RND=5", "CHR=31"),
-        RefusalKind.CORNER_STRAIGHT: MANUAL.cut.replace("X40 Y40", "X60"),
-        RefusalKind.RADIUS_DIFFERENCE: MANUAL.arc.replace("I20", "I18"),
-    }
-    alarms = {RefusalKind.RADIUS_DIFFERENCE: Alarm("14040 (error in the end point of a circle)", Evidence.PRINTED)}
-    return tuple(
-        replace(
-            rows[about],
-            code=f"siemens-{rows[about].code}",
-            accepted=(MANUAL.arc if about in alarms else MANUAL.cut,),
-            rejected=(bad,),
-            alarm=alarms.get(about),
-        )
-        for about, bad in told.items()
-    )
-
-
-RULES = (*COMMON_RULES, *chain_rules(MANUAL), *_OWN, *_geometry(), *GEOMETRY_RULES)
+_GEOMETRY = {
+    RefusalKind.CORNER_TOO_LARGE: (MANUAL.cut, MANUAL.cut.replace("RND=5", "CHR=31")),
+    RefusalKind.CORNER_STRAIGHT: (MANUAL.cut, MANUAL.cut.replace("X40 Y40", "X60")),
+    RefusalKind.RADIUS_DIFFERENCE: (MANUAL.arc, MANUAL.arc.replace("I20", "I18")),
+}
+RULES = rules_of(MANUAL, _OWN, _GEOMETRY)
 _REDUCED = "; the control makes it smaller by itself, to a size that is not printed"
 RULES_808 = tuple(
     replace(rule, message=rule.message + _REDUCED) if rule.code == "siemens-corner-too-large" else rule
