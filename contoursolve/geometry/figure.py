@@ -147,7 +147,8 @@ class CornerShape(Enum):
     """A segment whose two ends are as far from the virtual intersection as its size; on an arc, along the chord."""
 
     CHAMFER_FACE = "chamfer face"
-    """A segment of this length whose two ends are as far from the virtual intersection of two lines as each other."""
+    """A segment of this length whose two ends are as far from the virtual intersection as each other; on an arc, along
+    the chord."""
 
     @property
     def share(self) -> float:

@@ -60,9 +60,8 @@ def build_corner(shape: CornerShape, at: Pair, before: Edge, after: Edge, size: 
     elif shape.share:
         begin, end = _chamfer_45(before, after, _times(shape.share * size, quadrant), turn)
     else:
-        # The face of a chamfer between two lines spans their directions, each as long as its distance.
-        spread = _norm(_plus(before.direction, after.direction)) if shape is CornerShape.CHAMFER_FACE else 1
-        begin, end = _along(before, size / spread, -1), _along(after, size / spread, 1)
+        leg = _leg(before, after, size) if shape is CornerShape.CHAMFER_FACE else size
+        begin, end = _along(before, leg, -1), _along(after, leg, 1)
     residuals = (_off(before, begin), _off(after, end), *_misfit(shape, before, after, size, begin, end, center, at))
     return CornerPath(
         setback_in=_setback(before, begin, -1),
@@ -188,6 +187,33 @@ def _along(edge: Edge, distance: Any, way: int) -> Pair:
     # Turned by twice asin(half), minus the spoke itself.
     inward = _times(-2 * half * half, edge.spoke)
     return _plus(inward, _times(way * distance * sqrt(1 - half * half), edge.direction))
+
+
+_STEPS = 8
+"""Steps of Newton's method from the chamfer of two lines to that of circles: each doubles the digits that are right."""
+
+
+def _leg(before: Edge, after: Edge, face: Any) -> Any:
+    """How far both ends of a chamfer are from the intersection whose face has a length. Between two lines the face
+    spans their directions, each as long as that."""
+    leg = face / _norm(_plus(before.direction, after.direction))
+    if before.spoke is None and after.spoke is None:
+        return leg
+    for _ in range(_STEPS):
+        across = _minus(_along(after, leg, 1), _along(before, leg, -1))
+        grown = _minus(_growth(after, leg, 1), _growth(before, leg, -1))
+        leg = leg - (_dot(across, across) - face * face) / (2 * _dot(across, grown))
+    return leg
+
+
+def _growth(edge: Edge, distance: Any, way: int) -> Pair:
+    """By how much the point of an edge at a distance from the intersection moves with that distance."""
+    if edge.spoke is None:
+        return _times(way, edge.direction)
+    half = distance / (2 * edge.radius)
+    rest = sqrt(1 - half * half)
+    inward = _times(-2 * half / edge.radius, edge.spoke)
+    return _plus(inward, _times(way * (rest - half * half / rest), edge.direction))
 
 
 def _setback(edge: Edge, point: Pair, way: int) -> Any:

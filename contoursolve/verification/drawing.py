@@ -3,10 +3,10 @@
 Points are complex numbers in mm from the start point: real is the plane's first axis, imaginary its second.
 """
 
-from cmath import phase, rect
+from cmath import rect
 from collections.abc import Mapping
 from itertools import pairwise
-from math import asin, atan2, copysign, cos, inf, tau
+from math import asin, atan2, copysign, inf, tau
 
 from msgspec import Struct
 
@@ -247,13 +247,27 @@ def _cut(corner: Corner, arriving: _Edge, leaving: _Edge, size: float, quadrant:
             return None
         return Move(corner.name, arriving.beside(center), leaving.beside(center), Circle(center, size, side))
     if corner.shape in (CornerShape.CHAMFER_SETBACK, CornerShape.CHAMFER_FACE):
-        is_leg = corner.shape is CornerShape.CHAMFER_SETBACK
-        leg = size if is_leg else size / (2 * cos(phase(leaving.along / arriving.along) / 2))
+        leg = size if corner.shape is CornerShape.CHAMFER_SETBACK else _leg(arriving, leaving, size)
         ends = arriving.away(leg, -1), leaving.away(leg, 1)
         return None if None in ends else Move(corner.name, ends[0] or 0j, ends[1] or 0j)
     step = corner.shape.share * quadrant
     begin = _grown(arriving, leaving, size, 0, step)
     return None if begin is None else Move(corner.name, begin, begin + step * size)
+
+
+def _leg(arriving: _Edge, leaving: _Edge, face: float) -> float:
+    """How far the ends of a chamfer are from the intersection when its face first has this length: found by halving."""
+
+    def is_short(leg: float) -> bool:
+        begin, end = arriving.away(leg, -1), leaving.away(leg, 1)
+        return begin is not None and end is not None and abs(end - begin) < face
+
+    low, step = face / 2, face / 64
+    while is_short(low + step) and step < LARGEST:
+        low, step = low + step, step * 1.02
+    for _ in range(60):
+        low, step = low + (step / 2 if is_short(low + step / 2) else 0.0), step / 2
+    return low
 
 
 _STEPS = 16

@@ -116,8 +116,6 @@ def test_a_worked_example_comes_out_as_the_sheet_has_it(name):
         (MILL + "G1 X30\nG302 I5\nG1 X40", "corner-straight", None),
         (MILL + "G1 X30 #RND=4 #CHR=2\nY30", "two-corners", None),
         (MILL + "G1 X30 #CHF=4 #CHR=2\nY30", "two-corners", None),
-        (MILL + "G1 X40 #CHF=3\nG2 X60 Y20 I20 J0", "face-on-arc", None),
-        (MILL + "G2 X20 Y20 I20 J0 #CHF=3\nG1 X60", "face-on-arc", None),
         (MILL + "G2 X20 Y20 I20 J0 #ANG=3", "angle-on-arc", None),
         (MILL + "G1 X30\nG302 I-5\nG1 Y40", "corner-negative", None),
         (MILL + "G1 X30\nG302 I5\nM30", "corner-without-next", None),

@@ -1,12 +1,14 @@
 """SINUMERIK: every worked example of its sheet, right and wrong, how it is spelled, its settings, RNDM and CT."""
 
 import re
+from math import dist
 from random import Random
 
 import pytest
 from click.testing import CliRunner
-from examples import few_and_many, some_of
+from examples import few_and_many, law, some_of
 from examples_fanuc import drawn
+from hypothesis import strategies as st
 from oracle import Element
 from oracle_corners import gap
 
@@ -143,8 +145,6 @@ def test_a_worked_example_comes_out_as_the_sheet_has_it(name, control):
         (MILL + "G1 X30 RND=-5\nY40", "corner-negative", None),
         (MILL + "G1 X30 RND=5\nX60", "corner-straight", None),
         (MILL + "G1 X30 CHR=2 CHF=3\nY40", "two-chamfers", None),
-        (MILL + "G1 X30 CHF=2\nG2 X60 Y30 CR=30", "face-on-arc", None),
-        (MILL + "G2 X30 Y30 CR=30 CHF=2\nG1 X60", "face-on-arc", None),
         (MILL + "G1 X30 RND=5 Z-2\nY40", "outside-plane", None),
         (MILL + "G2 X30 Y30 RND=2\nG1 X60", "circle-undefined", None),
         (MILL + "G2 X30 Y30 CR=30 I30 J0 RND=2\nG1 X60", "center-and-radius", None),
@@ -164,6 +164,17 @@ def test_an_angle_beside_both_coordinates_tells_the_real_one():
 def test_an_arc_whose_radii_differ_is_refused_beside_a_corner():
     result = siemens(MILL + "G1 X30 RND=2\nG2 X60 Y31 I30 J0\nG1 X90")
     assert [each.code for each in result.diagnostics if each.severity.value == "error"] == ["siemens-radius-difference"]
+
+
+@law(st.floats(0.01, 9), st.sampled_from(["", " CHF"]), few=10, many=200)
+def test_the_face_of_a_chamfer_beside_an_arc_has_its_length_between_ends_as_far_from_the_corner(face, behind):
+    text = MILL + f"G1 X40 CHF={face:.6f}\nG2 X60 Y20 I20 J0{behind and behind + f'={face / 2:.6f}'}\nG1 X100 Y30"
+    (answer,) = siemens(text).answers
+    lengths = iter((round(face, 6), round(face / 2, 6)))
+    for corner in (each for each in answer.contour.elements if each.name.startswith("corner")):
+        at = answer.contour.points[f"V{corner.name[-1]}"]
+        assert dist(corner.start, corner.end) == pytest.approx(next(lengths), abs=1e-9)
+        assert dist(corner.start, at) == pytest.approx(dist(corner.end, at), abs=1e-9)
 
 
 @pytest.mark.parametrize("word", ["CHR=2", "CHF=3"])

@@ -1,7 +1,6 @@
 """ISG kernel: which words may be combined, and what has no solution. The error numbers are printed."""
 
 from contoursolve.controls.chain.language import (
-    BESIDE_ARC,
     CORNER_ALONE,
     CORNER_CROWDED,
     CORNER_TWICE,
@@ -53,8 +52,6 @@ _OWN = (
     _row("corner-crowded", "the block behind it makes a corner, and takes the size I of one corner alone",
          "put everything else in a block of its own", some(CORNER_CROWDED), ANY, _BLOCK, (" I5", " I5 X50"),
          (" I5", " I5 I6"), (" I5", " I5 #RND=3"), ("G302", "G301 G302")),
-    _row("face-on-arc", "{words}: the face of a chamfer beside an arc is not computed", "write #CHR, or #RND",
-         some("#CHF") & some(BESIDE_ARC), ANY, MANUAL.arc, ("J0", "J0 #CHF=3\nG1 X90"), ("#RND=6", "#CHF=6")),
     _row("angle-redundant", "{words} is one word too many beside both coordinates{comparison}",
          "delete a coordinate, or the angle", all_of(FIRST, SECOND, "#ANG") & ~some(FOLLOWED), (LINE,), MANUAL.angled,
          ("X40", "X40 Y20"), evidence=_PRINTED, ignores="#ANG"),

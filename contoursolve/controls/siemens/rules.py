@@ -47,8 +47,6 @@ _OWN = (
              evidence=Evidence.PRINTED, ignores=word, severity=Severity.WARNING)
         for word in ("CHR", "CHF")
     ),
-    _row("face-on-arc", "{words}: the face of a chamfer beside an arc is not computed", "write CHR, or RND",
-         some("CHF") & some(BESIDE_ARC), ANY, MANUAL.arc, ("J0", "J0 CHF=3\nG1 X90"), ("RND=6", "CHF=6")),
     _row("chamfer-along-arc", "a chamfer that is measured along an arc is not computed",
          "set chamfer-on-arc=chord, or write the chamfer out", some("CHR") & some(ALONG_ARC) & some(BESIDE_ARC), ANY,
          MANUAL.arc),
