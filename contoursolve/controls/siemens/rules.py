@@ -3,7 +3,17 @@
 from dataclasses import replace
 from decimal import Decimal
 
-from contoursolve.controls.chain.language import ARC, BESIDE_ARC, FOLLOWED, LINE, NO_TANGENT, OTHER_DIAMETER, OVER_LINE
+from contoursolve.controls.chain.language import (
+    ARC,
+    BESIDE_ARC,
+    FOLLOWED,
+    LINE,
+    NO_TANGENT,
+    OTHER_DIAMETER,
+    OVER_LINE,
+    SMOOTH,
+    STATED_CENTER,
+)
 from contoursolve.controls.chain.rules import ANY, FIRST, SECOND, STEPS, Manual, chain_rules
 from contoursolve.controls.common import COMMON_RULES
 from contoursolve.controls.geometry_rules import GEOMETRY_RULES
@@ -11,6 +21,7 @@ from contoursolve.controls.siemens.language import ALONG_ARC, NO_STEPS, STRICT_A
 from contoursolve.controls.siemens.lexicon import assumed
 from contoursolve.diagnostics.finding import Alarm, Severity
 from contoursolve.diagnostics.source import Evidence
+from contoursolve.gcode import FaultKind
 from contoursolve.reading.rules import Rule, Value, all_of, some
 from contoursolve.solving import RefusalKind
 
@@ -61,6 +72,9 @@ _OWN = (
          some(*STEPS) & some(NO_STEPS), (OVER_LINE,), MANUAL.vertex),
     _row("rounding-negative", "{words}: a rounding has no sign", "delete the minus sign; RNDM=0 ends the roundings",
          Value(("RNDM",), least=Decimal(0)), ANY, MANUAL.cut.replace("RND", "RNDM"), ("=5", "=-5")),
+    _row("shape-on-tangent", "{words}: the centre and the radius of CT follow from the move before it",
+         "delete it, or write G2 or G3", some(*STATED_CENTER, "R") & some(SMOOTH), (ARC,),
+         _START + "G1 X20\nCT X40 Y20", ("CT X40 Y20", "CT X40 Y20 CR=20"), ("CT X40 Y20", "CT X40 Y20 I0 J20")),
     _row("diameter-changes", "X is a diameter in one block of the contour and a radius in another",
          "write DIAMON, DIAMOF or DIAM90 before its first block", some(OTHER_DIAMETER), ANY,
          "G18 DIAMON G90 G0 X20 Z0\nG1 X40 RND=2\nZ-50",
@@ -84,5 +98,26 @@ def _geometry() -> tuple[Rule, ...]:
     )
 
 
-RULES = (*COMMON_RULES, *chain_rules(MANUAL), *_OWN, *_geometry(), *GEOMETRY_RULES)
+def _common() -> tuple[Rule, ...]:
+    """The rows that all controls have, with what helps here."""
+    told = {
+        FaultKind.STRAY_CHARACTER: ("delete it, or put it into a comment behind a semicolon", ("X30", "X30 !")),
+        FaultKind.NUMBER_MALFORMED: (
+            "write digits with at most one point; behind a name write an equals sign, such as RND=5",
+            ("RND=5", "RND5"),
+        ),
+    }
+    rows = list[Rule]()
+    for rule in COMMON_RULES:
+        if isinstance(rule.about, FaultKind) and rule.about in told:
+            help_, wrong = told[rule.about]
+            rows.append(
+                replace(rule, help=help_, accepted=(MANUAL.cut,), rejected=(MANUAL.cut.replace(*wrong),)),
+            )
+        else:
+            rows.append(rule)
+    return tuple(rows)
+
+
+RULES = (*_common(), *chain_rules(MANUAL), *_OWN, *_geometry(), *GEOMETRY_RULES)
 RULES_808 = RULES
