@@ -79,7 +79,7 @@ _OWN = (
          "write DIAMON, DIAMOF or DIAM90 before its first block", some(OTHER_DIAMETER), ANY,
          "G18 DIAMON G90 G0 X20 Z0\nG1 X40 RND=2\nZ-50",
          ("Z-50", "DIAMOF Z-50")),
-    _row("no-tangent", "CT begins in the direction of the move before it, and no G1, G2, G3 or CT is right before it",
+    _row("no-tangent", "CT goes on from a line or an arc, and no G1, G2, G3 or CT is right before it",
          "put a line or an arc right before it, or write G2 or G3 with CR", some(NO_TANGENT), (ARC,),
          _START + "G1 X20\nCT X40 Y20", _START + "CT X40 Y20", evidence=Evidence.PRINTED),
 )  # fmt: skip
