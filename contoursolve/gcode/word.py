@@ -68,7 +68,9 @@ class Fault(Struct, frozen=True):
         return "".join(match.groups()).upper() if match else ""
 
 
-_ADDRESS = re.compile(r"[ \t]*(,?)[ \t]*(#?[A-Za-z_]\w*(?=[ \t]*=)|[A-Za-z]{2,}(?=[ \t]+[\d.+-])|[A-Za-z])", re.ASCII)
+_ADDRESS = re.compile(
+    r"[ \t]*(,?)[ \t]*(#?[A-Za-z_]\w*(?=[ \t]*=)|[A-Za-z]{2,}(?=[ \t]*[+-]?\.?\d)|[A-Za-z])", re.ASCII
+)
 
 
 def spell(address: str, number: str) -> str:

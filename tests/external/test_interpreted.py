@@ -208,6 +208,54 @@ def test_linuxcnc_runs_the_worked_examples_of_blocks_in_pairs_to_where_they_end(
         ends = ends[near[0] + 1 :]
 
 
+RESPELLED = {
+    "siemens-840d": (
+        ("G1 ANG=30 RND=6\nX60 Y20 ANG=-45", "0 0; 46.7308 26.9801 > cw 53.9735 26.0265 49.7308 21.7839; 60 20"),
+        ("G1 X=AC(30) CHR=3\nG91 X30 Y40", "0 0; 27 0; 31.8 2.4; 60 40"),
+        ("G1 X10\nCT X20 Y10\nX30 Y20", "0 0; 10 0; ccw 20 10 10 10; cw 30 20 30 10"),
+    ),
+    "isg": (
+        ("G01 #ANG=60 X20", "0 0; 20 34.6410"),
+        ("G91 G01 X80 Y-40\nG301 I40\nG01 X80 Y40", "0 0; 44.2229 -22.1115; 115.7771 -22.1115; 160 0"),
+        ("G91 G01 X60\nG302 I30\nX-40 Y-55", "0 0; 1.0869 0 > cw 25.3490 -47.6452 1.0869 -30; 20 -55"),
+        (
+            "G1 X10\n#ANG=70 #RND=8\n#ANG=15 X60 Y70",
+            "0 0; 10 0; 31.4036 58.8059 > cw 36.8506 63.7971 38.9211 56.0697; 60 70",
+        ),
+    ),
+}
+"""Contours of a mill as the sheets have them."""
+
+
+@pytest.mark.interpreter
+@pytest.mark.parametrize("control", RESPELLED)
+def test_linuxcnc_runs_what_words_with_names_are_expanded_to(control, tmp_path):
+    for text, printed in RESPELLED[control]:
+        expansion = contoursolve.expand(f"G17 G90 G0 X0 Y0 F100\n{text}\nM2\n", post="linuxcnc", control=control)
+        assert not expansion.summary.left
+        assert not expansion.summary.unfamiliar
+        motions = [each for each in interpret(expansion.text, tmp_path) if each.kind != "traverse"]
+        path = [(part.start, part.end, part.center, part.turn) for part in drawn(printed, 1)]
+        assert_path(motions, path, 4e-4)
+
+
+@pytest.mark.parametrize(
+    ("control", "text", "told"),
+    [
+        (
+            "siemens-840d",
+            "G17 DIAMOF G0 X0 Y0 LIMS=3000\nG1 X=IC(5)\nG0 X0\nG1 X30 RND=2\nY=40",
+            ["DIAMOF", "LIMS=3000", "X=IC(5)"],
+        ),
+        ("siemens-840d", "G17 G71 G0 X0 Y0\nRNDM=2\nG1 X30\nY40 FRC=0.1", ["G71", "RNDM=2", "FRC=0.1"]),
+        ("isg", "G17 G71 G162 G0 X0 Y0\nG1 X30 #RND=2\nY40 #FRC=10", ["G71", "G162", "#FRC=10"]),
+    ],
+)
+def test_words_that_linuxcnc_cannot_know_are_told(control, text, told):
+    summary = contoursolve.expand(text, post="linuxcnc", control=control).summary
+    assert [each.text for each in summary.unfamiliar] == told
+
+
 @pytest.mark.parametrize("arcs", ["center", "radius"])
 @few_and_many(5, 1, "stride")
 def test_a_fanuc_control_runs_every_program_where_it_was_drawn(arcs, stride):

@@ -9,7 +9,7 @@ from examples_fanuc import drawn
 from oracle import Element
 from oracle_corners import gap
 
-from contoursolve import expand, solve
+from contoursolve import check, expand, solve
 from contoursolve.cli import main
 
 ISG = "isg"
@@ -273,6 +273,30 @@ def test_a_chamfer_is_measured_as_its_word_says():
     arc = path(MILL + "G1 X30\nG301 I2\nG2 X50 Y20 I20 J0")
     assert abs(arc[1].end - 30) == pytest.approx(2)
     assert abs(arc[1].end - 50) == pytest.approx(20)
+
+
+@some_of(
+    ("text", "code", "fix"),
+    [
+        ("G1 #ANG=30 #RND=6\nX60 Y20", "isg-closing-incomplete", "G1 #ANG=30 #RND=6\nX60 Y20 #ANG=?"),
+        ("G1 #ANG=30\nX60 #ANG=-45", "isg-closing-incomplete", "G1 #ANG=30\nX60 #ANG=-45 Y?"),
+        ("G1 #ANG=30\nX60 Y20 #ANG=45", "angle-opposite", "G1 #ANG=30\nX60 Y20 #ANG=-45"),
+        ("G1 X40 Y20 #ANG=62", "isg-angle-redundant", "G1 X40 Y20"),
+        ("G1 X30 #RND=300\nY40", "isg-corner-too-large", "G1 X30 #RND=30\nY40"),
+        ("G1 X30\nG302 I300\nG1 Y40", "isg-corner-too-large", "G1 X30\nG302 I30\nG1 Y40"),
+        ("G1 X30\nG302 I-3\nG1 Y40", "isg-corner-negative", "G1 X30\nG302 I3\nG1 Y40"),
+        ("G1 X30 #CHR=2 #RND=3\nY40", "isg-two-corners", "G1 X30 #RND=3\nY40"),
+        ("G1 X30 #RND 3\nX50", "isg-corner-straight", "G1 X30\nX50"),
+        ("G1 X30 #RND=2\nG2 X40 Y10", "isg-circle-undefined", "G1 X30 #RND=2\nG2 X40 Y10 R?"),
+        ("G1 #ANG=30\nX60 Y20 #ANG=-45 #RND=5\nM30", "isg-corner-without-next", "G1 #ANG=30\nX60 Y20 #ANG=-45"),
+        ("G1 X-40 #ANG=30", "isg-line-reversed", "G1 X40 #ANG=30"),
+    ],
+    one_in=2,
+)
+def test_the_first_fix_is_what_a_colleague_would_name(text, code, fix):
+    found = [each for each in check(MILL + text, control=ISG) if each.fixes]
+    assert found[0].code == code
+    assert found[0].fixes[0].replacement == fix
 
 
 # Corners in blocks of their own -------------------------------------------------------------------------------------

@@ -348,6 +348,42 @@ def test_each_setting_has_an_effect():
     assert ends(lines, chamfer_on_arc="arc_length") == ends(lines)
 
 
+# Slips --------------------------------------------------------------------------------------------------------------
+
+
+@some_of(
+    ("text", "code", "fix"),
+    [
+        ("G1 ANG=30 RND=6\nX60 Y20", "siemens-closing-incomplete", "G1 ANG=30 RND=6\nX60 Y20 ANG=?"),
+        ("G1 ANG=30\nX60 ANG=-45", "siemens-closing-incomplete", "G1 ANG=30\nX60 ANG=-45 Y?"),
+        ("G1 ANG=30\nX60 Y20 ANG=45", "angle-opposite", "G1 ANG=30\nX60 Y20 ANG=-45"),
+        ("G1 X40 Y20 ANG=62", "siemens-angle-redundant", "G1 X40 Y20"),
+        ("G1 X=IC(5) Y=IC(5) ANG=40", "siemens-angle-redundant", "G1 X=IC(5) Y=IC(5)"),
+        ("G1 X30 RND=300\nY40", "siemens-corner-too-large", "G1 X30 RND=30\nY40"),
+        ("G1 X=IC(30) CHR=35\nY=IC(40)", "siemens-corner-too-large", "G1 X=IC(30) CHR=3.5\nY=IC(40)"),
+        ("G1 X30 CHR=2 RND=3\nY40", "siemens-chr-ignored", "G1 X30 RND=3\nY40"),
+        ("G1 X30 RND=-3\nY40", "siemens-corner-negative", "G1 X30 RND=3\nY40"),
+        ("G1 X=IC(30) RND=3\nX=IC(20)", "siemens-corner-straight", "G1 X=IC(30)\nX=IC(20)"),
+        ("G1 X30 RND=2\nG2 X40 Y10", "siemens-circle-undefined", "G1 X30 RND=2\nG2 X40 Y10 CR=?"),
+        ("G1 X30\nCT X40 Y10 CR=5", "siemens-shape-on-tangent", "G1 X30\nCT X40 Y10"),
+        ("G1 X30 RND=2\nG2 X40 Y10 CR=10 ANG=45", "siemens-angle-on-arc", "G1 X30 RND=2\nG2 X40 Y10 CR=10"),
+        ("G1 ANG=30\nX60 Y20 ANG=-45 RND=5\nM30", "siemens-corner-without-next", "G1 ANG=30\nX60 Y20 ANG=-45"),
+    ],
+    one_in=2,
+)
+def test_the_first_fix_is_what_a_colleague_would_name(text, code, fix):
+    found = [each for each in check(MILL + text, control=CONTROLS[0]) if each.fixes]
+    assert found[0].code == code
+    assert found[0].fixes[0].replacement == fix
+
+
+@pytest.mark.parametrize("word", ["RND5", "RND 5", "CHR2.5", "ANG45", "RND=5.5.", "RNDM3", "CR5"])
+def test_a_name_without_an_equals_sign_is_told(word):
+    refused(MILL + f"G1 X30 {word}\nY40", "number-malformed")
+    (finding,) = [each for each in siemens(MILL + f"G1 X30 {word}\nY40").diagnostics if each.code == "number-malformed"]
+    assert "RND=5" in finding.help
+
+
 # RNDM and CT --------------------------------------------------------------------------------------------------------
 
 

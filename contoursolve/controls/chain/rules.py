@@ -22,6 +22,7 @@ from contoursolve.controls.common import COMMON_RULES
 from contoursolve.controls.geometry_rules import GEOMETRY_RULES
 from contoursolve.diagnostics.finding import Alarm, Severity
 from contoursolve.diagnostics.source import Evidence, Source
+from contoursolve.gcode import FaultKind
 from contoursolve.reading.rules import Condition, Parallel, Rule, Value, all_of, some
 from contoursolve.solving import RefusalKind
 
@@ -205,10 +206,16 @@ def chain_rules(manual: Manual) -> Iterator[Rule]:
               angled, (stated, f"{angle}=390"), severity=Severity.WARNING)  # fmt: skip
 
 
-def rules_of(manual: Manual, own: Iterable[Rule], told: Mapping[RefusalKind, tuple[str, str]]) -> tuple[Rule, ...]:
+def rules_of(
+    manual: Manual,
+    own: Iterable[Rule],
+    told: Mapping[RefusalKind, tuple[str, str]],
+    helps: Mapping[FaultKind, tuple[str, str]] | None = None,
+) -> tuple[Rule, ...]:
     """All rules of a control: those of every control, these of its kind, its own, and those about geometry.
 
-    `told` are right and wrong examples of its own for some of the latter.
+    `told` are right and wrong examples of its own for some of the latter, `helps` what to do about characters that
+    cannot be read, with a wrong example.
     """
     rows = {rule.about: rule for rule in (*GEOMETRY_RULES, *COMMON_RULES)}
     geometry = (
@@ -221,4 +228,14 @@ def rules_of(manual: Manual, own: Iterable[Rule], told: Mapping[RefusalKind, tup
         )
         for about, (good, bad) in told.items()
     )
-    return (*COMMON_RULES, *chain_rules(manual), *own, *geometry, *GEOMETRY_RULES)
+    return (*_common(manual, helps or {}), *chain_rules(manual), *own, *geometry, *GEOMETRY_RULES)
+
+
+def _common(manual: Manual, helps: Mapping[FaultKind, tuple[str, str]]) -> Iterator[Rule]:
+    """The rows of every control, with what helps on this one."""
+    for rule in COMMON_RULES:
+        if isinstance(rule.about, FaultKind) and rule.about in helps:
+            advice, wrong = helps[rule.about]
+            yield replace(rule, help=advice, accepted=(manual.cut,), rejected=(wrong,))
+        else:
+            yield rule

@@ -59,6 +59,7 @@ def _codes() -> dict[int, Code]:
 CODES = _codes()
 
 _NUMBER = r"[+-]?+(?>\d++(?>[.,]\d*+)?+|[.,]\d++)"
+_OWN = "ANG|RNDM?|CHR|CHF|CR"
 _ARGUMENTS = r"\((?>(?:[^()\"]++|\"[^\"]*+\"|\((?>(?:[^()\"]++|\"[^\"]*+\")*)\))*)\)"
 SYNTAX = Syntax(
     "sinumerik",
@@ -66,20 +67,20 @@ SYNTAX = Syntax(
         rf"""
     (?P<blank>[ \t\f\v\x02\x03\x11-\x14\x1a\ufeff]++|%.*+|[A-Za-z_]\w++:(?!=)|:\d++)
   | (?P<comment>;.*+)
-  | (?P<mistyped>(?:ANG|RNDM?|CHR|CHF|CR)[ \t]++{_NUMBER}
-      |(?:[A-Za-z_]\w*+[ \t]*+=|[A-Za-z](?![A-Za-z_]))[ \t]*+[+-]?+[\d.,]++[Ool|][\d.,Ool|]*+(?![\w(\[=]))
+  | (?P<mistyped>(?:[A-Za-z_]\w*+[ \t]*+=|[A-Za-z](?![A-Za-z_]))[ \t]*+
+      [+-]?+[\d.,]++(?-i:[Ool|][\d.,Ool|]*+)(?![\w(\[=]))
   | (?P<word>(?P<comma>)(?:
         (?>(?P<long>\$?[A-Za-z_]\w*+(?>(?:\[[^\]]*+\])?+))[ \t]*+=[ \t]*+)(?:
             (?P<function>[AaIi][Cc])[ \t]*+\([ \t]*+(?:(?P<inner>{_NUMBER})|(?P<unset>\?))[ \t]*+\)
           | (?P<plain>{_NUMBER})(?![\w.,+*/\-\[(])|(?P<wanted>\?)
-          | (?P<formula>(?>(?:[^\s;()\[\]\"]++|{_ARGUMENTS}|\[[^\]]*+\]|\"[^\"]*+\")+)))
+          | (?![\d.,+-]++(?:[\s;]|$))(?P<formula>(?>(?:[^\s;()\[\]\"]++|{_ARGUMENTS}|\[[^\]]*+\]|\"[^\"]*+\")+)))
       | (?P<letter>[A-Za-z])(?![A-Za-z_])[ \t]*+(?:(?P<short>{_NUMBER})(?![\d.,])|(?P<asked>\?))))
+  | (?P<malformed>(?:(?:{_OWN})[ \t]*+(?:=[ \t]*+)?+|[A-Za-z][ \t]*+)(?=[\d.,+-])[\d.,+-]++)
   | (?P<name>(?>[A-Za-z_]{{2}}\w*+))[ \t]*+(?>(?:{_ARGUMENTS})?+)
-  | (?P<malformed>[A-Za-z][ \t]*+[\d.,+-]++)
   | (?P<bare>[A-Za-z])
   | (?P<stray>\"[^\"]*+\"?+|[^ \tA-Za-z;]++)
     """,
-        re.VERBOSE | re.ASCII,
+        re.VERBOSE | re.ASCII | re.IGNORECASE,
     ),
     statement=re.compile(
         r"[ \t/]*+(?>(?:[Nn]\d++)?+)[ \t]*+(?>(?:[A-Za-z_]\w++:)?+)[ \t]*+(?:"

@@ -3,12 +3,23 @@
 from dataclasses import replace
 from decimal import Decimal
 
-from contoursolve.controls.chain.language import ARC, BESIDE_ARC, FOLLOWED, LINE, NO_TANGENT, OTHER_DIAMETER, OVER_LINE
+from contoursolve.controls.chain.language import (
+    ARC,
+    BESIDE_ARC,
+    FOLLOWED,
+    LINE,
+    NO_TANGENT,
+    OTHER_DIAMETER,
+    OVER_LINE,
+    SMOOTH,
+    STATED_CENTER,
+)
 from contoursolve.controls.chain.rules import ANY, FIRST, SECOND, STEPS, Manual, rules_of
 from contoursolve.controls.siemens.language import ALONG_ARC, NO_STEPS, STRICT_ANGLE
 from contoursolve.controls.siemens.lexicon import BOOK
 from contoursolve.diagnostics.finding import Alarm, Severity
 from contoursolve.diagnostics.source import Evidence
+from contoursolve.gcode import FaultKind
 from contoursolve.reading.rules import Value, all_of, some
 from contoursolve.solving import RefusalKind
 
@@ -59,11 +70,14 @@ _OWN = (
          some(*STEPS) & some(NO_STEPS), (OVER_LINE,), MANUAL.vertex),
     _row("rounding-negative", "{words}: a rounding has no sign", "delete the minus sign; RNDM=0 ends the roundings",
          Value(("RNDM",), least=Decimal(0)), ANY, MANUAL.cut.replace("RND", "RNDM"), ("=5", "=-5")),
+    _row("shape-on-tangent", "{words}: the centre and the radius of CT follow from the move before it",
+         "delete it, or write G2 or G3", some(*STATED_CENTER, "R") & some(SMOOTH), (ARC,),
+         _START + "G1 X20\nCT X40 Y20", ("CT X40 Y20", "CT X40 Y20 CR=20"), ("CT X40 Y20", "CT X40 Y20 I0 J20")),
     _row("diameter-changes", "X is a diameter in one block of the contour and a radius in another",
          "write DIAMON, DIAMOF or DIAM90 before its first block", some(OTHER_DIAMETER), ANY,
          "G18 DIAMON G90 G0 X20 Z0\nG1 X40 RND=2\nZ-50",
          ("Z-50", "DIAMOF Z-50")),
-    _row("no-tangent", "CT goes on in the direction of the move before it; here no cutting move is right before it",
+    _row("no-tangent", "CT goes on from a line or an arc, and no G1, G2, G3 or CT is right before it",
          "put a line or an arc right before it, or write G2 or G3 with CR", some(NO_TANGENT), (ARC,),
          _START + "G1 X20\nCT X40 Y20", _START + "CT X40 Y20", evidence=Evidence.PRINTED),
 )  # fmt: skip
@@ -74,7 +88,17 @@ _GEOMETRY = {
     RefusalKind.CORNER_STRAIGHT: (MANUAL.cut, MANUAL.cut.replace("X40 Y40", "X60")),
     RefusalKind.RADIUS_DIFFERENCE: (MANUAL.arc, MANUAL.arc.replace("I20", "I18")),
 }
-RULES = rules_of(MANUAL, _OWN, _GEOMETRY)
+_HELPS = {
+    FaultKind.STRAY_CHARACTER: (
+        "delete it, or put it into a comment behind a semicolon",
+        MANUAL.cut.replace("X30", "X30 !"),
+    ),
+    FaultKind.NUMBER_MALFORMED: (
+        "write digits with at most one point; behind a name write an equals sign, such as RND=5",
+        MANUAL.cut.replace("RND=5", "RND5"),
+    ),
+}
+RULES = rules_of(MANUAL, _OWN, _GEOMETRY, _HELPS)
 _REDUCED = "; the control makes it smaller by itself, to a size that is not printed"
 RULES_808 = tuple(
     replace(rule, message=rule.message + _REDUCED) if rule.code == "siemens-corner-too-large" else rule
