@@ -19,6 +19,7 @@ WITHOUT_REJECTED_EXAMPLE = {
     "mitsubishi-corner-arc": "a setting forbids it; test_mitsubishi.py sets it",
     "mitsubishi-chamfer-along-arc": "the same",
     "mitsubishi-h-missing": "the same",
+    "mitsubishi-centre-of-diameter": "the same",
     "mitsubishi-centre-from-end": "the same",
     "count-open": "two forms of one block each: every fact about them leads to a closed form or a search that ends",
     "arc-radius-differs": "an arc is looked at where a rule refuses it; test_robust.py lets the rules warn only",
