@@ -19,6 +19,7 @@ _LINES = "G17 G90 G41 G0 X90 Y10\nG1 ,A150\nG1 X10 Y20 ,A225"
 _ARC = "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 R50\n"
 _CENTERED = "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 I-50 J0\n"
 _LINE = "G1 X-50 Y42.857 ,A171.87 Q-1"
+_SQUARE = "G00 X20. Z0.\nG01 Z-20. I5.\nX40.\nX60. ,A90."
 _LATHE = "G00 X40. Z0.\nG111 X100. A180. K-30. B120. C5."
 
 
@@ -135,6 +136,13 @@ GEOMETRY_RULES = (
         "change the direction of one element",
         _CUT,
         _CUT.replace("X40 Y40", "X10"),
+    ),
+    _row(
+        RefusalKind.CORNER_SIGN,
+        "{words}: the sign says which way {subject} runs, and it runs the other way",
+        "change the sign; plus is the positive direction of that axis",
+        _SQUARE,
+        _SQUARE.replace("I5.", "I-5."),
     ),
     _row(
         RefusalKind.BEVEL_OUTSIDE,

@@ -72,7 +72,13 @@ def test_centres_and_sweeps_are_those_of_the_sheet():
         (ARCS.replace("I0 J30.", "R30."), "mitsubishi-two-radii", "P395"),
         (VERTEX.replace("\nX80.", "\nG04 P500\nX80."), "mitsubishi-end-missing", "P395"),
         (LEAVING.replace("G01 ", ""), "mitsubishi-angle-on-arc", None),
-        (CROSSING.replace("I-20. J-25.", "P40. Q-10."), "address-unknown", None),
+        (CROSSING.replace("I-20. J-25.", "P40. Q-10."), "mitsubishi-centre-place", None),
+        (CROSSING.replace("I-20. J-25.", "P40. Q-10."), "mitsubishi-second-arc-incomplete", "P395"),
+        (LEAVING.replace("I30. J0", "P30."), "mitsubishi-centre-half", None),
+        (ARCS.replace("I0 J30.", "P0 Q30."), "mitsubishi-centre-of-two-arcs", "P395"),
+        (LEAVING.replace("I30. J0", "P30. Q0 R30."), "mitsubishi-center-and-radius", "P395"),
+        (VERTEX.replace("G17 ", "G17 G05 P2\n"), "mitsubishi-high-speed", "P33"),
+        (VERTEX.replace("\nX80.", "\nG05 P2\nX80."), "mitsubishi-end-missing", "P395"),
         (VERTEX.replace("X80. Y25.", "G18 X80. Z25."), "mitsubishi-plane-changes", "P396"),
     ],
 )
@@ -129,6 +135,31 @@ def test_planes_read_the_same_blocks_with_other_letters(plane):
     for text, expected in RIGHT[1:7]:
         turned = text.replace("G17", f"G{plane}").translate(str.maketrans("XYIJ", letters))
         assert ends(turned) == [pytest.approx(each, abs=1e-4) for each in expected]
+
+
+@pytest.mark.parametrize("plane", [17, 18, 19])
+def test_a_centre_by_p_and_q_is_absolute(plane):
+    """P is for I and Q for K; in G17 Q is for J, in G19 P is for J."""
+    text = "G17 G90 G00 X5. Y3.\nG03 I30. J-2. H0\nG01 X20. Y-60. A-80."
+    letters = {17: "XYIJ", 18: "ZXKI", 19: "YZJK"}[plane]
+    turned = text.replace("G17", f"G{plane}").translate(str.maketrans("XYIJ", letters))
+    absolute = turned.replace(f"{letters[2]}30.", "@35.").replace(f"{letters[3]}-2.", "@1.")
+    first, second = ("Q", "P") if plane == 18 else ("P", "Q")
+    absolute = absolute.replace("@", first, 1).replace("@", second, 1)
+    assert ends(absolute) == ends(turned) == ends(absolute, first_centre="end", arc_without_end="circle")
+    assert ends(absolute.replace("H0", "H1")) == ends(turned.replace("H0", "H1")) != ends(turned)
+    assert ends(absolute.replace(" H0", "")) == ends(turned)
+    assert "mitsubishi-h-missing" in codes(absolute.replace(" H0", ""), h_default="error")
+    assert "mitsubishi-no-full-circle" not in codes(absolute.replace(" H0", ""))
+    if plane == 18:
+        assert "mitsubishi-centre-of-diameter" in codes(absolute, diameter="on")
+
+
+def test_high_speed_machining_stays_in_force_until_it_ends():
+    text = "G17 G90 G00 X0 Y0\nG05 P2\nG01 X10. Y5.\nX40. A30."
+    assert codes(text) == {"mitsubishi-high-speed": "P33"}
+    assert ends(text.replace("\nX40.", "\nG05 P0\nX40.")) == [pytest.approx((40, 22.3205), abs=1e-4)]
+    assert ends(text.replace("X40. A30.", "X40. ,R2.\nY40."))[-1] == pytest.approx((40, 40))
 
 
 # Settings ---------------------------------------------------------------------------------------------------------

@@ -19,6 +19,7 @@ WITHOUT_REJECTED_EXAMPLE = {
     "mitsubishi-corner-arc": "a setting forbids it; test_mitsubishi.py sets it",
     "mitsubishi-chamfer-along-arc": "the same",
     "mitsubishi-h-missing": "the same",
+    "mitsubishi-centre-of-diameter": "the same",
     "mitsubishi-centre-from-end": "the same",
     "siemens-chamfer-along-arc": "a setting forbids it; test_siemens.py sets it",
     "siemens-closing-increment": "the same",

@@ -193,6 +193,8 @@ def _calls(language: Language, member: Member) -> dict[str, str]:
     called |= {address: centers.get(address, "wrong-center") for address in ("I", "J", "K") if address in addresses}
     called |= {address: f"beside-{address}" for address, row in addresses.items() if row.axis not in ("", *plane.axes)}
     called |= language.names_in(is_arc=member.element.turn is not None)
+    if member.element.turn is not None:
+        called |= language.centers_at(plane)
     if member.is_signed:
         signed = {address: language.signed_name(address, plane) for address in language.signed}
         called |= {address: name for address, name in signed.items() if name}

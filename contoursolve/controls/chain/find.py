@@ -310,7 +310,7 @@ class ChainFinder:
         """Whether what has no end has it where a block meets it. About its centre, an arc without an end is a full
         circle, too, where what follows does not show that it is none."""
         first, second = self._stated(last.block, last.here), self._stated(following, here)
-        if last.element.turn is None or first & {"R", self.language.picks}:
+        if last.element.turn is None or first & {"R", self.language.picks, *self.language.centers}:
             return last.here.motion != 0
         if self.language.closes or not first & {*last.here.plane.centers} or not second >= {*here.plane.axes}:
             return False
@@ -320,7 +320,8 @@ class ChainFinder:
     def _touches(self, first: Member, second: Member) -> bool:
         """Whether two blocks in a pair touch: two arcs, and a line and an arc that has no centre."""
         arcs = [each for each in (first, second) if each.element.turn is not None]
-        is_centered = any(self._stated(each.block, each.here) & {*each.here.plane.centers} for each in arcs)
+        centers = {*first.here.plane.centers, *self.language.centers}
+        is_centered = any(self._stated(each.block, each.here) & centers for each in arcs)
         return self.language.joining is Joining.PAIRED and bool(arcs) and (len(arcs) > 1 or not is_centered)
 
     def _is_joined(self, last: Member, following: Block, here: State) -> bool:
@@ -357,7 +358,9 @@ class ChainFinder:
         full circle if that is where it begins (assumed)."""
         block, here = member.block, member.here
         stated = self._stated(block, here)
-        if self._has_corner(member) or member.element.is_smooth:
+        is_centered = here.motion in _TURNS and bool(stated & {*self.language.centers})
+        is_open = is_centered and not stated & {*here.plane.axes, "I", "J", "K", "R"}
+        if self._has_corner(member) or member.element.is_smooth or is_open:
             return True
         if stated & {*self.language.angles, self.language.selector} or self._keeps_angle(member):
             return True

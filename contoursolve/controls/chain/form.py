@@ -8,6 +8,7 @@ from msgspec import Struct
 
 from contoursolve.controls.chain.language import (
     AIMED,
+    CENTER_AT,
     LINE_LINE,
     POINT,
     SIGNED,
@@ -271,15 +272,7 @@ def _checked(elements: Sequence[Element], names: Sequence[Names], slack: float) 
 def _own_facts(language: Language, element: Element, names: Names, start: str) -> Iterator[FactRow]:
     """What a block states; `start` is where the one before it begins."""
     q = names.prefix
-    if element.turn is not None:
-        for order, axis in _ORDERS:
-            given = f"{q}center-{order}"
-            if element.is_over and language.joining is Joining.OVER_DEFINED:
-                yield FactRow(Coordinate(given, names.center, axis), (given,))
-                continue
-            origin = names.head if element.is_over else names.tail
-            yield FactRow(Offset(given, names.center, origin, axis), (given,))
-        yield FactRow(Radius(f"{q}R", names.radius), (f"{q}R",))
+    yield from _own_center(language, element, names)
     for order, axis in _ORDERS:
         yield FactRow(Coordinate(f"{q}{order}", names.own, axis), (f"{q}{order}",))
         if not element.is_over or language.joining is Joining.PAIRED:
@@ -301,6 +294,23 @@ def _own_facts(language: Language, element: Element, names: Names, start: str) -
                 yield FactRow(Collinear(names.tail, names.own, names.head), (q + POINT,))
 
 
+def _own_center(language: Language, element: Element, names: Names) -> Iterator[FactRow]:
+    """What the block of an arc states of its centre and radius."""
+    if element.turn is None:
+        return
+    q = names.prefix
+    for order, axis in _ORDERS:
+        given = f"{q}center-{order}"
+        if element.is_over and language.joining is Joining.OVER_DEFINED:
+            yield FactRow(Coordinate(given, names.center, axis), (given,))
+            continue
+        origin = names.head if element.is_over else names.tail
+        yield FactRow(Offset(given, names.center, origin, axis), (given,))
+    for given, (_, axis) in zip(CENTER_AT, _ORDERS, strict=True) if language.centers else ():
+        yield FactRow(Coordinate(q + given, names.center, axis), (q + given,))
+    yield FactRow(Radius(f"{q}R", names.radius), (f"{q}R",))
+
+
 def _combinations(
     language: Language, elements: Sequence[Element], number: int, prefix: str
 ) -> tuple[tuple[str, ...], ...]:
@@ -312,7 +322,8 @@ def _combinations(
         shapes: tuple[tuple[str, ...], ...] = ((language.angle,),)
         if element.turn is not None:
             is_touching = element.touches or other.touches
-            shapes = (centers,) if not is_touching else (radius,) if other.turn is None else (centers, radius)
+            at = (CENTER_AT,) if language.centers and element.is_followed else ()
+            shapes = (centers, *at) if not is_touching else (radius,) if other.turn is None else (centers, radius)
         place = ("first", "second") if element.is_over else ()
         return tuple(tuple(prefix + name for name in (*place, *shape)) for shape in shapes)
     point = (POINT,) if element.is_followed and not element.is_over else ()

@@ -61,6 +61,8 @@ LEAVES = ("@leaves-first", "@leaves-second")
 STATED_POINT = ("first", "first-step", "second", "second-step")
 STATED_CENTER = ("center-first", "center-second")
 """What a block's coordinates and its I, J and K are called, by the axes of the plane; steps are increments."""
+CENTER_AT = ("center-at-first", "center-at-second")
+"""What the coordinates of a centre are called."""
 
 
 class Element(Struct, frozen=True):
@@ -241,6 +243,14 @@ class Language:
     that one runs. I, J and K state a distance along their own axis."""
     is_signed_by_shape: bool = False
     """Whether these words have a sign only between two such lines, and are other corner words elsewhere."""
+
+    centers: tuple[str, str] | tuple[()] = ()
+    """The addresses of the coordinates of a centre, of an arc without an end: for I and J, for I and K, or J and K."""
+
+    def centers_at(self, plane: Plane) -> Mapping[str, str]:
+        """What these are called in a plane."""
+        orders = dict(zip(plane.centers, CENTER_AT, strict=True))
+        return dict(zip(self.centers, (orders[each] for each in sorted(plane.centers)), strict=False))
 
     @property
     def angles(self) -> tuple[str, ...]:

@@ -216,7 +216,7 @@ def _square_rules(machine: _Machine, amount: str, own: str, line: str) -> tuple[
             (good.replace(line, machine.turn), good.replace(line, machine.line.replace("0.", "5."))),
         ),
     )
-    told_rows = (
+    own_rows = (
         Rule(
             code=f"{machine.prefix}-{code}",
             message=message,
@@ -230,17 +230,16 @@ def _square_rules(machine: _Machine, amount: str, own: str, line: str) -> tuple[
         )
         for code, message, advice, alarm, when, roles, rejected in rows
     )
-    sign = Rule(
+    general = {rule.about: rule for rule in GEOMETRY_RULES}
+    sign = replace(
+        general[RefusalKind.CORNER_SIGN],
         code=f"{machine.prefix}-corner-sign",
-        message="{words}: the sign says which way {subject} runs, and it runs the other way",
-        help="change the sign; plus is the positive direction of that axis",
         source=machine.source(_ALARM_LIST),
         alarm=machine.alarm(_NOT_SQUARE),
-        about=RefusalKind.CORNER_SIGN,
         accepted=(good,),
         rejected=(good.replace(amount, f"{amount[0]}-{amount[1:]}"),),
     )
-    return (*told_rows, sign)
+    return (*own_rows, sign)
 
 
 def _mill_rules(machine: _Machine) -> tuple[Rule, ...]:

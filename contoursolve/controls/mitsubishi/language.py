@@ -26,7 +26,7 @@ from contoursolve.reading.rules import some
 PICK_REQUIRED, STRAIGHT_ONLY = "@pick-required", "@straight-only"
 UNGUARDED, ALONG_ARC, PICKS_NOTHING = "@unguarded", "@along-arc", "@picks-nothing"
 FROM_END = "@from-end"
-INCREMENTAL, HIGH_SPEED = "@incremental", "@high-speed"
+INCREMENTAL, HIGH_SPEED, TURNED = "@incremental", "@high-speed", "@turned"
 
 
 def _turning(dialect: Dialect) -> Dialect:
@@ -120,7 +120,8 @@ def _circumstances(member: Member, _: Sequence[State], modes: Modes) -> Iterator
         FROM_END: _is(_FIRST_CENTER, modes),
         ALONG_ARC: _is(_ARC_CHAMFER, modes),
         INCREMENTAL: member.here.is_incremental,
-        HIGH_SPEED: any(word.address == "G" and word.number == 5 for word in member.block.words),  # noqa: PLR2004 - G05
+        HIGH_SPEED: "G05" in member.here.memory,
+        TURNED: any(member.here.plane.diameters),
         UNGUARDED: _is(_GUARD, modes),
         PICKS_NOTHING: pick is not None and pick.number not in (None, 0, 1),
     }
@@ -142,7 +143,7 @@ _MILL = "G17 G90 G00 X0 Y0"
 LANGUAGE = Language(
     lexicon=MODES.lexicon,
     planes={},
-    allowed=frozenset({*"NGFSTMDHEXYZIJKRA", ",A", ",C", ",R"}),
+    allowed=frozenset({*"NGFSTMDHEXYZIJKRAPQ", ",A", ",C", ",R"}),
     joining=Joining.PAIRED,
     titles={
         LINE_LINE: "Geometric I: vertex of two lines",
@@ -157,13 +158,14 @@ LANGUAGE = Language(
     angle="A",
     angle_words=("A", ",A"),
     picks="H",
+    centers=("P", "Q"),
     assumptions=(
         Assumption(
             "h-missing",
             "a crossing without H is the one with the shorter line",
             assumed("not described"),
             (LINE_CIRCLE, CIRCLE_LINE),
-            some("1:center-first", "2:center-first") & ~some("1:H", "2:H"),
+            some("1:center-first", "1:center-at-first", "2:center-first") & ~some("1:H", "2:H"),
         ),
         Assumption(
             "one-of-center",

@@ -1,11 +1,13 @@
 """Mitsubishi: addresses, numbers, planes and G codes."""
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 from msgspec.structs import replace as replace_fields
 
 from contoursolve.controls.plain import CALLS, LATHE, MILL_CODES, PLANES, code_rows, lexicon, merge
 from contoursolve.diagnostics.source import Evidence, Source
+from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Plane, Unit
 from contoursolve.reading import Address, Effect, Lexicon, Modes, NumberFormat, WithoutPoint
 
@@ -31,6 +33,7 @@ _CODES = merge(MILL_CODES, {Effect.NONE: {5: "high-speed machining"}})
 _NUMBERS = NumberFormat(WithoutPoint.AS_WRITTEN, assumed("a machine parameter"))
 _PLACE = printed("linear angle command, p. 375")
 _CHAMFER = Source("Mitsubishi corner chamfering, as users quote it", "length of ,C", Evidence.PRINTED)
+_CENTER = printed("p. 378: format list 3")
 _ANGLE = "angle of the line, from the plane's first axis, counter-clockwise"
 
 
@@ -47,13 +50,29 @@ def _words(*, is_diameter: bool) -> Lexicon:
             _CHAMFER,
         ),
         Address(",R", "rounding", Unit.MM, assumed("corner chamfering")),
+        Address("P", "centre of an arc without an end, a coordinate in place of I (in G19 of J)", Unit.MM, _CENTER),
+        Address("Q", "centre of an arc without an end, a coordinate in place of K (in G17 of J)", Unit.MM, _CENTER),
         Address("H", "0 the crossing with the shorter line, 1 with the longer line", Unit.SIGN, printed("p. 378")),
     )
     return Lexicon({**plain.addresses, **{row.address: row for row in rows}}, plain.numbers)
 
 
 def _modes(words: Lexicon, planes: dict[int, Plane]) -> Modes:
-    return Modes(words, code_rows(assumed("list of G codes"), _CODES, planes), ("X", "Y", "Z"), CALLS)
+    codes = code_rows(assumed("list of G codes"), _CODES, planes)
+    return Modes(words, codes, ("X", "Y", "Z"), CALLS, remember=_remember)
+
+
+HIGH_SPEED = 5
+"""G05."""
+
+
+def _remember(memory: Mapping[str, Word], block: Block) -> Mapping[str, Word]:
+    """High-speed machining stays in force until G05 P0."""
+    codes = [word for word in block.words if word.address == "G" and word.number == HIGH_SPEED]
+    if not codes:
+        return memory
+    mode = block.find("P")
+    return {} if mode is not None and mode.number == 0 else {"G05": mode or codes[0]}
 
 
 TURNED_PLANES = {17: replace_fields(PLANES[17], diameters=(True, False)), 18: LATHE, 19: PLANES[19]}

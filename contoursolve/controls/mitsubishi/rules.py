@@ -5,6 +5,7 @@ from decimal import Decimal
 
 from contoursolve.controls.chain.language import (
     ARC,
+    CENTER_AT,
     CIRCLE_CIRCLE,
     CIRCLE_LINE,
     FOLLOWED,
@@ -29,6 +30,7 @@ from contoursolve.controls.mitsubishi.language import (
     PICK_REQUIRED,
     PICKS_NOTHING,
     STRAIGHT_ONLY,
+    TURNED,
     UNGUARDED,
 )
 from contoursolve.controls.mitsubishi.lexicon import assumed, derived, printed
@@ -53,6 +55,7 @@ _ANGLED = _MILL + "G01 X40. A30."
 _VERTEX = _MILL + "G01 A70.\nX80. Y25. A-30."
 _CROSSING = _MILL + "G01 A10.\nG02 X60. Y10. I-20. J-25. H0"
 _LEAVING = _MILL + "G03 I30. J0 H0\nG01 X20. Y-60. A-90."
+_CENTERED = _LEAVING.replace("I30. J0", "P30. Q0")
 _TOUCHING = _MILL + "G01 A15.\nG03 X70. Y50. R30."
 _ARCS_TOUCH = _MILL + "G03 I0 J30.\nG02 X70. Y60. R25."
 _ARC = _MILL + "G01 X40. ,C6.\nG02 X60. Y20. I20. J0"
@@ -119,7 +122,7 @@ _ROWS = (
          "write G01, or delete {words}", _BOOK, some("A"), _ARCS, _TOUCHING, ("R30.", "R30. A20.")),
     _row("high-speed", "{words}: in high-speed machining the control takes no angle",
          "end that mode before, with G05 P0", printed("p. 375"), some(HIGH_SPEED) & some("A"), _LINES,
-         _ANGLED, ("G01", "G05 P2 G01"), alarm="P33 (angle in high-speed machining)"),
+         _ANGLED, ("G01", "G05 P2\nG01"), alarm="P33 (angle in high-speed machining)"),
     _row("angle-range", "{words} is more than a turn; it is taken as {within}, the same direction",
          "write {within} if that is meant", _BOOK, Value(("A",), least=Decimal(-360), most=Decimal(360)), _LINES,
          _ANGLED, ("A30.", "A390."), severity=Severity.WARNING),
@@ -143,9 +146,10 @@ _ROWS = (
          _TOUCHING, (" R30.", ""), ("X70. ", ""),
          alarm=_FORMAT, note="without the option for arcs the alarm is P391 or P398"),
     _row("center-and-radius", "{words}: the arc has both a centre and a radius", "keep one of them",
-         assumed("not described"), all_of(STATED_CENTER, "R"), _ARCS, _ARC, ("J0", "J0 R20."), alarm=_FORMAT),
+         assumed("not described"), all_of((*STATED_CENTER, *CENTER_AT), "R"), _ARCS, _ARC, ("J0", "J0 R20."),
+         alarm=_FORMAT),
     _row("circle-undefined", "the arc has neither a centre nor a radius", "add I, J or K of the plane, or R",
-         assumed("not described"), ~some(*STATED_CENTER, "R"), (ARC,), _ARC, (" I20. J0", "")),
+         assumed("not described"), ~some(*STATED_CENTER, *CENTER_AT, "R"), (ARC,), _ARC, (" I20. J0", "")),
     _row("radius-without-end", "{words}: with R the arc needs its end",
          "add the coordinates of its end, or give the centre instead",
          assumed("not described"), some("R") & ~some(*STATED_POINT, FOLLOWED), (ARC,),
@@ -161,6 +165,22 @@ _ROWS = (
     _row("centre-from-end", "{words}: a centre that is counted from the end to be found is not computed",
          "set first-centre=start, or write both blocks out",
          derived("p. 378"), some(*STATED_CENTER) & some(FOLLOWED) & some(FROM_END), (ARC,), _LEAVING),
+    _row("centre-half", "{words}: of a centre by P and Q, one coordinate is missing", "write both",
+         derived("p. 378"), some(*CENTER_AT) & ~all_of(*CENTER_AT), _ARCS, _CENTERED, (" Q0", "")),
+    _row("centre-place", "{words}: P and Q are the centre of an arc without an end or another centre, before a line",
+         "let a line with its end and its angle follow, or give the centre by I and J",
+         printed("p. 378: format list 3"),
+         some(*CENTER_AT) & (some(*STATED_POINT, *STATED_CENTER) | ~some(FOLLOWED)), _ARCS,
+         _CENTERED, ("H0", "I30. H0"), ("P30.", "X40. P30."), ("\nG01 X20.", "\nM8\nG01 X20.")),
+    _row("centre-of-two-arcs", "{words}: P and Q are the centre of an arc that a line meets, and here an arc follows",
+         "write I and J in place of P and Q", printed("p. 378: format list 3"),
+         some(*(f"{block}:{name}" for block in (1, 2) for name in CENTER_AT)), (CIRCLE_CIRCLE,),
+         _ARCS_TOUCH, ("I0 J30.", "P0 Q30."), alarm=_FORMAT),
+    _row("centre-of-diameter", "{words}: where X is a diameter, no page says whether P is one, too",
+         "write I and K in place of P and Q", assumed("not described"), some(*CENTER_AT) & some(TURNED), _ARCS,
+         _CENTERED),
+    _row("centre-on-line", "{words}: P and Q belong to an arc without an end", "delete them",
+         derived("p. 378"), some("P", "Q") & ~some(HIGH_SPEED), _LINES, _ANGLED, ("A30.", "A30. P5.")),
     _row("angles-parallel", "{words}: the two lines are parallel to less than 1 deg, so the control computes no vertex",
          "correct one of the angles",
          assumed("alarm P392"), Parallel(("1:A", "2:A"), _GUARD) & ~some("1:" + UNGUARDED), (LINE_LINE,),
@@ -169,7 +189,8 @@ _ROWS = (
          printed("p. 378"), some(PICKS_NOTHING), _ARCS, _CROSSING, ("H0", "H2"), alarm=_FORMAT),
     _row("h-missing", "H is missing: the line crosses the circle twice",
          "choose: H0 is the shorter line, H1 the longer one", assumed("not described"),
-         some("1:center-first", "2:center-first") & ~some("1:H", "2:H") & some("1:" + PICK_REQUIRED),
+         some("1:center-first", "1:center-at-first", "2:center-first") & ~some("1:H", "2:H")
+         & some("1:" + PICK_REQUIRED),
          (LINE_CIRCLE, CIRCLE_LINE), _CROSSING),
 )  # fmt: skip
 
