@@ -126,7 +126,7 @@ class _Follower:
             return
         for word in block.words:
             if self.modes.is_call(word):
-                yield self._unfollowed(block, f"{word.text.strip()} calls or ends a subprogram")
+                yield self._unfollowed(block, self.modes.why_lost(word))
                 return
         is_preset = False
         for code in codes:

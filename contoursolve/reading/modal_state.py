@@ -148,6 +148,9 @@ class State(Struct, frozen=True):
         return self.move({axis: Position(None, reason, span) for axis in axes})
 
 
+_MOVES = "moves in a way that contoursolve does not follow"
+
+
 @dataclass(frozen=True, slots=True)
 class Modes:
     """What following the state of a control needs to know of it."""
@@ -168,6 +171,8 @@ class Modes:
     remember: Callable[[Mapping[str, Word], Block], Mapping[str, Word]] | None = None
     """From the words that stay in force, and a block, to those behind it; the same record if nothing changes."""
 
+    moving: re.Pattern[str] | None = field(default=None, kw_only=True)
+    """Addresses of words that move, and that contoursolve does not follow."""
     lasting: Mapping[str, str] = field(default_factory=dict, kw_only=True)
     """Addresses of words that stay in force and change the path, each with the word that ends it."""
     beside: frozenset[str] = field(default=frozenset(), kw_only=True)
@@ -176,8 +181,16 @@ class Modes:
     """G codes of blocks that belong to a contour and move nothing."""
 
     def is_call(self, word: Word) -> bool:
-        """Whether a word calls or ends a subprogram."""
-        return (word.address == "M" and word.number in self.calls) or word.address in self.call_addresses
+        """Whether a word calls or ends a subprogram, or moves in a way that is not followed."""
+        is_call = (word.address == "M" and word.number in self.calls) or word.address in self.call_addresses
+        return is_call or self._moves(word)
+
+    def why_lost(self, word: Word) -> str:
+        """What such a word does."""
+        return f"{word.text.strip()} {_MOVES if self._moves(word) else 'calls or ends a subprogram'}"
+
+    def _moves(self, word: Word) -> bool:
+        return self.moving is not None and self.moving.fullmatch(word.address) is not None
 
     def words(self, state: State) -> Lexicon:
         """The lexicon by which words are read in a state."""
@@ -262,7 +275,7 @@ def advance(state: State, block: Block, modes: Modes) -> State:
         state = state.lose(modes.axes, "a new program begins", block.span)
     for word in block.words:
         if modes.is_call(word):
-            return state.lose(modes.axes, f"{word.text} calls or ends a subprogram", word.span)
+            return state.lose(modes.axes, modes.why_lost(word), word.span)
     codes = codes_of(block, modes)
     for code in codes:
         if isinstance(code, Word):

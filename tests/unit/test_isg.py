@@ -243,8 +243,10 @@ def test_x_is_a_diameter_behind_g51_and_a_radius_before_and_behind_g52():
     single = "G18 G51 G90 G0 Z0 X20\nG1 X40 #ANG=45"
     assert ends(single) == pytest.approx([10 + 20j])
     refused("G18 G51 G90 G0 X20 Z0\nG1 X40 #RND=2\nG52 Z-50", "isg-diameter-changes")
-    arc = "G18 G51 G90 G0 X20 Z0\nG1 X40 #RND=2\nG3 Z-20 X80 I0 K-20"
-    assert isg(arc).answers[0].contour is None or path(arc)[-1].end == -20 + 40j
+    by_radius = path("G18 G51 G90 G0 X20 Z10\nG1 Z0 #RND=1\nG2 X40 Z-10 R20")
+    assert by_radius[-1].radius == pytest.approx(20)
+    by_center = path("G18 G51 G90 G0 X20 Z10\nG1 Z0 #RND=1\nG2 X36 Z-4 I8 K6")
+    assert by_center[-1].center == pytest.approx(6 + 18j)
 
 
 def test_a_line_of_its_own_is_a_ray_and_one_of_a_pair_need_not_be():

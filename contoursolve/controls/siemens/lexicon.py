@@ -136,6 +136,7 @@ MODES = Modes(
     radius="CR",
     remember=_remember,
     call_addresses=frozenset("L"),
+    moving=re.compile(r"AP|RP|AR|POS[AP]?\[[XYZ]\w*\]|[XYZIJK]\d+(=\w+)?"),
     lasting={"RNDM": "RNDM=0"},
     beside=frozenset({"RNDM", "FRC", "FRCM", "LIMS"}),
 )
