@@ -63,6 +63,8 @@ class Dialect:
     """Conventions on which the manual is silent."""
     diameter: Diameter | None = None
     """Which words of X are diameters at first, where codes switch that."""
+    motion: int | None = None
+    """The motion that is in force before the program states one."""
     has_runs: bool = True
     """Whether a contour may be several blocks in a row."""
     follow: Follower | None = None
@@ -99,5 +101,7 @@ class Dialect:
         """The state before the first block: the position is not known, nothing is compensated."""
         reason = "nothing before it gives an absolute position"
         axes = {axis: Position(None, reason) for axis in self.modes.axes}
-        state = State(axes, None, self.plane, unit, is_incremental=False, compensation=40, diameter=self.diameter)
+        state = State(
+            axes, self.motion, self.plane, unit, is_incremental=False, compensation=40, diameter=self.diameter
+        )
         return with_diameters(state)

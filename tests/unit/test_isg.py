@@ -142,8 +142,10 @@ def test_an_angle_beside_both_coordinates_says_by_how_much_they_miss_and_names_t
     assert {"#ANG=45 X20", "#ANG=45 Y25", "X20 Y25"} <= {*fixes}
 
 
-def test_a_program_of_the_sheet_without_a_motion_says_so():
-    result = isg("N100 G17 X10 Y10\n#ANG=45 X20 Y25")
+def test_without_a_motion_code_g1_is_in_force_or_the_program_must_say_it():
+    text = "N100 G17 X10 Y10\n#ANG=45 X20 Y25"
+    refused(text, "isg-angle-redundant", "21895")
+    result = isg(text, first_motion="none")
     assert not any(each.contour for each in result.answers)
     assert "no G code of a motion is in force" in result.diagnostics[0].help
 

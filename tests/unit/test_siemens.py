@@ -227,9 +227,10 @@ def test_inches_and_millimetres_are_those_of_g70_and_g71():
     assert ends("G17 G700 G0 X0 Y0\nG1 X1 RND=0.1\nY2") == ends("G17 G70 G0 X0 Y0\nG1 X1 RND=0.1\nY2") == near(*metric)
 
 
-def test_a_block_without_a_motion_code_says_so():
+def test_without_a_motion_code_g1_is_in_force_or_the_program_must_say_it():
     text = SI_G1.replace("G0 ", "").replace("G1 ", "")
-    (finding,) = siemens(text).diagnostics
+    assert ends(text) == ends(SI_G1)
+    (finding,) = siemens(text, first_motion="none").diagnostics
     assert finding.code == "no-contour"
     assert "no G code of a motion is in force" in finding.help
 

@@ -34,5 +34,6 @@ ISG = Dialect(
     signs=_signs,
     contours="lines with #ANG, corners with #RND, #CHR or #CHF, and G301 or G302",
     settings=SETTINGS,
+    motion=1,
     diameter=Diameter.OFF,
 )

@@ -1,6 +1,7 @@
 """ISG as a language of lines and arcs in a row: what meets, what its corners are, and its settings."""
 
 from collections.abc import Collection, Iterator, Sequence
+from dataclasses import replace as replace_fields
 from decimal import Decimal
 
 from msgspec.structs import replace
@@ -38,7 +39,6 @@ MODAL = setting(
     BOOK.derived("the sample of error 21904"),
     changes={"on": reading(keeps_angle=True)},
 )
-SETTINGS = (PAIR_SENSE, CIRCLE, MODAL)
 
 
 def _is_ray(modes: Modes) -> bool:
@@ -56,6 +56,15 @@ def _conventions(form: ContourForm, _: Collection[str], modes: Modes) -> Iterato
     if _is_ray(modes) and any(isinstance(row.fact, Heading) for row in form.facts):
         yield modes.convention(PAIR_SENSE)
 
+
+FIRST_MOTION = setting(
+    "first-motion",
+    "which motion is in force before the program states one",
+    {"G1": "lines by G1", "none": "none: the program must state it"},
+    BOOK.assumed("as samples without G1 show"),
+    changes={"none": lambda dialect: replace_fields(dialect, motion=None)},
+)
+SETTINGS = (PAIR_SENSE, CIRCLE, MODAL, FIRST_MOTION)
 
 _LINE, _ARC = Element(None, False, False), Element(Turn.CCW, False, False)
 _OPEN, _CLOSING = replace(_LINE, is_followed=True), replace(_LINE, is_over=True)

@@ -35,6 +35,7 @@ SIEMENS_840D = Dialect(
     signs=_signs,
     contours="lines with ANG=, corners with RND=, CHR= or CHF=, and CT",
     settings=SETTINGS,
+    motion=1,
     diameter=Diameter.BY_PLANE,
 )
 SIEMENS_808D = replace(

@@ -89,7 +89,6 @@ CHAMFER_NAME = setting(
     BOOK.printed("p. 214: the names are machine data"),
     changes={"CHF": reading({"CHF": "CHR"}, corners={"CHR": CornerShape.CHAMFER_SETBACK, "RND": CornerShape.FILLET})},
 )
-SETTINGS = (MACHINE, DIAMETER, SENSE, REDUNDANT, CLOSING, ARC_CHAMFER, ANGLE_NAME, CHAMFER_NAME)
 
 
 def _is_ray(modes: Modes) -> bool:
@@ -114,6 +113,15 @@ def _conventions(form: ContourForm, circumstances: Collection[str], modes: Modes
     if _is_ray(modes) and any(isinstance(row.fact, Heading) for row in form.facts):
         yield modes.convention(SENSE)
 
+
+FIRST_MOTION = setting(
+    "first-motion",
+    "which motion is in force before the program states one",
+    {"G1": "lines by G1", "none": "none: the program must state it"},
+    BOOK.assumed("as samples without G1 show"),
+    changes={"none": lambda dialect: replace_fields(dialect, motion=None)},
+)
+SETTINGS = (MACHINE, DIAMETER, SENSE, REDUNDANT, CLOSING, ARC_CHAMFER, ANGLE_NAME, CHAMFER_NAME, FIRST_MOTION)
 
 _LINE, _ARC = Element(None, False, False), Element(Turn.CCW, False, False)
 _OPEN, _CLOSING = replace(_LINE, is_followed=True), replace(_LINE, is_over=True)
