@@ -304,7 +304,7 @@ def suspects(answer: Answer, tied: Collection[str]) -> list[Word]:
     return sorted(words, key=lambda word: (word.span not in contradicting, word.span not in blamed, order[word]))
 
 
-_LEADING = re.compile(r"[A-Za-z][ \t]*+[+-]?0\d")
+_LEADING = re.compile(r"[A-Za-z][ \t]*+[=(]?+[ \t]*+[+-]?0\d")
 
 
 def _place(word: Word) -> Span:
