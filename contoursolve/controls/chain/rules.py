@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from decimal import Decimal
+from re import sub
 
 from contoursolve.controls.chain.language import (
     ARC,
@@ -45,6 +46,10 @@ class Manual:
     cut: str
     arc: str
     alarms: Mapping[str, Alarm] = field(default_factory=dict)
+    sources: Mapping[str, Source] = field(default_factory=dict)
+    """Those of single rows, by the end of their code."""
+    equals: str = "="
+    """What stands between a word and its number."""
 
     def row(
         self,
@@ -60,7 +65,7 @@ class Manual:
     ) -> Rule:
         """A row; what is wrong is a program, or two texts of which the second stands for the first in the right one."""
         rejected = tuple(each if isinstance(each, str) else good.replace(*each) for each in bad)
-        source = Source(self.source.manual, self.source.place, evidence)
+        source = self.sources.get(code, Source(self.source.manual, self.source.place, evidence))
         return Rule(
             f"{self.prefix}-{code}", message, help_, source, (good,), rejected,
             roles=roles, when=when, alarm=self.alarms.get(code), **more,  # type: ignore[arg-type]
@@ -99,7 +104,7 @@ def chain_rules(manual: Manual) -> Iterator[Rule]:
         Value(corners, least=Decimal(0)),
         ANY,
         cut,
-        (f"{manual.rounding}=", f"{manual.rounding}=-"),
+        (manual.rounding + manual.equals, f"{manual.rounding}{manual.equals}-"),
     )
     yield row(
         "outside-plane",
@@ -140,11 +145,11 @@ def chain_rules(manual: Manual) -> Iterator[Rule]:
     yield row(
         "circle-undefined",
         "the arc has neither a centre nor a radius",
-        f"add I, J or K of the plane, or {manual.radius[:-2].rstrip('=')}; for a line write G1",
+        f"add I, J or K of the plane, or {manual.radius.rstrip('=.0123456789')}; for a line write G1",
         ~some(*STATED_CENTER, "R", SMOOTH),
         (ARC,),
         arc,
-        (" I20 J0", ""),
+        sub(r" I\S+ J0", "", arc),
     )
     yield row(
         "radius-without-end",
@@ -153,7 +158,7 @@ def chain_rules(manual: Manual) -> Iterator[Rule]:
         some("R") & ~some(*STATED_POINT),
         (ARC,),
         arc,
-        ("X60 Y20 I20 J0", manual.radius),
+        sub(r"X\S+ Y\S+ I\S+ J0", manual.radius, arc),
     )
     yield row(
         "angle-on-arc",
@@ -196,4 +201,4 @@ def chain_rules(manual: Manual) -> Iterator[Rule]:
     )
     yield row("angle-range", "{words} is more than a turn; it is taken as {within}, the same direction",
               "write {within} if that is meant", Value((angle,), least=Decimal(-360), most=Decimal(360)), LINES,
-              angled, (stated, f"{angle}=390"), severity=Severity.WARNING)  # fmt: skip
+              angled, (stated, f"{angle}{manual.equals}390."), severity=Severity.WARNING)  # fmt: skip
