@@ -556,6 +556,7 @@ def test_a_corner_between_two_axes_is_made_as_its_sign_says(control, text, setti
         (LATHE, "G00 X20. Z0\nG01 Z-25. R5.\nG00 X40.", None, "fanuc-corner-without-next", "052"),
         (LATHE, "G00 X20. Z0\nG01 Z-25. X22. R5.\nX40.", None, "fanuc-corner-taper", "054"),
         (LATHE, "G00 X20. Z0\nG01 Z-25. ,A180. R5.\nX40.", None, "fanuc-corner-taper", "054"),
+        (LATHE, "G00 X20. Z0\nG01 ,A180. R5.\nX40. Z-20. ,A90.", None, "fanuc-corner-taper", "054"),
         (LATHE, "G00 X20. Z0\nG01 Z-25. R5. I5.\nX40.", None, "fanuc-two-amounts", "053"),
         (LATHE, "G00 X20. Z0\nG01 Z-25. ,R5. I5.\nX40.", None, "fanuc-two-amounts", "053"),
         (LATHE, "G00 X20. Z0\nG01 Z-25. K5.\nX40.", None, "fanuc-chamfer-letter", None),

@@ -150,11 +150,8 @@ def _square_rules(machine: _Machine, amount: str, own: str, line: str) -> tuple[
     of the wrong axis, `line` a line along the other axis."""
     good, angle = machine.square, (machine.angle,) if machine.angle else ()
     lines = (LINE, OVER_LINE) if machine.start == _TURNING else _ANY
-    (first, second), words = LEAVES, "C" if machine.start == _MILLING else "R"
-    told, moved = (
-        f"I, K or {words}" if words == "R" else "I, J, K or C",
-        (_FIRST, _SECOND, *((each,) for each in angle)),
-    )
+    (first, second), is_taper = LEAVES, all_of(_FIRST, _SECOND) | some(*angle)
+    told = "I, K or R" if machine.start == _TURNING else "I, J, K or C"
     rows = (
         (
             "two-amounts",
@@ -170,7 +167,7 @@ def _square_rules(machine: _Machine, amount: str, own: str, line: str) -> tuple[
             f"{{words}}: a corner by {told} stands behind a line along one axis",
             "write ,C or ,R",
             "054 (taper with a chamfer or a rounding)",
-            some(*_SIGNED) & at_least(2, *moved),
+            some(*_SIGNED) & is_taper,
             lines[:2],
             (good.replace(amount, f"{line} {amount}"),),
         ),
@@ -180,7 +177,7 @@ def _square_rules(machine: _Machine, amount: str, own: str, line: str) -> tuple[
             "write the letter of that axis: I for X, J for Y, K for Z",
             "",
             ((some("corner-first") & some(*_FIRST)) | (some("corner-second") & some(*_SECOND)))
-            & ~at_least(2, *moved)
+            & ~is_taper
             & ~at_least(2, *_CORNERS),
             lines[:2],
             (good.replace(amount, own),),
