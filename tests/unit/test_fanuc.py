@@ -556,6 +556,7 @@ def test_a_corner_between_two_axes_is_made_as_its_sign_says(control, text, setti
         (LATHE, "G00 X20. Z0\nG01 Z-25. R5.\nG00 X40.", None, "fanuc-corner-without-next", "052"),
         (LATHE, "G00 X20. Z0\nG01 Z-25. X22. R5.\nX40.", None, "fanuc-corner-taper", "054"),
         (LATHE, "G00 X20. Z0\nG01 Z-25. ,A180. R5.\nX40.", None, "fanuc-corner-taper", "054"),
+        (LATHE, "G00 X20. Z0\nG01 ,A180. R5.\nX40. Z-20. ,A90.", None, "fanuc-corner-taper", "054"),
         (LATHE, "G00 X20. Z0\nG01 Z-25. R5. I5.\nX40.", None, "fanuc-two-amounts", "053"),
         (LATHE, "G00 X20. Z0\nG01 Z-25. ,R5. I5.\nX40.", None, "fanuc-two-amounts", "053"),
         (LATHE, "G00 X20. Z0\nG01 Z-25. K5.\nX40.", None, "fanuc-chamfer-letter", None),
@@ -577,6 +578,31 @@ def test_what_does_not_fit_a_corner_between_two_axes_has_its_alarm(control, text
     assert all(answer.contour is None for answer in result.answers)
 
 
+@pytest.mark.parametrize("control", [LATHE, MILL, HAAS_LATHE])
+@few_and_many(40, 300)
+def test_random_steps_with_signs_come_out_as_the_oracle_says(control, count):
+    rng, verdicts = Random(f"steps {control}{count}"), Counter[str]()
+    plane, letters = ("G18", "ZXKI") if control != MILL else rng.choice((("G17", "XYIJ"), ("G19", "YZJK")))
+    for _ in range(count):
+        program, way = [f"{plane} G90 G00 {letters[0]}0 {letters[1]}400."], rng.randrange(2)
+        at, steps = [0.0, 400.0], [rng.choice((-1, 1)) * rng.uniform(15, 60) for _ in range(rng.randint(2, 5))]
+        for number, step in enumerate(steps):
+            at[way] += step
+            word = f"{letters[way]}{at[way]:.3f}"
+            if number + 1 < len(steps) and rng.random() < 0.8:
+                sign = 1 if steps[number + 1] > 0 else -1
+                sign *= -1 if rng.random() < 0.1 else 1
+                address = rng.choice((letters[3 - way], *("R" * (control != MILL))))
+                word += f" {address}{sign * rng.uniform(0.5, 5):.3f}"
+            program.append("G01 " + word)
+            way = 1 - way if rng.random() < 0.95 else way
+        if rng.random() < 0.3:
+            program = disturbed(rng, program, TYPED[control])
+        verdicts[judge(program, control, MACHINES[control])] += 1
+    assert verdicts["right"] > count / 3
+    assert verdicts["refused"] > count / 10
+
+
 def test_a_sweep_across_the_sign_says_what_solve_says():
     text = "G01 Z-25. R{}\nX{}"
     radii, ends = [-12.0, -5.0, 0.0, 5.0, 12.0], [-10.0, 5.0, 20.0, 40.0]
@@ -592,6 +618,15 @@ def test_many_corners_between_two_axes_come_out_as_each_alone():
     for text, answer in zip(blocks, together, strict=True):
         (alone,) = solve(text, control=LATHE).answers
         assert (answer.status, elements(answer)) == (alone.status, elements(alone)), text
+
+
+@few_and_many(10, 200)
+def test_random_chains_in_plain_words_are_those_with_commas(count):
+    rng = Random(count)
+    for _ in range(count):
+        text = "\n".join(draw(rng, LATHE))
+        with_commas, plain = solve(text, control=LATHE), solve(text.replace(",", ""), control=LATHE, settings=PLAIN)
+        assert path(plain) == path(with_commas), text
 
 
 def test_plain_words_leave_the_radius_of_an_arc_alone():

@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from decimal import Decimal
+from re import sub
 
 from contoursolve.controls.chain.language import (
     ARC,
@@ -52,6 +53,10 @@ class Manual:
     alarms: Mapping[str, Alarm] = field(default_factory=dict)
     plane: str = ""
     """What else may help where an axis is outside the plane."""
+    sources: Mapping[str, Source] = field(default_factory=dict)
+    """Those of single rows, by the end of their code."""
+    equals: str = "="
+    """What stands between a word and its number."""
 
     def row(
         self,
@@ -67,7 +72,7 @@ class Manual:
     ) -> Rule:
         """A row; what is wrong is a program, or two texts of which the second stands for the first in the right one."""
         rejected = tuple(each if isinstance(each, str) else good.replace(*each) for each in bad)
-        source = Source(self.source.manual, self.source.place, evidence)
+        source = self.sources.get(code, Source(self.source.manual, self.source.place, evidence))
         return Rule(
             f"{self.prefix}-{code}", message, help_, source, (good,), rejected,
             roles=roles, when=when, alarm=self.alarms.get(code), **more,  # type: ignore[arg-type]
@@ -106,7 +111,7 @@ def chain_rules(manual: Manual) -> Iterator[Rule]:
         Value(corners, least=Decimal(0)),
         ANY,
         cut,
-        (f"{manual.rounding}=", f"{manual.rounding}=-"),
+        (manual.rounding + manual.equals, f"{manual.rounding}{manual.equals}-"),
     )
     yield row(
         "outside-plane",
@@ -147,11 +152,11 @@ def chain_rules(manual: Manual) -> Iterator[Rule]:
     yield row(
         "circle-undefined",
         "the arc has neither a centre nor a radius",
-        f"add I, J or K of the plane, or {manual.radius[:-2].rstrip('=')}; for a line write G1",
+        f"add I, J or K of the plane, or {manual.radius.rstrip('=.0123456789')}; for a line write G1",
         ~some(*STATED_CENTER, "R", SMOOTH),
         (ARC,),
         arc,
-        (" I20 J0", ""),
+        sub(r" I\S+ J0", "", arc),
     )
     yield row(
         "radius-without-end",
@@ -160,7 +165,7 @@ def chain_rules(manual: Manual) -> Iterator[Rule]:
         some("R") & ~some(*STATED_POINT),
         (ARC,),
         arc,
-        ("X60 Y20 I20 J0", manual.radius),
+        sub(r"X\S+ Y\S+ I\S+ J0", manual.radius, arc),
     )
     yield row(
         "angle-on-arc",
@@ -203,7 +208,7 @@ def chain_rules(manual: Manual) -> Iterator[Rule]:
     )
     yield row("angle-range", "{words} is more than a turn; it is taken as {within}, the same direction",
               "write {within} if that is meant", Value((angle,), least=Decimal(-360), most=Decimal(360)), LINES,
-              angled, (stated, f"{angle}=390"), severity=Severity.WARNING)  # fmt: skip
+              angled, (stated, f"{angle}{manual.equals}390."), severity=Severity.WARNING)  # fmt: skip
 
 
 def rules_of(

@@ -1,8 +1,7 @@
 """Fanuc and Haas: which words may be combined, and what has no solution."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from decimal import Decimal
 from enum import Enum
 
 from contoursolve.controls.chain.language import (
@@ -12,12 +11,12 @@ from contoursolve.controls.chain.language import (
     LEAVES,
     LINE,
     LINE_LINE,
-    OTHER_PLANE,
     OVER_LINE,
     RAPID,
     STATED_CENTER,
     STATED_POINT,
 )
+from contoursolve.controls.chain.rules import Manual, chain_rules
 from contoursolve.controls.fanuc.language import (
     COMPENSATION_CHANGES,
     GUARD,
@@ -28,10 +27,10 @@ from contoursolve.controls.fanuc.language import (
 )
 from contoursolve.controls.fanuc.lexicon import CORNERS, DRAWING, HAAS
 from contoursolve.controls.geometry_rules import COMMA_MISSING, GEOMETRY_RULES
-from contoursolve.diagnostics.finding import Alarm, Severity
+from contoursolve.diagnostics.finding import Alarm
 from contoursolve.diagnostics.source import Evidence, Source
 from contoursolve.reading import ReadIssue
-from contoursolve.reading.rules import Along, Parallel, Rule, Value, all_of, at_least, some
+from contoursolve.reading.rules import Along, Parallel, Rule, all_of, at_least, some
 from contoursolve.solving import RefusalKind
 
 _ANY = (LINE, OVER_LINE, ARC)
@@ -80,6 +79,7 @@ _FANUC_MILL = _Machine("fanuc", CORNERS, "", True, _MILLING, "X30.", "X40. Y40."
 _HAAS_LATHE = _Machine("haas", HAAS, "A", False, _TURNING, "Z-20.", "X40. Z-30.", _SQUARE)
 _HAAS_MILL = _Machine("haas", HAAS, "", False, _MILLING, "X30.", "X40. Y40.")
 
+_VERTEX = _TURNING + "G01 ,A180. ,R3.\nX60. Z-47. ,A120."
 _ARC_BEHIND = _MILLING + "G01 X40. ,C6.\nG02 X60. Y20. I20. J0"
 
 
@@ -122,26 +122,6 @@ def _corner_rules(machine: _Machine) -> tuple[Rule, ...]:
             rejected=(cut.replace(" ,C5.", "\n,C5."),),
         ),
         Rule(
-            code=f"{machine.prefix}-corner-rapid",
-            message="{words}: the control makes a corner in a cutting move, not in G00",
-            help="write G01",
-            source=machine.source("the function", Evidence.DERIVED),
-            roles=_ANY,
-            when=some(*_CORNER) & some(RAPID),
-            accepted=(cut,),
-            rejected=(cut.replace("G01 ", ""),),
-        ),
-        Rule(
-            code=f"{machine.prefix}-corner-negative",
-            message="{words}: a chamfer or a rounding has no sign",
-            help="delete the minus sign: the elements tell on which side the corner lies",
-            source=machine.source("not described", Evidence.ASSUMED),
-            roles=_ANY,
-            when=Value(_CORNER, least=Decimal(0)),
-            accepted=(cut,),
-            rejected=(cut.replace(",C5.", ",C-5."),),
-        ),
-        Rule(
             code=f"{machine.prefix}-corner-compensation",
             message="{words}: a block that switches G40, G41 or G42 takes no corner",
             help="switch the compensation in a block before",
@@ -160,7 +140,7 @@ def _corner_rules(machine: _Machine) -> tuple[Rule, ...]:
             roles=(LINE, OVER_LINE),
             when=some(*STATED_CENTER, "wrong-center", "R"),
             accepted=(cut,),
-            rejected=(cut + (" J5." if machine.square else " R5."),),
+            rejected=(cut + (" J5." if machine.start == _TURNING else " R5."),),
         ),
     )
 
@@ -170,11 +150,8 @@ def _square_rules(machine: _Machine, amount: str, own: str, line: str) -> tuple[
     of the wrong axis, `line` a line along the other axis."""
     good, angle = machine.square, (machine.angle,) if machine.angle else ()
     lines = (LINE, OVER_LINE) if machine.start == _TURNING else _ANY
-    (first, second), words = LEAVES, "C" if machine.start == _MILLING else "R"
-    told, moved = (
-        f"I, K or {words}" if words == "R" else "I, J, K or C",
-        (_FIRST, _SECOND, *((each,) for each in angle)),
-    )
+    (first, second), is_taper = LEAVES, all_of(_FIRST, _SECOND) | some(*angle)
+    told = "I, K or R" if machine.start == _TURNING else "I, J, K or C"
     rows = (
         (
             "two-amounts",
@@ -190,7 +167,7 @@ def _square_rules(machine: _Machine, amount: str, own: str, line: str) -> tuple[
             f"{{words}}: a corner by {told} stands behind a line along one axis",
             "write ,C or ,R",
             "054 (taper with a chamfer or a rounding)",
-            some(*_SIGNED) & at_least(2, *moved),
+            some(*_SIGNED) & is_taper,
             lines[:2],
             (good.replace(amount, f"{line} {amount}"),),
         ),
@@ -200,7 +177,7 @@ def _square_rules(machine: _Machine, amount: str, own: str, line: str) -> tuple[
             "write the letter of that axis: I for X, J for Y, K for Z",
             "",
             ((some("corner-first") & some(*_FIRST)) | (some("corner-second") & some(*_SECOND)))
-            & ~at_least(2, *moved)
+            & ~is_taper
             & ~at_least(2, *_CORNERS),
             lines[:2],
             (good.replace(amount, own),),
@@ -234,8 +211,8 @@ def _square_rules(machine: _Machine, amount: str, own: str, line: str) -> tuple[
     sign = replace(
         general[RefusalKind.CORNER_SIGN],
         code=f"{machine.prefix}-corner-sign",
-        source=machine.source(_ALARM_LIST),
-        alarm=machine.alarm(_NOT_SQUARE),
+        source=machine.source(_ALARM_LIST, Evidence.DERIVED),
+        alarm=machine.alarm(_NOT_SQUARE, Evidence.DERIVED),
         accepted=(good,),
         rejected=(good.replace(amount, f"{amount[0]}-{amount[1:]}"),),
     )
@@ -256,58 +233,41 @@ def _mill_rules(machine: _Machine) -> tuple[Rule, ...]:
             accepted=(cut,),
             rejected=(cut.replace("X30.", "X30. Z-5."),),
         ),
-        Rule(
-            code=f"{machine.prefix}-plane-changes",
-            message="the plane changes inside the contour",
-            help="select the plane before its first block",
-            source=machine.source("not behind a plane change"),
-            roles=_ANY,
-            when=some(OTHER_PLANE),
-            accepted=(cut,),
-            rejected=(cut.replace("X40. Y40.", "G18 X40. Z40."),),
-        ),
     )
 
 
-def _arc_rules(machine: _Machine) -> tuple[Rule, ...]:
-    """The rows about what an arc states, where corners may stand beside it."""
-    good = _ARC_BEHIND if machine.has_alarms else machine.cut
-    rows = (
-        (
-            "center-and-radius",
-            "{words}: the arc has both a centre and a radius",
-            "keep one of them",
-            all_of(STATED_CENTER, "R"),
-            _ARC_BEHIND + " R20.",
-        ),
-        (
-            "circle-undefined",
-            "the arc has neither a centre nor a radius",
-            "add I, J or K of the plane, or R; for a line write G01",
-            ~some(*STATED_CENTER, "R"),
-            _ARC_BEHIND.replace(" I20. J0", ""),
-        ),
-        (
-            "radius-without-end",
-            "{words}: with R the arc needs its end",
-            "add the coordinates of its end, or give the centre instead",
-            some("R") & ~some(*STATED_POINT),
-            _ARC_BEHIND.replace("X60. Y20. I20. J0", "R20."),
-        ),
+def _shared_rules(machine: _Machine) -> Iterator[Rule]:
+    """The rows that controls share."""
+    is_lathe, manual = machine.start == _TURNING, machine.source("arcs", Evidence.ASSUMED)
+    sources = {
+        "corner-rapid": machine.source("the function", Evidence.DERIVED),
+        "corner-negative": machine.source("not described", Evidence.ASSUMED),
+        "plane-changes": machine.source("not behind a plane change"),
+        "angle-range": machine.source("not described", Evidence.ASSUMED),
+    }
+    shared = Manual(
+        prefix=machine.prefix,
+        source=manual,
+        angle=machine.angle,
+        chamfers=(",C",),
+        rounding=",R",
+        radius="R20.",
+        angled=f"{machine.start}G1 X40. {machine.angle}150.",
+        vertex=_VERTEX,
+        cut=f"{machine.start}G1 {machine.line} ,R5.\n{machine.turn}",
+        arc=_ARC_BEHIND,
+        sources=sources,
+        equals="",
     )
-    return tuple(
-        Rule(
-            code=f"{machine.prefix}-{code}",
-            message=message,
-            help=advice,
-            source=machine.source("arcs", Evidence.ASSUMED),
-            roles=(ARC,),
-            when=when & ~some(STRAIGHT_ONLY),
-            accepted=(good,),
-            rejected=(rejected,) if machine.has_alarms else (),
-        )
-        for code, message, advice, when, rejected in rows
-    )
+    arcs = ("center-and-radius", "circle-undefined", "radius-without-end")
+    wanted = ("corner-rapid", "corner-negative", *(("angle-range",) if is_lathe else ("plane-changes", *arcs)))
+    for rule in chain_rules(shared):
+        code = rule.code.removeprefix(f"{machine.prefix}-")
+        if code in wanted and code in arcs and rule.when is not None and not machine.has_alarms:
+            # A setting allows corners beside arcs.
+            yield replace(rule, when=rule.when & ~some(STRAIGHT_ONLY), accepted=(machine.cut,), rejected=())
+        elif code in wanted:
+            yield rule
 
 
 def _straight_only(machine: _Machine) -> Rule:
@@ -377,21 +337,9 @@ def _angle_rules(machine: _Machine) -> tuple[Rule, ...]:
             accepted=(good,),
             rejected=(f"{machine.start}G01 Z-20. {angle}90.",),
         ),
-        Rule(
-            code=f"{machine.prefix}-angle-range",
-            message="{words} is more than a turn; it is taken as {within}, the same direction",
-            help="write {within} if that is meant",
-            source=machine.source("not described", Evidence.ASSUMED),
-            severity=Severity.WARNING,
-            roles=(LINE, OVER_LINE),
-            when=Value((angle,), least=Decimal(-360), most=Decimal(360)),
-            accepted=(good,),
-            rejected=(good.replace("150.", "510."),),
-        ),
     )
 
 
-_VERTEX = _TURNING + "G01 ,A180. ,R3.\nX60. Z-47. ,A120."
 _ANGLED = _TURNING + "G01 X40. ,A150."
 
 _VERTEX_RULES = (
@@ -483,11 +431,12 @@ def _geometry(machine: _Machine, examples: Mapping[Enum, tuple[str, str]]) -> tu
         accepted=(machine.cut,),
         rejected=(),
     )
+    meant = "is a rounding between two axes" if machine.start == _TURNING else "belongs to an arc"
     axes = "A and C are axes" if machine.angle.startswith(",") else "C is an axis"
     comma = replace(
         COMMA_MISSING,
         code=f"{machine.prefix}-comma-missing",
-        help=f"{COMMA_MISSING.help}; without a comma, {axes} and R belongs to an arc",
+        help=f"{COMMA_MISSING.help}; without a comma, {axes} and R {meant}",
         source=machine.source("the function"),
         accepted=(machine.cut,),
         rejected=(machine.cut.replace(",C", "C"),),
@@ -538,6 +487,7 @@ FANUC_LATHE_RULES = (
     *_square_rules(_FANUC_LATHE, "I5.", "K5.", "X40."),
     _straight_only(_FANUC_LATHE),
     *_angle_rules(_FANUC_LATHE),
+    *_shared_rules(_FANUC_LATHE),
     *_VERTEX_RULES,
     *_geometry(_FANUC_LATHE, _lathe_examples(_FANUC_LATHE)),
     *GEOMETRY_RULES,
@@ -546,7 +496,7 @@ FANUC_MILL_RULES = (
     *_corner_rules(_FANUC_MILL),
     *_square_rules(_FANUC_MILL, "J5.", "I5.", "Y40."),
     *_mill_rules(_FANUC_MILL),
-    *_arc_rules(_FANUC_MILL),
+    *_shared_rules(_FANUC_MILL),
     *_geometry(_FANUC_MILL, _MILL_EXAMPLES),
     *GEOMETRY_RULES,
 )
@@ -555,6 +505,7 @@ HAAS_LATHE_RULES = (
     *_square_rules(_HAAS_LATHE, "I5.", "K5.", "X40."),
     _straight_only(_HAAS_LATHE),
     *_angle_rules(_HAAS_LATHE),
+    *_shared_rules(_HAAS_LATHE),
     _NO_VERTEX,
     *_geometry(_HAAS_LATHE, _lathe_examples(_HAAS_LATHE)),
     *GEOMETRY_RULES,
@@ -562,7 +513,7 @@ HAAS_LATHE_RULES = (
 HAAS_MILL_RULES = (
     *_corner_rules(_HAAS_MILL),
     *_mill_rules(_HAAS_MILL),
-    *_arc_rules(_HAAS_MILL),
+    *_shared_rules(_HAAS_MILL),
     _straight_only(_HAAS_MILL),
     *_geometry(_HAAS_MILL, {RefusalKind.CORNERS_OVERLAP: _MILL_EXAMPLES[RefusalKind.CORNERS_OVERLAP]}),
     *GEOMETRY_RULES,
