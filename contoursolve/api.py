@@ -357,7 +357,9 @@ def convert(
     dialect = choose(control, gcode.parse(text, name), settings)
     if dialect is not None and machine_of(dialect) is not machine_of(target):
         kinds = f"{dialect.name} is a {machine_of(dialect).value}, {target.name} a {machine_of(target).value}"
-        raise ValueError(f"a program is converted for the same kind of machine: {kinds}")
+        switches = (each.name for each in (dialect, target) if any(one.name == "machine" for one in each.settings))
+        advice = "".join(f"; for a lathe, set {name}.machine=lathe" for name in switches)
+        raise ValueError(f"a program is converted for the same kind of machine: {kinds}{advice}")
     post = post_of(target)
     found = expand(text, post=post, comments=comments, control=dialect, units=units, rules=rules, name=name)
     if found.text is None or dialect is None:

@@ -148,6 +148,16 @@ READING_RULES = (
         rejected=(_GOOD + "\nG01 X120. ,A30.",),
     ),
     Rule(
+        code="word-mistyped",
+        message="{words}: this control has no word {address}, so the block is read without it",
+        help="write {meant} if that is meant",
+        source=_READING,
+        about=ReadIssue.WORD_MISTYPED,
+        severity=Severity.WARNING,
+        accepted=("G17 G90 G0 X0 Y0\nG1 X30 RND=5\nY40",),
+        rejected=("G17 G90 G0 X0 Y0\nG1 X30 RND=5\nY40\nG1 X50 AGN=5",),
+    ),
+    Rule(
         code="letter-for-digit",
         message="{words} has a letter where a digit seems to be meant: with {meant} this block would be a contour",
         help="write {meant} if that is meant",
@@ -381,6 +391,16 @@ SYSTEM_RULES = (
         about=ReadIssue.START_UNITS,
         severity=Severity.INFO,
         accepted=("G20 G00 X2. Z0.\nG111 A180. K-1. B120. X4.",),
+        rejected=(),
+    ),
+    Rule(
+        code="start-diameter",
+        message="X of the start point was read as {was}; in the contour X is {now}",
+        help='if the start point is meant so, too, write --start "{code} {start}"',
+        source=_READING,
+        about=ReadIssue.START_DIAMETER,
+        severity=Severity.WARNING,
+        accepted=("G18 DIAMON G0 X20 Z0\nG1 X40 RND=2\nZ-50",),
         rejected=(),
     ),
     Rule(

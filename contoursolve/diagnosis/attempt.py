@@ -464,8 +464,11 @@ def _largest_step(found: ParsedContour, before: Before) -> int:
 
 
 def _is_comma(edit: Edit) -> bool:
-    """Whether the address gets a comma or loses it."""
-    return edit.kind is EditKind.CHANGE and edit.text != edit.old and edit.text.strip(", ") == edit.old.strip(", ")
+    """Whether the address gets a comma or loses it, or becomes another one of several letters."""
+    if edit.kind is not EditKind.CHANGE or edit.text == edit.old:
+        return False
+    is_long = len(edit.address.lstrip(",")) > 1 and not edit.text.upper().startswith(edit.address)
+    return is_long or edit.text.strip(", ") == edit.old.strip(", ")
 
 
 def _find(claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> ParsedContour | None:

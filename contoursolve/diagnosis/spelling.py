@@ -1,8 +1,9 @@
 """Findings about characters, words and positions, before the equations are looked at."""
 
 from bisect import bisect_right
-from collections.abc import Container, Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from decimal import Decimal
+from difflib import get_close_matches
 
 from msgspec.structs import replace
 
@@ -10,9 +11,19 @@ from contoursolve.diagnosis.explain import Context, report
 from contoursolve.diagnosis.wording import join, length_text
 from contoursolve.diagnostics.finding import Basis, Diagnostic, Label
 from contoursolve.diagnostics.source import Span
-from contoursolve.gcode import Block, Fault, Lookalike, Word, find_lookalikes, lookalike_at, mended
+from contoursolve.gcode import (
+    Block,
+    Fault,
+    Lookalike,
+    Word,
+    find_lookalikes,
+    lookalike_at,
+    mended,
+    number_of,
+    spell,
+)
 from contoursolve.geometry import CornerShape, Length
-from contoursolve.reading import Lexicon, ParsedContour, Position, ReadIssue
+from contoursolve.reading import Lexicon, ParsedContour, Position, ReadIssue, State
 from contoursolve.tolerance import LARGEST
 
 
@@ -47,6 +58,14 @@ def explain_start_units(context: Context, unit: Length, block: Block) -> Diagnos
     codes = {Length.MM: "G21", Length.INCH: "G20"}
     fields = {"was": units[context.unit], "unit": units[unit], "code": codes[unit], "start": block.text.strip()}
     return report(context, rule, Basis.RULE, [], None, (), **fields)
+
+
+def explain_start_diameter(context: Context, state: State, code: str, block: Block) -> Diagnostic:
+    """A start point whose X was read otherwise than that of the contour."""
+    meanings = ("a diameter", "a radius")
+    now, was = meanings if state.counts_diameters() else reversed(meanings)
+    fields = {"was": was, "now": now, "code": code, "start": block.text.strip()}
+    return report(context, context.row(ReadIssue.START_DIAMETER), Basis.RULE, [], None, (), **fields)
 
 
 def _explain_asked(context: Context, claim: ParsedContour) -> Iterator[Diagnostic]:
@@ -219,9 +238,16 @@ def _roundings(claim: ParsedContour) -> list[str]:
     ]
 
 
-def respelled(word: Word, allowed: Container[str]) -> str:
-    """The word with the comma that its address lacks, or without the one that it has not; empty if there is no such
-    address."""
+_SHORTEST = 2
+"""Letters of an address by which no other one is meant."""
+
+
+def respelled(word: Word, allowed: Collection[str]) -> str:
+    """The word with the comma that its address lacks, or without the one that it has not, or with the long address that
+    it almost has; empty if there is no such address."""
+    if len(word.address) > _SHORTEST and word.number is not None:
+        near = get_close_matches(word.address, [each for each in allowed if len(each) > _SHORTEST], 1)
+        return spell(near[0], number_of(word.text, word.address)) if near else ""
     has_comma = word.address.startswith(",")
     other = word.address[1:] if has_comma else f",{word.address}"
     text = word.text.strip()

@@ -100,8 +100,9 @@ def lines_of_facts(
 def opening_of(options: Options, dialect: Dialect, unit: Length, summary: Summary) -> str:
     """The line that the target needs before the first block; empty if it needs none, or nothing was replaced."""
     text = options.post.opening.get(machine_of(dialect), "") if summary.replaced else ""
-    if summary.counts_diameters:
-        text = text.replace("G8 ", "G7 ")
+    if dialect.diameter is not None:
+        counts = summary.counts_diameters or any(dialect.initial_state(unit).plane.diameters)
+        text = text.replace("G8 ", "G7 ") if counts else text.replace("G7 ", "G8 ")
     return text.format(unit="G20" if unit is Length.INCH else "G21") + summary.line_end if text else ""
 
 

@@ -247,7 +247,7 @@ POSTS = {post.name: post for post in (SAME, LINUXCNC, FANUC)}
 
 def machine_of(dialect: Dialect) -> Machine:
     """What a control is for."""
-    return Machine.LATHE if any(dialect.initial_state(Length.MM).plane.diameters) else Machine.MILL
+    return Machine.LATHE if dialect.plane.code == "G18" else Machine.MILL
 
 
 def post_of(target: Dialect) -> Post:

@@ -79,6 +79,7 @@ class Watch:
         self.post = post
         self.reading = reading
         self.control = dialect.name
+        self.is_spelled_otherwise = post.target is None or post.target.modes.syntax is not dialect.modes.syntax
         self.lexicon = dialect.modes.lexicon
         self.modes = dialect.modes
         without_point = post.without_point or self.lexicon.numbers.without_point
@@ -135,7 +136,7 @@ class Watch:
 
     def _judge(self, word: Word, reading: Reading) -> Other | None:
         """What a word is on the target instead; None if it is the same."""
-        if _LONG.search(word.text) and word.address not in ("G", "M"):
+        if self.is_spelled_otherwise and _LONG.search(word.text) and word.address not in ("G", "M"):
             return _NOT_KNOWN
         if word.address not in ("G", "M"):
             return reading.otherwise.get(word.address)

@@ -13,15 +13,18 @@ from contoursolve.diagnosis.explain import Context, report
 from contoursolve.diagnosis.spelling import (
     explain_asked_outside,
     explain_faults,
+    explain_start_diameter,
     explain_start_units,
     explain_unmarked,
     explain_words,
+    respelled,
 )
 from contoursolve.diagnosis.wording import either
 from contoursolve.diagnostics.display import Shown
 from contoursolve.diagnostics.finding import Basis, Diagnostic, Severity
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import (
+    ISO,
     Block,
     Directive,
     FaultKind,
@@ -41,6 +44,7 @@ from contoursolve.program.tape_markers import Marks
 from contoursolve.reading import ParsedContour, ReadIssue, State, advance, advance_plainly, is_plain, next_place
 from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.follow import contours_of, state_facts
+from contoursolve.reading.lexicon import TURNED
 
 if TYPE_CHECKING:
     from contoursolve.statements import Statement
@@ -243,6 +247,8 @@ class _Examiner:
         may be part of the contour there."""
         self.start_unit = unit
         """In which a start point that is stated apart counts, until a contour has another unit."""
+        self.start_counts: bool | None = None
+        """Whether X of a start point that is stated apart counted diameters, where codes switch that."""
         self.queue = Queue(dialect or DIALECTS["yasnac-lx3"], together, self._examine, goes_on=goes_on)
 
     def steps(self, blocks: Iterable[Line], start: Program | None) -> Iterator[Step]:
@@ -267,6 +273,8 @@ class _Examiner:
             self._check_block(block)
             state = advance(state, block, dialect.modes)
         self.start_unit = state.unit
+        has_x = any(word.address == TURNED for block in start.blocks for word in block.words) if start else False
+        self.start_counts = state.counts_diameters() if has_x and state.diameter is not None else None
         return state
 
     def _end(self, state: State) -> Iterator[Step]:
@@ -432,6 +440,16 @@ class _Examiner:
             place = Context(self.rules, self.start_unit, place=start.blocks[0].span)
             self.diagnostics.append(explain_start_units(place, found.after.unit, start.blocks[0]))
         self.start_unit = found.after.unit
+        here, was = found.after, self.start_counts
+        if start and was is not None and here.counts_diameters() is not was:
+            place = Context(self.rules, self.start_unit, place=start.blocks[0].span)
+            self.diagnostics.append(explain_start_diameter(place, here, self._codes_of(here), start.blocks[0]))
+        self.start_counts = None
+
+    def _codes_of(self, state: State) -> str:
+        """The code by which X is what it is in a state."""
+        codes = self.dialect.modes.codes.values() if self.dialect else ()
+        return next((code.text for code in codes if code.diameter is state.diameter), state.plane.code)
 
     def nothing_to_solve(self, blocks: Sequence[Block]) -> Diagnostic:
         """The finding that a program has no contour block: a warning where nothing in it looks like one."""
@@ -490,10 +508,13 @@ class _Examiner:
             addresses = lexicon.addresses
             axis_words = [word for word in block.words if word.address in addresses and addresses[word.address].axis]
             self.diagnostics += explain_words(context, lexicon, _repeated(axis_words), axis_words)
-            for word in block.words:
-                if word.address.startswith(",") and word.address not in addresses:
+            for word in (word for word in block.words if word.address not in addresses):
+                if word.address.startswith(","):
                     row = context.row(ReadIssue.COMMA_WORD_UNKNOWN)
                     self.diagnostics.append(report(context, row, Basis.RULE, [word]))
+                elif block.syntax is not ISO and (meant := respelled(word, addresses)):
+                    row = context.row(ReadIssue.WORD_MISTYPED)
+                    self.diagnostics.append(report(context, row, Basis.RULE, [word], meant=meant))
 
 
 def _repeated(words: Sequence[Word]) -> list[Word]:

@@ -8,7 +8,7 @@ from msgspec.structs import replace
 from contoursolve.diagnosis.explain import Context, report
 from contoursolve.diagnostics.finding import Basis, Diagnostic
 from contoursolve.diagnostics.source import Span
-from contoursolve.gcode import Block, Passage
+from contoursolve.gcode import ISO, Block, Passage
 from contoursolve.reading import ReadIssue, words_of
 
 _OUTSIDE_COMMENTS = re.compile(r"\([^)]*\)?|;.*|(?P<mark>%)")
@@ -34,7 +34,7 @@ class Marks:
 
     def look(self, line: Block | Passage) -> Iterator[Diagnostic]:
         """What the next line, or the next lines that only move, show to be outside."""
-        if self.is_done:
+        if self.is_done or line.syntax is not ISO:
             return
         is_inside = self.first is not None and not self.closed and self.before is None
         if is_inside and not (isinstance(line, Block) and "%" in line.text):

@@ -17,6 +17,7 @@ from contoursolve.reading.contour_form import (
 )
 from contoursolve.reading.lexicon import Address, Code, Diameter, Effect, Lexicon, NumberFormat, WithoutPoint
 from contoursolve.reading.modal_state import (
+    COMMENTED,
     Awaited,
     Modes,
     Position,
@@ -44,6 +45,7 @@ from contoursolve.reading.parsed_contour import (
 
 __all__ = [
     "AT_ITS_LIMIT",
+    "COMMENTED",
     "Address",
     "Assumption",
     "Awaited",

@@ -212,6 +212,10 @@ class Modes:
         return float(self.settings.get("radius-difference", RADIUS_DIFFERENCE))
 
 
+COMMENTED = "comment"
+"""What stays in force, by this name, where lines are a comment."""
+
+
 def codes_of(block: Block, modes: Modes) -> list[Code | Word]:
     """The rows of a block's G codes; a code without a row is given as its word."""
     found: list[Code | Word] = []
@@ -268,6 +272,8 @@ def advance(state: State, block: Block, modes: Modes) -> State:
     """The state after a block that is not a contour."""
     if not block.words and not block.faults and block.macro is None:
         return state
+    if COMMENTED in state.memory and modes.remember is not None:
+        return replace(state, memory=modes.remember(state.memory, block))
     if block.macro is Macro.FLOW:
         return state.lose(modes.axes, "a macro statement may jump", block.span)
     state = apply_modes(state, block, modes)

@@ -142,6 +142,11 @@ def test_an_angle_beside_both_coordinates_says_by_how_much_they_miss_and_names_t
     assert {"#ANG=45 X20", "#ANG=45 Y25", "X20 Y25"} <= {*fixes}
 
 
+def test_lines_of_a_comment_move_nothing():
+    text = MILL + "#COMMENT BEGIN\nG1 X55 #ANG=100\nX90\n#COMMENT END\nG1 #ANG=45 X20"
+    assert ends(text) == [pytest.approx(20 + 20j)]
+
+
 def test_without_a_motion_code_g1_is_in_force_or_the_program_must_say_it():
     text = "N100 G17 X10 Y10\n#ANG=45 X20 Y25"
     refused(text, "isg-angle-redundant", "21895")

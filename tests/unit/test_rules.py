@@ -25,6 +25,7 @@ WITHOUT_REJECTED_EXAMPLE = {
     "siemens-closing-increment": "the same",
     "count-open": "two forms of one block each: every fact about them leads to a closed form or a search that ends",
     "arc-radius-differs": "an arc is looked at where a rule refuses it; test_robust.py lets the rules warn only",
+    "start-diameter": "the start point is stated apart from the program; test_siemens.py has it",
     "start-units": "the start point is stated apart from the program; test_command_line.py has it",
     "word-unused": "where the rules are enforced, one of them names the word; test_lathe.py switches them off",
     "search-unfinished": "the same; test_solutions.py has sketches whose search does not end",

@@ -227,6 +227,22 @@ def test_inches_and_millimetres_are_those_of_g70_and_g71():
     assert ends("G17 G700 G0 X0 Y0\nG1 X1 RND=0.1\nY2") == ends("G17 G70 G0 X0 Y0\nG1 X1 RND=0.1\nY2") == near(*metric)
 
 
+def test_a_start_that_is_read_before_the_diameters_are_switched_is_told():
+    block = "G18 DIAMON G1 X60 ANG=120 RND=2\nZ-50"
+    told = {
+        start: {each.code for each in solve(block, start=start).diagnostics} for start in ("X40 Z0", "DIAMON X40 Z0")
+    }
+    assert "start-diameter" in told["X40 Z0"]
+    assert told["DIAMON X40 Z0"] == set()
+
+
+def test_a_word_that_is_almost_one_is_told():
+    (finding,) = (each for each in siemens(MILL + "G1 X40 AGN=5\nY40").diagnostics if each.code == "word-mistyped")
+    assert "ANG=5" in finding.help
+    (error,) = siemens(MILL + "G1 X40 RND=5\nY40 CRH=2\nX90").diagnostics
+    assert error.fixes[0].description.startswith("write CHR=2 for CRH=2")
+
+
 def test_without_a_motion_code_g1_is_in_force_or_the_program_must_say_it():
     text = SI_G1.replace("G0 ", "").replace("G1 ", "")
     assert ends(text) == ends(SI_G1)

@@ -17,6 +17,7 @@ from contoursolve.controls.chain.language import Element, Joining, Language, Mem
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Turn, assemble
 from contoursolve.reading import (
+    COMMENTED,
     Effect,
     Lexicon,
     Modes,
@@ -60,9 +61,9 @@ class ChainFinder:
     def __call__(self, blocks: Sequence[Block], index: int, state: State, modes: Modes) -> ParsedContour | None:
         """The contour that begins at a block: everything that is resolved together with it."""
         block = blocks[index]
-        if self._is_corner(block):
+        if self._is_corner(block) and COMMENTED not in state.memory:
             return claim_of(self.language, [self._member(block, state, modes, is_over=False)], state, modes)
-        if not block.words or not self._is_motion(block, state, modes):
+        if not block.words or COMMENTED in state.memory or not self._is_motion(block, state, modes):
             return None
         members = [self._member(block, state, modes, is_over=False)]
         is_alone = self._is_over_defined(block, members[0].here)
@@ -359,7 +360,7 @@ class ChainFinder:
         block, here = member.block, member.here
         stated = self._stated(block, here)
         is_centered = here.motion in _TURNS and bool(stated & {*self.language.centers})
-        is_open = is_centered and not stated & {*here.plane.axes, "I", "J", "K", "R"}
+        is_open = is_centered and not stated & {"I", "J", "K", "R"}
         if self._has_corner(member) or member.element.is_smooth or is_open:
             return True
         if stated & {*self.language.angles, self.language.selector} or self._keeps_angle(member):

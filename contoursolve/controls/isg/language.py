@@ -9,6 +9,7 @@ from msgspec.structs import replace
 from contoursolve.controls.chain import Element, Joining, Language, Member, reading
 from contoursolve.controls.common import setting
 from contoursolve.controls.isg.lexicon import BOOK, CHAMFER, MODES, ROUNDING
+from contoursolve.controls.plain import PLANES
 from contoursolve.geometry import CornerShape, Heading, Turn
 from contoursolve.reading import ContourForm, Convention, Modes, Sample, Setting, State
 
@@ -57,6 +58,13 @@ def _conventions(form: ContourForm, _: Collection[str], modes: Modes) -> Iterato
         yield modes.convention(PAIR_SENSE)
 
 
+MACHINE = setting(
+    "machine",
+    "which plane is selected before the program says it",
+    {"mill": "G17", "lathe": "G18"},
+    BOOK.assumed("the initial state is a parameter"),
+    changes={"lathe": lambda dialect: replace_fields(dialect, plane=PLANES[18])},
+)
 FIRST_MOTION = setting(
     "first-motion",
     "which motion is in force before the program states one",
@@ -64,7 +72,7 @@ FIRST_MOTION = setting(
     BOOK.assumed("as samples without G1 show"),
     changes={"none": lambda dialect: replace_fields(dialect, motion=None)},
 )
-SETTINGS = (PAIR_SENSE, CIRCLE, MODAL, FIRST_MOTION)
+SETTINGS = (MACHINE, PAIR_SENSE, CIRCLE, MODAL, FIRST_MOTION)
 
 _LINE, _ARC = Element(None, False, False), Element(Turn.CCW, False, False)
 _OPEN, _CLOSING = replace(_LINE, is_followed=True), replace(_LINE, is_over=True)

@@ -7,7 +7,7 @@ from contoursolve.controls.plain import BASIC_CODES, MOTIONS, PLANES, code_rows,
 from contoursolve.diagnostics.source import Book
 from contoursolve.gcode import Block, Syntax, Word
 from contoursolve.geometry import Length, Unit
-from contoursolve.reading import Address, Code, Diameter, Effect, Lexicon, Modes, NumberFormat, WithoutPoint
+from contoursolve.reading import COMMENTED, Address, Code, Diameter, Effect, Lexicon, Modes, NumberFormat, WithoutPoint
 
 BOOK = Book("ISG kernel, programming manual")
 
@@ -107,14 +107,22 @@ def _remember(memory: Mapping[str, Word], block: Block) -> Mapping[str, Word]:
     is_corner = any(word.address == "G" and word.number in (CHAMFER, ROUNDING) for word in block.words)
     kept = {"I": size} if is_corner and size is not None else {}
     kept |= {"#ANG": angle} if angle is not None else {}
+    mark = _LINES_OF_COMMENT.match(block.text)
+    if mark is not None and mark["begins"]:
+        kept[COMMENTED] = Word(COMMENTED, None, False, mark[0].strip(), block.span)
+    elif mark is not None:
+        memory = {name: word for name, word in memory.items() if name != COMMENTED}
     return {**memory, **kept} if kept else memory
+
+
+_LINES_OF_COMMENT = re.compile(r"\s*+#\s*+COMMENT\s++(?:(?P<begins>BEGIN)|END)\b", re.IGNORECASE)
 
 
 MODES = Modes(
     _words(),
     _codes(),
     ("X", "Y", "Z"),
-    frozenset({2, 17, 29, 30}),
+    frozenset({17, 29}),
     syntax=SYNTAX,
     remember=_remember,
     call_addresses=frozenset("L"),

@@ -126,7 +126,7 @@ def _remember(memory: Mapping[str, Word], block: Block) -> Mapping[str, Word]:
     return {} if word.number == 0 else {"RNDM": word}
 
 
-_ENDS = frozenset({2, 17, 30})
+_ENDS = frozenset({17})
 MODES = Modes(
     _words(),
     CODES,
