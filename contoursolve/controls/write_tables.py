@@ -7,10 +7,10 @@ from pathlib import Path
 from msgspec.structs import asdict
 
 from contoursolve import analysis
-from contoursolve.analysis import derive
+from contoursolve.analysis import Determinacy, derive
 from contoursolve.analysis.identities import derive_circle_identity, derive_identity, is_affine, tied_sets
 from contoursolve.controls import DIALECTS
-from contoursolve.geometry import Contact, Fact, Foot, build_system
+from contoursolve.geometry import Contact, Fact, Foot, System, build_system
 from contoursolve.reading import ContourForm, lay_out, stated_sets
 
 
@@ -24,7 +24,17 @@ def table() -> str:
     )
     systems = (build_system(layout.figure, layout.facts) for layout in layouts)
     unlike = {system.equations_key: system for system in systems}
-    return _write({key: json.dumps(asdict(derive(system))) for key, system in unlike.items()})
+    return _write({key: json.dumps(asdict(_verdict(system))) for key, system in unlike.items()})
+
+
+_VERDICTS: dict[str, Determinacy] = {}
+
+
+def _verdict(system: System) -> Determinacy:
+    """What sympy says today, each system once."""
+    if system.equations_key not in _VERDICTS:
+        _VERDICTS[system.equations_key] = derive(system)
+    return _VERDICTS[system.equations_key]
 
 
 def identity_table() -> str:
@@ -49,7 +59,7 @@ def _identities(form: ContourForm) -> Iterator[tuple[tuple[Fact, ...], str]]:
         if any(isinstance(fact, Foot | Contact) for fact in layout.facts):
             continue  # that a contact lies on both elements says nothing about words
         system = build_system(layout.figure, layout.facts)
-        verdict = derive(system)
+        verdict = _verdict(system)
         tied = tuple(layout.facts[index] for index in verdict.tied)
         formula = derive_circle_identity(system, tied)
         if formula and len(layout.facts) == len(system.unknowns) + 1:
