@@ -797,6 +797,16 @@ def test_two_angles_that_the_control_compares_vary_one_at_a_time():
     assert table["status"].size == 4
 
 
+def test_what_a_setting_means_that_is_not_computed_is_refused():
+    angled, arc = START + "G01 X40. ,A150.", "G17 G90 G00 X0 Y0\nG01 X40. ,C6.\nG02 X60. Y20. I20. J0"
+    for control, text, setting in ((LATHE, angled, "angle=supplementary"), (MILL, arc, "chamfer-on-arc=arc_length")):
+        name, value = setting.split("=")
+        assert solve(text, control=control).answers[0].contour is not None
+        (answer,) = solve(text, control=control, settings={f"{control}.{name}": value}).answers
+        assert answer.contour is None
+        assert any(value in each.message or name in each.help for each in answer.diagnostics)
+
+
 def test_the_catalogue_explains_alarms_and_lists_the_words():
     told = CliRunner().invoke(main, ["explain", "056"])
     assert told.exit_code == 0

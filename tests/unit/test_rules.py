@@ -21,6 +21,8 @@ WITHOUT_REJECTED_EXAMPLE = {
     "mitsubishi-h-missing": "the same",
     "mitsubishi-centre-of-diameter": "the same",
     "mitsubishi-centre-from-end": "the same",
+    "fanuc-chamfer-along-arc": "a setting forbids it; test_fanuc.py sets it",
+    "fanuc-angle-supplementary": "the same",
     "siemens-chamfer-along-arc": "a setting forbids it; test_siemens.py sets it",
     "siemens-closing-increment": "the same",
     "count-open": "two forms of one block each: every fact about them leads to a closed form or a search that ends",

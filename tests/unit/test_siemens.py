@@ -236,6 +236,17 @@ def test_a_start_that_is_read_before_the_diameters_are_switched_is_told():
     assert told["DIAMON X40 Z0"] == set()
 
 
+@pytest.mark.parametrize(
+    ("control", "value", "is_reduced"),
+    [(CONTROLS[0], "", False), (CONTROLS[0], "reduce", True), (CONTROLS[1], "", True), (CONTROLS[1], "error", False)],
+)
+def test_a_corner_that_does_not_fit_is_refused_and_what_the_control_does_is_told(control, value, is_reduced):
+    settings = {f"{control}.too-big": value} if value else {}
+    (answer,) = solve(MILL + "G1 X30 RND=50\nY40", control=control, settings=settings).answers
+    assert answer.contour is None
+    assert ("makes it smaller by itself" in answer.diagnostics[0].message) is is_reduced
+
+
 def test_a_word_that_is_almost_one_is_told():
     (finding,) = (each for each in siemens(MILL + "G1 X40 AGN=5\nY40").diagnostics if each.code == "word-mistyped")
     assert "ANG=5" in finding.help

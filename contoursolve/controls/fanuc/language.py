@@ -29,6 +29,7 @@ GUARD = Decimal(1)
 
 WRONG_PLANE, UNGUARDED = "@wrong-plane", "@unguarded"
 STRICT_ANGLE, COMPENSATION_CHANGES = "@strict-angle", "@compensation-changes"
+SUPPLEMENTARY, ALONG_ARC = "@supplementary", "@along-arc"
 STRAIGHT_ONLY = "@straight-only"
 """Corners stand between lines alone."""
 
@@ -118,11 +119,23 @@ def _guard_corner(manual: str) -> Setting:
     )
 
 
+ANGLE = setting(
+    "angle",
+    "what a number behind ,A means",
+    {"normal": "the angle itself", "supplementary": "180 deg minus the angle; contoursolve does not compute this"},
+    _assumed(DRAWING, "another bit of parameter 3405, recalled"),
+)
+ARC_CHAMFER = setting(
+    "chamfer-on-arc",
+    "how ,C is measured on an arc",
+    {"chord": "straight from the corner", "arc_length": "along the arc; contoursolve does not compute this"},
+    _assumed(CORNERS, "not described"),
+)
 LATHE_SETTINGS = (
     *(_number(DRAWING), _angle_sense(DRAWING), _guard(DRAWING), _guard_corner(DRAWING)),
-    *(REDUNDANT_ANGLE, LATHE_CORNER_WORDS),
+    *(REDUNDANT_ANGLE, LATHE_CORNER_WORDS, ANGLE),
 )
-MILL_SETTINGS = (_number(CORNERS), _guard(CORNERS), _guard_corner(CORNERS), MILL_CORNER_WORDS)
+MILL_SETTINGS = (_number(CORNERS), _guard(CORNERS), _guard_corner(CORNERS), MILL_CORNER_WORDS, ARC_CHAMFER)
 HAAS_LATHE_SETTINGS = (_number(HAAS), _angle_sense(HAAS), _guard(HAAS), _guard_corner(HAAS))
 HAAS_MILL_SETTINGS = (_number(HAAS), _guard(HAAS), _guard_corner(HAAS), ARCS)
 
@@ -150,6 +163,8 @@ def _circumstances(member: Member, states: Sequence[State], modes: Modes) -> Ite
         WRONG_PLANE: is_entered and _is_wrong_plane(member.here),
         UNGUARDED: not _guarded(modes),
         STRICT_ANGLE: modes.settings.get("redundant-angle") == "error",
+        SUPPLEMENTARY: modes.settings.get("angle") == "supplementary",
+        ALONG_ARC: modes.settings.get("chamfer-on-arc") == "arc_length",
         COMPENSATION_CHANGES: member.before.compensation != member.here.compensation,
     }
     return (name for name, is_true in holds.items() if is_true)

@@ -6,6 +6,7 @@ from enum import Enum
 
 from contoursolve.controls.chain.language import (
     ARC,
+    BESIDE_ARC,
     FOLLOWED,
     LAST,
     LEAVES,
@@ -18,10 +19,12 @@ from contoursolve.controls.chain.language import (
 )
 from contoursolve.controls.chain.rules import Manual, chain_rules
 from contoursolve.controls.fanuc.language import (
+    ALONG_ARC,
     COMPENSATION_CHANGES,
     GUARD,
     STRAIGHT_ONLY,
     STRICT_ANGLE,
+    SUPPLEMENTARY,
     UNGUARDED,
     WRONG_PLANE,
 )
@@ -219,10 +222,25 @@ def _square_rules(machine: _Machine, amount: str, own: str, line: str) -> tuple[
     return (*own_rows, sign)
 
 
+_ALONG_ARC = (
+    Rule(
+        code="fanuc-chamfer-along-arc",
+        message="{words}: a chamfer that is measured along an arc is not computed",
+        help="set chamfer-on-arc=chord, or write the chamfer out",
+        source=_FANUC_MILL.source("not described", Evidence.ASSUMED),
+        roles=_ANY,
+        when=some(",C") & some(ALONG_ARC) & some(BESIDE_ARC),
+        accepted=(_FANUC_MILL.cut,),
+        rejected=(),
+    ),
+)
+
+
 def _mill_rules(machine: _Machine) -> tuple[Rule, ...]:
     """The rows about planes and arcs."""
     cut = machine.cut
     return (
+        *(_ALONG_ARC if machine.has_alarms else ()),
         Rule(
             code=f"{machine.prefix}-corner-outside-plane",
             message="{words} moves an axis outside the plane of the contour",
@@ -343,6 +361,16 @@ def _angle_rules(machine: _Machine) -> tuple[Rule, ...]:
 _ANGLED = _TURNING + "G01 X40. ,A150."
 
 _VERTEX_RULES = (
+    Rule(
+        code="fanuc-angle-supplementary",
+        message="{words}: with angle=supplementary it stands for 180 deg minus itself, which is not computed",
+        help="write 180 minus the number, and leave the setting at normal",
+        source=_FANUC_LATHE.source("another bit of parameter 3405, recalled", Evidence.ASSUMED),
+        roles=(LINE, OVER_LINE),
+        when=some(",A") & some(SUPPLEMENTARY),
+        accepted=(_VERTEX,),
+        rejected=(),
+    ),
     Rule(
         code="fanuc-closing-incomplete",
         message="the line before has an angle and no end, so this block needs X, Z and ,A: it lacks {lacking}",

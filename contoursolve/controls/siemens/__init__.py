@@ -4,14 +4,15 @@ Their words, language and rules come in; two controls go out. Begin with `langua
 """
 
 from dataclasses import replace
+from functools import partial
 
 from contoursolve.controls.chain import ChainFinder, forms_of
 from contoursolve.controls.plain import PLANES
 from contoursolve.controls.siemens.language import LANGUAGE, SETTINGS
-from contoursolve.controls.siemens.lexicon import MODES, SYNTAX
-from contoursolve.controls.siemens.rules import RULES, RULES_808
+from contoursolve.controls.siemens.lexicon import BOOK, MODES, SYNTAX
+from contoursolve.controls.siemens.rules import RULES, RULES_REDUCING
 from contoursolve.gcode import Block, Word, words_as
-from contoursolve.reading import Diameter
+from contoursolve.reading import Diameter, Setting
 from contoursolve.reading.dialect import Dialect
 
 
@@ -24,6 +25,20 @@ def _signs(block: Block) -> tuple[Word, ...]:
     return tuple(word for word in own if not block.text[: word.span.column - 1].rstrip(" \t").endswith("#"))
 
 
+_LARGE = {
+    "error": "it is refused, with an alarm",
+    "reduce": "the control makes it smaller by itself, to a size that no page tells; contoursolve refuses it",
+}
+
+
+def _too_big(default: str) -> Setting:
+    """What comes of a corner that does not fit."""
+    other = {"error": RULES, "reduce": RULES_REDUCING}
+    changes = {value: partial(replace, rules=rules) for value, rules in other.items()}
+    source = BOOK.printed("808D") if default == "reduce" else BOOK.assumed("840D: not described")
+    return Setting("too-big", "a corner that does not fit", _LARGE, default, source, changes=changes)
+
+
 SIEMENS_840D = Dialect(
     name="siemens-840d",
     title="SINUMERIK 840D sl, 828D and ONE",
@@ -34,7 +49,7 @@ SIEMENS_840D = Dialect(
     find=ChainFinder(LANGUAGE),
     signs=_signs,
     contours="lines with ANG=, corners with RND=, CHR= or CHF=, and CT",
-    settings=SETTINGS,
+    settings=(*SETTINGS, _too_big("error")),
     motion=1,
     diameter=Diameter.BY_PLANE,
 )
@@ -44,7 +59,8 @@ SIEMENS_808D = replace(
     title="SINUMERIK 808D",
     # A lexicon of its own tells for which control words were read.
     modes=replace(MODES, lexicon=replace(MODES.lexicon)),
-    rules=RULES_808,
+    rules=RULES_REDUCING,
+    settings=(*SETTINGS, _too_big("reduce")),
     # Nothing in a program tells it from its larger sibling.
     rare=LANGUAGE.own,
 )

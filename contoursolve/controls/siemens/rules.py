@@ -100,7 +100,7 @@ _HELPS = {
 }
 RULES = rules_of(MANUAL, _OWN, _GEOMETRY, _HELPS)
 _REDUCED = "; the control makes it smaller by itself, to a size that is not printed"
-RULES_808 = tuple(
+RULES_REDUCING = tuple(
     replace(rule, message=rule.message + _REDUCED) if rule.code == "siemens-corner-too-large" else rule
     for rule in RULES
 )
