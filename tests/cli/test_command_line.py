@@ -192,6 +192,7 @@ def test_realistic_program_is_solved_without_a_finding(path, control, contours):
     assert [each["status"] for each in found["contours"]] == ["solved"] * contours
 
 
+@pytest.mark.slow
 def test_every_rule_is_listed_and_explained():
     _, listing, _ = run("rules")
     for dialect in DIALECTS.values():
@@ -411,6 +412,7 @@ def test_json_of_check_names_each_finding_and_its_program():
     ],
     ids=["broken-json", "broken-text", "plate-text", "plate-json"],
 )
+@pytest.mark.slow
 def test_two_processes_write_the_same_bytes(path, form):
     first = run_process("solve", path, "--format", form, PYTHONHASHSEED="1")
     assert first == run_process("solve", path, "--format", form, PYTHONHASHSEED="2")
@@ -571,6 +573,7 @@ UNREAD = {
     "name",
     [pytest.param(name, marks=[] if name == "bad usage" else pytest.mark.slow) for name in UNREAD],
 )
+@pytest.mark.slow
 def test_the_exit_status_is_the_same_if_nobody_reads_the_output(name):
     command = [sys.executable, "-m", "contoursolve", *UNREAD[name]]
     status = run(*UNREAD[name])[0]

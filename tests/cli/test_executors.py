@@ -69,6 +69,7 @@ def here():
         pytest.param(dask, id="dask", marks=[pytest.mark.slow, pytest.mark.needs("distributed")]),
     ],
 )
+@pytest.mark.slow
 def test_any_executor_gives_the_same_bytes(pool, here):
     one, asked = here
     with pool() as executor:
@@ -144,6 +145,7 @@ def test_a_sweep_that_was_killed_goes_on_and_ends_with_the_same_bytes(name, step
 @pytest.mark.parametrize(
     ("told", "workers"), [(signal.SIGINT, "1"), pytest.param(signal.SIGTERM, "2", marks=pytest.mark.slow)]
 )
+@pytest.mark.slow
 def test_a_sweep_that_was_told_to_stop_says_what_is_kept(told, workers, tmp_path):
     longer = [*SWEEP[:-1], "P=0:60:0.01", "--workers", workers, "-o", "family.csv"]
     with start(*longer, cwd=tmp_path) as child:

@@ -205,7 +205,7 @@ def name_of(fact: Any) -> str:
     return "-".join([type(fact).__name__, *details, *between])
 
 
-def of_each_fact(*exceptions: type, one_in: int = 1) -> Callable[[Any], Any]:
+def of_each_fact(*exceptions: type, one_in: int = 2) -> Callable[[Any], Any]:
     facts = [fact for fact in FACTS if not isinstance(fact, exceptions)]
     return some_of("fact", facts, one_in=one_in, ids=name_of)
 

@@ -341,6 +341,7 @@ def test_two_circles_near_a_contact_have_as_many_common_tangents_as_there_are() 
 
 
 @FEW_OR_ALL_RUNGS
+@pytest.mark.slow
 def test_two_rods_near_their_farthest_reach_have_two_places_or_none(ladder: Sequence[Decimal]) -> None:
     """There is no closed form: the second rod, 30 long, touches a circle, and the first, 40 long, turns to lead far."""
 

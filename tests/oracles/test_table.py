@@ -163,6 +163,7 @@ MILL = {
 
 
 @pytest.mark.parametrize("form", MILL)
+@pytest.mark.slow
 def test_sets_of_words_of_the_mill_are_refused_as_the_sheet_says(form):
     count, others, expected = MILL[form]
     rows = mill_rows(form)

@@ -31,9 +31,10 @@ def letters(key: str) -> frozenset[str]:
 BY_LETTERS = {letters(key): row for key, row in TABLE.items() if key.startswith("V1.0,")}
 
 
+@pytest.mark.slow
 def test_some_rows_of_the_shipped_table_are_what_sympy_derives_today():
     for form in (form for dialect in DIALECTS.values() for form in dialect.forms):
-        for stated in list(stated_sets(form))[::193]:
+        for stated in list(stated_sets(form))[::389]:
             layout = lay_out(form, stated, frozenset())
             system = build_system(layout.figure, layout.facts)
             assert json.loads(json.dumps(asdict(derive(system)))) == TABLE[system.equations_key], system.equations_key

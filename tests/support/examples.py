@@ -10,6 +10,9 @@ from _pytest.mark import ParameterSet
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
+THINNED = 2
+"""The command of the README runs one of so many of the sampled cases, so that it ends in two minutes."""
+
 
 def law(
     *strategies: st.SearchStrategy[Any],
@@ -21,7 +24,7 @@ def law(
     """In the place of `given`: held against the few examples of the profile dev by default, and against the many of the
     profile ci as a slow test, and always against `examples`. Parameters before those of the strategies are fixtures."""
     dev, ci = settings.get_profile("dev"), settings.get_profile("ci")
-    counts = {"few": few or dev.max_examples, "many": many or ci.max_examples}
+    counts = {"few": max(few // THINNED, 2) if few else dev.max_examples, "many": many or ci.max_examples}
 
     def hold(check: Callable[..., None]) -> Callable[..., None]:
         @pytest.mark.parametrize("count", ["few", pytest.param("many", marks=pytest.mark.slow)])
@@ -47,14 +50,18 @@ def some_of(
     only: Container[Any] | None = None,
     **options: Any,
 ) -> pytest.MarkDecorator:
-    """In the place of `pytest.mark.parametrize`: all cases are slow but the first of each `one_in`, or, if so told, but
-    `only` those with these ids or first values. Cases that are slow anyway do not count."""
+    """In the place of `pytest.mark.parametrize`: all cases are slow but the first of each `one_in` times `THINNED`,
+    or, if so told, but `only` those with these ids or first values. Cases that are slow anyway do not count."""
     is_single = isinstance(names, str) and "," not in names
     taken, number = list[ParameterSet](), 0
     for each in cases:
         case = each if isinstance(each, ParameterSet) else pytest.param(*([each] if is_single else each))
         if all(mark.name != "slow" for mark in case.marks):
-            is_kept = number % one_in == 0 if only is None else case.id in only or case.values[0] in only
+            is_kept = (
+                number % (one_in * THINNED if one_in > 1 else 1) == 0
+                if only is None
+                else case.id in only or case.values[0] in only
+            )
             number += 1
             if not is_kept:
                 case = pytest.param(*case.values, marks=(*case.marks, pytest.mark.slow), id=case.id)

@@ -257,6 +257,7 @@ def random_diagnoses(count: int) -> list[tuple[Words, Answer]]:
 
 
 @FOR_DIAGNOSES
+@pytest.mark.slow
 def test_ties_are_all_minimal_dependent_sets_and_conflicts_all_minimal_inconsistent_ones(count):
     conflicts_seen = ties_seen = 0
     for words, answer in random_diagnoses(count):

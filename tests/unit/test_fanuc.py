@@ -316,6 +316,7 @@ def test_random_pairs_come_out_where_they_were_drawn(kinds, count):
 
 @pytest.mark.parametrize("control", MACHINES)
 @few_and_many(24, 250)
+@pytest.mark.slow
 def test_no_program_with_a_word_lost_too_many_or_wrong_is_solved_wrongly(control, count):
     rng, verdicts = Random(f"wrong {control}{count}"), Counter[str]()
     for _ in range(count):
@@ -612,6 +613,7 @@ def test_a_sweep_across_the_sign_says_what_solve_says():
         assert Code(table["status"].ravel()[row]).status is answer.status, (radius, end)
 
 
+@pytest.mark.slow
 def test_many_corners_between_two_axes_come_out_as_each_alone():
     blocks = [f"G00 X20. Z0\nG01 Z-25. R{sign}5.\nX{end}." for sign in ("", "-") for end in range(-30, 70, 7)]
     together = solve("\n".join(blocks), control=LATHE).answers
@@ -621,6 +623,7 @@ def test_many_corners_between_two_axes_come_out_as_each_alone():
 
 
 @few_and_many(10, 200)
+@pytest.mark.slow
 def test_random_chains_in_plain_words_are_those_with_commas(count):
     rng = Random(count)
     for _ in range(count):
@@ -770,6 +773,7 @@ SWEPT = "G00 X50. Z50.\nG01 ,A30. ,R5.\nX0. Z150. ,A-45."
 
 
 @pytest.mark.parametrize("settings", [{}, {"angle-sense": "ray"}, {"guard-deg": "0"}])
+@pytest.mark.slow
 def test_a_sweep_tells_of_each_angle_what_a_single_solve_tells(settings):
     """Also within the guard about the other line's direction, and at its ends."""
     named = {f"{LATHE}.{name}": value for name, value in settings.items()}
@@ -817,7 +821,8 @@ def test_the_catalogue_explains_alarms_and_lists_the_words():
 
 
 @pytest.mark.parametrize("settings", [{}, {"angle-sense": "ray"}, {"guard-deg": "0"}])
-@few_and_many(20, 60)
+@few_and_many(8, 60)
+@pytest.mark.slow
 def test_many_contours_of_a_program_come_out_as_each_alone(settings, count):
     """Programs with many contours of one form solve them together."""
     rng, named = Random(f"{settings}"), {f"{LATHE}.{name}": value for name, value in settings.items()}

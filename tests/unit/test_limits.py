@@ -159,6 +159,7 @@ def count_tight_limits(seed: int, count: int) -> Counter[str]:
     return found
 
 
+@pytest.mark.slow
 def test_every_shown_limit_of_a_corner_works_and_one_increment_more_does_not():
     found = count_tight_limits(3, 80)
     assert min(found[kind] for kind in KINDS) > 0, found

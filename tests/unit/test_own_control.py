@@ -190,6 +190,7 @@ def test_a_command_takes_the_tables_of_a_module(run, name):
     assert status == 0
 
 
+@pytest.mark.slow
 def test_the_other_commands_take_them_too(run):
     mine = ("--control", "tables_of_mine:MINE")
     assert run("report", "p.nc", *mine)[0] == 0

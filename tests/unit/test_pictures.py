@@ -644,6 +644,7 @@ def sweep(*arguments):
     return done.exit_code, done.output
 
 
+@pytest.mark.slow
 def test_sweep_draws_one_word_as_a_fan_and_two_as_a_map(tmp_path):
     one = ("--vary", "A=120:250:2", "--vary", "Q=5")
     status, output = sweep(*one, "--plot", tmp_path / "fan.svg")

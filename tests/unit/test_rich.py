@@ -216,6 +216,7 @@ def test_the_text_is_what_the_terminal_prints():
     assert result._repr_mimebundle_()[TEXT] == printed.rstrip()
 
 
+@pytest.mark.slow
 def test_families_rules_and_paths_show_themselves():
     family = contoursolve.family(WHOLE, start="X40. Z0.", vary={"A": range(150, 200, 5), "P": [1, 20, 60]})
     data = family._repr_mimebundle_()
