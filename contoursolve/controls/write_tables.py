@@ -14,17 +14,21 @@ from contoursolve.geometry import Contact, Fact, Foot, System, build_system
 from contoursolve.reading import ContourForm, lay_out, stated_sets
 
 
-def table() -> str:
-    """The verdict on every combination of words of every form, by sympy, as JSON."""
+def systems() -> dict[str, System]:
+    """The equations of every combination of words of every form, by their key."""
     layouts = (
         lay_out(form, stated, frozenset())
         for dialect in DIALECTS.values()
         for form in dialect.forms
         for stated in stated_sets(form)
     )
-    systems = (build_system(layout.figure, layout.facts) for layout in layouts)
-    unlike = {system.equations_key: system for system in systems}
-    return _write({key: json.dumps(asdict(_verdict(system))) for key, system in unlike.items()})
+    found = (build_system(layout.figure, layout.facts) for layout in layouts)
+    return {system.equations_key: system for system in found}
+
+
+def table() -> str:
+    """The verdict on each of them, by sympy, as JSON."""
+    return _write({key: json.dumps(asdict(_verdict(system))) for key, system in systems().items()})
 
 
 _VERDICTS: dict[str, Determinacy] = {}

@@ -101,7 +101,7 @@ def check(result: Result, text: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("seed", "mutants"), [(0, 30), *(pytest.param(seed, 100, marks=pytest.mark.slow) for seed in range(4))]
+    ("seed", "mutants"), [(0, 30), *(pytest.param(seed, 100, marks=pytest.mark.slow) for seed in range(2))]
 )
 def test_mutated_contours_are_answered(seed, mutants):
     draw = random.Random(seed)
@@ -130,7 +130,7 @@ LINE = 2.0
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", range(1_000, 1_003))
+@pytest.mark.parametrize("seed", range(1_000, 1_001))
 def test_many_mutated_contours_are_judged(seed):
     draw = random.Random(seed)
     for count in range(MANY):

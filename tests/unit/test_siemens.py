@@ -583,7 +583,7 @@ def heading(element: Element, at: complex) -> complex:
     return (at - element.center) / element.radius * (1j if element.turn == "ccw" else -1j)
 
 
-@few_and_many(10, 300)
+@few_and_many(10, 100)
 def test_random_tangent_arcs_begin_in_the_direction_before_them_and_end_at_their_words(count):
     rng = Random(count)
     for _ in range(count):
@@ -609,7 +609,7 @@ def test_random_tangent_arcs_begin_in_the_direction_before_them_and_end_at_their
             before = own or line
 
 
-@few_and_many(10, 300)
+@few_and_many(10, 100)
 def test_a_rounding_in_force_is_the_same_as_one_at_each_corner(count):
     rng = Random(count)
     for _ in range(count):
