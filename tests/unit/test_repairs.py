@@ -321,7 +321,7 @@ def test_one_mistake_in_a_long_chain_is_repaired_near_it(text, fix, trials, deco
     result = solve(text, control="nct-99m")
     fixes = [each.description for finding in result.diagnostics for each in finding.fixes]
     assert any(each.startswith(fix) for each in fixes), fixes
-    assert len(trials) <= 14
+    assert len(trials) <= 18  # a corner that may be left out is tried, too
     assert len(decompositions) <= 900
 
 
