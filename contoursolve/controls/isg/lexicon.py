@@ -64,10 +64,10 @@ SYNTAX = Syntax(
     (?P<blank>[ \t\f\v\x02\x03\x11-\x14\x1a\ufeff]++|%.*+)
   | (?P<comment>{_NESTED}|;.*+)
   | (?P<word>
-        (?P<long>{_OWN})[ \t]*+(?:=[ \t]*+)?+(?:(?P<plain>{_NUMBER})(?![\w.+*/\[-])|(?P<wanted>\?)
+        (?P<long>{_OWN})[ \t]*+(?>(?:=[ \t]*+)?)(?:(?P<plain>{_NUMBER})(?![\w.+*/\[-])|(?P<wanted>\?)
           |(?P<formula>[^ \t;()]++))
-      | (?P<letter>[A-Za-z])(?![A-Za-z_])[ \t]*+(?:=[ \t]*+)?+(?:(?P<short>{_NUMBER})(?![\d.+*/\[-])|(?P<asked>\?)
-          |(?P<expression>[+-]?+(?>(?:[A-Z]*+{_BRACKETS}|[PV][\w.\[\]]*+|\d[\d.]*+|[+*/-])++))))
+      | (?P<letter>[A-Za-z])(?![A-Za-z_])[ \t]*+(?>(?:=[ \t]*+)?)(?:(?P<short>{_NUMBER})(?![\d.+*/\[-])|(?P<asked>\?)
+          |(?P<expression>[+-]?+(?>(?:[A-Z]*+{_BRACKETS}|[PV][\w.\[\]]*+|\d[\d.]*+|[+*/-])+))))
   | (?P<name>\#[^;(]*+|\$[A-Za-z]++[^;(]*+|(?>[A-Za-z_]{{2}}[\w.]*+)|[Ll][ \t]++\w[\w.]*+)
   | (?P<malformed>[A-Za-z][ \t]*+[\d.,+-]++)
   | (?P<bare>[A-Za-z])
@@ -76,7 +76,7 @@ SYNTAX = Syntax(
         re.VERBOSE | re.ASCII | re.IGNORECASE,
     ),
     statement=re.compile(
-        r"[ \t/]*+(?>(?:N[ \t]*+\d++)?+)[ \t]*+(?:(?P<assignment>P\d++[ \t]*+=|V\.\w"
+        r"[ \t/]*+(?>(?:N[ \t]*+\d++)?)[ \t]*+(?:(?P<assignment>P\d++[ \t]*+=|V\.\w"
         r"|\#(?:SET|MSG|HSC|SLOPE|CONTOUR|FLUSH|COMMENT|VAR|ENDVAR)\b)|(?P<flow>\$(?:IF|ELSE|ELSEIF|ENDIF|SWITCH|CASE|DEFAULT|ENDSWITCH|FOR|ENDFOR|WHILE"
         r"|ENDWHILE|DO|ENDDO|GOTO|BREAK|CONTINUE)\b))",
         re.IGNORECASE,

@@ -58,7 +58,7 @@ def _codes() -> dict[int, Code]:
 
 CODES = _codes()
 
-_NUMBER = r"[+-]?+(?>\d++(?>[.,]\d*+)?+|[.,]\d++)"
+_NUMBER = r"[+-]?+(?>\d++(?>[.,]\d*+)?|[.,]\d++)"
 _OWN = "ANG|RNDM?|CHR|CHF|CR"
 _ARGUMENTS = r"\((?>(?:[^()\"]++|\"[^\"]*+\"|\((?>(?:[^()\"]++|\"[^\"]*+\")*)\))*)\)"
 SYNTAX = Syntax(
@@ -70,20 +70,20 @@ SYNTAX = Syntax(
   | (?P<mistyped>(?:[A-Za-z_]\w*+[ \t]*+=|[A-Za-z](?![A-Za-z_]))[ \t]*+
       [+-]?+[\d.,]++(?-i:[Ool|][\d.,Ool|]*+)(?![\w(\[=]))
   | (?P<word>(?P<comma>)(?:
-        (?>(?P<long>\$?[A-Za-z_]\w*+(?>(?:\[[^\]]*+\])?+))[ \t]*+=[ \t]*+)(?:
+        (?>(?P<long>\$?[A-Za-z_]\w*+(?>(?:\[[^\]]*+\])?))[ \t]*+=[ \t]*+)(?:
             (?P<function>[AaIi][Cc])[ \t]*+\([ \t]*+(?:(?P<inner>{_NUMBER})|(?P<unset>\?))[ \t]*+\)
           | (?P<plain>{_NUMBER})(?![\w.,+*/\-\[(])|(?P<wanted>\?)
           | (?![\d.,+-]++(?:[\s;]|$))(?P<formula>(?>(?:[^\s;()\[\]\"]++|{_ARGUMENTS}|\[[^\]]*+\]|\"[^\"]*+\")+)))
       | (?P<letter>[A-Za-z])(?![A-Za-z_])[ \t]*+(?:(?P<short>{_NUMBER})(?![\d.,])|(?P<asked>\?))))
-  | (?P<malformed>(?:(?:{_OWN})[ \t]*+(?:=[ \t]*+)?+|[A-Za-z][ \t]*+)(?=[\d.,+-])[\d.,+-]++)
-  | (?P<name>(?>[A-Za-z_]{{2}}\w*+))[ \t]*+(?>(?:{_ARGUMENTS})?+)
+  | (?P<malformed>(?:(?:{_OWN})[ \t]*+(?>(?:=[ \t]*+)?)|[A-Za-z][ \t]*+)(?=[\d.,+-])[\d.,+-]++)
+  | (?P<name>(?>[A-Za-z_]{{2}}\w*+))[ \t]*+(?>(?:{_ARGUMENTS})?)
   | (?P<bare>[A-Za-z])
   | (?P<stray>\"[^\"]*+\"?+|[^ \tA-Za-z;]++)
     """,
         re.VERBOSE | re.ASCII | re.IGNORECASE,
     ),
     statement=re.compile(
-        r"[ \t/]*+(?>(?:[Nn]\d++)?+)[ \t]*+(?>(?:[A-Za-z_]\w++:)?+)[ \t]*+(?:"
+        r"[ \t/]*+(?>(?:[Nn]\d++)?)[ \t]*+(?>(?:[A-Za-z_]\w++:)?)[ \t]*+(?:"
         r"(?P<assignment>DEF|EXTERN|PROC|REDEF|DEFINE)"
         r"|(?P<flow>IF|ELSE|ENDIF|FOR|ENDFOR|WHILE|ENDWHILE|LOOP|ENDLOOP|REPEATB?|UNTIL|GOTO[BFCS]?|CASE|P?CALL|MCALL|RET))\b",
         re.IGNORECASE,
