@@ -36,6 +36,17 @@ def number_setting(values: Mapping[str, str], source: Source) -> Setting:
     return replace(found, without_point=_WITHOUT_POINT)
 
 
+def first_motion_setting(source: Source) -> Setting:
+    """Which motion is in force before the program states one; its samples rely on G1."""
+    return setting(
+        "first-motion",
+        "which motion is in force before the program states one",
+        {"G1": "lines by G1", "none": "none: the program must state it"},
+        source,
+        changes={"none": lambda dialect: replace(dialect, motion=None)},
+    )
+
+
 _WITHOUT_POINT = {"increment": WithoutPoint.LEAST_INCREMENTS, "calculator": WithoutPoint.AS_WRITTEN}
 
 _GRAMMAR = _own("grammar of a word: an address and a number")

@@ -289,7 +289,7 @@ def advance(state: State, block: Block, modes: Modes) -> State:
             return state.lose(modes.axes, f"{code.text} is not known to contoursolve", code.span)
     lost = _lost_by_faults(block, modes)
     effect, reason = _effect(state, codes, modes)
-    words = [word for word in block.words if _axis(word, modes)]
+    words = axis_words(block, modes)
     if effect is Effect.NO_MOTION:
         return state
     if effect is Effect.SINGLE or (effect is Effect.CYCLE and words):
@@ -340,6 +340,11 @@ def _step(before: Position, by: Decimal, word: Word, is_skippable: bool) -> Posi
     if before.value is None:
         return before
     return Position(before.value + by, word.text, word.span, is_skippable or before.is_skippable, word)
+
+
+def axis_words(block: Block, modes: Modes) -> list[Word]:
+    """The words of a block that program an axis."""
+    return [word for word in block.words if _axis(word, modes)]
 
 
 def _axis(word: Word, modes: Modes) -> str:

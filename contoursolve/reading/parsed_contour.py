@@ -13,7 +13,7 @@ from contoursolve.gcode import Block, Directive, Word
 from contoursolve.geometry import Choice, Fact, Given, Layout, Plane, Profile, Question, Radius, Side
 from contoursolve.reading.contour_form import Assumption, ContourForm, Convention, lay_out
 from contoursolve.reading.lexicon import Lexicon
-from contoursolve.reading.modal_state import Modes, Position, State, apply_modes, positions
+from contoursolve.reading.modal_state import Modes, Position, State, apply_modes, axis_words, positions
 
 
 class ReadIssue(Enum):
@@ -217,7 +217,7 @@ def leave(
     # Increments count from where the last block begins, which is known of an only one.
     origin = state if len(claim.blocks) == 1 else lost
     told = replace(origin, is_incremental=state.is_incremental and not claim.is_end_absolute)
-    return lost.move(positions(told, _axis_words(last, modes), modes, last.is_skippable))
+    return lost.move(positions(told, axis_words(last, modes), modes, last.is_skippable))
 
 
 def _move_beside(state: State, claim: ParsedContour, modes: Modes) -> State:
@@ -244,11 +244,6 @@ def next_place(blocks: Sequence[Block], claim: ParsedContour, modes: Modes) -> t
     if state.motion not in (0, 1, None):
         return None
     unknown = state.lose(modes.axes, "the contour before it is not solved yet", block.span)
-    found = positions(unknown, _axis_words(block, modes), modes, is_skippable=False)
+    found = positions(unknown, axis_words(block, modes), modes, is_skippable=False)
     first, second = (found[axis].value if axis in found else None for axis in state.plane.axes)
     return None if first is None or second is None else (first, second)
-
-
-def _axis_words(block: Block, modes: Modes) -> list[Word]:
-    addresses = modes.lexicon.addresses
-    return [word for word in block.words if word.address in addresses and addresses[word.address].axis]

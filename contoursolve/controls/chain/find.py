@@ -25,6 +25,7 @@ from contoursolve.reading import (
     Position,
     State,
     apply_modes,
+    axis_words,
     codes_of,
     leave,
     positions,
@@ -411,11 +412,6 @@ def _ends_where_it_begins(block: Block, here: State, modes: Modes) -> bool:
     )
 
 
-def _is_axis(word: Word, modes: Modes) -> bool:
-    row = modes.lexicon.addresses.get(word.address)
-    return row is not None and bool(row.axis)
-
-
 def _ways_of(segment: Segment) -> _Ways:
     """The directions in which an element begins and ends, of length 1."""
     start, end = complex(*segment.start), complex(*segment.end)
@@ -436,7 +432,7 @@ def _chord(member: Member, state: State, modes: Modes) -> complex | None:
 
 def _ends(member: Member, state: State, modes: Modes) -> dict[str, Position]:
     here = replace(member.here, axes=state.axes)
-    return positions(here, [word for word in member.block.words if _is_axis(word, modes)], modes, False)
+    return positions(here, axis_words(member.block, modes), modes, False)
 
 
 def _words(*blocks: Block) -> Iterator[Word]:

@@ -3,6 +3,8 @@
 Its words, language and rules come in; a control goes out. Begin with `language`.
 """
 
+import re
+
 from contoursolve.controls.chain import ChainFinder, forms_of
 from contoursolve.controls.isg.language import LANGUAGE, SETTINGS
 from contoursolve.controls.isg.lexicon import CHAMFER, MODES, ROUNDING, SYNTAX
@@ -12,10 +14,13 @@ from contoursolve.gcode import Block, Word, words_as
 from contoursolve.reading import Diameter
 from contoursolve.reading.dialect import Dialect
 
+_CORNER = re.compile(r"G[ \t]*+(?:=[ \t]*+)?30[12]", re.IGNORECASE)
+"""Most blocks have none of it, and need not be read again."""
+
 
 def _signs(block: Block) -> tuple[Word, ...]:
     """What shows the control: its words with a number sign, and corners in blocks of their own."""
-    if "#" not in block.text and "30" not in block.text:
+    if "#" not in block.text and not _CORNER.search(block.text):
         return ()
     codes, words = (CHAMFER, ROUNDING), words_as(block, SYNTAX)
     return tuple(

@@ -7,7 +7,7 @@ from decimal import Decimal
 from msgspec.structs import replace
 
 from contoursolve.controls.chain import Element, Joining, Language, Member, reading
-from contoursolve.controls.common import setting
+from contoursolve.controls.common import first_motion_setting, setting
 from contoursolve.controls.isg.lexicon import BOOK, CHAMFER, MODES, ROUNDING
 from contoursolve.controls.plain import PLANES
 from contoursolve.geometry import CornerShape, Heading, Turn
@@ -65,13 +65,7 @@ MACHINE = setting(
     BOOK.assumed("the initial state is a parameter"),
     changes={"lathe": lambda dialect: replace_fields(dialect, plane=PLANES[18])},
 )
-FIRST_MOTION = setting(
-    "first-motion",
-    "which motion is in force before the program states one",
-    {"G1": "lines by G1", "none": "none: the program must state it"},
-    BOOK.assumed("as samples without G1 show"),
-    changes={"none": lambda dialect: replace_fields(dialect, motion=None)},
-)
+FIRST_MOTION = first_motion_setting(BOOK.assumed("as samples without G1 show"))
 SETTINGS = (MACHINE, PAIR_SENSE, CIRCLE, MODAL, FIRST_MOTION)
 
 _LINE, _ARC = Element(None, False, False), Element(Turn.CCW, False, False)

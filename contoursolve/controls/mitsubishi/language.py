@@ -17,7 +17,7 @@ from contoursolve.controls.chain.language import (
     OVER_CIRCLE,
 )
 from contoursolve.controls.common import number_setting, setting
-from contoursolve.controls.mitsubishi.lexicon import MODES, TURNED_PLANES, assumed, derived, turned
+from contoursolve.controls.mitsubishi.lexicon import BOOK, MODES, TURNED_PLANES, turned
 from contoursolve.geometry import Turn
 from contoursolve.reading import Assumption, ContourForm, Convention, Modes, Sample, Setting, State
 from contoursolve.reading.dialect import Dialect
@@ -35,72 +35,72 @@ def _turning(dialect: Dialect) -> Dialect:
 
 _NUMBER = number_setting(
     {"calculator": "mm, inches and degrees, as with a point", "increment": "least increments: 0.001 mm, 0.001 deg"},
-    assumed("a machine parameter"),
+    BOOK.assumed("a machine parameter"),
 )
 _DIAMETER = setting(
     "diameter",
     "whether X is a diameter",
     {"off": "X is a radius, and G17 is in force at first", "on": "X is a diameter, and G18 is in force at first"},
-    assumed("a machine parameter"),
+    BOOK.assumed("a machine parameter"),
     changes={"on": _turning},
 )
 _ANGLE_WORD = setting(
     "angle-word",
     "which word states an angle",
     {"A": "A or ,A; of both in a block, ,A does", ",A": "only ,A: A is an axis or another function"},
-    assumed("linear angle command: the names of axes are machine parameters"),
+    BOOK.assumed("linear angle command: the names of axes are machine parameters"),
     changes={",A": reading(angle_words=(",A",))},
 )
 _FULL_CIRCLE = setting(
     "arc-without-end",
     "what an arc about its centre is that has no end and no H",
     {"contact": "it ends where it meets the next block, if that fits", "circle": "a full circle"},
-    assumed("not described"),
+    BOOK.assumed("not described"),
     changes={"circle": reading(closes=True)},
 )
 _FIRST_CENTER = setting(
     "first-centre",
     "what I, J and K of an arc without an end are counted from",
     {"start": "where the arc starts", "end": "where it ends, as printed; contoursolve does not compute this"},
-    derived("p. 378: the end is what is computed"),
+    BOOK.derived("p. 378: the end is what is computed"),
 )
 _PICK = setting(
     "h-default",
     "what a crossing without H is",
     {"0": "as with H0: the one with the shorter line", "error": "H must be there"},
-    assumed("not described"),
+    BOOK.assumed("not described"),
 )
 CONTACT = Setting(
     "contact-tol",
     "by how much two arcs about known centres may miss a contact",
     {"0.01": "mm"},
     "0.01",
-    assumed("not described"),
+    BOOK.assumed("not described"),
     bounds=(Decimal("0.001"), Decimal(1)),
 )
 _SENSE = setting(
     "angle-sense",
     "whether a line that touches no arc may run against its angle",
     {"line": "it may: the angle is that of the line, either way", "ray": "it may not: the angle is the way it runs"},
-    derived("p. 375: the angle at the start or at the end of the line"),
+    BOOK.derived("p. 375: the angle at the start or at the end of the line"),
 )
 _CORNER = setting(
     "corner",
     "beside what ,C and ,R stand",
     {"II": "beside lines and arcs", "I": "between two lines alone"},
-    assumed("corner chamfering I and II: options"),
+    BOOK.assumed("corner chamfering I and II: options"),
 )
 _ARC_CHAMFER = setting(
     "chamfer-on-arc",
     "how the size of a chamfer is measured on an arc",
     {"chord": "straight from the virtual corner", "arc_length": "along the arc; contoursolve does not compute this"},
-    assumed("not described"),
+    BOOK.assumed("not described"),
 )
 _GUARD = setting(
     "guard-deg",
     "how close the directions of two lines may come",
     {"1": "at less than 1 deg no vertex is computed", "0": "only parallel lines have none"},
-    assumed("alarm P392"),
+    BOOK.assumed("alarm P392"),
 )
 SETTINGS = (
     _NUMBER, _DIAMETER, _ANGLE_WORD, _FULL_CIRCLE, _FIRST_CENTER, _PICK, CONTACT, _SENSE, _CORNER, _ARC_CHAMFER, _GUARD,
@@ -163,21 +163,21 @@ LANGUAGE = Language(
         Assumption(
             "h-missing",
             "a crossing without H is the one with the shorter line",
-            assumed("not described"),
+            BOOK.assumed("not described"),
             (LINE_CIRCLE, CIRCLE_LINE),
             some("1:center-first", "1:center-at-first", "2:center-first") & ~some("1:H", "2:H"),
         ),
         Assumption(
             "one-of-center",
             "of the two of I, J and K that belong to the plane, one that is left out is 0",
-            assumed("not described"),
+            BOOK.assumed("not described"),
             (ARC, OVER_CIRCLE),
             some(ONE_CENTER),
         ),
         Assumption(
             "radius-of-contact",
             "a positive R is the arc of at most 180 deg, a negative one the other",
-            assumed("not described"),
+            BOOK.assumed("not described"),
             (LINE_CIRCLE, CIRCLE_LINE, CIRCLE_CIRCLE),
             some("1:R", "2:R"),
         ),

@@ -6,40 +6,25 @@ from dataclasses import replace
 from msgspec.structs import replace as replace_fields
 
 from contoursolve.controls.plain import CALLS, LATHE, MILL_CODES, PLANES, code_rows, lexicon, merge
-from contoursolve.diagnostics.source import Evidence, Source
+from contoursolve.diagnostics.source import Book, Evidence, Source
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Plane, Unit
 from contoursolve.reading import Address, Effect, Lexicon, Modes, NumberFormat, WithoutPoint
 
-MANUAL = "Mitsubishi M700V/M70V programming manual"
-
-
-def printed(place: str) -> Source:
-    """What stands on a page."""
-    return Source(MANUAL, place, Evidence.PRINTED)
-
-
-def derived(place: str) -> Source:
-    """What follows from a page."""
-    return Source(MANUAL, place, Evidence.DERIVED)
-
-
-def assumed(place: str) -> Source:
-    """What is on no page seen."""
-    return Source(MANUAL, place, Evidence.ASSUMED)
+BOOK = Book("Mitsubishi M700V/M70V programming manual")
 
 
 _CODES = merge(MILL_CODES, {Effect.NONE: {5: "high-speed machining"}})
-_NUMBERS = NumberFormat(WithoutPoint.AS_WRITTEN, assumed("a machine parameter"))
-_PLACE = printed("linear angle command, p. 375")
+_NUMBERS = NumberFormat(WithoutPoint.AS_WRITTEN, BOOK.assumed("a machine parameter"))
+_PLACE = BOOK.printed("linear angle command, p. 375")
 _CHAMFER = Source("Mitsubishi corner chamfering, as users quote it", "length of ,C", Evidence.PRINTED)
-_CENTER = printed("p. 378: format list 3")
+_CENTER = BOOK.printed("p. 378: format list 3")
 _ANGLE = "angle of the line, from the plane's first axis, counter-clockwise"
 
 
 def _words(*, is_diameter: bool) -> Lexicon:
     """The addresses, with X as a diameter or a radius; I, J, K and R are no diameters."""
-    plain = lexicon(assumed("addresses"), _NUMBERS, "XYZ", {}, is_diameter=is_diameter)
+    plain = lexicon(BOOK.assumed("addresses"), _NUMBERS, "XYZ", {}, is_diameter=is_diameter)
     rows = (
         Address("A", _ANGLE, Unit.DEGREE, _PLACE),
         Address(",A", _ANGLE, Unit.DEGREE, _PLACE),
@@ -49,16 +34,16 @@ def _words(*, is_diameter: bool) -> Lexicon:
             Unit.MM,
             _CHAMFER,
         ),
-        Address(",R", "rounding", Unit.MM, assumed("corner chamfering")),
+        Address(",R", "rounding", Unit.MM, BOOK.assumed("corner chamfering")),
         Address("P", "centre of an arc without an end, a coordinate in place of I (in G19 of J)", Unit.MM, _CENTER),
         Address("Q", "centre of an arc without an end, a coordinate in place of K (in G17 of J)", Unit.MM, _CENTER),
-        Address("H", "0 the crossing with the shorter line, 1 with the longer line", Unit.SIGN, printed("p. 378")),
+        Address("H", "0 the crossing with the shorter line, 1 with the longer line", Unit.SIGN, BOOK.printed("p. 378")),
     )
     return Lexicon({**plain.addresses, **{row.address: row for row in rows}}, plain.numbers)
 
 
 def _modes(words: Lexicon, planes: dict[int, Plane]) -> Modes:
-    codes = code_rows(assumed("list of G codes"), _CODES, planes)
+    codes = code_rows(BOOK.assumed("list of G codes"), _CODES, planes)
     return Modes(words, codes, ("X", "Y", "Z"), CALLS, remember=_remember)
 
 

@@ -6,7 +6,7 @@ from dataclasses import replace as replace_fields
 from msgspec.structs import replace
 
 from contoursolve.controls.chain import Element, Joining, Language, Member, reading
-from contoursolve.controls.common import setting
+from contoursolve.controls.common import first_motion_setting, setting
 from contoursolve.controls.plain import PLANES
 from contoursolve.controls.siemens.lexicon import BOOK, MODES, TANGENT_ARC
 from contoursolve.geometry import CornerShape, Heading, Turn
@@ -114,13 +114,7 @@ def _conventions(form: ContourForm, circumstances: Collection[str], modes: Modes
         yield modes.convention(SENSE)
 
 
-FIRST_MOTION = setting(
-    "first-motion",
-    "which motion is in force before the program states one",
-    {"G1": "lines by G1", "none": "none: the program must state it"},
-    BOOK.assumed("as samples without G1 show"),
-    changes={"none": lambda dialect: replace_fields(dialect, motion=None)},
-)
+FIRST_MOTION = first_motion_setting(BOOK.assumed("as samples without G1 show"))
 SETTINGS = (MACHINE, DIAMETER, SENSE, REDUNDANT, CLOSING, ARC_CHAMFER, ANGLE_NAME, CHAMFER_NAME, FIRST_MOTION)
 
 _LINE, _ARC = Element(None, False, False), Element(Turn.CCW, False, False)
