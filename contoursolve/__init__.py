@@ -49,6 +49,7 @@ if TYPE_CHECKING:
     from contoursolve.notebook import explore
     from contoursolve.output.construction import construction_lines
     from contoursolve.postprocess.expansion_report import Conversion, Expansion
+    from contoursolve.program.open_program import OpenContour, OpenProgram
     from contoursolve.program.pipeline import Result
     from contoursolve.program.recognise import UnknownControlError
     from contoursolve.reading.dialect import Dialect
@@ -81,6 +82,8 @@ __all__ = [
     "LineSegment",
     "Listing",
     "MissingExtraError",
+    "OpenContour",
+    "OpenProgram",
     "Policy",
     "Program",
     "Region",
@@ -140,6 +143,7 @@ _ROOMS = {
         "tolerances",
     ),
     "notebook": ("explore",),
+    "program.open_program": ("OpenContour", "OpenProgram"),
     "program.pipeline": ("Result",),
     "program.recognise": ("UnknownControlError",),
     "sketch": ("Drawings", "Drawn", "Sketch"),
