@@ -25,7 +25,7 @@ from contoursolve.diagnostics.finding import Diagnostic, Fix, Severity
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import ISO, Block, Program, Syntax, parse, parse_block, split_lines
 from contoursolve.gcode.lexer import Blocks
-from contoursolve.geometry import Length
+from contoursolve.geometry import Length, Plane
 from contoursolve.program.pipeline import Checkpoint, Examiner, run
 from contoursolve.program.project import FIRST_LINES, SettingError
 from contoursolve.program.recognise import PLANE, Recogniser, UnknownControlError, choose, shown_by
@@ -473,7 +473,7 @@ def _moved(record: Any, move: _Move) -> Any:
     if isinstance(record, Span):
         line = move.line(record.line)
         return record if line == record.line else record._replace(line=line)
-    if isinstance(record, Enum):
+    if isinstance(record, Enum | Plane):
         return record
     if isinstance(record, tuple):
         parts = [_moved(each, move) for each in record]
@@ -483,7 +483,7 @@ def _moved(record: Any, move: _Move) -> Any:
         return record if all(values[name] is each for name, each in record.items()) else values
     if isinstance(record, Marks):
         marks = copy(record)
-        vars(marks).update(_moved(vars(record), move))
+        vars(marks).update({name: _moved(each, move) for name, each in vars(record).items() if name != "context"})
         return marks
     if isinstance(record, Struct):
         names = [name for name in record.__struct_fields__ if not (isinstance(record, Fix) and name == "replacement")]
