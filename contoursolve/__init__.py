@@ -52,6 +52,13 @@ if TYPE_CHECKING:
     from contoursolve.program.open_program import OpenContour, OpenProgram
     from contoursolve.program.pipeline import Result
     from contoursolve.program.recognise import UnknownControlError
+    from contoursolve.controls import DIALECTS
+    from contoursolve.diagnosis.additions import Addition, LegalBlock, legal_blocks, words_to_add, ways_to_complete
+    from contoursolve.output.catalogue import rule_page
+    from contoursolve.output.contours import path_table
+    from contoursolve.output.report import report_page
+    from contoursolve.output.words import StatedWord, end_text, form_text, stated_words
+    from contoursolve.program.project import SettingError, find_settings
     from contoursolve.reading.dialect import Dialect
     from contoursolve.sketch import Drawings, Drawn, Sketch
     from contoursolve.solving import Status
@@ -61,6 +68,8 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 __all__ = [
+    "DIALECTS",
+    "Addition",
     "Answer",
     "ArcSegment",
     "Basis",
@@ -79,6 +88,7 @@ __all__ = [
     "FamilyError",
     "Feasible",
     "Found",
+    "LegalBlock",
     "LineSegment",
     "Listing",
     "MissingExtraError",
@@ -89,8 +99,10 @@ __all__ = [
     "Region",
     "Result",
     "Sensitivity",
+    "SettingError",
     "Severity",
     "Sketch",
+    "StatedWord",
     "Status",
     "Tolerances",
     "UnknownControlError",
@@ -101,27 +113,37 @@ __all__ = [
     "completions",
     "construction_lines",
     "convert",
+    "end_text",
     "expand",
     "explore",
     "family",
     "feasible",
+    "find_settings",
     "find_word",
+    "form_text",
+    "legal_blocks",
     "list_solutions",
     "parse",
+    "path_table",
     "read_program",
     "region",
+    "report_page",
+    "rule_page",
     "sensitivity",
     "solve",
     "solve_file",
     "solve_program",
+    "stated_words",
     "tolerances",
+    "ways_to_complete",
     "what_if",
+    "words_to_add",
 ]
 
 _ROOMS = {
     "solving.contour": ("ArcSegment", "Contour", "LineSegment"),
     "diagnostics.finding": ("Basis", "Diagnosis", "Diagnostic", "Severity"),
-    "controls": ("Dialect",),
+    "controls": ("DIALECTS", "Dialect"),
     "diagnosis.examine": ("Answer", "Depth", "Policy"),
     "diagnosis.solutions": ("Listing", "list_solutions"),
     "diagnostics.extras": ("MissingExtraError",),
@@ -149,6 +171,12 @@ _ROOMS = {
     "sketch": ("Drawings", "Drawn", "Sketch"),
     "solving": ("Status",),
     "gcode": ("Block", "Program", "Word"),
+    "diagnosis.additions": ("Addition", "LegalBlock", "legal_blocks", "words_to_add", "ways_to_complete",),
+    "output.catalogue": ("rule_page",),
+    "output.contours": ("path_table",),
+    "output.report": ("report_page",),
+    "output.words": ("StatedWord", "end_text", "form_text", "stated_words",),
+    "program.project": ("SettingError", "find_settings",),
     "try_edits": ("Completion", "completions", "what_if"),
 }
 """Where the public names live; the others are in `api`."""

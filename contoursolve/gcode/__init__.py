@@ -43,6 +43,7 @@ from contoursolve.gcode.word import (
     Passage,
     Program,
     Word,
+    call,
     number_of,
     spell,
 )
@@ -64,6 +65,7 @@ __all__ = [
     "Syntax",
     "UnreadableProgramError",
     "Word",
+    "call",
     "decode",
     "find_lookalikes",
     "find_words",

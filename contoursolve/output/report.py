@@ -15,7 +15,7 @@ from contoursolve.diagnosis.wording import coordinates, count
 from contoursolve.diagnostics.finding import Diagnostic, Label, Severity
 from contoursolve.diagnostics.source import Evidence
 from contoursolve.gcode import Block
-from contoursolve.output.contours import form_text
+from contoursolve.output.words import form_text
 from contoursolve.output.html import (
     checks_table,
     figure,
