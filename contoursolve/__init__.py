@@ -48,7 +48,9 @@ if TYPE_CHECKING:
     from contoursolve.gcode import Block, Program, Word
     from contoursolve.notebook import explore
     from contoursolve.output.construction import construction_lines
+    from contoursolve.postprocess.block_numbers import BlockNumber, Replacement, block_number_at, rename_block
     from contoursolve.postprocess.expansion_report import Conversion, Expansion
+    from contoursolve.postprocess.formatting import format_program
     from contoursolve.program.pipeline import Result
     from contoursolve.program.recognise import UnknownControlError
     from contoursolve.reading.dialect import Dialect
@@ -64,6 +66,7 @@ __all__ = [
     "ArcSegment",
     "Basis",
     "Block",
+    "BlockNumber",
     "Completion",
     "Contour",
     "Conversion",
@@ -84,6 +87,7 @@ __all__ = [
     "Policy",
     "Program",
     "Region",
+    "Replacement",
     "Result",
     "Sensitivity",
     "Severity",
@@ -93,6 +97,7 @@ __all__ = [
     "UnknownControlError",
     "UnreadableProgramError",
     "Word",
+    "block_number_at",
     "check",
     "check_file",
     "completions",
@@ -103,10 +108,12 @@ __all__ = [
     "family",
     "feasible",
     "find_word",
+    "format_program",
     "list_solutions",
     "parse",
     "read_program",
     "region",
+    "rename_block",
     "sensitivity",
     "solve",
     "solve_file",
@@ -123,7 +130,9 @@ _ROOMS = {
     "diagnosis.solutions": ("Listing", "list_solutions"),
     "diagnostics.extras": ("MissingExtraError",),
     "output.construction": ("construction_lines",),
+    "postprocess.block_numbers": ("BlockNumber", "Replacement", "block_number_at", "rename_block"),
     "postprocess.expansion_report": ("Conversion", "Expansion"),
+    "postprocess.formatting": ("format_program",),
     "families": (
         "Family",
         "FamilyError",
