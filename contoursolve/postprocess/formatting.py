@@ -2,10 +2,12 @@
 
 import re
 from collections import defaultdict
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 
 from msgspec.structs import replace
 
+from contoursolve.controls import DIALECTS
+from contoursolve.diagnosis.spelling import Meanings
 from contoursolve.gcode import SKIP, Block, Syntax, parse_block
 from contoursolve.postprocess.block_numbers import LONG, Directory, Line, Replacement, dialect_of, read_lines
 from contoursolve.postprocess.numbering import Numbers
@@ -57,18 +59,39 @@ def format_program(
     lines = read_lines(text, dialect)
     if block_numbers:
         lines = _numbered(lines, dialect, block_numbers)
-    return "".join(_spaced(line) + line.end for line in lines)
+    addresses = _addresses(dialect)
+    pieces, before = [""], ""
+    for line in lines:
+        # Without its blanks, an empty line between CR and LF would be none.
+        is_between = before == "\r" and line.end == "\n"
+        pieces += [_spaced(line, addresses) or line.block.text * is_between, line.end]
+        before = line.end
+    return "".join(pieces)
 
 
-def _spaced(line: Line) -> str:
+def _addresses(dialect: Dialect | None) -> frozenset[str]:
+    """What begins a word on a control; on any if it is not known."""
+    known = [dialect] if dialect else DIALECTS.values()
+    return frozenset(address for each in known for address in each.modes.lexicon.addresses)
+
+
+def _spaced(line: Line, addresses: Container[str]) -> str:
     """A line with its blanks in their places; as it is where a control could read it otherwise."""
     block = line.block
-    if line.is_comment or block.faults or block.macro:
+    if line.is_comment or block.faults or block.macro or _is_doubtful(block, addresses):
         return block.text
     text = _join(block)
     if text is None:
         return block.text if block.syntax.comment.search(block.text) else block.text.rstrip(_BLANKS)
     return text if text == block.text or _same(block, _retyped(block, text)) else block.text
+
+
+def _is_doubtful(block: Block, addresses: Container[str]) -> bool:
+    """Whether several words of a block may be one that is mistyped: `X1O5.`, or `A180,K-30.`, whose comma may be meant
+    as the point of A180."""
+    ends = {word.span.end_column for word in block.words}
+    commas = [word for word in block.words if word.address.startswith(",") and word.span.column in ends]
+    return any(word.address not in addresses for word in commas) or bool(Meanings(block))
 
 
 def _same(one: Block, other: Block) -> bool:
