@@ -13,6 +13,7 @@ from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis.wording import SHOWN, join
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import ISO, Block, FaultKind, Word, parse, parse_block, split_lines
+from contoursolve.program.project import configure
 from contoursolve.program.recognise import UnknownControlError, choose, named_control
 from contoursolve.reading import COMMENTED
 from contoursolve.reading.dialect import Dialect
@@ -103,11 +104,14 @@ _TARGET = re.compile(r"(?:N[ \t]*+)?(\d++)", re.IGNORECASE | re.ASCII)
 _WORD = re.compile(r"[A-Z][ \t]*+\+?+(\d++)\.?+", re.IGNORECASE | re.ASCII)
 _OWN_NUMBER = re.compile(r"[ \t]*+(?>(?:/\d?+)?)[ \t]*+N[ \t]*+(\d++)(?![\d.])", re.IGNORECASE | re.ASCII)
 _LABEL = re.compile(r"(?<![\w$])([A-Z_]\w++):(?!=)", re.IGNORECASE | re.ASCII)
+_MARK = re.compile(r":\d++|\[[ \t]*+[A-Z_]\w*+[ \t]*+\]", re.IGNORECASE | re.ASCII)
 _STRING = re.compile(r"\"(?!N\d++(?::N\d++)?\")[^\"]*+\"", re.IGNORECASE | re.ASCII)
 _BEGINS_TAPE = re.compile(r"[ \t]*+%[ \t]*+\w")
 _BEGINS_ISO = re.compile(r"[ \t/]*+(?>(?:N\d++)?)[ \t]*+[O:][ \t]*+(\d++)", re.IGNORECASE | re.ASCII)
 _ENDS = frozenset({"M2", "M30"})
 _CALLS = frozenset({"M98", "G65", "G66"})
+_PARAMETERS = frozenset({"L50", "L52"})
+"""Beside G10: blocks up to G11 set parameters then, which their N names (Fanuc operator's manual, G10 L50, G10 L52)."""
 _REPEATS = 10_000
 """In M98 P51000 the digits before the last four are a number of times on older controls."""
 
@@ -218,8 +222,10 @@ def numbers_of(text: str, control: str | Dialect | None, settings: Mapping[str, 
 def dialect_of(text: str, control: str | Dialect | None, settings: Mapping[str, str] | None) -> Dialect | None:
     """The control of a program as `choose` finds it; None also for a program that may be for several."""
     named = named_control(control, settings)
+    if named is not None:
+        return configure(named, settings)
     try:
-        return choose(named, parse(text), settings)
+        return choose(None, parse(text), settings)
     except UnknownControlError:
         return None
 
@@ -348,18 +354,20 @@ class Directory:
             if found:
                 self._enter_number(block, found, 0)
             return
+        if codes & _PARAMETERS and "G10" in codes:
+            self._doubt(block, "here N is the number of a parameter, so the blocks keep their numbers")
         # `N1O` is not N1: its end is a fault.
         faults = {each.span.column for each in block.faults}
-        own = [word for word in block.words if word.address == "N" and word.span.end_column not in faults]
-        if self._syntax is not ISO:
-            own = [word for word in own if word is block.words[0]]
-        found = _WORD.fullmatch(own[0].text) if own else None
-        if len(own) > 1:
-            self._doubt(block, "the block has two numbers")
-        elif found:
-            self._enter_number(block, found, own[0].span.column - 1)
-        elif own:
-            self._doubt(block, f"{_shown(own[0].text)} is no plain block number")
+        for word in block.words:
+            is_first = word is block.words[0] and min(faults, default=word.span.column) >= word.span.column
+            if word.address != "N" or word.span.end_column in faults or (self._syntax is not ISO and not is_first):
+                continue
+            found = _WORD.fullmatch(word.text)
+            if found and is_first:
+                self._enter_number(block, found, word.span.column - 1)
+            else:
+                reason = "is no plain block number" if is_first else "does not begin its block"
+                self._doubt(block, f"{_shown(word.text)} {reason}")
 
     def _enter_number(self, block: Block, found: re.Match[str], offset: int) -> None:
         number = self._number(block, found, offset, self.sections[block.line])
@@ -433,7 +441,7 @@ class Directory:
 
     def _is_label(self, target: str) -> bool:
         """Whether a jump leads to a label, or to a main block, which keep their names."""
-        return target.startswith((":", "[")) or target.upper() in self._labels
+        return self._syntax is not ISO and (_MARK.fullmatch(target) is not None or target.upper() in self._labels)
 
     def _doubt(self, block: Block, reason: str, number: int | None = None) -> None:
         self.doubts.append(Doubt(f"line {block.line}: {reason}", self.sections[block.line], number))
