@@ -6,6 +6,7 @@ then `lexer`.
 
 from contoursolve.gcode.lexer import (
     LONGEST_BLOCK,
+    SKIP,
     find_words,
     parse,
     parse_block,
@@ -53,6 +54,7 @@ __all__ = [
     "FACT",
     "ISO",
     "LONGEST_BLOCK",
+    "SKIP",
     "STANDARD_INPUT",
     "Block",
     "Directive",

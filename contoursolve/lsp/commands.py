@@ -7,7 +7,7 @@ from typing import Any
 from lsprotocol import types
 
 import contoursolve
-from contoursolve import DIALECTS, Conversion, Expansion, OpenContour, stated_words
+from contoursolve import Conversion, Expansion, OpenContour, start_text, stated_words
 from contoursolve.lsp.opened import Opened
 from contoursolve.pictures import Theme, draw_answer
 
@@ -116,18 +116,20 @@ def notebook_of(opened: Opened | None, line: int) -> Reply:
     if not answer.start.is_known:
         return {"notebook": None, "message": "the start point of this contour is not known"}
     dialect, texts = opened.program.dialect, [block.text.strip() for block in answer.claim.blocks]
-    options = {"start": _start_of(opened, line), "control": dialect.name, "settings": dict(dialect.modes.settings)}
+    options = {"start": start_text(answer), "control": dialect.name, "settings": dict(dialect.modes.settings)}
     told = "".join(f", {name}={value!r}" for name, value in options.items() if value)
     code = f"import contoursolve\n\ncontoursolve.explore({chr(10).join(texts)!r}{told})"
-    cell = {"cell_type": "code", "id": "contour", "metadata": {}, "source": code, "outputs": [], "execution_count": None}
+    cell = {
+        "cell_type": "code",
+        "id": "contour",
+        "metadata": {},
+        "source": code,
+        "outputs": [],
+        "execution_count": None,
+    }
     kernel = {"kernelspec": {"display_name": "Python 3", "language": "python", "name": "python3"}}
     notebook = {"cells": [cell], "metadata": kernel, "nbformat": 4, "nbformat_minor": 5}
     return {"notebook": json.dumps(notebook, indent=1, ensure_ascii=False), "message": ""}
-
-
-def _start_of(opened: Opened, line: int) -> str:
-    """The words that lead to the start point of a contour, as its control reads them."""
-    return opened.program.start_at(line)
 
 
 def file_of(opened: Opened | None, what: str, line: int) -> tuple[str, str | None]:
@@ -147,8 +149,3 @@ def file_of(opened: Opened | None, what: str, line: int) -> tuple[str, str | Non
     found = expand_program(opened)
     suffix = opened.path.suffix if opened.path else ".nc"
     return (f"{stem}-expanded{suffix}", found["text"]) if found["text"] else (found["message"] or "", None)
-
-
-def control_names() -> list[str]:
-    """The controls that a program may be for."""
-    return [*DIALECTS]

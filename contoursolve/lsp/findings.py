@@ -88,7 +88,7 @@ def actions_of(opened: Opened, wanted: types.Range) -> Iterator[types.CodeAction
             )
         if finding.code not in explanations and opened.program.dialect is not None:
             arguments = [finding.code, opened.program.dialect.name]
-            command = types.Command(f"Explain {finding.code}", "contoursolve.explain", arguments)
+            command = types.Command(f"Explain {finding.code}", "contoursolve.explain", arguments=arguments)
             explanations[finding.code] = types.CodeAction(
                 command.title, kind=types.CodeActionKind.QuickFix, diagnostics=[shown], command=command
             )

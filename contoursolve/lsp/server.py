@@ -13,7 +13,7 @@ from pygls.uris import to_fs_path
 
 from contoursolve import DIALECTS, Severity, Status, __version__
 from contoursolve.lsp import commands
-from contoursolve.lsp.editing import block_number_under, formatted, places_of_number, renamed
+from contoursolve.lsp.editing import block_number_under, formatted, renamed, target_of
 from contoursolve.lsp.findings import actions_of, diagnostics_of
 from contoursolve.lsp.opened import Opened, Options, read_options
 from contoursolve.lsp.pages import Pages
@@ -277,7 +277,9 @@ def code_lenses(opened: Opened, _: types.CodeLensParams) -> list[types.CodeLens]
     if not opened.options.has_lenses:
         return []
     return [
-        types.CodeLens(opened.places.whole(contour.first, contour.first), types.Command(title, name, arguments))
+        types.CodeLens(
+            opened.places.whole(contour.first, contour.first), types.Command(title, name, arguments=arguments)
+        )
         for contour in opened.program.contours
         for title, name, arguments in commands.lenses(opened.uri, contour, of_client=server.has_client_commands)
     ]
@@ -308,14 +310,7 @@ def rename(opened: Opened, params: types.RenameParams) -> types.WorkspaceEdit | 
 @_of_program
 def definition(opened: Opened, params: types.DefinitionParams) -> types.Location | None:
     """The block to which a jump goes."""
-    return next(places_of_number(opened, params.position, is_target=True), None)
-
-
-@server.feature(types.TEXT_DOCUMENT_REFERENCES)
-@_of_program
-def references(opened: Opened, params: types.ReferenceParams) -> list[types.Location]:
-    """The jumps to a block, and the block."""
-    return [*places_of_number(opened, params.position, is_target=False)]
+    return target_of(opened, params.position)
 
 
 @server.feature(PICTURE)

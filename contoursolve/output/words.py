@@ -6,6 +6,7 @@ from itertools import islice
 
 from msgspec import Struct
 
+from contoursolve.diagnosis.edits import write_word
 from contoursolve.diagnosis.examine import Answer, AskedValue
 from contoursolve.diagnosis.wording import coordinates, short_name
 from contoursolve.gcode import FACT, Word, call
@@ -20,6 +21,21 @@ def form_text(answer: Answer) -> str:
 def end_text(answer: Answer) -> str:
     """Where a contour ends, as the control writes it: `Z-50.2073 X100.0000`; empty where it has no path."""
     return coordinates(answer.contour.end, answer.plane, answer.unit) if answer.contour else ""
+
+
+def start_text(answer: Answer) -> str:
+    """The words that lead to the start point of a contour, as its control reads them where coordinates count from zero;
+    empty where that is not known.
+
+    >>> import contoursolve
+    >>> start_text(contoursolve.solve("G111 X100. A180. K-30. B120.", start="X40. Z0.").answers[0])
+    'Z0. X40.'
+    """
+    values, lexicon = answer.start.values, answer.claim.lexicon
+    if not answer.start.is_known:
+        return ""
+    places = zip(answer.plane.axes, values, strict=True)
+    return " ".join(write_word(axis, float(value or 0), lexicon, answer.unit) for axis, value in places)
 
 
 class StatedWord(Struct, frozen=True):

@@ -27,7 +27,7 @@ from contoursolve.gcode import ISO, Block, Program, Syntax, parse, parse_block, 
 from contoursolve.gcode.lexer import Blocks
 from contoursolve.geometry import Length, Plane
 from contoursolve.program.pipeline import Checkpoint, Examiner, run
-from contoursolve.program.project import FIRST_LINES, SettingError
+from contoursolve.program.project import CONTROL, FIRST_LINES, SettingError, stated_settings
 from contoursolve.program.recognise import PLANE, Recogniser, UnknownControlError, choose, shown_by
 from contoursolve.program.solve_queue import Step
 from contoursolve.program.tape_markers import Marks
@@ -150,10 +150,12 @@ class OpenProgram:
         settings: Mapping[str, str] | None = None,
         name: str = "<program>",
     ) -> None:
-        """Arguments as for `solve`."""
+        """Arguments as for `solve`; but what a comment in the program states counts more than `settings`."""
         self.name = name
         self.dialect: Dialect | None = None
         """The control; None where nothing tells it."""
+        self.is_stated = False
+        """Whether a comment in the program states it."""
         self.trouble = ""
         """Why the control cannot be told, if it cannot."""
         self._control, self._settings = control, dict(settings or {})
@@ -252,10 +254,12 @@ class OpenProgram:
     def _choose(self) -> None:
         """Find the control."""
         text = self.text
-        self.trouble, self._shown = "", None
+        self.trouble, self.is_stated, self._shown = "", False, None
         try:
             program = Program(self.name, text, Blocks(text, 1, ISO))
-            self.dialect = choose(self._control, program, self._settings, self._recognise)
+            stated = stated_settings(self._lines.texts)
+            self.is_stated = CONTROL in stated
+            self.dialect = choose(self._control, program, self._settings | stated, self._recognise)
         except (UnknownControlError, SettingError) as error:
             self.dialect, self.trouble = None, str(error)
 
