@@ -32,7 +32,11 @@ def random_edit(lines: list[str], draw: random.Random) -> tuple[tuple[int, int],
         case 5:
             return (line, column), (line, column), "\n"
         case 6:
-            return (line, len(lines[line - 1]) + 1), (line, 99_999), " " + draw.choice(draw.choice(lines).split() or [""])
+            return (
+                (line, len(lines[line - 1]) + 1),
+                (line, 99_999),
+                " " + draw.choice(draw.choice(lines).split() or [""]),
+            )
         case _:
             return (line, column), (line, column + 1), draw.choice("0123456789.")
 
@@ -61,9 +65,7 @@ def compare(program: OpenProgram, text: str, control: str | None) -> None:
     assert not program.trouble
     assert program.diagnostics == fresh.diagnostics
     contours = list(program.contours)
-    assert [(each.first, each.last) for each in contours] == [
-        (each.lines[0], each.lines[-1]) for each in fresh.answers
-    ]
+    assert [(each.first, each.last) for each in contours] == [(each.lines[0], each.lines[-1]) for each in fresh.answers]
     for contour, answer in zip(contours, fresh.answers, strict=True):
         now = program.contour_at(contour.first)
         assert now is not None
