@@ -44,6 +44,7 @@ from contoursolve.gcode.word import (
     Passage,
     Program,
     Word,
+    call,
     number_of,
     spell,
 )
@@ -66,6 +67,7 @@ __all__ = [
     "Syntax",
     "UnreadableProgramError",
     "Word",
+    "call",
     "decode",
     "find_lookalikes",
     "find_words",
